@@ -1,0 +1,151 @@
+//! A pole on a cart: swung up from rest and balanced by a force on the cart.
+//!
+//! The feedback law is a `System` around the model, so that it acts at every stage of a step, as a continuous law does.
+//! A computer's law is held from one sample to the next: the same law given as an input, at 1 kHz and at 25 Hz.
+//!
+//! `cargo run --release --example cart_pole`
+
+use std::f64::consts::{PI, TAU};
+
+use multibody::{ExtraOf, IntegrationError, Rk4, System, VelocityOf, multibody};
+
+multibody! {
+    /// A pole hinged to a cart. The cart slides along x, y points up, and the pole is upright at zero.
+    pub mod cart_pole {
+        /// [m/s^2]
+        param g = 9.81;
+        /// [kg]
+        param cart_mass = 1.0;
+        /// [kg]
+        param pole_mass = 0.2;
+        /// [m]
+        param length = 0.8;
+        /// [N] pushes the cart along +x
+        input push;
+
+        world { gravity: -g * Y }
+        body cart { mass: cart_mass }
+        body pole { mass: pole_mass, com: 0.5 * length * Y, inertia: rod(pole_mass, length, Y) }
+        joint track: Prismatic { parent: ground, child: cart, axis: X }
+        joint hinge: Revolute { parent: cart, child: pole, axis: Z }
+        force motor: Effort { joint: track, value: push }
+
+        /// [J] zero when all is at rest with the pole upright
+        output energy = kinetic() + potential() - 0.5 * length * pole_mass * g;
+        emit forward_dynamics, mass_matrix, bias;
+    }
+}
+
+use cart_pole::{Input, Model, Params, State};
+
+/// The cart-pole with its controller: energy shaping until the pole is nearly up, then state feedback.
+struct Controlled {
+    plant: Model,
+    /// [1/s^2] gravity over the pole's equivalent length, 2/3 of a rod's
+    stiffness: f64,
+    /// [m/s^2]
+    g: f64,
+}
+
+impl Controlled {
+    /// Where the law stops pumping and balances.
+    fn near(x: &State) -> bool {
+        x.q.hinge.cos() > 0.93 && x.v.hinge.abs() < 2.5
+    }
+
+    /// [N] the force on the cart for a state.
+    fn push(&self, t: f64, x: &State) -> f64 {
+        let acceleration = if Self::near(x) { self.balance(x) } else { self.pump(x) };
+        // M a + bias = (push, 0): the second row gives what the hinge does, the first the push.
+        let mass = self.plant.mass_matrix(&x.q);
+        let bias = self.plant.bias(t, x, &Input::default());
+        let hinge = -(bias.y + mass.m21 * acceleration) / mass.m22;
+        mass.m11 * acceleration + mass.m12 * hinge + bias.x
+    }
+
+    /// [m/s^2] drives the pole's energy towards that of rest upright, and the cart gently towards the middle.
+    fn pump(&self, x: &State) -> f64 {
+        let (cos, rate) = (x.q.hinge.cos(), x.v.hinge);
+        let energy = 0.5 * rate * rate + self.stiffness * (cos - 1.0); // per moment of inertia
+        let pumped = -0.8 * energy * (rate * cos).signum();
+        pumped.clamp(-4.0, 4.0) - 1.0 * x.q.track - 1.0 * x.v.track
+    }
+
+    /// [m/s^2] state feedback for track'' = a, hinge'' = stiffness * (hinge + a / g): all four poles at -4/s.
+    fn balance(&self, x: &State) -> f64 {
+        let (p, k) = (4.0_f64, self.stiffness / self.g);
+        let on_track = p.powi(4) / self.stiffness;
+        let on_speed = 4.0 * p.powi(3) / self.stiffness;
+        let on_angle = -(6.0 * p * p + self.stiffness + on_track) / k;
+        let on_rate = -(4.0 * p + on_speed) / k;
+        on_track * x.q.track + on_speed * x.v.track + on_angle * upright(x) + on_rate * x.v.hinge
+    }
+}
+
+impl System for Controlled {
+    type Scalar = f64;
+    type State = State;
+    type Input = ();
+
+    fn derivative(&self, t: f64, x: &State, (): &()) -> (VelocityOf<Self>, ExtraOf<Self>) {
+        self.plant.derivative(t, x, &Input { push: self.push(t, x) })
+    }
+}
+
+fn main() -> Result<(), IntegrationError> {
+    let params = Params::default();
+    let stiffness = 1.5 * params.g / params.length;
+    let controlled = Controlled { plant: Model::new(&params), stiffness, g: params.g };
+    let mut start = State::default();
+    start.q.hinge = PI - 0.05; // rad, almost straight down
+    let steps = 10_000;
+
+    println!(" t [s]  phase    angle [rad]  push [N]  energy [J]    track from -1.5 m to 1.5 m");
+    let (mut caught, mut next) = (None, 0.0);
+    let end = Rk4::integrate(&controlled, 0.0, &start, &(), 1e-3, steps, |t, x| {
+        let catch = caught.is_none() && Controlled::near(x);
+        if catch {
+            caught = Some(t);
+        }
+        if catch || t >= next {
+            show(&controlled, t, x);
+            next = t + if t < 5.0 { 0.25 } else { 1.0 };
+        }
+    })?;
+    println!("\nUp after {:.3} s. Distance from rest upright in the middle after 10 s:", caught.unwrap_or(f64::NAN));
+
+    report("law at every stage", &end);
+    for (rate, every) in [("1 kHz", 1), ("25 Hz", 40)] {
+        let (mut x, mut input) = (start, Input::default());
+        for k in 0..steps {
+            let t = 1e-3 * f64::from(k);
+            if k % every == 0 {
+                input.push = controlled.push(t, &x);
+            }
+            x = Rk4::step(&controlled.plant, t, &x, &input, 1e-3);
+        }
+        report(&format!("held, {rate}"), &x);
+    }
+    Ok(())
+}
+
+/// [rad] the pole's angle from upright, between -pi and pi.
+fn upright(x: &State) -> f64 {
+    (x.q.hinge + PI).rem_euclid(TAU) - PI
+}
+
+/// One line: numbers, and an arrow on the track, where the cart is and along the pole.
+fn show(controlled: &Controlled, t: f64, x: &State) {
+    let phase = if Controlled::near(x) { "balance" } else { "pump" };
+    let push = controlled.push(t, x);
+    let energy = controlled.plant.outputs(t, x, &Input { push }).energy;
+    let turn = (upright(x) / TAU * 8.0).round().rem_euclid(8.0) as usize;
+    let arrow = ['↑', '↖', '←', '↙', '↓', '↘', '→', '↗'][turn];
+    let left = ((x.q.track + 1.5) * 10.0).clamp(0.0, 30.0) as usize;
+    let track = format!("{:left$}{arrow}{:right$}", "", "", right = 30 - left);
+    println!("{t:>6.2}  {phase:<7} {:>12.3} {push:>9.3} {energy:>11.3}    |{track}|", upright(x));
+}
+
+fn report(law: &str, x: &State) {
+    println!("  {law:<20} angle {:>8.1e} rad, cart {:>8.1e} m", upright(x).abs(), x.q.track.abs());
+}

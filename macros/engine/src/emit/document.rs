@@ -1,0 +1,194 @@
+//! Stage `emit`: documentation of single items.
+//!
+//! In: the user's `///` text and units, operation counts. Out: lines of Markdown, which become `#[doc]` attributes. Every
+//! public item has some: a crate that denies `missing_docs` accepts it.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::layout::{Group, Layout};
+use super::{Context, literals, names};
+use crate::model::types::{Docs, Joint, JointKind, Param, PartTypeId, State};
+use crate::optimize::program::{Compiled, Cost, Function, FunctionKind};
+
+/// Expands to one `#[doc = ".."]` per line.
+pub(super) fn attributes(lines: &[String]) -> TokenStream {
+    let lines = lines.iter().map(|line| match line.as_str() {
+        "" => String::new(),
+        line => format!(" {line}"),
+    });
+    quote!(#(#[doc = #lines])*)
+}
+
+/// The user's text with its unit in front as code; `otherwise` where there is none.
+pub(super) fn item(docs: &Docs, otherwise: &str) -> Vec<String> {
+    with_unit(docs, docs.unit.as_deref(), otherwise)
+}
+
+fn with_unit(docs: &Docs, unit: Option<&str>, otherwise: &str) -> Vec<String> {
+    let mut lines = text(docs);
+    if lines.iter().all(String::is_empty) {
+        lines = vec![otherwise.to_string()];
+    }
+    if let (Some(unit), Some(first)) = (unit, lines.first_mut()) {
+        *first = format!("`[{}]` {first}", code(unit));
+    }
+    lines
+}
+
+/// The lines of `///` text, without the space after the slashes.
+pub(super) fn text(docs: &Docs) -> Vec<String> {
+    let lines = docs.text.iter();
+    lines.map(|line| line.strip_prefix(' ').unwrap_or(line).trim_end().to_string()).collect()
+}
+
+/// Text that can stand between backticks.
+pub(super) fn code(text: &str) -> String {
+    text.replace('`', "'")
+}
+
+pub(super) fn param(param: &Param) -> Vec<String> {
+    let mut lines = item(&param.docs, "parameter");
+    lines.extend([String::new(), format!("Default: `{}`", values(&param.default))]);
+    lines
+}
+
+pub(super) fn state(state: &State) -> Vec<String> {
+    let mut lines = item(&state.docs, "state");
+    lines.extend([String::new(), format!("Starts at `{}`", values(&[state.start]))]);
+    lines
+}
+
+/// `1.0`, or `[1.0, 2.0]`; long lists are cut.
+pub(super) fn values(values: &[f64]) -> String {
+    const MOST: usize = 12;
+    let mut list: Vec<String> = values.iter().take(MOST).map(|v| literals::text(*v)).collect();
+    if values.len() > MOST {
+        list.push(format!(".. ({} numbers)", values.len()));
+    }
+    match &list[..] {
+        [single] => single.clone(),
+        _ => format!("[{}]", list.join(", ")),
+    }
+}
+
+/// `revolute`, `prismatic`, ..
+pub(super) fn kind(kind: &JointKind) -> &'static str {
+    match kind {
+        JointKind::Fixed => "fixed",
+        JointKind::Revolute { .. } => "revolute",
+        JointKind::Prismatic { .. } => "prismatic",
+        JointKind::Screw { .. } => "screw",
+        JointKind::Cylindrical { .. } => "cylindrical",
+        JointKind::Universal { .. } => "universal",
+        JointKind::Planar { .. } => "planar",
+        JointKind::Ball(_) => "ball",
+        JointKind::Free(_) => "free",
+    }
+}
+
+pub(super) fn position(joint: &Joint) -> Vec<String> {
+    let unit = joint.docs.unit.as_deref().or(unit(&joint.kind));
+    let otherwise = format!("position of the {} joint", kind(&joint.kind));
+    with_unit(&joint.docs, unit, &otherwise)
+}
+
+pub(super) fn velocity(joint: &Joint) -> Vec<String> {
+    let unit = joint.docs.unit.as_deref().or(unit(&joint.kind));
+    let unit = unit.map(|unit| format!("{unit}/s"));
+    let otherwise = format!("velocity of the {} joint", kind(&joint.kind));
+    with_unit(&Docs::default(), unit.as_deref(), &otherwise)
+}
+
+/// Of a joint's one coordinate.
+fn unit(kind: &JointKind) -> Option<&'static str> {
+    match kind {
+        JointKind::Revolute { .. } | JointKind::Screw { .. } => Some("rad"),
+        JointKind::Prismatic { .. } => Some("m"),
+        _ => None,
+    }
+}
+
+/// Of the structs `Params`, `Position`, ..
+pub(super) fn group(layout: &Layout<'_>, group: Group, owner: Option<PartTypeId>) -> Vec<String> {
+    let part = owner.and_then(|part| layout.model.part_types.get(part.0));
+    let of = part.map_or_else(
+        || format!("`{}`", names::plain(&layout.model.name)),
+        |part| format!("one part `{}`", names::plain(&part.name)),
+    );
+    let line = match group {
+        Group::Params => format!("Parameters of {of}. The default is what the model declares."),
+        Group::Position => {
+            format!("Positions of the joints of {of}. The default is zero, or the identity.")
+        }
+        Group::Velocity => {
+            format!("Velocities of {of}; accelerations and efforts have the same components.")
+        }
+        Group::States => format!("States of {of} beside its coordinates, or their rates."),
+        Group::Input => format!("Inputs of {of}, held over a step. The default is zero."),
+        Group::Output => format!("Outputs of {of}."),
+    };
+    let mut lines = vec![line];
+    let size = layout.table(group).size;
+    if owner.is_none() && matches!(group, Group::Position | Group::Velocity) {
+        lines.extend([String::new(), format!("Components in order of declaration: {size}.")]);
+    }
+    lines
+}
+
+/// Of `Model`.
+pub(super) fn model(context: &Context<'_>) -> Vec<String> {
+    let name = names::plain(&context.layout.model.name);
+    let fields = match context.fields.len() {
+        0 => "It takes no space: nothing depends on parameters.".to_string(),
+        1 => "It holds the one value that depends on parameters alone.".to_string(),
+        count => format!("It holds the {count} values that depend on parameters alone."),
+    };
+    vec![format!("The equations of motion of `{name}`. {fields}")]
+}
+
+/// Of `Model::new`.
+pub(super) fn new(compiled: &Compiled) -> Vec<String> {
+    vec![
+        "Does the work that depends on parameters alone.".to_string(),
+        String::new(),
+        format!("Operations: {}.", cost(&compiled.prelude_cost)),
+    ]
+}
+
+/// Of a derived function.
+pub(super) fn function(layout: &Layout<'_>, function: &Function) -> Vec<String> {
+    let text = match function.kind {
+        FunctionKind::ForwardDynamics if !layout.is_empty(Group::States, None) => {
+            "Accelerations, and the rates of the model's own states."
+        }
+        FunctionKind::ForwardDynamics => "Accelerations.",
+        FunctionKind::InverseDynamics => "Efforts that the accelerations `accel` need beside all declared forces.",
+        FunctionKind::MassMatrix => "Mass matrix `M` of `M * accel + bias = effort`.",
+        FunctionKind::Bias => {
+            "The efforts at zero acceleration, `bias` of `M * accel + bias = effort`; declared forces and gravity are \
+             in it."
+        }
+        FunctionKind::KineticEnergy => "`[J]` Kinetic energy of all bodies.",
+        FunctionKind::PotentialEnergy => {
+            "`[J]` Potential energy: gravity's, zero at the world's origin, plus the springs'."
+        }
+        FunctionKind::Outputs => "Outputs.",
+    };
+    let mut lines = vec![text.to_string(), String::new()];
+    if !function.method.is_empty() {
+        lines.extend([format!("Method: {}.", function.method), String::new()]);
+    }
+    let (before, after) = (cost(&function.before), cost(&function.after));
+    lines.push(format!("Operations: {after}; as derived, before optimisation: {before}."));
+    lines
+}
+
+/// `19 add, 28 mul, 1 div`
+pub(super) fn cost(cost: &Cost) -> String {
+    let Cost { add, mul, div, sqrt, sincos, other } = *cost;
+    let all = [(add, "add"), (mul, "mul"), (div, "div"), (sqrt, "sqrt"), (sincos, "sincos"), (other, "other")];
+    let some: Vec<String> =
+        all.iter().filter(|(count, _)| *count > 0).map(|(count, name)| format!("{count} {name}")).collect();
+    if some.is_empty() { "none".to_string() } else { some.join(", ") }
+}

@@ -1,0 +1,34 @@
+//! Stage `emit`: the items of a generated module, one file each.
+
+mod check;
+mod conversions;
+mod costs;
+mod defaults;
+mod model;
+mod parts;
+mod space;
+mod state;
+mod structs;
+mod system;
+
+use proc_macro2::TokenStream;
+
+use super::Context;
+
+/// Expands to all items of the module.
+pub(super) fn all(context: &Context<'_>) -> TokenStream {
+    [
+        costs::items(context),
+        structs::items(context),
+        defaults::items(context),
+        check::item(context),
+        state::items(context),
+        space::items(context),
+        conversions::items(context),
+        model::items(context),
+        system::item(context),
+        parts::items(context),
+    ]
+    .into_iter()
+    .collect()
+}

@@ -1,0 +1,142 @@
+//! Stage `emit`: what integrators see of the structs: `Tangent`, `Configuration`, `StateSpace`.
+//!
+//! Everything goes field by field through the runtime's traits, so that no kind of joint is a special case here.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::emit::Context;
+use crate::emit::layout::{Group, Layout};
+use crate::model::types::PartTypeId;
+
+/// Expands to the impls for the model's structs.
+pub(super) fn items(context: &Context<'_>) -> TokenStream {
+    let layout = &context.layout;
+    let krate = layout.krate();
+    let mut tokens = tangent(layout, Group::Velocity, None);
+    tokens.extend(configuration(layout, None));
+    let (extra, split, join) = if layout.is_empty(Group::States, None) {
+        (quote!(()), quote!(()), quote!((): ()))
+    } else {
+        tokens.extend(tangent(layout, Group::States, None));
+        (quote!(States<T>), quote!(self.x), quote!(x: States<T>))
+    };
+    let x = (!layout.is_empty(Group::States, None)).then(|| quote!(x));
+    tokens.extend(quote! {
+        impl<T: Real> #krate::StateSpace for State<T> {
+            type Scalar = T;
+            type Position = Position<T>;
+            type Velocity = Velocity<T>;
+            type Extra = #extra;
+
+            fn split(&self) -> (Position<T>, Velocity<T>, #extra) {
+                (self.q, self.v, #split)
+            }
+
+            fn join(&self, q: Position<T>, v: Velocity<T>, #join) -> Self {
+                Self { q, v, #x }
+            }
+        }
+    });
+    tokens
+}
+
+/// Expands to `impl<T: Real> Tangent<T> for Velocity<T> { .. }`.
+pub(super) fn tangent(layout: &Layout<'_>, group: Group, owner: Option<PartTypeId>) -> TokenStream {
+    let krate = layout.krate();
+    let name = group.name();
+    let fields = layout.fields(group, owner);
+    let names: Vec<_> = fields.iter().map(|field| &field.name).collect();
+    let Some((last, others)) = names.split_last() else {
+        return quote! {
+            impl<T: Real> #krate::Tangent<T> for #name<T> {
+                fn zero() -> Self {
+                    Self { scalar: ::core::marker::PhantomData }
+                }
+                fn zip<F: FnMut(T, T) -> T>(&self, _other: &Self, _f: &mut F) -> Self {
+                    *self
+                }
+                fn fold<A, F: FnMut(A, T) -> A>(&self, start: A, _f: &mut F) -> A {
+                    start
+                }
+            }
+        };
+    };
+    // Assignments, since every `let` opens a scope and there may be a thousand fields.
+    let steps = match others {
+        [] => TokenStream::new(),
+        [one] => quote!(let start = #krate::Tangent::fold(&self.#one, start, f);),
+        _ => quote! {
+            let mut start = start;
+            #(start = #krate::Tangent::fold(&self.#others, start, f);)*
+        },
+    };
+    quote! {
+        impl<T: Real> #krate::Tangent<T> for #name<T> {
+            fn zero() -> Self {
+                Self { #(#names: #krate::Tangent::zero()),* }
+            }
+            fn zip<F: FnMut(T, T) -> T>(&self, other: &Self, f: &mut F) -> Self {
+                Self { #(#names: #krate::Tangent::zip(&self.#names, &other.#names, f)),* }
+            }
+            fn fold<A, F: FnMut(A, T) -> A>(&self, start: A, f: &mut F) -> A {
+                #steps
+                #krate::Tangent::fold(&self.#last, start, f)
+            }
+        }
+    }
+}
+
+/// Expands to `impl<T: Real> Configuration<T> for Position<T> { .. }`.
+pub(super) fn configuration(layout: &Layout<'_>, owner: Option<PartTypeId>) -> TokenStream {
+    let krate = layout.krate();
+    let fields = layout.fields(Group::Position, owner);
+    if fields.is_empty() {
+        return quote! {
+            impl<T: Real> #krate::Configuration<T> for Position<T> {
+                type Velocity = Velocity<T>;
+
+                fn displace(&self, _d: &Velocity<T>) -> Self {
+                    *self
+                }
+                fn dexp_inv(_d: &Velocity<T>, v: &Velocity<T>) -> Velocity<T> {
+                    *v
+                }
+                fn magnitude(&self) -> Velocity<T> {
+                    Velocity { scalar: ::core::marker::PhantomData }
+                }
+            }
+        };
+    }
+    let names: Vec<_> = fields.iter().map(|field| &field.name).collect();
+    let types = fields.iter().map(|field| layout.field_type(Group::Position, &field.kind, owner.is_some()));
+    let mut entries = layout.table(Group::Position).entries.iter();
+    let dexp_inv = if entries.any(|entry| entry.leaf.has_quaternion()) {
+        quote! {
+            fn dexp_inv(d: &Velocity<T>, v: &Velocity<T>) -> Velocity<T> {
+                Velocity {
+                    #(#names: <#types as #krate::Configuration<T>>::dexp_inv(&d.#names, &v.#names)),*
+                }
+            }
+        }
+    } else {
+        quote! {
+            fn dexp_inv(_d: &Velocity<T>, v: &Velocity<T>) -> Velocity<T> {
+                *v
+            }
+        }
+    };
+    quote! {
+        impl<T: Real> #krate::Configuration<T> for Position<T> {
+            type Velocity = Velocity<T>;
+
+            fn displace(&self, d: &Velocity<T>) -> Self {
+                Self { #(#names: #krate::Configuration::displace(&self.#names, &d.#names)),* }
+            }
+            #dexp_inv
+            fn magnitude(&self) -> Velocity<T> {
+                Velocity { #(#names: #krate::Configuration::magnitude(&self.#names)),* }
+            }
+        }
+    }
+}

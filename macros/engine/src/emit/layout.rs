@@ -1,0 +1,350 @@
+//! Stage `emit`: which field of which generated struct holds what.
+//!
+//! In: the checked model. Out: a [`Layout`]: for each group of structs (`Params`, `Position`, ..) the leaves in the
+//! order of the model, and from them the fields of every struct, the path of every leaf, and values built from leaves.
+//!
+//! A part's structs have the union of the fields of its instances, so that one type serves them all.
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::quote;
+use syn::Path;
+
+use super::leaf::Leaf;
+use super::{document, names};
+use crate::model::types::{InstanceId, JointId, Model, PartTypeId, Place};
+
+/// The kinds of generated structs with fields of the model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Group {
+    Params,
+    Position,
+    Velocity,
+    States,
+    Input,
+    Output,
+}
+
+impl Group {
+    pub(super) const ALL: [Group; 6] =
+        [Group::Params, Group::Position, Group::Velocity, Group::States, Group::Input, Group::Output];
+
+    /// Name of the struct.
+    pub(super) fn name(self) -> Ident {
+        names::ident(match self {
+            Group::Params => "Params",
+            Group::Position => "Position",
+            Group::Velocity => "Velocity",
+            Group::States => "States",
+            Group::Input => "Input",
+            Group::Output => "Output",
+        })
+    }
+
+    /// Structs that stand in the module even where they are empty.
+    pub(super) fn always(self) -> bool {
+        matches!(self, Group::Params | Group::Position | Group::Velocity)
+    }
+}
+
+/// One leaf of a group: what a joint, a param, .. has there.
+pub(super) struct Entry {
+    pub(super) instance: InstanceId,
+    pub(super) field: Ident,
+    pub(super) leaf: Leaf,
+    /// Number of the first scalar within the group.
+    pub(super) offset: usize,
+    /// Declared values, where there are any.
+    pub(super) default: Option<Vec<f64>>,
+    pub(super) docs: Vec<String>,
+}
+
+/// The leaves of one group, in the model's order.
+#[derive(Default)]
+pub(super) struct Table {
+    pub(super) entries: Vec<Entry>,
+    /// Number of scalars.
+    pub(super) size: usize,
+}
+
+/// A field of a generated struct.
+pub(super) struct Field {
+    pub(super) name: Ident,
+    pub(super) docs: Vec<String>,
+    pub(super) kind: FieldKind,
+}
+
+pub(super) enum FieldKind {
+    Leaf(Leaf),
+    /// The struct of a part, or an array of them.
+    Part(PartTypeId, Option<usize>),
+}
+
+/// All groups of one model.
+pub(super) struct Layout<'a> {
+    pub(super) model: &'a Model,
+    params: Table,
+    position: Table,
+    velocity: Table,
+    states: Table,
+    input: Table,
+    output: Table,
+    /// Number of the joint's leaf in `position` and `velocity`; `None` without coordinates.
+    joints: Vec<Option<usize>>,
+}
+
+impl<'a> Layout<'a> {
+    pub(super) fn new(model: &'a Model) -> Self {
+        let mut layout = Layout {
+            model,
+            params: Table::default(),
+            position: Table::default(),
+            velocity: Table::default(),
+            states: Table::default(),
+            input: Table::default(),
+            output: Table::default(),
+            joints: Vec::new(),
+        };
+        layout.add_joints();
+        let dof = layout.dof();
+        for param in &model.params {
+            let leaf = Leaf::value(&param.ty, dof);
+            let docs = document::param(param);
+            layout.add(Group::Params, &param.place, leaf, docs);
+            layout.default(Group::Params, param.default.clone());
+        }
+        for state in &model.states {
+            let docs = document::state(state);
+            layout.add(Group::States, &state.place, Leaf::Scalar, docs);
+            layout.default(Group::States, vec![state.start]);
+        }
+        for input in &model.inputs {
+            let leaf = Leaf::value(&input.ty, dof);
+            let docs = document::item(&input.docs, "input");
+            layout.add(Group::Input, &input.place, leaf, docs);
+        }
+        for output in &model.outputs {
+            let leaf = Leaf::value(&output.value.ty, dof);
+            let docs = document::item(&output.docs, "output");
+            layout.add(Group::Output, &output.place, leaf, docs);
+        }
+        layout
+    }
+
+    fn add_joints(&mut self) {
+        for joint in &self.model.joints {
+            let leaves = Leaf::position(&joint.kind).zip(Leaf::velocity(&joint.kind));
+            let index = leaves.map(|(position, velocity)| {
+                let docs = document::position(joint);
+                self.add(Group::Position, &joint.place, position, docs);
+                let docs = document::velocity(joint);
+                self.add(Group::Velocity, &joint.place, velocity, docs)
+            });
+            self.joints.push(index);
+        }
+    }
+
+    fn add(&mut self, group: Group, place: &Place, leaf: Leaf, docs: Vec<String>) -> usize {
+        let table = self.table_mut(group);
+        let offset = table.size;
+        table.size += leaf.size();
+        table.entries.push(Entry {
+            instance: place.instance,
+            field: names::field(&place.field),
+            leaf,
+            offset,
+            default: None,
+            docs,
+        });
+        table.entries.len() - 1
+    }
+
+    fn default(&mut self, group: Group, values: Vec<f64>) {
+        if let Some(entry) = self.table_mut(group).entries.last_mut() {
+            entry.default = Some(values);
+        }
+    }
+
+    pub(super) fn table(&self, group: Group) -> &Table {
+        match group {
+            Group::Params => &self.params,
+            Group::Position => &self.position,
+            Group::Velocity => &self.velocity,
+            Group::States => &self.states,
+            Group::Input => &self.input,
+            Group::Output => &self.output,
+        }
+    }
+
+    fn table_mut(&mut self, group: Group) -> &mut Table {
+        match group {
+            Group::Params => &mut self.params,
+            Group::Position => &mut self.position,
+            Group::Velocity => &mut self.velocity,
+            Group::States => &mut self.states,
+            Group::Input => &mut self.input,
+            Group::Output => &mut self.output,
+        }
+    }
+
+    /// Number of velocity coordinates.
+    pub(super) fn dof(&self) -> usize {
+        self.table(Group::Velocity).size
+    }
+
+    pub(super) fn krate(&self) -> &'a Path {
+        &self.model.krate
+    }
+
+    /// The joint's leaf in `Position` or `Velocity`.
+    pub(super) fn joint(&self, group: Group, joint: JointId) -> Option<&Entry> {
+        let index = (*self.joints.get(joint.0)?)?;
+        self.table(group).entries.get(index)
+    }
+
+    /// Whether the structs of this group have nothing in them, in the model (`None`) or in a part.
+    pub(super) fn is_empty(&self, group: Group, owner: Option<PartTypeId>) -> bool {
+        let mut entries = self.table(group).entries.iter();
+        !entries.any(|entry| owner.is_none() || self.is_within(entry.instance, owner))
+    }
+
+    /// Whether `instance` is one of this part, or stands inside one.
+    fn is_within(&self, instance: InstanceId, part: Option<PartTypeId>) -> bool {
+        let mut next = Some(instance);
+        // Parents come before children, so that the walk ends; the bound is for a model that breaks the rule.
+        for _ in 0..=self.model.instances.len() {
+            let Some(instance) = next.and_then(|id| self.model.instances.get(id.0)) else {
+                return false;
+            };
+            if instance.part_type == part {
+                return true;
+            }
+            next = instance.parent;
+        }
+        false
+    }
+
+    /// Instances of a part; the model itself is the one of `None`.
+    pub(super) fn instances(&self, owner: Option<PartTypeId>) -> Vec<InstanceId> {
+        let all = self.model.instances.iter().enumerate();
+        all.filter(|(index, instance)| instance.part_type == owner && (owner.is_some() || *index == 0))
+            .map(|(index, _)| InstanceId(index))
+            .collect()
+    }
+
+    /// Fields of a struct of the model (`None`) or of a part, in the order of their first scalars.
+    pub(super) fn fields(&self, group: Group, owner: Option<PartTypeId>) -> Vec<Field> {
+        let instances = self.instances(owner);
+        let mut fields: Vec<Field> = Vec::new();
+        for entry in &self.table(group).entries {
+            let field = if instances.contains(&entry.instance) {
+                Some(Field {
+                    name: entry.field.clone(),
+                    docs: entry.docs.clone(),
+                    kind: FieldKind::Leaf(entry.leaf.clone()),
+                })
+            } else {
+                self.part_field(entry.instance, &instances)
+            };
+            if let Some(field) = field
+                && !fields.iter().any(|known| known.name == field.name)
+            {
+                fields.push(field);
+            }
+        }
+        fields
+    }
+
+    /// The field of one of `owners` in which `inner` stands.
+    fn part_field(&self, inner: InstanceId, owners: &[InstanceId]) -> Option<Field> {
+        let mut next = self.model.instances.get(inner.0);
+        for _ in 0..self.model.instances.len() {
+            let instance = next?;
+            let parent = instance.parent?;
+            if owners.contains(&parent) {
+                let part = instance.part_type?;
+                return Some(Field {
+                    name: names::field(&instance.field),
+                    docs: document::item(&instance.docs, &self.part_doc(part)),
+                    kind: FieldKind::Part(part, instance.index.map(|(_, count)| count)),
+                });
+            }
+            next = self.model.instances.get(parent.0);
+        }
+        None
+    }
+
+    fn part_doc(&self, part: PartTypeId) -> String {
+        let name = self.model.part_types.get(part.0);
+        name.map_or_else(String::new, |part| format!("part `{}`", names::plain(&part.name)))
+    }
+
+    /// Expands to `leg::Position` as seen from the model's module, to `super::leg::Position` from that of a part.
+    pub(super) fn path(&self, group: Group, owner: Option<PartTypeId>, in_part: bool) -> TokenStream {
+        let name = group.name();
+        let outer = in_part.then(|| quote!(super::));
+        match owner.and_then(|part| self.model.part_types.get(part.0)) {
+            Some(part) => {
+                let part = names::field(&part.name);
+                quote!(#outer #part::#name)
+            }
+            None => quote!(#name),
+        }
+    }
+
+    /// Expands to a field's type.
+    pub(super) fn field_type(&self, group: Group, kind: &FieldKind, in_part: bool) -> TokenStream {
+        match kind {
+            FieldKind::Leaf(leaf) => leaf.ty(self.krate()),
+            FieldKind::Part(part, count) => {
+                let path = self.path(group, Some(*part), in_part);
+                match count {
+                    Some(count) => {
+                        let count = Literal::usize_unsuffixed(*count);
+                        quote!([#path<T>; #count])
+                    }
+                    None => quote!(#path<T>),
+                }
+            }
+        }
+    }
+
+    /// Expands to the fields that lead to a leaf of `instance`: `.legs[2].gimbal`.
+    pub(super) fn leaf_path(&self, entry: &Entry) -> TokenStream {
+        let field = &entry.field;
+        let mut path = quote!(.#field);
+        let mut next = self.model.instances.get(entry.instance.0);
+        for _ in 0..self.model.instances.len() {
+            let Some((instance, parent)) = next.and_then(|i| Some((i, i.parent?))) else {
+                break;
+            };
+            let field = names::field(&instance.field);
+            path = match instance.index {
+                Some((index, _)) => {
+                    let index = Literal::usize_unsuffixed(index);
+                    quote!(.#field[#index] #path)
+                }
+                None => quote!(.#field #path),
+            };
+            next = self.model.instances.get(parent.0);
+        }
+        path
+    }
+
+    /// The same as text, for documentation: `legs[2].gimbal`.
+    pub(super) fn name(&self, place: &Place) -> String {
+        let mut name = names::plain(&place.field);
+        let mut next = self.model.instances.get(place.instance.0);
+        for _ in 0..self.model.instances.len() {
+            let Some((instance, parent)) = next.and_then(|i| Some((i, i.parent?))) else {
+                break;
+            };
+            let field = names::plain(&instance.field);
+            name = match instance.index {
+                Some((index, _)) => format!("{field}[{index}].{name}"),
+                None => format!("{field}.{name}"),
+            };
+            next = self.model.instances.get(parent.0);
+        }
+        name
+    }
+}

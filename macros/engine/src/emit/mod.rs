@@ -1,0 +1,86 @@
+//! Stage `emit`: the optimised programs as a Rust module.
+//!
+//! In: the checked [`Model`] and the [`Compiled`] programs. Out: tokens, and on request (`MULTIBODY_DUMP`) files. Nothing about
+//! the equations is decided here. The code needs no `#[allow]` in the user's crate: names that the user chose count as
+//! generated, so that lints of style and dead code don't apply, and what lints check even there is kept: every public
+//! item is documented, no function has more than five arguments, no literal looks like a constant of `core`.
+//!
+//! `layout` knows which field of which struct holds what, `values` builds them, `expressions` and `blocks` print programs, `items` has one
+//! file per generated thing, `document` and `report` write its documentation, `skeleton` stands in after errors.
+
+mod blocks;
+mod document;
+mod dump;
+mod expressions;
+mod functions;
+mod items;
+mod layout;
+mod leaf;
+mod literals;
+mod lower;
+mod names;
+mod numeric;
+mod places;
+mod report;
+mod skeleton;
+mod text;
+mod values;
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use self::layout::Layout;
+use crate::model::types::Model;
+use crate::optimize::program::Compiled;
+
+pub use self::report::report;
+pub use self::skeleton::{skeleton, skeletons};
+pub use self::text::source;
+
+/// What every generated item is printed from.
+struct Context<'a> {
+    layout: Layout<'a>,
+    compiled: &'a Compiled,
+    /// Fields of `Model`.
+    fields: Vec<Ident>,
+    /// Bodies of functions are left out: what stands beside errors is never run.
+    hollow: bool,
+}
+
+/// The generated module of one model. Writes it to files too where the environment asks for that.
+///
+/// Expands to `pub mod double_pendulum { pub struct Params<T = f64> { .. } .. }`.
+pub fn emit(model: &Model, compiled: &Compiled) -> TokenStream {
+    let tokens = module(&context(model, compiled, false));
+    dump::dump(model, compiled, &tokens);
+    tokens
+}
+
+fn context<'a>(model: &'a Model, compiled: &'a Compiled, hollow: bool) -> Context<'a> {
+    Context {
+        layout: Layout::new(model),
+        compiled,
+        fields: names::unique(compiled.fields.iter().map(String::as_str), &["scalar", "self"]),
+        hollow,
+    }
+}
+
+fn module(context: &Context<'_>) -> TokenStream {
+    let model = context.layout.model;
+    let (attrs, vis, krate) = (&model.attrs, &model.vis, &model.krate);
+    let name = names::field(&model.name);
+    let docs = document::attributes(&if context.hollow {
+        vec!["Stands in for a model that has errors.".to_string()]
+    } else {
+        report::lines(context)
+    });
+    let items = items::all(context);
+    quote! {
+        #(#attrs)*
+        #docs
+        #vis mod #name {
+            use #krate::Real;
+            #items
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! Stage `emit`: identifiers of generated code.
+//!
+//! In: names from the model and from programs. Out: identifiers that are valid, unique where they must be, and resolve
+//! at the macro (`mixed_site`), so that no name of the user's can capture one of ours. What the user named keeps the
+//! place of the user's token, for editors and error messages, but counts as generated: lints about unread fields or
+//! capital letters don't fire on it.
+
+use std::collections::HashSet;
+
+use proc_macro2::{Ident, Span};
+use syn::ext::IdentExt;
+
+/// Strict and reserved keywords of edition 2024, and names that our own code uses in the same place.
+const KEYWORDS: &[&str] = &[
+    "Self", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn",
+    "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro",
+    "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static", "struct", "super",
+    "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+];
+
+/// An identifier for generated code; what can't be one is mended.
+pub(super) fn ident(name: &str) -> Ident {
+    Ident::new(&valid(name), Span::mixed_site())
+}
+
+/// The user's identifier, at the user's place.
+pub(super) fn field(user: &Ident) -> Ident {
+    let mut ident = user.clone();
+    ident.set_span(Span::mixed_site().located_at(user.span()));
+    ident
+}
+
+/// The user's name as text, without `r#`.
+pub(super) fn plain(user: &Ident) -> String {
+    user.unraw().to_string()
+}
+
+/// One identifier per name, all different, none of them in `reserved`.
+pub(super) fn unique<'a>(names: impl IntoIterator<Item = &'a str>, reserved: &[&'static str]) -> Vec<Ident> {
+    let mut taken: HashSet<String> = reserved.iter().map(|name| (*name).to_string()).collect();
+    let mut idents = Vec::new();
+    for name in names {
+        let base = valid(name);
+        let mut candidate = base.clone();
+        let mut number = 1;
+        while !taken.insert(candidate.clone()) {
+            number += 1;
+            candidate = format!("{base}_{number}");
+        }
+        idents.push(Ident::new(&candidate, Span::mixed_site()));
+    }
+    idents
+}
+
+/// `name` itself where it is an identifier, else the nearest one.
+fn valid(name: &str) -> String {
+    if KEYWORDS.contains(&name) {
+        return format!("{name}_");
+    }
+    let start = |c: char| c == '_' || c.is_ascii_alphabetic();
+    let ascii = name.starts_with(start) && name.chars().all(|c| start(c) || c.is_ascii_digit());
+    if name != "_" && (ascii || syn::parse_str::<Ident>(name).is_ok()) {
+        return name.to_string();
+    }
+    let letters = |c: char| {
+        if start(c) || c.is_ascii_digit() { c } else { '_' }
+    };
+    format!("n_{}", name.chars().map(letters).collect::<String>())
+}

@@ -1,0 +1,37 @@
+//! The compiler behind `multibody!`, an ordinary library so that tests, benches and fuzzers can link it.
+//!
+//! Stages flow one way: `syntax -> model -> (symbolic <- mechanics <- solve) -> optimize -> emit`. `symbolic` knows no
+//! mechanics; `mechanics` knows no tokens; `emit` decides nothing about equations. The public items here serve the
+//! project's own tests and tools; users call the macro.
+
+pub mod diagnostics;
+pub mod emit;
+pub mod mechanics;
+pub mod model;
+pub mod optimize;
+pub mod symbolic;
+pub mod syntax;
+
+use proc_macro2::TokenStream;
+
+use diagnostics::Diagnostics;
+
+/// Tokens of a `multibody!` call to tokens of its modules; with errors in between, everything that is wrong.
+pub fn expand(tokens: TokenStream) -> TokenStream {
+    let mut diagnostics = Diagnostics::default();
+    let source = syntax::parse(tokens, &mut diagnostics);
+    let models = model::check(&source, &mut diagnostics);
+    if !diagnostics.is_empty() {
+        let mut output = diagnostics.to_tokens();
+        output.extend(emit::skeletons(&source));
+        return output;
+    }
+    models
+        .iter()
+        .map(|model| {
+            let derivation = mechanics::derive(model);
+            let compiled = optimize::compile(&derivation);
+            emit::emit(model, &compiled)
+        })
+        .collect()
+}

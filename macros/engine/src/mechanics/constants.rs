@@ -1,0 +1,118 @@
+//! Stage `mechanics`: constant rotations, of literals and parameters.
+//!
+//! In: axes, angles, frames. Out: rotations that are multiplied out to one matrix, since work on parameters is done once
+//! and a vector then passes one rotation and not several; and the coordinate axis behind any axis. A literal direction
+//! is reached by turns about coordinate axes, whose sines and cosines lie on the circle exactly, so a rotation times its
+//! transpose is one.
+
+use crate::symbolic::graph::{Call, Graph, Rotation, RotationNode, Scalar, Vector};
+
+/// An axis of any direction as a coordinate axis.
+#[derive(Clone, Copy, Debug)]
+pub struct Axis {
+    /// Takes the coordinate axis into this one.
+    pub turn: Rotation,
+    pub index: usize,
+    /// The axis is the negative coordinate axis: coordinates change their sign.
+    pub flipped: bool,
+}
+
+/// The nine entries, row by row.
+pub fn rows(g: &mut Graph, r: Rotation) -> [[Scalar; 3]; 3] {
+    let m = match g.rotation_node(r) {
+        RotationNode::Matrix(rows) => **rows,
+        &RotationNode::Axis(axis, angle) => {
+            let (s, c) = (g.sin(angle), g.cos(angle));
+            let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+            let mut m = [[Scalar::ZERO; 3]; 3];
+            m[axis][axis] = Scalar::ONE;
+            (m[j][j], m[j][k], m[k][j], m[k][k]) = (c, -s, s, c);
+            m
+        }
+        _ => return g.rotation_rows(r),
+    };
+    if r.is_transposed() { transpose(&m) } else { m }
+}
+
+pub fn transpose(m: &[[Scalar; 3]; 3]) -> [[Scalar; 3]; 3] {
+    std::array::from_fn(|i| std::array::from_fn(|j| m[j][i]))
+}
+
+/// First `b`, then `a`, as one matrix unless it is simpler than that.
+pub fn compose(g: &mut Graph, a: Rotation, b: Rotation) -> Rotation {
+    if a == Rotation::IDENTITY {
+        return b;
+    }
+    if b == Rotation::IDENTITY {
+        return a;
+    }
+    if let (RotationNode::Axis(i, _), RotationNode::Axis(j, _)) = (g.rotation_node(a), g.rotation_node(b)) {
+        if i == j {
+            return g.compose(a, b);
+        }
+    }
+    let (x, y) = (rows(g, a), rows(g, b));
+    let product = x.map(|row| {
+        [0, 1, 2].map(|j| {
+            let terms = [0, 1, 2].map(|k| g.mul(row[k], y[k][j]));
+            g.sum(&terms)
+        })
+    });
+    g.matrix_rotation(product)
+}
+
+/// A constant vector, turned: a triple, so that literals fold.
+pub fn rotate(g: &mut Graph, r: Rotation, v: Vector) -> Vector {
+    if r == Rotation::IDENTITY || v == Vector::ZERO {
+        return v;
+    }
+    let (m, v) = (rows(g, r), g.components(v));
+    let turned = m.map(|row| {
+        let terms = [0, 1, 2].map(|k| g.mul(row[k], v[k]));
+        g.sum(&terms)
+    });
+    g.vector(turned)
+}
+
+/// Rotation about any axis by a constant angle.
+pub fn about(g: &mut Graph, axis: [Scalar; 3], angle: Scalar) -> Rotation {
+    let axis = self::axis(g, axis);
+    let turn = g.axis_rotation(axis.index, if axis.flipped { -angle } else { angle });
+    let placed = compose(g, axis.turn, turn);
+    compose(g, placed, axis.turn.transpose())
+}
+
+/// The coordinate axis behind a direction. An axis in a coordinate plane is one turn away from it, any other direction
+/// is Rz(azimuth) Ry(inclination) Z.
+pub fn axis(g: &mut Graph, direction: [Scalar; 3]) -> Axis {
+    let nonzero: Vec<usize> = (0..3).filter(|&k| direction[k] != Scalar::ZERO).collect();
+    if let [k] = nonzero[..] {
+        if let Some(n) = g.literal(direction[k]) {
+            return Axis { turn: Rotation::IDENTITY, index: k, flipped: n.is_negative() };
+        }
+    }
+    let normal = (0..3).find(|&k| direction[k] == Scalar::ZERO && direction[(k + 1) % 3] != Scalar::ZERO);
+    if let Some(k) = normal {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        let angle = angle_of(g, direction[j], direction[i]);
+        return Axis { turn: g.axis_rotation(k, angle), index: i, flipped: false };
+    }
+    let [x, y, z] = direction;
+    let azimuth = angle_of(g, y, x);
+    let (xx, yy) = (g.mul(x, x), g.mul(y, y));
+    let square = g.add(xx, yy);
+    let level = match (g.literal(x), g.literal(y)) {
+        (Some(x), Some(y)) => g.decimal(x.value().hypot(y.value())),
+        _ => g.sqrt(square),
+    };
+    let inclination = angle_of(g, level, z);
+    let (first, second) = (g.axis_rotation(2, azimuth), g.axis_rotation(1, inclination));
+    Axis { turn: compose(g, first, second), index: 2, flipped: false }
+}
+
+fn angle_of(g: &mut Graph, y: Scalar, x: Scalar) -> Scalar {
+    match (g.literal(y), g.literal(x)) {
+        (Some(y), Some(x)) => g.decimal(y.value().atan2(x.value())),
+        _ => g.call(Call::Atan2, &[y, x]),
+    }
+}

@@ -1,0 +1,181 @@
+//! Stage `mechanics`, its whole: from the checked model to expressions of every requested function.
+//!
+//! In: the checked model. Out: a [`Derivation`]. Where there are several ways to a function, each is a candidate, and the
+//! count of the optimised code decides between them (law 5). The graph forgets between candidates: expressions of equal
+//! value are one node, in the form that was made first, so a second way would come out as the first; and what one
+//! function costs must not depend on which others are asked for.
+
+use std::collections::HashSet;
+use std::rc::Rc;
+
+use crate::model::types::{Expr, ExprNode, JointId, JointKind, Model, Order, Request};
+use crate::optimize::program::FunctionKind;
+use crate::symbolic::graph::{Graph, Scalar};
+
+use super::equations::{Equations, Method, Style, Way};
+use super::names;
+use super::symbols::Symbols;
+use super::{Derivation, Derived};
+
+const METHODS: [(Method, &str); 2] =
+    [(Method::Composite, "composite rigid body, LDL^T"), (Method::Articulated, "articulated body")];
+
+/// Derives what the model asks for, and its outputs.
+pub fn derive(model: &Model) -> Derivation {
+    let mut graph = Graph::new();
+    let symbols = Symbols::new(&mut graph, model);
+    let symbol_names = symbols.table.iter().map(|&symbol| names::symbol(model, symbol)).collect();
+    let mut deriving = Deriving { model, graph, symbols };
+    let functions = kinds(model).into_iter().map(|kind| Derived { kind, candidates: deriving.candidates(kind) });
+    let functions = functions.collect();
+    Derivation { graph: deriving.graph, symbols: deriving.symbols.table, symbol_names, functions }
+}
+
+/// What to derive, each once, in a fixed order.
+fn kinds(model: &Model) -> Vec<FunctionKind> {
+    let wanted = |request: Request, kinds: &[FunctionKind]| {
+        if model.emit.contains(&request) { kinds.to_vec() } else { Vec::new() }
+    };
+    let mut kinds = wanted(Request::ForwardDynamics, &[FunctionKind::ForwardDynamics]);
+    kinds.extend(wanted(Request::InverseDynamics, &[FunctionKind::InverseDynamics]));
+    kinds.extend(wanted(Request::MassMatrix, &[FunctionKind::MassMatrix]));
+    kinds.extend(wanted(Request::Bias, &[FunctionKind::Bias]));
+    kinds.extend(wanted(Request::Energy, &[FunctionKind::KineticEnergy, FunctionKind::PotentialEnergy]));
+    if !model.outputs.is_empty() {
+        kinds.push(FunctionKind::Outputs);
+    }
+    kinds
+}
+
+type Candidate = (&'static str, Vec<Scalar>);
+
+/// A graph that goes from candidate to candidate.
+struct Deriving<'m> {
+    model: &'m Model,
+    graph: Graph,
+    symbols: Symbols,
+}
+
+impl<'m> Deriving<'m> {
+    fn candidates(&mut self, kind: FunctionKind) -> Vec<Candidate> {
+        match kind {
+            FunctionKind::ForwardDynamics => self.forward_dynamics(),
+            FunctionKind::Outputs => self.outputs(),
+            FunctionKind::InverseDynamics => self.one("recursive Newton-Euler", Equations::inverse_dynamics),
+            FunctionKind::Bias => self.one("recursive Newton-Euler", Equations::bias),
+            FunctionKind::MassMatrix => self.one("composite rigid body", Equations::mass_matrix),
+            FunctionKind::KineticEnergy => self.one("sum over links", |e| vec![e.kinetic()]),
+            FunctionKind::PotentialEnergy => self.one("first moment of mass, springs", |e| vec![e.potential()]),
+        }
+    }
+
+    fn one(&mut self, name: &'static str, f: impl Fn(&mut Equations<'m>) -> Vec<Scalar>) -> Vec<Candidate> {
+        vec![self.candidate(name, Way { style: Style::Nested, method: Method::Composite }, &[], f)]
+    }
+
+    fn candidate(
+        &mut self,
+        name: &'static str,
+        way: Way,
+        kept: &[JointId],
+        f: impl Fn(&mut Equations<'m>) -> Vec<Scalar>,
+    ) -> Candidate {
+        let mut graph = std::mem::take(&mut self.graph);
+        graph.forget();
+        let mut equations = Equations::new(self.model, graph, self.symbols.clone(), way, kept);
+        let results = f(&mut equations);
+        self.graph = equations.g;
+        (name, results)
+    }
+
+    fn forward_dynamics(&mut self) -> Vec<Candidate> {
+        let model = self.model;
+        let needs = Needs::of(model.states.iter().map(|state| &state.rate));
+        let kept = needs.kept(model);
+        let all = |equations: &mut Equations<'m>| {
+            let mut results = equations.accelerations().to_vec();
+            results.extend(model.states.iter().map(|state| equations.scalar(&state.rate)));
+            results
+        };
+        let methods = if articulates(model, &kept) { &METHODS[..] } else { &METHODS[..1] };
+        let way = |method| Way { style: Style::Nested, method };
+        methods.iter().map(|&(method, name)| self.candidate(name, way(method), &kept, all)).collect()
+    }
+
+    fn outputs(&mut self) -> Vec<Candidate> {
+        let model = self.model;
+        let needs = Needs::of(model.outputs.iter().map(|output| &output.value));
+        let kept = needs.kept(model);
+        let all = |equations: &mut Equations<'m>| {
+            let mut results = Vec::new();
+            for output in &model.outputs {
+                let value = equations.value(&output.value);
+                value.flatten(&mut equations.g, &mut results);
+            }
+            results
+        };
+        let mut ways = vec![(Style::World, Method::Composite, "world axes")];
+        if needs.frames {
+            ways.push((Style::Nested, Method::Composite, "link axes"));
+        }
+        if needs.accelerations && articulates(model, &kept) {
+            ways.push((Style::World, Method::Articulated, "world axes, articulated body"));
+            if needs.frames {
+                ways.push((Style::Nested, Method::Articulated, "link axes, articulated body"));
+            }
+        }
+        let candidates = ways.into_iter().map(|(style, method, name)| {
+            self.candidate(name, Way { style, method }, &kept, all)
+        });
+        candidates.collect()
+    }
+}
+
+/// Whether the articulated-body algorithm is another way: with one coordinate it is the same one, and it would move the
+/// links of `Fixed` joints that are kept for their reactions.
+fn articulates(model: &Model, kept: &[JointId]) -> bool {
+    kept.is_empty() && model.joints.iter().map(|joint| joint.kind.freedoms()).sum::<usize>() > 1
+}
+
+/// What expressions ask for.
+#[derive(Default)]
+struct Needs {
+    frames: bool,
+    accelerations: bool,
+    reactions: Vec<JointId>,
+}
+
+impl Needs {
+    fn of<'m>(roots: impl Iterator<Item = &'m Expr>) -> Needs {
+        let mut needs = Needs::default();
+        let mut seen = HashSet::new();
+        let mut stack: Vec<&Expr> = roots.collect();
+        while let Some(expr) = stack.pop() {
+            if !seen.insert(Rc::as_ptr(&expr.node)) {
+                continue;
+            }
+            match &*expr.node {
+                ExprNode::OfFrame(_, quantity) => {
+                    use crate::model::types::FrameQuantity::{Acceleration, AngularAcceleration};
+                    needs.frames = true;
+                    needs.accelerations |= matches!(quantity, Acceleration | AngularAcceleration);
+                }
+                ExprNode::Power(_) | ExprNode::Express { .. } => needs.frames = true,
+                ExprNode::Coordinate { order: Order::Acceleration, .. } => needs.accelerations = true,
+                ExprNode::Reaction { joint, .. } => {
+                    needs.accelerations = true;
+                    needs.reactions.push(*joint);
+                }
+                _ => {}
+            }
+            stack.extend(super::expressions::operands(&expr.node));
+        }
+        needs
+    }
+
+    /// `Fixed` joints whose reactions are asked for.
+    fn kept(&self, model: &Model) -> Vec<JointId> {
+        let fixed = |id: &JointId| model.joints.get(id.0).is_some_and(|joint| matches!(joint.kind, JointKind::Fixed));
+        self.reactions.iter().copied().filter(fixed).collect()
+    }
+}

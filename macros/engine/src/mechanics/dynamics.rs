@@ -1,0 +1,86 @@
+//! Stage `mechanics`: equations of motion.
+//!
+//! In: the tree, declared forces. Out: inverse dynamics, bias, mass matrix and accelerations in the user's coordinates, so
+//! that M a + bias = effort, where the bias holds gravity, velocity terms and minus the declared forces.
+
+use std::rc::Rc;
+
+use crate::symbolic::graph::Scalar;
+use crate::symbolic::linear_algebra::solve_symmetric;
+
+use super::articulated;
+use super::composite;
+use super::equations::{Equations, Method};
+use super::kinematics::motions;
+use super::newton_euler::{efforts, transmitted};
+
+impl Equations<'_> {
+    /// Efforts that the accelerations take beside all declared forces.
+    pub(super) fn inverse_dynamics(&mut self) -> Vec<Scalar> {
+        let mechanism = Rc::clone(&self.mechanism);
+        let list = self.efforts(&mechanism.tree.acceleration);
+        mechanism.sign(&list)
+    }
+
+    pub(super) fn bias(&mut self) -> Vec<Scalar> {
+        let mechanism = Rc::clone(&self.mechanism);
+        let list = self.efforts(&vec![Scalar::ZERO; mechanism.tree.freedoms()]);
+        mechanism.sign(&list)
+    }
+
+    /// In the tree's coordinates.
+    fn efforts(&mut self, acceleration: &[Scalar]) -> Vec<Scalar> {
+        let tree = self.regrouped();
+        let loads = self.loads();
+        let base = self.base();
+        let g = &mut self.g;
+        let motions = motions(g, &tree, &tree.velocity, acceleration, base);
+        let wrenches = transmitted(g, &tree, &motions, &loads.applied);
+        let needed = efforts(g, &tree, &wrenches, acceleration);
+        let rest = needed.iter().zip(&loads.efforts).map(|(&needed, &given)| g.sub(needed, given));
+        rest.take(self.symbols.freedoms).collect()
+    }
+
+    /// Row by row.
+    pub(super) fn mass_matrix(&mut self) -> Vec<Scalar> {
+        let mechanism = Rc::clone(&self.mechanism);
+        let tree = self.regrouped();
+        let matrix = composite::mass_matrix(&mut self.g, &tree);
+        let mut entries = Vec::new();
+        for (row, &flip) in matrix.iter().zip(&mechanism.flipped) {
+            let row = mechanism.sign(row);
+            entries.extend(row.iter().take(mechanism.flipped.len()).map(|&entry| if flip { -entry } else { entry }));
+        }
+        entries
+    }
+
+    /// Of the user's coordinates.
+    pub(super) fn accelerations(&mut self) -> Rc<[Scalar]> {
+        if let Some(accelerations) = &self.accelerations {
+            return Rc::clone(accelerations);
+        }
+        if self.loading {
+            // Forces that depend on accelerations are refused by the checker.
+            return vec![Scalar::ZERO; self.symbols.freedoms].into();
+        }
+        let mechanism = Rc::clone(&self.mechanism);
+        let tree = self.regrouped();
+        let list = match self.method {
+            Method::Composite => {
+                let matrix = composite::mass_matrix(&mut self.g, &tree);
+                let bias = self.efforts(&vec![Scalar::ZERO; tree.freedoms()]);
+                let rhs: Vec<Scalar> = bias.iter().map(|&b| -b).collect();
+                solve_symmetric(&mut self.g, &matrix, &mechanism.elimination(), &rhs)
+            }
+            Method::Articulated => {
+                let loads = self.loads();
+                let base = self.base();
+                let g = &mut self.g;
+                articulated::forward_dynamics(g, &tree, &tree.velocity, base, &loads.applied, &loads.efforts)
+            }
+        };
+        let accelerations: Rc<[Scalar]> = mechanism.sign(&list).into();
+        self.accelerations = Some(Rc::clone(&accelerations));
+        accelerations
+    }
+}

@@ -1,0 +1,123 @@
+//! Stage `mechanics`: the state of one derivation.
+//!
+//! In: the checked model. Out: [`Equations`], a graph with the model's symbols and tree, to which the other files of this
+//! stage add what is asked for and nothing else. Everything is made when it is first needed, once.
+
+use std::collections::HashMap;
+use std::rc::Rc;
+
+use crate::model::types::{ExprNode, JointId, Model};
+use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
+
+use super::build::Mechanism;
+use super::columns::Columns;
+use super::forces::Loads;
+use super::newton_euler::Wrench;
+use super::regroup::regroup;
+use super::symbols::Symbols;
+use super::tree::Tree;
+use super::values::Value;
+
+/// How the motion of frames is written: the two cost differently, and neither wins always.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Style {
+    /// Point by point from the tip to the ground; best for a few frames.
+    Nested,
+    /// Rotations and velocities of all links in world axes; best where they are shared.
+    World,
+}
+
+/// Which forward dynamics gives accelerations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    Composite,
+    Articulated,
+}
+
+/// Choices of a candidate.
+#[derive(Clone, Copy, Debug)]
+pub struct Way {
+    pub style: Style,
+    pub method: Method,
+}
+
+/// Angular velocity, and velocity of the origin, in link axes.
+pub type LinkVelocity = (Vector, Vector);
+
+/// One derivation.
+pub struct Equations<'m> {
+    pub(super) model: &'m Model,
+    pub g: Graph,
+    pub symbols: Symbols,
+    pub(super) mechanism: Rc<Mechanism>,
+    pub(super) style: Style,
+    pub(super) method: Method,
+    /// By address: the model outlives this.
+    pub(super) memo: HashMap<*const ExprNode, Value>,
+    pub(super) world: Columns,
+    /// Rotation of each link to world axes.
+    pub(super) rotations: Vec<Option<Rotation>>,
+    pub(super) velocities: Option<Rc<[LinkVelocity]>>,
+    pub(super) regrouped: Option<Rc<Tree>>,
+    pub(super) loads: Option<Rc<Loads>>,
+    pub(super) accelerations: Option<Rc<[Scalar]>>,
+    pub(super) transmitted: Option<Rc<[Wrench]>>,
+    /// Forces are being derived: the checker lets none depend on loads, and here that would be an endless regress.
+    pub(super) loading: bool,
+}
+
+impl<'m> Equations<'m> {
+    /// `kept` are `Fixed` joints that get a link of their own, since their reactions are asked for.
+    pub fn new(model: &'m Model, g: Graph, symbols: Symbols, way: Way, kept: &[JointId]) -> Self {
+        let mut equations = Equations {
+            model,
+            g,
+            symbols,
+            mechanism: Rc::new(Mechanism::default()),
+            style: way.style,
+            method: way.method,
+            memo: HashMap::new(),
+            world: Columns::new(None, Rotation::IDENTITY),
+            rotations: Vec::new(),
+            velocities: None,
+            regrouped: None,
+            loads: None,
+            accelerations: None,
+            transmitted: None,
+            loading: false,
+        };
+        let mechanism = equations.build(kept);
+        equations.rotations = vec![None; mechanism.tree.links.len()];
+        equations.mechanism = Rc::new(mechanism);
+        equations
+    }
+
+    /// The tree with regrouped inertias: for totals.
+    pub(super) fn regrouped(&mut self) -> Rc<Tree> {
+        if let Some(tree) = &self.regrouped {
+            return Rc::clone(tree);
+        }
+        let tree = Rc::new(regroup(&mut self.g, &self.mechanism.tree));
+        self.regrouped = Some(Rc::clone(&tree));
+        tree
+    }
+
+    /// Minus gravity: the acceleration of the ground that acts like it.
+    pub(super) fn base(&mut self) -> Vector {
+        match self.mechanism.tree.gravity {
+            Some(gravity) => self.g.vector(gravity.map(|c| -c)),
+            None => Vector::ZERO,
+        }
+    }
+
+    /// Velocities of all links, in link axes.
+    pub(super) fn link_velocities(&mut self) -> Rc<[LinkVelocity]> {
+        if let Some(velocities) = &self.velocities {
+            return Rc::clone(velocities);
+        }
+        let mechanism = Rc::clone(&self.mechanism);
+        let velocities: Rc<[LinkVelocity]> = super::velocities::velocities(&mut self.g, &mechanism.tree).into();
+        self.velocities = Some(Rc::clone(&velocities));
+        velocities
+    }
+}

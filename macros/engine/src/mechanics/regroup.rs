@@ -1,0 +1,57 @@
+//! Stage `mechanics`: base inertial parameters.
+//!
+//! In: a tree. Out: the same tree with the part of every link's inertia that its joint does not move handed to the
+//! parent (Gautier and Khalil 1990; Khalil and Dombre 2002, chapter 9). In moments about the joint frame (m, m c, D):
+//! - a revolute motion leaves points of its axis where they are: m, the first moment along the axis, D along the axis;
+//! - a prismatic motion leaves all of D: a distribution with neither mass nor first moment feels rotation alone;
+//! - a screw leaves D along its axis;
+//! - a ball leaves the mass at its centre.
+//!
+//! Total energies and efforts stay as they are; reactions and energies of single links need the original tree.
+
+use crate::symbolic::graph::{Graph, Scalar};
+
+use super::inertia::Inertia;
+use super::tree::{Motion, Tree};
+
+/// Regroups from the leaves to the ground.
+pub fn regroup(g: &mut Graph, tree: &Tree) -> Tree {
+    let mut tree = tree.clone();
+    for index in (0..tree.links.len()).rev() {
+        let link = tree.links[index].clone();
+        let kept = unmoved(&link.inertia, link.motion);
+        if kept.is_zero() {
+            continue;
+        }
+        tree.links[index].inertia = link.inertia.sub(g, &kept);
+        let offset = g.components(link.offset);
+        let turned = kept.rotate(g, link.rotation);
+        // A second moment without mass is the same about any point, wherever a prismatic motion has carried it.
+        let moved = turned.shift(g, offset);
+        match link.parent {
+            Some(parent) => tree.links[parent].inertia = tree.links[parent].inertia.add(g, &moved),
+            None => {
+                let ground = tree.ground.unwrap_or(Inertia::ZERO);
+                tree.ground = Some(ground.add(g, &moved));
+            }
+        }
+    }
+    tree
+}
+
+/// The part of a distribution that does not move when the joint does.
+fn unmoved(inertia: &Inertia, motion: Motion) -> Inertia {
+    let mut kept = Inertia::ZERO;
+    match motion {
+        Motion::Revolute(axis) => {
+            kept.mass = inertia.mass;
+            kept.first[axis] = inertia.first[axis];
+            kept.second[axis] = inertia.second[axis];
+        }
+        Motion::Prismatic(_) => kept.second = inertia.second,
+        Motion::Screw(axis, _) => kept.second[axis] = inertia.second[axis],
+        Motion::Ball(_) => kept.mass = inertia.mass,
+    }
+    debug_assert!(kept.first.iter().filter(|&&s| s != Scalar::ZERO).count() <= 1);
+    kept
+}

@@ -1,0 +1,320 @@
+//! Stage `model`: what is known of one model while it is checked.
+//!
+//! In: modules of the syntax tree. Out: scopes with their names, slots that the later steps fill, and the lazy
+//! resolution of named values with its guard against circles.
+
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use proc_macro2::{Ident, Span};
+
+use super::evaluate::Evaluator;
+use super::names::Shape;
+use super::report::Report;
+use super::typed::{FrameValue, Typed};
+use super::types::{
+    BodyId, Docs, ForceId, InputId, Instance, InstanceId, JointId, ParamId, PartType, Place, StateId, Type,
+};
+use crate::syntax::tree;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct ScopeId(pub(super) usize);
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct NamedId(pub(super) usize);
+
+/// Bound on the expressions of one model, once all parts are expanded.
+const MAX_EXPRESSIONS: usize = 1_000_000;
+
+/// Names of one instance of a module. A part does not see the names of the model around it.
+pub(super) struct Scope<'a> {
+    pub(super) module: &'a tree::Module,
+    pub(super) instance: InstanceId,
+    pub(super) names: BTreeMap<String, Symbol>,
+}
+
+/// What a name stands for.
+#[derive(Clone)]
+pub(super) enum Symbol {
+    /// Its slot is not made yet: only counts of parts are evaluated so early.
+    Pending(&'static str),
+    /// Reported already; the keyword is for messages.
+    Opaque(&'static str),
+    /// `const`, `let`, `output`, a param set from outside, a bound port.
+    Named(NamedId, &'static str),
+    Param(ParamId),
+    Input(InputId),
+    State(StateId),
+    Body(BodyId),
+    Joint(JointId),
+    Force(ForceId),
+    Part(ScopeId),
+    Parts(Rc<[ScopeId]>),
+}
+
+impl Symbol {
+    /// The keyword that made it.
+    pub(super) fn keyword(&self) -> &'static str {
+        match self {
+            Symbol::Pending(keyword) | Symbol::Opaque(keyword) | Symbol::Named(_, keyword) => keyword,
+            Symbol::Param(_) => "param",
+            Symbol::Input(_) => "input",
+            Symbol::State(_) => "state",
+            Symbol::Body(_) => "body",
+            Symbol::Joint(_) => "joint",
+            Symbol::Force(_) => "force",
+            Symbol::Part(_) | Symbol::Parts(_) => "part",
+        }
+    }
+}
+
+/// Where an expression stands: its scope, and the index of `|i|` if it belongs to an array of parts.
+#[derive(Clone, Copy)]
+pub(super) struct Context<'a> {
+    pub(super) scope: ScopeId,
+    pub(super) index: Option<(&'a Ident, usize)>,
+}
+
+/// What an expression means before it is asked for a value.
+#[derive(Clone)]
+pub(super) enum Meaning {
+    Value(Typed),
+    Frame(FrameValue),
+    Joint(JointId),
+    /// One scalar coordinate of a joint.
+    Coordinate(JointId, usize),
+    Force(ForceId),
+    Part(ScopeId),
+    Parts(Rc<[ScopeId]>),
+}
+
+/// Something that is worked out when it is first asked for.
+#[derive(Clone)]
+pub(super) enum Lazy<T> {
+    Waiting,
+    /// Met again in this state, it is a circle.
+    Working,
+    /// `None`: reported.
+    Done(Option<T>),
+}
+
+pub(super) struct Named<'a> {
+    pub(super) name: &'a Ident,
+    pub(super) role: Role,
+    pub(super) context: Context<'a>,
+    /// The declaration, and the scope in which its type (and a bound param's own default) is read.
+    pub(super) item: Option<&'a tree::Value>,
+    pub(super) home: ScopeId,
+    /// The value, read in `context`.
+    pub(super) expr: Option<&'a syn::Expr>,
+    pub(super) state: Lazy<Meaning>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Role {
+    Const,
+    Let,
+    Output,
+    BoundParam,
+    Port,
+}
+
+/// What it takes to resolve a [`Named`].
+pub(super) struct NamedRequest<'a> {
+    pub(super) role: Role,
+    pub(super) context: Context<'a>,
+    pub(super) item: Option<&'a tree::Value>,
+    pub(super) home: ScopeId,
+    pub(super) expr: Option<&'a syn::Expr>,
+}
+
+pub(super) struct ParamSlot<'a> {
+    pub(super) place: Place,
+    pub(super) item: &'a tree::Value,
+    pub(super) scope: ScopeId,
+    pub(super) docs: Docs,
+    /// Its type; the default is with the evaluator.
+    pub(super) state: Lazy<Type>,
+}
+
+pub(super) struct InputSlot<'a> {
+    pub(super) place: Place,
+    pub(super) item: &'a tree::Value,
+    pub(super) scope: ScopeId,
+    pub(super) docs: Docs,
+    pub(super) state: Lazy<Type>,
+}
+
+/// What expressions need to know of a joint.
+pub(super) struct JointSlot<'a> {
+    pub(super) place: Place,
+    pub(super) item: &'a tree::Item,
+    pub(super) scope: ScopeId,
+    /// `None`: unknown kind, reported.
+    pub(super) shape: Option<Shape>,
+    /// The frames, where they could be read.
+    pub(super) frames: Lazy<[FrameValue; 2]>,
+}
+
+/// A body, force, or state of the user: place and syntax.
+#[derive(Clone)]
+pub(super) struct Slot<'a> {
+    pub(super) place: Place,
+    pub(super) item: &'a tree::Item,
+    pub(super) scope: ScopeId,
+}
+
+/// An item of one instance, to be checked in source order once all names are known.
+#[derive(Clone, Copy)]
+pub(super) struct Task<'a> {
+    pub(super) scope: ScopeId,
+    pub(super) item: &'a tree::Item,
+    pub(super) subject: Subject,
+}
+
+/// What stands behind the item of a [`Task`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Subject {
+    None,
+    Named(NamedId),
+    Param(ParamId),
+    Input(InputId),
+    State(StateId),
+    Body(BodyId),
+    Joint(JointId),
+    Force(ForceId),
+}
+
+pub(super) struct Checker<'a, 'd> {
+    pub(super) source: &'a tree::Source,
+    /// First module of each name.
+    pub(super) modules: &'a BTreeMap<String, usize>,
+    pub(super) report: &'a mut Report<'d>,
+    pub(super) scopes: Vec<Scope<'a>>,
+    pub(super) named: Vec<Named<'a>>,
+    pub(super) part_types: Vec<PartType>,
+    /// Module of each part type, and the params that its instances set, with the first instance's name.
+    pub(super) part_modules: Vec<(usize, Vec<String>, String)>,
+    pub(super) instances: Vec<Instance>,
+    pub(super) params: Vec<ParamSlot<'a>>,
+    pub(super) inputs: Vec<InputSlot<'a>>,
+    pub(super) states: Vec<Slot<'a>>,
+    pub(super) bodies: Vec<Slot<'a>>,
+    pub(super) joints: Vec<JointSlot<'a>>,
+    pub(super) forces: Vec<Slot<'a>>,
+    pub(super) tasks: Vec<Task<'a>>,
+    pub(super) evaluator: Evaluator,
+    /// Modules that are being expanded, outermost first.
+    pub(super) expanding: Vec<usize>,
+    /// Items so far, over all instances.
+    pub(super) expanded: usize,
+    /// A part by itself: its ports lead nowhere.
+    pub(super) alone: bool,
+    pub(super) ports: usize,
+    /// An item is missing: how the rest hangs together is not known.
+    pub(super) lost: bool,
+    /// Expressions that may still be resolved.
+    pub(super) fuel: usize,
+    /// Nesting of expressions that are being resolved.
+    pub(super) depth: usize,
+}
+
+impl<'a, 'd> Checker<'a, 'd> {
+    pub(super) fn new(
+        source: &'a tree::Source,
+        modules: &'a BTreeMap<String, usize>,
+        report: &'a mut Report<'d>,
+        alone: bool,
+    ) -> Self {
+        Checker {
+            source,
+            modules,
+            report,
+            scopes: Vec::new(),
+            named: Vec::new(),
+            part_types: Vec::new(),
+            part_modules: Vec::new(),
+            instances: Vec::new(),
+            params: Vec::new(),
+            inputs: Vec::new(),
+            states: Vec::new(),
+            bodies: Vec::new(),
+            joints: Vec::new(),
+            forces: Vec::new(),
+            tasks: Vec::new(),
+            evaluator: Evaluator::default(),
+            expanding: Vec::new(),
+            expanded: 0,
+            alone,
+            ports: 0,
+            lost: false,
+            fuel: MAX_EXPRESSIONS,
+            depth: 0,
+        }
+    }
+
+    /// The value behind a `const`, `let`, `output`, bound param or port, asked for at `site`.
+    pub(super) fn named_meaning(&mut self, id: NamedId, site: Span) -> Option<Meaning> {
+        let named = self.named.get_mut(id.0)?;
+        match &named.state {
+            Lazy::Done(meaning) => return meaning.clone(),
+            Lazy::Working => {
+                let name = named.name;
+                self.report.error(site, format!("`{name}` is defined through itself"));
+                return None;
+            }
+            Lazy::Waiting => named.state = Lazy::Working,
+        }
+        let request = NamedRequest {
+            role: named.role,
+            context: named.context,
+            item: named.item,
+            home: named.home,
+            expr: named.expr,
+        };
+        let meaning = self.resolve_named(&request);
+        if let Some(named) = self.named.get_mut(id.0) {
+            named.state = Lazy::Done(meaning.clone());
+        }
+        meaning
+    }
+
+    /// The type of a param, asked for at `site`; its default is known to the evaluator afterwards.
+    pub(super) fn param_type(&mut self, id: ParamId, site: Span) -> Option<Type> {
+        let slot = self.params.get_mut(id.0)?;
+        match &slot.state {
+            Lazy::Done(ty) => return ty.clone(),
+            Lazy::Working => {
+                let name = &slot.item.name;
+                let message = format!("the default of `{name}` is defined through itself");
+                self.report.error(site, message);
+                return None;
+            }
+            Lazy::Waiting => slot.state = Lazy::Working,
+        }
+        let (item, scope) = (slot.item, slot.scope);
+        let found = self.resolve_param(item, scope);
+        let ty = found.map(|(ty, default)| {
+            self.evaluator.set_param(id, default);
+            ty
+        });
+        if let Some(slot) = self.params.get_mut(id.0) {
+            slot.state = Lazy::Done(ty.clone());
+        }
+        ty
+    }
+
+    /// The type of an input.
+    pub(super) fn input_type(&mut self, id: InputId) -> Option<Type> {
+        let slot = self.inputs.get(id.0)?;
+        if let Lazy::Done(ty) = &slot.state {
+            return ty.clone();
+        }
+        let (item, scope) = (slot.item, slot.scope);
+        let ty = self.resolve_input(item, scope);
+        if let Some(slot) = self.inputs.get_mut(id.0) {
+            slot.state = Lazy::Done(ty.clone());
+        }
+        ty
+    }
+}

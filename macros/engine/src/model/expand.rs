@@ -1,0 +1,352 @@
+//! Stage `model`: names of a module, and the parts inside it, expanded into instances.
+//!
+//! In: a module of the syntax tree. Out: scopes with all names, a slot per body, joint, .., and the list of items to
+//! check, in source order with the parts' own items where the parts stand.
+
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use proc_macro2::Ident;
+use syn::Expr;
+
+use super::checker::{
+    Checker, Context, InputSlot, JointSlot, Lazy, Meaning, Named, NamedId, ParamSlot, Role, Scope, ScopeId, Slot,
+    Subject, Symbol, Task,
+};
+use super::docs;
+use super::names::{self, Shape};
+use super::typed::{FrameValue, Uses};
+use super::types::{
+    BodyId, BodyRef, ForceId, Frame, InputId, Instance, InstanceId, JointId, Orientation, ParamId, Place, StateId,
+};
+use crate::syntax::tree::{self, ItemKind};
+
+/// Bound on the items of one model once its parts are expanded.
+pub(super) const MAX_ITEMS: usize = 10_000;
+
+/// Bound on parts within parts.
+const MAX_NESTING: usize = 24;
+
+/// How a part is used: the item that says so, and where its expressions stand.
+#[derive(Clone, Copy)]
+struct Binding<'a> {
+    part: &'a tree::Part,
+    context: Context<'a>,
+}
+
+/// The name that an item declares, with its keyword.
+pub(super) fn declared(kind: &ItemKind) -> Option<(&Ident, &'static str)> {
+    Some(match kind {
+        ItemKind::Const(value) => (&value.name, "const"),
+        ItemKind::Param(value) => (&value.name, "param"),
+        ItemKind::Input(value) => (&value.name, "input"),
+        ItemKind::Let(value) => (&value.name, "let"),
+        ItemKind::Output(value) => (&value.name, "output"),
+        ItemKind::State { name, .. } => (name, "state"),
+        ItemKind::Port { name, .. } => (name, "port"),
+        ItemKind::Body { name, .. } => (name, "body"),
+        ItemKind::Joint { name, .. } => (name, "joint"),
+        ItemKind::Force { name, .. } => (name, "force"),
+        ItemKind::Part(part) => (&part.name, "part"),
+        ItemKind::ConstraintValue { name, .. } | ItemKind::ConstraintKind { name, .. } => (name, "constraint"),
+        ItemKind::World(_)
+        | ItemKind::Formulation(_)
+        | ItemKind::Drive { .. }
+        | ItemKind::Solve { .. }
+        | ItemKind::Assume(_)
+        | ItemKind::Emit(_) => return None,
+    })
+}
+
+impl<'a> Checker<'a, '_> {
+    /// Expands the model (or the part that is checked by itself) and all parts inside it.
+    pub(super) fn expand_root(&mut self, index: usize) {
+        let Some(module) = self.source.modules.get(index) else {
+            return;
+        };
+        self.instances.push(Instance {
+            parent: None,
+            field: module.name.clone(),
+            index: None,
+            part_type: None,
+            docs: docs::docs(&module.attrs),
+        });
+        self.expand(index, InstanceId(0), None);
+    }
+
+    fn expand(&mut self, index: usize, instance: InstanceId, binding: Option<Binding<'a>>) -> Option<ScopeId> {
+        let module = self.source.modules.get(index)?;
+        let scope = ScopeId(self.scopes.len());
+        self.scopes.push(Scope { module, instance, names: BTreeMap::new() });
+        self.expanding.push(index);
+        self.expanded += module.items.len();
+        let own = self.declare(module, scope);
+        for (item, own) in module.items.iter().zip(own) {
+            let subject = self.expand_item(item, scope, binding, own);
+            self.tasks.push(Task { scope, item, subject });
+        }
+        self.expanding.pop();
+        Some(scope)
+    }
+
+    /// Enters all names, so that the values which counts of parts need are there. Says per item whether the name is
+    /// its own, or a second one that nobody can reach.
+    fn declare(&mut self, module: &'a tree::Module, scope: ScopeId) -> Vec<bool> {
+        let mut own = Vec::with_capacity(module.items.len());
+        for item in &module.items {
+            let Some((name, keyword)) = declared(&item.kind) else {
+                own.push(false);
+                continue;
+            };
+            let text = name.to_string();
+            if text == tree::UNREADABLE {
+                self.report.silent();
+                own.push(false);
+                continue;
+            }
+            if let Some(why) = names::refusal(&text) {
+                self.report.help(name.span(), why, "take another name");
+                own.push(false);
+                continue;
+            }
+            let taken = self.scopes.get(scope.0).and_then(|s| s.names.get(&text));
+            if let Some(first) = taken.map(Symbol::keyword) {
+                self.report.error(
+                    name.span(),
+                    format!("the name `{text}` is taken: {} `{first}` above has it already", article(first)),
+                );
+                own.push(false);
+                continue;
+            }
+            own.push(true);
+            self.set_symbol(scope, name, Symbol::Pending(keyword));
+            let context = Context { scope, index: None };
+            let (value, role) = match &item.kind {
+                ItemKind::Const(value) => (value, Role::Const),
+                ItemKind::Let(value) => (value, Role::Let),
+                ItemKind::Output(value) => (value, Role::Output),
+                _ => continue,
+            };
+            let item = Some(value);
+            let id = self.add_named(name, role, context, item, scope, value.value.as_ref());
+            self.set_symbol(scope, name, Symbol::Named(id, keyword));
+        }
+        own
+    }
+
+    fn add_named(
+        &mut self,
+        name: &'a Ident,
+        role: Role,
+        context: Context<'a>,
+        item: Option<&'a tree::Value>,
+        home: ScopeId,
+        expr: Option<&'a Expr>,
+    ) -> NamedId {
+        self.named.push(Named { name, role, context, item, home, expr, state: Lazy::Waiting });
+        NamedId(self.named.len() - 1)
+    }
+
+    fn set_symbol(&mut self, scope: ScopeId, name: &Ident, symbol: Symbol) {
+        if let Some(scope) = self.scopes.get_mut(scope.0) {
+            scope.names.insert(name.to_string(), symbol);
+        }
+    }
+
+    fn place(&self, scope: ScopeId, field: &Ident) -> Place {
+        let instance = self.scopes.get(scope.0).map(|s| s.instance);
+        Place { instance: instance.unwrap_or(InstanceId(0)), field: field.clone() }
+    }
+
+    /// Makes the slot of an item; `own`: whether its name may lead to it.
+    fn expand_item(
+        &mut self,
+        item: &'a tree::Item,
+        scope: ScopeId,
+        binding: Option<Binding<'a>>,
+        own: bool,
+    ) -> Subject {
+        let Some((name, keyword)) = declared(&item.kind) else {
+            return Subject::None;
+        };
+        let place = self.place(scope, name);
+        let (subject, symbol) = match &item.kind {
+            ItemKind::Const(_) | ItemKind::Let(_) | ItemKind::Output(_) => {
+                let names = self.scopes.get(scope.0).map(|s| &s.names);
+                return match names.and_then(|n| n.get(&name.to_string())) {
+                    Some(Symbol::Named(id, _)) if own => Subject::Named(*id),
+                    _ => Subject::None,
+                };
+            }
+            ItemKind::Param(value) => match binding.and_then(|b| bound(b, name)) {
+                Some((expr, context)) => {
+                    let (role, item) = (Role::BoundParam, Some(value));
+                    let id = self.add_named(name, role, context, item, scope, Some(expr));
+                    (Subject::Named(id), Symbol::Named(id, keyword))
+                }
+                None => {
+                    let id = ParamId(self.params.len());
+                    self.params.push(ParamSlot {
+                        place,
+                        item: value,
+                        scope,
+                        docs: docs::docs(&item.attrs),
+                        state: Lazy::Waiting,
+                    });
+                    (Subject::Param(id), Symbol::Param(id))
+                }
+            },
+            ItemKind::Port { .. } => match binding.and_then(|b| bound(b, name)) {
+                Some((expr, context)) => {
+                    let id = self.add_named(name, Role::Port, context, None, scope, Some(expr));
+                    (Subject::Named(id), Symbol::Named(id, keyword))
+                }
+                None if self.alone => {
+                    let id = self.add_named(name, Role::Port, root(scope), None, scope, None);
+                    self.leave_open(id, name);
+                    (Subject::Named(id), Symbol::Named(id, keyword))
+                }
+                // The part's own item reports the missing port.
+                None => (Subject::None, Symbol::Opaque(keyword)),
+            },
+            ItemKind::Input(value) => {
+                let id = InputId(self.inputs.len());
+                self.inputs.push(InputSlot {
+                    place,
+                    item: value,
+                    scope,
+                    docs: docs::docs(&item.attrs),
+                    state: Lazy::Waiting,
+                });
+                (Subject::Input(id), Symbol::Input(id))
+            }
+            ItemKind::State { .. } => {
+                let id = StateId(self.states.len());
+                self.states.push(Slot { place, item, scope });
+                (Subject::State(id), Symbol::State(id))
+            }
+            ItemKind::Body { .. } => {
+                let id = BodyId(self.bodies.len());
+                self.bodies.push(Slot { place, item, scope });
+                (Subject::Body(id), Symbol::Body(id))
+            }
+            ItemKind::Force { .. } => {
+                let id = ForceId(self.forces.len());
+                self.forces.push(Slot { place, item, scope });
+                (Subject::Force(id), Symbol::Force(id))
+            }
+            ItemKind::Joint { kind, fields, .. } => {
+                let id = JointId(self.joints.len());
+                self.joints.push(JointSlot { place, item, scope, shape: shape(kind, fields), frames: Lazy::Waiting });
+                (Subject::Joint(id), Symbol::Joint(id))
+            }
+            ItemKind::Part(part) => match self.expand_part(item, part, scope) {
+                Some(symbol) => (Subject::None, symbol),
+                None => {
+                    self.lost = true;
+                    (Subject::None, Symbol::Opaque(keyword))
+                }
+            },
+            _ => (Subject::None, Symbol::Opaque(keyword)),
+        };
+        if own {
+            self.set_symbol(scope, name, symbol);
+        }
+        subject
+    }
+
+    /// A part by itself: what its ports lead to is not known, but they are frames of different bodies.
+    fn leave_open(&mut self, id: NamedId, name: &Ident) {
+        let body = BodyId(usize::MAX - self.ports);
+        self.ports += 1;
+        if let Some(named) = self.named.get_mut(id.0) {
+            named.state = Lazy::Done(Some(Meaning::Frame(FrameValue {
+                frame: Frame { body: BodyRef::Body(body), steps: Vec::new(), span: name.span() },
+                uses: Uses::default(),
+            })));
+        }
+    }
+
+    /// All instances of a part; nothing if the item is at fault.
+    fn expand_part(&mut self, item: &'a tree::Item, part: &'a tree::Part, scope: ScopeId) -> Option<Symbol> {
+        let kind = part.kind.to_string();
+        if kind == tree::UNREADABLE {
+            self.report.silent();
+            return None;
+        }
+        let index = self.part_module(&part.kind)?;
+        if self.expanding.contains(&index) {
+            let message = format!("the part `{kind}` contains itself");
+            self.report.error(part.kind.span(), message);
+            return None;
+        }
+        if self.expanding.len() > MAX_NESTING {
+            let message = format!("parts are nested more than {MAX_NESTING} deep");
+            self.report.error(part.kind.span(), message);
+            return None;
+        }
+        let count = match &part.count {
+            Some(expr) => Some(self.part_count(expr, scope)?),
+            None => None,
+        };
+        self.check_part_fields(part, index);
+        self.check_index(part, scope);
+        let part_type = self.part_type(index, part)?;
+        let mut scopes = Vec::new();
+        for k in 0..count.unwrap_or(1) {
+            if self.expanded >= MAX_ITEMS {
+                self.report.help(
+                    part.name.span(),
+                    format!("more than {MAX_ITEMS} items once all parts are expanded"),
+                    "write fewer or smaller parts",
+                );
+                return None;
+            }
+            let parent = self.scopes.get(scope.0).map(|s| s.instance);
+            let instance = InstanceId(self.instances.len());
+            self.instances.push(Instance {
+                parent,
+                field: part.name.clone(),
+                index: count.map(|n| (k, n)),
+                part_type: Some(part_type),
+                docs: docs::docs(&item.attrs),
+            });
+            let context = Context { scope, index: part.index.as_ref().map(|name| (name, k)) };
+            let binding = Binding { part, context };
+            scopes.push(self.expand(index, instance, Some(binding))?);
+        }
+        match count {
+            Some(_) => Some(Symbol::Parts(Rc::from(scopes))),
+            None => scopes.first().map(|scope| Symbol::Part(*scope)),
+        }
+    }
+}
+
+/// `a` or `an`, before a keyword.
+pub(super) fn article(keyword: &str) -> &'static str {
+    if keyword.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" }
+}
+
+/// The context of a module's own items.
+pub(super) fn root<'a>(scope: ScopeId) -> Context<'a> {
+    Context { scope, index: None }
+}
+
+/// What the part's declaration sets a port or param to.
+fn bound<'a>(binding: Binding<'a>, name: &Ident) -> Option<(&'a Expr, Context<'a>)> {
+    let field = binding.part.fields.list.iter().find(|f| f.name == *name)?;
+    Some((&field.value, binding.context))
+}
+
+/// Shape of a joint, before its fields are checked.
+fn shape(kind: &Ident, fields: &tree::Fields) -> Option<Shape> {
+    let shape = Shape::named(&kind.to_string())?;
+    let said = fields.list.iter().find(|f| f.name == "coordinates");
+    let angles =
+        said.is_some_and(|field| matches!(&field.value, Expr::Path(path) if path.path.is_ident("RollPitchYaw")));
+    Some(match shape {
+        Shape::Ball(_) if angles => Shape::Ball(Orientation::RollPitchYaw),
+        Shape::Free(_) if angles => Shape::Free(Orientation::RollPitchYaw),
+        other => other,
+    })
+}

@@ -1,0 +1,179 @@
+//! Stage `model`: function calls.
+//!
+//! In: `sin(x)`, `select(c, a, b)`, `kinetic()`. Out: typed nodes.
+
+use proc_macro2::{Ident, Span};
+use syn::spanned::Spanned;
+use syn::{Expr, ExprCall};
+
+use crate::model::checker::{Checker, Context};
+use crate::model::names::{FUNCTIONS, SPECIAL_FUNCTIONS};
+use crate::model::typed::{Class, Typed, Uses, type_text};
+use crate::model::types::{Expr as Checked, ExprNode, Function, Type};
+
+use super::coerce::convert;
+use super::source_text;
+
+/// Shapes of bodies: functions in the field `inertia` only.
+const SHAPES: [&str; 6] = ["diag", "inertia", "rod", "cuboid", "cylinder", "sphere"];
+
+/// Largest exponent of `powi`.
+const MAX_POWER: i64 = 1000;
+
+impl<'a> Checker<'a, '_> {
+    pub(super) fn call(&mut self, call: &ExprCall, context: Context<'a>) -> Option<Typed> {
+        let at = call.span();
+        let name = match &*call.func {
+            Expr::Path(path) => path.path.get_ident(),
+            _ => None,
+        };
+        let Some(name) = name else {
+            self.report.help(call.func.span(), "this is no function", "functions are called by name, such as `sin(x)`");
+            return None;
+        };
+        let text = name.to_string();
+        let arguments: Vec<&Expr> = call.args.iter().collect();
+        match text.as_str() {
+            "select" => return self.select(name, &arguments, at, context),
+            "kinetic" | "potential" => {
+                self.arity(name, &arguments, 0, at)?;
+                let node = if text == "kinetic" { ExprNode::Kinetic } else { ExprNode::Potential };
+                let uses = Uses::of(Class::State, format!("{text}()"), name.span());
+                return Some(Typed::leaf(node, Type::Scalar, at).with(uses));
+            }
+            _ => {}
+        }
+        let found = FUNCTIONS.iter().find(|(known, ..)| *known == text);
+        let Some((_, function, count)) = found else {
+            self.unknown_function(name, context);
+            // What stands between the parentheses may hold mistakes of its own.
+            for argument in arguments {
+                self.meaning(argument, context);
+            }
+            return None;
+        };
+        let correct = self.arity(name, &arguments, *count, at);
+        if *function == Function::Powi {
+            return self.powi(&arguments, at, context, correct);
+        }
+        let (argument, result) = match function {
+            Function::Dot | Function::Norm => (Type::Vec3, Type::Scalar),
+            Function::Cross => (Type::Vec3, Type::Vec3),
+            _ => (Type::Scalar, Type::Scalar),
+        };
+        let values: Vec<Option<Typed>> = arguments.iter().map(|e| self.expect(e, context, &argument)).collect();
+        correct?;
+        let values: Vec<Typed> = values.into_iter().collect::<Option<_>>()?;
+        self.function(*function, values, result, at)
+    }
+
+    fn arity(&mut self, name: &Ident, arguments: &[&Expr], count: usize, at: Span) -> Option<()> {
+        if arguments.len() == count {
+            return Some(());
+        }
+        let found = arguments.len();
+        let plural = if count == 1 { "" } else { "s" };
+        self.report.error(at, format!("`{name}` takes {count} argument{plural}, found {found}"));
+        None
+    }
+
+    fn function(&mut self, function: Function, values: Vec<Typed>, result: Type, at: Span) -> Option<Typed> {
+        let exprs: Vec<Checked> = values.iter().map(|v| v.expr.clone()).collect();
+        let parts: Vec<&Typed> = values.iter().collect();
+        self.build(ExprNode::Call(function, exprs), result, at, &parts)
+    }
+
+    /// The exponent is a whole number, known now.
+    fn powi(&mut self, arguments: &[&Expr], at: Span, context: Context<'a>, correct: Option<()>) -> Option<Typed> {
+        let base = arguments.first().and_then(|e| self.expect(e, context, &Type::Scalar));
+        let exponent = arguments.get(1).and_then(|e| {
+            let exponent = self.whole_number(e, context)?;
+            if exponent.abs() > MAX_POWER {
+                let message = format!("exponents of `powi` lie between -{MAX_POWER} and {MAX_POWER}");
+                self.report.help(e.span(), message, "write `powf(x, y)`");
+                return None;
+            }
+            Some(Typed::number(exponent as f64, e.span()))
+        });
+        correct?;
+        self.function(Function::Powi, vec![base?, exponent?], Type::Scalar, at)
+    }
+
+    fn select(&mut self, name: &Ident, arguments: &[&Expr], at: Span, context: Context<'a>) -> Option<Typed> {
+        self.arity(name, arguments, 3, at)?;
+        let [condition, yes, no] = arguments else {
+            return None;
+        };
+        let condition = self.expect(condition, context, &Type::Bool);
+        let yes = self.value(yes, context);
+        let no = self.value(no, context);
+        let (condition, mut yes, mut no) = (condition?, yes?, no?);
+        if let (Some(a), Some(b)) = (convert(&yes, &Type::Vec3), convert(&no, &Type::Vec3)) {
+            (yes, no) = (a, b);
+        }
+        if yes.expr.ty != no.expr.ty {
+            let message = format!(
+                "both values of `select` have one type: found {} and {}",
+                type_text(&yes.expr.ty),
+                type_text(&no.expr.ty)
+            );
+            self.report.error(no.expr.span, message);
+            return None;
+        }
+        if !matches!(yes.expr.ty, Type::Scalar | Type::Vec3) {
+            let message = format!("`select` chooses between scalars or Vec3, found {}", type_text(&yes.expr.ty));
+            self.report.error(yes.expr.span, message);
+            return None;
+        }
+        let ty = yes.expr.ty.clone();
+        let node = ExprNode::Select(condition.expr.clone(), yes.expr.clone(), no.expr.clone());
+        self.build(node, ty, at, &[&condition, &yes, &no])
+    }
+
+    fn unknown_function(&mut self, name: &Ident, context: Context<'a>) {
+        let text = name.to_string();
+        let pow = |help: &str| Some(help.to_string());
+        let help = match text.as_str() {
+            "pow" => pow("write `powi(x, 2)` or `powf(x, y)`"),
+            "log" => pow("write `ln(x)`"),
+            "clamp" => pow("write `max(low, min(high, x))`"),
+            "sign" | "sgn" => pow("write `signum(x)`"),
+            "degrees" | "rad" | "radians" | "to_radians" => pow("write `deg(30.0)`"),
+            "length" | "magnitude" => pow("write `norm(v)`"),
+            _ => None,
+        };
+        if let Some(help) = help {
+            let message = format!("unknown function `{text}`");
+            return self.report.help(name.span(), message, help);
+        }
+        if SHAPES.contains(&text.as_str()) {
+            let message = format!("`{text}` stands in the field `inertia` of a body only");
+            return self.report.error(name.span(), message);
+        }
+        if self.names_of(context.scope).contains(&text) {
+            let message = format!("`{text}` is no function");
+            return self.report.help(name.span(), message, "a product needs its `*`");
+        }
+        self.report.unknown(
+            name.span(),
+            format!("unknown function `{text}`"),
+            &text,
+            FUNCTIONS.iter().map(|(known, ..)| *known).chain(SPECIAL_FUNCTIONS),
+            None,
+        );
+    }
+
+    /// `x.sin()`: a function written as a method.
+    pub(super) fn function_as_method(&mut self, receiver: &Expr, method: &Ident) -> bool {
+        let text = method.to_string();
+        let known = FUNCTIONS.iter().any(|(known, ..)| *known == text);
+        if known {
+            self.report.help(
+                method.span(),
+                format!("`{text}` is a function, not a method"),
+                format!("write `{text}({})`", source_text(receiver)),
+            );
+        }
+        known
+    }
+}

@@ -1,0 +1,201 @@
+//! Stage `model`: what expressions may ask of a joint.
+//!
+//! In: `elbow.rate`, `gimbal.first`, `ball.angular_velocity`. Out: coordinates, their rates, accelerations and efforts,
+//! and reactions, as typed nodes.
+
+use proc_macro2::{Ident, Span};
+use syn::Expr;
+
+use crate::model::checker::{Checker, Meaning};
+use crate::model::names::Shape;
+use crate::model::typed::{Class, Typed, Uses};
+use crate::model::types::{BodyRef, ExprNode, FrameQuantity, JointId, Order, Orientation, Type};
+
+use super::paths::plain_frame;
+use super::{source_text, span};
+
+/// Members of joints and coordinates beside the coordinates' own names.
+const OF_COORDINATE: [&str; 3] = ["rate", "accel", "effort"];
+
+impl Checker<'_, '_> {
+    fn shape(&mut self, joint: JointId) -> Option<Shape> {
+        let shape = self.joints.get(joint.0).and_then(|slot| slot.shape);
+        if shape.is_none() {
+            // An unknown kind: reported with the joint itself.
+            self.report.silent();
+        }
+        shape
+    }
+
+    /// A bare joint of one coordinate stands for that coordinate.
+    pub(super) fn joint_value(&mut self, joint: JointId, expr: &Expr) -> Option<Typed> {
+        let shape = self.shape(joint)?;
+        if shape.freedoms() == 1 {
+            return self.coordinate(joint, 0, expr);
+        }
+        let text = source_text(expr);
+        let names = offers(shape, &text);
+        self.report.help(
+            span(expr),
+            format!("expected a value, found a joint of kind {}", shape.name()),
+            format!("take one of {names}"),
+        );
+        None
+    }
+
+    /// The value of a coordinate.
+    pub(super) fn coordinate(&mut self, joint: JointId, index: usize, expr: &Expr) -> Option<Typed> {
+        let shape = self.shape(joint)?;
+        let at = span(expr);
+        let uses = Uses::of(Class::State, source_text(expr), at);
+        if shape != Shape::Free(Orientation::Quaternion) {
+            let node = ExprNode::Coordinate { joint, index, order: Order::Position };
+            return Some(Typed::leaf(node, Type::Scalar, at).with(uses));
+        }
+        // With quaternions there are no scalar coordinates: the origin's place is measured in the parent frame.
+        let [parent, child] = self.joint_frames(joint, at)?;
+        let position = |frame| {
+            let node = ExprNode::OfFrame(frame, FrameQuantity::Position);
+            Typed::leaf(node, Type::Vec3, at)
+        };
+        let (to, from) = (position(child.frame), position(parent.frame.clone()));
+        let between = ExprNode::Sub(to.expr.clone(), from.expr.clone());
+        let between = self.build(between, Type::Vec3, at, &[&to, &from])?;
+        let express = ExprNode::Express { frame: parent.frame, vector: between.expr.clone() };
+        let express = self.build(express, Type::Vec3, at, &[&between])?;
+        let node = ExprNode::Component(express.expr.clone(), index);
+        let value = self.build(node, Type::Scalar, at, &[&express])?;
+        Some(value.with(uses))
+    }
+
+    /// `.rate`, `.accel`, `.effort` of a coordinate.
+    pub(super) fn coordinate_member(
+        &mut self,
+        joint: JointId,
+        index: usize,
+        base: &Expr,
+        member: &Ident,
+    ) -> Option<Meaning> {
+        let name = member.to_string();
+        let text = format!("{}.{name}", source_text(base));
+        let (node, class) = match name.as_str() {
+            "rate" => (coordinate(joint, index, Order::Rate), Class::State),
+            "accel" => (coordinate(joint, index, Order::Acceleration), Class::Acceleration),
+            "effort" => (ExprNode::Effort { joint, index }, Class::Load),
+            _ => {
+                self.report.unknown(
+                    member.span(),
+                    format!("a coordinate has no `{name}`"),
+                    &name,
+                    OF_COORDINATE,
+                    Some("it has `rate`, `accel`, `effort`".into()),
+                );
+                return None;
+            }
+        };
+        let uses = Uses::of(class, text, member.span());
+        Some(Meaning::Value(Typed::leaf(node, Type::Scalar, member.span()).with(uses)))
+    }
+
+    pub(super) fn joint_member(&mut self, joint: JointId, base: &Expr, member: &Ident) -> Option<Meaning> {
+        let shape = self.shape(joint)?;
+        let name = member.to_string();
+        let coordinates = shape.coordinates();
+        if let Some(index) = coordinates.iter().position(|known| *known == name) {
+            return Some(Meaning::Coordinate(joint, index));
+        }
+        if shape.freedoms() == 1 && OF_COORDINATE.contains(&name.as_str()) {
+            return self.coordinate_member(joint, 0, base, member);
+        }
+        let text = format!("{}.{name}", source_text(base));
+        let at = member.span();
+        let rotates = matches!(shape, Shape::Ball(_) | Shape::Free(_));
+        let angles = matches!(shape, Shape::Ball(Orientation::RollPitchYaw) | Shape::Free(Orientation::RollPitchYaw));
+        let (value, class) = match name.as_str() {
+            "reaction" => {
+                let axes = plain_frame(BodyRef::Ground, at);
+                let node = ExprNode::Reaction { joint, axes };
+                (Typed::leaf(node, Type::Wrench, at), Class::Load)
+            }
+            "angular_velocity" if rotates => {
+                let node = ExprNode::RelativeAngularVelocity(joint);
+                (Typed::leaf(node, Type::Vec3, at), Class::State)
+            }
+            "velocity" if matches!(shape, Shape::Free(_)) => {
+                let node = |index| coordinate(joint, index, Order::Rate);
+                (self.several(node, 0..3, at)?, Class::State)
+            }
+            "angular_acceleration" if rotates && !angles => {
+                let node = |index| coordinate(joint, index, Order::Acceleration);
+                let end = shape.freedoms();
+                let value = self.several(node, end - 3..end, at)?;
+                (value, Class::Acceleration)
+            }
+            "rates" if angles => {
+                let node = |index| coordinate(joint, index, Order::Rate);
+                (self.several(node, 0..shape.freedoms(), at)?, Class::State)
+            }
+            "effort" if shape.freedoms() > 1 => {
+                let node = |index| ExprNode::Effort { joint, index };
+                (self.several(node, 0..shape.freedoms(), at)?, Class::Load)
+            }
+            _ => {
+                self.unknown_joint_member(shape, base, member);
+                return None;
+            }
+        };
+        Some(Meaning::Value(value.with(Uses::of(class, text, at))))
+    }
+
+    /// Scalars of one joint together: three are a `Vec3`.
+    fn several(&mut self, node: impl Fn(usize) -> ExprNode, range: std::ops::Range<usize>, at: Span) -> Option<Typed> {
+        let count = range.len();
+        let elements: Vec<Typed> = range.map(|index| Typed::leaf(node(index), Type::Scalar, at)).collect();
+        let ty = if count == 3 { Type::Vec3 } else { Type::Array(Box::new(Type::Scalar), count) };
+        self.collect(elements, ty, at)
+    }
+
+    fn unknown_joint_member(&mut self, shape: Shape, base: &Expr, member: &Ident) {
+        let name = member.to_string();
+        let text = source_text(base);
+        let several = shape.freedoms() > 1 && OF_COORDINATE.contains(&name.as_str());
+        let help = match shape.coordinates() {
+            [first, ..] if several => format!("write `{text}.{first}.{name}`"),
+            _ if name == "rates" => format!("write `{text}.angular_velocity`"),
+            _ => format!("it has {}", offers(shape, &text)),
+        };
+        let mut candidates: Vec<&str> = members(shape);
+        if several {
+            candidates.clear();
+        }
+        self.report.unknown(
+            member.span(),
+            format!("a joint of kind {} has no `{name}`", shape.name()),
+            &name,
+            candidates,
+            Some(help),
+        );
+    }
+}
+
+/// Names that a joint offers.
+fn members(shape: Shape) -> Vec<&'static str> {
+    let mut names = shape.coordinates().to_vec();
+    if shape.freedoms() == 1 {
+        names.extend(OF_COORDINATE);
+    }
+    if matches!(shape, Shape::Ball(_) | Shape::Free(_)) {
+        names.push("angular_velocity");
+    }
+    names.push("reaction");
+    names
+}
+
+fn offers(shape: Shape, text: &str) -> String {
+    let names: Vec<String> = members(shape).iter().map(|name| format!("`{text}.{name}`")).collect();
+    names.join(", ")
+}
+
+fn coordinate(joint: JointId, index: usize, order: Order) -> ExprNode {
+    ExprNode::Coordinate { joint, index, order }
+}

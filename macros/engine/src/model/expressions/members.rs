@@ -1,0 +1,171 @@
+//! Stage `model`: `base.member`.
+//!
+//! In: field accesses. Out: quantities of frames, joints, forces and values; things inside parts.
+
+use proc_macro2::Ident;
+use syn::spanned::Spanned;
+use syn::{Expr, ExprField, Member};
+
+use crate::model::checker::{Checker, Context, Meaning, ScopeId};
+use crate::model::typed::{Class, FrameValue, Typed, Uses, type_text};
+use crate::model::types::{BodyRef, ExprNode, ForceId, FrameQuantity, Type};
+
+use super::coerce::{component_of, convert};
+use super::paths::plain_frame;
+use super::source_text;
+
+/// Quantities of a frame by name.
+const QUANTITIES: [(&str, FrameQuantity, Type, Class); 8] = [
+    ("position", FrameQuantity::Position, Type::Vec3, Class::State),
+    ("rotation", FrameQuantity::Rotation, Type::Rotation, Class::State),
+    ("pose", FrameQuantity::Pose, Type::Pose, Class::State),
+    ("velocity", FrameQuantity::Velocity, Type::Vec3, Class::State),
+    ("angular_velocity", FrameQuantity::AngularVelocity, Type::Vec3, Class::State),
+    ("twist", FrameQuantity::Twist, Type::Twist, Class::State),
+    ("acceleration", FrameQuantity::Acceleration, Type::Vec3, Class::Acceleration),
+    ("angular_acceleration", FrameQuantity::AngularAcceleration, Type::Vec3, Class::Acceleration),
+];
+
+impl<'a> Checker<'a, '_> {
+    pub(super) fn member(&mut self, field: &ExprField, context: Context<'a>) -> Option<Meaning> {
+        let base = self.meaning(&field.base, context)?;
+        let Member::Named(member) = &field.member else {
+            self.report.help(field.member.span(), "there are no tuples here", "elements of arrays are `a[0]`");
+            return None;
+        };
+        match base {
+            Meaning::Part(scope) => self.part_member(scope, &field.base, member),
+            Meaning::Parts(_) => {
+                let text = source_text(&field.base);
+                self.report.help(
+                    field.base.span(),
+                    format!("`{text}` is an array of parts"),
+                    format!("write `{text}[0].{member}`"),
+                );
+                None
+            }
+            Meaning::Joint(joint) => self.joint_member(joint, &field.base, member),
+            Meaning::Coordinate(joint, index) => self.coordinate_member(joint, index, &field.base, member),
+            Meaning::Frame(frame) => self.frame_member(frame, &field.base, member),
+            Meaning::Force(force) => self.force_member(force, &field.base, member),
+            Meaning::Value(value) => self.value_member(value, member),
+        }
+    }
+
+    fn part_member(&mut self, scope: ScopeId, base: &Expr, member: &Ident) -> Option<Meaning> {
+        let name = member.to_string();
+        let names = self.scopes.get(scope.0).map(|s| &s.names);
+        if let Some(symbol) = names.and_then(|n| n.get(&name)).cloned() {
+            return self.symbol(&symbol, member);
+        }
+        let known = self.names_of(scope);
+        if self.is_broken(scope) && crate::diagnostics::nearest(&name, known.iter().map(String::as_str)).is_none() {
+            self.report.silent();
+            return None;
+        }
+        self.report.unknown(
+            member.span(),
+            format!("the part `{}` has no `{name}`", source_text(base)),
+            &name,
+            known.iter().map(String::as_str),
+            None,
+        );
+        None
+    }
+
+    fn frame_member(&mut self, frame: FrameValue, base: &Expr, member: &Ident) -> Option<Meaning> {
+        let name = member.to_string();
+        let at = member.span();
+        let text = format!("{}.{name}", source_text(base));
+        if name == "jacobian" {
+            let axes = plain_frame(BodyRef::Ground, at);
+            let node = ExprNode::Jacobian { frame: frame.frame, axes };
+            let uses = Uses::of(Class::State, text, at);
+            let value = Typed::leaf(node, Type::Jacobian, at).with(uses);
+            return Some(Meaning::Value(value));
+        }
+        let Some((_, quantity, ty, class)) = QUANTITIES.iter().find(|(known, ..)| *known == name) else {
+            let component = matches!(name.as_str(), "x" | "y" | "z")
+                .then(|| format!("write `{}.position.{name}`", source_text(base)));
+            self.report.unknown(
+                at,
+                format!("a frame has no `{name}`"),
+                &name,
+                QUANTITIES.iter().map(|q| q.0).chain(["jacobian"]),
+                component,
+            );
+            return None;
+        };
+        let mut uses = frame.uses;
+        let still = matches!(quantity, FrameQuantity::Position | FrameQuantity::Rotation | FrameQuantity::Pose);
+        if !(still && frame.frame.body == BodyRef::Ground) {
+            uses.add(*class, text, at);
+        }
+        let node = ExprNode::OfFrame(frame.frame, *quantity);
+        Some(Meaning::Value(Typed::leaf(node, ty.clone(), at).with(uses)))
+    }
+
+    fn force_member(&mut self, force: ForceId, base: &Expr, member: &Ident) -> Option<Meaning> {
+        if member != "power" {
+            self.report.unknown(
+                member.span(),
+                format!("a force has no `{member}`"),
+                &member.to_string(),
+                ["power"],
+                Some("it has `power`".into()),
+            );
+            return None;
+        }
+        let uses = Uses::of(Class::Load, format!("{}.power", source_text(base)), member.span());
+        let value = Typed::leaf(ExprNode::Power(force), Type::Scalar, member.span());
+        Some(Meaning::Value(value.with(uses)))
+    }
+
+    fn value_member(&mut self, value: Typed, member: &Ident) -> Option<Meaning> {
+        let name = member.to_string();
+        if let (Some(index), Some(vector)) =
+            (["x", "y", "z"].iter().position(|known| *known == name), convert(&value, &Type::Vec3))
+        {
+            return Some(Meaning::Value(Typed {
+                expr: component_of(&vector.expr, index)?,
+                uses: value.uses,
+                depth: vector.depth.saturating_add(1),
+            }));
+        }
+        let offered: &[&str] = match &value.expr.ty {
+            Type::Vec3 => &["x", "y", "z"],
+            Type::Pose => &["position", "rotation"],
+            Type::Twist => &["linear", "angular"],
+            Type::Wrench => &["force", "moment"],
+            _ => &[],
+        };
+        let at = member.span();
+        let node = match (&*value.expr.node, name.as_str()) {
+            (ExprNode::OfFrame(frame, FrameQuantity::Pose), "position") => {
+                ExprNode::OfFrame(frame.clone(), FrameQuantity::Position)
+            }
+            (ExprNode::OfFrame(frame, FrameQuantity::Pose), "rotation") => {
+                let node = ExprNode::OfFrame(frame.clone(), FrameQuantity::Rotation);
+                let ty = Type::Rotation;
+                return Some(Meaning::Value(Typed::leaf(node, ty, at).with(value.uses)));
+            }
+            (_, "linear" | "force") if offered.contains(&name.as_str()) => ExprNode::Linear(value.expr.clone()),
+            (_, "angular" | "moment") if offered.contains(&name.as_str()) => ExprNode::Angular(value.expr.clone()),
+            _ => {
+                let help = match offered {
+                    [] => None,
+                    some => Some(format!("it has `{}`", some.join("`, `"))),
+                };
+                self.report.unknown(
+                    at,
+                    format!("{} has no `{name}`", type_text(&value.expr.ty)),
+                    &name,
+                    offered.iter().copied(),
+                    help,
+                );
+                return None;
+            }
+        };
+        self.build(node, Type::Vec3, at, &[&value]).map(Meaning::Value)
+    }
+}

@@ -1,0 +1,253 @@
+//! Stage `model`: joints.
+//!
+//! In: `joint name: Kind { .. }`. Out: kind with its axes, frames on both sides, armature; checked at the declared
+//! defaults.
+
+use proc_macro2::{Ident, Span};
+use syn::Expr;
+use syn::spanned::Spanned;
+
+use super::checker::{Checker, Context, Lazy};
+use super::docs;
+use super::evaluate::dot;
+use super::expand::root;
+use super::fields::{Known, field};
+use super::names::{JOINT_KINDS, Shape};
+use super::typed::{Allowed, FrameValue, Typed};
+use super::types::{BodyRef, Joint, JointId, JointKind, Orientation, Type};
+use crate::syntax::tree::{self, ItemKind};
+
+/// How far from perpendicular the axes of a universal joint may be: the sine of the angle that is missing.
+const PERPENDICULAR: f64 = 1e-6;
+
+/// Sequences of angles that other tools know.
+const SEQUENCES: [&str; 2] = ["Quaternion", "RollPitchYaw"];
+
+impl<'a> Checker<'a, '_> {
+    pub(super) fn finish_joint(&mut self, id: JointId) -> Option<Joint> {
+        let slot = self.joints.get(id.0)?;
+        let (item, scope, place, shape) = (slot.item, slot.scope, slot.place.clone(), slot.shape);
+        let ItemKind::Joint { name, kind, fields } = &item.kind else {
+            return None;
+        };
+        let attributes = docs::attributes(&item.attrs, self.report);
+        self.refuse_waiver(&attributes);
+        if let Some(span) = attributes.cut {
+            self.report.error(span, "cut joints are not available yet: loops come later");
+        }
+        let frames = self.joint_frames(id, name.span());
+        let Some(shape) = shape else {
+            self.unknown_kind(kind);
+            return None;
+        };
+        let owner = format!("the {} joint `{name}`", shape.name());
+        self.check_fields(&owner, name, fields, &known(shape));
+        let context = root(scope);
+        let joint_kind = self.joint_kind(shape, fields, context);
+        let armature = match field(fields, "armature").filter(|_| shape.freedoms() == 1) {
+            Some(expr) => self
+                .scalar(expr, context, Allowed::Parameters)
+                .and_then(|value| self.not_negative(&value, "an armature"))
+                .map(|value| Some(value.expr)),
+            None => Some(None),
+        };
+        let [parent, child] = frames?;
+        if child.frame.body == BodyRef::Ground {
+            let help = if parent.frame.body == BodyRef::Ground {
+                "one side must be a body"
+            } else {
+                "swap `parent` and `child`"
+            };
+            let message = format!("the child of the joint `{name}` is the ground, which cannot move");
+            self.report.help(child.frame.span, message, help);
+            return None;
+        }
+        if child.frame.body == parent.frame.body {
+            let message = format!("the joint `{name}` joins a body to itself");
+            self.report.error(child.frame.span, message);
+            return None;
+        }
+        Some(Joint {
+            place,
+            kind: joint_kind?,
+            parent: parent.frame,
+            child: child.frame,
+            armature: armature?,
+            docs: attributes.docs,
+            span: name.span(),
+        })
+    }
+
+    /// The frames of a joint, worked out when they are first asked for.
+    pub(super) fn joint_frames(&mut self, id: JointId, site: Span) -> Option<[FrameValue; 2]> {
+        let slot = self.joints.get_mut(id.0)?;
+        match &slot.frames {
+            Lazy::Done(frames) => return frames.clone(),
+            Lazy::Working => {
+                let message = format!("the frames of `{}` depend on themselves", slot.place.field);
+                self.report.error(site, message);
+                return None;
+            }
+            Lazy::Waiting => slot.frames = Lazy::Working,
+        }
+        let (item, context) = (slot.item, root(slot.scope));
+        let frames = match &item.kind {
+            ItemKind::Joint { fields, .. } => {
+                let mut side = |name| {
+                    let expr = field(fields, name)?;
+                    self.frame(expr, context)
+                };
+                let (parent, child) = (side("parent"), side("child"));
+                parent.zip(child).map(|(parent, child)| [parent, child])
+            }
+            _ => None,
+        };
+        if let Some(slot) = self.joints.get_mut(id.0) {
+            slot.frames = Lazy::Done(frames.clone());
+        }
+        frames
+    }
+
+    fn unknown_kind(&mut self, kind: &Ident) {
+        let name = kind.to_string();
+        if name == tree::UNREADABLE {
+            return self.report.silent();
+        }
+        let instead = match name.as_str() {
+            "Hinge" | "Pin" | "Rotary" => Some("Revolute"),
+            "Slider" | "Sliding" | "Linear" => Some("Prismatic"),
+            "Spherical" => Some("Ball"),
+            "Weld" | "Rigid" => Some("Fixed"),
+            "Floating" | "SixDof" | "FreeJoint" => Some("Free"),
+            "Cardan" | "Hooke" => Some("Universal"),
+            "Helical" => Some("Screw"),
+            _ => None,
+        };
+        let message = format!("unknown kind of joint `{name}`");
+        if let Some(instead) = instead {
+            let help = format!("write `{instead}`");
+            return self.report.help(kind.span(), message, help);
+        }
+        let kinds: Vec<&str> = JOINT_KINDS.iter().map(|(kind, _)| *kind).collect();
+        let list = format!("kinds are `{}`", kinds.join("`, `"));
+        self.report.unknown(kind.span(), message, &name, kinds, Some(list));
+    }
+
+    fn joint_kind(&mut self, shape: Shape, fields: &tree::Fields, context: Context<'a>) -> Option<JointKind> {
+        if let Some(expr) = field(fields, "coordinates") {
+            self.orientation(shape, expr);
+        }
+        let axis = match (shape, field(fields, "axis")) {
+            (Shape::Fixed | Shape::Universal | Shape::Ball(_) | Shape::Free(_), _) => None,
+            (_, Some(expr)) => self.axis(expr, context).map(|axis| axis.expr),
+            (_, None) => None,
+        };
+        Some(match shape {
+            Shape::Fixed => JointKind::Fixed,
+            Shape::Revolute => JointKind::Revolute { axis: axis? },
+            Shape::Prismatic => JointKind::Prismatic { axis: axis? },
+            Shape::Cylindrical => JointKind::Cylindrical { axis: axis? },
+            Shape::Planar => JointKind::Planar { axis: axis? },
+            Shape::Screw => {
+                let pitch = field(fields, "pitch").and_then(|expr| {
+                    let pitch = self.scalar(expr, context, Allowed::Parameters)?;
+                    self.finite(&pitch)?;
+                    Some(pitch.expr)
+                });
+                JointKind::Screw { axis: axis?, pitch: pitch? }
+            }
+            Shape::Universal => {
+                let axes = field(fields, "axes")?;
+                JointKind::Universal { axes: Box::new(self.universal_axes(axes, context)?) }
+            }
+            Shape::Ball(orientation) => JointKind::Ball(orientation),
+            Shape::Free(orientation) => JointKind::Free(orientation),
+        })
+    }
+
+    fn universal_axes(&mut self, expr: &Expr, context: Context<'a>) -> Option<[super::types::Expr; 2]> {
+        let axes = match expr {
+            // Element by element, so that errors stand at one of them.
+            Expr::Array(array) => {
+                let list: Vec<Option<Typed>> = array.elems.iter().map(|e| self.axis(e, context)).collect();
+                if list.len() != 2 {
+                    let message = format!("a universal joint has 2 axes, found {}", list.len());
+                    self.report.error(expr.span(), message);
+                    return None;
+                }
+                let list: Vec<Typed> = list.into_iter().collect::<Option<_>>()?;
+                list.into_iter().map(|axis| axis.expr).collect::<Vec<_>>()
+            }
+            _ => {
+                let ty = Type::Array(Box::new(Type::Vec3), 2);
+                let pair = self.typed(expr, context, &ty, Allowed::Parameters)?;
+                self.finite(&pair)?;
+                let element = |k| super::expressions::element_of(&pair.expr, k);
+                vec![element(0)?, element(1)?]
+            }
+        };
+        let [first, second] = <[super::types::Expr; 2]>::try_from(axes).ok()?;
+        let (a, b) = (self.evaluator.vector(&first)?, self.evaluator.vector(&second)?);
+        if dot(a, a) == 0.0 || dot(b, b) == 0.0 {
+            self.report.error(expr.span(), "an axis must not be zero");
+            return None;
+        }
+        if dot(a, b).abs() > PERPENDICULAR * (dot(a, a) * dot(b, b)).sqrt() {
+            self.report.help(
+                expr.span(),
+                "the two axes of a universal joint must be perpendicular",
+                "tilted axes are two revolute joints with a massless body between them",
+            );
+            return None;
+        }
+        Some([first, second])
+    }
+
+    /// `coordinates:` of Ball and Free; the shape has read what it needs.
+    fn orientation(&mut self, shape: Shape, expr: &Expr) {
+        if !matches!(shape, Shape::Ball(_) | Shape::Free(_)) {
+            return;
+        }
+        let name = match expr {
+            Expr::Verbatim(_) => return self.report.silent(),
+            Expr::Path(path) => path.path.get_ident().map(ToString::to_string),
+            _ => None,
+        };
+        let name = name.unwrap_or_default();
+        if Orientation::named(&name).is_some() {
+            return;
+        }
+        self.report.unknown(
+            expr.span(),
+            "unknown kind of coordinates",
+            &name,
+            SEQUENCES,
+            Some("there are `Quaternion` and `RollPitchYaw` so far".into()),
+        );
+    }
+}
+
+impl Orientation {
+    fn named(name: &str) -> Option<Orientation> {
+        match name {
+            "Quaternion" => Some(Orientation::Quaternion),
+            "RollPitchYaw" => Some(Orientation::RollPitchYaw),
+            _ => None,
+        }
+    }
+}
+
+fn known(shape: Shape) -> Known<'static> {
+    let required: &[&str] = match shape {
+        Shape::Fixed | Shape::Ball(_) | Shape::Free(_) => &["parent", "child"],
+        Shape::Screw => &["parent", "child", "axis", "pitch"],
+        Shape::Universal => &["parent", "child", "axes"],
+        _ => &["parent", "child", "axis"],
+    };
+    let optional: &[&str] = match shape {
+        Shape::Ball(_) | Shape::Free(_) => &["coordinates"],
+        _ if shape.freedoms() == 1 => &["armature"],
+        _ => &[],
+    };
+    Known { required, optional }
+}

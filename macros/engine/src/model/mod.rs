@@ -1,0 +1,108 @@
+//! Stage `model`: from the syntax tree to the checked model.
+//!
+//! In: all modules of one `multibody!` call. Out: one [`types::Model`] per module without ports. Modules with ports are
+//! parts; they are expanded where they are used, and a part that nobody uses is checked by itself. All mistakes are
+//! reported in one go, and a model with a mistake is left out.
+
+mod assemble;
+mod bodies;
+mod checker;
+mod configuration;
+mod docs;
+mod evaluate;
+mod expand;
+mod expressions;
+mod fields;
+mod forces;
+mod inertia;
+mod joints;
+mod mass_matrix;
+mod massless;
+mod matrix3;
+mod names;
+mod parts;
+mod report;
+mod spatial;
+mod topology;
+mod typed;
+pub mod types;
+mod values;
+mod world;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use syn::spanned::Spanned;
+
+use crate::diagnostics::Diagnostics;
+use crate::syntax::tree::{self, ItemKind};
+
+use checker::Checker;
+use report::Report;
+
+/// Checks all modules of one call.
+pub fn check(source: &tree::Source, diagnostics: &mut Diagnostics) -> Vec<types::Model> {
+    let mut report = Report::new(diagnostics);
+    let modules = modules(source, &mut report);
+    let mut used: BTreeSet<usize> = BTreeSet::new();
+    let mut models = Vec::new();
+    for (index, module) in source.modules.iter().enumerate() {
+        if is_part(module) {
+            continue;
+        }
+        report.take_failed();
+        let mut checker = Checker::new(source, &modules, &mut report, false);
+        let model = checker.model(index);
+        used.extend(checker.part_modules.iter().map(|(part, ..)| *part));
+        let failed = report.take_failed();
+        models.extend(model.filter(|_| !failed));
+    }
+    for (index, module) in source.modules.iter().enumerate() {
+        if !is_part(module) {
+            continue;
+        }
+        if let Some(cfg) = module.attrs.iter().find(|a| a.path().is_ident("cfg")) {
+            report.error(cfg.path().span(), "`cfg` stands on a model, not on a part");
+        }
+        if !used.contains(&index) {
+            let mut checker = Checker::new(source, &modules, &mut report, true);
+            checker.model(index);
+            used.extend(checker.part_modules.iter().map(|(part, ..)| *part));
+        }
+    }
+    models
+}
+
+/// A module with ports is a part.
+fn is_part(module: &tree::Module) -> bool {
+    let mut items = module.items.iter();
+    items.any(|item| matches!(item.kind, ItemKind::Port { .. }))
+}
+
+/// Modules by name. Two of one name are well where `cfg` chooses between them.
+fn modules(source: &tree::Source, report: &mut Report<'_>) -> BTreeMap<String, usize> {
+    let mut found: BTreeMap<String, usize> = BTreeMap::new();
+    for (index, module) in source.modules.iter().enumerate() {
+        let name = module.name.to_string();
+        if name == tree::UNREADABLE {
+            continue;
+        }
+        if let Some(why) = names::module_refusal(&name) {
+            report.help(module.name.span(), why, "take another name");
+        }
+        match found.get(&name).and_then(|first| source.modules.get(*first)) {
+            Some(first) if is_part(first) || is_part(module) || !(has_cfg(first) && has_cfg(module)) => {
+                let message = format!("the name `{name}` is taken: a module above has it already");
+                report.error(module.name.span(), message);
+            }
+            Some(_) => {}
+            None => {
+                found.insert(name, index);
+            }
+        }
+    }
+    found
+}
+
+fn has_cfg(module: &tree::Module) -> bool {
+    module.attrs.iter().any(|attr| attr.path().is_ident("cfg"))
+}

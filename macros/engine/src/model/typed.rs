@@ -1,0 +1,206 @@
+//! Stage `model`: a typed expression together with what it depends on.
+//!
+//! In: nothing. Out: the values that `expressions` hands around, and the question where they may stand.
+
+use std::rc::Rc;
+
+use proc_macro2::Span;
+
+use super::types::{Expr, ExprNode, Frame, Type};
+
+/// What a value may depend on, from early to late.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Class {
+    Parameter,
+    Time,
+    Input,
+    /// Coordinates, velocities, states, and all that follows from them.
+    State,
+    Acceleration,
+    /// Efforts, reactions, power: known only when all forces are.
+    Load,
+}
+
+const CLASSES: [Class; 6] =
+    [Class::Parameter, Class::Time, Class::Input, Class::State, Class::Acceleration, Class::Load];
+
+/// The first name that brings a dependence in.
+#[derive(Debug)]
+pub(super) struct Culprit {
+    name: String,
+    /// The `let` through which it is seen.
+    via: Option<String>,
+    span: Span,
+}
+
+/// Per class the first culprit.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Uses([Option<Rc<Culprit>>; CLASSES.len()]);
+
+impl Uses {
+    pub(super) fn of(class: Class, name: impl Into<String>, span: Span) -> Uses {
+        let mut uses = Uses::default();
+        uses.add(class, name, span);
+        uses
+    }
+
+    pub(super) fn add(&mut self, class: Class, name: impl Into<String>, span: Span) {
+        if let Some(slot) = self.0.get_mut(class as usize) {
+            slot.get_or_insert_with(|| Rc::new(Culprit { name: name.into(), via: None, span }));
+        }
+    }
+
+    pub(super) fn merge(&mut self, other: &Uses) {
+        for (mine, theirs) in self.0.iter_mut().zip(&other.0) {
+            if mine.is_none() {
+                mine.clone_from(theirs);
+            }
+        }
+    }
+
+    /// The same dependences, seen at a use of the `let` called `name`.
+    pub(super) fn through(&self, name: &str, span: Span) -> Uses {
+        Uses(self.0.each_ref().map(|slot| {
+            slot.as_ref()
+                .map(|culprit| Rc::new(Culprit { name: culprit.name.clone(), via: Some(name.to_string()), span }))
+        }))
+    }
+
+    /// Where a value with these dependences is refused: span and message.
+    pub(super) fn refusal(&self, allowed: Allowed) -> Option<(Span, String)> {
+        for (class, slot) in CLASSES.iter().zip(&self.0) {
+            let Some(culprit) = slot else { continue };
+            if allowed.contains(*class) {
+                continue;
+            }
+            let subject = match &culprit.via {
+                Some(via) => format!("`{via}` depends on `{}`, which", culprit.name),
+                None => format!("`{}`", culprit.name),
+            };
+            return Some((culprit.span, format!("{subject} {}", allowed.why(*class))));
+        }
+        None
+    }
+}
+
+/// What the values of a field may depend on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Allowed {
+    /// `const` and literals.
+    Constants,
+    /// Those and `param`.
+    Parameters,
+    /// All that is known before forces and accelerations are.
+    Forces,
+}
+
+impl Allowed {
+    fn contains(self, class: Class) -> bool {
+        match self {
+            Allowed::Constants => false,
+            Allowed::Parameters => class == Class::Parameter,
+            Allowed::Forces => !matches!(class, Class::Acceleration | Class::Load),
+        }
+    }
+
+    fn why(self, class: Class) -> &'static str {
+        match (self, class) {
+            (Allowed::Constants, Class::Parameter) => "is a `param`; only literals and `const` may stand here",
+            (Allowed::Forces, Class::Acceleration) => {
+                "is an acceleration, not known where forces and states are evaluated"
+            }
+            (Allowed::Forces, Class::Load) => "follows from the forces, so no force or state may use it",
+            (Allowed::Constants, _) => "changes in time; only literals and `const` may stand here",
+            _ => "changes in time; only `const` and `param` may stand here",
+        }
+    }
+}
+
+/// A checked expression on its way into the model.
+#[derive(Clone)]
+pub(super) struct Typed {
+    pub(super) expr: Expr,
+    pub(super) uses: Uses,
+    /// Height of the tree.
+    pub(super) depth: u16,
+}
+
+impl Typed {
+    /// A leaf that depends on nothing.
+    pub(super) fn leaf(node: ExprNode, ty: Type, span: Span) -> Typed {
+        Typed { expr: new_expr(node, ty, span), uses: Uses::default(), depth: 1 }
+    }
+
+    pub(super) fn number(value: f64, span: Span) -> Typed {
+        Typed::leaf(ExprNode::Number(value), Type::Scalar, span)
+    }
+
+    pub(super) fn vector(value: [f64; 3], span: Span) -> Typed {
+        let node = ExprNode::Vec3(value.map(|x| number(x, span)));
+        Typed { depth: 2, ..Typed::leaf(node, Type::Vec3, span) }
+    }
+
+    pub(super) fn with(mut self, uses: Uses) -> Typed {
+        self.uses = uses;
+        self
+    }
+
+    pub(super) fn at(mut self, span: Span) -> Typed {
+        self.expr.span = span;
+        self
+    }
+}
+
+/// A frame on its way into the model.
+#[derive(Clone)]
+pub(super) struct FrameValue {
+    pub(super) frame: Frame,
+    /// Of the steps.
+    pub(super) uses: Uses,
+}
+
+pub(super) fn new_expr(node: ExprNode, ty: Type, span: Span) -> Expr {
+    Expr { node: Rc::new(node), ty, span }
+}
+
+pub(super) fn number(value: f64, span: Span) -> Expr {
+    new_expr(ExprNode::Number(value), Type::Scalar, span)
+}
+
+/// Arrays larger than this are refused: no loop over a type can blow up.
+pub(super) const MAX_SCALARS: usize = 10_000;
+
+/// Number of scalars, if it is not too many.
+pub(super) fn bounded_scalars(ty: &Type) -> Option<usize> {
+    let count = match ty {
+        Type::Vec3 => 3,
+        Type::Array(element, count) => bounded_scalars(element)?.checked_mul(*count)?,
+        _ => 1,
+    };
+    (count <= MAX_SCALARS).then_some(count)
+}
+
+/// How messages name a type, with its article.
+pub(super) fn type_text(ty: &Type) -> String {
+    match ty {
+        Type::Scalar => "a scalar".into(),
+        Type::Bool => "a condition".into(),
+        Type::Array(..) => format!("`{}`", type_name(ty)),
+        other => format!("a {}", type_name(other)),
+    }
+}
+
+/// How the language writes a type.
+pub(super) fn type_name(ty: &Type) -> String {
+    match ty {
+        Type::Scalar => "Scalar".into(),
+        Type::Bool => "bool".into(),
+        Type::Vec3 => "Vec3".into(),
+        Type::Rotation => "Rotation".into(),
+        Type::Pose => "Pose".into(),
+        Type::Twist => "Twist".into(),
+        Type::Wrench => "Wrench".into(),
+        Type::Jacobian => "Jacobian".into(),
+        Type::Array(element, count) => format!("[{}; {count}]", type_name(element)),
+    }
+}

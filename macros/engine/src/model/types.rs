@@ -1,0 +1,421 @@
+//! Stage `model`: the checked model, flat, every name resolved; not mutable after this stage.
+//!
+//! In: nothing. Out: the types that the checker fills and `mechanics` and `emit` read. Parts are expanded: a leg that
+//! stands six times has its bodies here six times, each with the place that it has in the generated structs.
+
+// Where the name says it all there is no text.
+#![allow(missing_docs)]
+
+use std::rc::Rc;
+
+use proc_macro2::{Ident, Span};
+use syn::{Attribute, Path, Visibility};
+
+macro_rules! ids {
+    ($($(#[$doc:meta])* $name:ident),* $(,)?) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub struct $name(pub usize);
+    )*};
+}
+ids! {
+    /// Index into [`Model::instances`]; 0 is the model itself.
+    InstanceId,
+    PartTypeId,
+    ParamId,
+    InputId,
+    StateId,
+    BodyId,
+    JointId,
+    ForceId,
+}
+
+/// A mechanism, ready for derivation.
+pub struct Model {
+    pub name: Ident,
+    pub vis: Visibility,
+    /// Documentation and `cfg`, as written.
+    pub attrs: Vec<Attribute>,
+    /// Path of the runtime crate, `::multibody` unless renamed.
+    pub krate: Path,
+    pub part_types: Vec<PartType>,
+    pub instances: Vec<Instance>,
+    pub params: Vec<Param>,
+    pub inputs: Vec<Input>,
+    pub states: Vec<State>,
+    pub bodies: Vec<Body>,
+    /// In source order, which is the order of coordinates; `tree` gives the topological one.
+    pub joints: Vec<Joint>,
+    /// Every body's joint towards the ground, parents before children.
+    pub tree: Vec<JointId>,
+    pub forces: Vec<Force>,
+    pub outputs: Vec<Output>,
+    /// `Vec3` in world axes, m/s^2; `None`: no gravity declared.
+    pub gravity: Option<Expr>,
+    pub emit: Vec<Request>,
+}
+
+/// A module with ports, used by this model at least once.
+pub struct PartType {
+    pub name: Ident,
+    pub docs: Docs,
+}
+
+/// The model (instance 0) or one instance of a part.
+pub struct Instance {
+    /// `None` for the model itself.
+    pub parent: Option<InstanceId>,
+    /// Field of the parent's structs.
+    pub field: Ident,
+    /// Position within `[leg; 6]`, and the array's length.
+    pub index: Option<(usize, usize)>,
+    pub part_type: Option<PartTypeId>,
+    pub docs: Docs,
+}
+
+/// Where a leaf stands in the generated structs.
+#[derive(Clone)]
+pub struct Place {
+    pub instance: InstanceId,
+    pub field: Ident,
+}
+
+/// `///` text, with a leading `[kg]` taken out of it.
+#[derive(Clone, Default)]
+pub struct Docs {
+    pub unit: Option<String>,
+    pub text: Vec<String>,
+}
+
+/// Shape of a param or input.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Type {
+    Scalar,
+    Bool,
+    Vec3,
+    /// 3x3, orthogonal.
+    Rotation,
+    /// Position and orientation of a frame in the world.
+    Pose,
+    /// Linear and angular velocity.
+    Twist,
+    /// Force and moment.
+    Wrench,
+    /// 6 x DOF.
+    Jacobian,
+    Array(Box<Type>, usize),
+}
+
+impl Type {
+    /// Number of scalars in a `Scalar`, `Vec3` or array of them.
+    pub fn scalars(&self) -> usize {
+        match self {
+            Type::Vec3 => 3,
+            Type::Array(element, count) => element.scalars() * count,
+            _ => 1,
+        }
+    }
+}
+
+/// A field of `Params`: `Scalar`, `Vec3` or array of them.
+pub struct Param {
+    pub place: Place,
+    pub ty: Type,
+    /// Flattened, row by row.
+    pub default: Vec<f64>,
+    pub docs: Docs,
+}
+
+/// A field of `Input`: `Scalar`, `Vec3` or array of them.
+pub struct Input {
+    pub place: Place,
+    pub ty: Type,
+    pub docs: Docs,
+}
+
+/// A differential equation of the user's own.
+pub struct State {
+    pub place: Place,
+    pub rate: Expr,
+    pub start: f64,
+    pub docs: Docs,
+}
+
+pub struct Body {
+    pub place: Place,
+    /// kg
+    pub mass: Expr,
+    /// `Vec3`, m, in body axes.
+    pub com: Expr,
+    /// kg m^2 about the centre of mass in body axes: xx, yy, zz, xy, xz, yz as tensor entries; shapes are expanded.
+    /// `None`: a point mass.
+    pub inertia: Option<Box<[Expr; 6]>>,
+    pub docs: Docs,
+    pub span: Span,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BodyRef {
+    Ground,
+    Body(BodyId),
+}
+
+/// A frame fixed to a body: steps apply from left to right, each in the frame that the one before has made.
+#[derive(Clone)]
+pub struct Frame {
+    pub body: BodyRef,
+    pub steps: Vec<FrameStep>,
+    pub span: Span,
+}
+
+/// Expressions here depend on parameters at most.
+#[derive(Clone)]
+pub enum FrameStep {
+    At(Expr),
+    /// Axis (`Vec3`, of any length but zero) and angle.
+    Rotated(Expr, Expr),
+    /// Row by row; columns are the new axes.
+    Oriented(Box<[[Expr; 3]; 3]>),
+}
+
+pub struct Joint {
+    pub place: Place,
+    pub kind: JointKind,
+    pub parent: Frame,
+    /// Its body is never the ground.
+    pub child: Frame,
+    /// kg m^2 or kg, added to the diagonal of the mass matrix.
+    pub armature: Option<Expr>,
+    pub docs: Docs,
+    pub span: Span,
+}
+
+/// Axes are `Vec3` expressions of parameters at most, of any length but zero.
+pub enum JointKind {
+    Fixed,
+    Revolute {
+        axis: Expr,
+    },
+    Prismatic {
+        axis: Expr,
+    },
+    /// `pitch` in m/rad; the coordinate is the angle.
+    Screw {
+        axis: Expr,
+        pitch: Expr,
+    },
+    /// Coordinates: travel, angle.
+    Cylindrical {
+        axis: Expr,
+    },
+    /// Coordinates: first, second; the axes are perpendicular.
+    Universal {
+        axes: Box<[Expr; 2]>,
+    },
+    /// Coordinates: x, y, angle.
+    Planar {
+        axis: Expr,
+    },
+    Ball(Orientation),
+    Free(Orientation),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Orientation {
+    Quaternion,
+    RollPitchYaw,
+}
+
+impl JointKind {
+    /// Number of velocity coordinates.
+    pub fn freedoms(&self) -> usize {
+        match self {
+            JointKind::Fixed => 0,
+            JointKind::Revolute { .. } | JointKind::Prismatic { .. } | JointKind::Screw { .. } => 1,
+            JointKind::Cylindrical { .. } | JointKind::Universal { .. } => 2,
+            JointKind::Planar { .. } | JointKind::Ball(_) => 3,
+            JointKind::Free(_) => 6,
+        }
+    }
+}
+
+pub struct Force {
+    pub place: Place,
+    pub kind: ForceKind,
+    pub docs: Docs,
+    pub span: Span,
+}
+
+pub enum ForceKind {
+    /// One value per velocity coordinate of the joint (zero where the user addressed another one).
+    Effort { joint: JointId, values: Vec<Expr> },
+    /// `-stiffness * (coordinate - rest) - damping * rate` on one coordinate.
+    JointSpring {
+        joint: JointId,
+        coordinate: usize,
+        stiffness: Option<Expr>,
+        damping: Option<Expr>,
+        rest: Option<Expr>,
+    },
+    /// Along the line between two points; `length` is the natural length.
+    LineSpring { between: Box<[Frame; 2]>, stiffness: Option<Expr>, damping: Option<Expr>, length: Option<Expr> },
+    /// N, at the frame's origin, in the axes of `axes` (world if that is the ground).
+    Force { at: Frame, value: Expr, axes: Frame },
+    /// N m
+    Torque { at: Frame, value: Expr, axes: Frame },
+}
+
+pub struct Output {
+    pub place: Place,
+    /// Its type is the output's type.
+    pub value: Expr,
+    pub docs: Docs,
+}
+
+/// What to derive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Request {
+    ForwardDynamics,
+    InverseDynamics,
+    MassMatrix,
+    Bias,
+    Energy,
+}
+
+/// A typed expression; shared subtrees (`const`, `let`) are shared here too.
+#[derive(Clone)]
+pub struct Expr {
+    pub node: Rc<ExprNode>,
+    pub ty: Type,
+    pub span: Span,
+}
+
+/// Vectors are components in world axes where they come from frames, plain triples where the user wrote them.
+pub enum ExprNode {
+    Number(f64),
+    Pi,
+    Time,
+    /// Whole param or input; elements are taken by `Index` and `Component`.
+    Param(ParamId),
+    Input(InputId),
+    State(StateId),
+    /// Of a joint: coordinate, its rate, its acceleration. With quaternions the position (order 0) doesn't exist.
+    Coordinate {
+        joint: JointId,
+        index: usize,
+        order: Order,
+    },
+    /// `Vec3`: child relative to parent, in child axes.
+    RelativeAngularVelocity(JointId),
+    /// Sum of all declared forces on this coordinate of the joint (`Effort` and joint springs).
+    Effort {
+        joint: JointId,
+        index: usize,
+    },
+    /// Of a frame, in world axes.
+    OfFrame(Frame, FrameQuantity),
+    /// Linear rows, then angular ones, at the frame's origin in the axes of `axes` (world if that is the ground).
+    Jacobian {
+        frame: Frame,
+        axes: Frame,
+    },
+    /// What the parent exerts on the child at the joint's child frame.
+    Reaction {
+        joint: JointId,
+        axes: Frame,
+    },
+    /// W
+    Power(ForceId),
+    /// Total, J.
+    Kinetic,
+    Potential,
+    /// Components of a world vector in a frame's axes.
+    Express {
+        frame: Frame,
+        vector: Expr,
+    },
+    Vec3([Expr; 3]),
+    Array(Vec<Expr>),
+    /// Element of an array, index known.
+    Index(Expr, usize),
+    /// x, y or z of a `Vec3`.
+    Component(Expr, usize),
+    /// `.position`, `.force`, `.linear` (first) or `.moment`, `.angular` (second) of a `Wrench`, `Twist`.
+    Linear(Expr),
+    Angular(Expr),
+    Neg(Expr),
+    Add(Expr, Expr),
+    Sub(Expr, Expr),
+    /// Scalar by scalar, scalar by `Vec3` or `Vec3` by scalar.
+    Mul(Expr, Expr),
+    Div(Expr, Expr),
+    Call(Function, Vec<Expr>),
+    Compare(Comparison, Expr, Expr),
+    And(Expr, Expr),
+    Or(Expr, Expr),
+    Not(Expr),
+    /// Condition, then, else.
+    Select(Expr, Expr, Expr),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Order {
+    Position,
+    Rate,
+    Acceleration,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum FrameQuantity {
+    Position,
+    Rotation,
+    Pose,
+    Velocity,
+    AngularVelocity,
+    Twist,
+    Acceleration,
+    AngularAcceleration,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Comparison {
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+    Equal,
+    NotEqual,
+}
+
+/// Functions of user expressions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Function {
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    Atan2,
+    Sinh,
+    Cosh,
+    Tanh,
+    Exp,
+    Ln,
+    Sqrt,
+    Abs,
+    Signum,
+    Min,
+    Max,
+    Hypot,
+    /// Integer power, second argument a literal.
+    Powi,
+    Powf,
+    /// Degrees to radians.
+    Deg,
+    /// Of two `Vec3`.
+    Dot,
+    Cross,
+    /// Length of a `Vec3`.
+    Norm,
+}

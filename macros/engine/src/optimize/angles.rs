@@ -1,0 +1,119 @@
+//! Stage `optimize`, pass: sines and cosines of sums of angles.
+//!
+//! In: a DAG. Out: where an angle is the sum or difference of two others whose sines and cosines are there anyway, the
+//! addition theorems (4 products, 2 sums) in place of another sincos, which weighs 20.
+
+use std::collections::BTreeMap;
+
+use crate::symbolic::number::Number;
+
+use super::dag::{Dag, Id, Kind, ONE};
+use super::stage::Stage;
+
+/// An angle as a combination of units.
+type Combination = BTreeMap<Id, u64>;
+
+struct Angle {
+    id: Id,
+    units: Combination,
+    sin: Option<Id>,
+    cos: Option<Id>,
+}
+
+pub fn angles(dag: &mut Dag) {
+    let mut known: Vec<Angle> = Vec::new();
+    let mut list = gather(dag);
+    list.sort_by_key(|angle| (angle.units.len(), angle.id));
+    for angle in list {
+        let late = dag.nodes[angle.id].stage > Stage::Parameter;
+        let pair = if late { find_pair(&known, &angle.units) } else { None };
+        if let Some((a, b, minus)) = pair {
+            expand(dag, &angle, [&known[a], &known[b]], minus);
+        }
+        if late {
+            known.push(angle);
+        }
+    }
+}
+
+fn gather(dag: &Dag) -> Vec<Angle> {
+    let mut list: Vec<Angle> = Vec::new();
+    for id in dag.order() {
+        let (argument, is_sin) = match dag.nodes[id].kind {
+            Kind::Sin(argument) => (argument, true),
+            Kind::Cos(argument) => (argument, false),
+            _ => continue,
+        };
+        let at = match list.iter().position(|angle| angle.id == argument) {
+            Some(at) => at,
+            None => {
+                list.push(Angle { id: argument, units: units(dag, argument), sin: None, cos: None });
+                list.len() - 1
+            }
+        };
+        if is_sin {
+            list[at].sin = Some(id);
+        } else {
+            list[at].cos = Some(id);
+        }
+    }
+    list
+}
+
+fn units(dag: &Dag, id: Id) -> Combination {
+    match &dag.nodes[id].kind {
+        Kind::Sum(terms) => terms.iter().map(|&(c, t)| (t, c.residue)).collect(),
+        _ => BTreeMap::from([(id, 1)]),
+    }
+}
+
+/// Two known angles whose sum (or difference, first minus second) this is.
+fn find_pair(known: &[Angle], units: &Combination) -> Option<(usize, usize, bool)> {
+    for (a, first) in known.iter().enumerate() {
+        for (b, second) in known.iter().enumerate() {
+            for minus in [false, true] {
+                if (minus || a <= b) && combine(&first.units, &second.units, minus) == *units {
+                    return Some((a, b, minus));
+                }
+            }
+        }
+    }
+    None
+}
+
+fn combine(a: &Combination, b: &Combination, minus: bool) -> Combination {
+    use crate::symbolic::fingerprint as field;
+    let mut sum = a.clone();
+    for (&id, &c) in b {
+        let c = if minus { field::neg(c) } else { c };
+        let entry = sum.entry(id).or_insert(0);
+        *entry = field::add(*entry, c);
+    }
+    sum.retain(|_, c| *c != 0);
+    sum
+}
+
+fn expand(dag: &mut Dag, angle: &Angle, parts: [&Angle; 2], minus: bool) {
+    let [(sa, ca), (sb, cb)] = parts.map(|part| (sine(dag, part), cosine(dag, part)));
+    let sign = if minus { Number::ONE.neg() } else { Number::ONE };
+    // sin(a + b) = sin a cos b + cos a sin b, cos(a + b) = cos a cos b - sin a sin b
+    for (node, [x, y], [u, v], sign) in
+        [(angle.sin, [sa, cb], [ca, sb], sign), (angle.cos, [ca, cb], [sa, sb], sign.neg())]
+    {
+        let Some(node) = node else { continue };
+        let (c, first) = dag.product(vec![x, y]);
+        let (d, second) = dag.product(vec![u, v]);
+        let terms = dag.normal_terms(vec![(c, first), (d.mul(sign), second)]);
+        if first != ONE && second != ONE {
+            dag.rewrite(node, Kind::Sum(terms));
+        }
+    }
+}
+
+fn sine(dag: &mut Dag, angle: &Angle) -> Id {
+    angle.sin.unwrap_or_else(|| dag.trigonometric(angle.id, true))
+}
+
+fn cosine(dag: &mut Dag, angle: &Angle) -> Id {
+    angle.cos.unwrap_or_else(|| dag.trigonometric(angle.id, false))
+}

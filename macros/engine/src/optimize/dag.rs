@@ -1,0 +1,478 @@
+//! Stage `optimize`: the form in which passes rewrite.
+//!
+//! In: a graph of scalars and its roots. Out: a [`Dag`] whose sums carry literal coefficients and whose products carry
+//! none, so that a sign or a literal factor has one place to be. Nodes keep the prints of the symbolic stage: a rewrite
+//! that changes a node's value is caught by `debug_assert`.
+
+use std::collections::HashMap;
+use std::hash::BuildHasherDefault;
+
+use crate::symbolic::fingerprint::{self as field, Point, Print};
+use crate::symbolic::graph::{Call, Graph, PassHasher, Scalar, ScalarNode, SymbolId};
+use crate::symbolic::number::Number;
+
+use super::program::{Cost, Symbol};
+use super::stage::Stage;
+
+/// Position of a node.
+pub type Id = usize;
+
+/// The literal one, on which a sum's constant term hangs.
+pub const ONE: Id = 0;
+
+/// Operations; operands of products carry no sign, operands of sums a literal coefficient.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Kind {
+    One,
+    Symbol(SymbolId),
+    /// Coefficient and term, sorted by term, each term once. A single term is a multiple of another node.
+    Sum(Vec<(Number, Id)>),
+    /// At least two factors, sorted; powers repeat a factor.
+    Product(Vec<Id>),
+    Reciprocal(Id),
+    Sqrt(Id),
+    Sin(Id),
+    Cos(Id),
+    Call(Call, Vec<Id>),
+}
+
+/// One node with what passes ask of it.
+#[derive(Clone, Debug)]
+pub struct Node {
+    pub kind: Kind,
+    pub print: Print,
+    pub stage: Stage,
+    pub name: Option<String>,
+}
+
+/// Expressions under optimisation.
+pub struct Dag {
+    pub nodes: Vec<Node>,
+    index: HashMap<Print, Id, BuildHasherDefault<PassHasher>>,
+    pub roots: Vec<(Number, Id)>,
+    pub symbols: Vec<Symbol>,
+    /// Where angles lie on the circle.
+    points: HashMap<Id, Point>,
+    /// Readable names of the symbols, where known.
+    pub symbol_names: Vec<String>,
+}
+
+impl Dag {
+    /// Nothing but the literal one.
+    pub fn new(symbols: &[Symbol]) -> Dag {
+        let mut dag = Dag {
+            nodes: Vec::new(),
+            index: HashMap::default(),
+            roots: Vec::new(),
+            symbols: symbols.to_vec(),
+            points: HashMap::new(),
+            symbol_names: Vec::new(),
+        };
+        dag.push(Kind::One, Print::ONE);
+        dag
+    }
+
+    /// Takes over the roots of a graph of scalars. `symbols` tells what each of its symbols is.
+    pub fn import(graph: &Graph, roots: &[Scalar], symbols: &[Symbol]) -> Dag {
+        let mut dag = Dag::new(symbols);
+        let mut map: HashMap<usize, (Number, Id)> = HashMap::new();
+        for index in graph.reachable_scalars(roots) {
+            let s = graph.scalar_at(index);
+            let value = dag.import_node(graph, s, &map);
+            if let (Some(name), (_, id)) = (graph.name_of(s), value) {
+                dag.nodes[id].name.get_or_insert_with(|| name.to_owned());
+            }
+            map.insert(index, value);
+        }
+        dag.roots = roots.iter().map(|&root| operand(&map, root)).collect();
+        dag
+    }
+
+    fn import_node(&mut self, graph: &Graph, s: Scalar, map: &HashMap<usize, (Number, Id)>) -> (Number, Id) {
+        match graph.node(s) {
+            ScalarNode::Literal(n) => (*n, ONE),
+            ScalarNode::Symbol(id) => (Number::ONE, self.make(Kind::Symbol(*id), graph.print(s))),
+            ScalarNode::Sum(terms) => {
+                let terms = terms.iter().map(|&t| operand(map, t)).collect();
+                self.sum(terms)
+            }
+            ScalarNode::Product(factors) => {
+                let mut coefficient = Number::ONE;
+                let mut ids = Vec::with_capacity(factors.len());
+                for &factor in factors {
+                    let (c, id) = operand(map, factor);
+                    coefficient = coefficient.mul(c);
+                    ids.push(id);
+                }
+                let (c, id) = self.product(ids);
+                (coefficient.mul(c), id)
+            }
+            ScalarNode::Reciprocal(x) => {
+                let (c, id) = operand(map, *x);
+                (Number::ONE.div(c), self.make(Kind::Reciprocal(id), self.nodes[id].print.inverse()))
+            }
+            ScalarNode::Sqrt(x) => {
+                let x = self.plain(operand(map, *x));
+                (Number::ONE, self.make(Kind::Sqrt(x), graph.print(s)))
+            }
+            ScalarNode::Sin(angle) => {
+                let point = graph.point(*angle);
+                let angle = self.plain(operand(map, *angle));
+                self.points.insert(angle, point);
+                (Number::ONE, self.make(Kind::Sin(angle), graph.print(s)))
+            }
+            ScalarNode::Cos(angle) => {
+                let point = graph.point(*angle);
+                let angle = self.plain(operand(map, *angle));
+                self.points.insert(angle, point);
+                (Number::ONE, self.make(Kind::Cos(angle), graph.print(s)))
+            }
+            ScalarNode::Call(call, arguments) => {
+                let arguments = arguments.iter().map(|&a| self.plain(operand(map, a))).collect();
+                (Number::ONE, self.make(Kind::Call(*call, arguments), graph.print(s)))
+            }
+            // Lowering leaves no vectors; were one left, it would stand out as a symbol that nobody knows.
+            ScalarNode::Component(..) | ScalarNode::Dot(..) => (Number::ZERO, ONE),
+        }
+    }
+
+    /// A node for a multiple of another node: where an operand must be plain.
+    pub fn plain(&mut self, (c, id): (Number, Id)) -> Id {
+        if c.is_one() {
+            return id;
+        }
+        let print = self.nodes[id].print.mul(c.print());
+        match self.find(print) {
+            Some((sign, found)) if sign.is_one() => found,
+            _ => self.push(Kind::Sum(vec![(c, id)]), print),
+        }
+    }
+
+    /// A node with this value up to sign.
+    pub fn find(&self, print: Print) -> Option<(Number, Id)> {
+        let id = *self.index.get(&print.canonical())?;
+        let sign = if self.nodes[id].print == print { Number::ONE } else { Number::ONE.neg() };
+        // Passes change nodes in place; an entry of a former value doesn't count.
+        (self.nodes[id].print.canonical() == print.canonical()).then_some((sign, id))
+    }
+
+    fn make(&mut self, kind: Kind, print: Print) -> Id {
+        match self.find(print) {
+            Some((sign, id)) if sign.is_one() => id,
+            _ => self.push(kind, print),
+        }
+    }
+
+    /// Takes over a node of another DAG with the same symbols, and what it needs. `map` remembers what has been taken.
+    pub fn adopt(&mut self, from: &Dag, id: Id, map: &mut HashMap<Id, (Number, Id)>) -> (Number, Id) {
+        if id == ONE {
+            return (Number::ONE, ONE);
+        }
+        if let Some(&known) = map.get(&id) {
+            return known;
+        }
+        let node = &from.nodes[id];
+        let value = match &node.kind {
+            Kind::One => (Number::ONE, ONE),
+            Kind::Symbol(_) => (Number::ONE, self.make(node.kind.clone(), node.print)),
+            Kind::Sum(terms) => {
+                let terms = terms.iter().map(|&(c, t)| {
+                    let (d, t) = self.adopt(from, t, map);
+                    (c.mul(d), t)
+                });
+                let terms = terms.collect();
+                self.sum(terms)
+            }
+            Kind::Product(factors) => {
+                let mut coefficient = Number::ONE;
+                let factors = factors.iter().map(|&f| {
+                    let (c, f) = self.adopt(from, f, map);
+                    coefficient = coefficient.mul(c);
+                    f
+                });
+                let factors = factors.collect();
+                let (c, id) = self.product(factors);
+                (coefficient.mul(c), id)
+            }
+            Kind::Reciprocal(x) => {
+                let (c, x) = self.adopt(from, *x, map);
+                (Number::ONE.div(c), self.make(Kind::Reciprocal(x), self.nodes[x].print.inverse()))
+            }
+            kind => {
+                let mut take = |x: Id| {
+                    let value = self.adopt(from, x, map);
+                    self.plain(value)
+                };
+                let kind = match kind {
+                    Kind::Sqrt(x) => Kind::Sqrt(take(*x)),
+                    Kind::Sin(x) => Kind::Sin(take(*x)),
+                    Kind::Cos(x) => Kind::Cos(take(*x)),
+                    Kind::Call(call, list) => Kind::Call(*call, list.iter().map(|&x| take(x)).collect()),
+                    other => other.clone(),
+                };
+                (Number::ONE, self.make(kind, node.print))
+            }
+        };
+        if let Some(name) = &node.name {
+            self.nodes[value.1].name.get_or_insert_with(|| name.clone());
+        }
+        map.insert(id, value);
+        value
+    }
+
+    /// A new node, whatever exists.
+    pub fn push(&mut self, kind: Kind, print: Print) -> Id {
+        let id = self.nodes.len();
+        let stage = self.stage_of(&kind);
+        self.nodes.push(Node { kind, print, stage, name: None });
+        self.index.entry(print.canonical()).or_insert(id);
+        id
+    }
+
+    fn stage_of(&self, kind: &Kind) -> Stage {
+        match kind {
+            Kind::One => Stage::Literal,
+            Kind::Symbol(id) => self.symbols.get(id.0).map_or(Stage::Input, |s| Stage::of(*s)),
+            _ => operands(kind).map(|id| self.nodes[id].stage).max().unwrap_or(Stage::Literal),
+        }
+    }
+
+    /// A sum: gathers equal terms, drops zeros; a multiple of one node stays a multiple.
+    pub fn sum(&mut self, terms: Vec<(Number, Id)>) -> (Number, Id) {
+        let terms = self.normal_terms(terms);
+        match terms[..] {
+            [] => return (Number::ZERO, ONE),
+            [single] => return single,
+            _ => {}
+        }
+        let print = self.terms_print(&terms);
+        match self.find(print) {
+            Some(found) => found,
+            None => (Number::ONE, self.push(Kind::Sum(terms), print)),
+        }
+    }
+
+    /// The sine or cosine that completes the pair of an angle: its print follows from the other's up to sign, so it is
+    /// looked up or, being new, drawn afresh.
+    pub fn trigonometric(&mut self, angle: Id, sine: bool) -> Id {
+        let kind = if sine { Kind::Sin(angle) } else { Kind::Cos(angle) };
+        if let Some(found) = self.nodes.iter().position(|node| node.kind == kind) {
+            return found;
+        }
+        let print = self.points.get(&angle).map_or_else(
+            || Print::opaque(u64::from(sine), &[self.nodes[angle].print]),
+            |point| if sine { point.sin } else { point.cos },
+        );
+        self.push(kind, print)
+    }
+
+    /// A product of nodes without coefficients, with the signs of its factors in front.
+    pub fn product(&mut self, mut factors: Vec<Id>) -> (Number, Id) {
+        let mut coefficient = Number::ONE;
+        factors.retain(|&f| f != ONE);
+        for f in &mut factors {
+            if let Kind::Sum(terms) = &self.nodes[*f].kind {
+                if let [(c, id)] = terms[..] {
+                    if c.is_unit() || id == ONE {
+                        coefficient = coefficient.mul(c);
+                        *f = id;
+                    }
+                }
+            }
+        }
+        factors.retain(|&f| f != ONE);
+        factors.sort_unstable();
+        match factors[..] {
+            [] => return (coefficient, ONE),
+            [single] => return (coefficient, single),
+            _ => {}
+        }
+        let print = self.factors_print(&factors);
+        match self.find(print) {
+            Some((c, id)) => (coefficient.mul(c), id),
+            None => (coefficient, self.push(Kind::Product(factors), print)),
+        }
+    }
+
+    pub fn terms_print(&self, terms: &[(Number, Id)]) -> Print {
+        terms.iter().fold(Print::ZERO, |sum, &(c, id)| sum.add(self.nodes[id].print.mul(c.print())))
+    }
+
+    pub fn factors_print(&self, factors: &[Id]) -> Print {
+        factors.iter().fold(Print::ONE, |product, &id| product.mul(self.nodes[id].print))
+    }
+
+    pub fn normal_terms(&self, mut terms: Vec<(Number, Id)>) -> Vec<(Number, Id)> {
+        for term in &mut terms {
+            while let Kind::Sum(inner) = &self.nodes[term.1].kind {
+                match inner[..] {
+                    // A multiple of a multiple costs nothing more; the constant and shared multiples stay.
+                    [(c, id)] if id == ONE || c.is_unit() || !term.0.is_unit() => *term = (term.0.mul(c), id),
+                    _ => break,
+                }
+            }
+        }
+        terms.sort_by_key(|t| t.1);
+        let mut merged: Vec<(Number, Id)> = Vec::with_capacity(terms.len());
+        for (c, id) in terms {
+            match merged.last_mut() {
+                Some(last) if last.1 == id => last.0 = last.0.add(c),
+                _ => merged.push((c, id)),
+            }
+        }
+        merged.retain(|(c, _)| !c.is_zero());
+        merged
+    }
+
+    /// Replaces a node's operation by another of the same value. Refuses what would make the node depend on itself: a
+    /// part that was found by its value may have been derived from this very node.
+    pub fn rewrite(&mut self, id: Id, kind: Kind) -> bool {
+        if self.depends(&kind, id) {
+            return false;
+        }
+        debug_assert_eq!(self.kind_print(&kind).unwrap_or(self.nodes[id].print), self.nodes[id].print, "a rewrite changed a value");
+        self.nodes[id].stage = self.stage_of(&kind);
+        self.nodes[id].kind = kind;
+        true
+    }
+
+    /// Whether an operation reads a node, directly or not.
+    fn depends(&self, kind: &Kind, id: Id) -> bool {
+        let known: Vec<Id> = operands(&self.nodes[id].kind).collect();
+        let mut stack: Vec<Id> = operands(kind).filter(|operand| !known.contains(operand)).collect();
+        let mut seen = vec![false; if stack.is_empty() { 0 } else { self.nodes.len() }];
+        while let Some(node) = stack.pop() {
+            if node == id {
+                return true;
+            }
+            if seen[node] || self.nodes[node].stage < self.nodes[id].stage {
+                continue;
+            }
+            seen[node] = true;
+            stack.extend(operands(&self.nodes[node].kind));
+        }
+        false
+    }
+
+    /// Changes a node's value together with its operation; users must be changed too.
+    pub fn replace(&mut self, id: Id, kind: Kind, print: Print) {
+        self.nodes[id].stage = self.stage_of(&kind);
+        self.nodes[id].kind = kind;
+        self.nodes[id].print = print;
+        self.index.entry(print.canonical()).or_insert(id);
+    }
+
+    fn kind_print(&self, kind: &Kind) -> Option<Print> {
+        match kind {
+            Kind::Sum(terms) => Some(self.terms_print(terms)),
+            Kind::Product(factors) => Some(self.factors_print(factors)),
+            _ => None,
+        }
+    }
+
+    /// Nodes that the roots need, operands before users.
+    pub fn order(&self) -> Vec<Id> {
+        let mut state = vec![0_u8; self.nodes.len()];
+        let mut order = Vec::new();
+        let mut stack: Vec<(Id, bool)> = self.roots.iter().rev().map(|r| (r.1, false)).collect();
+        while let Some((id, done)) = stack.pop() {
+            if done {
+                order.push(id);
+                continue;
+            }
+            if state[id] != 0 {
+                continue;
+            }
+            state[id] = 1;
+            stack.push((id, true));
+            let before = stack.len();
+            stack.extend(operands(&self.nodes[id].kind).map(|id| (id, false)));
+            stack[before..].reverse();
+        }
+        order
+    }
+
+    /// How often each node is used by living nodes and roots.
+    pub fn uses(&self, order: &[Id]) -> Vec<u32> {
+        let mut uses = vec![0; self.nodes.len()];
+        for &id in order {
+            for operand in operands(&self.nodes[id].kind) {
+                uses[operand] += 1;
+            }
+        }
+        for &(_, id) in &self.roots {
+            uses[id] += 1;
+        }
+        uses
+    }
+
+    /// Operations of all living nodes at a stage later than parameters, and of those at parameters.
+    pub fn cost(&self) -> (Cost, Cost) {
+        let (mut runtime, mut prelude) = (Cost::default(), Cost::default());
+        let order = self.order();
+        let mut angles = Vec::new();
+        let uses = self.uses(&order);
+        for &id in &order {
+            let node = &self.nodes[id];
+            let cost = match node.stage {
+                Stage::Literal => continue,
+                Stage::Parameter => &mut prelude,
+                _ => &mut runtime,
+            };
+            match &node.kind {
+                Kind::One | Kind::Symbol(_) => {}
+                Kind::Sum(terms) => {
+                    cost.add += terms.len() as u32 - 1;
+                    cost.mul += terms.iter().filter(|(c, id)| *id != ONE && !c.is_unit()).count() as u32;
+                }
+                Kind::Product(factors) => {
+                    // A reciprocal used once makes a quotient of the product.
+                    let quotients = factors.iter().filter(|&&f| uses[f] == 1 && self.is_quotient(f)).count() as u32;
+                    cost.mul += factors.len() as u32 - 1 - quotients.min(1);
+                }
+                Kind::Reciprocal(_) => cost.div += 1,
+                Kind::Sqrt(_) => cost.sqrt += 1,
+                Kind::Sin(angle) | Kind::Cos(angle) => {
+                    if !angles.contains(angle) {
+                        angles.push(*angle);
+                        cost.sincos += 1;
+                    }
+                }
+                Kind::Call(Call::Min | Call::Max | Call::Select, _) => cost.add += 1,
+                Kind::Call(..) => cost.other += 1,
+            }
+        }
+        for &(c, id) in &self.roots {
+            let stage = self.nodes[id].stage;
+            if id != ONE && !c.is_unit() {
+                if stage <= Stage::Parameter { prelude.mul += 1 } else { runtime.mul += 1 }
+            }
+        }
+        (runtime, prelude)
+    }
+
+    /// A reciprocal that runs in the stage of its users.
+    pub fn is_quotient(&self, id: Id) -> bool {
+        matches!(self.nodes[id].kind, Kind::Reciprocal(_)) && self.nodes[id].stage > Stage::Parameter
+    }
+}
+
+fn operand(map: &HashMap<usize, (Number, Id)>, s: Scalar) -> (Number, Id) {
+    let (c, id) = map.get(&s.index()).copied().unwrap_or((Number::ZERO, ONE));
+    (if s.is_negative() { c.neg() } else { c }, id)
+}
+
+/// Nodes that an operation reads.
+pub fn operands(kind: &Kind) -> Box<dyn Iterator<Item = Id> + '_> {
+    match kind {
+        Kind::One | Kind::Symbol(_) => Box::new(std::iter::empty()),
+        Kind::Sum(terms) => Box::new(terms.iter().map(|t| t.1)),
+        Kind::Product(list) | Kind::Call(_, list) => Box::new(list.iter().copied()),
+        Kind::Reciprocal(x) | Kind::Sqrt(x) | Kind::Sin(x) | Kind::Cos(x) => Box::new(std::iter::once(*x)),
+    }
+}
+
+/// Residue of a ratio of coefficients, sign included.
+pub fn ratio(a: Number, b: Number) -> u64 {
+    field::mul(a.residue, field::inverse(b.residue))
+}

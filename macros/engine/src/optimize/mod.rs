@@ -1,0 +1,96 @@
+//! From expressions to programs: stages, common subexpressions, factoring, schedule, cost.
+//!
+//! In: the candidates of a derivation. Out: the cheapest of each, compiled.
+
+pub mod angles;
+pub mod balance;
+pub mod common;
+pub mod dag;
+pub mod factor;
+pub mod fields;
+pub mod flatten;
+pub mod multiples;
+pub mod names;
+pub mod program;
+pub mod schedule;
+pub mod stage;
+
+use crate::mechanics::Derivation;
+use crate::symbolic::lower::Lowering;
+
+use dag::Dag;
+use program::{Compiled, Cost, Function, FunctionKind};
+
+/// Optimises every candidate, takes the cheapest of each function, and moves parameter work into `Model::new`.
+pub fn compile(derivation: &Derivation) -> Compiled {
+    let mut chosen: Vec<(FunctionKind, &'static str, Cost, Dag)> = Vec::new();
+    for function in &derivation.functions {
+        let mut best: Option<(u32, &'static str, Cost, Dag)> = None;
+        for (method, results) in &function.candidates {
+            let mut lowering = Lowering::new(&derivation.graph);
+            let roots = lowering.run(results);
+            let before = lowering.to.cost(&roots);
+            let mut dag = Dag::import(&lowering.to, &roots, &derivation.symbols);
+            dag.symbol_names.clone_from(&derivation.symbol_names);
+            simplify(&mut dag);
+            let weight = dag.cost().0.weight();
+            if best.as_ref().is_none_or(|(least, ..)| weight < *least) {
+                best = Some((weight, *method, before, dag));
+            }
+        }
+        if let Some((_, method, before, dag)) = best {
+            chosen.push((function.kind, method, before, dag));
+        }
+    }
+    let dags: Vec<&Dag> = chosen.iter().map(|c| &c.3).collect();
+    let (mut prelude, fields) = fields::gather(&dags, &derivation.symbols);
+    prelude.symbol_names.clone_from(&derivation.symbol_names);
+    simplify(&mut prelude);
+    let names = field_names(&prelude);
+    let prelude_cost = prelude.cost().1;
+    let functions = chosen
+        .iter()
+        .map(|(kind, method, before, dag)| Function {
+            kind: *kind,
+            program: schedule::schedule(dag, &fields),
+            before: *before,
+            after: dag.cost().0,
+            method,
+        })
+        .collect();
+    let prelude = schedule::schedule(&prelude, &schedule::Fields::new());
+    Compiled { fields: names, prelude, prelude_cost, functions }
+}
+
+fn field_names(prelude: &Dag) -> Vec<String> {
+    let mut names = names::Names::default();
+    let hint = |id: dag::Id| match &prelude.nodes[id].kind {
+        dag::Kind::Symbol(symbol) => prelude.symbol_names.get(symbol.0).filter(|n| !n.is_empty()).cloned(),
+        _ => prelude.nodes[id].name.clone(),
+    };
+    prelude.roots.iter().map(|&(_, id)| names.unique(&hint(id).unwrap_or_else(|| "constant".to_owned()))).collect()
+}
+
+/// All rewrites, a fixed number of rounds.
+pub fn simplify(dag: &mut Dag) {
+    flatten::flatten(dag);
+    angles::angles(dag);
+    stage::split(dag);
+    for _ in 0..3 {
+        factor::factor(dag);
+        flatten::flatten(dag);
+        common::share(dag);
+        balance::balance(dag);
+        flatten::flatten(dag);
+        stage::split(dag);
+    }
+    multiples::multiples(dag);
+    common::share(dag);
+}
+
+impl Cost {
+    /// What choices between candidates compare: additions, products, selections 1, quotients and roots 8, sincos 20.
+    pub fn weight(&self) -> u32 {
+        self.add + self.mul + 8 * (self.div + self.sqrt) + 20 * (self.sincos + self.other)
+    }
+}

@@ -1,0 +1,97 @@
+//! Stage `optimize`: when a value is known.
+//!
+//! In: symbols. Out: the order literal, parameter, time, position, velocity, input, acceleration. What depends on
+//! parameters alone is computed once, in `Model::new`; sums and products are split so that as much as possible does.
+
+use crate::symbolic::number::Number;
+
+use super::dag::{Dag, Id, Kind, ONE};
+use super::program::Symbol;
+
+/// The stage of a node is the latest among its operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Stage {
+    Literal,
+    Parameter,
+    Time,
+    Position,
+    Velocity,
+    Input,
+    Acceleration,
+}
+
+impl Stage {
+    /// User states are known with the positions.
+    pub fn of(symbol: Symbol) -> Stage {
+        match symbol {
+            Symbol::Param { .. } => Stage::Parameter,
+            Symbol::Time => Stage::Time,
+            Symbol::Position { .. } | Symbol::State { .. } => Stage::Position,
+            Symbol::Velocity { .. } => Stage::Velocity,
+            Symbol::Input { .. } => Stage::Input,
+            Symbol::Acceleration { .. } => Stage::Acceleration,
+        }
+    }
+}
+
+/// Makes nodes of their own of the parameter parts of later sums and products, literals drawn into them.
+pub fn split(dag: &mut Dag) {
+    for id in dag.order() {
+        if dag.nodes[id].stage <= Stage::Parameter {
+            continue;
+        }
+        match dag.nodes[id].kind.clone() {
+            Kind::Sum(terms) => split_sum(dag, id, terms),
+            Kind::Product(factors) => split_product(dag, id, factors),
+            _ => {}
+        }
+    }
+}
+
+fn early(dag: &Dag, id: Id) -> bool {
+    dag.nodes[id].stage <= Stage::Parameter
+}
+
+fn split_sum(dag: &mut Dag, id: Id, terms: Vec<(Number, Id)>) {
+    let (mut now, later): (Vec<_>, Vec<_>) = terms.into_iter().partition(|&(_, t)| early(dag, t));
+    let mut list: Vec<(Number, Id)> = later.into_iter().map(|term| with_parameter(dag, term)).collect();
+    if now.len() > 1 || now.iter().any(|(c, t)| *t != ONE && !c.is_unit()) {
+        let sum = dag.sum(std::mem::take(&mut now));
+        let plain = if sum.1 == ONE { sum } else { (Number::ONE, dag.plain(sum)) };
+        list.push(plain);
+    }
+    list.extend(now);
+    let list = dag.normal_terms(list);
+    dag.rewrite(id, Kind::Sum(list));
+}
+
+/// A literal coefficient of a product with a parameter in it goes into the parameter: c (p x) = (c p) x.
+fn with_parameter(dag: &mut Dag, (c, id): (Number, Id)) -> (Number, Id) {
+    if c.is_unit() {
+        return (c, id);
+    }
+    let Kind::Product(factors) = &dag.nodes[id].kind else { return (c, id) };
+    let (now, mut later): (Vec<Id>, Vec<Id>) = factors.clone().into_iter().partition(|&f| early(dag, f));
+    if now.is_empty() {
+        return (c, id);
+    }
+    let (d, parameter) = dag.product(now);
+    later.push(dag.plain((c.mul(d), parameter)));
+    later.sort_unstable();
+    let print = dag.factors_print(&later);
+    match dag.find(print) {
+        Some(found) => found,
+        None => (Number::ONE, dag.push(Kind::Product(later), print)),
+    }
+}
+
+fn split_product(dag: &mut Dag, id: Id, factors: Vec<Id>) {
+    let (now, mut later): (Vec<Id>, Vec<Id>) = factors.into_iter().partition(|&f| early(dag, f));
+    if now.len() < 2 {
+        return;
+    }
+    let product = dag.product(now);
+    later.push(dag.plain(product));
+    later.sort_unstable();
+    dag.rewrite(id, Kind::Product(later));
+}

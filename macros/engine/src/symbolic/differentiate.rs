@@ -1,0 +1,399 @@
+//! Stage `symbolic`: exact derivatives along a direction.
+//!
+//! In: scalars and vectors of a graph, and a seed for each symbol that moves. Out: their derivatives, on the same graph.
+//! With rates as seeds this is the time derivative, with a single one the partial derivative. Every node is
+//! differentiated once per [`Differentiator`], operands before users (forward accumulation, Griewank and Walther 2008,
+//! chapter 3), vectors and rotations whole: turning about an axis adds axis x, a quaternion its angular velocity x.
+//!
+//! Where a function has a kink the derivative is that of the branch which its value is taken from. Four symbols of a
+//! unit quaternion must be seeded along the sphere, all four at once: nodes were merged by its equation.
+
+use std::collections::HashMap;
+
+use super::graph::{AnyNode, Call, Graph, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode};
+
+impl Graph {
+    /// Derivative of a scalar along the seeds, given as (symbol, seed). Symbols without one rest.
+    pub fn derivative(&mut self, s: Scalar, seeds: &[(Scalar, Scalar)]) -> Scalar {
+        Differentiator::new(seeds).scalar(self, s)
+    }
+
+    /// Partial derivatives of a scalar.
+    pub fn gradient(&mut self, s: Scalar, symbols: &[Scalar]) -> Vec<Scalar> {
+        symbols.iter().map(|&symbol| self.derivative(s, &[(symbol, Scalar::ONE)])).collect()
+    }
+}
+
+/// Derivatives along one direction, shared by all that is asked for.
+pub struct Differentiator {
+    scalars: HashMap<usize, Scalar>,
+    vectors: HashMap<usize, Vector>,
+    rotations: HashMap<usize, Turning>,
+}
+
+/// How a rotation changes, whichever way it is applied.
+#[derive(Clone, Copy)]
+enum Turning {
+    Rests,
+    /// About an axis that both frames share.
+    Axis(Vector),
+    /// With this angular velocity in the child's axes.
+    Child(Vector),
+    /// By its entries' derivatives, row by row.
+    Entries([Vector; 3]),
+    /// Factor by factor.
+    Product(Rotation, Rotation),
+}
+
+impl Differentiator {
+    /// Seeds are (symbol, derivative of the symbol).
+    pub fn new(seeds: &[(Scalar, Scalar)]) -> Self {
+        let scalars = seeds.iter().map(|&(s, seed)| (s.index(), seed.flip_if(s.is_negative() && seed != Scalar::ZERO)));
+        Differentiator { scalars: scalars.collect(), vectors: HashMap::new(), rotations: HashMap::new() }
+    }
+
+    pub fn scalar(&mut self, g: &mut Graph, s: Scalar) -> Scalar {
+        self.walk(g, AnyNode::Scalar(s.index()));
+        self.of(s)
+    }
+
+    pub fn vector(&mut self, g: &mut Graph, v: Vector) -> Vector {
+        self.walk(g, AnyNode::Vector(v.index()));
+        self.of_vector(v)
+    }
+
+    pub fn scalars(&mut self, g: &mut Graph, list: &[Scalar]) -> Vec<Scalar> {
+        list.iter().map(|&s| self.scalar(g, s)).collect()
+    }
+
+    /// Differentiates what a node needs, then the node; a stack of its own, since graphs are deep.
+    fn walk(&mut self, g: &mut Graph, root: AnyNode) {
+        let mut stack = vec![(root, false)];
+        while let Some((node, ready)) = stack.pop() {
+            if self.is_known(node) {
+                continue;
+            }
+            if ready {
+                self.differentiate(g, node);
+            } else {
+                stack.push((node, true));
+                push_operands(g, node, &mut stack);
+            }
+        }
+    }
+
+    fn is_known(&self, node: AnyNode) -> bool {
+        match node {
+            AnyNode::Scalar(i) => self.scalars.contains_key(&i),
+            AnyNode::Vector(i) => self.vectors.contains_key(&i),
+            AnyNode::Rotation(i) => self.rotations.contains_key(&i),
+        }
+    }
+
+    fn differentiate(&mut self, g: &mut Graph, node: AnyNode) {
+        match node {
+            AnyNode::Scalar(i) => {
+                let result = self.scalar_rule(g, Scalar::new(i, false));
+                self.scalars.insert(i, result);
+            }
+            AnyNode::Vector(i) => {
+                let result = self.vector_rule(g, Vector::new(i, false));
+                self.vectors.insert(i, result);
+            }
+            AnyNode::Rotation(i) => {
+                let result = self.rotation_rule(g, Rotation::new(i, false));
+                self.rotations.insert(i, result);
+            }
+        }
+    }
+
+    /// Of an operand, differentiated already.
+    fn of(&self, s: Scalar) -> Scalar {
+        let d = self.scalars.get(&s.index()).copied().unwrap_or(Scalar::ZERO);
+        if s.is_negative() { -d } else { d }
+    }
+
+    fn of_vector(&self, v: Vector) -> Vector {
+        let d = self.vectors.get(&v.index()).copied().unwrap_or(Vector::ZERO);
+        if v.is_negative() { -d } else { d }
+    }
+
+    fn scalar_rule(&self, g: &mut Graph, s: Scalar) -> Scalar {
+        match g.node(s).clone() {
+            // A symbol that moves has its seed.
+            ScalarNode::Literal(_) | ScalarNode::Symbol(_) => Scalar::ZERO,
+            ScalarNode::Sum(terms) => {
+                let terms: Vec<Scalar> = terms.iter().map(|&t| self.of(t)).collect();
+                g.sum(&terms)
+            }
+            ScalarNode::Product(factors) => self.product_rule(g, &factors),
+            ScalarNode::Reciprocal(x) => -g.product(&[self.of(x), s, s]),
+            ScalarNode::Sqrt(x) => self.root_rule(g, s, x),
+            ScalarNode::Sin(angle) => {
+                let slope = g.cos(angle);
+                g.mul(slope, self.of(angle))
+            }
+            ScalarNode::Cos(angle) => {
+                let slope = g.sin(angle);
+                -g.mul(slope, self.of(angle))
+            }
+            ScalarNode::Call(call, x) => {
+                if x.iter().all(|&x| self.of(x) == Scalar::ZERO) {
+                    return Scalar::ZERO;
+                }
+                self.call_rule(g, s, call, &x)
+            }
+            ScalarNode::Component(v, axis) => g.component(self.of_vector(v), axis),
+            ScalarNode::Dot(a, b) => {
+                let left = g.dot(self.of_vector(a), b);
+                let right = g.dot(a, self.of_vector(b));
+                g.add(left, right)
+            }
+        }
+    }
+
+    fn product_rule(&self, g: &mut Graph, factors: &[Scalar]) -> Scalar {
+        let mut terms = Vec::with_capacity(factors.len());
+        for (k, &factor) in factors.iter().enumerate() {
+            let slope = self.of(factor);
+            if slope == Scalar::ZERO {
+                continue;
+            }
+            let mut list = factors.to_vec();
+            list[k] = slope;
+            terms.push(g.product(&list));
+        }
+        g.sum(&terms)
+    }
+
+    /// dx / (2 sqrt(x))
+    fn root_rule(&self, g: &mut Graph, root: Scalar, x: Scalar) -> Scalar {
+        let dx = self.of(x);
+        if dx == Scalar::ZERO {
+            return Scalar::ZERO;
+        }
+        let half = g.decimal(0.5);
+        let inverse = g.reciprocal(root);
+        g.product(&[half, dx, inverse])
+    }
+
+    fn call_rule(&self, g: &mut Graph, s: Scalar, call: Call, x: &[Scalar]) -> Scalar {
+        match (call, x) {
+            (Call::Sqrt, &[x]) => self.root_rule(g, s, x),
+            (Call::Powf, &[base, exponent]) => self.power_rule(g, s, base, exponent),
+            // (x dy - y dx) / (x^2 + y^2)
+            (Call::Atan2, &[y, x]) => {
+                let (plus, minus) = (g.mul(x, self.of(y)), g.mul(y, self.of(x)));
+                let numerator = g.sub(plus, minus);
+                let squares = [g.mul(x, x), g.mul(y, y)];
+                let square = g.sum(&squares);
+                g.div(numerator, square)
+            }
+            (Call::Abs, &[x]) => {
+                let negative = g.call(Call::Less, &[x, Scalar::ZERO]);
+                self.choose(g, negative, -self.of(x), self.of(x))
+            }
+            (Call::Min, &[a, b]) => {
+                let first = g.call(Call::Less, &[a, b]);
+                self.choose(g, first, self.of(a), self.of(b))
+            }
+            (Call::Max, &[a, b]) => {
+                let first = g.call(Call::Less, &[b, a]);
+                self.choose(g, first, self.of(a), self.of(b))
+            }
+            (Call::Select, &[mask, a, b]) => self.choose(g, mask, self.of(a), self.of(b)),
+            (call, &[x]) => {
+                let slope = slope(g, s, call, x);
+                g.mul(slope, self.of(x))
+            }
+            // Masks are constant but where they jump.
+            _ => Scalar::ZERO,
+        }
+    }
+
+    fn choose(&self, g: &mut Graph, mask: Scalar, a: Scalar, b: Scalar) -> Scalar {
+        g.call(Call::Select, &[mask, a, b])
+    }
+
+    /// b a^(b - 1) da + a^b ln(a) db
+    fn power_rule(&self, g: &mut Graph, power: Scalar, base: Scalar, exponent: Scalar) -> Scalar {
+        let (da, db) = (self.of(base), self.of(exponent));
+        let mut terms = Vec::with_capacity(2);
+        if da != Scalar::ZERO {
+            let less = g.sub(exponent, Scalar::ONE);
+            let lower = g.call(Call::Powf, &[base, less]);
+            terms.push(g.product(&[exponent, lower, da]));
+        }
+        if db != Scalar::ZERO {
+            let logarithm = g.call(Call::Ln, &[base]);
+            terms.push(g.product(&[power, logarithm, db]));
+        }
+        g.sum(&terms)
+    }
+
+    fn vector_rule(&self, g: &mut Graph, v: Vector) -> Vector {
+        match g.vector_node(v).clone() {
+            VectorNode::Triple(components) => g.vector(components.map(|c| self.of(c))),
+            VectorNode::Sum(terms) => {
+                let terms: Vec<Vector> = terms.iter().map(|&t| self.of_vector(t)).collect();
+                g.sum_vectors(&terms)
+            }
+            VectorNode::Scale(s, v) => {
+                let (grown, moved) = (g.scale(self.of(s), v), g.scale(s, self.of_vector(v)));
+                g.add_vectors(grown, moved)
+            }
+            VectorNode::Cross(a, b) => {
+                let (left, right) = (g.cross(self.of_vector(a), b), g.cross(a, self.of_vector(b)));
+                g.add_vectors(left, right)
+            }
+            VectorNode::Rotate(r, inner) => self.rotated(g, r, inner, self.of_vector(inner)).1,
+        }
+    }
+
+    /// A vector that a rotation is applied to, and its derivative.
+    fn rotated(&self, g: &mut Graph, r: Rotation, v: Vector, dv: Vector) -> (Vector, Vector) {
+        let turning = self.rotations.get(&r.index()).copied().unwrap_or(Turning::Rests);
+        if let Turning::Product(a, b) = turning {
+            let (first, second) = if r.is_transposed() { (a.transpose(), b.transpose()) } else { (b, a) };
+            let (v, dv) = self.rotated(g, first, v, dv);
+            return self.rotated(g, second, v, dv);
+        }
+        let result = g.rotate(r, v);
+        let carried = |g: &mut Graph, dv: Vector| g.rotate(r, dv);
+        let derivative = match turning {
+            Turning::Rests | Turning::Product(..) => carried(g, dv),
+            Turning::Axis(rate) => {
+                let rate = if r.is_transposed() { -rate } else { rate };
+                let (swept, carried) = (g.cross(rate, result), carried(g, dv));
+                g.add_vectors(swept, carried)
+            }
+            Turning::Child(rate) if r.is_transposed() => {
+                let (swept, carried) = (g.cross(rate, result), carried(g, dv));
+                g.sub_vectors(carried, swept)
+            }
+            Turning::Child(rate) => {
+                let swept = g.cross(rate, v);
+                let sum = g.add_vectors(dv, swept);
+                carried(g, sum)
+            }
+            Turning::Entries(rows) => {
+                let swept = if r.is_transposed() {
+                    let x = g.components(v);
+                    let parts: [Vector; 3] = std::array::from_fn(|k| g.scale(x[k], rows[k]));
+                    g.sum_vectors(&parts)
+                } else {
+                    let x = rows.map(|row| g.dot(row, v));
+                    g.vector(x)
+                };
+                let carried = carried(g, dv);
+                g.add_vectors(swept, carried)
+            }
+        };
+        (result, derivative)
+    }
+
+    fn rotation_rule(&self, g: &mut Graph, r: Rotation) -> Turning {
+        match g.rotation_node(r).clone() {
+            RotationNode::Identity => Turning::Rests,
+            RotationNode::Axis(axis, angle) => match self.of(angle) {
+                Scalar::ZERO => Turning::Rests,
+                rate => Turning::Axis(g.along(axis, rate)),
+            },
+            RotationNode::Matrix(rows) => {
+                let rows = rows.map(|row| g.vector(row.map(|s| self.of(s))));
+                if rows == [Vector::ZERO; 3] { Turning::Rests } else { Turning::Entries(rows) }
+            }
+            RotationNode::Quaternion(q) => {
+                let dq = q.map(|s| self.of(s));
+                match angular_velocity(g, q, dq) {
+                    Vector::ZERO => Turning::Rests,
+                    rate => Turning::Child(rate),
+                }
+            }
+            RotationNode::Product(a, b) => {
+                let rests = |r: Rotation| matches!(self.rotations.get(&r.index()), None | Some(Turning::Rests));
+                if rests(a) && rests(b) { Turning::Rests } else { Turning::Product(a, b) }
+            }
+        }
+    }
+}
+
+/// df/dx of a function of one argument, whose value is `s`. Zero for steps.
+fn slope(g: &mut Graph, s: Scalar, call: Call, x: Scalar) -> Scalar {
+    let square = |g: &mut Graph, x: Scalar| g.mul(x, x);
+    match call {
+        Call::Tan => {
+            let square = square(g, s);
+            g.add(Scalar::ONE, square)
+        }
+        Call::Asin | Call::Acos => {
+            let square = square(g, x);
+            let rest = g.sub(Scalar::ONE, square);
+            let root = g.sqrt(rest);
+            let inverse = g.reciprocal(root);
+            if call == Call::Asin { inverse } else { -inverse }
+        }
+        Call::Atan => {
+            let square = square(g, x);
+            let sum = g.add(Scalar::ONE, square);
+            g.reciprocal(sum)
+        }
+        Call::Sinh => g.call(Call::Cosh, &[x]),
+        Call::Cosh => g.call(Call::Sinh, &[x]),
+        Call::Tanh => {
+            let square = square(g, s);
+            g.sub(Scalar::ONE, square)
+        }
+        Call::Exp => s,
+        Call::Ln => g.reciprocal(x),
+        _ => Scalar::ZERO,
+    }
+}
+
+/// Of a unit quaternion, in the child's axes: the vector of 2 q* dq.
+fn angular_velocity(g: &mut Graph, q: [Scalar; 4], dq: [Scalar; 4]) -> Vector {
+    let [w, x, y, z] = q;
+    let [dw, dx, dy, dz] = dq;
+    if [dw, dx, dy, dz] == [Scalar::ZERO; 4] {
+        return Vector::ZERO;
+    }
+    let (v, dv) = (g.vector([x, y, z]), g.vector([dx, dy, dz]));
+    let (along, across, back) = (g.scale(w, dv), g.cross(v, dv), g.scale(dw, v));
+    let half = g.sum_vectors(&[along, -across, -back]);
+    let two = g.integer(2);
+    g.scale(two, half)
+}
+
+fn push_operands(g: &Graph, node: AnyNode, stack: &mut Vec<(AnyNode, bool)>) {
+    let mut scalar = |s: &Scalar| stack.push((AnyNode::Scalar(s.index()), false));
+    match node {
+        AnyNode::Scalar(i) => match g.node(Scalar::new(i, false)) {
+            ScalarNode::Literal(_) | ScalarNode::Symbol(_) => {}
+            ScalarNode::Sum(list) | ScalarNode::Product(list) | ScalarNode::Call(_, list) => {
+                list.iter().for_each(scalar);
+            }
+            ScalarNode::Reciprocal(x) | ScalarNode::Sqrt(x) | ScalarNode::Sin(x) | ScalarNode::Cos(x) => scalar(x),
+            ScalarNode::Component(v, _) => stack.push((AnyNode::Vector(v.index()), false)),
+            ScalarNode::Dot(a, b) => stack.extend([a, b].map(|v| (AnyNode::Vector(v.index()), false))),
+        },
+        AnyNode::Vector(i) => match g.vector_node(Vector::new(i, false)) {
+            VectorNode::Triple(list) => list.iter().for_each(scalar),
+            VectorNode::Sum(list) => stack.extend(list.iter().map(|v| (AnyNode::Vector(v.index()), false))),
+            VectorNode::Scale(s, v) => {
+                scalar(s);
+                stack.push((AnyNode::Vector(v.index()), false));
+            }
+            VectorNode::Cross(a, b) => stack.extend([a, b].map(|v| (AnyNode::Vector(v.index()), false))),
+            VectorNode::Rotate(r, v) => {
+                stack.extend([(AnyNode::Rotation(r.index()), false), (AnyNode::Vector(v.index()), false)]);
+            }
+        },
+        AnyNode::Rotation(i) => match g.rotation_node(Rotation::new(i, false)) {
+            RotationNode::Identity => {}
+            RotationNode::Axis(_, angle) => scalar(angle),
+            RotationNode::Matrix(rows) => rows.iter().flatten().for_each(scalar),
+            RotationNode::Quaternion(q) => q.iter().for_each(scalar),
+            RotationNode::Product(a, b) => stack.extend([a, b].map(|r| (AnyNode::Rotation(r.index()), false))),
+        },
+    }
+}

@@ -1,0 +1,356 @@
+//! Stage `symbolic`: the expression graph and its normal form.
+//!
+//! In: operations. Out: handles of nodes. Scalars, 3-vectors and rotations are nodes of their own; vectors are lowered
+//! to scalars late, by [`super::lower`].
+//!
+//! The normal form is the value. Every node has a [`Print`], its exact value at a random point, and a node is looked up
+//! by its print before it is made: expressions that are equal by the field laws, the circle (sin^2 + cos^2 = 1,
+//! addition theorems) or the unit sphere of a quaternion are one node, in whatever form they were derived first. Signs
+//! belong to edges, not to nodes: of x and -x only one is a node, so a - b and b - a are one node and a sign. In the same way a rotation and its transpose are one node and a flag. What the prints cannot see
+//! (the order of terms, zeros inside sums, common angles) the constructors in [`super::scalar`] and [`super::vector`]
+//! normalise: sums and products are n-ary and sorted, and not distributed.
+
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
+
+use super::fingerprint::Print;
+use super::number::Number;
+
+/// A scalar: node and sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Scalar(pub(super) u32);
+
+/// A 3-vector: node and sign. Its components are those in one frame, which its maker knows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Vector(pub(super) u32);
+
+/// A rotation: node and transposition. It maps child components to parent components.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Rotation(pub(super) u32);
+
+macro_rules! handle {
+    ($name:ident, $flag:ident) => {
+        impl $name {
+            pub(super) fn new(index: usize, flag: bool) -> Self {
+                $name((index as u32) << 1 | u32::from(flag))
+            }
+            /// Position of the node.
+            pub fn index(self) -> usize {
+                (self.0 >> 1) as usize
+            }
+            /// The flag that the edge carries.
+            pub fn $flag(self) -> bool {
+                self.0 & 1 == 1
+            }
+            pub(super) fn flip_if(self, flip: bool) -> Self {
+                $name(self.0 ^ u32::from(flip))
+            }
+        }
+    };
+}
+handle!(Scalar, is_negative);
+handle!(Vector, is_negative);
+handle!(Rotation, is_transposed);
+
+impl Scalar {
+    pub const ZERO: Scalar = Scalar(0);
+    pub const ONE: Scalar = Scalar(2);
+
+    /// The node without its sign.
+    pub fn positive(self) -> Scalar {
+        Scalar(self.0 & !1)
+    }
+}
+
+impl std::ops::Neg for Scalar {
+    type Output = Scalar;
+    fn neg(self) -> Scalar {
+        if self == Scalar::ZERO { self } else { self.flip_if(true) }
+    }
+}
+
+impl Vector {
+    pub const ZERO: Vector = Vector(0);
+}
+
+impl std::ops::Neg for Vector {
+    type Output = Vector;
+    fn neg(self) -> Vector {
+        if self == Vector::ZERO { self } else { self.flip_if(true) }
+    }
+}
+
+impl Rotation {
+    pub const IDENTITY: Rotation = Rotation(0);
+
+    pub fn transpose(self) -> Rotation {
+        if self == Rotation::IDENTITY { self } else { self.flip_if(true) }
+    }
+}
+
+/// A symbol of the graph, numbered by its owner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct SymbolId(pub usize);
+
+/// Functions that no rule looks into. The last ones work with masks, which are scalars of the graph too.
+pub use crate::optimize::program::Call;
+
+/// Scalar nodes. Operands of products, roots and angles are positive edges.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ScalarNode {
+    Literal(Number),
+    Symbol(SymbolId),
+    Sum(Box<[Scalar]>),
+    /// A literal stands first.
+    Product(Box<[Scalar]>),
+    Reciprocal(Scalar),
+    Sqrt(Scalar),
+    Sin(Scalar),
+    Cos(Scalar),
+    Call(Call, Box<[Scalar]>),
+    Component(Vector, usize),
+    Dot(Vector, Vector),
+}
+
+/// Vector nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum VectorNode {
+    Triple([Scalar; 3]),
+    Sum(Box<[Vector]>),
+    Scale(Scalar, Vector),
+    Cross(Vector, Vector),
+    Rotate(Rotation, Vector),
+}
+
+/// Rotation nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RotationNode {
+    Identity,
+    /// About a coordinate axis.
+    Axis(usize, Scalar),
+    /// Row by row, orthogonal.
+    Matrix(Box<[[Scalar; 3]; 3]>),
+    /// w, i, j, k; unit.
+    Quaternion([Scalar; 4]),
+    Product(Rotation, Rotation),
+}
+
+/// A node of any kind, by its position.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AnyNode {
+    Scalar(usize),
+    Vector(usize),
+    Rotation(usize),
+}
+
+/// Prints are random words already.
+#[derive(Default)]
+pub struct PassHasher(u64);
+
+impl Hasher for PassHasher {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+    fn write(&mut self, bytes: &[u8]) {
+        for &b in bytes {
+            self.0 = (self.0 << 8 | self.0 >> 56) ^ u64::from(b);
+        }
+    }
+    fn write_u64(&mut self, word: u64) {
+        self.0 = self.0.rotate_left(21) ^ word;
+    }
+    fn write_usize(&mut self, _: usize) {}
+}
+
+type PrintMap<K> = HashMap<K, u32, BuildHasherDefault<PassHasher>>;
+
+/// Expressions with shared subexpressions.
+pub struct Graph {
+    pub(super) scalars: Vec<ScalarNode>,
+    pub(super) prints: Vec<Print>,
+    scalar_index: PrintMap<Print>,
+    pub(super) vectors: Vec<VectorNode>,
+    pub(super) vector_prints: Vec<[Print; 3]>,
+    vector_index: PrintMap<[Print; 3]>,
+    pub(super) rotations: Vec<RotationNode>,
+    pub(super) rotation_prints: Vec<[[Print; 3]; 3]>,
+    rotation_index: PrintMap<[Print; 9]>,
+    pub(super) symbols: Vec<Scalar>,
+    /// First symbols of the unit quaternions, four in a row each.
+    pub(super) quaternions: Vec<SymbolId>,
+    /// All nodes in the order of their making, operands before users.
+    pub(super) order: Vec<AnyNode>,
+    names: HashMap<u32, String>,
+    vector_names: HashMap<u32, String>,
+}
+
+impl Default for Graph {
+    fn default() -> Self {
+        Graph::new()
+    }
+}
+
+impl Graph {
+    pub fn new() -> Graph {
+        let mut graph = Graph {
+            scalars: Vec::new(),
+            prints: Vec::new(),
+            scalar_index: HashMap::default(),
+            vectors: Vec::new(),
+            vector_prints: Vec::new(),
+            vector_index: HashMap::default(),
+            rotations: Vec::new(),
+            rotation_prints: Vec::new(),
+            rotation_index: HashMap::default(),
+            symbols: Vec::new(),
+            quaternions: Vec::new(),
+            order: Vec::new(),
+            names: HashMap::new(),
+            vector_names: HashMap::new(),
+        };
+        graph.insert_scalar(ScalarNode::Literal(Number::ZERO), Print::ZERO);
+        graph.insert_scalar(ScalarNode::Literal(Number::ONE), Print::ONE);
+        graph.insert_vector(VectorNode::Triple([Scalar::ZERO; 3]), [Print::ZERO; 3]);
+        let (o, i) = (Print::ZERO, Print::ONE);
+        graph.insert_rotation(RotationNode::Identity, [[i, o, o], [o, i, o], [o, o, i]]);
+        graph
+    }
+
+    /// Ends the sharing with what was made so far: equal expressions that follow are new nodes, in their own form. Only
+    /// symbols and the constants that the handles know stay the same.
+    pub fn forget(&mut self) {
+        self.scalar_index.clear();
+        self.vector_index.clear();
+        self.rotation_index.clear();
+        for s in [Scalar::ZERO, Scalar::ONE].into_iter().chain(self.symbols.iter().copied()) {
+            self.scalar_index.insert(self.prints[s.index()].canonical(), s.index() as u32);
+        }
+        self.vector_index.insert(vector_key(self.vector_prints[0]), 0);
+        self.rotation_index.insert(rotation_key(&self.rotation_prints[0], false), 0);
+    }
+
+    /// Number of scalar nodes made so far.
+    pub fn len(&self) -> usize {
+        self.scalars.len()
+    }
+
+    /// Never: zero and one are always there.
+    pub fn is_empty(&self) -> bool {
+        self.scalars.is_empty()
+    }
+
+    pub fn node(&self, s: Scalar) -> &ScalarNode {
+        &self.scalars[s.index()]
+    }
+
+    pub fn vector_node(&self, v: Vector) -> &VectorNode {
+        &self.vectors[v.index()]
+    }
+
+    pub fn rotation_node(&self, r: Rotation) -> &RotationNode {
+        &self.rotations[r.index()]
+    }
+
+    /// The value at the random point.
+    pub fn print(&self, s: Scalar) -> Print {
+        let print = self.prints[s.index()];
+        if s.is_negative() { print.neg() } else { print }
+    }
+
+    pub fn vector_print(&self, v: Vector) -> [Print; 3] {
+        let print = self.vector_prints[v.index()];
+        if v.is_negative() { print.map(Print::neg) } else { print }
+    }
+
+    pub fn rotation_print(&self, r: Rotation) -> [[Print; 3]; 3] {
+        let m = self.rotation_prints[r.index()];
+        if r.is_transposed() { std::array::from_fn(|i| std::array::from_fn(|j| m[j][i])) } else { m }
+    }
+
+    /// The literal that this is, sign included.
+    pub fn literal(&self, s: Scalar) -> Option<Number> {
+        match self.node(s) {
+            ScalarNode::Literal(n) => Some(if s.is_negative() { n.neg() } else { *n }),
+            _ => None,
+        }
+    }
+
+    /// The node with this value or its negative, if there is one.
+    pub(super) fn find(&self, print: Print) -> Option<Scalar> {
+        let index = *self.scalar_index.get(&print.canonical())? as usize;
+        Some(Scalar::new(index, self.prints[index] != print))
+    }
+
+    /// Makes a node; its value must be new.
+    pub(super) fn insert_scalar(&mut self, node: ScalarNode, print: Print) -> Scalar {
+        let index = self.scalars.len();
+        self.scalars.push(node);
+        self.order.push(AnyNode::Scalar(index));
+        self.prints.push(print);
+        self.scalar_index.insert(print.canonical(), index as u32);
+        Scalar::new(index, false)
+    }
+
+    pub(super) fn find_vector(&self, print: [Print; 3]) -> Option<Vector> {
+        let index = *self.vector_index.get(&vector_key(print))? as usize;
+        Some(Vector::new(index, self.vector_prints[index] != print))
+    }
+
+    pub(super) fn insert_vector(&mut self, node: VectorNode, print: [Print; 3]) -> Vector {
+        let index = self.vectors.len();
+        self.vectors.push(node);
+        self.order.push(AnyNode::Vector(index));
+        self.vector_prints.push(print);
+        self.vector_index.insert(vector_key(print), index as u32);
+        Vector::new(index, false)
+    }
+
+    pub(super) fn find_rotation(&self, print: &[[Print; 3]; 3]) -> Option<Rotation> {
+        let look = |transposed| {
+            let key = rotation_key(print, transposed);
+            self.rotation_index.get(&key).map(|&index| Rotation::new(index as usize, transposed))
+        };
+        look(false).or_else(|| look(true))
+    }
+
+    pub(super) fn insert_rotation(&mut self, node: RotationNode, print: [[Print; 3]; 3]) -> Rotation {
+        let index = self.rotations.len();
+        self.rotations.push(node);
+        self.order.push(AnyNode::Rotation(index));
+        self.rotation_prints.push(print);
+        self.rotation_index.insert(rotation_key(&print, false), index as u32);
+        Rotation::new(index, false)
+    }
+
+    /// Gives a node a readable name, unless it has one or needs none.
+    pub fn name(&mut self, s: Scalar, name: impl FnOnce() -> String) -> Scalar {
+        if !matches!(self.node(s), ScalarNode::Literal(_) | ScalarNode::Symbol(_)) {
+            self.names.entry(s.index() as u32).or_insert_with(name);
+        }
+        s
+    }
+
+    /// Names a vector; its components get the name with `_x`, `_y`, `_z`.
+    pub fn name_vector(&mut self, v: Vector, name: impl FnOnce() -> String) -> Vector {
+        self.vector_names.entry(v.index() as u32).or_insert_with(name);
+        v
+    }
+
+    pub fn name_of(&self, s: Scalar) -> Option<&str> {
+        self.names.get(&(s.index() as u32)).map(String::as_str)
+    }
+
+    pub fn vector_name_of(&self, v: Vector) -> Option<&str> {
+        self.vector_names.get(&(v.index() as u32)).map(String::as_str)
+    }
+}
+
+/// The first component that isn't zero decides the sign of the key.
+fn vector_key(print: [Print; 3]) -> [Print; 3] {
+    let flip = print.iter().find(|p| !p.is_zero()).is_some_and(|p| *p != p.canonical());
+    if flip { print.map(Print::neg) } else { print }
+}
+
+fn rotation_key(m: &[[Print; 3]; 3], transposed: bool) -> [Print; 9] {
+    std::array::from_fn(|k| if transposed { m[k % 3][k / 3] } else { m[k / 3][k % 3] })
+}

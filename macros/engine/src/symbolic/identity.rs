@@ -1,0 +1,272 @@
+//! Stage `symbolic`: the exact randomised identity test (law 7 of the engine).
+//!
+//! In: expressions of two graphs whose symbols were made in the same order. Out: a [`Verdict`]. [`identical`] evaluates
+//! both modulo the prime of [`super::fingerprint`] (Schwartz 1980, Zippel 1979) at points that are drawn from a seed and
+//! have nothing in common with the prints by which the graph merges nodes; only literals and constant angles, which the
+//! graph folds, are the same. Angles are points on the circle, constant ones multiples of a common base; unit quaternions
+//! lie on the sphere. An angle is a sum of units with literal factors; a product of sums is one unit. Square roots are exact where the argument is a square: points are drawn until all are. Other
+//! functions are opaque: equal for equal arguments. What that can't see (signs of roots, min, max, select, exp) is
+//! compared by [`close`] at random points in double precision.
+
+use std::cell::Cell;
+
+use super::evaluate::{Evaluator, Field, Real};
+use super::fingerprint::{self as field, Point, Print, mix, reconstruct, reduce};
+use super::graph::{Call, Graph, Scalar, ScalarNode, SymbolId};
+use super::number::Number;
+use super::trigonometry::{PARTS, literal_point};
+
+/// What a test has found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    Identical,
+    /// Position of the first pair that isn't.
+    Different(usize),
+    /// No point was found at which the expressions have a value: one of them is the root of what is never a square, or
+    /// isn't a number.
+    Undecided,
+}
+
+/// Points at which all must agree.
+const POINTS: u64 = 2;
+/// Draws for one of them: ten independent roots need a thousand.
+const DRAWS: u64 = 4096;
+
+/// Whether two lists of expressions are equal, pair by pair, but for a chance of about (degree / 2^61)^2.
+pub fn identical(a: &Graph, xs: &[Scalar], b: &Graph, ys: &[Scalar], seed: u64) -> Verdict {
+    let mut points = 0;
+    for attempt in 0..DRAWS {
+        let draw = Draw::new(a, mix(seed).wrapping_add(attempt));
+        let left = Evaluator::new(a, Modular { draw: &draw }).run(xs);
+        let right = Evaluator::new(b, Modular { draw: &draw }).run(ys);
+        if draw.refused.get() {
+            continue;
+        }
+        if let Some(at) = first_difference(&left, &right, |x, y| x == y) {
+            return Verdict::Different(at);
+        }
+        points += 1;
+        if points == POINTS {
+            return Verdict::Identical;
+        }
+    }
+    Verdict::Undecided
+}
+
+/// Whether two lists of expressions agree in double precision, to a tolerance relative to 1 + |x|, at eight random points
+/// at which all have a value.
+pub fn close(a: &Graph, xs: &[Scalar], b: &Graph, ys: &[Scalar], seed: u64, tolerance: f64) -> Verdict {
+    let mut points = 0;
+    for attempt in 0..DRAWS {
+        let values = real_point(a, mix(seed).wrapping_add(attempt));
+        let symbols = |id: SymbolId| values.get(id.0).copied().unwrap_or(f64::NAN);
+        let left = Evaluator::new(a, Real { symbols: &symbols }).run(xs);
+        let right = Evaluator::new(b, Real { symbols: &symbols }).run(ys);
+        let finite = |list: &[f64]| list.iter().all(|x| x.is_finite());
+        if !finite(&left) && !finite(&right) {
+            continue;
+        }
+        // A value on one side only is a difference: NaN is never near.
+        let near = |x: &f64, y: &f64| (x - y).abs() <= tolerance * (1.0 + x.abs());
+        if let Some(at) = first_difference(&left, &right, near) {
+            return Verdict::Different(at);
+        }
+        points += 1;
+        if points == 8 {
+            return Verdict::Identical;
+        }
+    }
+    Verdict::Undecided
+}
+
+fn first_difference<T>(left: &[T], right: &[T], equal: impl Fn(&T, &T) -> bool) -> Option<usize> {
+    let pairs = left.len().min(right.len());
+    let found = left.iter().zip(right).position(|(x, y)| !equal(x, y));
+    found.or((left.len() != right.len()).then_some(pairs))
+}
+
+/// Values of symbols up to two in size, unit quaternions included.
+fn real_point(g: &Graph, seed: u64) -> Vec<f64> {
+    let mut values: Vec<f64> =
+        (0..g.symbols.len() as u64).map(|id| mix(mix(seed) ^ id) as f64 / (1_u64 << 62) as f64 - 2.0).collect();
+    for &SymbolId(first) in &g.quaternions {
+        if let Some(q) = values.get_mut(first..first + 4) {
+            let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+            q.iter_mut().for_each(|x| *x /= norm);
+        }
+    }
+    values
+}
+
+/// A random point modulo the prime.
+pub struct Draw {
+    seed: u64,
+    symbols: Vec<u64>,
+    /// A root was taken of what is no square here.
+    refused: Cell<bool>,
+}
+
+impl Draw {
+    /// For the symbols of this graph.
+    pub fn new(g: &Graph, seed: u64) -> Draw {
+        let seed = mix(seed ^ 0x1DE_4717);
+        let mut symbols: Vec<u64> = (0..g.symbols.len() as u64).map(|id| reduce(mix(seed ^ mix(id)))).collect();
+        for &SymbolId(first) in &g.quaternions {
+            if let Some(q) = symbols.get_mut(first..first + 4) {
+                project(q);
+            }
+        }
+        Draw { seed, symbols, refused: Cell::new(false) }
+    }
+
+    /// Gives a symbol another value.
+    pub fn set(&mut self, id: SymbolId, value: u64) {
+        if let Some(symbol) = self.symbols.get_mut(id.0) {
+            *symbol = value;
+        }
+    }
+
+    /// Whether a root was asked for that doesn't exist here; values are of no use then.
+    pub fn is_refused(&self) -> bool {
+        self.refused.get()
+    }
+
+    /// The point of a multiple of an angle that has this value, on the circle of this draw.
+    fn unit(&self, value: u64, factor: Number) -> Point {
+        let angle = |value: u64| {
+            let (key, sign) = canonical(value);
+            let tangent = reduce(mix(self.seed ^ mix(key)));
+            (Point::from_tangent(Print::constant(tangent)), if sign { -1 } else { 1 })
+        };
+        match reconstruct(factor.residue) {
+            Some((n, d)) if PARTS % d == 0 => {
+                let (point, sign) = angle(value);
+                point.times(sign * n * (PARTS / d))
+            }
+            _ => {
+                let (point, sign) = angle(field::mul(value, factor.residue));
+                point.times(sign * PARTS)
+            }
+        }
+    }
+}
+
+/// Stereographic projection of the last three onto the unit sphere of all four.
+fn project(q: &mut [u64]) {
+    let [w, t @ ..] = q else { return };
+    let square = t.iter().fold(0, |sum, &t| field::add(sum, field::mul(t, t)));
+    let scale = field::inverse(field::add(1, square));
+    *w = field::mul(field::add(1, field::neg(square)), scale);
+    for t in t {
+        *t = field::mul(field::add(*t, *t), scale);
+    }
+}
+
+/// Of x and -x the one that stands for both, and whether it is -x.
+fn canonical(x: u64) -> (u64, bool) {
+    if x <= field::PRIME / 2 { (x, false) } else { (field::neg(x), true) }
+}
+
+/// Arithmetic modulo the prime at a drawn point.
+#[derive(Clone, Copy)]
+pub struct Modular<'d> {
+    pub draw: &'d Draw,
+}
+
+impl Modular<'_> {
+    /// Cosine and sine of a sum of angles with literal factors and a literal.
+    pub fn angle(&self, terms: &[(u64, Number)], constant: Number) -> (u64, u64) {
+        let units = terms.iter().map(|&(value, factor)| self.draw.unit(value, factor));
+        let point = units.fold(literal_point(constant), Point::add);
+        (point.cos.0[0], point.sin.0[0])
+    }
+
+    fn root(&self, x: u64) -> u64 {
+        // p is 3 modulo 4.
+        let root = field::pow(x, field::PRIME.div_ceil(4));
+        if field::mul(root, root) != x {
+            self.draw.refused.set(true);
+        }
+        root
+    }
+
+    fn opaque(&self, call: Call, arguments: &[u64]) -> u64 {
+        let fold = arguments.iter().fold(mix(self.draw.seed ^ mix(call as u64)), |h, &x| mix(h ^ x));
+        reduce(fold)
+    }
+}
+
+impl Field for Modular<'_> {
+    type Value = u64;
+
+    fn literal(&self, n: Number) -> u64 {
+        n.residue
+    }
+
+    fn symbol(&self, id: SymbolId) -> u64 {
+        self.draw.symbols.get(id.0).copied().unwrap_or(0)
+    }
+
+    fn add(&self, a: u64, b: u64) -> u64 {
+        field::add(a, b)
+    }
+
+    fn mul(&self, a: u64, b: u64) -> u64 {
+        field::mul(a, b)
+    }
+
+    fn neg(&self, a: u64) -> u64 {
+        field::neg(a)
+    }
+
+    /// One over zero is a value that nothing else has.
+    fn reciprocal(&self, a: u64) -> u64 {
+        if a == 0 { reduce(mix(self.draw.seed ^ 0xD1)) } else { field::inverse(a) }
+    }
+
+    /// Symmetries are all that is known of a function.
+    fn call(&self, call: Call, x: &[u64]) -> u64 {
+        match (call, x) {
+            (Call::Sqrt, &[x]) => self.root(x),
+            (Call::Tan | Call::Atan | Call::Asin | Call::Sinh | Call::Tanh | Call::Signum, &[x]) => {
+                let (key, negative) = canonical(x);
+                match self.opaque(call, &[key]) {
+                    _ if x == 0 => 0,
+                    value if negative => field::neg(value),
+                    value => value,
+                }
+            }
+            (Call::Cosh | Call::Abs, &[x]) => self.opaque(call, &[canonical(x).0]),
+            (Call::Min | Call::Max | Call::And | Call::Or, &[a, b]) if a == b => a,
+            (Call::Min | Call::Max | Call::And | Call::Or | Call::Equal, &[a, b]) => {
+                self.opaque(call, &[a.min(b), a.max(b)])
+            }
+            (Call::Select, &[_, a, b]) if a == b => a,
+            (call, x) => self.opaque(call, x),
+        }
+    }
+
+    /// Sums and literal factors are taken apart; what is left is a unit of angle, known by its value.
+    fn point(&self, graph: &Graph, angle: Scalar, _: u64) -> (u64, u64) {
+        let mut constant = Number::ZERO;
+        let mut terms = Vec::new();
+        let mut stack = vec![(angle, Number::ONE)];
+        while let Some((s, factor)) = stack.pop() {
+            let factor = if s.is_negative() { factor.neg() } else { factor };
+            match graph.node(s) {
+                ScalarNode::Literal(n) => constant = constant.add(n.mul(factor)),
+                ScalarNode::Sum(list) => stack.extend(list.iter().map(|&t| (t, factor))),
+                ScalarNode::Product(list) => match (list.first().and_then(|&f| graph.literal(f)), &list[..]) {
+                    (Some(n), &[_, rest]) => stack.push((rest, factor.mul(n))),
+                    _ => terms.push((s.positive(), factor)),
+                },
+                _ => terms.push((s.positive(), factor)),
+            }
+        }
+        let values: Vec<(u64, Number)> = terms
+            .into_iter()
+            .flat_map(|(s, factor)| Evaluator::new(graph, *self).run(&[s]).into_iter().map(move |value| (value, factor)))
+            .collect();
+        self.angle(&values, constant)
+    }
+}

@@ -1,0 +1,267 @@
+//! Stage `symbolic`: vectors and rotations become scalars.
+//!
+//! In: a graph and the scalars that are wanted of it. Out: a new graph of scalars alone, in which only what these need
+//! has been made. A rotation about a coordinate axis turns two components (4 products, 2 sums); a product of rotations
+//! is applied factor by factor, which costs less than its matrix unless many vectors pass through it; zeros vanish on
+//! the way since the constructors see them.
+
+use std::collections::HashMap;
+
+use super::graph::{AnyNode, Graph, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode};
+
+/// Copies expressions of one graph into another, as scalars.
+pub struct Lowering<'g> {
+    from: &'g Graph,
+    pub to: Graph,
+    scalars: HashMap<usize, Scalar>,
+    vectors: HashMap<usize, [Scalar; 3]>,
+    matrices: HashMap<usize, [[Scalar; 3]; 3]>,
+}
+
+impl<'g> Lowering<'g> {
+    /// `to` must have the symbols of `from`, made in the same order.
+    pub fn new(from: &'g Graph) -> Self {
+        let to = from.empty_copy();
+        Lowering { from, to, scalars: HashMap::new(), vectors: HashMap::new(), matrices: HashMap::new() }
+    }
+
+    /// Lowers these scalars, operands before users, so that no recursion is deep.
+    pub fn run(&mut self, roots: &[Scalar]) -> Vec<Scalar> {
+        for node in self.from.reachable(roots) {
+            match node {
+                AnyNode::Scalar(index) => drop(self.scalar(Scalar::new(index, false))),
+                AnyNode::Vector(index) => drop(self.vector(Vector::new(index, false))),
+                AnyNode::Rotation(_) => {}
+            }
+        }
+        roots.iter().map(|&root| self.scalar(root)).collect()
+    }
+
+    fn scalar(&mut self, s: Scalar) -> Scalar {
+        let value = match self.scalars.get(&s.index()) {
+            Some(&value) => value,
+            None => {
+                let value = self.node(s.positive());
+                if let Some(name) = self.from.name_of(s) {
+                    self.to.name(value, || name.to_owned());
+                }
+                self.scalars.insert(s.index(), value);
+                value
+            }
+        };
+        value.flip_if(s.is_negative())
+    }
+
+    fn node(&mut self, s: Scalar) -> Scalar {
+        let from = self.from;
+        match from.node(s) {
+            ScalarNode::Literal(n) => self.to.number(*n),
+            ScalarNode::Symbol(id) => self.to.symbol_handle(*id).unwrap_or(Scalar::ZERO),
+            ScalarNode::Sum(terms) => {
+                let terms: Vec<Scalar> = terms.iter().map(|&t| self.scalar(t)).collect();
+                self.to.sum(&terms)
+            }
+            ScalarNode::Product(factors) => {
+                let factors: Vec<Scalar> = factors.iter().map(|&f| self.scalar(f)).collect();
+                self.to.product(&factors)
+            }
+            ScalarNode::Reciprocal(x) => {
+                let x = self.scalar(*x);
+                self.to.reciprocal(x)
+            }
+            ScalarNode::Sqrt(x) => {
+                let x = self.scalar(*x);
+                self.to.sqrt(x)
+            }
+            ScalarNode::Sin(angle) => {
+                let angle = self.scalar(*angle);
+                self.to.sin(angle)
+            }
+            ScalarNode::Cos(angle) => {
+                let angle = self.scalar(*angle);
+                self.to.cos(angle)
+            }
+            ScalarNode::Call(call, arguments) => {
+                let arguments: Vec<Scalar> = arguments.iter().map(|&a| self.scalar(a)).collect();
+                self.to.call(*call, &arguments)
+            }
+            ScalarNode::Component(v, axis) => self.vector(*v)[*axis],
+            ScalarNode::Dot(a, b) => {
+                let (a, b) = (self.vector(*a), self.vector(*b));
+                self.dot(&a, &b)
+            }
+        }
+    }
+
+    fn dot(&mut self, a: &[Scalar; 3], b: &[Scalar; 3]) -> Scalar {
+        let products = [0, 1, 2].map(|k| self.to.mul(a[k], b[k]));
+        self.to.sum(&products)
+    }
+
+    fn vector(&mut self, v: Vector) -> [Scalar; 3] {
+        let value = match self.vectors.get(&v.index()) {
+            Some(&value) => value,
+            None => {
+                let value = self.vector_node(v);
+                if let Some(name) = self.from.vector_name_of(v) {
+                    for (axis, c) in ["x", "y", "z"].iter().zip(value) {
+                        self.to.name(c, || format!("{name}_{axis}"));
+                    }
+                }
+                self.vectors.insert(v.index(), value);
+                value
+            }
+        };
+        value.map(|c| c.flip_if(v.is_negative()))
+    }
+
+    fn vector_node(&mut self, v: Vector) -> [Scalar; 3] {
+        let from = self.from;
+        match from.vector_node(v) {
+            VectorNode::Triple(components) => components.map(|c| self.scalar(c)),
+            VectorNode::Sum(terms) => {
+                let terms: Vec<[Scalar; 3]> = terms.iter().map(|&t| self.vector(t)).collect();
+                [0, 1, 2].map(|k| {
+                    let column: Vec<Scalar> = terms.iter().map(|t| t[k]).collect();
+                    self.to.sum(&column)
+                })
+            }
+            VectorNode::Scale(s, v) => {
+                let (s, v) = (self.scalar(*s), self.vector(*v));
+                v.map(|c| self.to.mul(s, c))
+            }
+            VectorNode::Cross(a, b) => {
+                let (a, b) = (self.vector(*a), self.vector(*b));
+                [0, 1, 2].map(|i| {
+                    let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+                    let plus = self.to.mul(a[j], b[k]);
+                    let minus = self.to.mul(a[k], b[j]);
+                    self.to.sub(plus, minus)
+                })
+            }
+            VectorNode::Rotate(r, v) => {
+                let v = self.vector(*v);
+                self.rotate(*r, v)
+            }
+        }
+    }
+
+    fn rotate(&mut self, r: Rotation, v: [Scalar; 3]) -> [Scalar; 3] {
+        match *self.from.rotation_node(r) {
+            RotationNode::Identity => v,
+            RotationNode::Axis(axis, angle) => {
+                let angle = self.scalar(angle);
+                let (c, s) = (self.to.cos(angle), self.to.sin(angle));
+                let s = s.flip_if(r.is_transposed() && s != Scalar::ZERO);
+                let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+                let mut turned = v;
+                let (a, b) = (self.to.mul(c, v[j]), self.to.mul(s, v[k]));
+                turned[j] = self.to.sub(a, b);
+                let (a, b) = (self.to.mul(s, v[j]), self.to.mul(c, v[k]));
+                turned[k] = self.to.add(a, b);
+                turned
+            }
+            RotationNode::Product(a, b) => {
+                let (first, second) = if r.is_transposed() { (a.transpose(), b.transpose()) } else { (b, a) };
+                let inner = self.rotate(first, v);
+                self.rotate(second, inner)
+            }
+            RotationNode::Matrix(_) | RotationNode::Quaternion(_) => {
+                let m = self.matrix(r);
+                [0, 1, 2].map(|i| {
+                    let row = if r.is_transposed() { [m[0][i], m[1][i], m[2][i]] } else { m[i] };
+                    self.dot(&row, &v)
+                })
+            }
+        }
+    }
+
+    /// Entries of a matrix or quaternion, not transposed.
+    fn matrix(&mut self, r: Rotation) -> [[Scalar; 3]; 3] {
+        if let Some(&rows) = self.matrices.get(&r.index()) {
+            return rows;
+        }
+        let rows = match self.from.rotation_node(r) {
+            RotationNode::Quaternion(q) => {
+                let q = q.map(|c| self.scalar(c));
+                self.to.quaternion_rows(q)
+            }
+            RotationNode::Matrix(rows) => rows.clone().map(|row| row.map(|c| self.scalar(c))),
+            _ => [[Scalar::ZERO; 3]; 3],
+        };
+        self.matrices.insert(r.index(), rows);
+        rows
+    }
+}
+
+impl Graph {
+    /// All nodes that these scalars need, operands before users.
+    pub(super) fn reachable(&self, roots: &[Scalar]) -> Vec<AnyNode> {
+        let mut scalars = vec![false; self.scalars.len()];
+        let mut vectors = vec![false; self.vectors.len()];
+        let mut rotations = vec![false; self.rotations.len()];
+        for root in roots {
+            scalars[root.index()] = true;
+        }
+        let mut found = Vec::new();
+        for &node in self.order.iter().rev() {
+            match node {
+                AnyNode::Scalar(i) if scalars[i] => match &self.scalars[i] {
+                    ScalarNode::Literal(_) | ScalarNode::Symbol(_) => {}
+                    ScalarNode::Sum(list) | ScalarNode::Product(list) | ScalarNode::Call(_, list) => {
+                        list.iter().for_each(|s| scalars[s.index()] = true);
+                    }
+                    ScalarNode::Reciprocal(x) | ScalarNode::Sqrt(x) | ScalarNode::Sin(x) | ScalarNode::Cos(x) => {
+                        scalars[x.index()] = true;
+                    }
+                    ScalarNode::Component(v, _) => vectors[v.index()] = true,
+                    ScalarNode::Dot(a, b) => (vectors[a.index()], vectors[b.index()]) = (true, true),
+                },
+                AnyNode::Vector(i) if vectors[i] => match &self.vectors[i] {
+                    VectorNode::Triple(list) => list.iter().for_each(|s| scalars[s.index()] = true),
+                    VectorNode::Sum(list) => list.iter().for_each(|v| vectors[v.index()] = true),
+                    VectorNode::Scale(s, v) => (scalars[s.index()], vectors[v.index()]) = (true, true),
+                    VectorNode::Cross(a, b) => (vectors[a.index()], vectors[b.index()]) = (true, true),
+                    VectorNode::Rotate(r, v) => (rotations[r.index()], vectors[v.index()]) = (true, true),
+                },
+                AnyNode::Rotation(i) if rotations[i] => match &self.rotations[i] {
+                    RotationNode::Identity => {}
+                    RotationNode::Axis(_, angle) => scalars[angle.index()] = true,
+                    RotationNode::Matrix(rows) => rows.iter().flatten().for_each(|s| scalars[s.index()] = true),
+                    RotationNode::Quaternion(q) => q.iter().for_each(|s| scalars[s.index()] = true),
+                    RotationNode::Product(a, b) => (rotations[a.index()], rotations[b.index()]) = (true, true),
+                },
+                _ => continue,
+            }
+            found.push(node);
+        }
+        found.reverse();
+        found
+    }
+
+    /// Positions of all scalars that these need, operands before users.
+    pub fn reachable_scalars(&self, roots: &[Scalar]) -> Vec<usize> {
+        let scalar = |node| match node {
+            AnyNode::Scalar(index) => Some(index),
+            _ => None,
+        };
+        self.reachable(roots).into_iter().filter_map(scalar).collect()
+    }
+
+    /// The handle of the scalar at a position.
+    pub fn scalar_at(&self, index: usize) -> Scalar {
+        Scalar::new(index, false)
+    }
+
+    /// A graph with the same symbols and nothing else.
+    pub fn empty_copy(&self) -> Graph {
+        let mut copy = Graph::new();
+        copy.quaternions.clone_from(&self.quaternions);
+        for &s in &self.symbols {
+            let id = super::graph::SymbolId(copy.symbols.len());
+            let handle = copy.insert_scalar(ScalarNode::Symbol(id), self.prints[s.index()]);
+            copy.symbols.push(handle);
+        }
+        copy
+    }
+}

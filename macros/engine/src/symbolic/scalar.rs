@@ -1,0 +1,341 @@
+//! Stage `symbolic`: constructors of scalars, where the normal form is made.
+//!
+//! In: operands. Out: the one node that has the value. Each constructor computes the print first; if a node with that
+//! value exists, it is the result. Else literals fold, zeros and ones go, operands are sorted.
+
+use super::fingerprint::{Print, mix, reconstruct};
+use super::graph::{Call, Graph, Scalar, ScalarNode, SymbolId, Vector, VectorNode};
+use super::number::Number;
+
+impl Graph {
+    /// A literal, read as the decimal that the user wrote.
+    pub fn decimal(&mut self, x: f64) -> Scalar {
+        self.number(Number::decimal(x))
+    }
+
+    pub fn integer(&mut self, n: i64) -> Scalar {
+        self.number(Number::integer(n))
+    }
+
+    pub fn pi(&mut self) -> Scalar {
+        self.number(Number::pi())
+    }
+
+    pub fn number(&mut self, n: Number) -> Scalar {
+        let print = n.print();
+        if let Some(found) = self.find(print) {
+            return found;
+        }
+        let negative = n.is_negative();
+        let print = if negative { print.neg() } else { print };
+        self.insert_scalar(ScalarNode::Literal(n.abs()), print).flip_if(negative)
+    }
+
+    /// A new symbol.
+    pub fn symbol(&mut self) -> Scalar {
+        let id = self.symbols.len();
+        self.symbol_with(Print::draw(mix(0x5_1B01 + id as u64)))
+    }
+
+    /// Four new symbols that are the components w, i, j, k of a unit quaternion.
+    pub fn unit_quaternion(&mut self) -> [Scalar; 4] {
+        self.quaternions.push(SymbolId(self.symbols.len()));
+        let base = self.symbols.len() as u64;
+        let t: [Print; 3] = std::array::from_fn(|k| Print::draw(mix(0x0A7E_0000 + 4 * base + k as u64)));
+        let square = t.iter().fold(Print::ZERO, |sum, t| sum.add(t.mul(*t)));
+        let scale = Print::ONE.add(square).inverse();
+        let vector = t.map(|t| t.add(t).mul(scale));
+        let scalar = Print::ONE.sub(square).mul(scale);
+        [scalar, vector[0], vector[1], vector[2]].map(|print| self.symbol_with(print))
+    }
+
+    fn symbol_with(&mut self, print: Print) -> Scalar {
+        let id = SymbolId(self.symbols.len());
+        let s = self.insert_scalar(ScalarNode::Symbol(id), print);
+        self.symbols.push(s);
+        s
+    }
+
+    /// The handle of a symbol.
+    pub fn symbol_handle(&self, id: SymbolId) -> Option<Scalar> {
+        self.symbols.get(id.0).copied()
+    }
+
+    pub fn add(&mut self, a: Scalar, b: Scalar) -> Scalar {
+        self.sum(&[a, b])
+    }
+
+    pub fn sub(&mut self, a: Scalar, b: Scalar) -> Scalar {
+        self.sum(&[a, -b])
+    }
+
+    /// N-ary sum.
+    pub fn sum(&mut self, terms: &[Scalar]) -> Scalar {
+        let print = terms.iter().fold(Print::ZERO, |sum, &t| sum.add(self.print(t)));
+        if let Some(found) = self.find(print) {
+            return found;
+        }
+        let mut constant = Number::ZERO;
+        let mut list: Vec<Scalar> = Vec::with_capacity(terms.len());
+        for &t in terms {
+            match self.literal(t) {
+                Some(n) => constant = constant.add(n),
+                None => list.push(t),
+            }
+        }
+        if list.is_empty() {
+            return self.number(constant);
+        }
+        if let Some(known) = self.known(print) {
+            return known;
+        }
+        list.sort_unstable();
+        self.gather_equal_terms(&mut list);
+        if !constant.is_zero() {
+            list.push(self.number(constant));
+        }
+        match list[..] {
+            [] => return Scalar::ZERO,
+            [single] => return single,
+            _ => {}
+        }
+        let flip = list[0].is_negative();
+        for t in &mut list {
+            *t = t.flip_if(flip);
+        }
+        self.insert_scalar(ScalarNode::Sum(list.into()), if flip { print.neg() } else { print }).flip_if(flip)
+    }
+
+    /// x + x becomes 2 x, x - x goes.
+    fn gather_equal_terms(&mut self, list: &mut Vec<Scalar>) {
+        let mut i = 0;
+        while i < list.len() {
+            let node = list[i].positive();
+            let end = list[i..].iter().position(|t| t.positive() != node).map_or(list.len(), |k| i + k);
+            if end - i > 1 {
+                let count: i64 = list[i..end].iter().map(|t| if t.is_negative() { -1 } else { 1 }).sum();
+                let factor = self.integer(count);
+                let merged = self.mul(factor, node);
+                list.splice(i..end, (merged != Scalar::ZERO).then_some(merged));
+            } else {
+                i += 1;
+            }
+        }
+    }
+
+    /// A node that exists already, or a simple literal that an expression of symbols has turned out to be.
+    fn known(&mut self, print: Print) -> Option<Scalar> {
+        if let Some(found) = self.find(print) {
+            return Some(found);
+        }
+        if print.is_constant() {
+            if let Some((n, d)) = reconstruct(print.0[0]) {
+                return Some(self.number(Number::integer(n).div(Number::integer(d))));
+            }
+        }
+        None
+    }
+
+    pub fn mul(&mut self, a: Scalar, b: Scalar) -> Scalar {
+        self.product(&[a, b])
+    }
+
+    /// N-ary product.
+    pub fn product(&mut self, factors: &[Scalar]) -> Scalar {
+        let print = factors.iter().fold(Print::ONE, |product, &f| product.mul(self.print(f)));
+        if let Some(found) = self.find(print) {
+            return found;
+        }
+        let mut constant = Number::ONE;
+        let mut list: Vec<Scalar> = Vec::with_capacity(factors.len());
+        for &f in factors {
+            self.gather_factor(f, &mut constant, &mut list);
+        }
+        if list.is_empty() {
+            return self.number(constant);
+        }
+        if let Some(known) = self.known(print) {
+            return known;
+        }
+        list.sort_unstable();
+        self.cancel_pairs(&mut list);
+        if list.is_empty() {
+            return self.number(constant);
+        }
+        let negative = constant.is_negative();
+        let magnitude = constant.abs();
+        if !magnitude.is_one() {
+            let literal = self.number(magnitude);
+            list.insert(0, literal);
+        } else if let [single] = list[..] {
+            return single.flip_if(negative);
+        }
+        let print = if negative { print.neg() } else { print };
+        self.insert_scalar(ScalarNode::Product(list.into()), print).flip_if(negative)
+    }
+
+    /// Literal factors of a factor fold too: 2 * (3 x) = 6 x; signs go into the constant.
+    fn gather_factor(&mut self, f: Scalar, constant: &mut Number, list: &mut Vec<Scalar>) {
+        if f.is_negative() && self.literal(f).is_none() {
+            *constant = constant.neg();
+        }
+        match self.node(f.positive()) {
+            ScalarNode::Literal(_) => {
+                if let Some(n) = self.literal(f) {
+                    *constant = constant.mul(n);
+                }
+            }
+            ScalarNode::Product(inner) if self.literal(inner[0]).is_some() => {
+                if let Some(n) = self.literal(inner[0]) {
+                    *constant = constant.mul(n);
+                }
+                let rest = inner[1..].to_vec();
+                // The rest of the product is a node of its own, so that scaled and unscaled uses share it.
+                list.push(if let [single] = rest[..] { single } else { self.product(&rest) });
+                if let Some(last) = list.last_mut() {
+                    if last.is_negative() {
+                        *last = last.positive();
+                        *constant = constant.neg();
+                    }
+                }
+            }
+            _ => list.push(f.positive()),
+        }
+    }
+
+    /// x * (1 / x) goes, sqrt(x) * sqrt(x) becomes x.
+    fn cancel_pairs(&mut self, list: &mut Vec<Scalar>) {
+        let mut i = 0;
+        while i < list.len() {
+            let partner = match *self.node(list[i]) {
+                ScalarNode::Reciprocal(x) => list.iter().position(|&y| y == x).map(|j| (j, None)),
+                ScalarNode::Sqrt(x) if list.get(i + 1) == Some(&list[i]) => Some((i + 1, Some(x))),
+                _ => None,
+            };
+            if let Some((j, replacement)) = partner {
+                list.remove(i.max(j));
+                list.remove(i.min(j));
+                if let Some(x) = replacement {
+                    list.push(x);
+                    list.sort_unstable();
+                }
+                i = 0;
+            } else {
+                i += 1;
+            }
+        }
+    }
+
+    pub fn div(&mut self, a: Scalar, b: Scalar) -> Scalar {
+        let r = self.reciprocal(b);
+        self.mul(a, r)
+    }
+
+    /// 1 / x. Of zero it stays a node, infinite when evaluated.
+    pub fn reciprocal(&mut self, x: Scalar) -> Scalar {
+        let node = x.positive();
+        let print = self.print(node);
+        let inverse = if print.is_zero() { Print::opaque(0xD1, &[print]) } else { print.inverse() };
+        if let Some(found) = self.find(inverse) {
+            return found.flip_if(x.is_negative());
+        }
+        if let (Some(n), false) = (self.literal(node), print.is_zero()) {
+            let number = self.number(Number::ONE.div(n));
+            return number.flip_if(x.is_negative());
+        }
+        self.insert_scalar(ScalarNode::Reciprocal(node), inverse).flip_if(x.is_negative())
+    }
+
+    pub fn sqrt(&mut self, x: Scalar) -> Scalar {
+        if x == Scalar::ZERO || x == Scalar::ONE {
+            return x;
+        }
+        let print = Print::opaque(0x59, &[self.print(x)]);
+        if let Some(found) = self.find(print) {
+            return found;
+        }
+        if let Some(n) = self.literal(x) {
+            let root = n.value().sqrt();
+            let exact = Number::decimal(root);
+            if exact.mul(exact) == n {
+                return self.number(exact);
+            }
+        }
+        self.insert_scalar(ScalarNode::Sqrt(x), print)
+    }
+
+    /// Integer power by repeated squaring.
+    pub fn powi(&mut self, x: Scalar, n: i32) -> Scalar {
+        let mut power = n.unsigned_abs();
+        let (mut base, mut result) = (x, Scalar::ONE);
+        while power > 0 {
+            if power & 1 == 1 {
+                result = self.mul(result, base);
+            }
+            power >>= 1;
+            if power > 0 {
+                base = self.mul(base, base);
+            }
+        }
+        if n < 0 { self.reciprocal(result) } else { result }
+    }
+
+    /// Any other function. Literal arguments are not folded: the runtime's own function decides.
+    pub fn call(&mut self, call: Call, arguments: &[Scalar]) -> Scalar {
+        let mut arguments = arguments.to_vec();
+        let mut sign = false;
+        match (call, &mut arguments[..]) {
+            (Call::Sqrt, [x]) => return self.sqrt(*x),
+            (Call::Abs, [x]) => *x = x.positive(),
+            (Call::Tan | Call::Atan | Call::Asin | Call::Sinh | Call::Tanh | Call::Signum, [x]) => {
+                if *x == Scalar::ZERO {
+                    return Scalar::ZERO;
+                }
+                sign = x.is_negative();
+                *x = x.positive();
+            }
+            (Call::Cosh, [x]) => *x = x.positive(),
+            (Call::Min | Call::Max | Call::And | Call::Or | Call::Equal, [a, b]) => {
+                if a == b && matches!(call, Call::Min | Call::Max | Call::And | Call::Or) {
+                    return *a;
+                }
+                if a > b {
+                    std::mem::swap(a, b);
+                }
+            }
+            (Call::Select, [_, a, b]) if a == b => return *a,
+            _ => {}
+        }
+        let prints: Vec<Print> = arguments.iter().map(|&a| self.print(a)).collect();
+        let print = Print::opaque(0xCA_0000 + call as u64, &prints);
+        let found = match self.find(print) {
+            Some(found) => found,
+            None => self.insert_scalar(ScalarNode::Call(call, arguments.into()), print),
+        };
+        found.flip_if(sign)
+    }
+
+    /// x, y or z of a vector.
+    pub fn component(&mut self, v: Vector, axis: usize) -> Scalar {
+        let flip = v.is_negative();
+        if let VectorNode::Triple(components) = self.vector_node(v) {
+            let c = components[axis];
+            return if flip { -c } else { c };
+        }
+        let print = self.vector_print(v)[axis];
+        if let Some(known) = self.known(print) {
+            return known;
+        }
+        let positive = if flip { -v } else { v };
+        self.insert_scalar(ScalarNode::Component(positive, axis), self.vector_print(positive)[axis]).flip_if(flip)
+    }
+
+    pub fn dot(&mut self, a: Vector, b: Vector) -> Scalar {
+        let (pa, pb) = (self.vector_print(a), self.vector_print(b));
+        let print = (0..3).fold(Print::ZERO, |sum, k| sum.add(pa[k].mul(pb[k])));
+        if let Some(known) = self.known(print) {
+            return known;
+        }
+        self.insert_scalar(ScalarNode::Dot(a, b), print)
+    }
+}

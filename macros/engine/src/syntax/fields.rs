@@ -1,0 +1,129 @@
+//! Stage `syntax`: `{ name: value, .. }`.
+//!
+//! In: the place of the braces. Out: fields in source order. A field that can't be read costs only itself.
+
+use proc_macro2::{Delimiter, Group};
+
+use super::cursor::{Cursor, Reported};
+use super::expressions::{expression, is_name};
+use super::hints;
+use super::tree::{Field, Fields, poison};
+use crate::diagnostics::Diagnostics;
+
+/// The braces that must come next; `form` says how the whole item is written.
+pub(super) fn fields(form: String, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Fields {
+    if let Some(group) = cursor.take_group(Delimiter::Brace) {
+        return between(&group, cursor, diagnostics);
+    }
+    let found = cursor.found();
+    if let Some(group) = cursor.group(0).cloned() {
+        diagnostics.error_help(cursor.span(), format!("expected `{{`, found {found}"), form);
+        cursor.bump();
+        return between(&group, cursor, diagnostics);
+    }
+    diagnostics.error_help(cursor.span(), format!("expected `{{`, found {found}"), form);
+    lost(cursor)
+}
+
+/// Fields of an item whose braces are unreadable or missing; goes on behind them.
+pub(super) fn lost(cursor: &mut Cursor) -> Fields {
+    let span = cursor.last_span();
+    cursor.skip_item();
+    Fields::none(span)
+}
+
+/// The fields in a group.
+pub(super) fn between(group: &Group, cursor: &Cursor, diagnostics: &mut Diagnostics) -> Fields {
+    let mut fields = Fields {
+        span: group.span(),
+        list: Vec::new(),
+        broken: false,
+    };
+    let Ok(mut inner) = cursor.enter(group, diagnostics) else {
+        fields.broken = true;
+        return fields;
+    };
+    while !inner.at_end() {
+        match field(&mut inner, diagnostics) {
+            Ok(field) => fields.list.push(field),
+            Err(Reported) => {
+                fields.broken = true;
+                inner.skip_to(&[","]);
+                inner.take(",");
+            }
+        }
+    }
+    fields
+}
+
+/// One field and what separates it from the next.
+fn field(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Result<Field, Reported> {
+    const FORM: &str = "a field is written `name: value`";
+    if cursor.at("#") && cursor.at_group(1, Delimiter::Bracket) {
+        diagnostics.error_help(
+            cursor.span(),
+            "documentation and attributes go before items, not before fields",
+            "write a comment with `//`",
+        );
+        while cursor.at("#") && cursor.at_group(1, Delimiter::Bracket) {
+            cursor.bump();
+            cursor.bump();
+        }
+    }
+    let Some(name) = cursor.ident(0).filter(|name| is_name(name)).cloned() else {
+        let message = format!("expected a field, found {}", cursor.found());
+        let help = if cursor.at("..") {
+            "fields left out have the defaults of the documentation"
+        } else {
+            FORM
+        };
+        diagnostics.error_help(cursor.span(), message, help);
+        return Err(Reported);
+    };
+    cursor.bump();
+    if cursor.at_end() || cursor.at(",") {
+        let message = format!("field `{name}` has no value");
+        diagnostics.error_help(name.span(), message, format!("write `{name}: value`"));
+        cursor.take(",");
+        return Ok(Field {
+            name,
+            value: poison(),
+        });
+    }
+    if cursor.take(":").is_none() {
+        let message = format!("expected `:` after `{name}`, found {}", cursor.found());
+        diagnostics.error_help(cursor.span(), message, FORM);
+        if cursor.take("=").is_none() {
+            cursor.skip_to(&[","]);
+            cursor.take(",");
+            return Ok(Field {
+                name,
+                value: poison(),
+            });
+        }
+    }
+    let value = expression(cursor, diagnostics).and_then(|value| {
+        let next_field = cursor.ident(0).is_some() && cursor.operator(1) == ":";
+        if cursor.at_end() || cursor.take(",").is_some() {
+            Ok(value)
+        } else if next_field {
+            diagnostics.error(
+                cursor.span(),
+                format!("missing `,` before {}", cursor.found()),
+            );
+            Ok(value)
+        } else if cursor.at(";") {
+            diagnostics.error(cursor.span(), "fields are separated by `,`, not by `;`");
+            cursor.take(";");
+            Ok(value)
+        } else {
+            Err(hints::no_end("an operator or `,`", cursor, diagnostics))
+        }
+    });
+    let value = value.unwrap_or_else(|Reported| {
+        cursor.skip_to(&[","]);
+        cursor.take(",");
+        poison()
+    });
+    Ok(Field { name, value })
+}

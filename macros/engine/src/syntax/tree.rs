@@ -1,0 +1,234 @@
+//! Stage `syntax`: the syntax tree, as close to the user's tokens as it can be.
+//!
+//! In: nothing. Out: the types that the parser fills and `model` reads. No name is resolved here, no value computed.
+//!
+//! What could not be read is reported by the parser and kept as a placeholder, so that one mistake doesn't cause forty:
+//! an expression is [`poisoned`], a type is [`poisoned_type`], a kind is [`UNREADABLE`]; lost fields set
+//! [`Fields::broken`], lost items [`Module::broken`]. Later stages stay silent about what these stand for.
+
+use proc_macro2::{Ident, Span, TokenStream};
+use syn::{Attribute, Expr, Path, Type, Visibility};
+
+/// The name of a kind (`joint elbow: ?? { .. }`) that could not be read and has been reported.
+pub const UNREADABLE: &str = "_";
+
+/// A placeholder for an expression that has been reported: no later stage speaks of it again.
+pub fn poison() -> Expr {
+    Expr::Verbatim(TokenStream::new())
+}
+
+/// Whether `expr` is the placeholder that [`poison`] makes; it stands alone, never inside another expression.
+pub fn poisoned(expr: &Expr) -> bool {
+    matches!(expr, Expr::Verbatim(_))
+}
+
+/// A placeholder for a type that has been reported.
+pub fn poison_type() -> Type {
+    Type::Verbatim(TokenStream::new())
+}
+
+/// Whether `ty` is the placeholder that [`poison_type`] makes.
+pub fn poisoned_type(ty: &Type) -> bool {
+    matches!(ty, Type::Verbatim(_))
+}
+
+/// All that stands inside one `multibody! { .. }`.
+pub struct Source {
+    /// `#![krate(::mb)]`: where the runtime crate is found, `::multibody` if not said.
+    pub krate: Option<Path>,
+    /// Models and parts in source order; a module with ports is a part.
+    pub modules: Vec<Module>,
+}
+
+/// `pub mod name { .. }`
+pub struct Module {
+    /// Documentation, `cfg`, `allow`, .. as written.
+    pub attrs: Vec<Attribute>,
+    /// `pub`, `pub(crate)` or nothing.
+    pub vis: Visibility,
+    /// Of the generated module.
+    pub name: Ident,
+    /// In source order.
+    pub items: Vec<Item>,
+    /// An item was lost to an error already reported: what looks missing or unknown may be what was lost.
+    pub broken: bool,
+}
+
+/// One declaration inside a module.
+pub struct Item {
+    /// Documentation, `#[cut]`, `#[allow(unphysical_inertia)]`.
+    pub attrs: Vec<Attribute>,
+    /// The keyword's span.
+    pub keyword: Span,
+    /// What is declared.
+    pub kind: ItemKind,
+}
+
+/// What an item declares, by keyword.
+pub enum ItemKind {
+    /// `const NAME: Ty = value;`
+    Const(Value),
+    /// `param name: Ty = default;`
+    Param(Value),
+    /// `input name: Ty;`
+    Input(Value),
+    /// `let name = value;`
+    Let(Value),
+    /// `output name: Ty = value;`
+    Output(Value),
+    /// `state name: rate = value, start: value;`
+    State {
+        /// After the keyword.
+        name: Ident,
+        /// Its derivative by time.
+        rate: Expr,
+        /// Its value at the beginning.
+        start: Option<Expr>,
+    },
+    /// `port name: Frame;`
+    Port {
+        /// After the keyword.
+        name: Ident,
+        /// `Frame`.
+        ty: Ident,
+    },
+    /// `world { .. }`
+    World(Fields),
+    /// `formulation { .. }`
+    Formulation(Fields),
+    /// `body name { .. }`
+    Body {
+        /// After the keyword.
+        name: Ident,
+        /// Between the braces.
+        fields: Fields,
+    },
+    /// `joint name: Kind { .. }`
+    Joint {
+        /// After the keyword.
+        name: Ident,
+        /// After the colon.
+        kind: Ident,
+        /// Between the braces.
+        fields: Fields,
+    },
+    /// `force name: Kind { .. }`
+    Force {
+        /// After the keyword.
+        name: Ident,
+        /// After the colon.
+        kind: Ident,
+        /// Between the braces.
+        fields: Fields,
+    },
+    /// `part name: leg { .. };` or `part name: [leg; 6] = |i| leg { .. };`
+    Part(Part),
+    /// `constraint name = value;`
+    ConstraintValue {
+        /// After the keyword.
+        name: Ident,
+        /// Held at zero.
+        value: Expr,
+    },
+    /// `constraint name: Rod { .. }`
+    ConstraintKind {
+        /// After the keyword.
+        name: Ident,
+        /// After the colon.
+        kind: Ident,
+        /// Between the braces.
+        fields: Fields,
+    },
+    /// `drive target = value;`
+    Drive {
+        /// A coordinate.
+        target: Expr,
+        /// What it follows.
+        value: Expr,
+    },
+    /// `solve (unknowns) = (formulas);` or `solve (unknowns) from joint { branches }`
+    Solve {
+        /// Between the parentheses.
+        unknowns: Vec<Expr>,
+        /// The formulas, or where to find them.
+        how: Solution,
+    },
+    /// `assume condition;`
+    Assume(Expr),
+    /// `emit a, b { field: value };`
+    Emit(Vec<Request>),
+}
+
+/// `name: Ty = value`, with those parts that the item has.
+pub struct Value {
+    /// After the keyword.
+    pub name: Ident,
+    /// `Scalar`, `Vec3`, .. (one plain name) or an array `[Ty; count]`.
+    pub ty: Option<Type>,
+    /// After the `=`; present on all but `input`.
+    pub value: Option<Expr>,
+}
+
+/// `{ name: value, .. }`
+pub struct Fields {
+    /// The braces.
+    pub span: Span,
+    /// In source order, twice the same name included.
+    pub list: Vec<Field>,
+    /// A field was lost to an error already reported: no field is missing for sure.
+    pub broken: bool,
+}
+
+impl Fields {
+    /// Not one field, for an item of which nothing more could be read.
+    pub fn none(span: Span) -> Fields {
+        Fields {
+            span,
+            list: Vec::new(),
+            broken: true,
+        }
+    }
+}
+
+/// `name: value`
+pub struct Field {
+    /// Before the colon.
+    pub name: Ident,
+    /// After it.
+    pub value: Expr,
+}
+
+/// One sub-model, or an array of them.
+pub struct Part {
+    /// After the keyword.
+    pub name: Ident,
+    /// The type of the part.
+    pub kind: Ident,
+    /// `[leg; count]`
+    pub count: Option<Expr>,
+    /// `|i|`
+    pub index: Option<Ident>,
+    /// Ports and parameters.
+    pub fields: Fields,
+}
+
+/// How `solve` gets its formulas.
+pub enum Solution {
+    /// Written by the user, one for each unknown.
+    Formulas(Vec<Expr>),
+    /// Found by the macro.
+    From {
+        /// The joint that closes the loop.
+        joint: Box<Expr>,
+        /// Conditions that choose one branch.
+        branches: Vec<Expr>,
+    },
+}
+
+/// One name in `emit`, with its options.
+pub struct Request {
+    /// A function of the generated model.
+    pub name: Ident,
+    /// Between the braces, if there are any.
+    pub options: Option<Fields>,
+}

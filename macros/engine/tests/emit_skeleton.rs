@@ -1,0 +1,76 @@
+//! What stands beside errors has the names that the model would have had.
+
+use multibody_engine::diagnostics::Diagnostics;
+use multibody_engine::emit::{skeleton, skeletons};
+use multibody_engine::syntax::parse;
+
+fn skeletons_of(text: &str) -> String {
+    let mut diagnostics = Diagnostics::default();
+    let source = parse(text.parse().expect("tokens"), &mut diagnostics);
+    for module in &source.modules {
+        let alone = skeleton(module);
+        syn::parse2::<syn::File>(alone).expect("items");
+    }
+    let tokens = skeletons(&source);
+    syn::parse2::<syn::File>(tokens.clone()).expect("items");
+    tokens.to_string().split_whitespace().collect()
+}
+
+#[test]
+fn fields_are_guessed() {
+    let text = skeletons_of(
+        "#![krate(::mb)]
+        mod leg {
+            port base: Frame;
+            param m = 0.1;
+            joint gimbal: Universal { parent: base, child: nothing, axes: [X, Y] }
+        }
+        pub(crate) mod broken {
+            const COUNT = 3;
+            param size: Vec3 = [1.0, 2.0, 3.0];
+            param size = 4.0;
+            param list: [Scalar; COUNT] = nonsense;
+            input push: [Vec3; 2];
+            state current: rate = 0.0, start: 0.0;
+            joint hinge: Revolute { axis: Q }
+            joint ball: Ball { coordinates: RollPitchYaw }
+            joint free: Free {}
+            joint wrong: Revolut {}
+            part legs: [leg; COUNT] = |i| leg { base: ground };
+            part lost: nowhere {};
+            output tip: Pose = hinge;
+        }",
+    );
+    for piece in [
+        "pub(crate)modbroken{use::mb::Real;",
+        "pubsize:::mb::nalgebra::Vector3<T>",
+        "publist:[T;3]",
+        "pubpush:[::mb::nalgebra::Vector3<T>;2]",
+        "pubcurrent:T",
+        "pubhinge:T",
+        "pubball:::mb::RollPitchYaw<T>",
+        "pubfree:::mb::Twist<T>",
+        "publegs:[leg::Position<T>;3]",
+        "pubgimbal:::mb::Universal<T>",
+        "pubtip:::mb::Pose<T>",
+        "pubfnforward_dynamics(&self,",
+        "->Derivative<T>{::core::unimplemented!()}",
+        "impl<T:Real>::mb::SystemforModel<T>",
+    ] {
+        assert!(text.contains(piece), "{piece} is not in {text}");
+    }
+    assert!(!text.contains("wrong") && !text.contains("lost"));
+    assert_eq!(text.matches("modbroken").count(), 1);
+}
+
+#[test]
+fn nothing_grows_without_bound() {
+    let text = skeletons_of(
+        "mod a { port p: Frame; param m = 1.0; part x: [b; 1000000000] = |i| b {}; part y: [b; 9] = |i| b {}; }
+        mod b { port p: Frame; param m = 1.0; part x: [a; 9] = |i| a {}; part y: a {}; }
+        mod model { part x: a {}; param big: [Vec3; 100000000000] = q; }
+        mod model { param other = 1.0; }",
+    );
+    assert!(text.len() < 10_000_000);
+    assert_eq!(text.matches("modmodel").count(), 1);
+}

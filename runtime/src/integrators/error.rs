@@ -1,0 +1,54 @@
+//! How an integration can fail: [`IntegrationError`].
+
+use core::fmt;
+
+/// Why an integration stopped before its end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum IntegrationError {
+    /// An argument that no integration can work with: not a number, infinite, or of the wrong sign.
+    InvalidArgument {
+        /// What is wrong with which argument.
+        what: &'static str,
+    },
+    /// The state or its derivative became infinite or NaN.
+    NonFinite {
+        /// `[s]` the last time at which all was finite, or the start.
+        time: f64,
+    },
+    /// The tolerance asks for steps shorter than the least one allowed.
+    StepTooSmall {
+        /// `[s]` the time reached.
+        time: f64,
+        /// `[s]` the step that would have been needed.
+        step: f64,
+    },
+    /// The bound on the number of steps was reached.
+    TooManySteps {
+        /// `[s]` the time reached.
+        time: f64,
+    },
+}
+
+impl fmt::Display for IntegrationError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::InvalidArgument { what } => f.write_str(what),
+            Self::NonFinite { time } => {
+                write!(f, "the state is no longer finite after t = {time} s")
+            }
+            Self::StepTooSmall { time, step } => {
+                write!(
+                    f,
+                    "at t = {time} s the tolerance asks for a step of {step} s, below the least one"
+                )
+            }
+            Self::TooManySteps { time } => write!(
+                f,
+                "the bound on the number of steps was reached at t = {time} s"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for IntegrationError {}

@@ -1,0 +1,98 @@
+//! The rate of a whole state: what Runge-Kutta methods combine.
+
+use crate::{Configuration, ExtraOf, Real, StateSpace, System, Tangent, VelocityOf, all};
+
+/// Rates of position, velocity and own states, or a displacement of all three.
+#[derive(Clone, Copy)]
+pub(super) struct Slope<V, X> {
+    pub(super) q: V,
+    pub(super) v: V,
+    pub(super) x: X,
+}
+
+/// The slope of a system.
+pub(super) type SlopeOf<S> = Slope<VelocityOf<S>, ExtraOf<S>>;
+
+impl<T: Real, V: Tangent<T>, X: Tangent<T>> Tangent<T> for Slope<V, X> {
+    #[inline]
+    fn zero() -> Self {
+        Self {
+            q: V::zero(),
+            v: V::zero(),
+            x: X::zero(),
+        }
+    }
+    #[inline]
+    fn zip<F: FnMut(T, T) -> T>(&self, other: &Self, f: &mut F) -> Self {
+        Self {
+            q: self.q.zip(&other.q, f),
+            v: self.v.zip(&other.v, f),
+            x: self.x.zip(&other.x, f),
+        }
+    }
+    #[inline]
+    fn fold<A, F: FnMut(A, T) -> A>(&self, start: A, f: &mut F) -> A {
+        let start = self.q.fold(start, f);
+        let start = self.v.fold(start, f);
+        self.x.fold(start, f)
+    }
+}
+
+/// The slope at a state.
+#[inline]
+pub(super) fn slope<S: System>(
+    system: &S,
+    t: S::Scalar,
+    state: &S::State,
+    input: &S::Input,
+) -> SlopeOf<S> {
+    let (_, velocity, _) = state.split();
+    let (v, x) = system.derivative(t, state, input);
+    Slope { q: velocity, v, x }
+}
+
+/// The slope at the end of the displacement `d` from `state`, as the rate of that displacement.
+#[inline]
+pub(super) fn stage<S: System>(
+    system: &S,
+    t: S::Scalar,
+    state: &S::State,
+    input: &S::Input,
+    d: &SlopeOf<S>,
+) -> SlopeOf<S> {
+    rate_of_displacement::<S>(d, &slope(system, t, &displaced(state, d), input))
+}
+
+/// A slope at the end of the displacement `d`, as the rate of that displacement.
+#[inline]
+pub(super) fn rate_of_displacement<S: System>(d: &SlopeOf<S>, slope: &SlopeOf<S>) -> SlopeOf<S> {
+    let q =
+        <<S::State as StateSpace>::Position as Configuration<S::Scalar>>::dexp_inv(&d.q, &slope.q);
+    Slope { q, ..*slope }
+}
+
+/// The state after a displacement.
+#[inline]
+pub(super) fn displaced<Z: StateSpace>(state: &Z, d: &Slope<Z::Velocity, Z::Extra>) -> Z {
+    let (q, v, x) = state.split();
+    state.join(q.displace(&d.q), v.add(&d.v), x.add(&d.x))
+}
+
+/// The sizes of a state's coordinates.
+#[inline]
+pub(super) fn magnitude<Z: StateSpace>(state: &Z) -> Slope<Z::Velocity, Z::Extra> {
+    let (q, v, x) = state.split();
+    Slope {
+        q: q.magnitude(),
+        v,
+        x,
+    }
+}
+
+/// Whether every component of a vector is finite, in every lane.
+#[inline]
+pub(super) fn is_finite<T: Real, V: Tangent<T>>(vector: &V) -> bool {
+    vector.fold(true, &mut |finite, component| {
+        finite & all(Real::is_finite(component))
+    })
+}

@@ -1,0 +1,168 @@
+//! Rotations as unit quaternions: displacement by an exponential, the differential of it, and normalisation.
+//!
+//! Angular velocities are those of the child relative to the parent in child axes, so a displacement `d` acts from the
+//! right: `q * exp(d)`, and `d/dt exp(d) = exp(d) * v` gives `v = J(d) d'` with the right Jacobian
+//! `J = 1 - (1 - cos a)/a^2 [d] + (a - sin a)/a^3 [d]^2`, `a = |d|` (Hairer, Lubich and Wanner, section IV.8, with the
+//! sign of the argument turned; Chirikjian, Stochastic Models, volume 2, section 10.8). [`dexp_inv`] is its inverse.
+//!
+//! Both functions are free of branches and smooth at zero. Small angles take a series, chosen by select; the closed
+//! form then works on a literal one in place of the angle, so that neither a quotient 0/0 nor the infinite derivative
+//! of a root at zero comes up, in no lane and in no dual part.
+
+use crate::Real;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
+/// [rad^2] below this square of an angle, series are used: all terms kept, they are exact to rounding in `f64`.
+const SMALL: f64 = 0.25;
+
+/// `q * exp(d)`: the rotation `q` followed by one about the axis `d`, in child axes, by the angle `|d|`.
+///
+/// One Newton step brings the quaternion back to unit length, so that the error does not add up over steps.
+///
+/// ```
+/// use multibody::{nalgebra::{UnitQuaternion, Vector3}, rotation};
+///
+/// let q = rotation::displace(&UnitQuaternion::identity(), &Vector3::new(0.0, 0.0, 1.0));
+/// assert!((q.angle() - 1.0_f64).abs() < 1e-15);
+/// ```
+#[inline]
+pub fn displace<T: Real>(q: &UnitQuaternion<T>, d: &Vector3<T>) -> UnitQuaternion<T> {
+    let (w, [x, y, z]) = exponential(d);
+    let p = q.as_ref().coords;
+    let (px, py, pz, pw) = (p.x, p.y, p.z, p.w);
+    let qw = pw * w - px * x - py * y - pz * z;
+    let qx = pw * x + px * w + py * z - pz * y;
+    let qy = pw * y - px * z + py * w + pz * x;
+    let qz = pw * z + px * y - py * x + pz * w;
+    let newton = T::lit(1.5) - T::lit(0.5) * (qw * qw + qx * qx + qy * qy + qz * qz);
+    UnitQuaternion::new_unchecked(Quaternion::new(
+        newton * qw,
+        newton * qx,
+        newton * qy,
+        newton * qz,
+    ))
+}
+
+/// The rate of the displacement `d` while the angular velocity in child axes is `v`.
+///
+/// `v + d x v / 2 + c d x (d x v)` with `c = (1 - a/2 cot(a/2)) / a^2`, `a = |d|`. Singular where `|d|` is a whole
+/// turn, which a Runge-Kutta step comes near only if it is far too long.
+///
+/// ```
+/// use multibody::{nalgebra::Vector3, rotation};
+///
+/// let (d, v) = (Vector3::new(0.0, 0.0, 0.1), Vector3::new(0.0, 0.0, 2.0));
+/// assert_eq!(rotation::dexp_inv(&d, &v), v); // turning about one axis, rates are velocities
+/// ```
+#[inline]
+pub fn dexp_inv<T: Real>(d: &Vector3<T>, v: &Vector3<T>) -> Vector3<T> {
+    let a2 = square(d);
+    let small = Real::lt(a2, T::lit(SMALL));
+    // 1 - x cot x = x^2/3 + x^4/45 + 2 x^6/945 + ..., by powers of a^2 = 4 x^2
+    let series = horner(
+        a2,
+        [
+            1.0 / 12.0,
+            1.0 / 720.0,
+            1.0 / 30_240.0,
+            1.0 / 1_209_600.0,
+            1.0 / 47_900_160.0,
+            691.0 / 1_307_674_368_000.0,
+            1.0 / 74_724_249_600.0,
+        ],
+    );
+    let safe = Real::select(small, T::lit(1.0), a2);
+    let half = T::lit(0.5) * Real::sqrt(safe);
+    let (sin, cos) = Real::sin_cos(half);
+    let closed = (T::lit(1.0) - half * cos / sin) / safe;
+    let c = Real::select(small, series, closed);
+
+    let dv = d.cross(v);
+    v + dv * T::lit(0.5) + d.cross(&dv) * c
+}
+
+/// The rotation by the angle `|d|` about the axis `d`.
+#[inline]
+pub fn from_scaled_axis<T: Real>(d: &Vector3<T>) -> UnitQuaternion<T> {
+    displace(
+        &UnitQuaternion::new_unchecked(Quaternion::new(
+            T::lit(1.0),
+            T::lit(0.0),
+            T::lit(0.0),
+            T::lit(0.0),
+        )),
+        d,
+    )
+}
+
+/// The unit quaternion along `w + x i + y j + z k`, whatever the length of that; NaN if the length is zero or infinite.
+#[inline]
+pub fn normalized<T: Real>(w: T, x: T, y: T, z: T) -> UnitQuaternion<T> {
+    // Divided by the greatest entry first: squares of huge entries overflow and those of tiny ones vanish.
+    let greatest = Real::max(
+        Real::max(Real::abs(w), Real::abs(x)),
+        Real::max(Real::abs(y), Real::abs(z)),
+    );
+    let (w, x, y, z) = (w / greatest, x / greatest, y / greatest, z / greatest);
+    let length = Real::sqrt(w * w + x * x + y * y + z * z);
+    UnitQuaternion::new_unchecked(Quaternion::new(
+        w / length,
+        x / length,
+        y / length,
+        z / length,
+    ))
+}
+
+/// Real and vector part of the exponential of `d / 2`: `cos(a/2)` and `d sin(a/2) / a`.
+#[inline]
+fn exponential<T: Real>(d: &Vector3<T>) -> (T, [T; 3]) {
+    let a2 = square(d);
+    let small = Real::lt(a2, T::lit(SMALL));
+    let x2 = T::lit(0.25) * a2;
+    let cos_series = horner(
+        x2,
+        [
+            1.0,
+            -1.0 / 2.0,
+            1.0 / 24.0,
+            -1.0 / 720.0,
+            1.0 / 40_320.0,
+            -1.0 / 3_628_800.0,
+            1.0 / 479_001_600.0,
+        ],
+    );
+    let sin_series = horner(
+        x2,
+        [
+            0.5,
+            -1.0 / 12.0,
+            1.0 / 240.0,
+            -1.0 / 10_080.0,
+            1.0 / 725_760.0,
+            -1.0 / 79_833_600.0,
+            1.0 / 12_454_041_600.0,
+        ],
+    );
+    let angle = Real::sqrt(Real::select(small, T::lit(1.0), a2));
+    let (sin, cos) = Real::sin_cos(T::lit(0.5) * angle);
+    let scale = Real::select(small, sin_series, sin / angle);
+    (
+        Real::select(small, cos_series, cos),
+        [scale * d.x, scale * d.y, scale * d.z],
+    )
+}
+
+/// `|d|^2`.
+#[inline]
+fn square<T: Real>(d: &Vector3<T>) -> T {
+    d.x * d.x + d.y * d.y + d.z * d.z
+}
+
+/// A polynomial in `x` with the coefficients in rising order, by Horner's rule.
+#[inline]
+fn horner<T: Real, const N: usize>(x: T, coefficients: [f64; N]) -> T {
+    coefficients
+        .iter()
+        .rev()
+        .fold(T::lit(0.0), |sum, &c| sum * x + T::lit(c))
+}

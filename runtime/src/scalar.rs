@@ -1,0 +1,162 @@
+//! The scalar trait of generated code: [`Real`].
+//!
+//! It stands beside simba's [`SimdRealField`] and does not lean on it for functions, for three reasons: which of
+//! simba's functions are exact depends on the features that anyone in the build turned on, its lanes reduce large
+//! angles wrongly, and its `min` and `max` lose NaN. A scalar implements this trait one by one: `f32` and `f64`, the
+//! lanes of simba, and, with the feature `num-dual`, dual numbers.
+//!
+//! Generated code calls every method by its path, `multibody::Real::sin_cos(x)`, so that no name can clash with a
+//! trait that a user brings into scope.
+
+#[cfg(feature = "num-dual")]
+mod dual;
+mod f32;
+mod f64;
+pub(crate) mod float;
+#[cfg(not(feature = "std"))]
+mod single_sine;
+mod wide;
+
+use nalgebra::{RealField, SimdRealField};
+use simba::simd::SimdBool;
+
+/// A real number, several of them in lanes, or a dual number.
+///
+/// Comparisons give a [`Real::Mask`], one boolean for each lane, and [`Real::select`] takes it; there is no branch on
+/// a value anywhere in generated code. A comparison with NaN is false. Dual numbers compare by their real part.
+///
+/// ```
+/// use multibody::Real;
+///
+/// fn saturated<T: Real>(x: T) -> T {
+///     Real::select(Real::lt(x, T::lit(1.0)), x, T::lit(1.0))
+/// }
+/// assert_eq!(saturated(0.5_f32), 0.5);
+/// assert_eq!(saturated(2.0_f64), 1.0);
+/// ```
+pub trait Real: SimdRealField<Element: RealField + Copy> + Copy {
+    /// The result of a comparison: `bool`, or one boolean for each lane. Masks combine with `&`, `|` and `!`.
+    type Mask: SimdBool;
+
+    /// A literal, rounded to this scalar's precision and repeated in every lane.
+    fn lit(value: f64) -> Self;
+
+    /// Sine and cosine of one angle in radians, reduced correctly for every finite argument.
+    fn sin_cos(self) -> (Self, Self);
+    /// Tangent of an angle in radians.
+    fn tan(self) -> Self;
+    /// Arcsine, in radians from -pi/2 to pi/2.
+    fn asin(self) -> Self;
+    /// Arccosine, in radians from 0 to pi.
+    fn acos(self) -> Self;
+    /// Arctangent, in radians from -pi/2 to pi/2.
+    fn atan(self) -> Self;
+    /// The angle of the point `(x, self)`, in radians from -pi to pi.
+    fn atan2(self, x: Self) -> Self;
+    /// Hyperbolic sine.
+    fn sinh(self) -> Self;
+    /// Hyperbolic cosine.
+    fn cosh(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+    /// The exponential function.
+    fn exp(self) -> Self;
+    /// The natural logarithm.
+    fn ln(self) -> Self;
+    /// `self` to the power of `exponent`.
+    fn powf(self, exponent: Self) -> Self;
+    /// The square root.
+    fn sqrt(self) -> Self;
+    /// The length of the hypotenuse over `self` and `other`.
+    fn hypot(self, other: Self) -> Self;
+    /// The absolute value.
+    fn abs(self) -> Self;
+    /// One with the sign of `self`, as Rust has it: a positive zero gives 1, a negative zero -1, NaN gives NaN.
+    fn signum(self) -> Self;
+    /// The largest integer that is not above `self`.
+    fn floor(self) -> Self;
+
+    /// Whether `self < other`.
+    fn lt(self, other: Self) -> Self::Mask;
+    /// Whether `self <= other`.
+    fn le(self, other: Self) -> Self::Mask;
+    /// Whether `self == other`.
+    fn eq(self, other: Self) -> Self::Mask;
+    /// `a` where `mask` is true, `b` elsewhere. What is not selected leaves no trace, not even a NaN.
+    fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
+
+    /// The greatest lane (the real part of it, for dual numbers), NaN if any lane is NaN. Error norms end here.
+    fn greatest(self) -> f64;
+
+    /// Sine of an angle in radians.
+    #[inline]
+    fn sin(self) -> Self {
+        Real::sin_cos(self).0
+    }
+    /// Cosine of an angle in radians.
+    #[inline]
+    fn cos(self) -> Self {
+        Real::sin_cos(self).1
+    }
+    /// `self` to a whole power, by repeated squaring.
+    #[inline]
+    fn powi(self, exponent: i32) -> Self {
+        let mut rest = exponent.unsigned_abs();
+        let mut square = self;
+        let mut power = Self::lit(1.0);
+        while rest != 0 {
+            if rest & 1 == 1 {
+                power *= square;
+            }
+            square *= square;
+            rest >>= 1;
+        }
+        if exponent < 0 {
+            Self::lit(1.0) / power
+        } else {
+            power
+        }
+    }
+    /// Whether `self > other`.
+    #[inline]
+    fn gt(self, other: Self) -> Self::Mask {
+        Real::lt(other, self)
+    }
+    /// Whether `self >= other`.
+    #[inline]
+    fn ge(self, other: Self) -> Self::Mask {
+        Real::le(other, self)
+    }
+    /// Whether `self != other`; true for NaN.
+    #[inline]
+    fn ne(self, other: Self) -> Self::Mask {
+        !Real::eq(self, other)
+    }
+    /// The lesser of two, NaN if either is NaN.
+    #[inline]
+    fn min(self, other: Self) -> Self {
+        Real::select(Real::lt(self, other) | Real::ne(self, self), self, other)
+    }
+    /// The greater of two, NaN if either is NaN.
+    #[inline]
+    fn max(self, other: Self) -> Self {
+        Real::select(Real::lt(other, self) | Real::ne(self, self), self, other)
+    }
+    /// Whether this is neither infinite nor NaN. Dual numbers answer for their real part.
+    #[inline]
+    fn is_finite(self) -> Self::Mask {
+        Real::lt(Real::abs(self), Self::lit(f64::INFINITY))
+    }
+}
+
+/// Whether a mask is true in any lane.
+#[inline]
+pub fn any<M: SimdBool>(mask: M) -> bool {
+    mask.any()
+}
+
+/// Whether a mask is true in every lane.
+#[inline]
+pub fn all<M: SimdBool>(mask: M) -> bool {
+    mask.all()
+}

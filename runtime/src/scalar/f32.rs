@@ -1,0 +1,105 @@
+//! [`Real`] for `f32`: the platform's functions. Without std, where the platform is libm, sine and cosine stay in `f32`.
+
+use super::Real;
+use super::float::single;
+
+impl Real for f32 {
+    type Mask = bool;
+
+    #[inline(always)]
+    fn lit(value: f64) -> Self {
+        value as f32
+    }
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        // With std there is double precision in hardware, and the platform's function is twice as fast.
+        #[cfg(feature = "std")]
+        return single::sin_cos(self);
+        #[cfg(not(feature = "std"))]
+        return super::single_sine::sin_cos(self);
+    }
+    #[inline]
+    fn tan(self) -> Self {
+        single::tan(self)
+    }
+    #[inline]
+    fn asin(self) -> Self {
+        single::asin(self)
+    }
+    #[inline]
+    fn acos(self) -> Self {
+        single::acos(self)
+    }
+    #[inline]
+    fn atan(self) -> Self {
+        single::atan(self)
+    }
+    #[inline]
+    fn atan2(self, x: Self) -> Self {
+        single::atan2(self, x)
+    }
+    #[inline]
+    fn sinh(self) -> Self {
+        single::sinh(self)
+    }
+    #[inline]
+    fn cosh(self) -> Self {
+        single::cosh(self)
+    }
+    #[inline]
+    fn tanh(self) -> Self {
+        single::tanh(self)
+    }
+    #[inline]
+    fn exp(self) -> Self {
+        single::exp(self)
+    }
+    #[inline]
+    fn ln(self) -> Self {
+        single::ln(self)
+    }
+    #[inline]
+    fn powf(self, exponent: Self) -> Self {
+        single::powf(self, exponent)
+    }
+    #[inline]
+    fn sqrt(self) -> Self {
+        single::sqrt(self)
+    }
+    #[inline]
+    fn hypot(self, other: Self) -> Self {
+        single::hypot(self, other)
+    }
+    #[inline]
+    fn abs(self) -> Self {
+        f32::abs(self)
+    }
+    #[inline]
+    fn signum(self) -> Self {
+        f32::signum(self)
+    }
+    #[inline]
+    fn floor(self) -> Self {
+        single::floor(self)
+    }
+    #[inline]
+    fn lt(self, other: Self) -> bool {
+        self < other
+    }
+    #[inline]
+    fn le(self, other: Self) -> bool {
+        self <= other
+    }
+    #[inline]
+    fn eq(self, other: Self) -> bool {
+        self == other
+    }
+    #[inline]
+    fn select(mask: bool, a: Self, b: Self) -> Self {
+        if mask { a } else { b }
+    }
+    #[inline]
+    fn greatest(self) -> f64 {
+        f64::from(self)
+    }
+}

@@ -1,0 +1,128 @@
+//! What integrators see of a model: [`System`], and of its state: [`StateSpace`].
+//!
+//! The space is one thing and the law of motion another. A generated `State` implements [`StateSpace`], which only
+//! says what it is made of. `System` adds the one function that the mechanics decide. A wrapper, such as a controller
+//! around a model, borrows the state of its model and writes that one function.
+
+use crate::{Configuration, Real, Tangent};
+
+/// A state made of a position, a velocity, and the model's own states where it has any.
+///
+/// What else a state holds (a guess for a loop that Newton's method closes) is not integrated; [`StateSpace::join`]
+/// keeps it from `self`, and [`System::accepted`] renews it.
+pub trait StateSpace: Copy {
+    /// The scalar.
+    type Scalar: Real;
+    /// Positions.
+    type Position: Configuration<Self::Scalar, Velocity = Self::Velocity>;
+    /// Velocities, one component for each degree of freedom.
+    type Velocity: Tangent<Self::Scalar>;
+    /// The states of the user's own differential equations; `()` where there are none.
+    type Extra: Tangent<Self::Scalar>;
+
+    /// Position, velocity and own states.
+    fn split(&self) -> (Self::Position, Self::Velocity, Self::Extra);
+
+    /// This state with another position, velocity and own states.
+    fn join(&self, q: Self::Position, v: Self::Velocity, x: Self::Extra) -> Self;
+}
+
+/// The velocity type of a system.
+pub type VelocityOf<S> = <<S as System>::State as StateSpace>::Velocity;
+
+/// The type of a system's own states, `()` where it has none.
+pub type ExtraOf<S> = <<S as System>::State as StateSpace>::Extra;
+
+/// A mechanical system that can be integrated in time.
+///
+/// Generated models implement it. A feedback law that is to be evaluated at every stage of a step, not held over the
+/// step as an input is, is a wrapper:
+///
+/// ```
+/// use multibody::{ExtraOf, Real, Rk4, StateSpace, System, VelocityOf};
+///
+/// #[derive(Clone, Copy)]
+/// struct State<T> { q: T, v: T }
+///
+/// impl<T: Real> StateSpace for State<T> {
+///     type Scalar = T;
+///     type Position = T;
+///     type Velocity = T;
+///     type Extra = ();
+///     fn split(&self) -> (T, T, ()) { (self.q, self.v, ()) }
+///     fn join(&self, q: T, v: T, (): ()) -> Self { Self { q, v } }
+/// }
+///
+/// /// A mass, pushed by a force.
+/// struct Cart<T> { mass: T }
+///
+/// impl<T: Real> System for Cart<T> {
+///     type Scalar = T;
+///     type State = State<T>;
+///     type Input = T;
+///     fn derivative(&self, _t: T, _state: &State<T>, force: &T) -> (T, ()) { (*force / self.mass, ()) }
+/// }
+///
+/// /// A proportional-derivative controller around any system with the state and the input of a cart.
+/// struct Controlled<S> { plant: S }
+///
+/// impl<T: Real, S: System<Scalar = T, State = State<T>, Input = T>> System for Controlled<S> {
+///     type Scalar = T;
+///     type State = State<T>;
+///     type Input = ();
+///     fn derivative(&self, t: T, state: &State<T>, (): &()) -> (VelocityOf<S>, ExtraOf<S>) {
+///         let force = -(state.q + T::lit(2.0) * state.v);
+///         self.plant.derivative(t, state, &force)
+///     }
+/// }
+///
+/// let system = Controlled { plant: Cart { mass: 1.0 } };
+/// let mut x = State { q: 1.0, v: 0.0 };
+/// for k in 0..2000 {
+///     x = Rk4::step(&system, 0.01 * f64::from(k), &x, &(), 0.01);
+/// }
+/// assert!(x.q.abs() < 1e-6); // the double pole at -1 brings it to rest
+/// ```
+pub trait System {
+    /// The scalar.
+    type Scalar: Real;
+    /// What is integrated.
+    type State: StateSpace<Scalar = Self::Scalar>;
+    /// What acts from outside and is held over a step; `()` where nothing does.
+    type Input;
+
+    /// Accelerations, and the rates of the system's own states, at the time `t` `[s]`.
+    fn derivative(
+        &self,
+        t: Self::Scalar,
+        state: &Self::State,
+        input: &Self::Input,
+    ) -> (VelocityOf<Self>, ExtraOf<Self>);
+
+    /// Called with the state at the end of every accepted step: renews what the state holds besides its coordinates.
+    /// Wrappers of a model that has such things hand the call on.
+    #[inline]
+    fn accepted(&self, _t: Self::Scalar, state: &Self::State, _input: &Self::Input) -> Self::State {
+        *state
+    }
+}
+
+impl<S: System + ?Sized> System for &S {
+    type Scalar = S::Scalar;
+    type State = S::State;
+    type Input = S::Input;
+
+    #[inline]
+    fn derivative(
+        &self,
+        t: S::Scalar,
+        state: &S::State,
+        input: &S::Input,
+    ) -> (VelocityOf<S>, ExtraOf<S>) {
+        (**self).derivative(t, state, input)
+    }
+    #[inline]
+    fn accepted(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> S::State {
+        (**self).accepted(t, state, input)
+    }
+}

@@ -1,0 +1,3 @@
+//! Mechanisms as users write them, compiled once for all tests.
+
+pub mod arms;

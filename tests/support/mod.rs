@@ -1,0 +1,5 @@
+//! Reference data and comparisons.
+
+pub mod arm;
+pub mod compare;
+pub mod data;
