@@ -104,6 +104,8 @@ impl std::fmt::Display for Canvas {
             _ => '#',
         };
         let rows = self.0.iter().map(|row| row.iter().map(shade).collect::<String>());
-        rows.map(|row| row.trim_end().to_owned()).filter(|row| !row.is_empty()).try_for_each(|row| writeln!(f, "  {row}"))
+        rows.map(|row| row.trim_end().to_owned())
+            .filter(|row| !row.is_empty())
+            .try_for_each(|row| writeln!(f, "  {row}"))
     }
 }

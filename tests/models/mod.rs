@@ -1,3 +1,5 @@
 //! Mechanisms as users write them, compiled once for all tests.
 
 pub mod arms;
+pub mod motion;
+pub mod small;

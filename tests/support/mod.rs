@@ -3,3 +3,5 @@
 pub mod arm;
 pub mod compare;
 pub mod data;
+pub mod engine;
+pub mod ledger;

@@ -26,12 +26,25 @@ pub fn expand(tokens: TokenStream) -> TokenStream {
         output.extend(emit::skeletons(&source));
         return output;
     }
-    models
-        .iter()
-        .map(|model| {
-            let derivation = mechanics::derive(model);
-            let compiled = optimize::compile(&derivation);
-            emit::emit(model, &compiled)
-        })
-        .collect()
+    let mut output = TokenStream::new();
+    for model in &models {
+        match optimize::compile(&mechanics::derive(model)) {
+            Ok(compiled) => output.extend(emit::emit(model, &compiled)),
+            Err(optimize::TooLarge) => diagnostics.error_help(
+                model.name.span(),
+                format!("the equations of `{}` are too large", model.name),
+                format!(
+                    "a function may have {} operations before optimisation; ask for less in `emit` (a mass matrix grows \
+                     with the square of the coordinates), or declare fewer bodies",
+                    optimize::MOST_OPERATIONS
+                ),
+            ),
+        }
+    }
+    if diagnostics.is_empty() {
+        return output;
+    }
+    let mut errors = diagnostics.to_tokens();
+    errors.extend(emit::skeletons(&source));
+    errors
 }

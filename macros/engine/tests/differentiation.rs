@@ -147,7 +147,7 @@ impl Garden {
 
     /// A point, and a direction along which the quaternion stays on its sphere.
     fn point(rng: &mut Rng) -> Vec<Dual> {
-        let mut point: Vec<Dual> = (0..10).map(|_| (rng.real(1.0), rng.real(1.0))).collect();
+        let mut point: Vec<Dual> = (0..10).map(|_| (rng.real(-1.0, 1.0), rng.real(-1.0, 1.0))).collect();
         let norm = point[6..].iter().map(|x| x.0 * x.0).sum::<f64>().sqrt();
         point[6..].iter_mut().for_each(|x| x.0 /= norm);
         let along: f64 = point[6..].iter().map(|x| x.0 * x.1).sum();

@@ -39,7 +39,7 @@ pub fn forward_dynamics(
     let motions = motions(g, tree, velocity, &still, base);
     let mut wrenches = Vec::with_capacity(tree.links.len());
     for ((link, motion), outside) in tree.links.iter().zip(&motions).zip(applied) {
-        let needed = inertial_wrench(g, &link.inertia, motion);
+        let needed = inertial_wrench(g, link, motion);
         let outside = Wrench { moment: -outside.moment, force: -outside.force };
         wrenches.push(needed.add(g, &outside));
     }

@@ -5,7 +5,7 @@
 //! (J, H; H^T, M). Eliminating a freedom empties a row and a column; the graph knows that, so that planar mechanisms
 //! never have more than three rows.
 
-use crate::symbolic::graph::{Graph, Rotation, Scalar};
+use crate::symbolic::graph::{Graph, Rotation, RotationNode, Scalar};
 
 use super::inertia::{Inertia, entry};
 
@@ -35,6 +35,20 @@ impl ArticulatedInertia {
             result.linear[i] = inertia.mass;
         }
         result
+    }
+
+    /// From the 21 independent entries: J, H row by row, M.
+    pub fn from_entries(entries: [Scalar; 21]) -> Self {
+        ArticulatedInertia {
+            angular: std::array::from_fn(|k| entries[k]),
+            mixed: std::array::from_fn(|i| std::array::from_fn(|j| entries[6 + 3 * i + j])),
+            linear: std::array::from_fn(|k| entries[15 + k]),
+        }
+    }
+
+    /// In the order of [`Self::from_entries`].
+    pub fn entries(&self) -> Vec<Scalar> {
+        self.angular.iter().chain(self.mixed.iter().flatten()).chain(&self.linear).copied().collect()
     }
 
     fn combine(&self, other: &Self, mut f: impl FnMut(Scalar, Scalar) -> Scalar) -> Self {
@@ -102,6 +116,10 @@ impl ArticulatedInertia {
     pub fn rotate(&self, g: &mut Graph, r: Rotation) -> Self {
         if r == Rotation::IDENTITY {
             return *self;
+        }
+        if let &RotationNode::Product(a, b) = g.rotation_node(r) {
+            let (first, second) = if r.is_transposed() { (a.transpose(), b.transpose()) } else { (b, a) };
+            return self.rotate(g, first).rotate(g, second);
         }
         let rows = g.rotation_rows(r);
         for a in 0..3 {

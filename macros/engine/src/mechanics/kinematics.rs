@@ -23,32 +23,43 @@ impl LinkMotion {
     pub const REST: LinkMotion = LinkMotion { angular: Vector::ZERO, angular_rate: Vector::ZERO, linear_rate: Vector::ZERO };
 }
 
+const AXES: [&str; 3] = ["x", "y", "z"];
+
 /// U = [dw x] + [w x][w x], entry by entry.
 pub struct Field {
     w: [Scalar; 3],
     dw: [Scalar; 3],
+    /// The link's, for names such as `u_elbow_xy`.
+    name: String,
 }
 
 impl Field {
-    pub fn new(g: &mut Graph, motion: &LinkMotion) -> Field {
-        Field { w: g.components(motion.angular), dw: g.components(motion.angular_rate) }
+    pub fn new(g: &mut Graph, motion: &LinkMotion, name: &str) -> Field {
+        Field { w: g.components(motion.angular), dw: g.components(motion.angular_rate), name: name.to_owned() }
     }
 
     /// U_ij
     pub fn entry(&self, g: &mut Graph, i: usize, j: usize) -> Scalar {
-        if i == j {
-            let squares = [(i + 1) % 3, (i + 2) % 3].map(|k| g.mul(self.w[k], self.w[k]));
-            return -g.sum(&squares);
-        }
-        let both = g.mul(self.w[i], self.w[j]);
-        let turn = self.dw[3 - i - j];
-        // [dw x]_ij is -dw_k for (i, j, k) in cyclic order.
-        if (i + 1) % 3 == j { g.sub(both, turn) } else { g.add(both, turn) }
+        let entry = if i == j {
+            let squares = [(i + 1) % 3, (i + 2) % 3].map(|k| self.square(g, k));
+            -g.sum(&squares)
+        } else {
+            let both = g.mul(self.w[i], self.w[j]);
+            let turn = self.dw[3 - i - j];
+            // [dw x]_ij is -dw_k for (i, j, k) in cyclic order.
+            if (i + 1) % 3 == j { g.sub(both, turn) } else { g.add(both, turn) }
+        };
+        g.name(entry, || format!("u_{}_{}{}", self.name, AXES[i], AXES[j]))
+    }
+
+    fn square(&self, g: &mut Graph, k: usize) -> Scalar {
+        let square = g.mul(self.w[k], self.w[k]);
+        g.name(square, || format!("w2_{}_{}", self.name, AXES[k]))
     }
 
     /// U_ii - U_jj = w_i^2 - w_j^2
     pub fn difference(&self, g: &mut Graph, i: usize, j: usize) -> Scalar {
-        let (a, b) = (g.mul(self.w[i], self.w[i]), g.mul(self.w[j], self.w[j]));
+        let (a, b) = (self.square(g, i), self.square(g, j));
         g.sub(a, b)
     }
 
@@ -77,7 +88,8 @@ pub fn motions(g: &mut Graph, tree: &Tree, velocity: &[Scalar], acceleration: &[
             None => LinkMotion { linear_rate: base, ..LinkMotion::REST },
         };
         let origin = tree.origin(g, link);
-        let field = Field::new(g, &parent);
+        let above = link.parent.map_or("ground", |p| &tree.links[p].name);
+        let field = Field::new(g, &parent, above);
         let r = g.components(origin);
         let carried = field.apply(g, r);
         let at_joint = g.add_vectors(parent.linear_rate, carried);

@@ -4,7 +4,7 @@
 //! User expressions are translated by [`expressions`].
 
 pub mod articulated;
-mod articulated_inertia;
+pub mod articulated_inertia;
 pub mod build;
 mod chain;
 mod climb;
@@ -25,6 +25,7 @@ pub mod kinematics;
 mod names;
 pub mod newton_euler;
 mod orientation;
+pub mod parallel;
 mod reactions;
 pub mod regroup;
 mod springs;

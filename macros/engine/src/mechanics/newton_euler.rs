@@ -7,9 +7,9 @@
 
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
-use super::inertia::{Inertia, entry};
+use super::inertia::entry;
 use super::kinematics::{Field, LinkMotion};
-use super::tree::Tree;
+use super::tree::{Link, Tree};
 
 /// Moment about a link's origin and force, in link axes.
 #[derive(Clone, Copy, Debug)]
@@ -27,11 +27,12 @@ impl Wrench {
 }
 
 /// The rate of a link's momentum: the wrench it takes to move it so.
-pub fn inertial_wrench(g: &mut Graph, inertia: &Inertia, motion: &LinkMotion) -> Wrench {
+pub fn inertial_wrench(g: &mut Graph, link: &Link, motion: &LinkMotion) -> Wrench {
+    let inertia = &link.inertia;
     if inertia.is_zero() {
         return Wrench::ZERO;
     }
-    let field = Field::new(g, motion);
+    let field = Field::new(g, motion, &link.name);
     let turning = field.apply(g, inertia.first);
     let pushed = g.scale(inertia.mass, motion.linear_rate);
     let force = g.add_vectors(pushed, turning);
@@ -67,7 +68,7 @@ fn axial(g: &mut Graph, field: &Field, second: &[Scalar; 6]) -> Vector {
 pub fn transmitted(g: &mut Graph, tree: &Tree, motions: &[LinkMotion], applied: &[Wrench]) -> Vec<Wrench> {
     let mut wrenches: Vec<Wrench> = Vec::with_capacity(tree.links.len());
     for ((link, motion), outside) in tree.links.iter().zip(motions).zip(applied) {
-        let needed = inertial_wrench(g, &link.inertia, motion);
+        let needed = inertial_wrench(g, link, motion);
         let outside = Wrench { moment: -outside.moment, force: -outside.force };
         wrenches.push(needed.add(g, &outside));
     }
@@ -89,6 +90,8 @@ pub fn to_parent(g: &mut Graph, tree: &Tree, index: usize, wrench: &Wrench) -> W
     let link = &tree.links[index];
     let force = tree.to_parent(g, link, wrench.force);
     let moment = tree.to_parent(g, link, wrench.moment);
+    g.name_vector(force, || format!("f_{}_passed", link.name));
+    g.name_vector(moment, || format!("n_{}_passed", link.name));
     let origin = tree.origin(g, link);
     let lever = g.cross(origin, force);
     Wrench { moment: g.add_vectors(moment, lever), force }

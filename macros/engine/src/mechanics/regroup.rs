@@ -36,7 +36,21 @@ pub fn regroup(g: &mut Graph, tree: &Tree) -> Tree {
             }
         }
     }
+    for link in &tree.links {
+        name(g, &link.inertia, &link.name);
+    }
     tree
+}
+
+/// Names for what parameters combine to.
+fn name(g: &mut Graph, inertia: &Inertia, link: &str) {
+    g.name(inertia.mass, || format!("mass_{link}"));
+    for (axis, &moment) in ["x", "y", "z"].iter().zip(&inertia.first) {
+        g.name(moment, || format!("first_{link}_{axis}"));
+    }
+    for (axes, &moment) in ["xx", "yy", "zz", "xy", "xz", "yz"].iter().zip(&inertia.second) {
+        g.name(moment, || format!("second_{link}_{axes}"));
+    }
 }
 
 /// The part of a distribution that does not move when the joint does.

@@ -24,16 +24,17 @@ pub fn share(dag: &mut Dag) {
 fn share_sums(dag: &mut Dag) -> bool {
     let mut pairs: HashMap<(Id, Id, u64), Vec<Id>> = HashMap::new();
     let order = dag.order();
+    let uses = dag.uses(&order);
     for &id in &order {
         let Kind::Sum(terms) = &dag.nodes[id].kind else { continue };
-        if terms.len() > 64 {
+        // A term that only this sum has is in no common pair.
+        let shared: Vec<(Number, Id)> = terms.iter().copied().filter(|&(_, x)| x != ONE && uses[x] > 1).collect();
+        if shared.len() > 64 {
             continue;
         }
-        for (i, &(c, x)) in terms.iter().enumerate() {
-            for &(d, y) in &terms[i + 1..] {
-                if x != ONE && y != ONE {
-                    pairs.entry((x, y, ratio(d, c))).or_default().push(id);
-                }
+        for (i, &(c, x)) in shared.iter().enumerate() {
+            for &(d, y) in &shared[i + 1..] {
+                pairs.entry((x, y, ratio(d, c))).or_default().push(id);
             }
         }
     }
@@ -83,12 +84,14 @@ fn replace_terms(dag: &mut Dag, id: Id, x: Id, y: Id, by: (Number, Id)) -> bool 
 fn share_products(dag: &mut Dag) -> bool {
     let mut pairs: HashMap<(Id, Id), Vec<Id>> = HashMap::new();
     let order = dag.order();
+    let uses = dag.uses(&order);
+    // Products of two factors are what they are, and found by their print; longer ones may hold them.
     for &id in &order {
         let Kind::Product(factors) = &dag.nodes[id].kind else { continue };
         let mut seen = Vec::new();
         for (i, &x) in factors.iter().enumerate() {
             for &y in &factors[i + 1..] {
-                if !seen.contains(&(x, y)) {
+                if uses[x] > 1 && uses[y] > 1 && !seen.contains(&(x, y)) {
                     seen.push((x, y));
                     pairs.entry((x, y)).or_default().push(id);
                 }

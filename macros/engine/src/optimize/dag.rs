@@ -330,10 +330,15 @@ impl Dag {
         if self.depends(&kind, id) {
             return false;
         }
+        self.dissolve(id, kind);
+        true
+    }
+
+    /// The same for an operation on what the node has read already, directly or not.
+    pub fn dissolve(&mut self, id: Id, kind: Kind) {
         debug_assert_eq!(self.kind_print(&kind).unwrap_or(self.nodes[id].print), self.nodes[id].print, "a rewrite changed a value");
         self.nodes[id].stage = self.stage_of(&kind);
         self.nodes[id].kind = kind;
-        true
     }
 
     /// Whether an operation reads a node, directly or not.

@@ -5,31 +5,54 @@
 
 use std::collections::HashMap;
 
-use crate::symbolic::number::Number;
-
-use super::dag::{Dag, Id, ONE, operands};
+use super::dag::{Dag, Id, Kind, ONE, operands};
+use super::names::Names;
 use super::program::{FieldId, Symbol};
 use super::schedule::Fields;
 use super::stage::Stage;
 
-/// Gathers the fields; the roots of the result are their values in order.
-pub fn gather(functions: &[&Dag], symbols: &[Symbol]) -> (Dag, Fields) {
+/// What `Model` stores.
+pub struct Gathered {
+    /// Its roots are the fields' values in order.
+    pub prelude: Dag,
+    pub fields: Fields,
+    /// Unique, readable.
+    pub names: Vec<String>,
+}
+
+/// Gathers the fields of all functions.
+pub fn gather(functions: &[&Dag], symbols: &[Symbol]) -> Gathered {
+    let mut names = Names::default();
+    let mut list = Vec::new();
     let mut prelude = Dag::new(symbols);
     let mut fields = Fields::new();
     for &dag in functions {
         let mut map = HashMap::new();
+        let hints = dag.hints();
         for id in frontier(dag) {
             let print = dag.nodes[id].print.canonical();
             if fields.contains_key(&print) {
                 continue;
             }
-            fields.insert(print, FieldId(prelude.roots.len()));
-            let (c, adopted) = prelude.adopt(dag, id, &mut map);
-            let sign = if print == dag.nodes[id].print { Number::ONE } else { Number::ONE.neg() };
-            prelude.roots.push((c.mul(sign), adopted));
+            fields.insert(print, (FieldId(prelude.roots.len()), dag.nodes[id].print));
+            let adopted = prelude.adopt(dag, id, &mut map);
+            prelude.roots.push(adopted);
+            list.push(names.unique(&hint(dag, id, &hints)));
         }
     }
-    (prelude, fields)
+    Gathered { prelude, fields, names: list }
+}
+
+/// A parameter's own name, the name of the value, or that of the value which it serves.
+fn hint(dag: &Dag, id: Id, hints: &[Option<String>]) -> String {
+    if let Kind::Symbol(symbol) = dag.nodes[id].kind {
+        return dag.symbol_name(symbol);
+    }
+    match (&dag.nodes[id].name, &hints[id]) {
+        (Some(name), _) => name.clone(),
+        (None, Some(served)) => format!("{served}_factor"),
+        (None, None) => "constant".to_owned(),
+    }
 }
 
 /// Early values that later ones or the results read.

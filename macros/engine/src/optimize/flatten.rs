@@ -29,20 +29,32 @@ pub fn flatten(dag: &mut Dag) {
                     }
                 }
                 let flat = dag.normal_terms(flat);
-                dag.rewrite(id, Kind::Sum(flat));
+                dag.dissolve(id, Kind::Sum(flat));
             }
             Kind::Product(factors) => {
                 let mut flat = Vec::with_capacity(factors.len());
                 for &factor in factors {
+                    let factor = same(dag, factor);
                     match &dag.nodes[factor].kind {
                         Kind::Product(inner) if uses[factor] == 1 && !keeps(dag, factor) => flat.extend(inner.iter().copied()),
                         _ => flat.push(factor),
                     }
                 }
                 flat.sort_unstable();
-                dag.rewrite(id, Kind::Product(flat));
+                dag.dissolve(id, Kind::Product(flat));
             }
             _ => {}
         }
     }
+}
+
+/// The node behind one that is only another name for it.
+fn same(dag: &Dag, mut id: usize) -> usize {
+    while let Kind::Sum(terms) = &dag.nodes[id].kind {
+        match terms[..] {
+            [(c, inner)] if c.is_one() => id = inner,
+            _ => break,
+        }
+    }
+    id
 }

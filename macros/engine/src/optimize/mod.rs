@@ -21,14 +21,25 @@ use crate::symbolic::lower::Lowering;
 use dag::Dag;
 use program::{Compiled, Cost, Function, FunctionKind};
 
+/// Most operations that one function may have before optimisation. Passes take about a second for ten thousand in an
+/// unoptimised build, and rustc takes longer.
+pub const MOST_OPERATIONS: usize = 60_000;
+
+/// The equations are larger than the compiler can take within a reasonable time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TooLarge;
+
 /// Optimises every candidate, takes the cheapest of each function, and moves parameter work into `Model::new`.
-pub fn compile(derivation: &Derivation) -> Compiled {
+pub fn compile(derivation: &Derivation) -> Result<Compiled, TooLarge> {
     let mut chosen: Vec<(FunctionKind, &'static str, Cost, Dag)> = Vec::new();
     for function in &derivation.functions {
         let mut best: Option<(u32, &'static str, Cost, Dag)> = None;
         for (method, results) in &function.candidates {
             let mut lowering = Lowering::new(&derivation.graph);
             let roots = lowering.run(results);
+            if derivation.graph.is_full() || lowering.to.len() > MOST_OPERATIONS {
+                return Err(TooLarge);
+            }
             let before = lowering.to.cost(&roots);
             let mut dag = Dag::import(&lowering.to, &roots, &derivation.symbols);
             dag.symbol_names.clone_from(&derivation.symbol_names);
@@ -43,10 +54,9 @@ pub fn compile(derivation: &Derivation) -> Compiled {
         }
     }
     let dags: Vec<&Dag> = chosen.iter().map(|c| &c.3).collect();
-    let (mut prelude, fields) = fields::gather(&dags, &derivation.symbols);
+    let fields::Gathered { mut prelude, fields, names } = fields::gather(&dags, &derivation.symbols);
     prelude.symbol_names.clone_from(&derivation.symbol_names);
     simplify(&mut prelude);
-    let names = field_names(&prelude);
     let prelude_cost = prelude.cost().1;
     let functions = chosen
         .iter()
@@ -59,16 +69,7 @@ pub fn compile(derivation: &Derivation) -> Compiled {
         })
         .collect();
     let prelude = schedule::schedule(&prelude, &schedule::Fields::new());
-    Compiled { fields: names, prelude, prelude_cost, functions }
-}
-
-fn field_names(prelude: &Dag) -> Vec<String> {
-    let mut names = names::Names::default();
-    let hint = |id: dag::Id| match &prelude.nodes[id].kind {
-        dag::Kind::Symbol(symbol) => prelude.symbol_names.get(symbol.0).filter(|n| !n.is_empty()).cloned(),
-        _ => prelude.nodes[id].name.clone(),
-    };
-    prelude.roots.iter().map(|&(_, id)| names.unique(&hint(id).unwrap_or_else(|| "constant".to_owned()))).collect()
+    Ok(Compiled { fields: names, prelude, prelude_cost, functions })
 }
 
 /// All rewrites, a fixed number of rounds.

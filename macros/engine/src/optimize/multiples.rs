@@ -14,6 +14,7 @@ use super::stage::Stage;
 type Place = (Id, Id);
 
 pub fn multiples(dag: &mut Dag) {
+    of_results(dag);
     loop {
         let order = dag.order();
         let uses = dag.uses(&order);
@@ -44,6 +45,17 @@ pub fn multiples(dag: &mut Dag) {
         let Some(((factor, _), (c, list))) = best else { return };
         if !share(dag, factor, c, &list) {
             return;
+        }
+    }
+}
+
+/// A result that is a multiple becomes a node, so that it is computed once, and by `Model::new` where parameters suffice.
+fn of_results(dag: &mut Dag) {
+    for k in 0..dag.roots.len() {
+        let (c, id) = dag.roots[k];
+        if id != ONE && !c.is_unit() {
+            let sign = if c.is_negative() { Number::ONE.neg() } else { Number::ONE };
+            dag.roots[k] = (sign, dag.plain((c.abs(), id)));
         }
     }
 }

@@ -19,8 +19,8 @@ use super::stage::Stage;
 /// Operands that one expression may hold before a part of it becomes a statement.
 const READABLE: usize = 10;
 
-/// Fields of `Model` by the print of their value.
-pub type Fields = HashMap<Print, FieldId>;
+/// Fields of `Model` by the print that stands for their value and its negative, with the print of the value itself.
+pub type Fields = HashMap<Print, (FieldId, Print)>;
 
 /// Prints a DAG as a program. Nodes found in `fields` are read from there.
 pub fn schedule(dag: &Dag, fields: &Fields) -> Program {
@@ -51,38 +51,23 @@ struct Scheduler<'a> {
 impl<'a> Scheduler<'a> {
     fn new(dag: &'a Dag, fields: &'a Fields) -> Self {
         let order = dag.order();
-        let mut scheduler = Scheduler {
+        Scheduler {
             dag,
             fields,
             uses: dag.uses(&order),
             flipped: vec![false; dag.nodes.len()],
             written: vec![None; dag.nodes.len()],
             angles: HashMap::new(),
-            hints: vec![None; dag.nodes.len()],
+            hints: dag.hints(),
             names: Names::default(),
             program: Program::default(),
-        };
-        scheduler.hint(&order);
-        scheduler
-    }
-
-    /// A value without a name takes that of the first named value it serves.
-    fn hint(&mut self, order: &[Id]) {
-        for &id in order.iter().rev() {
-            if let Some(name) = &self.dag.nodes[id].name {
-                self.hints[id] = Some(name.clone());
-            }
-            let Some(hint) = self.hints[id].clone() else { continue };
-            for operand in super::dag::operands(&self.dag.nodes[id].kind) {
-                self.hints[operand].get_or_insert_with(|| hint.clone());
-            }
         }
     }
 
     fn field(&self, id: Id) -> Option<(bool, FieldId)> {
         let print = self.dag.nodes[id].print;
-        let field = *self.fields.get(&print.canonical())?;
-        Some((print != print.canonical(), field))
+        let &(field, value) = self.fields.get(&print.canonical())?;
+        Some((print != value, field))
     }
 
     fn visit(&mut self, id: Id) {
@@ -101,10 +86,11 @@ impl<'a> Scheduler<'a> {
                 None => (Expression::Literal(0.0), 1),
             },
             Kind::Sum(terms) => self.sum(id, terms),
-            Kind::Product(factors) => self.product(factors),
+            Kind::Product(factors) => self.product(id, factors),
             Kind::Reciprocal(x) => {
                 // A reciprocal that a product takes alone becomes that product's quotient.
-                let (x, size) = self.signed(*x);
+                self.flipped[id] = self.flipped[*x];
+                let (x, size) = self.bare(*x);
                 (Expression::Quotient(Box::new(Expression::Literal(1.0)), Box::new(x)), size)
             }
             Kind::Sqrt(x) => {
@@ -216,8 +202,8 @@ impl<'a> Scheduler<'a> {
         (Expression::Sum(list.into_iter().map(|(sign, e, _)| (sign, e)).collect()), size)
     }
 
-    fn product(&self, factors: &[Id]) -> (Expression, usize) {
-        let negative = factors.iter().filter(|&&f| self.flipped[f]).count() % 2 == 1;
+    fn product(&mut self, id: Id, factors: &[Id]) -> (Expression, usize) {
+        self.flipped[id] = factors.iter().filter(|&&f| self.flipped[f]).count() % 2 == 1;
         let divisor = factors.iter().position(|&f| self.uses[f] == 1 && self.dag.is_quotient(f));
         let mut size = 0;
         let mut list = Vec::with_capacity(factors.len());
@@ -238,7 +224,7 @@ impl<'a> Scheduler<'a> {
                 product = Expression::Quotient(Box::new(product), x);
             }
         }
-        (if negative { negated(product) } else { product }, size)
+        (product, size)
     }
 }
 
@@ -251,8 +237,23 @@ fn negated(expression: Expression) -> Expression {
 }
 
 impl Dag {
+    /// Names for all nodes: a value without one takes that of the first named value it serves.
+    pub fn hints(&self) -> Vec<Option<String>> {
+        let mut hints: Vec<Option<String>> = vec![None; self.nodes.len()];
+        for &id in self.order().iter().rev() {
+            if let Some(name) = &self.nodes[id].name {
+                hints[id] = Some(name.clone());
+            }
+            let Some(hint) = hints[id].clone() else { continue };
+            for operand in super::dag::operands(&self.nodes[id].kind) {
+                hints[operand].get_or_insert_with(|| hint.clone());
+            }
+        }
+        hints
+    }
+
     /// A readable name for a symbol, from its kind alone where the owner gave none.
-    fn symbol_name(&self, id: crate::symbolic::graph::SymbolId) -> String {
+    pub fn symbol_name(&self, id: crate::symbolic::graph::SymbolId) -> String {
         let named = self.symbol_names.get(id.0).filter(|name| !name.is_empty());
         named.cloned().unwrap_or_else(|| match self.symbols.get(id.0) {
             Some(Symbol::Time) => "t".to_owned(),

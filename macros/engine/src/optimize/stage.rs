@@ -76,12 +76,14 @@ fn with_parameter(dag: &mut Dag, (c, id): (Number, Id)) -> (Number, Id) {
         return (c, id);
     }
     let (d, parameter) = dag.product(now);
-    later.push(dag.plain((c.mul(d), parameter)));
+    let c = c.mul(d);
+    let sign = if c.is_negative() { Number::ONE.neg() } else { Number::ONE };
+    later.push(dag.plain((c.abs(), parameter)));
     later.sort_unstable();
     let print = dag.factors_print(&later);
     match dag.find(print) {
-        Some(found) => found,
-        None => (Number::ONE, dag.push(Kind::Product(later), print)),
+        Some((found, id)) => (sign.mul(found), id),
+        None => (sign, dag.push(Kind::Product(later), print)),
     }
 }
 

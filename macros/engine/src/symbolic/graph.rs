@@ -135,6 +135,9 @@ pub enum RotationNode {
     Product(Rotation, Rotation),
 }
 
+/// Most nodes that one graph may hold: a bound, so that a model too large ends in an error and not in a hang.
+pub const MOST_NODES: usize = 1_000_000;
+
 /// A node of any kind, by its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AnyNode {
@@ -229,6 +232,11 @@ impl Graph {
         self.rotation_index.insert(rotation_key(&self.rotation_prints[0], false), 0);
     }
 
+    /// Whether the bound on nodes is reached: results made since are worthless, and the model is to be refused.
+    pub fn is_full(&self) -> bool {
+        self.order.len() >= MOST_NODES
+    }
+
     /// Number of scalar nodes made so far.
     pub fn len(&self) -> usize {
         self.scalars.len()
@@ -283,6 +291,9 @@ impl Graph {
 
     /// Makes a node; its value must be new.
     pub(super) fn insert_scalar(&mut self, node: ScalarNode, print: Print) -> Scalar {
+        if self.is_full() {
+            return Scalar::ZERO;
+        }
         let index = self.scalars.len();
         self.scalars.push(node);
         self.order.push(AnyNode::Scalar(index));
@@ -297,6 +308,9 @@ impl Graph {
     }
 
     pub(super) fn insert_vector(&mut self, node: VectorNode, print: [Print; 3]) -> Vector {
+        if self.is_full() {
+            return Vector::ZERO;
+        }
         let index = self.vectors.len();
         self.vectors.push(node);
         self.order.push(AnyNode::Vector(index));
@@ -314,6 +328,9 @@ impl Graph {
     }
 
     pub(super) fn insert_rotation(&mut self, node: RotationNode, print: [[Print; 3]; 3]) -> Rotation {
+        if self.is_full() {
+            return Rotation::IDENTITY;
+        }
         let index = self.rotations.len();
         self.rotations.push(node);
         self.order.push(AnyNode::Rotation(index));

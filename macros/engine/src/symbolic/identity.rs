@@ -4,9 +4,12 @@
 //! both modulo the prime of [`super::fingerprint`] (Schwartz 1980, Zippel 1979) at points that are drawn from a seed and
 //! have nothing in common with the prints by which the graph merges nodes; only literals and constant angles, which the
 //! graph folds, are the same. Angles are points on the circle, constant ones multiples of a common base; unit quaternions
-//! lie on the sphere. An angle is a sum of units with literal factors; a product of sums is one unit. Square roots are exact where the argument is a square: points are drawn until all are. Other
-//! functions are opaque: equal for equal arguments. What that can't see (signs of roots, min, max, select, exp) is
-//! compared by [`close`] at random points in double precision.
+//! lie on the sphere. Square roots are exact, but for their sign, where the argument is a square: points are drawn until
+//! all are. Other functions are opaque: equal for equal arguments. What that can't see (signs of roots, min, max, select,
+//! exp) is compared by [`close`] at random points in double precision.
+//!
+//! "Identical" can be trusted; "different" means so only if every angle is a sum of the same units: a product of sums, or
+//! a dot product, is one unit.
 
 use std::cell::Cell;
 

@@ -143,11 +143,11 @@ impl Mechanism {
         for body in &self.bodies {
             match body.kind {
                 Kind::Ball => q.extend(unit_quaternion(rng)),
-                _ => q.push(rng.real(2.0)),
+                _ => q.push(rng.real(-2.0, 2.0)),
             }
         }
         let n = self.freedoms();
-        let mut list = |size: f64| -> Vec<f64> { (0..n).map(|_| rng.real(size)).collect() };
+        let mut list = |size: f64| -> Vec<f64> { (0..n).map(|_| rng.real(-size, size)).collect() };
         State { q, v: list(2.0), a: list(5.0), effort: list(10.0) }
     }
 }
@@ -173,7 +173,7 @@ fn sparse(rng: &mut Rng, size: f64) -> [f64; 3] {
 }
 
 fn unit_quaternion(rng: &mut Rng) -> [f64; 4] {
-    let q = [(); 4].map(|()| rng.real(1.0));
+    let q = [(); 4].map(|()| rng.real(-1.0, 1.0));
     let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
     q.map(|x| x / norm)
 }

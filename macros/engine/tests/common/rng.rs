@@ -26,16 +26,11 @@ impl Rng {
 
     /// Decimals of three places in the range.
     pub fn decimal(&mut self, from: f64, to: f64) -> f64 {
-        let steps = ((to - from) * 1e3).round() as usize;
-        ((from * 1e3).round() + self.below(steps + 1) as f64) / 1e3
+        (self.real(from, to) * 1e3).round() / 1e3
     }
 
-    fn unit(&mut self) -> f64 {
-        self.word() as f64 / 2.0_f64.powi(64)
-    }
-
-    /// Uniform in [-size, size].
-    pub fn real(&mut self, size: f64) -> f64 {
-        size * (2.0 * self.unit() - 1.0)
+    /// Uniform in the range.
+    pub fn real(&mut self, from: f64, to: f64) -> f64 {
+        from + (to - from) * (self.word() as f64 / 2.0_f64.powi(64))
     }
 }

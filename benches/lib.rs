@@ -1,1 +1,0 @@
-//! Nothing: the package holds targets of its own.

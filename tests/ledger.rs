@@ -1,0 +1,176 @@
+//! The operation ledger: counts per model and function, compared with the committed `ledger.md` to the last operation, and
+//! with the bars that this project has set itself. `UPDATE_LEDGER=1` writes the file anew: a change that raises a count
+//! must say why.
+
+use std::fmt::Write;
+use std::sync::OnceLock;
+
+use multibody_engine::optimize::program::Cost;
+use multibody_tests::models::{arms, motion, small};
+use multibody_tests::support::data::path;
+use multibody_tests::support::ledger::{Row, Written, all, flops};
+
+/// Additions, products, quotients that others need, for arms whose every number is a literal.
+struct Bar {
+    model: &'static str,
+    function: &'static str,
+    /// A pruned recursion in body frames, written by hand; where there is none, Pinocchio's algorithms on CasADi.
+    hand: [u32; 3],
+    /// Zeros pruned, common subexpressions, base inertial parameters.
+    prototype: [u32; 3],
+    /// Not a bar yet.
+    goal: [u32; 3],
+}
+
+const BARS: [Bar; 9] = [
+    bar("double_pendulum", "inverse_dynamics", [24, 35, 0], [15, 23, 0], [10, 16, 0]),
+    bar("double_pendulum", "forward_dynamics", [31, 45, 3], [19, 28, 1], [14, 20, 1]),
+    bar("cart5", "inverse_dynamics", [105, 134, 0], [56, 74, 0], [48, 62, 0]),
+    bar("cart5", "forward_dynamics", [190, 246, 14], [153, 185, 15], [110, 140, 6]),
+    bar("puma560", "inverse_dynamics", [191, 269, 0], [151, 199, 0], [125, 165, 0]),
+    bar("puma560", "forward_dynamics", [342, 439, 15], [263, 327, 10], [215, 270, 6]),
+    bar("panda", "inverse_dynamics", [375, 479, 0], [288, 360, 0], [250, 305, 0]),
+    bar("panda", "mass_matrix", [218, 249, 0], [178, 193, 0], [140, 160, 0]),
+    bar("panda", "forward_dynamics", [680, 820, 21], [556, 650, 21], [450, 540, 7]),
+];
+
+const fn bar(
+    model: &'static str,
+    function: &'static str,
+    hand: [u32; 3],
+    prototype: [u32; 3],
+    goal: [u32; 3],
+) -> Bar {
+    Bar { model, function, hand, prototype, goal }
+}
+
+/// At most the sum of the bar, and no column above 1.1 times it.
+fn met(cost: &Cost, bar: [u32; 3]) -> bool {
+    let columns = [cost.add, cost.mul, cost.div + cost.sqrt];
+    let within = columns.iter().zip(bar).all(|(got, bar)| 10 * got <= 11 * bar);
+    flops(cost) <= bar.iter().sum() && within
+}
+
+fn rows() -> &'static [Row] {
+    static ROWS: OnceLock<Vec<Row>> = OnceLock::new();
+    ROWS.get_or_init(all)
+}
+
+fn literals(model: &str, function: &str) -> &'static Cost {
+    let row = rows().iter().find(|row| row.model == model && row.function == function && !row.params);
+    &row.unwrap_or_else(|| panic!("no row for {model}, {function}")).after
+}
+
+fn written() -> String {
+    let mut text = String::from(
+        "# Operation ledger\n\n\
+         Counts are `add/mul/div`, then what else there is. `tests/ledger.rs` derives every function anew and compares;\n\
+         `UPDATE_LEDGER=1 cargo test -p multibody-tests --test ledger` writes this file. `new` is what the function alone\n\
+         needs of `Model::new`.\n\n\
+         | model | function | numbers | method | as derived | emitted | in `new` |\n\
+         |---|---|---|---|---|---|---|\n",
+    );
+    for row in rows() {
+        let numbers = if row.params { "`param`" } else { "`const`" };
+        let new = if row.params { Written(&row.new).to_string() } else { String::new() };
+        let (before, after) = (Written(&row.before), Written(&row.after));
+        let Row { model, function, method, .. } = row;
+        writeln!(text, "| {model} | {function} | {numbers} | {method} | {before} | {after} | {new} |").unwrap();
+    }
+    text += "\n## Bars\n\n\
+             Every number `const`; sums of additions, products, quotients and roots. Hand: a pruned recursion written by\n\
+             hand (CasADi where there is none).\n\n\
+             | model | function | emitted | sum | hand | prototype | goal |\n\
+             |---|---|---|---|---|---|---|\n";
+    for bar in &BARS {
+        let cost = literals(bar.model, bar.function);
+        let Bar { model, function, hand, prototype, goal } = bar;
+        let column = |bar: &[u32; 3]| {
+            let sign = if met(cost, *bar) { "met" } else { "open" };
+            format!("{} {sign}", bar.iter().sum::<u32>())
+        };
+        let (hand, prototype, goal) = (column(hand), column(prototype), column(goal));
+        let (after, sum) = (Written(cost), flops(cost));
+        writeln!(text, "| {model} | {function} | {after} | {sum} | {hand} | {prototype} | {goal} |").unwrap();
+    }
+    text
+}
+
+#[test]
+fn counts_are_those_of_the_ledger() {
+    let file = path("ledger.md");
+    let now = written();
+    if std::env::var_os("UPDATE_LEDGER").is_some() {
+        std::fs::write(&file, now).unwrap();
+        return;
+    }
+    let committed = std::fs::read_to_string(&file).unwrap();
+    let missing = |from: &str, to: &str| -> Vec<String> {
+        from.lines().filter(|line| !to.lines().any(|other| other == *line)).map(str::to_owned).collect()
+    };
+    let (gone, came) = (missing(&committed, &now), missing(&now, &committed));
+    assert!(
+        now == committed,
+        "the ledger has changed; if that is meant, UPDATE_LEDGER=1 and say why\nwas {gone:#?}\nis {came:#?}"
+    );
+}
+
+#[test]
+fn bars_are_met() {
+    let mut missed = Vec::new();
+    for bar in &BARS {
+        let cost = literals(bar.model, bar.function);
+        let text = format!("{} {}: {} = {}", bar.model, bar.function, Written(cost), flops(cost));
+        let sum = |bar: [u32; 3]| bar.iter().sum::<u32>();
+        println!("{text}; hand {}, prototype {}, goal {}", sum(bar.hand), sum(bar.prototype), sum(bar.goal));
+        for (what, limit) in [("hand recursion", bar.hand), ("prototype", bar.prototype)] {
+            if !met(cost, limit) {
+                missed.push(format!("{text}, above the {what}'s {limit:?}"));
+            }
+        }
+    }
+    assert!(missed.is_empty(), "{missed:#?}");
+}
+
+#[test]
+fn one_sincos_per_coordinate() {
+    for row in rows().iter().filter(|row| !row.function.contains("outputs")) {
+        // A quaternion needs none at all.
+        assert!(row.after.sincos as usize <= row.dof, "{} {}", row.model, row.function);
+    }
+}
+
+/// Sharing and factoring may only help.
+#[test]
+fn optimisation_costs_nothing() {
+    for row in rows() {
+        let (before, after) = (&row.before, &row.after);
+        assert!(after.weight() <= before.weight(), "{} {}: {before:?} -> {after:?}", row.model, row.function);
+    }
+}
+
+/// What the macro has emitted into this build is what the ledger counts.
+#[test]
+fn compiled_models_are_those_of_the_ledger() {
+    let mut compared = 0;
+    let mut check = |model: &str, params: bool, costs: &[multibody::Cost]| {
+        for row in rows().iter().filter(|row| row.model == model && row.params == params) {
+            let cost = costs.iter().find(|cost| cost.function == row.function).unwrap();
+            let counts = [cost.add, cost.mul, cost.div, cost.sqrt, cost.sincos, cost.other];
+            let Cost { add, mul, div, sqrt, sincos, other } = row.after;
+            assert_eq!(counts, [add, mul, div, sqrt, sincos, other], "{model} {}", row.function);
+            compared += 1;
+        }
+    };
+    check("double_pendulum", false, arms::double_pendulum::COSTS);
+    check("cart5", false, arms::cart5::COSTS);
+    check("puma560", false, arms::puma560::COSTS);
+    check("panda", false, arms::panda::COSTS);
+    check("cart5", true, arms::cart5_params::COSTS);
+    check("puma560", true, arms::puma560_params::COSTS);
+    check("panda", true, arms::panda_params::COSTS);
+    check("chain", true, motion::chain::COSTS);
+    check("top", true, motion::top::COSTS);
+    check("cart_pole", true, small::cart_pole::COSTS);
+    assert!(compared >= 50, "only {compared} rows");
+}

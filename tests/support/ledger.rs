@@ -1,0 +1,103 @@
+//! Operation counts of the committed models.
+
+use std::fmt;
+
+use multibody_engine::mechanics;
+use multibody_engine::model::types::Model;
+use multibody_engine::optimize;
+use multibody_engine::optimize::program::{Cost, FunctionKind};
+
+use super::engine::{calls, literal, models};
+
+/// Counts of one function of one model.
+pub struct Row {
+    /// Of the generated module.
+    pub model: String,
+    /// Of the generated method.
+    pub function: &'static str,
+    /// Every number is a param; else every number is a literal.
+    pub params: bool,
+    /// What it was made from.
+    pub method: &'static str,
+    /// As derived.
+    pub before: Cost,
+    /// As emitted.
+    pub after: Cost,
+    /// In `Model::new`, for this function alone.
+    pub new: Cost,
+    /// Of the model.
+    pub dof: usize,
+}
+
+/// Name of the generated method.
+pub fn name(kind: FunctionKind) -> &'static str {
+    match kind {
+        FunctionKind::ForwardDynamics => "forward_dynamics",
+        FunctionKind::InverseDynamics => "inverse_dynamics",
+        FunctionKind::MassMatrix => "mass_matrix",
+        FunctionKind::Bias => "bias",
+        FunctionKind::KineticEnergy => "kinetic_energy",
+        FunctionKind::PotentialEnergy => "potential_energy",
+        FunctionKind::Outputs => "outputs",
+    }
+}
+
+/// Every function of a model, each compiled alone so that its share of `new` is its own.
+pub fn count(model: &Model, params: bool) -> Vec<Row> {
+    let mut derivation = mechanics::derive(model);
+    let dof = model.joints.iter().map(|joint| joint.kind.freedoms()).sum();
+    let functions = std::mem::take(&mut derivation.functions);
+    let rows = functions.into_iter().map(|function| {
+        derivation.functions = vec![function];
+        let compiled = optimize::compile(&derivation).unwrap_or_else(|_| panic!("{} is too large", model.name));
+        let function = &compiled.functions[0];
+        let text = model.name.to_string();
+        Row {
+            model: text.strip_suffix("_params").unwrap_or(&text).to_owned(),
+            function: name(function.kind),
+            params,
+            method: function.method,
+            before: function.before,
+            after: function.after,
+            new: compiled.prelude_cost,
+            dof,
+        }
+    });
+    rows.collect()
+}
+
+/// All models that the ledger keeps. The arms stand in their file in both forms, the others with params.
+pub fn all() -> Vec<Row> {
+    let mut rows = Vec::new();
+    for model in calls("models/arms.rs").into_iter().flat_map(models) {
+        rows.extend(count(&model, model.name.to_string().ends_with("_params")));
+    }
+    for file in ["models/small.rs", "models/motion.rs"] {
+        for call in calls(file) {
+            models(literal(call.clone())).iter().for_each(|model| rows.extend(count(model, false)));
+            models(call).iter().for_each(|model| rows.extend(count(model, true)));
+        }
+    }
+    rows
+}
+
+/// Additions, products, quotients and roots.
+pub fn flops(cost: &Cost) -> u32 {
+    cost.add + cost.mul + cost.div + cost.sqrt
+}
+
+/// `12 add, 20 mul, 1 div`
+pub struct Written<'a>(pub &'a Cost);
+
+impl fmt::Display for Written<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Cost { add, mul, div, sqrt, sincos, other } = self.0;
+        write!(f, "{add}/{mul}/{div}")?;
+        for (count, what) in [(sqrt, "sqrt"), (sincos, "sincos"), (other, "other")] {
+            if *count > 0 {
+                write!(f, " {count} {what}")?;
+            }
+        }
+        Ok(())
+    }
+}
