@@ -22,42 +22,43 @@ macro_rules! arm {
     ($name:ident) => {
         mod $name {
             use super::*;
-            use crate::models::$name::*;
+            use crate::models::$name as arm;
+            use arm::{DATA, DOF, point};
 
-            #[divan::bench(types = [f64, f32, WideF64x4, WideF32x8])]
+            #[divan::bench(sample_size = 1000, types = [f64, f32, WideF64x4, WideF32x8])]
             fn inverse_dynamics<T: Lanes>(bencher: Bencher<'_, '_>) {
                 let p = point::<T>();
-                bencher.counter(ItemsCount::new(T::COUNT)).bench_local(|| $name::inverse_dynamics(black_box(&p)));
+                bencher.counter(ItemsCount::new(T::COUNT)).bench_local(|| arm::inverse_dynamics(black_box(&p)));
             }
 
-            #[divan::bench(types = [f64, f32, WideF64x4, WideF32x8])]
+            #[divan::bench(sample_size = 1000, types = [f64, f32, WideF64x4, WideF32x8])]
             fn mass_matrix<T: Lanes>(bencher: Bencher<'_, '_>) {
                 let p = point::<T>();
-                bencher.counter(ItemsCount::new(T::COUNT)).bench_local(|| $name::mass_matrix(black_box(&p)));
+                bencher.counter(ItemsCount::new(T::COUNT)).bench_local(|| arm::mass_matrix(black_box(&p)));
             }
 
-            #[divan::bench(types = [f64, f32, WideF64x4, WideF32x8])]
+            #[divan::bench(sample_size = 1000, types = [f64, f32, WideF64x4, WideF32x8])]
             fn forward_dynamics<T: Lanes>(bencher: Bencher<'_, '_>) {
                 let p = point::<T>();
-                bencher.counter(ItemsCount::new(T::COUNT)).bench_local(|| $name::forward_dynamics(black_box(&p)));
+                bencher.counter(ItemsCount::new(T::COUNT)).bench_local(|| arm::forward_dynamics(black_box(&p)));
             }
 
-            #[divan::bench]
-            fn recursive_inverse_dynamics(bencher: Bencher<'_, '_>) {
+            #[divan::bench(sample_size = 1000)]
+            fn inverse_dynamics_recursive(bencher: Bencher<'_, '_>) {
                 let (tree, [q, v, a, _]) = textbook();
                 bencher.counter(ItemsCount::new(1_usize)).bench_local(|| {
                     black_box(&tree).inverse_dynamics(black_box(&q), black_box(&v), black_box(&a))
                 });
             }
 
-            #[divan::bench]
-            fn recursive_mass_matrix(bencher: Bencher<'_, '_>) {
+            #[divan::bench(sample_size = 1000)]
+            fn mass_matrix_recursive(bencher: Bencher<'_, '_>) {
                 let (tree, [q, ..]) = textbook();
                 bencher.counter(ItemsCount::new(1_usize)).bench_local(|| black_box(&tree).mass_matrix(black_box(&q)));
             }
 
-            #[divan::bench]
-            fn recursive_forward_dynamics(bencher: Bencher<'_, '_>) {
+            #[divan::bench(sample_size = 1000)]
+            fn forward_dynamics_recursive(bencher: Bencher<'_, '_>) {
                 let (tree, [q, v, _, effort]) = textbook();
                 bencher.counter(ItemsCount::new(1_usize)).bench_local(|| {
                     black_box(&tree).forward_dynamics(black_box(&q), black_box(&v), black_box(&effort))
@@ -76,10 +77,10 @@ macro_rules! arm {
                     let error = ours.iter().zip(theirs).fold(0.0_f64, |m, (x, y)| m.max((x - y).abs()));
                     assert!(error <= 1e-10 * size, "{} {name}: {error:e}", stringify!($name));
                 };
-                let torque = SVector::from($name::inverse_dynamics(&p));
+                let torque = SVector::from(arm::inverse_dynamics(&p));
                 near("inverse dynamics", torque.as_slice(), tree.inverse_dynamics(&q, &v, &a).as_slice());
-                near("mass matrix", $name::mass_matrix(&p).as_slice(), tree.mass_matrix(&q).as_slice());
-                let accel = SVector::from($name::forward_dynamics(&p));
+                near("mass matrix", arm::mass_matrix(&p).as_slice(), tree.mass_matrix(&q).as_slice());
+                let accel = SVector::from(arm::forward_dynamics(&p));
                 near("forward dynamics", accel.as_slice(), tree.forward_dynamics(&q, &v, &effort).as_slice());
             }
         }
@@ -92,7 +93,7 @@ arm!(puma560);
 arm!(panda);
 
 /// [`hand::forward_dynamics`] on the double pendulum.
-#[divan::bench]
+#[divan::bench(sample_size = 1000)]
 fn double_pendulum_forward_dynamics_by_hand(bencher: Bencher<'_, '_>) {
     let [q, v, effort] = [0, 1, 3].map(|kind| sample::<f64, 2>(kind).into());
     bencher

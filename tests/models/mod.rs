@@ -1,5 +1,6 @@
 //! Mechanisms as users write them, compiled once for all tests.
 
 pub mod arms;
+pub mod laws;
 pub mod motion;
 pub mod small;

@@ -134,10 +134,10 @@ impl Equations<'_> {
         let (rotation, offset) = self.steps(&joint.child);
         let back = constants::rotate(&mut self.g, rotation.transpose(), offset);
         let place = end.then(&mut self.g, rotation.transpose(), -back);
-        if let BodyRef::Body(body) = joint.child.body {
-            if let Some(slot) = mechanism.bodies.get_mut(body.0) {
-                *slot = place;
-            }
+        if let BodyRef::Body(body) = joint.child.body
+            && let Some(slot) = mechanism.bodies.get_mut(body.0)
+        {
+            *slot = place;
         }
     }
 

@@ -9,7 +9,7 @@ use crate::symbolic::graph::{Call, Graph, Rotation, RotationNode, Scalar, Vector
 
 /// An axis of any direction as a coordinate axis.
 #[derive(Clone, Copy, Debug)]
-pub struct Axis {
+pub(super) struct Axis {
     /// Takes the coordinate axis into this one.
     pub turn: Rotation,
     pub index: usize,
@@ -18,7 +18,7 @@ pub struct Axis {
 }
 
 /// The nine entries, row by row.
-pub fn rows(g: &mut Graph, r: Rotation) -> [[Scalar; 3]; 3] {
+pub(super) fn rows(g: &mut Graph, r: Rotation) -> [[Scalar; 3]; 3] {
     let m = match g.rotation_node(r) {
         RotationNode::Matrix(rows) => **rows,
         &RotationNode::Axis(axis, angle) => {
@@ -34,22 +34,22 @@ pub fn rows(g: &mut Graph, r: Rotation) -> [[Scalar; 3]; 3] {
     if r.is_transposed() { transpose(&m) } else { m }
 }
 
-pub fn transpose(m: &[[Scalar; 3]; 3]) -> [[Scalar; 3]; 3] {
+pub(super) fn transpose(m: &[[Scalar; 3]; 3]) -> [[Scalar; 3]; 3] {
     std::array::from_fn(|i| std::array::from_fn(|j| m[j][i]))
 }
 
 /// First `b`, then `a`, as one matrix unless it is simpler than that.
-pub fn compose(g: &mut Graph, a: Rotation, b: Rotation) -> Rotation {
+pub(super) fn compose(g: &mut Graph, a: Rotation, b: Rotation) -> Rotation {
     if a == Rotation::IDENTITY {
         return b;
     }
     if b == Rotation::IDENTITY {
         return a;
     }
-    if let (RotationNode::Axis(i, _), RotationNode::Axis(j, _)) = (g.rotation_node(a), g.rotation_node(b)) {
-        if i == j {
-            return g.compose(a, b);
-        }
+    if let (RotationNode::Axis(i, _), RotationNode::Axis(j, _)) = (g.rotation_node(a), g.rotation_node(b))
+        && i == j
+    {
+        return g.compose(a, b);
     }
     let (x, y) = (rows(g, a), rows(g, b));
     let product = x.map(|row| {
@@ -62,7 +62,7 @@ pub fn compose(g: &mut Graph, a: Rotation, b: Rotation) -> Rotation {
 }
 
 /// A constant vector, turned: a triple, so that literals fold.
-pub fn rotate(g: &mut Graph, r: Rotation, v: Vector) -> Vector {
+pub(super) fn rotate(g: &mut Graph, r: Rotation, v: Vector) -> Vector {
     if r == Rotation::IDENTITY || v == Vector::ZERO {
         return v;
     }
@@ -75,7 +75,7 @@ pub fn rotate(g: &mut Graph, r: Rotation, v: Vector) -> Vector {
 }
 
 /// Rotation about any axis by a constant angle.
-pub fn about(g: &mut Graph, axis: [Scalar; 3], angle: Scalar) -> Rotation {
+pub(super) fn about(g: &mut Graph, axis: [Scalar; 3], angle: Scalar) -> Rotation {
     let axis = self::axis(g, axis);
     let turn = g.axis_rotation(axis.index, if axis.flipped { -angle } else { angle });
     let placed = compose(g, axis.turn, turn);
@@ -84,12 +84,12 @@ pub fn about(g: &mut Graph, axis: [Scalar; 3], angle: Scalar) -> Rotation {
 
 /// The coordinate axis behind a direction. An axis in a coordinate plane is one turn away from it, any other direction
 /// is Rz(azimuth) Ry(inclination) Z.
-pub fn axis(g: &mut Graph, direction: [Scalar; 3]) -> Axis {
+pub(super) fn axis(g: &mut Graph, direction: [Scalar; 3]) -> Axis {
     let nonzero: Vec<usize> = (0..3).filter(|&k| direction[k] != Scalar::ZERO).collect();
-    if let [k] = nonzero[..] {
-        if let Some(n) = g.literal(direction[k]) {
-            return Axis { turn: Rotation::IDENTITY, index: k, flipped: n.is_negative() };
-        }
+    if let [k] = nonzero[..]
+        && let Some(n) = g.literal(direction[k])
+    {
+        return Axis { turn: Rotation::IDENTITY, index: k, flipped: n.is_negative() };
     }
     let normal = (0..3).find(|&k| direction[k] == Scalar::ZERO && direction[(k + 1) % 3] != Scalar::ZERO);
     if let Some(k) = normal {

@@ -20,6 +20,9 @@ use super::{Derivation, Derived};
 const METHODS: [(Method, &str); 2] =
     [(Method::Composite, "composite rigid body, LDL^T"), (Method::Articulated, "articulated body")];
 
+/// Beyond this many coordinates a factorisation, whose cost grows with their cube, is no candidate.
+const MOST_COMPOSITE: usize = 32;
+
 /// Derives what the model asks for, and its outputs.
 pub fn derive(model: &Model) -> Derivation {
     let mut graph = Graph::new();
@@ -97,7 +100,11 @@ impl<'m> Deriving<'m> {
             results.extend(model.states.iter().map(|state| equations.scalar(&state.rate)));
             results
         };
-        let methods = if articulates(model, &kept) { &METHODS[..] } else { &METHODS[..1] };
+        let methods = match articulates(model, &kept) {
+            true if freedoms(model) > MOST_COMPOSITE => &METHODS[1..],
+            true => &METHODS[..],
+            false => &METHODS[..1],
+        };
         let way = |method| Way { style: Style::Nested, method };
         methods.iter().map(|&(method, name)| self.candidate(name, way(method), &kept, all)).collect()
     }
@@ -114,19 +121,22 @@ impl<'m> Deriving<'m> {
             }
             results
         };
-        let mut ways = vec![(Style::World, Method::Composite, "world axes")];
-        if needs.frames {
-            ways.push((Style::Nested, Method::Composite, "link axes"));
+        let articulates = needs.accelerations && articulates(model, &kept);
+        let mut ways = Vec::new();
+        if !(articulates && freedoms(model) > MOST_COMPOSITE) {
+            ways.push((Style::World, Method::Composite, "world axes"));
+            if needs.frames {
+                ways.push((Style::Nested, Method::Composite, "link axes"));
+            }
         }
-        if needs.accelerations && articulates(model, &kept) {
+        if articulates {
             ways.push((Style::World, Method::Articulated, "world axes, articulated body"));
             if needs.frames {
                 ways.push((Style::Nested, Method::Articulated, "link axes, articulated body"));
             }
         }
-        let candidates = ways.into_iter().map(|(style, method, name)| {
-            self.candidate(name, Way { style, method }, &kept, all)
-        });
+        let candidates =
+            ways.into_iter().map(|(style, method, name)| self.candidate(name, Way { style, method }, &kept, all));
         candidates.collect()
     }
 }
@@ -134,7 +144,11 @@ impl<'m> Deriving<'m> {
 /// Whether the articulated-body algorithm is another way: with one coordinate it is the same one, and it would move the
 /// links of `Fixed` joints that are kept for their reactions.
 fn articulates(model: &Model, kept: &[JointId]) -> bool {
-    kept.is_empty() && model.joints.iter().map(|joint| joint.kind.freedoms()).sum::<usize>() > 1
+    kept.is_empty() && freedoms(model) > 1
+}
+
+fn freedoms(model: &Model) -> usize {
+    model.joints.iter().map(|joint| joint.kind.freedoms()).sum()
 }
 
 /// What expressions ask for.

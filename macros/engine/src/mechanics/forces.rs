@@ -31,6 +31,12 @@ struct Terms {
 }
 
 impl Terms {
+    fn effort(&mut self, freedom: usize, effort: Scalar) {
+        if let Some(list) = self.efforts.get_mut(freedom) {
+            list.push(effort);
+        }
+    }
+
     fn force(&mut self, g: &mut Graph, place: &Place, force: Vector) {
         let Some(link) = place.link else { return };
         let moment = g.cross(place.offset, force);
@@ -61,10 +67,8 @@ impl Equations<'_> {
         }
         let g = &mut self.g;
         let sums = terms.moments.iter().zip(&terms.forces);
-        let applied = sums.map(|(moments, forces)| Wrench {
-            moment: g.sum_vectors(moments),
-            force: g.sum_vectors(forces),
-        });
+        let applied =
+            sums.map(|(moments, forces)| Wrench { moment: g.sum_vectors(moments), force: g.sum_vectors(forces) });
         let applied = applied.collect();
         let efforts: Vec<Scalar> = terms.efforts.iter().map(|list| g.sum(list)).collect();
         let loads = Rc::new(Loads { applied, efforts: mechanism.sign(&efforts) });
@@ -78,14 +82,14 @@ impl Equations<'_> {
                 let first = self.symbols.first.get(joint.0).copied().unwrap_or(0);
                 for (k, value) in values.iter().enumerate() {
                     let value = self.scalar(value);
-                    terms.efforts[first + k].push(value);
+                    terms.effort(first + k, value);
                 }
             }
             ForceKind::JointSpring { joint, coordinate, stiffness, damping, rest } => {
                 let spring = self.joint_spring(*joint, *coordinate, [stiffness, damping, rest]);
                 let effort = spring.effort(&mut self.g);
                 let first = self.symbols.first.get(joint.0).copied().unwrap_or(0);
-                terms.efforts[first + coordinate].push(effort);
+                terms.effort(first + coordinate, effort);
             }
             ForceKind::LineSpring { between, stiffness, damping, length } => {
                 let ends = [self.place(&between[0]), self.place(&between[1])];
@@ -102,14 +106,14 @@ impl Equations<'_> {
             ForceKind::Force { at, value, axes } => {
                 let place = self.place(at);
                 if place.link.is_some() {
-                    let force = self.to_link(&place, value, axes);
+                    let force = self.given_in(&place, value, axes);
                     terms.force(&mut self.g, &place, force);
                 }
             }
             ForceKind::Torque { at, value, axes } => {
                 let place = self.place(at);
                 if let Some(link) = place.link {
-                    let moment = self.to_link(&place, value, axes);
+                    let moment = self.given_in(&place, value, axes);
                     terms.moments[link].push(moment);
                 }
             }
@@ -117,10 +121,10 @@ impl Equations<'_> {
     }
 
     /// A vector given in a frame's axes, in those of a place's link.
-    fn to_link(&mut self, place: &Place, value: &Expr, axes: &Frame) -> Vector {
+    fn given_in(&mut self, place: &Place, value: &Expr, axes: &Frame) -> Vector {
         let axes = self.place(axes);
         if axes.link.is_none() && axes.rotation == Rotation::IDENTITY {
-            return self.in_link(place.link, value, super::frames::DEPTH);
+            return self.in_link(place.link, value);
         }
         let value = self.vector(value);
         let value = self.g.rotate(axes.rotation, value);
@@ -210,7 +214,7 @@ impl Equations<'_> {
             let value = self.vector(value);
             return self.g.dot(value, if angular { w } else { v });
         }
-        let value = self.to_link(&place, value, axes);
+        let value = self.given_in(&place, value, axes);
         let (w, v) = self.point_velocity(&place);
         self.g.dot(value, if angular { w } else { v })
     }

@@ -15,8 +15,9 @@ use super::equations::{Equations, Style};
 use super::values::Value;
 use super::world;
 
-/// Nested sums that are looked into for quantities of frames; beyond, a vector is turned as a whole.
-pub(super) const DEPTH: usize = 32;
+/// Size of a sum, shared parts counted as often as they occur, up to which it is looked into for quantities of frames;
+/// beyond, a vector is turned as a whole.
+const MOST_TERMS: usize = 64;
 
 /// Motion of a frame in world axes.
 struct FrameMotion {
@@ -198,30 +199,30 @@ impl Equations<'_> {
     /// Components in a frame's axes of a world vector. Quantities of frames on the same link need no way through the
     /// world, and sums are looked into for them.
     pub(super) fn express(&mut self, axes: &Place, vector: &Expr) -> Vector {
-        let v = self.in_link(axes.link, vector, DEPTH);
+        let v = self.in_link(axes.link, vector);
         self.g.rotate(axes.rotation.transpose(), v)
     }
 
     /// Components in a link's axes of a world vector.
-    pub(super) fn in_link(&mut self, link: Option<usize>, vector: &Expr, depth: usize) -> Vector {
-        if link.is_some() && depth > 0 && self.reaches(link, vector, depth) {
+    pub(super) fn in_link(&mut self, link: Option<usize>, vector: &Expr) -> Vector {
+        if link.is_some() && self.reaches(link, vector) {
             match &*vector.node {
                 ExprNode::Add(a, b) => {
-                    let (a, b) = (self.in_link(link, a, depth - 1), self.in_link(link, b, depth - 1));
+                    let (a, b) = (self.in_link(link, a), self.in_link(link, b));
                     return self.g.add_vectors(a, b);
                 }
                 ExprNode::Sub(a, b) => {
                     if let Some(difference) = self.difference(link, a, b) {
                         return difference;
                     }
-                    let (a, b) = (self.in_link(link, a, depth - 1), self.in_link(link, b, depth - 1));
+                    let (a, b) = (self.in_link(link, a), self.in_link(link, b));
                     return self.g.sub_vectors(a, b);
                 }
-                ExprNode::Neg(a) => return -self.in_link(link, a, depth - 1),
+                ExprNode::Neg(a) => return -self.in_link(link, a),
                 ExprNode::Mul(a, b) => {
                     let (factor, v) = if a.ty == crate::model::types::Type::Vec3 { (b, a) } else { (a, b) };
                     let factor = self.scalar(factor);
-                    let v = self.in_link(link, v, depth - 1);
+                    let v = self.in_link(link, v);
                     return self.g.scale(factor, v);
                 }
                 ExprNode::OfFrame(frame, quantity) => {
@@ -236,24 +237,30 @@ impl Equations<'_> {
         self.between(None, link, v)
     }
 
-    /// Whether a vector holds something that is at hand in this link's axes.
-    fn reaches(&mut self, link: Option<usize>, vector: &Expr, depth: usize) -> bool {
-        if depth == 0 {
-            return false;
-        }
-        match &*vector.node {
-            ExprNode::Add(a, b) => self.reaches(link, a, depth - 1) || self.reaches(link, b, depth - 1),
-            ExprNode::Sub(a, b) => {
-                let positions = [a, b].map(|e| matches!(&*e.node, ExprNode::OfFrame(_, FrameQuantity::Position)));
-                positions == [true; 2] || self.reaches(link, a, depth - 1) || self.reaches(link, b, depth - 1)
+    /// Whether a vector holds something that is at hand in this link's axes, and not too many terms.
+    fn reaches(&self, link: Option<usize>, vector: &Expr) -> bool {
+        let (mut found, mut terms) = (false, 0);
+        let mut stack = vec![vector];
+        while let Some(vector) = stack.pop() {
+            terms += 1;
+            if terms > MOST_TERMS {
+                return false;
             }
-            ExprNode::Neg(a) => self.reaches(link, a, depth - 1),
-            ExprNode::Mul(a, b) => self.reaches(link, a, depth - 1) || self.reaches(link, b, depth - 1),
-            ExprNode::OfFrame(frame, FrameQuantity::Velocity | FrameQuantity::AngularVelocity) => {
-                self.mechanism.body(frame.body).link == link
+            match &*vector.node {
+                ExprNode::Add(a, b) | ExprNode::Mul(a, b) => stack.extend([a, b]),
+                ExprNode::Sub(a, b) => {
+                    let position = |e: &Expr| matches!(&*e.node, ExprNode::OfFrame(_, FrameQuantity::Position));
+                    found |= position(a) && position(b);
+                    stack.extend([a, b]);
+                }
+                ExprNode::Neg(a) => stack.push(a),
+                ExprNode::OfFrame(frame, FrameQuantity::Velocity | FrameQuantity::AngularVelocity) => {
+                    found |= self.mechanism.body(frame.body).link == link;
+                }
+                _ => {}
             }
-            _ => false,
         }
+        found
     }
 
     /// The way from one frame to another, measured from the last link that carries both.
@@ -299,7 +306,8 @@ impl Equations<'_> {
         let Some(joint) = mechanism.joints.get(joint.0) else { return Vector::ZERO };
         let mut angular = Vector::ZERO;
         for link in tree.links.get(joint.links.clone()).unwrap_or(&[]) {
-            let carried = if link.parent.is_some_and(|parent| joint.links.contains(&parent)) { angular } else { Vector::ZERO };
+            let carried =
+                if link.parent.is_some_and(|parent| joint.links.contains(&parent)) { angular } else { Vector::ZERO };
             let carried = tree.to_link(&mut self.g, link, carried);
             let (turn, _) = tree.joint_motion(&mut self.g, link, &tree.velocity);
             angular = self.g.add_vectors(carried, turn);

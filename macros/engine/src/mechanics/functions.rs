@@ -65,12 +65,11 @@ pub(super) fn call(g: &mut Graph, function: Function, arguments: &[Value]) -> Va
 
 /// The root of a square that is a product x x: the absolute value, as a vector may have one component only.
 pub(super) fn length(g: &mut Graph, square: Scalar) -> Scalar {
-    if let ScalarNode::Product(factors) = g.node(square) {
-        if let [a, b] = factors[..] {
-            if a == b {
-                return g.call(Call::Abs, &[a]);
-            }
-        }
+    if let ScalarNode::Product(factors) = g.node(square)
+        && let [a, b] = factors[..]
+        && a == b
+    {
+        return g.call(Call::Abs, &[a]);
     }
     g.sqrt(square)
 }

@@ -8,6 +8,7 @@
 
 use crate::symbolic::graph::{Graph, Rotation, Scalar};
 
+use super::inertia::Inertia;
 use super::tree::{Link, Motion, Tree};
 
 /// Whose axes the links of a group take.
@@ -34,6 +35,8 @@ struct Member {
     head: usize,
     /// Whether its axis points along the head's or against.
     reversed: bool,
+    /// Nothing before the group turns: angular velocities have the one axis.
+    planar: bool,
     /// Sum of the angles from the base, about the head's axis.
     total: Scalar,
 }
@@ -74,7 +77,8 @@ pub fn share_axes(g: &mut Graph, tree: &Tree, axes: Axes) -> Option<Shared> {
         }
         let (axis, angle) = angles[index];
         if angle != Scalar::ZERO {
-            link.inertia = link.inertia.turn(g, axis, angle);
+            let planar = members[index].is_some_and(|m| m.planar);
+            link.inertia = if planar { turn_planar(g, &link.inertia, axis, angle) } else { link.inertia.turn(g, axis, angle) };
         }
     }
     Some(Shared { tree, turns })
@@ -89,9 +93,23 @@ fn members(g: &mut Graph, tree: &Tree) -> Vec<Option<Member>> {
         };
         let parent = link.parent.and_then(|p| members[p]);
         let joined = parent.and_then(|parent| join(g, link, axis, parent));
-        members.push(joined.or(Some(Member { axis, head: index, reversed: false, total: link.q })));
+        let planar = || std::iter::successors(link.parent, |&p| tree.links[p].parent).all(|p| is_straight(&tree.links[p]));
+        let alone = || Member { axis, head: index, reversed: false, planar: planar(), total: link.q };
+        members.push(Some(joined.unwrap_or_else(alone)));
     }
     members
+}
+
+fn is_straight(link: &Link) -> bool {
+    matches!(link.motion, Motion::Prismatic(_))
+}
+
+/// In the plane only the moment of inertia about the axis counts, which no turn changes.
+fn turn_planar(g: &mut Graph, inertia: &Inertia, axis: usize, angle: Scalar) -> Inertia {
+    let mut second = [Scalar::ZERO; 6];
+    second[(axis + 1) % 3] = inertia.tensor(g, axis, axis);
+    let flat = Inertia { second: [Scalar::ZERO; 6], ..*inertia };
+    Inertia { second, ..flat.turn(g, axis, angle) }
 }
 
 /// The member that a link is, if its axis is its parent's or the opposite.
@@ -102,7 +120,7 @@ fn join(g: &mut Graph, link: &Link, axis: usize, parent: Member) -> Option<Membe
     }
     let reversed = parent.reversed != along.is_negative();
     let total = g.add(parent.total, if reversed { -link.q } else { link.q });
-    Some(Member { axis, head: parent.head, reversed, total })
+    Some(Member { axis, head: parent.head, reversed, planar: parent.planar, total })
 }
 
 /// The angle of each group's new axes, at the position of its head.

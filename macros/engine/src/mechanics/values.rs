@@ -8,7 +8,7 @@ use crate::symbolic::graph::{Graph, Scalar, Vector};
 
 /// A value on the graph. Clones are cheap.
 #[derive(Clone, Debug)]
-pub enum Value {
+pub(super) enum Value {
     /// A number, or a mask.
     Scalar(Scalar),
     Vector(Vector),
@@ -24,10 +24,10 @@ pub enum Value {
 }
 
 impl Value {
-    pub const ZERO: Value = Value::Scalar(Scalar::ZERO);
+    pub(super) const ZERO: Value = Value::Scalar(Scalar::ZERO);
 
     /// Zero where the checker has let something else through.
-    pub fn scalar(&self) -> Scalar {
+    pub(super) fn scalar(&self) -> Scalar {
         match self {
             Value::Scalar(s) => *s,
             _ => Scalar::ZERO,
@@ -35,7 +35,7 @@ impl Value {
     }
 
     /// A vector, also of an array of three scalars.
-    pub fn vector(&self, g: &mut Graph) -> Vector {
+    pub(super) fn vector(&self, g: &mut Graph) -> Vector {
         match self {
             Value::Vector(v) => *v,
             Value::Array(list) => match &list[..] {
@@ -47,7 +47,7 @@ impl Value {
     }
 
     /// Scalars in the order that `FunctionKind::Outputs` documents.
-    pub fn flatten(&self, g: &mut Graph, out: &mut Vec<Scalar>) {
+    pub(super) fn flatten(&self, g: &mut Graph, out: &mut Vec<Scalar>) {
         match self {
             Value::Scalar(s) => out.push(*s),
             Value::Vector(v) => out.extend(g.components(*v)),
@@ -66,7 +66,7 @@ impl Value {
     }
 
     /// Applies an operation to every part that is a scalar or a vector.
-    pub fn map(&self, g: &mut Graph, f: &mut impl FnMut(&mut Graph, Part) -> Part) -> Value {
+    pub(super) fn map(&self, g: &mut Graph, f: &mut impl FnMut(&mut Graph, Part) -> Part) -> Value {
         match self {
             Value::Scalar(s) => Value::Scalar(f(g, Part::Scalar(*s)).scalar()),
             Value::Vector(v) => Value::Vector(f(g, Part::Vector(*v)).vector()),
@@ -80,7 +80,7 @@ impl Value {
     }
 
     /// Combines two values of one type, scalar by scalar; vectors stay whole where `vectors` can do that.
-    pub fn zip(
+    pub(super) fn zip(
         &self,
         other: &Value,
         g: &mut Graph,
@@ -100,9 +100,8 @@ impl Value {
                 Value::Rotation(Rc::new(rows))
             }
             (Value::Jacobian(a), Value::Jacobian(b)) => {
-                let row = |k: usize| -> Vec<Scalar> {
-                    a[k].iter().zip(&b[k]).map(|(&x, &y)| scalars(g, x, y)).collect()
-                };
+                let row =
+                    |k: usize| -> Vec<Scalar> { a[k].iter().zip(&b[k]).map(|(&x, &y)| scalars(g, x, y)).collect() };
                 Value::Jacobian(Rc::new([0, 1, 2, 3, 4, 5].map(row)))
             }
             (Value::Array(a), Value::Array(b)) => {
@@ -115,7 +114,7 @@ impl Value {
 
 /// A scalar or a vector.
 #[derive(Clone, Copy, Debug)]
-pub enum Part {
+pub(super) enum Part {
     Scalar(Scalar),
     Vector(Vector),
 }

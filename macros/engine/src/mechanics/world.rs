@@ -90,13 +90,7 @@ fn moves(link: &Link) -> bool {
 }
 
 /// Angular and linear rates of a joint.
-fn joint_rates(
-    g: &mut Graph,
-    tree: &Tree,
-    columns: &mut Columns,
-    index: usize,
-    rates: &[Scalar],
-) -> (Vector, Vector) {
+fn joint_rates(g: &mut Graph, tree: &Tree, columns: &mut Columns, index: usize, rates: &[Scalar]) -> (Vector, Vector) {
     let (turn, travel) = tree.joint_motion(g, &tree.links[index], rates);
     (columns.rotate(g, tree, Some(index), turn), columns.rotate(g, tree, Some(index), travel))
 }

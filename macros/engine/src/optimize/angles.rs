@@ -11,7 +11,7 @@ use super::dag::{Dag, Id, Kind, ONE};
 use super::stage::Stage;
 
 /// An angle as a combination of units.
-type Combination = BTreeMap<Id, u64>;
+type Combination = BTreeMap<Id, Number>;
 
 struct Angle {
     id: Id,
@@ -23,7 +23,11 @@ struct Angle {
 pub fn angles(dag: &mut Dag) {
     let mut known: Vec<Angle> = Vec::new();
     let mut list = gather(dag);
-    list.sort_by_key(|angle| (angle.units.len(), angle.id));
+    // Few units first, and halves before wholes, so that a double angle finds its half.
+    let size = |angle: &Angle| angle.units.values().fold(0.0, |most: f64, c| most.max(c.value().abs()));
+    list.sort_by(|a, b| {
+        (a.units.len().cmp(&b.units.len())).then(size(a).total_cmp(&size(b))).then(a.id.cmp(&b.id))
+    });
     for angle in list {
         let late = dag.nodes[angle.id].stage > Stage::Parameter;
         let pair = if late { find_pair(&known, &angle.units) } else { None };
@@ -62,8 +66,8 @@ fn gather(dag: &Dag) -> Vec<Angle> {
 
 fn units(dag: &Dag, id: Id) -> Combination {
     match &dag.nodes[id].kind {
-        Kind::Sum(terms) => terms.iter().map(|&(c, t)| (t, c.residue)).collect(),
-        _ => BTreeMap::from([(id, 1)]),
+        Kind::Sum(terms) => terms.iter().map(|&(c, t)| (t, c)).collect(),
+        _ => BTreeMap::from([(id, Number::ONE)]),
     }
 }
 
@@ -72,7 +76,7 @@ fn find_pair(known: &[Angle], units: &Combination) -> Option<(usize, usize, bool
     for (a, first) in known.iter().enumerate() {
         for (b, second) in known.iter().enumerate() {
             for minus in [false, true] {
-                if (minus || a <= b) && combine(&first.units, &second.units, minus) == *units {
+                if (minus && a != b || !minus && a <= b) && combine(&first.units, &second.units, minus) == *units {
                     return Some((a, b, minus));
                 }
             }
@@ -82,14 +86,12 @@ fn find_pair(known: &[Angle], units: &Combination) -> Option<(usize, usize, bool
 }
 
 fn combine(a: &Combination, b: &Combination, minus: bool) -> Combination {
-    use crate::symbolic::fingerprint as field;
     let mut sum = a.clone();
     for (&id, &c) in b {
-        let c = if minus { field::neg(c) } else { c };
-        let entry = sum.entry(id).or_insert(0);
-        *entry = field::add(*entry, c);
+        let entry = sum.entry(id).or_insert(Number::ZERO);
+        *entry = entry.add(if minus { c.neg() } else { c });
     }
-    sum.retain(|_, c| *c != 0);
+    sum.retain(|_, c| !c.is_zero());
     sum
 }
 

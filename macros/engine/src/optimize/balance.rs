@@ -175,10 +175,16 @@ fn apply(dag: &mut Dag, id: Id, terms: Vec<(Number, Id)>, reach: &Reach, factor:
         let kind = if node == id { Kind::Sum(Vec::clone(&terms)) } else { dag.nodes[node].kind.clone() };
         dag.replace(node, kind, print);
     }
-    for &(sum, term, p) in &reach.coefficients {
+    // Several terms of one sum may be scaled: its value is kept only by all of them together.
+    let mut sums: Vec<Id> = reach.coefficients.iter().map(|&(sum, ..)| sum).collect();
+    sums.sort_unstable();
+    sums.dedup();
+    for sum in sums {
         if let Kind::Sum(mut list) = dag.nodes[sum].kind.clone() {
-            for t in list.iter_mut().filter(|t| t.1 == term) {
-                t.0 = t.0.mul(power(factor, -p));
+            for &(_, term, p) in reach.coefficients.iter().filter(|c| c.0 == sum) {
+                for t in list.iter_mut().filter(|t| t.1 == term) {
+                    t.0 = t.0.mul(power(factor, -p));
+                }
             }
             dag.rewrite(sum, Kind::Sum(list));
         }

@@ -84,16 +84,14 @@ fn springs_give_back_what_they_hold() {
     let length = |p: &Point| vec![case.output("line", p).iter().map(|x| x * x).sum::<f64>().sqrt()];
     let rate = case.rate_along_flow(&point, length)[0];
     let lost = 0.8 * rate * rate + case.output("loss", &point)[0];
-    let given: f64 = case.output("elastic", &point).iter().sum::<f64>()
-        + case.output("bushings", &point).iter().sum::<f64>()
-        + lost;
+    let given: f64 =
+        case.output("elastic", &point).iter().sum::<f64>() + case.output("bushings", &point).iter().sum::<f64>() + lost;
     close("elastic power", &case.rate_along_flow(&point, springs), &[-given], 1e-6);
 }
 
 fn case_without_springs() -> Case {
-    let kept = |line: &&str| {
-        !line.contains("Spring") && !line.contains("output elastic") && !line.contains("output bushings")
-    };
+    let kept =
+        |line: &&str| !line.contains("Spring") && !line.contains("output elastic") && !line.contains("output bushings");
     case(&ZOO.lines().filter(kept).collect::<Vec<&str>>().join("\n"))
 }
 

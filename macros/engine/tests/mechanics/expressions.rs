@@ -120,3 +120,21 @@ fn long_chains_of_names() {
     let expected = (0..150).fold(u, |a, _| a * 0.999 + x);
     close("value", &case.output("value", &point), &[expected], 1e-9);
 }
+
+#[test]
+fn shared_vectors_are_looked_into_with_measure() {
+    // Doubled forty times, and turned into the body's axes.
+    let mut lets = String::from("let v0 = b.at(X).velocity;");
+    for k in 1..=40 {
+        lets += &format!("let v{k} = 0.5 * (v{} + v{});", k - 1, k - 1);
+    }
+    let case = case(&format!(
+        "{PENDULUM} {lets}
+        output value = b.express(v40 - v1 + b.at(X).velocity);
+        output own = b.express(b.at(X).velocity);"
+    ));
+    let point = case.random(1);
+    let rate = case.velocity(&point)[0];
+    close("own", &case.output("own", &point), &[0.0, rate, 0.0], 1e-15);
+    close("value", &case.output("value", &point), &[0.0, rate, 0.0], 1e-14);
+}

@@ -135,9 +135,8 @@ fn efforts_add_up() {
         output other = two.effort;"
     ));
     let point = case.random(9);
-    let expected = input(&case, &point)[0]
-        - 2.0 * (case.output("angle", &point)[0] - 0.1)
-        - 0.5 * case.output("rates", &point)[1];
+    let expected =
+        input(&case, &point)[0] - 2.0 * (case.output("angle", &point)[0] - 0.1) - 0.5 * case.output("rates", &point)[1];
     close("effort", &case.output("sum", &point), &[expected], 1e-14);
     assert_eq!(case.output("other", &point), [0.0]);
 }

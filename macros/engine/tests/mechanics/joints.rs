@@ -106,7 +106,12 @@ fn velocities(kind: &str, case: &Case, point: &Point) {
     close(&format!("{kind} Jacobian in the frame's axes"), &times_v("own_jacobian"), &own, 1e-13);
     let norm = |list: &[f64]| list.iter().map(|x| x * x).sum::<f64>();
     let base = times_v("base_jacobian");
-    close("lengths do not depend on axes", &[norm(&base[..3]), norm(&base[3..])], &[norm(&velocity), norm(&angular)], 1e-12);
+    close(
+        "lengths do not depend on axes",
+        &[norm(&base[..3]), norm(&base[3..])],
+        &[norm(&velocity), norm(&angular)],
+        1e-12,
+    );
 }
 
 fn dynamics(kind: &str, case: &Case, point: &Point) {
@@ -171,7 +176,9 @@ fn axis_of_parameters() {
 
 #[test]
 fn universal() {
-    check("Universal { axes: [X, Y]", |q| (times(&turn([1.0, 0.0, 0.0], q[0]), &turn([0.0, 1.0, 0.0], q[1])), [0.0; 3]));
+    check("Universal { axes: [X, Y]", |q| {
+        (times(&turn([1.0, 0.0, 0.0], q[0]), &turn([0.0, 1.0, 0.0], q[1])), [0.0; 3])
+    });
     check("Universal { axes: [-Z, [1.0, 2.0, 0.0]]", |q| {
         (times(&turn([0.0, 0.0, -1.0], q[0]), &turn([1.0, 2.0, 0.0], q[1])), [0.0; 3])
     });

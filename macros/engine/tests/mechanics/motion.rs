@@ -87,7 +87,9 @@ fn frames_do_not_matter() {
             parent: a.at(X).rotated(Z, 0.5 * PI), child: b.at(0.5 * Y), axes: [-Y, X]
         }}
         {}",
-        OUTPUTS.replace("b.at([0.1, 0.2, 0.3])", "b.at([0.2, 0.4, 0.3])").replace("b.pose", "b.at(0.5 * Y).rotated(Z, -0.5 * PI).pose")
+        OUTPUTS
+            .replace("b.at([0.1, 0.2, 0.3])", "b.at([0.2, 0.4, 0.3])")
+            .replace("b.pose", "b.at(0.5 * Y).rotated(Z, -0.5 * PI).pose")
     ));
     for seed in 1..4 {
         let point = plain.random(seed);

@@ -94,7 +94,9 @@ impl Case {
 
     fn quaternions(&self) -> Vec<(multibody_engine::model::types::JointId, usize)> {
         let joints = self.model.joints.iter().enumerate();
-        joints.filter_map(|(k, joint)| Some((multibody_engine::model::types::JointId(k), quaternion_start(joint)?))).collect()
+        joints
+            .filter_map(|(k, joint)| Some((multibody_engine::model::types::JointId(k), quaternion_start(joint)?)))
+            .collect()
     }
 
     fn normalise(&self, point: &mut Point) {
@@ -174,7 +176,8 @@ impl Case {
             let id = multibody_engine::model::types::JointId(k);
             let straight = quaternion_start(joint).unwrap_or(joint.kind.freedoms());
             for component in 0..straight {
-                *next.values.get_mut(&Symbol::Position { joint: id, component }).expect("known") += h * v[first + component];
+                *next.values.get_mut(&Symbol::Position { joint: id, component }).expect("known") +=
+                    h * v[first + component];
             }
             if let Some(start) = quaternion_start(joint) {
                 let w = &v[first + start..first + start + 3];
@@ -188,7 +191,8 @@ impl Case {
                 }
             }
             for component in 0..joint.kind.freedoms() {
-                *next.values.get_mut(&Symbol::Velocity { joint: id, component }).expect("known") += h * a[first + component];
+                *next.values.get_mut(&Symbol::Velocity { joint: id, component }).expect("known") +=
+                    h * a[first + component];
             }
             first += joint.kind.freedoms();
         }
@@ -215,7 +219,7 @@ impl Case {
 
     /// Central differences of order four.
     pub fn derivative(&self, f: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
-        let h = 2e-3;
+        let h = 2e-4;
         let [a, b, c, d] = [f(-2.0 * h), f(-h), f(h), f(2.0 * h)];
         (0..a.len()).map(|k| (a[k] - 8.0 * b[k] + 8.0 * c[k] - d[k]) / (12.0 * h)).collect()
     }
