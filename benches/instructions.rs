@@ -96,19 +96,34 @@ mod arms {
 }
 use arms::{cart5::cart5, double_pendulum::double_pendulum, panda::panda, puma560::puma560};
 
-/// Angles, rates, efforts.
-type Point = [[f64; 2]; 3];
+/// The two double pendulums, one under the other.
+mod by_hand {
+    use super::*;
+    use models::double_pendulum::{self, Point};
 
-fn point() -> &'static Point {
-    leak([0, 1, 3].map(|kind| sample::<f64, 2>(kind).into()))
+    /// Angles, rates, efforts.
+    fn plain() -> &'static [[f64; 2]; 3] {
+        leak([0, 1, 3].map(|kind| sample::<f64, 2>(kind).into()))
+    }
+
+    fn point() -> &'static Point<f64> {
+        leak(double_pendulum::point())
+    }
+
+    #[library_benchmark]
+    #[bench::forward_dynamics(plain())]
+    fn written_by_hand([q, v, effort]: &[[f64; 2]; 3]) -> [f64; 2] {
+        black_box(hand::forward_dynamics(black_box(q), black_box(v), black_box(effort)))
+    }
+
+    #[library_benchmark]
+    #[bench::forward_dynamics(point())]
+    fn generated(p: &Point<f64>) -> SVector<f64, 2> {
+        black_box(double_pendulum::forward_dynamics(black_box(p))).into()
+    }
+
+    library_benchmark_group!(name = against_hand; compare_by_id = true; benchmarks = written_by_hand, generated);
 }
+use by_hand::against_hand;
 
-#[library_benchmark]
-#[bench::double_pendulum(point())]
-fn forward_dynamics([q, v, effort]: &Point) -> [f64; 2] {
-    black_box(hand::forward_dynamics(black_box(q), black_box(v), black_box(effort)))
-}
-
-library_benchmark_group!(name = by_hand; benchmarks = forward_dynamics);
-
-main!(library_benchmark_groups = by_hand, double_pendulum, cart5, puma560, panda);
+main!(library_benchmark_groups = against_hand, double_pendulum, cart5, puma560, panda);

@@ -7,10 +7,8 @@ use multibody::Real;
 use multibody::nalgebra::SVector;
 use multibody::simba::simd::{WideF32x8, WideF64x4};
 
-/// A scalar and how many numbers are in it.
+/// A scalar made of one or several numbers.
 pub trait Lanes: Real {
-    /// Evaluations that one call makes.
-    const COUNT: usize;
     /// The lanes' values by their number.
     fn fill(value: impl Fn(usize) -> f64) -> Self;
 }
@@ -19,7 +17,6 @@ macro_rules! lanes {
     ($($scalar:ty, $element:ty, $count:literal;)*) => {
         $(
             impl Lanes for $scalar {
-                const COUNT: usize = $count;
                 fn fill(value: impl Fn(usize) -> f64) -> Self {
                     let values: [$element; $count] = std::array::from_fn(|lane| value(lane) as $element);
                     values.into()
@@ -32,14 +29,12 @@ macro_rules! lanes {
 lanes! { WideF64x4, f64, 4; WideF32x8, f32, 8; }
 
 impl Lanes for f64 {
-    const COUNT: usize = 1;
     fn fill(value: impl Fn(usize) -> f64) -> Self {
         value(0)
     }
 }
 
 impl Lanes for f32 {
-    const COUNT: usize = 1;
     fn fill(value: impl Fn(usize) -> f64) -> Self {
         value(0) as f32
     }

@@ -28,27 +28,27 @@ macro_rules! arm {
             #[divan::bench(sample_size = 1000, types = [f64, f32, WideF64x4, WideF32x8])]
             fn inverse_dynamics<T: Lanes>(bencher: Bencher<'_, '_>) {
                 let p = point::<T>();
-                bencher.counter(ItemsCount::new(T::COUNT)).bench_local(|| arm::inverse_dynamics(black_box(&p)));
+                bencher.counter(ItemsCount::new(T::LANES)).bench_local(|| arm::inverse_dynamics(black_box(&p)));
             }
 
             #[divan::bench(sample_size = 1000, types = [f64, f32, WideF64x4, WideF32x8])]
             fn mass_matrix<T: Lanes>(bencher: Bencher<'_, '_>) {
                 let p = point::<T>();
-                bencher.counter(ItemsCount::new(T::COUNT)).bench_local(|| arm::mass_matrix(black_box(&p)));
+                bencher.counter(ItemsCount::new(T::LANES)).bench_local(|| arm::mass_matrix(black_box(&p)));
             }
 
             #[divan::bench(sample_size = 1000, types = [f64, f32, WideF64x4, WideF32x8])]
             fn forward_dynamics<T: Lanes>(bencher: Bencher<'_, '_>) {
                 let p = point::<T>();
-                bencher.counter(ItemsCount::new(T::COUNT)).bench_local(|| arm::forward_dynamics(black_box(&p)));
+                bencher.counter(ItemsCount::new(T::LANES)).bench_local(|| arm::forward_dynamics(black_box(&p)));
             }
 
             #[divan::bench(sample_size = 1000)]
             fn inverse_dynamics_recursive(bencher: Bencher<'_, '_>) {
                 let (tree, [q, v, a, _]) = textbook();
-                bencher.counter(ItemsCount::new(1_usize)).bench_local(|| {
-                    black_box(&tree).inverse_dynamics(black_box(&q), black_box(&v), black_box(&a))
-                });
+                bencher
+                    .counter(ItemsCount::new(1_usize))
+                    .bench_local(|| black_box(&tree).inverse_dynamics(black_box(&q), black_box(&v), black_box(&a)));
             }
 
             #[divan::bench(sample_size = 1000)]

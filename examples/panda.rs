@@ -170,10 +170,10 @@ struct Controlled {
 }
 
 impl Controlled {
-    /// [N m] follows the reference; errors decay like a critically damped oscillator of 20 rad/s.
+    /// [N m] follows the reference; errors decay like a critically damped oscillator of 40 rad/s.
     fn torque(&self, t: f64, arm: &State) -> Joints {
         let [q, v, a] = reference(t);
-        let (frequency, real_q, real_v) = (20.0, Joints::from(arm.q), Joints::from(arm.v));
+        let (frequency, real_q, real_v) = (40.0, Joints::from(arm.q), Joints::from(arm.v));
         let accel = a + (v - real_v) * (2.0 * frequency) + (q - real_q) * (frequency * frequency);
         self.belief.inverse_dynamics(t, arm, &Input::default(), &accel.into()).into()
     }

@@ -32,7 +32,7 @@ fn energy_stays_without_losses() {
     let energy = |x: &tree::State| model.kinetic_energy(x) + model.potential_energy(&x.q);
     let first = energy(&start);
     let mut most = 0.0_f64;
-    let end = DormandPrince::integrate(&model, 0.0, &start, &input, 5e-5, 20000, |_, x| {
+    let end = DormandPrince::integrate(&model, 0.0, &start, &input, 1e-4, 10000, |_, x| {
         most = most.max((energy(x) - first).abs());
     });
     let end = end.unwrap();

@@ -252,7 +252,8 @@ fn kinks_take_the_branch_of_the_value() {
     let mask = g.call(Call::Less, &[x, y]);
     let square = g.mul(x, x);
     let chosen = g.call(Call::Select, &[mask, square, y]);
-    let slopes: Vec<Scalar> = [abs, larger, mask, chosen].iter().map(|&f| g.derivative(f, &[(x, Scalar::ONE)])).collect();
+    let slopes: Vec<Scalar> =
+        [abs, larger, mask, chosen].iter().map(|&f| g.derivative(f, &[(x, Scalar::ONE)])).collect();
     assert_eq!(values(&g, &slopes, &[-2.0, 1.0]), [-1.0, 0.0, 0.0, -4.0]);
     assert_eq!(values(&g, &slopes, &[3.0, 1.0]), [1.0, 1.0, 0.0, 0.0]);
 }

@@ -12,6 +12,9 @@ mod random;
 #[path = "common/rng.rs"]
 mod rng;
 
+use std::cell::Cell;
+
+use multibody_engine::mechanics::parallel::{Axes, share_axes};
 use multibody_engine::mechanics::regroup::regroup;
 use multibody_engine::mechanics::tree::{Motion, Tree};
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
@@ -169,6 +172,26 @@ fn formulations_are_identical() {
     });
 }
 
+/// Links that turn about parallel axes, written in common ones.
+#[test]
+fn common_axes_change_no_value() {
+    let written = Cell::new(0);
+    for_trees(48, |mechanism, _| {
+        for axes in [Axes::Base, Axes::Tip] {
+            for function in [inverse_dynamics as Function, mass_matrix, by_composite, by_articulated] {
+                let mut m = derive(&mechanism);
+                m.tree = regroup(&mut m.graph, &m.tree);
+                let Some(shared) = share_axes(&mut m.graph, &m.tree, axes) else { return };
+                m.tree = shared.tree;
+                let roots = function(&mut m);
+                assert_identical("common axes", &(m.graph, roots), &derived(&mechanism, true, function));
+                written.set(written.get() + 1);
+            }
+        }
+    });
+    assert!(written.get() > 40, "{}", written.get());
+}
+
 /// Efforts into accelerations and back, exactly modulo the prime.
 #[test]
 fn inverse_after_forward_is_exact() {
@@ -196,8 +219,10 @@ fn power_balances() {
         let matrix = mass_matrix(&mut m);
         let (g, v) = (&mut m.graph, &m.tree.velocity);
         let rows = matrix.chunks(v.len()).zip(v);
-        let terms: Vec<Scalar> =
-            rows.flat_map(|(row, &a)| row.iter().zip(v).map(move |(&e, &b)| [a, e, b])).map(|t| g.product(&t)).collect();
+        let terms: Vec<Scalar> = rows
+            .flat_map(|(row, &a)| row.iter().zip(v).map(move |(&e, &b)| [a, e, b]))
+            .map(|t| g.product(&t))
+            .collect();
         let (sum, half) = (g.sum(&terms), g.decimal(0.5));
         let energy = g.mul(half, sum);
         let rates = rates(g, &m.tree);
@@ -213,7 +238,8 @@ fn power_balances() {
 
 /// How all symbols of a tree move: q' = v, quaternions by half their product with the angular velocity, v' = a.
 fn rates(g: &mut Graph, tree: &Tree) -> Vec<(Scalar, Scalar)> {
-    let mut rates: Vec<(Scalar, Scalar)> = tree.velocity.iter().copied().zip(tree.acceleration.iter().copied()).collect();
+    let mut rates: Vec<(Scalar, Scalar)> =
+        tree.velocity.iter().copied().zip(tree.acceleration.iter().copied()).collect();
     let half = g.decimal(0.5);
     for link in &tree.links {
         let Motion::Ball(q) = link.motion else {

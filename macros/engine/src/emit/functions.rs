@@ -161,7 +161,10 @@ fn result_value(layout: &Layout<'_>, kind: FunctionKind, results: Vec<TokenStrea
         FunctionKind::ForwardDynamics | FunctionKind::InverseDynamics => filled(layout, Group::Velocity, &results),
         FunctionKind::MassMatrix => leaf::matrix(krate, dof, dof, &mut results.into_iter()),
         FunctionKind::Bias if dof == 0 => quote!(#krate::nalgebra::SVector::zeros()),
-        FunctionKind::Bias => quote!(#krate::nalgebra::SVector::from([#(#results),*])),
+        FunctionKind::Bias => {
+            let results = results.into_iter().map(leaf::element);
+            quote!(#krate::nalgebra::SVector::from([#(#results),*]))
+        }
         FunctionKind::KineticEnergy | FunctionKind::PotentialEnergy => quote!(#(#results)*),
         FunctionKind::Outputs => filled(layout, Group::Output, &results),
     }

@@ -3,7 +3,7 @@
 //! In: kinds of joints and types of values. Out: for each the Rust type, how to reach one of its scalars, and how to
 //! build it from scalars. The one table that knows the runtime's coordinate structs.
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Literal, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
 use syn::Path;
 
@@ -192,7 +192,7 @@ impl Leaf {
         match self {
             Leaf::Scalar => scalars.next().unwrap_or_default(),
             Leaf::Vec3 => {
-                let list = scalars.take(3);
+                let list = scalars.take(3).map(element);
                 quote!(#krate::nalgebra::Vector3::from([#(#list),*]))
             }
             Leaf::Quaternion => quaternion(&scalars.take(4).collect::<Vec<_>>()),
@@ -209,8 +209,8 @@ impl Leaf {
                 });
                 quote!(#krate::#name { #(#fields),* })
             }
-            Leaf::Array(element, count) => {
-                let list = (0..*count).map(|_| element.compose(krate, scalars, quaternion));
+            Leaf::Array(leaf, count) => {
+                let list = (0..*count).map(|_| element(leaf.compose(krate, scalars, quaternion)));
                 quote!([#(#list),*])
             }
         }
@@ -244,6 +244,13 @@ pub(super) fn initialiser(field: &impl ToTokens, value: &TokenStream) -> TokenSt
     if single.is_some_and(|token| token.to_string() == name) { value.clone() } else { quote!(#field: #value) }
 }
 
+/// Expands to an element of an array: a difference or product in parentheses, since all of a call's tokens stand at one
+/// place in the user's file, and clippy takes an operator that follows a line break for a missing comma.
+pub(super) fn element(value: TokenStream) -> TokenStream {
+    let operator = |token: &TokenTree| matches!(token, TokenTree::Punct(p) if matches!(p.as_char(), '-' | '*'));
+    if value.clone().into_iter().skip(1).any(|token| operator(&token)) { quote!((#value)) } else { value }
+}
+
 /// Expands to a matrix from entries that come row by row; nalgebra's arrays are columns.
 pub(super) fn matrix(
     krate: &Path,
@@ -254,7 +261,7 @@ pub(super) fn matrix(
     if rows * columns == 0 {
         return quote!(#krate::nalgebra::SMatrix::zeros());
     }
-    let entries: Vec<TokenStream> = scalars.take(rows * columns).collect();
+    let entries: Vec<TokenStream> = scalars.take(rows * columns).map(element).collect();
     let columns = (0..columns).map(|column| {
         let list = entries.iter().skip(column).step_by(columns.max(1));
         quote!([#(#list),*])

@@ -68,7 +68,7 @@ fn eliminate(g: &mut Graph, tree: &Tree, mut wrenches: Vec<Wrench>, efforts: &[S
             g.name(inverse, || format!("inverse_{}", freedom + 1));
             inertia = inertia.less(g, &column, &gain);
             wrench = std::array::from_fn(|k| {
-                let handed = g.mul(column[k], drive);
+                let handed = g.mul(gain[k], rest);
                 g.add(wrench[k], handed)
             });
             pivots.push(Pivot { link: index, freedom, twist, gain, drive });

@@ -12,7 +12,7 @@ use super::constants;
 use super::equations::Equations;
 use super::inertia::Inertia;
 use super::names;
-use super::tree::Tree;
+use super::tree::{Motion, Tree};
 
 /// A frame that is fixed to a link, or to the ground.
 #[derive(Clone, Copy, Debug)]
@@ -74,10 +74,23 @@ impl Mechanism {
         list.iter().zip(flipped).map(|(&x, flip)| if flip { -x } else { x }).collect()
     }
 
-    /// Elimination from the leaves to the ground, which fills nothing in.
-    pub fn elimination(&self) -> Vec<usize> {
-        let freedoms = |link: &super::tree::Link| link.freedom..link.freedom + link.motion.freedoms();
-        self.tree.links.iter().rev().flat_map(freedoms).filter(|&k| k < self.flipped.len()).collect()
+    /// Elimination from the leaves to the ground, which fills nothing in. With `floating` the translations of what floats
+    /// in the world go first: their pivots are constant masses, and what is left of a body is its inertia about the
+    /// centre of mass, constant too.
+    pub fn elimination(&self, floating: bool) -> Vec<usize> {
+        let mut first: Vec<bool> = Vec::with_capacity(self.tree.links.len());
+        for link in &self.tree.links {
+            let carried = link.parent.is_none_or(|parent| first.get(parent) == Some(&true));
+            first.push(floating && carried && matches!(link.motion, Motion::Prismatic(_)));
+        }
+        let mut order = Vec::with_capacity(self.flipped.len());
+        for now in [true, false] {
+            for (link, _) in self.tree.links.iter().zip(&first).rev().filter(|&(_, &first)| first == now) {
+                let freedoms = link.freedom..link.freedom + link.motion.freedoms();
+                order.extend(freedoms.filter(|&k| k < self.flipped.len()));
+            }
+        }
+        order
     }
 }
 

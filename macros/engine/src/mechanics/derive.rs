@@ -8,7 +8,7 @@
 use std::collections::HashSet;
 use std::rc::Rc;
 
-use crate::model::types::{Expr, ExprNode, JointId, JointKind, Model, Order, Request};
+use crate::model::types::{BodyRef, Expr, ExprNode, Joint, JointId, JointKind, Model, Order, Request};
 use crate::optimize::program::FunctionKind;
 use crate::symbolic::graph::{Graph, Scalar};
 
@@ -106,7 +106,13 @@ impl<'m> Deriving<'m> {
             false => &METHODS[..1],
         };
         let way = |method| Way { style: Style::Nested, method };
-        methods.iter().map(|&(method, name)| self.candidate(name, way(method), &kept, all)).collect()
+        let mut candidates: Vec<Candidate> =
+            methods.iter().map(|&(method, name)| self.candidate(name, way(method), &kept, all)).collect();
+        if floats(model) && freedoms(model) <= MOST_COMPOSITE {
+            let name = "composite rigid body, LDL^T, translations first";
+            candidates.push(self.candidate(name, way(Method::Floating), &kept, all));
+        }
+        candidates
     }
 
     fn outputs(&mut self) -> Vec<Candidate> {
@@ -145,6 +151,12 @@ impl<'m> Deriving<'m> {
 /// links of `Fixed` joints that are kept for their reactions.
 fn articulates(model: &Model, kept: &[JointId]) -> bool {
     kept.is_empty() && freedoms(model) > 1
+}
+
+/// Whether something moves about in the world by translations.
+fn floats(model: &Model) -> bool {
+    let floating = |joint: &Joint| matches!(joint.kind, JointKind::Free(_) | JointKind::Planar { .. });
+    model.joints.iter().any(|joint| floating(joint) && joint.parent.body == BodyRef::Ground)
 }
 
 fn freedoms(model: &Model) -> usize {

@@ -66,11 +66,12 @@ impl Equations<'_> {
         let mechanism = Rc::clone(&self.mechanism);
         let tree = self.regrouped();
         let list = match self.method {
-            Method::Composite => {
+            Method::Composite | Method::Floating => {
                 let matrix = composite::mass_matrix(&mut self.g, &tree);
                 let bias = self.efforts(&vec![Scalar::ZERO; tree.freedoms()]);
+                let order = mechanism.elimination(self.method == Method::Floating);
                 let rhs: Vec<Scalar> = bias.iter().map(|&b| -b).collect();
-                solve_symmetric(&mut self.g, &matrix, &mechanism.elimination(), &rhs)
+                solve_symmetric(&mut self.g, &matrix, &order, &rhs)
             }
             Method::Articulated => {
                 let loads = self.loads();

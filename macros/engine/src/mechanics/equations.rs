@@ -31,6 +31,8 @@ pub enum Style {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     Composite,
+    /// The same, solved from the translations of floating bodies.
+    Floating,
     Articulated,
 }
 

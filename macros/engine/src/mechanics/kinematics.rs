@@ -20,7 +20,8 @@ pub struct LinkMotion {
 }
 
 impl LinkMotion {
-    pub const REST: LinkMotion = LinkMotion { angular: Vector::ZERO, angular_rate: Vector::ZERO, linear_rate: Vector::ZERO };
+    pub const REST: LinkMotion =
+        LinkMotion { angular: Vector::ZERO, angular_rate: Vector::ZERO, linear_rate: Vector::ZERO };
 }
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -80,7 +81,13 @@ impl Field {
 }
 
 /// Motions of all links. `base` is minus gravity where forces are wanted, zero for true accelerations.
-pub fn motions(g: &mut Graph, tree: &Tree, velocity: &[Scalar], acceleration: &[Scalar], base: Vector) -> Vec<LinkMotion> {
+pub fn motions(
+    g: &mut Graph,
+    tree: &Tree,
+    velocity: &[Scalar],
+    acceleration: &[Scalar],
+    base: Vector,
+) -> Vec<LinkMotion> {
     let mut motions: Vec<LinkMotion> = Vec::with_capacity(tree.links.len());
     for link in &tree.links {
         let parent = match link.parent {

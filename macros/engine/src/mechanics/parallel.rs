@@ -78,7 +78,8 @@ pub fn share_axes(g: &mut Graph, tree: &Tree, axes: Axes) -> Option<Shared> {
         let (axis, angle) = angles[index];
         if angle != Scalar::ZERO {
             let planar = members[index].is_some_and(|m| m.planar);
-            link.inertia = if planar { turn_planar(g, &link.inertia, axis, angle) } else { link.inertia.turn(g, axis, angle) };
+            link.inertia =
+                if planar { turn_planar(g, &link.inertia, axis, angle) } else { link.inertia.turn(g, axis, angle) };
         }
     }
     Some(Shared { tree, turns })
@@ -93,7 +94,8 @@ fn members(g: &mut Graph, tree: &Tree) -> Vec<Option<Member>> {
         };
         let parent = link.parent.and_then(|p| members[p]);
         let joined = parent.and_then(|parent| join(g, link, axis, parent));
-        let planar = || std::iter::successors(link.parent, |&p| tree.links[p].parent).all(|p| is_straight(&tree.links[p]));
+        let planar =
+            || std::iter::successors(link.parent, |&p| tree.links[p].parent).all(|p| is_straight(&tree.links[p]));
         let alone = || Member { axis, head: index, reversed: false, planar: planar(), total: link.q };
         members.push(Some(joined.unwrap_or_else(alone)));
     }

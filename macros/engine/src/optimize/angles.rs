@@ -4,6 +4,7 @@
 //! addition theorems (4 products, 2 sums) in place of another sincos, which weighs 20.
 
 use std::collections::BTreeMap;
+use std::ops::{Add, Mul, Neg};
 
 use crate::symbolic::number::Number;
 
@@ -25,9 +26,7 @@ pub fn angles(dag: &mut Dag) {
     let mut list = gather(dag);
     // Few units first, and halves before wholes, so that a double angle finds its half.
     let size = |angle: &Angle| angle.units.values().fold(0.0, |most: f64, c| most.max(c.value().abs()));
-    list.sort_by(|a, b| {
-        (a.units.len().cmp(&b.units.len())).then(size(a).total_cmp(&size(b))).then(a.id.cmp(&b.id))
-    });
+    list.sort_by(|a, b| (a.units.len().cmp(&b.units.len())).then(size(a).total_cmp(&size(b))).then(a.id.cmp(&b.id)));
     for angle in list {
         let late = dag.nodes[angle.id].stage > Stage::Parameter;
         let pair = if late { find_pair(&known, &angle.units) } else { None };

@@ -5,6 +5,8 @@
 //! products that hold it, and through them other sums' coefficients; quotients scale inversely. Only literals move: a
 //! parameter might be zero.
 
+use std::ops::{Div, Mul};
+
 use crate::symbolic::fingerprint::Print;
 use crate::symbolic::number::Number;
 
@@ -165,11 +167,8 @@ fn expense(dag: &Dag, terms: &[(Number, Id)], reach: &Reach, factor: Number) -> 
 
 fn apply(dag: &mut Dag, id: Id, terms: Vec<(Number, Id)>, reach: &Reach, factor: Number) {
     // Users first: their sums keep their values while the terms change theirs.
-    let scaled: Vec<(Id, Print)> = reach
-        .scaled
-        .iter()
-        .map(|&(node, p)| (node, dag.nodes[node].print.mul(power(factor, p).print())))
-        .collect();
+    let scaled: Vec<(Id, Print)> =
+        reach.scaled.iter().map(|&(node, p)| (node, dag.nodes[node].print.mul(power(factor, p).print()))).collect();
     let terms = terms.into_iter().map(|(c, t)| (c.mul(factor), t)).collect();
     for &(node, print) in &scaled {
         let kind = if node == id { Kind::Sum(Vec::clone(&terms)) } else { dag.nodes[node].kind.clone() };

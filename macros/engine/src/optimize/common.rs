@@ -5,6 +5,7 @@
 //! Whole sums and products that are equal are one node already, by their prints.
 
 use std::collections::HashMap;
+use std::ops::{Div, Mul};
 
 use crate::symbolic::number::Number;
 

@@ -6,6 +6,7 @@
 
 use std::collections::HashMap;
 use std::hash::BuildHasherDefault;
+use std::ops::{Add, Div, Mul, Neg};
 
 use crate::symbolic::fingerprint::{self as field, Point, Print};
 use crate::symbolic::graph::{Call, Graph, PassHasher, Scalar, ScalarNode, SymbolId};
@@ -271,13 +272,12 @@ impl Dag {
         let mut coefficient = Number::ONE;
         factors.retain(|&f| f != ONE);
         for f in &mut factors {
-            if let Kind::Sum(terms) = &self.nodes[*f].kind {
-                if let [(c, id)] = terms[..] {
-                    if c.is_unit() || id == ONE {
-                        coefficient = coefficient.mul(c);
-                        *f = id;
-                    }
-                }
+            if let Kind::Sum(terms) = &self.nodes[*f].kind
+                && let [(c, id)] = terms[..]
+                && (c.is_unit() || id == ONE)
+            {
+                coefficient = coefficient.mul(c);
+                *f = id;
             }
         }
         factors.retain(|&f| f != ONE);
@@ -336,7 +336,11 @@ impl Dag {
 
     /// The same for an operation on what the node has read already, directly or not.
     pub fn dissolve(&mut self, id: Id, kind: Kind) {
-        debug_assert_eq!(self.kind_print(&kind).unwrap_or(self.nodes[id].print), self.nodes[id].print, "a rewrite changed a value");
+        debug_assert_eq!(
+            self.kind_print(&kind).unwrap_or(self.nodes[id].print),
+            self.nodes[id].print,
+            "a rewrite changed a value"
+        );
         self.nodes[id].stage = self.stage_of(&kind);
         self.nodes[id].kind = kind;
     }

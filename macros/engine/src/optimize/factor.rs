@@ -4,6 +4,7 @@
 //! that several terms share come out likewise. Products that others use too are left alone.
 
 use std::collections::BTreeMap;
+use std::ops::{Mul, Neg};
 
 use crate::symbolic::number::Number;
 

@@ -3,6 +3,8 @@
 //! In: a DAG. Out: the same with every sum that one other sum uses alone dissolved in it, and products likewise; what is
 //! shared stays a node. Parameter parts stay together.
 
+use std::ops::Mul;
+
 use super::dag::{Dag, Kind};
 use super::stage::Stage;
 
@@ -36,7 +38,9 @@ pub fn flatten(dag: &mut Dag) {
                 for &factor in factors {
                     let factor = same(dag, factor);
                     match &dag.nodes[factor].kind {
-                        Kind::Product(inner) if uses[factor] == 1 && !keeps(dag, factor) => flat.extend(inner.iter().copied()),
+                        Kind::Product(inner) if uses[factor] == 1 && !keeps(dag, factor) => {
+                            flat.extend(inner.iter().copied())
+                        }
                         _ => flat.push(factor),
                     }
                 }

@@ -4,6 +4,7 @@
 //! c x z + .. share the product c x. Coefficients float freely before this pass; what it makes, stays.
 
 use std::collections::BTreeMap;
+use std::ops::{Mul, Neg};
 
 use crate::symbolic::number::Number;
 
@@ -14,50 +15,59 @@ use super::stage::Stage;
 type Place = (Id, Id);
 
 pub fn multiples(dag: &mut Dag) {
-    of_results(dag);
-    loop {
-        let order = dag.order();
-        let uses = dag.uses(&order);
-        let mut places: BTreeMap<(Id, u64), (Number, Vec<Place>)> = BTreeMap::new();
-        for &id in &order {
-            let Kind::Sum(terms) = &dag.nodes[id].kind else { continue };
-            for &(c, term) in terms {
-                if c.is_unit() || term == ONE || dag.nodes[id].stage <= Stage::Parameter {
-                    continue;
-                }
-                let mut add = |factor: Id| {
-                    let entry = places.entry((factor, c.abs().residue)).or_insert_with(|| (c.abs(), Vec::new()));
-                    if entry.1.last() != Some(&(id, term)) {
-                        entry.1.push((id, term));
-                    }
-                };
-                // The multiple may stand as a node already, as a sum of one term.
-                add(term);
-                if let (Kind::Product(factors), 1) = (&dag.nodes[term].kind, uses[term]) {
-                    factors.iter().for_each(|&f| add(f));
-                }
+    for _ in 0..16 {
+        let mut changed = false;
+        for (factor, c, list) in candidates(dag) {
+            let list: Vec<Place> = list.into_iter().filter(|&place| stands(dag, place, factor, c)).collect();
+            if list.len() > 1 {
+                changed |= share(dag, factor, c, &list);
             }
         }
-        let best = places
-            .into_iter()
-            .filter(|(_, (_, list))| list.len() > 1)
-            .max_by(|a, b| a.1.1.len().cmp(&b.1.1.len()).then_with(|| b.0.cmp(&a.0)));
-        let Some(((factor, _), (c, list))) = best else { return };
-        if !share(dag, factor, c, &list) {
+        if !changed {
             return;
         }
     }
 }
 
-/// A result that is a multiple becomes a node, so that it is computed once, and by `Model::new` where parameters suffice.
-fn of_results(dag: &mut Dag) {
-    for k in 0..dag.roots.len() {
-        let (c, id) = dag.roots[k];
-        if id != ONE && !c.is_unit() {
-            let sign = if c.is_negative() { Number::ONE.neg() } else { Number::ONE };
-            dag.roots[k] = (sign, dag.plain((c.abs(), id)));
+/// Factors and literals that meet in several sums, those in most sums first.
+fn candidates(dag: &Dag) -> Vec<(Id, Number, Vec<Place>)> {
+    let order = dag.order();
+    let uses = dag.uses(&order);
+    let mut places: BTreeMap<(Id, u64), (Number, Vec<Place>)> = BTreeMap::new();
+    for &id in &order {
+        let Kind::Sum(terms) = &dag.nodes[id].kind else { continue };
+        if dag.nodes[id].stage <= Stage::Parameter {
+            continue;
+        }
+        for &(c, term) in terms.iter().filter(|(c, term)| !c.is_unit() && *term != ONE) {
+            let mut add = |factor: Id| {
+                let entry = places.entry((factor, c.abs().residue)).or_insert_with(|| (c.abs(), Vec::new()));
+                if entry.1.last() != Some(&(id, term)) {
+                    entry.1.push((id, term));
+                }
+            };
+            // The multiple may stand as a node already, as a sum of one term.
+            add(term);
+            if let (Kind::Product(factors), 1) = (&dag.nodes[term].kind, uses[term]) {
+                factors.iter().for_each(|&f| add(f));
+            }
         }
     }
+    let mut list: Vec<(Id, Number, Vec<Place>)> = places
+        .into_iter()
+        .filter(|(_, (_, list))| list.len() > 1)
+        .map(|((factor, _), (c, list))| (factor, c, list))
+        .collect();
+    // Stable: ties stay in the order of nodes.
+    list.sort_by_key(|(_, _, places)| std::cmp::Reverse(places.len()));
+    list
+}
+
+/// Whether a sum still has this multiple: an earlier sharing may have taken it.
+fn stands(dag: &Dag, (sum, term): Place, factor: Id, c: Number) -> bool {
+    let Kind::Sum(terms) = &dag.nodes[sum].kind else { return false };
+    terms.iter().any(|t| t.1 == term && t.0.abs() == c)
+        && (term == factor || matches!(&dag.nodes[term].kind, Kind::Product(factors) if factors.contains(&factor)))
 }
 
 fn share(dag: &mut Dag, factor: Id, c: Number, list: &[Place]) -> bool {

@@ -11,15 +11,32 @@ use crate::model::types::{InputId, JointId, ParamId, StateId};
 pub enum Symbol {
     Time,
     /// Scalar number `element` of a flattened param.
-    Param { param: ParamId, element: usize },
-    Input { input: InputId, element: usize },
-    State { state: StateId },
+    Param {
+        param: ParamId,
+        element: usize,
+    },
+    Input {
+        input: InputId,
+        element: usize,
+    },
+    State {
+        state: StateId,
+    },
     /// Component of a joint's position. Ball with quaternion: w, i, j, k. Free: x, y, z, then w, i, j, k or roll, pitch,
     /// yaw. Else in the order of the coordinates.
-    Position { joint: JointId, component: usize },
+    Position {
+        joint: JointId,
+        component: usize,
+    },
     /// Component of a joint's velocity. Free: linear, then angular (or rates of roll, pitch, yaw).
-    Velocity { joint: JointId, component: usize },
-    Acceleration { joint: JointId, component: usize },
+    Velocity {
+        joint: JointId,
+        component: usize,
+    },
+    Acceleration {
+        joint: JointId,
+        component: usize,
+    },
 }
 
 /// Index into [`Program::locals`].
@@ -78,9 +95,16 @@ pub enum Expression {
 
 #[derive(Clone, Debug)]
 pub enum Statement {
-    Let { local: Local, value: Expression },
+    Let {
+        local: Local,
+        value: Expression,
+    },
     /// Sine and cosine of one angle, together.
-    SinCos { sin: Local, cos: Local, angle: Expression },
+    SinCos {
+        sin: Local,
+        cos: Local,
+        angle: Expression,
+    },
 }
 
 /// One function body.

@@ -72,12 +72,13 @@ impl<'a> Scheduler<'a> {
 
     fn visit(&mut self, id: Id) {
         let node = &self.dag.nodes[id];
-        if node.stage <= Stage::Parameter && id != ONE {
-            if let Some((negative, field)) = self.field(id) {
-                self.flipped[id] = negative;
-                self.written[id] = Some((Expression::Field(field), 1));
-                return;
-            }
+        if node.stage <= Stage::Parameter
+            && id != ONE
+            && let Some((negative, field)) = self.field(id)
+        {
+            self.flipped[id] = negative;
+            self.written[id] = Some((Expression::Field(field), 1));
+            return;
         }
         let (expression, size) = match &node.kind {
             Kind::One => (Expression::Literal(1.0), 1),
@@ -173,9 +174,7 @@ impl<'a> Scheduler<'a> {
         }
         let literal = Expression::Literal(magnitude.value());
         let product = match expression {
-            Expression::Product(factors) => {
-                Expression::Product(std::iter::once(literal).chain(factors).collect())
-            }
+            Expression::Product(factors) => Expression::Product(std::iter::once(literal).chain(factors).collect()),
             // 1 / x with a literal: one quotient.
             Expression::Quotient(numerator, denominator) if *numerator == Expression::Literal(1.0) => {
                 Expression::Quotient(Box::new(literal), denominator)
@@ -218,11 +217,11 @@ impl<'a> Scheduler<'a> {
             }
         }
         let mut product = if list.len() == 1 { list.swap_remove(0) } else { Expression::Product(list) };
-        if let Some(at) = divisor {
-            if let (Expression::Quotient(_, x), n) = self.bare(factors[at]) {
-                size += n;
-                product = Expression::Quotient(Box::new(product), x);
-            }
+        if let Some(at) = divisor
+            && let (Expression::Quotient(_, x), n) = self.bare(factors[at])
+        {
+            size += n;
+            product = Expression::Quotient(Box::new(product), x);
         }
         (product, size)
     }

@@ -3,6 +3,8 @@
 //! In: symbols. Out: the order literal, parameter, time, position, velocity, input, acceleration. What depends on
 //! parameters alone is computed once, in `Model::new`; sums and products are split so that as much as possible does.
 
+use std::ops::{Mul, Neg};
+
 use crate::symbolic::number::Number;
 
 use super::dag::{Dag, Id, Kind, ONE};

@@ -257,15 +257,33 @@ pub fn call_f64(call: Call, x: &[f64]) -> f64 {
         (Call::Sqrt, [a]) => a.sqrt(),
         (Call::Abs, [a]) => a.abs(),
         (Call::Signum, [a]) => a.signum(),
-        (Call::Min, [a, b]) => if a.is_nan() || a < b { *a } else { *b },
-        (Call::Max, [a, b]) => if a.is_nan() || a > b { *a } else { *b },
+        (Call::Min, [a, b]) => {
+            if a.is_nan() || a < b {
+                *a
+            } else {
+                *b
+            }
+        }
+        (Call::Max, [a, b]) => {
+            if a.is_nan() || a > b {
+                *a
+            } else {
+                *b
+            }
+        }
         (Call::Less, [a, b]) => mask(a < b),
         (Call::LessEqual, [a, b]) => mask(a <= b),
         (Call::Equal, [a, b]) => mask(a == b),
         (Call::And, [a, b]) => mask(*a != 0.0 && *b != 0.0),
         (Call::Or, [a, b]) => mask(*a != 0.0 || *b != 0.0),
         (Call::Not, [a]) => mask(*a == 0.0),
-        (Call::Select, [m, a, b]) => if *m != 0.0 { *a } else { *b },
+        (Call::Select, [m, a, b]) => {
+            if *m != 0.0 {
+                *a
+            } else {
+                *b
+            }
+        }
         _ => f64::NAN,
     }
 }

@@ -7,6 +7,8 @@
 //! theorems. Roots and transcendental functions get a print of their own, a hash of their arguments' prints: that can
 //! miss an identity, never invent one.
 
+use std::ops::{Add, Mul, Neg, Sub};
+
 /// The prime 2^61 - 1.
 pub const PRIME: u64 = (1 << 61) - 1;
 
@@ -100,22 +102,6 @@ impl Print {
         if self.0[0] <= PRIME / 2 { self } else { self.neg() }
     }
 
-    pub fn add(self, other: Print) -> Print {
-        Print([add(self.0[0], other.0[0]), add(self.0[1], other.0[1])])
-    }
-
-    pub fn sub(self, other: Print) -> Print {
-        self.add(other.neg())
-    }
-
-    pub fn neg(self) -> Print {
-        Print([neg(self.0[0]), neg(self.0[1])])
-    }
-
-    pub fn mul(self, other: Print) -> Print {
-        Print([mul(self.0[0], other.0[0]), mul(self.0[1], other.0[1])])
-    }
-
     pub fn inverse(self) -> Print {
         Print([inverse(self.0[0]), inverse(self.0[1])])
     }
@@ -123,6 +109,34 @@ impl Print {
     /// One word for hash tables.
     pub fn key(self) -> u64 {
         self.0[0] ^ self.0[1].rotate_left(32)
+    }
+}
+
+impl Add for Print {
+    type Output = Print;
+    fn add(self, other: Print) -> Print {
+        Print([add(self.0[0], other.0[0]), add(self.0[1], other.0[1])])
+    }
+}
+
+impl Sub for Print {
+    type Output = Print;
+    fn sub(self, other: Print) -> Print {
+        self + -other
+    }
+}
+
+impl Neg for Print {
+    type Output = Print;
+    fn neg(self) -> Print {
+        Print([neg(self.0[0]), neg(self.0[1])])
+    }
+}
+
+impl Mul for Print {
+    type Output = Print;
+    fn mul(self, other: Print) -> Print {
+        Print([mul(self.0[0], other.0[0]), mul(self.0[1], other.0[1])])
     }
 }
 
@@ -144,18 +158,6 @@ impl Point {
         Point { cos: Print::ONE.sub(square).mul(scale), sin: t.add(t).mul(scale) }
     }
 
-    /// Of the sum of two angles.
-    pub fn add(self, other: Point) -> Point {
-        Point {
-            cos: self.cos.mul(other.cos).sub(self.sin.mul(other.sin)),
-            sin: self.sin.mul(other.cos).add(self.cos.mul(other.sin)),
-        }
-    }
-
-    pub fn neg(self) -> Point {
-        Point { cos: self.cos, sin: self.sin.neg() }
-    }
-
     /// Of an integer multiple of the angle.
     pub fn times(self, k: i64) -> Point {
         let mut base = if k < 0 { self.neg() } else { self };
@@ -169,6 +171,21 @@ impl Point {
             k >>= 1;
         }
         result
+    }
+}
+
+/// Of the sum of two angles.
+impl Add for Point {
+    type Output = Point;
+    fn add(self, other: Point) -> Point {
+        Point { cos: self.cos * other.cos - self.sin * other.sin, sin: self.sin * other.cos + self.cos * other.sin }
+    }
+}
+
+impl Neg for Point {
+    type Output = Point;
+    fn neg(self) -> Point {
+        Point { cos: self.cos, sin: -self.sin }
     }
 }
 

@@ -11,6 +11,7 @@
 //! "Identical" can be trusted; "different" means so only if every angle is a sum of the same units: a product of sums, or
 //! a dot product, is one unit.
 
+use std::ops::{Add, Mul, Neg};
 use std::cell::Cell;
 
 use super::evaluate::{Evaluator, Field, Real};
@@ -268,7 +269,9 @@ impl Field for Modular<'_> {
         }
         let values: Vec<(u64, Number)> = terms
             .into_iter()
-            .flat_map(|(s, factor)| Evaluator::new(graph, *self).run(&[s]).into_iter().map(move |value| (value, factor)))
+            .flat_map(|(s, factor)| {
+                Evaluator::new(graph, *self).run(&[s]).into_iter().map(move |value| (value, factor))
+            })
             .collect();
         self.angle(&values, constant)
     }

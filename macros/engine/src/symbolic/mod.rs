@@ -2,15 +2,15 @@
 //!
 //! It knows no mechanics. See [`graph`] for the normal form.
 
-pub mod fingerprint;
-pub mod graph;
-pub mod number;
 pub mod count;
 pub mod differentiate;
 pub mod evaluate;
+pub mod fingerprint;
+pub mod graph;
 pub mod identity;
 pub mod linear_algebra;
 pub mod lower;
+pub mod number;
 mod scalar;
 mod trigonometry;
 mod vector;

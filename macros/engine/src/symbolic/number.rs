@@ -5,6 +5,8 @@
 //! literals cancel and coincide when they do in exact arithmetic, however they were computed; the emitted value is
 //! rounded once.
 
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
 use super::fingerprint::{self as field, Print};
 
 /// A literal: value and exact residue.
@@ -47,7 +49,11 @@ impl Number {
 
     /// The constant pi; its residue is a fixed draw, as it is no rational.
     pub fn pi() -> Number {
-        Number { high: std::f64::consts::PI, low: 1.224_646_799_147_353_2e-16, residue: field::reduce(field::mix(314_159)) }
+        Number {
+            high: std::f64::consts::PI,
+            low: 1.224_646_799_147_353_2e-16,
+            residue: field::reduce(field::mix(314_159)),
+        }
     }
 
     /// A value known to double precision with a residue known otherwise (sine of a literal, a root).
@@ -85,41 +91,8 @@ impl Number {
         self.high < 0.0
     }
 
-    pub fn neg(self) -> Number {
-        Number { high: -self.high, low: -self.low, residue: field::neg(self.residue) }
-    }
-
     pub fn abs(self) -> Number {
         if self.is_negative() { self.neg() } else { self }
-    }
-
-    pub fn add(self, other: Number) -> Number {
-        let residue = field::add(self.residue, other.residue);
-        if residue == 0 {
-            return Number::ZERO;
-        }
-        let (s, e) = two_sum(self.high, other.high);
-        let (high, low) = quick_two_sum(s, e + self.low + other.low);
-        Number { high, low, residue }
-    }
-
-    pub fn sub(self, other: Number) -> Number {
-        self.add(other.neg())
-    }
-
-    pub fn mul(self, other: Number) -> Number {
-        let p = self.high * other.high;
-        let e = self.high.mul_add(other.high, -p);
-        let (high, low) = quick_two_sum(p, e + self.high * other.low + self.low * other.high);
-        Number { high, low, residue: field::mul(self.residue, other.residue) }
-    }
-
-    /// The quotient; not finite where `other` is zero.
-    pub fn div(self, other: Number) -> Number {
-        let q = self.high / other.high;
-        let rest = q.mul_add(-other.high, self.high) + self.low - q * other.low;
-        let (high, low) = quick_two_sum(q, rest / other.high);
-        Number { high, low, residue: field::mul(self.residue, field::inverse(other.residue)) }
     }
 
     fn powi(self, mut n: u32) -> Number {
@@ -132,6 +105,54 @@ impl Number {
             n >>= 1;
         }
         result
+    }
+}
+
+impl Neg for Number {
+    type Output = Number;
+    fn neg(self) -> Number {
+        Number { high: -self.high, low: -self.low, residue: field::neg(self.residue) }
+    }
+}
+
+impl Add for Number {
+    type Output = Number;
+    fn add(self, other: Number) -> Number {
+        let residue = field::add(self.residue, other.residue);
+        if residue == 0 {
+            return Number::ZERO;
+        }
+        let (s, e) = two_sum(self.high, other.high);
+        let (high, low) = quick_two_sum(s, e + self.low + other.low);
+        Number { high, low, residue }
+    }
+}
+
+impl Sub for Number {
+    type Output = Number;
+    fn sub(self, other: Number) -> Number {
+        self.add(other.neg())
+    }
+}
+
+impl Mul for Number {
+    type Output = Number;
+    fn mul(self, other: Number) -> Number {
+        let p = self.high * other.high;
+        let e = self.high.mul_add(other.high, -p);
+        let (high, low) = quick_two_sum(p, e + self.high * other.low + self.low * other.high);
+        Number { high, low, residue: field::mul(self.residue, other.residue) }
+    }
+}
+
+/// The quotient; not finite where `other` is zero.
+impl Div for Number {
+    type Output = Number;
+    fn div(self, other: Number) -> Number {
+        let q = self.high / other.high;
+        let rest = q.mul_add(-other.high, self.high) + self.low - q * other.low;
+        let (high, low) = quick_two_sum(q, rest / other.high);
+        Number { high, low, residue: field::mul(self.residue, field::inverse(other.residue)) }
     }
 }
 

@@ -3,6 +3,8 @@
 //! In: operands. Out: the one node that has the value. Each constructor computes the print first; if a node with that
 //! value exists, it is the result. Else literals fold, zeros and ones go, operands are sorted.
 
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
 use super::fingerprint::{Print, mix, reconstruct};
 use super::graph::{Call, Graph, Scalar, ScalarNode, SymbolId, Vector, VectorNode};
 use super::number::Number;
@@ -128,10 +130,10 @@ impl Graph {
         if let Some(found) = self.find(print) {
             return Some(found);
         }
-        if print.is_constant() {
-            if let Some((n, d)) = reconstruct(print.0[0]) {
-                return Some(self.number(Number::integer(n).div(Number::integer(d))));
-            }
+        if print.is_constant()
+            && let Some((n, d)) = reconstruct(print.0[0])
+        {
+            return Some(self.number(Number::integer(n).div(Number::integer(d))));
         }
         None
     }
@@ -192,11 +194,11 @@ impl Graph {
                 let rest = inner[1..].to_vec();
                 // The rest of the product is a node of its own, so that scaled and unscaled uses share it.
                 list.push(if let [single] = rest[..] { single } else { self.product(&rest) });
-                if let Some(last) = list.last_mut() {
-                    if last.is_negative() {
-                        *last = last.positive();
-                        *constant = constant.neg();
-                    }
+                if let Some(last) = list.last_mut()
+                    && last.is_negative()
+                {
+                    *last = last.positive();
+                    *constant = constant.neg();
                 }
             }
             _ => list.push(f.positive()),

@@ -5,6 +5,8 @@
 //! literals on the common base of 1e-9 rad, so halves, thirds, sums and differences of angles agree exactly with the
 //! addition theorems. Multiples of a quarter turn are exact.
 
+use std::ops::{Add, Div, Mul, Neg};
+
 use super::fingerprint::{self as field, Point, Print, mix, reconstruct};
 use super::graph::{Graph, Scalar, ScalarNode};
 use super::number::Number;
@@ -19,7 +21,13 @@ impl Graph {
         }
         match self.quarter_turns(angle) {
             (Scalar::ZERO, 0 | 2) => Scalar::ZERO,
-            (Scalar::ZERO, k) => if k == 1 { Scalar::ONE } else { -Scalar::ONE },
+            (Scalar::ZERO, k) => {
+                if k == 1 {
+                    Scalar::ONE
+                } else {
+                    -Scalar::ONE
+                }
+            }
             (rest, 1) => self.cos(rest),
             (rest, 2) => -self.sin(rest),
             (rest, 3) => -self.cos(rest),
@@ -34,7 +42,13 @@ impl Graph {
         let angle = angle.positive();
         match self.quarter_turns(angle) {
             (Scalar::ZERO, 1 | 3) => Scalar::ZERO,
-            (Scalar::ZERO, k) => if k == 0 { Scalar::ONE } else { -Scalar::ONE },
+            (Scalar::ZERO, k) => {
+                if k == 0 {
+                    Scalar::ONE
+                } else {
+                    -Scalar::ONE
+                }
+            }
             (rest, 1) => -self.sin(rest),
             (rest, 2) => -self.cos(rest),
             (rest, 3) => self.sin(rest),
@@ -47,7 +61,13 @@ impl Graph {
     }
 
     /// A literal's value, with its derivative's help for the digits beyond double precision, or a node.
-    fn trigonometric(&mut self, node: ScalarNode, angle: Scalar, print: Print, f: impl Fn(f64) -> (f64, f64)) -> Scalar {
+    fn trigonometric(
+        &mut self,
+        node: ScalarNode,
+        angle: Scalar,
+        print: Print,
+        f: impl Fn(f64) -> (f64, f64),
+    ) -> Scalar {
         if let Some(found) = self.find(print) {
             return found;
         }
@@ -121,10 +141,12 @@ fn quarters(n: Number) -> Option<i64> {
 fn unit_point(print: Print, factor: Number) -> Point {
     let key = print.canonical();
     let sign = if key == print { 1 } else { -1 };
-    let draw = |print: Print| Point::from_tangent(Print([
-        field::reduce(mix(print.0[0] ^ 0xA9_61E5)),
-        field::reduce(mix(print.0[1] ^ 0x1E5_A961)),
-    ]));
+    let draw = |print: Print| {
+        Point::from_tangent(Print([
+            field::reduce(mix(print.0[0] ^ 0xA9_61E5)),
+            field::reduce(mix(print.0[1] ^ 0x1E5_A961)),
+        ]))
+    };
     match reconstruct(factor.residue) {
         Some((n, d)) if PARTS % d == 0 && n.abs() < 1 << 20 => draw(key).times(sign * n * (PARTS / d)),
         // An irrational or odd fraction of a unit is a unit of its own.

@@ -3,6 +3,8 @@
 //! In: operands. Out: the one node that has the value. Rotations about a common axis add their angles; a vector that a
 //! rotation leaves as it is comes back as itself, since its print is the same.
 
+use std::ops::{Add, Mul, Neg, Sub};
+
 use super::fingerprint::Print;
 use super::graph::{Graph, Rotation, RotationNode, Scalar, Vector, VectorNode};
 
@@ -164,11 +166,11 @@ impl Graph {
         if let Some(found) = self.find_rotation(&m) {
             return found;
         }
-        if let (Some((i, alpha)), Some((j, beta))) = (self.as_axis(a), self.as_axis(b)) {
-            if i == j {
-                let angle = self.add(alpha, beta);
-                return self.axis_rotation(i, angle);
-            }
+        if let (Some((i, alpha)), Some((j, beta))) = (self.as_axis(a), self.as_axis(b))
+            && i == j
+        {
+            let angle = self.add(alpha, beta);
+            return self.axis_rotation(i, angle);
         }
         // Literal and parameter matrices multiply out; turning ones stay a product, applied one after the other.
         if let (RotationNode::Matrix(_), RotationNode::Matrix(_)) = (self.rotation_node(a), self.rotation_node(b)) {
@@ -220,7 +222,5 @@ fn apply(m: &Matrix, v: &[Print; 3]) -> [Print; 3] {
 }
 
 fn multiply(a: &Matrix, b: &Matrix) -> Matrix {
-    std::array::from_fn(|i| {
-        std::array::from_fn(|j| (0..3).fold(Print::ZERO, |sum, k| sum.add(a[i][k].mul(b[k][j]))))
-    })
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..3).fold(Print::ZERO, |sum, k| sum.add(a[i][k].mul(b[k][j])))))
 }

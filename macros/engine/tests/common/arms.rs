@@ -7,31 +7,31 @@ use multibody_engine::mechanics::tree::{Link, Motion, Tree};
 use multibody_engine::symbolic::graph::{Graph, Scalar};
 use serde_json::Value;
 
-pub const ARMS: [&str; 4] = ["double_pendulum", "cart5", "puma560", "panda"];
+pub(crate) const ARMS: [&str; 4] = ["double_pendulum", "cart5", "puma560", "panda"];
 
 /// Symbols stand in the order positions, velocities, accelerations, efforts.
-pub struct Arm {
-    pub graph: Graph,
-    pub tree: Tree,
-    pub efforts: Vec<Scalar>,
+pub(crate) struct Arm {
+    pub(crate) graph: Graph,
+    pub(crate) tree: Tree,
+    pub(crate) efforts: Vec<Scalar>,
 }
 
 /// `NAME.model.json` or `NAME.samples.json` of the workspace's test data.
-pub fn read(name: &str, kind: &str) -> Value {
+pub(crate) fn read(name: &str, kind: &str) -> Value {
     let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../tests/data/robots/{name}.{kind}.json"));
     let text = std::fs::read_to_string(&file).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
     serde_json::from_str(&text).unwrap()
 }
 
 /// All numbers of nested lists, row by row.
-pub fn flat(value: &Value) -> Vec<f64> {
+pub(crate) fn flat(value: &Value) -> Vec<f64> {
     match value {
         Value::Array(list) => list.iter().flat_map(flat).collect(),
         number => vec![number.as_f64().unwrap()],
     }
 }
 
-pub fn load(name: &str) -> Arm {
+pub(crate) fn load(name: &str) -> Arm {
     let model = read(name, "model");
     let joints = model["joints"].as_array().unwrap();
     let n = joints.len();

@@ -7,17 +7,17 @@ use multibody_engine::symbolic::number::Number;
 
 use super::rng::Rng;
 
-pub const SYMBOLS: usize = 5;
+pub(crate) const SYMBOLS: usize = 5;
 
 /// A sum of symbols in quarters, and a decimal.
 #[derive(Clone, Debug)]
-pub struct Angle {
+pub(crate) struct Angle {
     terms: Vec<(usize, i64)>,
     constant: f64,
 }
 
 #[derive(Clone, Debug)]
-pub enum Expression {
+pub(crate) enum Expression {
     Symbol(usize),
     Decimal(f64),
     Sum(Vec<Expression>),
@@ -33,7 +33,7 @@ pub enum Expression {
 }
 
 #[derive(Clone, Debug)]
-pub enum Triple {
+pub(crate) enum Triple {
     Of(Box<[Expression; 3]>),
     Sum(Vec<Triple>),
     Scale(Expression, Box<Triple>),
@@ -65,7 +65,7 @@ impl Angle {
 }
 
 impl Expression {
-    pub fn random(rng: &mut Rng, depth: usize) -> Expression {
+    pub(crate) fn random(rng: &mut Rng, depth: usize) -> Expression {
         use Expression::*;
         if depth == 0 || rng.chance(10) {
             // Few distinct ones, so that equal subexpressions meet.
@@ -98,7 +98,7 @@ impl Expression {
 
     /// Angles are made first. A sum of angles that exists already in another form, such as a dot product, would be one
     /// unit of angle to the graph and to the identity test.
-    pub fn make(&self, g: &mut Graph, symbols: &[Scalar; SYMBOLS]) -> Scalar {
+    pub(crate) fn make(&self, g: &mut Graph, symbols: &[Scalar; SYMBOLS]) -> Scalar {
         self.visit(&mut |angle| {
             angle.build(g, symbols);
         });
@@ -120,7 +120,8 @@ impl Expression {
     }
 
     fn build(&self, g: &mut Graph, symbols: &[Scalar; SYMBOLS]) -> Scalar {
-        let build = |g: &mut Graph, list: &[Expression]| -> Vec<Scalar> { list.iter().map(|e| e.build(g, symbols)).collect() };
+        let build =
+            |g: &mut Graph, list: &[Expression]| -> Vec<Scalar> { list.iter().map(|e| e.build(g, symbols)).collect() };
         match self {
             Expression::Symbol(k) => symbols[*k],
             Expression::Decimal(x) => g.decimal(*x),
@@ -167,7 +168,7 @@ impl Expression {
         }
     }
 
-    pub fn evaluate(&self, f: &Modular<'_>) -> u64 {
+    pub(crate) fn evaluate(&self, f: &Modular<'_>) -> u64 {
         match self {
             Expression::Symbol(k) => f.symbol(SymbolId(*k)),
             Expression::Decimal(x) => f.literal(Number::decimal(*x)),
@@ -191,7 +192,7 @@ impl Expression {
     }
 
     /// With one place changed: another literal, another symbol, a plus for a minus, a sine for a cosine.
-    pub fn broken(&self, rng: &mut Rng) -> Expression {
+    pub(crate) fn broken(&self, rng: &mut Rng) -> Expression {
         use Expression::*;
         let change = |list: &[Expression], rng: &mut Rng| {
             let mut list = list.to_vec();

@@ -11,25 +11,30 @@ fn base(g: &mut Graph, tree: &Tree) -> Vector {
     tree.gravity.map_or(Vector::ZERO, |gravity| g.vector(gravity.map(|s| -s)))
 }
 
-pub fn inverse_dynamics(g: &mut Graph, tree: &Tree, velocity: &[Scalar], acceleration: &[Scalar]) -> Vec<Scalar> {
+pub(crate) fn inverse_dynamics(
+    g: &mut Graph,
+    tree: &Tree,
+    velocity: &[Scalar],
+    acceleration: &[Scalar],
+) -> Vec<Scalar> {
     let base = base(g, tree);
     let motions = kinematics::motions(g, tree, velocity, acceleration, base);
     let wrenches = transmitted(g, tree, &motions, &no_forces(tree));
     efforts(g, tree, &wrenches, acceleration)
 }
 
-pub fn bias(g: &mut Graph, tree: &Tree) -> Vec<Scalar> {
+pub(crate) fn bias(g: &mut Graph, tree: &Tree) -> Vec<Scalar> {
     let still = vec![Scalar::ZERO; tree.freedoms()];
     inverse_dynamics(g, tree, &tree.velocity, &still)
 }
 
 /// Row by row.
-pub fn mass_matrix(g: &mut Graph, tree: &Tree) -> Vec<Scalar> {
+pub(crate) fn mass_matrix(g: &mut Graph, tree: &Tree) -> Vec<Scalar> {
     composite::mass_matrix(g, tree).concat()
 }
 
 /// Accelerations by composite rigid bodies and L^T D L.
-pub fn by_composite(g: &mut Graph, tree: &Tree, applied: &[Scalar]) -> Vec<Scalar> {
+pub(crate) fn by_composite(g: &mut Graph, tree: &Tree, applied: &[Scalar]) -> Vec<Scalar> {
     let bias = bias(g, tree);
     let matrix = composite::mass_matrix(g, tree);
     let rest: Vec<Scalar> = applied.iter().zip(&bias).map(|(&a, &b)| g.sub(a, b)).collect();
@@ -39,7 +44,7 @@ pub fn by_composite(g: &mut Graph, tree: &Tree, applied: &[Scalar]) -> Vec<Scala
 }
 
 /// Accelerations by articulated bodies.
-pub fn by_articulated(g: &mut Graph, tree: &Tree, applied: &[Scalar]) -> Vec<Scalar> {
+pub(crate) fn by_articulated(g: &mut Graph, tree: &Tree, applied: &[Scalar]) -> Vec<Scalar> {
     let base = base(g, tree);
     articulated::forward_dynamics(g, tree, &tree.velocity, base, &no_forces(tree), applied)
 }

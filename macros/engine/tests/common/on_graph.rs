@@ -8,13 +8,13 @@ use multibody_engine::symbolic::number::Number;
 use super::random::{Body, Kind, Mechanism, State, fractions};
 
 /// Symbols stand in the order positions, velocities, accelerations, efforts.
-pub struct Derived {
-    pub graph: Graph,
-    pub tree: Tree,
-    pub efforts: Vec<Scalar>,
+pub(crate) struct Derived {
+    pub(crate) graph: Graph,
+    pub(crate) tree: Tree,
+    pub(crate) efforts: Vec<Scalar>,
 }
 
-pub fn derive(mechanism: &Mechanism) -> Derived {
+pub(crate) fn derive(mechanism: &Mechanism) -> Derived {
     let mut g = Graph::new();
     let motions: Vec<(Motion, Scalar)> = mechanism.bodies.iter().map(|body| motion(&mut g, body)).collect();
     let mut symbols = || -> Vec<Scalar> { (0..mechanism.freedoms()).map(|_| g.symbol()).collect() };
@@ -59,6 +59,6 @@ fn motion(g: &mut Graph, body: &Body) -> (Motion, Scalar) {
 }
 
 /// Values of the symbols.
-pub fn point(state: &State) -> Vec<f64> {
+pub(crate) fn point(state: &State) -> Vec<f64> {
     [&state.q[..], &state.v, &state.a, &state.effort].concat()
 }

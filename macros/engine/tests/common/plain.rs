@@ -17,7 +17,7 @@ struct Joint {
     twists: Vec<V6>,
 }
 
-pub fn inverse_dynamics(mechanism: &Mechanism, q: &[f64], v: &[f64], a: &[f64], gravity: V3) -> Vec<f64> {
+pub(crate) fn inverse_dynamics(mechanism: &Mechanism, q: &[f64], v: &[f64], a: &[f64], gravity: V3) -> Vec<f64> {
     let joints = joints(mechanism, q);
     let mut motions: Vec<(V6, V6)> = Vec::new();
     let mut forces: Vec<V6> = Vec::new();
@@ -53,12 +53,12 @@ pub fn inverse_dynamics(mechanism: &Mechanism, q: &[f64], v: &[f64], a: &[f64], 
     efforts
 }
 
-pub fn bias(mechanism: &Mechanism, q: &[f64], v: &[f64]) -> Vec<f64> {
+pub(crate) fn bias(mechanism: &Mechanism, q: &[f64], v: &[f64]) -> Vec<f64> {
     inverse_dynamics(mechanism, q, v, &vec![0.0; v.len()], mechanism.gravity)
 }
 
 /// Row by row.
-pub fn mass_matrix(mechanism: &Mechanism, q: &[f64]) -> Vec<Vec<f64>> {
+pub(crate) fn mass_matrix(mechanism: &Mechanism, q: &[f64]) -> Vec<Vec<f64>> {
     let n = mechanism.freedoms();
     let columns: Vec<Vec<f64>> = (0..n)
         .map(|k| {
@@ -70,23 +70,19 @@ pub fn mass_matrix(mechanism: &Mechanism, q: &[f64]) -> Vec<Vec<f64>> {
     (0..n).map(|i| (0..n).map(|j| columns[j][i]).collect()).collect()
 }
 
-pub fn forward_dynamics(mechanism: &Mechanism, q: &[f64], v: &[f64], effort: &[f64]) -> Vec<f64> {
+pub(crate) fn forward_dynamics(mechanism: &Mechanism, q: &[f64], v: &[f64], effort: &[f64]) -> Vec<f64> {
     let rest = effort.iter().zip(bias(mechanism, q, v)).map(|(e, b)| e - b).collect();
     solve(mass_matrix(mechanism, q), rest)
 }
 
-pub fn solve(mut m: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
+pub(crate) fn solve(mut m: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
     let n = b.len();
     for k in 0..n {
         let best = (k..n).max_by(|&i, &j| m[i][k].abs().total_cmp(&m[j][k].abs())).unwrap();
         m.swap(k, best);
         b.swap(k, best);
         for i in k + 1..n {
-            let factor = m[i][k] / m[k][k];
-            for j in k..n {
-                m[i][j] -= factor * m[k][j];
-            }
-            b[i] -= factor * b[k];
+            b[i] -= subtract_row(&mut m, i, k) * b[k];
         }
     }
     for k in (0..n).rev() {
@@ -97,19 +93,24 @@ pub fn solve(mut m: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
 }
 
 /// Smallest pivot of Cholesky's factorisation: positive if and only if the matrix is positive definite.
-pub fn smallest_pivot(m: &[Vec<f64>]) -> f64 {
+pub(crate) fn smallest_pivot(m: &[Vec<f64>]) -> f64 {
     let mut m = m.to_vec();
     let mut smallest = f64::INFINITY;
     for k in 0..m.len() {
         smallest = smallest.min(m[k][k]);
         for i in k + 1..m.len() {
-            let factor = m[i][k] / m[k][k];
-            for j in k..m.len() {
-                m[i][j] -= factor * m[k][j];
-            }
+            subtract_row(&mut m, i, k);
         }
     }
     smallest
+}
+
+/// Clears entry (i, k) by a multiple of row k, which is returned.
+fn subtract_row(m: &mut [Vec<f64>], i: usize, k: usize) -> f64 {
+    let pivot = m[k].clone();
+    let factor = m[i][k] / pivot[k];
+    m[i].iter_mut().zip(pivot).for_each(|(entry, p)| *entry -= factor * p);
+    factor
 }
 
 fn joints(mechanism: &Mechanism, q: &[f64]) -> Vec<Joint> {
@@ -131,9 +132,7 @@ fn joint(body: &Body, q: &[f64]) -> Joint {
         Kind::Revolute(axis) => {
             Joint { rotation: product(&placed, &turn(axis, q[0])), origin: body.offset, twists: vec![unit(axis)] }
         }
-        Kind::Prismatic(axis) => {
-            Joint { rotation: placed, origin: along(axis, q[0]), twists: vec![unit(axis + 3)] }
-        }
+        Kind::Prismatic(axis) => Joint { rotation: placed, origin: along(axis, q[0]), twists: vec![unit(axis + 3)] },
         Kind::Screw(axis, pitch) => {
             let mut twist: V6 = unit(axis);
             twist[axis + 3] = pitch;

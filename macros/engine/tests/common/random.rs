@@ -3,7 +3,7 @@
 use super::rng::Rng;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Kind {
+pub(crate) enum Kind {
     Revolute(usize),
     Prismatic(usize),
     Screw(usize, f64),
@@ -11,47 +11,47 @@ pub enum Kind {
 }
 
 impl Kind {
-    pub fn freedoms(self) -> usize {
+    pub(crate) fn freedoms(self) -> usize {
         if self == Kind::Ball { 3 } else { 1 }
     }
 
-    pub fn coordinates(self) -> usize {
+    pub(crate) fn coordinates(self) -> usize {
         if self == Kind::Ball { 4 } else { 1 }
     }
 }
 
 #[derive(Clone, Debug)]
-pub struct Body {
-    pub parent: Option<usize>,
+pub(crate) struct Body {
+    pub(crate) parent: Option<usize>,
     /// The joint frame in the parent: a quaternion of small integers, so that its matrix is exactly orthogonal.
-    pub placement: [i64; 4],
-    pub offset: [f64; 3],
-    pub kind: Kind,
-    pub mass: f64,
-    pub com: [f64; 3],
+    pub(crate) placement: [i64; 4],
+    pub(crate) offset: [f64; 3],
+    pub(crate) kind: Kind,
+    pub(crate) mass: f64,
+    pub(crate) com: [f64; 3],
     /// About the centre of mass: xx, yy, zz, xy, xz, yz.
-    pub tensor: [f64; 6],
-    pub armature: f64,
+    pub(crate) tensor: [f64; 6],
+    pub(crate) armature: f64,
 }
 
 #[derive(Clone, Debug, Default)]
-pub struct Mechanism {
-    pub bodies: Vec<Body>,
-    pub gravity: [f64; 3],
+pub(crate) struct Mechanism {
+    pub(crate) bodies: Vec<Body>,
+    pub(crate) gravity: [f64; 3],
 }
 
 /// Positions (four of a ball), velocities, accelerations, efforts.
 #[derive(Clone, Debug)]
-pub struct State {
-    pub q: Vec<f64>,
-    pub v: Vec<f64>,
-    pub a: Vec<f64>,
-    pub effort: Vec<f64>,
+pub(crate) struct State {
+    pub(crate) q: Vec<f64>,
+    pub(crate) v: Vec<f64>,
+    pub(crate) a: Vec<f64>,
+    pub(crate) effort: Vec<f64>,
 }
 
 impl Mechanism {
     /// A tree with this many bodies of mass, and massless links between some of them.
-    pub fn tree(rng: &mut Rng, bodies: usize) -> Mechanism {
+    pub(crate) fn tree(rng: &mut Rng, bodies: usize) -> Mechanism {
         let mut mechanism = Mechanism::default();
         if rng.chance(80) {
             mechanism.gravity = sparse(rng, 10.0);
@@ -77,7 +77,7 @@ impl Mechanism {
     }
 
     /// A floating base: three prismatic motions and a ball, massless but for the last.
-    pub fn float(&mut self, rng: &mut Rng) {
+    pub(crate) fn float(&mut self, rng: &mut Rng) {
         for axis in 0..3_usize {
             let parent = axis.checked_sub(1);
             self.bodies.push(Body::massless(parent, Kind::Prismatic(axis)));
@@ -134,11 +134,11 @@ impl Mechanism {
         });
     }
 
-    pub fn freedoms(&self) -> usize {
+    pub(crate) fn freedoms(&self) -> usize {
         self.bodies.iter().map(|b| b.kind.freedoms()).sum()
     }
 
-    pub fn state(&self, rng: &mut Rng) -> State {
+    pub(crate) fn state(&self, rng: &mut Rng) -> State {
         let mut q = Vec::new();
         for body in &self.bodies {
             match body.kind {
@@ -190,7 +190,7 @@ fn placement(rng: &mut Rng) -> [i64; 4] {
 }
 
 /// Numerators of the matrix of a quaternion, and their common denominator.
-pub fn fractions([w, x, y, z]: [i64; 4]) -> ([[i64; 3]; 3], i64) {
+pub(crate) fn fractions([w, x, y, z]: [i64; 4]) -> ([[i64; 3]; 3], i64) {
     let rows = [
         [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
         [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
@@ -199,7 +199,7 @@ pub fn fractions([w, x, y, z]: [i64; 4]) -> ([[i64; 3]; 3], i64) {
     (rows, w * w + x * x + y * y + z * z)
 }
 
-pub fn matrix(q: [i64; 4]) -> [[f64; 3]; 3] {
+pub(crate) fn matrix(q: [i64; 4]) -> [[f64; 3]; 3] {
     let (rows, d) = fractions(q);
     rows.map(|row| row.map(|n| n as f64 / d as f64))
 }

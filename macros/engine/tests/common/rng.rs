@@ -1,10 +1,10 @@
 //! Random numbers for tests, the same in every run.
 
 /// SplitMix64 (Steele et al. 2014): the same mechanisms on every machine.
-pub struct Rng(u64);
+pub(crate) struct Rng(u64);
 
 impl Rng {
-    pub fn new(seed: u64) -> Rng {
+    pub(crate) fn new(seed: u64) -> Rng {
         Rng(seed)
     }
 
@@ -16,21 +16,21 @@ impl Rng {
     }
 
     /// From zero to below `n`.
-    pub fn below(&mut self, n: usize) -> usize {
+    pub(crate) fn below(&mut self, n: usize) -> usize {
         (self.word() % n as u64) as usize
     }
 
-    pub fn chance(&mut self, percent: usize) -> bool {
+    pub(crate) fn chance(&mut self, percent: usize) -> bool {
         self.below(100) < percent
     }
 
     /// Decimals of three places in the range.
-    pub fn decimal(&mut self, from: f64, to: f64) -> f64 {
+    pub(crate) fn decimal(&mut self, from: f64, to: f64) -> f64 {
         (self.real(from, to) * 1e3).round() / 1e3
     }
 
     /// Uniform in the range.
-    pub fn real(&mut self, from: f64, to: f64) -> f64 {
+    pub(crate) fn real(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * (self.word() as f64 / 2.0_f64.powi(64))
     }
 }

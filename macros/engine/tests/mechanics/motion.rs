@@ -158,3 +158,21 @@ fn symbol(case: &Case, s: multibody_engine::symbolic::graph::Scalar) -> Option<u
         _ => None,
     }
 }
+
+#[test]
+fn a_floating_body_divides_by_constants() {
+    use multibody_engine::symbolic::graph::ScalarNode;
+    let case = case(
+        "body b { mass: 2.0, com: [0.1, 0.2, 0.3], inertia: diag(0.1, 0.2, 0.25) }
+        joint j: Free { parent: ground, child: b }
+        emit forward_dynamics;",
+    );
+    let graph = &case.derivation.graph;
+    let quotients = |results: &[multibody_engine::symbolic::graph::Scalar]| {
+        let nodes = graph.reachable_scalars(results);
+        nodes.iter().filter(|&&k| matches!(graph.node(graph.scalar_at(k)), ScalarNode::Reciprocal(_))).count()
+    };
+    let least = case.derivation.functions[0].candidates.iter().map(|(_, results)| quotients(results)).min();
+    assert_eq!(least, Some(0));
+    case.eval(FunctionKind::ForwardDynamics, &case.random(1));
+}

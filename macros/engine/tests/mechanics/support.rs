@@ -12,19 +12,19 @@ use multibody_engine::symbolic::graph::SymbolId;
 use multibody_engine::syntax::parse;
 
 /// A model with its equations.
-pub struct Case {
-    pub model: Model,
-    pub derivation: Derivation,
+pub(crate) struct Case {
+    pub(crate) model: Model,
+    pub(crate) derivation: Derivation,
 }
 
 /// Values of all symbols.
 #[derive(Clone)]
-pub struct Point {
+pub(crate) struct Point {
     values: HashMap<Symbol, f64>,
 }
 
 /// Derives the body of `mod m { .. }`, preceded by `parts`.
-pub fn case_with(parts: &str, body: &str) -> Case {
+pub(crate) fn case_with(parts: &str, body: &str) -> Case {
     let text = format!("{parts} pub mod m {{ {body} }}");
     let tokens = text.parse().unwrap_or_else(|error| panic!("{error} in {text}"));
     let mut diagnostics = Diagnostics::default();
@@ -37,15 +37,15 @@ pub fn case_with(parts: &str, body: &str) -> Case {
     Case { model, derivation }
 }
 
-pub fn case(body: &str) -> Case {
+pub(crate) fn case(body: &str) -> Case {
     case_with("", body)
 }
 
 /// Numbers between -1 and 1 (SplitMix64).
-pub struct Random(pub u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    pub fn next(&mut self) -> f64 {
+    pub(crate) fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
@@ -63,7 +63,7 @@ fn quaternion_start(joint: &Joint) -> Option<usize> {
 
 impl Case {
     /// Params at their defaults, everything else random.
-    pub fn random(&self, seed: u64) -> Point {
+    pub(crate) fn random(&self, seed: u64) -> Point {
         let mut random = Random(seed);
         let mut values = HashMap::new();
         for &symbol in &self.derivation.symbols {
@@ -79,7 +79,7 @@ impl Case {
     }
 
     /// Everything zero but params; quaternions one.
-    pub fn rest(&self) -> Point {
+    pub(crate) fn rest(&self) -> Point {
         let mut point = self.random(0);
         for (symbol, value) in &mut point.values {
             if !matches!(symbol, Symbol::Param { .. }) {
@@ -109,26 +109,26 @@ impl Case {
         }
     }
 
-    pub fn joint(&self, name: &str) -> multibody_engine::model::types::JointId {
+    pub(crate) fn joint(&self, name: &str) -> multibody_engine::model::types::JointId {
         let joints = &self.model.joints;
         let index = joints.iter().position(|joint| joint.place.field == name).expect("a joint");
         multibody_engine::model::types::JointId(index)
     }
 
     /// All numbers of a function by its candidate.
-    pub fn candidate(&self, kind: FunctionKind, candidate: usize, point: &Point) -> Vec<f64> {
+    pub(crate) fn candidate(&self, kind: FunctionKind, candidate: usize, point: &Point) -> Vec<f64> {
         let function = self.derivation.functions.iter().find(|f| f.kind == kind).expect("derived");
         let results = &function.candidates[candidate].1;
         let symbols = |id: SymbolId| point.values[&self.derivation.symbols[id.0]];
         Evaluator::new(&self.derivation.graph, Real { symbols: &symbols }).run(results)
     }
 
-    pub fn candidates(&self, kind: FunctionKind) -> usize {
+    pub(crate) fn candidates(&self, kind: FunctionKind) -> usize {
         self.derivation.functions.iter().find(|f| f.kind == kind).map_or(0, |f| f.candidates.len())
     }
 
     /// Numbers of a function; all candidates agree.
-    pub fn eval(&self, kind: FunctionKind, point: &Point) -> Vec<f64> {
+    pub(crate) fn eval(&self, kind: FunctionKind, point: &Point) -> Vec<f64> {
         let first = self.candidate(kind, 0, point);
         for k in 1..self.candidates(kind) {
             let other = self.candidate(kind, k, point);
@@ -138,7 +138,7 @@ impl Case {
     }
 
     /// Numbers of one output.
-    pub fn output(&self, name: &str, point: &Point) -> Vec<f64> {
+    pub(crate) fn output(&self, name: &str, point: &Point) -> Vec<f64> {
         let all = self.eval(FunctionKind::Outputs, point);
         let mut start = 0;
         for output in &self.model.outputs {
@@ -151,15 +151,15 @@ impl Case {
         panic!("no output {name}")
     }
 
-    pub fn dof(&self) -> usize {
+    pub(crate) fn dof(&self) -> usize {
         self.model.joints.iter().map(|joint| joint.kind.freedoms()).sum()
     }
 
-    pub fn velocity(&self, point: &Point) -> Vec<f64> {
+    pub(crate) fn velocity(&self, point: &Point) -> Vec<f64> {
         self.list(point, |symbol| matches!(symbol, Symbol::Velocity { .. }))
     }
 
-    pub fn acceleration(&self, point: &Point) -> Vec<f64> {
+    pub(crate) fn acceleration(&self, point: &Point) -> Vec<f64> {
         self.list(point, |symbol| matches!(symbol, Symbol::Acceleration { .. }))
     }
 
@@ -168,7 +168,7 @@ impl Case {
     }
 
     /// The point after time h along rates of positions `v`, velocities `a`, and states `x`.
-    pub fn displaced(&self, point: &Point, h: f64, v: &[f64], a: &[f64], x: &[f64]) -> Point {
+    pub(crate) fn displaced(&self, point: &Point, h: f64, v: &[f64], a: &[f64], x: &[f64]) -> Point {
         let mut next = point.clone();
         *next.values.get_mut(&Symbol::Time).expect("time") += h;
         let mut first = 0;
@@ -204,7 +204,7 @@ impl Case {
     }
 
     /// The derivative of a function along the flow of the forward dynamics.
-    pub fn rate_along_flow(&self, point: &Point, f: impl Fn(&Point) -> Vec<f64>) -> Vec<f64> {
+    pub(crate) fn rate_along_flow(&self, point: &Point, f: impl Fn(&Point) -> Vec<f64>) -> Vec<f64> {
         let rates = self.eval(FunctionKind::ForwardDynamics, point);
         let (a, x) = rates.split_at(self.dof());
         let v = self.velocity(point);
@@ -218,7 +218,7 @@ impl Case {
     }
 
     /// Central differences of order four.
-    pub fn derivative(&self, f: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
+    pub(crate) fn derivative(&self, f: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
         let h = 2e-4;
         let [a, b, c, d] = [f(-2.0 * h), f(-h), f(h), f(2.0 * h)];
         (0..a.len()).map(|k| (a[k] - 8.0 * b[k] + 8.0 * c[k] - d[k]) / (12.0 * h)).collect()
@@ -226,11 +226,11 @@ impl Case {
 }
 
 impl Point {
-    pub fn set(&mut self, symbol: Symbol, value: f64) {
+    pub(crate) fn set(&mut self, symbol: Symbol, value: f64) {
         assert!(self.values.insert(symbol, value).is_some(), "{symbol:?} is no symbol");
     }
 
-    pub fn get(&self, symbol: Symbol) -> f64 {
+    pub(crate) fn get(&self, symbol: Symbol) -> f64 {
         self.values[&symbol]
     }
 }
@@ -248,7 +248,7 @@ fn width(ty: &multibody_engine::model::types::Type, dof: usize) -> usize {
     }
 }
 
-pub fn multiply_quaternions(p: &[f64], q: &[f64]) -> [f64; 4] {
+pub(crate) fn multiply_quaternions(p: &[f64], q: &[f64]) -> [f64; 4] {
     [
         p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
         p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
@@ -258,7 +258,7 @@ pub fn multiply_quaternions(p: &[f64], q: &[f64]) -> [f64; 4] {
 }
 
 /// max |a - b| at most `tolerance` times 1 + max |b|
-pub fn close(what: &str, a: &[f64], b: &[f64], tolerance: f64) {
+pub(crate) fn close(what: &str, a: &[f64], b: &[f64], tolerance: f64) {
     assert_eq!(a.len(), b.len(), "{what}");
     let scale = 1.0 + b.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     let error = a.iter().zip(b).fold(0.0_f64, |m, (x, y)| m.max((x - y).abs()));
@@ -266,28 +266,28 @@ pub fn close(what: &str, a: &[f64], b: &[f64], tolerance: f64) {
     assert!(sound && error <= tolerance * scale, "{what}: off by {error:e}\n{a:?}\n{b:?}");
 }
 
-pub type Matrix = [[f64; 3]; 3];
+pub(crate) type Matrix = [[f64; 3]; 3];
 
-pub const ONE: Matrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+pub(crate) const ONE: Matrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-pub fn times(a: &Matrix, b: &Matrix) -> Matrix {
+pub(crate) fn times(a: &Matrix, b: &Matrix) -> Matrix {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
 }
 
-pub fn transpose(a: &Matrix) -> Matrix {
+pub(crate) fn transpose(a: &Matrix) -> Matrix {
     std::array::from_fn(|i| std::array::from_fn(|j| a[j][i]))
 }
 
-pub fn apply(a: &Matrix, v: &[f64; 3]) -> [f64; 3] {
+pub(crate) fn apply(a: &Matrix, v: &[f64; 3]) -> [f64; 3] {
     std::array::from_fn(|i| (0..3).map(|k| a[i][k] * v[k]).sum())
 }
 
-pub fn plus(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
+pub(crate) fn plus(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| a[k] + b[k])
 }
 
 /// Rodrigues' formula; the axis may have any length.
-pub fn turn(axis: [f64; 3], angle: f64) -> Matrix {
+pub(crate) fn turn(axis: [f64; 3], angle: f64) -> Matrix {
     let norm = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
     let u = axis.map(|x| x / norm);
     let (s, c) = angle.sin_cos();
@@ -305,7 +305,7 @@ pub fn turn(axis: [f64; 3], angle: f64) -> Matrix {
     })
 }
 
-pub fn of_quaternion(q: &[f64]) -> Matrix {
+pub(crate) fn of_quaternion(q: &[f64]) -> Matrix {
     let norm = (q[1] * q[1] + q[2] * q[2] + q[3] * q[3]).sqrt();
     if norm == 0.0 { ONE } else { turn([q[1], q[2], q[3]], 2.0 * norm.atan2(q[0])) }
 }

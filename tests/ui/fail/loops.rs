@@ -1,0 +1,16 @@
+//! A closed loop.
+use multibody::multibody;
+
+multibody! {
+    mod four_bar {
+        body crank { mass: 1.0, inertia: rod(1.0, 1.0, X) }
+        body rocker { mass: 1.0, inertia: rod(1.0, 1.0, X) }
+        joint a: Revolute { parent: ground, child: crank, axis: Z }
+        joint b: Revolute { parent: crank.at(X), child: rocker, axis: Z }
+        joint closing: Revolute { parent: ground.at(X), child: rocker.at(X), axis: Z }
+    }
+}
+
+fn main() {
+    four_bar::Model::<f64>::new(&four_bar::Params::default());
+}
