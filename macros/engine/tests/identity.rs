@@ -261,6 +261,6 @@ fn placement(g: &mut Graph, [w, x, y, z]: [i64; 4]) -> Rotation {
         [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
     ];
     let norm = Number::integer(w * w + x * x + y * y + z * z);
-    let rows = rows.map(|row| row.map(|n| g.number(Number::integer(n).div(norm))));
+    let rows = rows.map(|row| row.map(|n| g.number(Number::integer(n) / norm)));
     g.matrix_rotation(rows)
 }

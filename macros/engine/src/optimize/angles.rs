@@ -64,10 +64,19 @@ fn gather(dag: &Dag) -> Vec<Angle> {
 }
 
 fn units(dag: &Dag, id: Id) -> Combination {
-    match &dag.nodes[id].kind {
-        Kind::Sum(terms) => terms.iter().map(|&(c, t)| (t, c)).collect(),
-        _ => BTreeMap::from([(id, Number::ONE)]),
+    let mut combination = BTreeMap::new();
+    let mut stack = vec![(Number::ONE, id)];
+    while let Some((factor, id)) = stack.pop() {
+        match &dag.nodes[id].kind {
+            Kind::Sum(terms) => stack.extend(terms.iter().map(|&(c, t)| (c * factor, t))),
+            _ => {
+                let entry = combination.entry(id).or_insert(Number::ZERO);
+                *entry = *entry + factor;
+            }
+        }
     }
+    combination.retain(|_, c| !c.is_zero());
+    combination
 }
 
 /// Two known angles whose sum (or difference, first minus second) this is.

@@ -77,9 +77,15 @@ impl Dag {
     pub fn import(graph: &Graph, roots: &[Scalar], symbols: &[Symbol]) -> Dag {
         let mut dag = Dag::new(symbols);
         let mut map: HashMap<usize, (Number, Id)> = HashMap::new();
-        for index in graph.reachable_scalars(roots) {
+        let reachable = graph.reachable_scalars(roots);
+        let shared = graph.shared(&reachable, roots);
+        for index in reachable {
             let s = graph.scalar_at(index);
-            let value = dag.import_node(graph, s, &map);
+            let mut value = dag.import_node(graph, s, &map);
+            // A multiple that several places use stays a value of its own.
+            if shared[index] && value.1 != ONE && !value.0.is_unit() {
+                value = (Number::ONE, dag.plain(value));
+            }
             if let (Some(name), (_, id)) = (graph.name_of(s), value) {
                 dag.nodes[id].name.get_or_insert_with(|| name.to_owned());
             }

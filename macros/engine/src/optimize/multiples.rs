@@ -4,15 +4,20 @@
 //! c x z + .. share the product c x. Coefficients float freely before this pass; what it makes, stays.
 
 use std::collections::BTreeMap;
-use std::ops::{Mul, Neg};
 
 use crate::symbolic::number::Number;
 
 use super::dag::{Dag, Id, Kind, ONE};
 use super::stage::Stage;
 
-/// A term of a sum: the sum, the term's node.
-type Place = (Id, Id);
+/// Where a multiple stands.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Place {
+    /// The sum, the term's node.
+    Term(Id, Id),
+    /// The result's number.
+    Root(usize),
+}
 
 pub fn multiples(dag: &mut Dag) {
     for _ in 0..16 {
@@ -42,8 +47,8 @@ fn candidates(dag: &Dag) -> Vec<(Id, Number, Vec<Place>)> {
         for &(c, term) in terms.iter().filter(|(c, term)| !c.is_unit() && *term != ONE) {
             let mut add = |factor: Id| {
                 let entry = places.entry((factor, c.abs().residue)).or_insert_with(|| (c.abs(), Vec::new()));
-                if entry.1.last() != Some(&(id, term)) {
-                    entry.1.push((id, term));
+                if entry.1.last() != Some(&Place::Term(id, term)) {
+                    entry.1.push(Place::Term(id, term));
                 }
             };
             // The multiple may stand as a node already, as a sum of one term.
@@ -51,6 +56,11 @@ fn candidates(dag: &Dag) -> Vec<(Id, Number, Vec<Place>)> {
             if let (Kind::Product(factors), 1) = (&dag.nodes[term].kind, uses[term]) {
                 factors.iter().for_each(|&f| add(f));
             }
+        }
+    }
+    for (k, &(c, id)) in dag.roots.iter().enumerate() {
+        if !c.is_unit() && id != ONE && dag.nodes[id].stage > Stage::Parameter {
+            places.entry((id, c.abs().residue)).or_insert_with(|| (c.abs(), Vec::new())).1.push(Place::Root(k));
         }
     }
     let mut list: Vec<(Id, Number, Vec<Place>)> = places
@@ -63,37 +73,48 @@ fn candidates(dag: &Dag) -> Vec<(Id, Number, Vec<Place>)> {
     list
 }
 
-/// Whether a sum still has this multiple: an earlier sharing may have taken it.
-fn stands(dag: &Dag, (sum, term): Place, factor: Id, c: Number) -> bool {
-    let Kind::Sum(terms) = &dag.nodes[sum].kind else { return false };
-    terms.iter().any(|t| t.1 == term && t.0.abs() == c)
-        && (term == factor || matches!(&dag.nodes[term].kind, Kind::Product(factors) if factors.contains(&factor)))
+/// Whether a place still has this multiple: an earlier sharing may have taken it.
+fn stands(dag: &Dag, place: Place, factor: Id, c: Number) -> bool {
+    match place {
+        Place::Root(k) => dag.roots[k].1 == factor && dag.roots[k].0.abs() == c,
+        Place::Term(sum, term) => {
+            let Kind::Sum(terms) = &dag.nodes[sum].kind else { return false };
+            terms.iter().any(|t| t.1 == term && t.0.abs() == c)
+                && (term == factor || matches!(&dag.nodes[term].kind, Kind::Product(list) if list.contains(&factor)))
+        }
+    }
 }
 
 fn share(dag: &mut Dag, factor: Id, c: Number, list: &[Place]) -> bool {
     let multiple = dag.plain((c, factor));
+    let unit = |d: Number| if d == c { Number::ONE } else { -Number::ONE };
     let mut changed = false;
-    for &(sum, term) in list {
-        if sum == multiple {
-            continue;
+    for &place in list {
+        match place {
+            Place::Root(k) => {
+                dag.roots[k] = (unit(dag.roots[k].0), multiple);
+                changed = true;
+            }
+            Place::Term(sum, term) if sum != multiple => {
+                let Kind::Sum(mut terms) = dag.nodes[sum].kind.clone() else { continue };
+                let Some(at) = terms.iter().position(|t| t.1 == term) else { continue };
+                let unit = unit(terms[at].0);
+                terms[at] = if term == factor {
+                    (unit, multiple)
+                } else {
+                    let Kind::Product(mut factors) = dag.nodes[term].kind.clone() else { continue };
+                    let Some(position) = factors.iter().position(|&f| f == factor) else { continue };
+                    factors[position] = multiple;
+                    let (sign, product) = dag.product(factors);
+                    (unit * sign, product)
+                };
+                terms.sort_by_key(|t| t.1);
+                if terms.windows(2).all(|pair| pair[0].1 != pair[1].1) {
+                    changed |= dag.rewrite(sum, Kind::Sum(terms));
+                }
+            }
+            Place::Term(..) => {}
         }
-        let Kind::Sum(mut terms) = dag.nodes[sum].kind.clone() else { continue };
-        let Some(at) = terms.iter().position(|t| t.1 == term) else { continue };
-        let unit = if terms[at].0 == c { Number::ONE } else { Number::ONE.neg() };
-        terms[at] = if term == factor {
-            (unit, multiple)
-        } else {
-            let Kind::Product(mut factors) = dag.nodes[term].kind.clone() else { continue };
-            let Some(position) = factors.iter().position(|&f| f == factor) else { continue };
-            factors[position] = multiple;
-            let (sign, product) = dag.product(factors);
-            (unit.mul(sign), product)
-        };
-        terms.sort_by_key(|t| t.1);
-        if terms.windows(2).any(|pair| pair[0].1 == pair[1].1) {
-            continue;
-        }
-        changed |= dag.rewrite(sum, Kind::Sum(terms));
     }
     changed
 }

@@ -11,7 +11,6 @@
 //! "Identical" can be trusted; "different" means so only if every angle is a sum of the same units: a product of sums, or
 //! a dot product, is one unit.
 
-use std::ops::{Add, Mul, Neg};
 use std::cell::Cell;
 
 use super::evaluate::{Evaluator, Field, Real};
@@ -181,7 +180,7 @@ impl Modular<'_> {
     /// Cosine and sine of a sum of angles with literal factors and a literal.
     pub fn angle(&self, terms: &[(u64, Number)], constant: Number) -> (u64, u64) {
         let units = terms.iter().map(|&(value, factor)| self.draw.unit(value, factor));
-        let point = units.fold(literal_point(constant), Point::add);
+        let point = units.fold(literal_point(constant), |sum, point| sum + point);
         (point.cos.0[0], point.sin.0[0])
     }
 
@@ -256,12 +255,12 @@ impl Field for Modular<'_> {
         let mut terms = Vec::new();
         let mut stack = vec![(angle, Number::ONE)];
         while let Some((s, factor)) = stack.pop() {
-            let factor = if s.is_negative() { factor.neg() } else { factor };
+            let factor = if s.is_negative() { -factor } else { factor };
             match graph.node(s) {
-                ScalarNode::Literal(n) => constant = constant.add(n.mul(factor)),
+                ScalarNode::Literal(n) => constant = constant + *n * factor,
                 ScalarNode::Sum(list) => stack.extend(list.iter().map(|&t| (t, factor))),
                 ScalarNode::Product(list) => match (list.first().and_then(|&f| graph.literal(f)), &list[..]) {
-                    (Some(n), &[_, rest]) => stack.push((rest, factor.mul(n))),
+                    (Some(n), &[_, rest]) => stack.push((rest, factor * n)),
                     _ => terms.push((s.positive(), factor)),
                 },
                 _ => terms.push((s.positive(), factor)),

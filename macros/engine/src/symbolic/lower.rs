@@ -248,6 +248,23 @@ impl Graph {
         self.reachable(roots).into_iter().filter_map(scalar).collect()
     }
 
+    /// Which of these scalars are used more than once.
+    pub fn shared(&self, reachable: &[usize], roots: &[Scalar]) -> Vec<bool> {
+        let mut uses = vec![0_u8; self.scalars.len()];
+        let mut count = |s: &Scalar| uses[s.index()] = uses[s.index()].saturating_add(1);
+        for &index in reachable {
+            match &self.scalars[index] {
+                ScalarNode::Sum(list) | ScalarNode::Product(list) | ScalarNode::Call(_, list) => {
+                    list.iter().for_each(&mut count);
+                }
+                ScalarNode::Reciprocal(x) | ScalarNode::Sqrt(x) | ScalarNode::Sin(x) | ScalarNode::Cos(x) => count(x),
+                _ => {}
+            }
+        }
+        roots.iter().for_each(&mut count);
+        uses.iter().map(|&n| n > 1).collect()
+    }
+
     /// The handle of the scalar at a position.
     pub fn scalar_at(&self, index: usize) -> Scalar {
         Scalar::new(index, false)

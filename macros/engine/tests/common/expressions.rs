@@ -57,7 +57,7 @@ impl Angle {
     }
 
     fn evaluate(&self, field: &Modular<'_>) -> (u64, u64) {
-        let factor = |quarters: i64| Number::integer(quarters).div(Number::integer(4));
+        let factor = |quarters: i64| Number::integer(quarters) / Number::integer(4);
         let terms: Vec<(u64, Number)> =
             self.terms.iter().map(|&(symbol, quarters)| (field.symbol(SymbolId(symbol)), factor(quarters))).collect();
         field.angle(&terms, Number::decimal(self.constant))

@@ -24,7 +24,7 @@ pub(crate) fn derive(mechanism: &Mechanism) -> Derived {
     let mut freedom = 0;
     for (index, (body, (motion, q))) in mechanism.bodies.iter().zip(motions).enumerate() {
         let (rows, denominator) = fractions(body.placement);
-        let rows = rows.map(|row| row.map(|n| g.number(Number::integer(n).div(Number::integer(denominator)))));
+        let rows = rows.map(|row| row.map(|n| g.number(Number::integer(n) / Number::integer(denominator))));
         let rotation = g.matrix_rotation(rows);
         let offset = body.offset.map(|x| g.decimal(x));
         let (mass, com) = (g.decimal(body.mass), body.com.map(|x| g.decimal(x)));
