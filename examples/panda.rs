@@ -200,9 +200,8 @@ fn under_control() -> Result<(), IntegrationError> {
         let start = Run { arm: State { q: q.into(), v: v.into() }, work: 0.0 };
         let error = |t: f64, run: &Run| (Joints::from(run.arm.q) - reference(t)[0]).amax();
         let mut largest = 0.0_f64;
-        let steps = (DURATION * 1000.0) as u32;
-        let end =
-            Rk4::integrate(&system, 0.0, &start, &(), 1e-3, steps, |t, run| largest = largest.max(error(t, run)))?;
+        let watch = |t: f64, run: &Run| largest = largest.max(error(t, run));
+        let end = Rk4::integrate(&system, 0.0, &start, &(), 1e-3, (DURATION * 1000.0) as u32, watch)?;
         let energy = |run: &Run| plant.outputs(0.0, &run.arm, &Input::default()).energy;
         let (change, last) = (energy(&end) - energy(&start), error(DURATION, &end));
         println!(
@@ -247,16 +246,22 @@ fn times() {
 
 /// [ns] of the three functions with one kind of scalar.
 fn times_of<T: Real>(state: &State<T>) -> [(&'static str, f64); 3] {
-    let model = Model::<T>::default();
-    let (input, accel, zero) = (Input::default(), state.v, T::lit(0.0));
-    [
-        (
-            "inverse_dynamics",
-            time(|| model.inverse_dynamics(zero, black_box(state), black_box(&input), black_box(&accel))),
-        ),
-        ("mass_matrix", time(|| model.mass_matrix(black_box(&state.q)))),
-        ("forward_dynamics", time(|| model.forward_dynamics(zero, black_box(state), black_box(&input)))),
-    ]
+    // On the heap: beside a function's own values on the stack, arguments can slow down its memory accesses.
+    let all = Box::new((Model::<T>::default(), *state, Input::default(), T::lit(0.0)));
+    let arguments = || black_box(&*all);
+    let inverse = || {
+        let (model, state, input, t) = arguments();
+        model.inverse_dynamics(*t, state, input, &state.v)
+    };
+    let mass = || {
+        let (model, state, ..) = arguments();
+        model.mass_matrix(&state.q)
+    };
+    let forward = || {
+        let (model, state, input, t) = arguments();
+        model.forward_dynamics(*t, state, input)
+    };
+    [("inverse_dynamics", time(inverse)), ("mass_matrix", time(mass)), ("forward_dynamics", time(forward))]
 }
 
 /// [ns] a call, median of batches.

@@ -3,4 +3,5 @@
 pub mod arms;
 pub mod laws;
 pub mod motion;
+pub mod random;
 pub mod small;

@@ -4,5 +4,7 @@ pub mod arm;
 pub mod compare;
 pub mod data;
 pub mod engine;
+pub mod jet;
 pub mod ledger;
+pub mod plain;
 pub mod random;

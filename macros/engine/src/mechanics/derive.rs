@@ -10,15 +10,48 @@ use std::rc::Rc;
 
 use crate::model::types::{BodyRef, Expr, ExprNode, Joint, JointId, JointKind, Model, Order, Request};
 use crate::optimize::program::FunctionKind;
-use crate::symbolic::graph::{Graph, Scalar};
+use crate::symbolic::graph::{Graph, Rotation, Scalar};
 
 use super::equations::{Equations, Method, Style, Way};
 use super::names;
+use super::parallel::Axes;
 use super::symbols::Symbols;
 use super::{Derivation, Derived};
 
-const METHODS: [(Method, &str); 2] =
-    [(Method::Composite, "composite rigid body, LDL^T"), (Method::Articulated, "articulated body")];
+/// Own axes for every link, or common ones for parallel hinges.
+const AXES: [Option<Axes>; 3] = [None, Some(Axes::Base), Some(Axes::Tip)];
+
+/// A method's name with each of [`AXES`].
+type Names = [&'static str; 3];
+
+const NEWTON_EULER: Names = [
+    "recursive Newton-Euler",
+    "recursive Newton-Euler, parallel hinges in the axes of their base",
+    "recursive Newton-Euler, parallel hinges in the axes of their tip",
+];
+const COMPOSITE: Names = [
+    "composite rigid body",
+    "composite rigid body, parallel hinges in the axes of their base",
+    "composite rigid body, parallel hinges in the axes of their tip",
+];
+const METHODS: [(Method, Names); 2] = [
+    (
+        Method::Composite,
+        [
+            "composite rigid body, LDL^T",
+            "composite rigid body, LDL^T, parallel hinges in the axes of their base",
+            "composite rigid body, LDL^T, parallel hinges in the axes of their tip",
+        ],
+    ),
+    (
+        Method::Articulated,
+        [
+            "articulated body",
+            "articulated body, parallel hinges in the axes of their base",
+            "articulated body, parallel hinges in the axes of their tip",
+        ],
+    ),
+];
 
 /// Beyond this many coordinates a factorisation, whose cost grows with their cube, is no candidate.
 const MOST_COMPOSITE: usize = 32;
@@ -64,16 +97,35 @@ impl<'m> Deriving<'m> {
         match kind {
             FunctionKind::ForwardDynamics => self.forward_dynamics(),
             FunctionKind::Outputs => self.outputs(),
-            FunctionKind::InverseDynamics => self.one("recursive Newton-Euler", Equations::inverse_dynamics),
-            FunctionKind::Bias => self.one("recursive Newton-Euler", Equations::bias),
-            FunctionKind::MassMatrix => self.one("composite rigid body", Equations::mass_matrix),
-            FunctionKind::KineticEnergy => self.one("sum over links", |e| vec![e.kinetic()]),
-            FunctionKind::PotentialEnergy => self.one("first moment of mass, springs", |e| vec![e.potential()]),
+            FunctionKind::InverseDynamics => self.one(NEWTON_EULER, Equations::inverse_dynamics),
+            FunctionKind::Bias => self.one(NEWTON_EULER, Equations::bias),
+            FunctionKind::MassMatrix => self.one(COMPOSITE, Equations::mass_matrix),
+            FunctionKind::KineticEnergy => self.only("sum over links", |e| vec![e.kinetic()]),
+            FunctionKind::PotentialEnergy => self.only("first moment of mass, springs", |e| vec![e.potential()]),
         }
     }
 
-    fn one(&mut self, name: &'static str, f: impl Fn(&mut Equations<'m>) -> Vec<Scalar>) -> Vec<Candidate> {
-        vec![self.candidate(name, Way { style: Style::Nested, method: Method::Composite }, &[], f)]
+    /// One method, in the axes that [`AXES`] names.
+    fn one(&mut self, names: Names, f: impl Fn(&mut Equations<'m>) -> Vec<Scalar>) -> Vec<Candidate> {
+        self.in_all_axes(names, Method::Composite, &[], f)
+    }
+
+    fn in_all_axes(
+        &mut self,
+        names: Names,
+        method: Method,
+        kept: &[JointId],
+        f: impl Fn(&mut Equations<'m>) -> Vec<Scalar>,
+    ) -> Vec<Candidate> {
+        let ways = AXES.into_iter().zip(names);
+        ways.filter_map(|(axes, name)| self.candidate(name, Way { style: Style::Nested, method, axes }, kept, &f))
+            .collect()
+    }
+
+    /// One that has no choice of axes.
+    fn only(&mut self, name: &'static str, f: impl Fn(&mut Equations<'m>) -> Vec<Scalar>) -> Vec<Candidate> {
+        let way = Way { style: Style::Nested, method: Method::Composite, axes: None };
+        self.candidate(name, way, &[], f).into_iter().collect()
     }
 
     fn candidate(
@@ -82,13 +134,14 @@ impl<'m> Deriving<'m> {
         way: Way,
         kept: &[JointId],
         f: impl Fn(&mut Equations<'m>) -> Vec<Scalar>,
-    ) -> Candidate {
+    ) -> Option<Candidate> {
         let mut graph = std::mem::take(&mut self.graph);
         graph.forget();
         let mut equations = Equations::new(self.model, graph, self.symbols.clone(), way, kept);
-        let results = f(&mut equations);
+        let exists = way.axes.is_none() || equations.shared().turns.iter().any(|&turn| turn != Rotation::IDENTITY);
+        let results = if exists { f(&mut equations) } else { Vec::new() };
         self.graph = equations.g;
-        (name, results)
+        exists.then_some((name, results))
     }
 
     fn forward_dynamics(&mut self) -> Vec<Candidate> {
@@ -105,12 +158,14 @@ impl<'m> Deriving<'m> {
             true => &METHODS[..],
             false => &METHODS[..1],
         };
-        let way = |method| Way { style: Style::Nested, method };
-        let mut candidates: Vec<Candidate> =
-            methods.iter().map(|&(method, name)| self.candidate(name, way(method), &kept, all)).collect();
+        let mut candidates = Vec::new();
+        for &(method, names) in methods {
+            candidates.extend(self.in_all_axes(names, method, &kept, all));
+        }
         if floats(model) && freedoms(model) <= MOST_COMPOSITE {
             let name = "composite rigid body, LDL^T, translations first";
-            candidates.push(self.candidate(name, way(Method::Floating), &kept, all));
+            let way = Way { style: Style::Nested, method: Method::Floating, axes: None };
+            candidates.extend(self.candidate(name, way, &kept, all));
         }
         candidates
     }
@@ -142,7 +197,9 @@ impl<'m> Deriving<'m> {
             }
         }
         let candidates =
-            ways.into_iter().map(|(style, method, name)| self.candidate(name, Way { style, method }, &kept, all));
+            ways.into_iter().filter_map(|(style, method, name)| {
+            self.candidate(name, Way { style, method, axes: None }, &kept, all)
+        });
         candidates.collect()
     }
 }

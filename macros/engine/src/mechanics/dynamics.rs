@@ -30,13 +30,15 @@ impl Equations<'_> {
 
     /// In the tree's coordinates.
     fn efforts(&mut self, acceleration: &[Scalar]) -> Vec<Scalar> {
-        let tree = self.regrouped();
+        let shared = self.shared();
+        let tree = &shared.tree;
         let loads = self.loads();
         let base = self.base();
         let g = &mut self.g;
-        let motions = motions(g, &tree, &tree.velocity, acceleration, base);
-        let wrenches = transmitted(g, &tree, &motions, &loads.applied);
-        let needed = efforts(g, &tree, &wrenches, acceleration);
+        let motions = motions(g, tree, &tree.velocity, acceleration, base);
+        let applied = shared.turn(g, &loads.applied);
+        let wrenches = transmitted(g, tree, &motions, &applied);
+        let needed = efforts(g, tree, &wrenches, acceleration);
         let rest = needed.iter().zip(&loads.efforts).map(|(&needed, &given)| g.sub(needed, given));
         rest.take(self.symbols.freedoms).collect()
     }
@@ -44,8 +46,8 @@ impl Equations<'_> {
     /// Row by row.
     pub(super) fn mass_matrix(&mut self) -> Vec<Scalar> {
         let mechanism = Rc::clone(&self.mechanism);
-        let tree = self.regrouped();
-        let matrix = composite::mass_matrix(&mut self.g, &tree);
+        let shared = self.shared();
+        let matrix = composite::mass_matrix(&mut self.g, &shared.tree);
         let mut entries = Vec::new();
         for (row, &flip) in matrix.iter().zip(&mechanism.flipped) {
             let row = mechanism.sign(row);
@@ -64,10 +66,11 @@ impl Equations<'_> {
             return vec![Scalar::ZERO; self.symbols.freedoms].into();
         }
         let mechanism = Rc::clone(&self.mechanism);
-        let tree = self.regrouped();
+        let shared = self.shared();
+        let tree = &shared.tree;
         let list = match self.method {
             Method::Composite | Method::Floating => {
-                let matrix = composite::mass_matrix(&mut self.g, &tree);
+                let matrix = composite::mass_matrix(&mut self.g, tree);
                 let bias = self.efforts(&vec![Scalar::ZERO; tree.freedoms()]);
                 let order = mechanism.elimination(self.method == Method::Floating);
                 let rhs: Vec<Scalar> = bias.iter().map(|&b| -b).collect();
@@ -77,7 +80,8 @@ impl Equations<'_> {
                 let loads = self.loads();
                 let base = self.base();
                 let g = &mut self.g;
-                articulated::forward_dynamics(g, &tree, &tree.velocity, base, &loads.applied, &loads.efforts)
+                let applied = shared.turn(g, &loads.applied);
+                articulated::forward_dynamics(g, tree, &tree.velocity, base, &applied, &loads.efforts)
             }
         };
         let accelerations: Rc<[Scalar]> = mechanism.sign(&list).into();

@@ -13,6 +13,7 @@ use super::build::Mechanism;
 use super::columns::Columns;
 use super::forces::Loads;
 use super::newton_euler::Wrench;
+use super::parallel::{Axes, Shared, share_axes};
 use super::regroup::regroup;
 use super::symbols::Symbols;
 use super::tree::Tree;
@@ -41,6 +42,8 @@ pub enum Method {
 pub struct Way {
     pub style: Style,
     pub method: Method,
+    /// Common axes for parallel hinges in the recursions of the dynamics.
+    pub axes: Option<Axes>,
 }
 
 /// Angular velocity, and velocity of the origin, in link axes.
@@ -54,6 +57,7 @@ pub struct Equations<'m> {
     pub(super) mechanism: Rc<Mechanism>,
     pub(super) style: Style,
     pub(super) method: Method,
+    pub(super) axes: Option<Axes>,
     /// By address: the model outlives this.
     pub(super) memo: HashMap<*const ExprNode, Value>,
     pub(super) world: Columns,
@@ -61,6 +65,8 @@ pub struct Equations<'m> {
     pub(super) rotations: Vec<Option<Rotation>>,
     pub(super) velocities: Option<Rc<[LinkVelocity]>>,
     pub(super) regrouped: Option<Rc<Tree>>,
+    /// The regrouped tree in the axes that the dynamics is written in.
+    pub(super) shared: Option<Rc<Shared>>,
     pub(super) loads: Option<Rc<Loads>>,
     pub(super) accelerations: Option<Rc<[Scalar]>>,
     pub(super) transmitted: Option<Rc<[Wrench]>>,
@@ -78,6 +84,8 @@ impl<'m> Equations<'m> {
             mechanism: Rc::new(Mechanism::default()),
             style: way.style,
             method: way.method,
+            axes: way.axes,
+            shared: None,
             memo: HashMap::new(),
             world: Columns::new(None, Rotation::IDENTITY),
             rotations: Vec::new(),
@@ -102,6 +110,18 @@ impl<'m> Equations<'m> {
         let tree = Rc::new(regroup(&mut self.g, &self.mechanism.tree));
         self.regrouped = Some(Rc::clone(&tree));
         tree
+    }
+
+    /// The regrouped tree in the axes of this way, and how far wrenches given in link axes must turn.
+    pub(super) fn shared(&mut self) -> Rc<Shared> {
+        if let Some(shared) = &self.shared {
+            return Rc::clone(shared);
+        }
+        let tree = self.regrouped();
+        let shared = self.axes.and_then(|axes| share_axes(&mut self.g, &tree, axes));
+        let shared = Rc::new(shared.unwrap_or_else(|| Shared::own(&tree)));
+        self.shared = Some(Rc::clone(&shared));
+        shared
     }
 
     /// Minus gravity: the acceleration of the ground that acts like it.

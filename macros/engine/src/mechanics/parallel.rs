@@ -9,6 +9,7 @@
 use crate::symbolic::graph::{Graph, Rotation, Scalar};
 
 use super::inertia::Inertia;
+use super::newton_euler::Wrench;
 use super::tree::{Link, Motion, Tree};
 
 /// Whose axes the links of a group take.
@@ -25,6 +26,19 @@ pub struct Shared {
     pub tree: Tree,
     /// From each link's own axes to those it is written in now: for wrenches that are given in link axes.
     pub turns: Vec<Rotation>,
+}
+
+impl Shared {
+    /// Every link in its own axes.
+    pub fn own(tree: &Tree) -> Shared {
+        Shared { tree: tree.clone(), turns: vec![Rotation::IDENTITY; tree.links.len()] }
+    }
+
+    /// Wrenches given in link axes, in those of the tree.
+    pub fn turn(&self, g: &mut Graph, wrenches: &[Wrench]) -> Vec<Wrench> {
+        let pairs = wrenches.iter().zip(&self.turns);
+        pairs.map(|(w, &r)| Wrench { moment: g.rotate(r, w.moment), force: g.rotate(r, w.force) }).collect()
+    }
 }
 
 /// A link's place among its parallel neighbours.

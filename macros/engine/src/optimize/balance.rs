@@ -27,6 +27,7 @@ pub fn balance(dag: &mut Dag) {
         if !changed {
             return;
         }
+        dag.forget_dead();
     }
 }
 

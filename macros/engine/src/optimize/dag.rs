@@ -47,6 +47,7 @@ pub struct Node {
 }
 
 /// Expressions under optimisation.
+#[derive(Clone)]
 pub struct Dag {
     pub nodes: Vec<Node>,
     index: HashMap<Print, Id, BuildHasherDefault<PassHasher>>,
@@ -375,6 +376,15 @@ impl Dag {
         self.nodes[id].kind = kind;
         self.nodes[id].print = print;
         self.index.entry(print.canonical()).or_insert(id);
+    }
+
+    /// Nodes that nothing needs any more don't follow when others are scaled: they must not be found again.
+    pub fn forget_dead(&mut self) {
+        self.index.clear();
+        self.index.insert(Print::ONE, ONE);
+        for id in self.order() {
+            self.index.entry(self.nodes[id].print.canonical()).or_insert(id);
+        }
     }
 
     fn kind_print(&self, kind: &Kind) -> Option<Print> {

@@ -72,9 +72,11 @@ pub fn compile(derivation: &Derivation) -> Result<Compiled, TooLarge> {
     Ok(Compiled { fields: names, prelude, prelude_cost, functions })
 }
 
-/// All rewrites, a fixed number of rounds.
+/// All rewrites, a fixed number of rounds. Each pass pays by its own count, not always by the whole: what comes out
+/// dearer than it went in is given back as it came (law 7).
 pub fn simplify(dag: &mut Dag) {
     flatten::flatten(dag);
+    let derived = dag.clone();
     angles::angles(dag);
     stage::split(dag);
     for _ in 0..3 {
@@ -87,6 +89,9 @@ pub fn simplify(dag: &mut Dag) {
     }
     multiples::multiples(dag);
     common::share(dag);
+    if dag.cost().0.weight() > derived.cost().0.weight() {
+        *dag = derived;
+    }
 }
 
 impl Cost {
