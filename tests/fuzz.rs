@@ -13,10 +13,50 @@ use proc_macro2::{Delimiter, Group, Ident, Literal, Punct, Spacing, Span, TokenS
 
 /// Words that a mutation puts where another word was.
 const WORDS: [&str; 44] = [
-    "body", "joint", "force", "param", "const", "input", "let", "output", "emit", "world", "part", "port", "state", "mass",
-    "com", "inertia", "parent", "child", "axis", "axes", "value", "Revolute", "Ball", "Free", "Universal", "Fixed",
-    "Planar", "Screw", "RollPitchYaw", "ground", "X", "Z", "t", "PI", "sin", "norm", "select", "kinetic", "diag", "rod",
-    "position", "rate", "jacobian", "reaction",
+    "body",
+    "joint",
+    "force",
+    "param",
+    "const",
+    "input",
+    "let",
+    "output",
+    "emit",
+    "world",
+    "part",
+    "port",
+    "state",
+    "mass",
+    "com",
+    "inertia",
+    "parent",
+    "child",
+    "axis",
+    "axes",
+    "value",
+    "Revolute",
+    "Ball",
+    "Free",
+    "Universal",
+    "Fixed",
+    "Planar",
+    "Screw",
+    "RollPitchYaw",
+    "ground",
+    "X",
+    "Z",
+    "t",
+    "PI",
+    "sin",
+    "norm",
+    "select",
+    "kinetic",
+    "diag",
+    "rod",
+    "position",
+    "rate",
+    "jacobian",
+    "reaction",
 ];
 
 const NUMBERS: [&str; 12] =
@@ -134,7 +174,8 @@ impl Mutator {
 
     fn word(&mut self) -> TokenTree {
         let own = !self.words.is_empty() && self.random.below(3) > 0;
-        let word = if own { &self.words[self.random.below(self.words.len())] } else { WORDS[self.random.below(WORDS.len())] };
+        let word =
+            if own { &self.words[self.random.below(self.words.len())] } else { WORDS[self.random.below(WORDS.len())] };
         TokenTree::Ident(Ident::new(word, Span::call_site()))
     }
 
@@ -254,7 +295,10 @@ fn sixty_four_kilobytes() {
     within_a_minute("sum", &filled("mod m { output a = 0.0", |k| format!(" + sin({k}.0 * t)"), "; }"));
     within_a_minute("nest", &format!("mod m {{ output a = {}1.0{}; }}", "(".repeat(30_000), ")".repeat(30_000)));
     within_a_minute("minus", &filled("mod m { output a = ", |_| "-".to_owned(), "1.0; }"));
-    within_a_minute("lets", &filled("mod m { let a0 = t;", |k| format!("let a{} = a{k} * a{k};", k + 1), "output o = a9; }"));
+    within_a_minute(
+        "lets",
+        &filled("mod m { let a0 = t;", |k| format!("let a{} = a{k} * a{k};", k + 1), "output o = a9; }"),
+    );
     within_a_minute("braces", &filled("mod m {", |_| "{} ".to_owned(), "}"));
     within_a_minute("modules", &filled("", |k| format!("mod m{k} {{ body b {{ mass: 1.0 }} }}"), ""));
     within_a_minute("emit", &filled("mod m { emit energy", |_| ", energy".to_owned(), "; }"));

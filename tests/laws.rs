@@ -91,10 +91,7 @@ fn power_balance() {
         let thrust = Vector3::from(random.units());
         let input = driven::Input { thrust };
         let a: SVector<f64, 4> = model.forward_dynamics(t, &x, &input).into();
-        let moving = driven::State {
-            q: q.zip_map(&v, Dual64::new).into(),
-            v: v.zip_map(&a, Dual64::new).into(),
-        };
+        let moving = driven::State { q: q.zip_map(&v, Dual64::new).into(), v: v.zip_map(&a, Dual64::new).into() };
         let output = model.outputs(t, &x, &input);
         let rates = dual.outputs(Dual64::new(t, 1.0), &moving, &driven::Input { thrust: thrust.map(Dual64::from) });
         assert_close("power", &[output.power], &[rates.moving.eps], 1e-13);
@@ -120,10 +117,7 @@ fn momentum_stays_on_a_floating_base() {
     let model = satellite::Model::new(&satellite::Params::default());
     let mut random = Random::new(5);
     let mut x = satellite::State::default();
-    x.q.free = Pose {
-        position: random.units().into(),
-        orientation: UnitQuaternion::from_euler_angles(0.3, -0.4, 1.2),
-    };
+    x.q.free = Pose { position: random.units().into(), orientation: UnitQuaternion::from_euler_angles(0.3, -0.4, 1.2) };
     x.v.free = Twist { linear: random.units().into(), angular: random.units().into() };
     (x.v.one, x.v.two) = (0.7, -0.4);
     let first = momentum(&model, &x, &satellite::Input { motors: [0.0; 2] });

@@ -34,13 +34,7 @@ const BARS: [Bar; 9] = [
     bar("panda", "forward_dynamics", [680, 820, 21], [556, 650, 21], [450, 540, 7]),
 ];
 
-const fn bar(
-    model: &'static str,
-    function: &'static str,
-    hand: [u32; 3],
-    prototype: [u32; 3],
-    goal: [u32; 3],
-) -> Bar {
+const fn bar(model: &'static str, function: &'static str, hand: [u32; 3], prototype: [u32; 3], goal: [u32; 3]) -> Bar {
     Bar { model, function, hand, prototype, goal }
 }
 

@@ -71,7 +71,17 @@ tests! { from: 8 tree8 9 tree9 10 tree10 11 tree11 }
 fn all_joints_occur() {
     let text = read("random").to_string();
     for kind in [
-        "Revolute", "Prismatic", "Screw", "Cylindrical", "Universal", "Planar", "Ball", "BallAngles", "Free", "FreeAngles", "Fixed",
+        "Revolute",
+        "Prismatic",
+        "Screw",
+        "Cylindrical",
+        "Universal",
+        "Planar",
+        "Ball",
+        "BallAngles",
+        "Free",
+        "FreeAngles",
+        "Fixed",
     ] {
         assert!(text.contains(&format!("\"kind\":\"{kind}\"")), "no {kind}");
     }

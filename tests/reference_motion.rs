@@ -32,7 +32,13 @@ where
 /// The sum of relative angles up to each joint.
 fn absolute(relative: &[f64]) -> Vec<f64> {
     let mut sum = 0.0;
-    relative.iter().map(|angle| { sum += angle; sum }).collect()
+    relative
+        .iter()
+        .map(|angle| {
+            sum += angle;
+            sum
+        })
+        .collect()
 }
 
 /// Error of absolute angles and rates.

@@ -122,11 +122,7 @@ fn parts(list: &[Dual64]) -> (Vec<f64>, Vec<f64>) {
 /// Angular velocity of a turning quaternion w, i, j, k, in world axes: twice the vector part of q' q*.
 fn angular(q: &[f64], rate: &[f64]) -> Vec<f64> {
     let ([w, x, y, z], [a, b, c, d]) = (q, rate) else { panic!("not a quaternion") };
-    let v = [
-        w * b - a * x - (c * z - d * y),
-        w * c - a * y - (d * x - b * z),
-        w * d - a * z - (b * y - c * x),
-    ];
+    let v = [w * b - a * x - (c * z - d * y), w * c - a * y - (d * x - b * z), w * d - a * z - (b * y - c * x)];
     v.map(|component| 2.0 * component).to_vec()
 }
 

@@ -37,27 +37,13 @@ pub struct Cost {
 impl Cost {
     /// Floating point operations: additions, products, quotients and square roots.
     pub const fn flops(&self) -> u32 {
-        self.add
-            .saturating_add(self.mul)
-            .saturating_add(self.div)
-            .saturating_add(self.sqrt)
+        self.add.saturating_add(self.mul).saturating_add(self.div).saturating_add(self.sqrt)
     }
 }
 
 impl fmt::Display for Cost {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            function,
-            add,
-            mul,
-            div,
-            sqrt,
-            sincos,
-            other,
-        } = self;
-        write!(
-            f,
-            "{function}: {add} add, {mul} mul, {div} div, {sqrt} sqrt, {sincos} sincos, {other} other"
-        )
+        let Self { function, add, mul, div, sqrt, sincos, other } = self;
+        write!(f, "{function}: {add} add, {mul} mul, {div} div, {sqrt} sqrt, {sincos} sincos, {other} other")
     }
 }

@@ -40,14 +40,10 @@ mod system;
 mod tangent;
 
 pub use configuration::Configuration;
-pub use coordinates::{
-    Cylindrical, FreeRollPitchYaw, Planar, Pose, RollPitchYaw, Twist, Universal, Wrench,
-};
+pub use coordinates::{Cylindrical, FreeRollPitchYaw, Planar, Pose, RollPitchYaw, Twist, Universal, Wrench};
 pub use cost::Cost;
 pub use inertia::{ParamError, inertia_violation};
-pub use integrators::{
-    Adaptive, DormandPrince, Euler, IntegrationError, Method, Rk4, SemiImplicitEuler, Statistics,
-};
+pub use integrators::{Adaptive, DormandPrince, Euler, IntegrationError, Method, Rk4, SemiImplicitEuler, Statistics};
 pub use multibody_macros::multibody;
 pub use nalgebra;
 pub use scalar::{Real, all, any};

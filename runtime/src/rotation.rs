@@ -35,12 +35,7 @@ pub fn displace<T: Real>(q: &UnitQuaternion<T>, d: &Vector3<T>) -> UnitQuaternio
     let qy = pw * y - px * z + py * w + pz * x;
     let qz = pw * z + px * y - py * x + pz * w;
     let newton = T::lit(1.5) - T::lit(0.5) * (qw * qw + qx * qx + qy * qy + qz * qz);
-    UnitQuaternion::new_unchecked(Quaternion::new(
-        newton * qw,
-        newton * qx,
-        newton * qy,
-        newton * qz,
-    ))
+    UnitQuaternion::new_unchecked(Quaternion::new(newton * qw, newton * qx, newton * qy, newton * qz))
 }
 
 /// The rate of the displacement `d` while the angular velocity in child axes is `v`.
@@ -84,33 +79,17 @@ pub fn dexp_inv<T: Real>(d: &Vector3<T>, v: &Vector3<T>) -> Vector3<T> {
 /// The rotation by the angle `|d|` about the axis `d`.
 #[inline]
 pub fn from_scaled_axis<T: Real>(d: &Vector3<T>) -> UnitQuaternion<T> {
-    displace(
-        &UnitQuaternion::new_unchecked(Quaternion::new(
-            T::lit(1.0),
-            T::lit(0.0),
-            T::lit(0.0),
-            T::lit(0.0),
-        )),
-        d,
-    )
+    displace(&UnitQuaternion::new_unchecked(Quaternion::new(T::lit(1.0), T::lit(0.0), T::lit(0.0), T::lit(0.0))), d)
 }
 
 /// The unit quaternion along `w + x i + y j + z k`, whatever the length of that; NaN if the length is zero or infinite.
 #[inline]
 pub fn normalized<T: Real>(w: T, x: T, y: T, z: T) -> UnitQuaternion<T> {
     // Divided by the greatest entry first: squares of huge entries overflow and those of tiny ones vanish.
-    let greatest = Real::max(
-        Real::max(Real::abs(w), Real::abs(x)),
-        Real::max(Real::abs(y), Real::abs(z)),
-    );
+    let greatest = Real::max(Real::max(Real::abs(w), Real::abs(x)), Real::max(Real::abs(y), Real::abs(z)));
     let (w, x, y, z) = (w / greatest, x / greatest, y / greatest, z / greatest);
     let length = Real::sqrt(w * w + x * x + y * y + z * z);
-    UnitQuaternion::new_unchecked(Quaternion::new(
-        w / length,
-        x / length,
-        y / length,
-        z / length,
-    ))
+    UnitQuaternion::new_unchecked(Quaternion::new(w / length, x / length, y / length, z / length))
 }
 
 /// Real and vector part of the exponential of `d / 2`: `cos(a/2)` and `d sin(a/2) / a`.
@@ -121,35 +100,16 @@ fn exponential<T: Real>(d: &Vector3<T>) -> (T, [T; 3]) {
     let x2 = T::lit(0.25) * a2;
     let cos_series = horner(
         x2,
-        [
-            1.0,
-            -1.0 / 2.0,
-            1.0 / 24.0,
-            -1.0 / 720.0,
-            1.0 / 40_320.0,
-            -1.0 / 3_628_800.0,
-            1.0 / 479_001_600.0,
-        ],
+        [1.0, -1.0 / 2.0, 1.0 / 24.0, -1.0 / 720.0, 1.0 / 40_320.0, -1.0 / 3_628_800.0, 1.0 / 479_001_600.0],
     );
     let sin_series = horner(
         x2,
-        [
-            0.5,
-            -1.0 / 12.0,
-            1.0 / 240.0,
-            -1.0 / 10_080.0,
-            1.0 / 725_760.0,
-            -1.0 / 79_833_600.0,
-            1.0 / 12_454_041_600.0,
-        ],
+        [0.5, -1.0 / 12.0, 1.0 / 240.0, -1.0 / 10_080.0, 1.0 / 725_760.0, -1.0 / 79_833_600.0, 1.0 / 12_454_041_600.0],
     );
     let angle = Real::sqrt(Real::select(small, T::lit(1.0), a2));
     let (sin, cos) = Real::sin_cos(T::lit(0.5) * angle);
     let scale = Real::select(small, sin_series, sin / angle);
-    (
-        Real::select(small, cos_series, cos),
-        [scale * d.x, scale * d.y, scale * d.z],
-    )
+    (Real::select(small, cos_series, cos), [scale * d.x, scale * d.y, scale * d.z])
 }
 
 /// `|d|^2`.
@@ -161,8 +121,5 @@ fn square<T: Real>(d: &Vector3<T>) -> T {
 /// A polynomial in `x` with the coefficients in rising order, by Horner's rule.
 #[inline]
 fn horner<T: Real, const N: usize>(x: T, coefficients: [f64; N]) -> T {
-    coefficients
-        .iter()
-        .rev()
-        .fold(T::lit(0.0), |sum, &c| sum * x + T::lit(c))
+    coefficients.iter().rev().fold(T::lit(0.0), |sum, &c| sum * x + T::lit(c))
 }

@@ -111,11 +111,7 @@ pub trait Real: SimdRealField<Element: RealField + Copy> + Copy {
             square *= square;
             rest >>= 1;
         }
-        if exponent < 0 {
-            Self::lit(1.0) / power
-        } else {
-            power
-        }
+        if exponent < 0 { Self::lit(1.0) / power } else { power }
     }
     /// Whether `self > other`.
     #[inline]

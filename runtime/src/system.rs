@@ -113,12 +113,7 @@ impl<S: System + ?Sized> System for &S {
     type Input = S::Input;
 
     #[inline]
-    fn derivative(
-        &self,
-        t: S::Scalar,
-        state: &S::State,
-        input: &S::Input,
-    ) -> (VelocityOf<S>, ExtraOf<S>) {
+    fn derivative(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> (VelocityOf<S>, ExtraOf<S>) {
         (**self).derivative(t, state, input)
     }
     #[inline]

@@ -36,27 +36,14 @@ fn functions_of_one_variable() {
         ("sqrt", (|x| Real::sqrt(x + 2.0), |x| Real::sqrt(x + 2.0))),
         ("abs", (Real::abs, Real::abs)),
         ("powi", (|x| Real::powi(x, -3), |x| Real::powi(x, -3))),
-        (
-            "powf",
-            (
-                |x| Real::powf(x + 2.0, 1.7),
-                |x| Real::powf(x + 2.0, Dual64::lit(1.7)),
-            ),
-        ),
-        (
-            "exponent",
-            (|x| Real::powf(2.5, x), |x| Real::powf(Dual64::lit(2.5), x)),
-        ),
+        ("powf", (|x| Real::powf(x + 2.0, 1.7), |x| Real::powf(x + 2.0, Dual64::lit(1.7)))),
+        ("exponent", (|x| Real::powf(2.5, x), |x| Real::powf(Dual64::lit(2.5), x))),
     ];
     for x in [-0.8, -0.31, 0.2, 0.9] {
         for (name, (f, dual)) in functions {
             let (got, want) = (dual(seed(x)), difference(f, x));
             assert!((got.re - f(x)).abs() < 1e-13, "{name}({x})");
-            assert!(
-                (got.eps - want).abs() < 1e-6 * (1.0 + want.abs()),
-                "{name}'({x}) = {}, not {want}",
-                got.eps
-            );
+            assert!((got.eps - want).abs() < 1e-6 * (1.0 + want.abs()), "{name}'({x}) = {}, not {want}", got.eps);
         }
         assert_eq!(Real::floor(seed(x)).eps, 0.0);
         assert_eq!(Real::signum(seed(x)).re, x.signum());
@@ -71,12 +58,7 @@ fn powers_at_zero() {
     assert_eq!((cubic.re, cubic.eps), (-8.0, 12.0));
     let x = Dual3::new(2.0, 1.0, 0.0, 0.0);
     let y = Real::powf(x, Dual3::from_re(2.5));
-    let expected = [
-        2f64.powf(2.5),
-        2.5 * 2f64.powf(1.5),
-        3.75 * 2f64.powf(0.5),
-        1.875 * 2f64.powf(-0.5),
-    ];
+    let expected = [2f64.powf(2.5), 2.5 * 2f64.powf(1.5), 3.75 * 2f64.powf(0.5), 1.875 * 2f64.powf(-0.5)];
     for (got, want) in [y.re, y.v1, y.v2, y.v3].into_iter().zip(expected) {
         assert!((got - want).abs() < 1e-13, "{got} {want}");
     }
@@ -86,25 +68,14 @@ fn powers_at_zero() {
 fn atan2_all_around() {
     for k in 0..16 {
         let angle = f64::from(k) * core::f64::consts::FRAC_PI_8 - 3.0;
-        for (y, x) in [
-            (angle.sin(), angle.cos()),
-            (0.0, 2.0),
-            (0.0, -2.0),
-            (3.0, 0.0),
-            (-3.0, 0.0),
-        ] {
+        for (y, x) in [(angle.sin(), angle.cos()), (0.0, 2.0), (0.0, -2.0), (3.0, 0.0), (-3.0, 0.0)] {
             let y: DualSVec64<2> = DualSVec64::from_re(y).derivative(0);
             let x = DualSVec64::from_re(x).derivative(1);
             let got = Real::atan2(y, x);
-            let gradient = got
-                .eps
-                .unwrap_generic(multibody::nalgebra::Const::<2>, multibody::nalgebra::U1);
+            let gradient = got.eps.unwrap_generic(multibody::nalgebra::Const::<2>, multibody::nalgebra::U1);
             let r2 = x.re * x.re + y.re * y.re;
             assert_eq!(got.re, y.re.atan2(x.re));
-            assert!(
-                (gradient[0] - x.re / r2).abs() < 1e-14 && (gradient[1] + y.re / r2).abs() < 1e-14,
-                "{y} {x}"
-            );
+            assert!((gradient[0] - x.re / r2).abs() < 1e-14 && (gradient[1] + y.re / r2).abs() < 1e-14, "{y} {x}");
         }
     }
 }
@@ -115,40 +86,20 @@ fn displacement_at_zero() {
     for angle in [0.0, 1e-9, 0.3, 0.5, 1.2] {
         let d = Vector3::new(seed(angle), Dual64::lit(0.0), Dual64::lit(0.0));
         let q = rotation::from_scaled_axis(&d);
-        assert!(
-            (q.i.eps - 0.5 * (0.5 * angle).cos()).abs() < 1e-15,
-            "{angle}: {:?}",
-            q.i
-        );
-        assert!(
-            (q.w.eps + 0.5 * (0.5 * angle).sin()).abs() < 1e-15,
-            "{angle}: {:?}",
-            q.w
-        );
+        assert!((q.i.eps - 0.5 * (0.5 * angle).cos()).abs() < 1e-15, "{angle}: {:?}", q.i);
+        assert!((q.w.eps + 0.5 * (0.5 * angle).sin()).abs() < 1e-15, "{angle}: {:?}", q.w);
         assert_eq!((q.j.eps, q.k.eps), (0.0, 0.0));
 
         let h = HyperDual64::new(angle, 1.0, 1.0, 0.0);
-        let q = rotation::from_scaled_axis(&Vector3::new(
-            h,
-            HyperDual64::lit(0.0),
-            HyperDual64::lit(0.0),
-        ));
-        assert!(
-            (q.w.eps1eps2 + 0.25 * (0.5 * angle).cos()).abs() < 1e-14,
-            "{angle}: {:?}",
-            q.w
-        );
+        let q = rotation::from_scaled_axis(&Vector3::new(h, HyperDual64::lit(0.0), HyperDual64::lit(0.0)));
+        assert!((q.w.eps1eps2 + 0.25 * (0.5 * angle).cos()).abs() < 1e-14, "{angle}: {:?}", q.w);
 
         let v = Vector3::new(0.3, -0.4, 0.5);
         let rate = |a: f64| rotation::dexp_inv(&Vector3::new(a, 0.0, 0.0), &v);
         let got = rotation::dexp_inv(&d, &v.map(Dual64::lit));
         for axis in 0..3 {
             let want = difference(|a| rate(a)[axis], angle);
-            assert!(
-                (got[axis].eps - want).abs() < 1e-8,
-                "{angle}, {axis}: {} {want}",
-                got[axis].eps
-            );
+            assert!((got[axis].eps - want).abs() < 1e-8, "{angle}, {axis}: {} {want}", got[axis].eps);
         }
     }
 }
@@ -157,25 +108,9 @@ fn displacement_at_zero() {
 #[test]
 fn through_an_integrator() {
     fn end<T: Real>(start: T) -> T {
-        let pendulum = Pendulum {
-            gravity: T::lit(9.81),
-            shake: T::lit(1.0),
-        };
-        let start = Scalar {
-            q: start,
-            v: T::lit(0.0),
-        };
-        Rk4::integrate(
-            &pendulum,
-            T::lit(0.0),
-            &start,
-            &(),
-            T::lit(0.01),
-            200,
-            |_, _| (),
-        )
-        .unwrap()
-        .q
+        let pendulum = Pendulum { gravity: T::lit(9.81), shake: T::lit(1.0) };
+        let start = Scalar { q: start, v: T::lit(0.0) };
+        Rk4::integrate(&pendulum, T::lit(0.0), &start, &(), T::lit(0.01), 200, |_, _| ()).unwrap().q
     }
     let want = difference(end, 0.7);
     let got = end(seed(0.7));
@@ -189,21 +124,8 @@ fn a_body_at_rest() {
     let body = Body::<Dual64>::floating();
     let mut start = Body::spinning();
     start.v.angular = Vector3::new(seed(0.0), Dual64::lit(0.0), Dual64::lit(0.0));
-    let end = Rk4::integrate(
-        &body,
-        Dual64::lit(0.0),
-        &start,
-        &(),
-        Dual64::lit(0.1),
-        10,
-        |_, _| (),
-    )
-    .unwrap();
-    assert!(
-        (end.q.orientation.i.eps - 0.5).abs() < 1e-14,
-        "{:?}",
-        end.q.orientation.i
-    );
+    let end = Rk4::integrate(&body, Dual64::lit(0.0), &start, &(), Dual64::lit(0.1), 10, |_, _| ()).unwrap();
+    assert!((end.q.orientation.i.eps - 0.5).abs() < 1e-14, "{:?}", end.q.orientation.i);
     let q: UnitQuaternion<Dual64> = end.q.orientation;
     assert_eq!(Configuration::magnitude(&q).x.re, 1.0);
 }

@@ -12,131 +12,41 @@ const START: Scalar<f64> = Scalar { q: 1.0, v: 0.0 };
 #[test]
 fn bad_numbers_end_in_typed_errors() {
     let adaptive = Adaptive::new(1e-6, 1e-6);
-    let run = |adaptive: Adaptive, t0, t1, start, input| {
-        adaptive.integrate(&OSCILLATOR, t0, t1, &start, &input, |_, _| ())
-    };
+    let run =
+        |adaptive: Adaptive, t0, t1, start, input| adaptive.integrate(&OSCILLATOR, t0, t1, &start, &input, |_, _| ());
     for bad in [f64::NAN, f64::INFINITY] {
-        for (start, input) in [
-            (Scalar { q: bad, v: 0.0 }, 0.0),
-            (Scalar { q: 0.0, v: bad }, 0.0),
-            (START, bad),
-        ] {
-            assert_eq!(
-                run(adaptive, 2.0, 3.0, start, input).unwrap_err(),
-                IntegrationError::NonFinite { time: 2.0 }
-            );
+        for (start, input) in [(Scalar { q: bad, v: 0.0 }, 0.0), (Scalar { q: 0.0, v: bad }, 0.0), (START, bad)] {
+            assert_eq!(run(adaptive, 2.0, 3.0, start, input).unwrap_err(), IntegrationError::NonFinite { time: 2.0 });
             let fixed = Rk4::integrate(&OSCILLATOR, 2.0, &start, &input, 0.1, 5, |_, _| ());
-            assert_eq!(
-                fixed.unwrap_err(),
-                IntegrationError::NonFinite { time: 2.0 }
-            );
+            assert_eq!(fixed.unwrap_err(), IntegrationError::NonFinite { time: 2.0 });
         }
         let invalid = [
             run(adaptive, bad, 1.0, START, 0.0),
             run(adaptive, 0.0, bad, START, 0.0),
-            run(
-                Adaptive {
-                    relative: bad,
-                    ..adaptive
-                },
-                0.0,
-                1.0,
-                START,
-                0.0,
-            ),
-            run(
-                Adaptive {
-                    absolute: bad,
-                    ..adaptive
-                },
-                0.0,
-                1.0,
-                START,
-                0.0,
-            ),
-            run(
-                Adaptive {
-                    first_step: bad,
-                    ..adaptive
-                },
-                0.0,
-                1.0,
-                START,
-                0.0,
-            ),
-            run(
-                Adaptive {
-                    max_step: -bad,
-                    ..adaptive
-                },
-                0.0,
-                1.0,
-                START,
-                0.0,
-            ),
-            run(
-                Adaptive {
-                    absolute: 0.0,
-                    ..adaptive
-                },
-                0.0,
-                1.0,
-                START,
-                0.0,
-            ),
-            run(
-                Adaptive {
-                    relative: -1.0,
-                    ..adaptive
-                },
-                0.0,
-                1.0,
-                START,
-                0.0,
-            ),
-            run(
-                Adaptive {
-                    min_step: f64::NAN,
-                    ..adaptive
-                },
-                0.0,
-                1.0,
-                START,
-                0.0,
-            ),
+            run(Adaptive { relative: bad, ..adaptive }, 0.0, 1.0, START, 0.0),
+            run(Adaptive { absolute: bad, ..adaptive }, 0.0, 1.0, START, 0.0),
+            run(Adaptive { first_step: bad, ..adaptive }, 0.0, 1.0, START, 0.0),
+            run(Adaptive { max_step: -bad, ..adaptive }, 0.0, 1.0, START, 0.0),
+            run(Adaptive { absolute: 0.0, ..adaptive }, 0.0, 1.0, START, 0.0),
+            run(Adaptive { relative: -1.0, ..adaptive }, 0.0, 1.0, START, 0.0),
+            run(Adaptive { min_step: f64::NAN, ..adaptive }, 0.0, 1.0, START, 0.0),
             run(adaptive, -1e308, 1e308, START, 0.0),
         ];
         for result in invalid {
-            assert!(
-                matches!(result, Err(IntegrationError::InvalidArgument { .. })),
-                "{result:?}"
-            );
+            assert!(matches!(result, Err(IntegrationError::InvalidArgument { .. })), "{result:?}");
         }
     }
     let single = Oscillator(PhantomData);
-    let result = Adaptive::new(1e-6, 1e-60).integrate(
-        &single,
-        0.0,
-        1.0,
-        &Scalar { q: 1f32, v: 0.0 },
-        &0.0,
-        |_, _| (),
-    );
-    assert!(
-        matches!(result, Err(IntegrationError::InvalidArgument { .. })),
-        "zero in f32: {result:?}"
-    );
+    let result = Adaptive::new(1e-6, 1e-60).integrate(&single, 0.0, 1.0, &Scalar { q: 1f32, v: 0.0 }, &0.0, |_, _| ());
+    assert!(matches!(result, Err(IntegrationError::InvalidArgument { .. })), "zero in f32: {result:?}");
 }
 
 #[test]
 fn a_run_that_meets_nan_says_where() {
     let system = counted(OSCILLATOR, 1.5);
     let mut reached = 0.0;
-    let result =
-        Adaptive::new(1e-6, 1e-6).integrate(&system, 0.0, 3.0, &START, &0.0, |t, _| reached = t);
-    let Err(IntegrationError::NonFinite { time }) = result else {
-        panic!("{result:?}")
-    };
+    let result = Adaptive::new(1e-6, 1e-6).integrate(&system, 0.0, 3.0, &START, &0.0, |t, _| reached = t);
+    let Err(IntegrationError::NonFinite { time }) = result else { panic!("{result:?}") };
     assert_eq!(time, reached);
     assert!((time - 1.5).abs() < 1e-6, "{time}");
     assert!(system.evaluations.get() < 2000);
@@ -165,39 +75,21 @@ fn a_pole_ends_the_run() {
         other => panic!("{other:?}"),
     }
     let result = Rk4::integrate(&Explosion, 0.0, &start, &(), 0.01, 1000, |_, _| ());
-    assert!(
-        matches!(result, Err(IntegrationError::NonFinite { time }) if time < 0.7),
-        "{result:?}"
-    );
+    assert!(matches!(result, Err(IntegrationError::NonFinite { time }) if time < 0.7), "{result:?}");
 }
 
 #[test]
 fn bounds_are_kept() {
-    let few = Adaptive {
-        max_steps: 7,
-        ..Adaptive::new(1e-9, 1e-9)
-    };
+    let few = Adaptive { max_steps: 7, ..Adaptive::new(1e-9, 1e-9) };
     let mut reached = 0.0;
     let result = few.integrate(&OSCILLATOR, 0.0, 100.0, &START, &0.0, |t, _| reached = t);
-    assert_eq!(
-        result.unwrap_err(),
-        IntegrationError::TooManySteps { time: reached }
-    );
+    assert_eq!(result.unwrap_err(), IntegrationError::TooManySteps { time: reached });
 
-    let coarse = Adaptive {
-        min_step: 0.5,
-        ..Adaptive::new(1e-12, 1e-12)
-    };
+    let coarse = Adaptive { min_step: 0.5, ..Adaptive::new(1e-12, 1e-12) };
     let result = coarse.integrate(&OSCILLATOR, 0.0, 100.0, &START, &0.0, |_, _| ());
-    assert!(
-        matches!(result, Err(IntegrationError::StepTooSmall { step, .. }) if step <= 0.5),
-        "{result:?}"
-    );
+    assert!(matches!(result, Err(IntegrationError::StepTooSmall { step, .. }) if step <= 0.5), "{result:?}");
 
-    let short = Adaptive {
-        max_step: 0.01,
-        ..Adaptive::new(1e-3, 1e-3)
-    };
+    let short = Adaptive { max_step: 0.01, ..Adaptive::new(1e-3, 1e-3) };
     let mut last = 0.0;
     let (_, statistics) = short
         .integrate(&OSCILLATOR, 0.0, 1.0, &START, &0.0, |t, _| {
@@ -208,35 +100,19 @@ fn bounds_are_kept() {
     assert!((99..=101).contains(&statistics.accepted));
 
     // A span that no bound on steps can cross, and one without any steps to take.
-    let result =
-        Adaptive::new(1e-6, 1e-6).integrate(&OSCILLATOR, 0.0, 1e300, &START, &0.0, |_, _| ());
-    assert!(
-        matches!(result, Err(IntegrationError::TooManySteps { .. })),
-        "{result:?}"
-    );
-    let none = Adaptive {
-        max_steps: 0,
-        ..Adaptive::new(1e-6, 1e-6)
-    };
-    assert!(
-        none.integrate(&OSCILLATOR, 0.0, 1.0, &START, &0.0, |_, _| ())
-            .is_err()
-    );
+    let result = Adaptive::new(1e-6, 1e-6).integrate(&OSCILLATOR, 0.0, 1e300, &START, &0.0, |_, _| ());
+    assert!(matches!(result, Err(IntegrationError::TooManySteps { .. })), "{result:?}");
+    let none = Adaptive { max_steps: 0, ..Adaptive::new(1e-6, 1e-6) };
+    assert!(none.integrate(&OSCILLATOR, 0.0, 1.0, &START, &0.0, |_, _| ()).is_err());
 }
 
 #[test]
 fn errors_read_well() {
-    let error = IntegrationError::StepTooSmall {
-        time: 1.5,
-        step: 1e-17,
-    };
+    let error = IntegrationError::StepTooSmall { time: 1.5, step: 1e-17 };
     assert_eq!(
         error.to_string(),
         "at t = 1.5 s the tolerance asks for a step of 0.00000000000000001 s, below the least one"
     );
     let boxed: Box<dyn core::error::Error> = Box::new(IntegrationError::NonFinite { time: 2.0 });
-    assert_eq!(
-        boxed.to_string(),
-        "the state is no longer finite after t = 2 s"
-    );
+    assert_eq!(boxed.to_string(), "the state is no longer finite after t = 2 s");
 }

@@ -17,22 +17,16 @@ fn violates_single(i: &Matrix3<f64>) -> bool {
 fn turned(moments: [f64; 3]) -> impl Iterator<Item = Matrix3<f64>> {
     (0..200).map(move |k| {
         let k = f64::from(k);
-        let r = UnitQuaternion::from_scaled_axis(Vector3::new(0.1 * k, (0.7 * k).sin(), 0.02 * k))
-            .to_rotation_matrix();
+        let r = UnitQuaternion::from_scaled_axis(Vector3::new(0.1 * k, (0.7 * k).sin(), 0.02 * k)).to_rotation_matrix();
         r.matrix() * Matrix3::from_diagonal(&Vector3::from(moments)) * r.matrix().transpose()
     })
 }
 
 #[test]
 fn legal_in_any_axes_and_at_any_size() {
-    for moments in [
-        [1.0, 1.0, 0.0],
-        [1.0, 1.0, 2.0],
-        [1.0, 2.0, 3.0],
-        [1.0, 1.0, 1.0],
-        [2.0, 3.0, 4.0],
-        [1.0, 1.0, 1e-9],
-    ] {
+    for moments in
+        [[1.0, 1.0, 0.0], [1.0, 1.0, 2.0], [1.0, 2.0, 3.0], [1.0, 1.0, 1.0], [2.0, 3.0, 4.0], [1.0, 1.0, 1e-9]]
+    {
         for size in [1.0, 1e-12, 1e12] {
             for i in turned(moments.map(|m| m * size)) {
                 assert!(!violates(&i), "{moments:?} times {size}: {i}");
@@ -45,14 +39,9 @@ fn legal_in_any_axes_and_at_any_size() {
 
 #[test]
 fn illegal_in_any_axes() {
-    for moments in [
-        [1.0, 1.0, 2.001],
-        [1.0, 3.0, 1.0],
-        [1.0, 0.0, 0.0],
-        [-1.0, 1.0, 1.0],
-        [-1.0, -1.0, -1.0],
-        [0.0, 0.0, 1e-9],
-    ] {
+    for moments in
+        [[1.0, 1.0, 2.001], [1.0, 3.0, 1.0], [1.0, 0.0, 0.0], [-1.0, 1.0, 1.0], [-1.0, -1.0, -1.0], [0.0, 0.0, 1e-9]]
+    {
         for i in turned(moments) {
             assert!(violates(&i), "{moments:?}: {i}");
             assert!(violates_single(&i), "{moments:?} in f32: {i}");
@@ -88,8 +77,6 @@ fn lanes_answer_one_by_one() {
 
 #[test]
 fn the_error_is_an_error() {
-    let error: Box<dyn core::error::Error> = Box::new(ParamError {
-        what: "no body can have the inertia of `arm`",
-    });
+    let error: Box<dyn core::error::Error> = Box::new(ParamError { what: "no body can have the inertia of `arm`" });
     assert_eq!(error.to_string(), "no body can have the inertia of `arm`");
 }

@@ -14,17 +14,11 @@ fn observed<M: Method, S: System<Scalar = f64>>(
     position: impl Fn(&Position<S>, &Position<S>) -> f64,
 ) -> f64 {
     let span = 2.0;
-    let run = |n: u32| {
-        M::integrate(system, 0.5, start, input, span / f64::from(n), n, |_, _| ()).unwrap()
-    };
-    let fine = DormandPrince::integrate(system, 0.5, start, input, span / 3000.0, 3000, |_, _| ())
-        .unwrap();
+    let run = |n: u32| M::integrate(system, 0.5, start, input, span / f64::from(n), n, |_, _| ()).unwrap();
+    let fine = DormandPrince::integrate(system, 0.5, start, input, span / 3000.0, 3000, |_, _| ()).unwrap();
     let error = |n: u32| distance(&run(n), &fine, &position);
     let (coarse, halved) = (error(steps), error(2 * steps));
-    assert!(
-        halved > 1e-13,
-        "{halved} is rounding: the order cannot be seen"
-    );
+    assert!(halved > 1e-13, "{halved} is rounding: the order cannot be seen");
     (coarse / halved).log2()
 }
 
@@ -37,56 +31,30 @@ fn check<S: System<Scalar = f64>>(
     position: impl Fn(&Position<S>, &Position<S>) -> f64,
 ) {
     let orders = [
-        (
-            observed::<Euler, S>(system, start, input, 1000, &position),
-            Euler::ORDER,
-        ),
-        (
-            observed::<SemiImplicitEuler, S>(system, start, input, 1000, &position),
-            SemiImplicitEuler::ORDER,
-        ),
-        (
-            observed::<Rk4, S>(system, start, input, 60, &position),
-            Rk4::ORDER,
-        ),
-        (
-            observed::<DormandPrince, S>(system, start, input, 30, &position),
-            DormandPrince::ORDER,
-        ),
+        (observed::<Euler, S>(system, start, input, 1000, &position), Euler::ORDER),
+        (observed::<SemiImplicitEuler, S>(system, start, input, 1000, &position), SemiImplicitEuler::ORDER),
+        (observed::<Rk4, S>(system, start, input, 60, &position), Rk4::ORDER),
+        (observed::<DormandPrince, S>(system, start, input, 30, &position), DormandPrince::ORDER),
     ];
     for (seen, order) in orders {
-        assert!(
-            seen > f64::from(order) - 0.3 && seen < f64::from(order) + 0.6,
-            "order {order}, seen {seen}"
-        );
+        assert!(seen > f64::from(order) - 0.3 && seen < f64::from(order) + 0.6, "order {order}, seen {seen}");
     }
 }
 
 #[test]
 fn shaken_pendulum() {
-    let pendulum = Pendulum {
-        gravity: 9.81,
-        shake: 4.0,
-    };
-    check(&pendulum, &Scalar { q: 1.0, v: 0.5 }, &(), |a, b| {
-        (a - b).abs()
-    });
+    let pendulum = Pendulum { gravity: 9.81, shake: 4.0 };
+    check(&pendulum, &Scalar { q: 1.0, v: 0.5 }, &(), |a, b| (a - b).abs());
 }
 
 #[test]
 fn rotating_body() {
-    check(&Body::floating(), &Body::spinning(), &(), |a, b| {
-        a.orientation.angle_to(&b.orientation)
-    });
+    check(&Body::floating(), &Body::spinning(), &(), |a, b| a.orientation.angle_to(&b.orientation));
 }
 
 #[test]
 fn motor_with_a_current() {
-    let start = Driven {
-        q: 0.2,
-        v: 0.0,
-        x: Currents { current: 0.0 },
-    };
+    let start = Driven { q: 0.2, v: 0.0, x: Currents { current: 0.0 } };
     check(&Motor, &start, &3.0, |a, b| (a - b).abs());
 }
 
@@ -94,13 +62,9 @@ fn motor_with_a_current() {
 /// the work of `dexp_inv`, not an accident of the test.
 #[test]
 fn order_is_lost_without_dexp_inv() {
-    let seen = observed::<Rk4, _>(
-        &naive::Body(Body::floating()),
-        &naive::spinning(),
-        &(),
-        60,
-        |a, b| a.0.orientation.angle_to(&b.0.orientation),
-    );
+    let seen = observed::<Rk4, _>(&naive::Body(Body::floating()), &naive::spinning(), &(), 60, |a, b| {
+        a.0.orientation.angle_to(&b.0.orientation)
+    });
     assert!(seen < 2.5, "{seen}");
 }
 
@@ -153,14 +117,7 @@ mod naive {
         type State = State;
         type Input = ();
         fn derivative(&self, t: f64, state: &State, input: &()) -> (Twist, ()) {
-            self.0.derivative(
-                t,
-                &common::Flight {
-                    q: state.0.0,
-                    v: state.1,
-                },
-                input,
-            )
+            self.0.derivative(t, &common::Flight { q: state.0.0, v: state.1 }, input)
         }
     }
 }

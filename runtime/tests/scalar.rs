@@ -7,18 +7,7 @@ use multibody::{Real, all, any};
 fn values() -> impl Iterator<Item = f64> {
     let spread = (-300..=300).map(|k| f64::from(k) * 0.037);
     let growing = (-30..36).map(|k| 1.7 * 10f64.powi(k));
-    let odd = [
-        0.0,
-        -0.0,
-        1e300,
-        5e-324,
-        f64::INFINITY,
-        f64::NAN,
-        core::f64::consts::PI,
-        1e6,
-        1.000_001e6,
-        1e3,
-    ];
+    let odd = [0.0, -0.0, 1e300, 5e-324, f64::INFINITY, f64::NAN, core::f64::consts::PI, 1e6, 1.000_001e6, 1e3];
     spread.chain(growing).chain(odd).flat_map(|x| [x, -x])
 }
 
@@ -53,21 +42,13 @@ macro_rules! agreement {
                 ("powi 3", |x| Real::powi(x, 3), |x| Real::powi(x, 3)),
                 ("powi -2", |x| Real::powi(x, -2), |x| Real::powi(x, -2)),
             ];
-            let binary: [(
-                &str,
-                fn($lanes, $lanes) -> $lanes,
-                fn(Element, Element) -> Element,
-            ); 6] = [
+            let binary: [(&str, fn($lanes, $lanes) -> $lanes, fn(Element, Element) -> Element); 6] = [
                 ("atan2", Real::atan2, Real::atan2),
                 ("powf", Real::powf, Real::powf),
                 ("hypot", Real::hypot, Real::hypot),
                 ("min", Real::min, Real::min),
                 ("max", Real::max, Real::max),
-                (
-                    "select",
-                    |a, b| Real::select(Real::lt(a, b), a, b),
-                    |a, b| if a < b { a } else { b },
-                ),
+                ("select", |a, b| Real::select(Real::lt(a, b), a, b), |a, b| if a < b { a } else { b }),
             ];
             let lanes = <$lanes as SimdValue>::LANES;
             // Neighbours in the list share a register, so every function sees its edges beside ordinary values.
@@ -83,10 +64,7 @@ macro_rules! agreement {
                     let (a, b) = (x.extract(lane), y.extract(lane));
                     for (name, in_lanes, scalar) in &unary {
                         let (got, want) = (in_lanes(x).extract(lane), scalar(a));
-                        assert!(
-                            close(got.into(), want.into(), rounding),
-                            "{name}({a:e}) = {got:e}, not {want:e}"
-                        );
+                        assert!(close(got.into(), want.into(), rounding), "{name}({a:e}) = {got:e}, not {want:e}");
                     }
                     for (name, in_lanes, scalar) in &binary {
                         let (got, want) = (in_lanes(x, y).extract(lane), scalar(a, b));
@@ -106,17 +84,10 @@ macro_rules! agreement {
                     ];
                     if a.abs() < 1.5 {
                         let (got, want) = (Real::tan(x).extract(lane), Real::tan(a));
-                        assert!(
-                            close(got.into(), want.into(), rounding),
-                            "tan({a:e}) = {got:e}, not {want:e}"
-                        );
+                        assert!(close(got.into(), want.into(), rounding), "tan({a:e}) = {got:e}, not {want:e}");
                     }
                     for (k, (mask, expected)) in masks.into_iter().enumerate() {
-                        assert_eq!(
-                            (mask.bitmask() >> lane) & 1 == 1,
-                            expected,
-                            "comparison {k} of {a:e} and {b:e}"
-                        );
+                        assert_eq!((mask.bitmask() >> lane) & 1 == 1, expected, "comparison {k} of {a:e} and {b:e}");
                     }
                 }
             }
@@ -132,12 +103,7 @@ agreement!(eight_singles, WideF32x8, f32);
 fn nan_is_not_lost() {
     fn check<T: Real>() {
         let (nan, one) = (T::lit(f64::NAN), T::lit(1.0));
-        for result in [
-            Real::min(nan, one),
-            Real::min(one, nan),
-            Real::max(nan, one),
-            Real::max(one, nan),
-        ] {
+        for result in [Real::min(nan, one), Real::min(one, nan), Real::max(nan, one), Real::max(one, nan)] {
             assert!(result.greatest().is_nan());
         }
         assert_eq!(Real::min(T::lit(2.0), one).greatest(), 1.0);
@@ -162,17 +128,11 @@ fn single_sine() {
     let mut worst = 0.0f64;
     for k in 0..4_000_000u32 {
         // Half of them are in the range that is reduced in f32, half spread over all finite numbers.
-        let bits = if k % 2 == 0 {
-            k.wrapping_mul(2_147_483) % 0x7f80_0000
-        } else {
-            0x3a00_0000 + k * 24
-        };
+        let bits = if k % 2 == 0 { k.wrapping_mul(2_147_483) % 0x7f80_0000 } else { 0x3a00_0000 + k * 24 };
         let x = f32::from_bits(bits);
         let (sin, cos) = Real::sin_cos(x);
         let (s, c) = f64::from(x).sin_cos();
-        worst = worst
-            .max((f64::from(sin) - s).abs())
-            .max((f64::from(cos) - c).abs());
+        worst = worst.max((f64::from(sin) - s).abs()).max((f64::from(cos) - c).abs());
         assert_eq!((Real::sin(-x), Real::cos(-x)), (-sin, cos), "{x:e}");
     }
     assert!(worst < 0.9e-7, "{worst:e}");

@@ -50,6 +50,7 @@ pub fn count(model: &Model, params: bool) -> Vec<Row> {
     let rows = functions.into_iter().map(|function| {
         derivation.functions = vec![function];
         let compiled = optimize::compile(&derivation).unwrap_or_else(|_| panic!("{} is too large", model.name));
+        assert!(compiled.sound, "{}: a pass changed a value", model.name);
         let function = &compiled.functions[0];
         let text = model.name.to_string();
         Row {

@@ -108,7 +108,8 @@ impl Body {
         let axis = || array::<3>(&self.joint["axis"]);
         let along = |axis: V3, x: Jet| axis.map(|n| Jet::fixed(n) * x);
         let angles = |k: usize| {
-            let [roll, pitch, yaw] = [0, 1, 2].map(|i| about([0, 1, 2].map(|j| f64::from(u8::from(i == j))), jet(k + i)));
+            let [roll, pitch, yaw] =
+                [0, 1, 2].map(|i| about([0, 1, 2].map(|j| f64::from(u8::from(i == j))), jet(k + i)));
             times(&yaw, &times(&pitch, &roll))
         };
         let spin = |k: usize, l: usize| {

@@ -24,20 +24,12 @@ pub struct Diagnostic {
 impl Diagnostics {
     /// Adds an error at `span`.
     pub fn error(&mut self, span: Span, message: impl Into<String>) {
-        self.errors.push(Diagnostic {
-            span,
-            message: message.into(),
-            help: None,
-        });
+        self.errors.push(Diagnostic { span, message: message.into(), help: None });
     }
 
     /// Adds an error with a suggestion.
     pub fn error_help(&mut self, span: Span, message: impl Into<String>, help: impl Into<String>) {
-        self.errors.push(Diagnostic {
-            span,
-            message: message.into(),
-            help: Some(help.into()),
-        });
+        self.errors.push(Diagnostic { span, message: message.into(), help: Some(help.into()) });
     }
 
     /// Whether all is well so far.

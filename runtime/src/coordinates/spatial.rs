@@ -53,8 +53,7 @@ impl<T: Real> Default for Pose<T> {
 /// Equality of components: `q` and `-q` are the same rotation and yet two poses.
 impl<T: PartialEq> PartialEq for Pose<T> {
     fn eq(&self, other: &Self) -> bool {
-        self.position == other.position
-            && self.orientation.as_ref().coords == other.orientation.as_ref().coords
+        self.position == other.position && self.orientation.as_ref().coords == other.orientation.as_ref().coords
     }
 }
 
@@ -91,16 +90,10 @@ impl<T: Real> Configuration<T> for Pose<T> {
     }
     #[inline]
     fn dexp_inv(d: &Twist<T>, v: &Twist<T>) -> Twist<T> {
-        Twist {
-            linear: v.linear,
-            angular: rotation::dexp_inv(&d.angular, &v.angular),
-        }
+        Twist { linear: v.linear, angular: rotation::dexp_inv(&d.angular, &v.angular) }
     }
     #[inline]
     fn magnitude(&self) -> Twist<T> {
-        Twist {
-            linear: self.position,
-            angular: Configuration::magnitude(&self.orientation),
-        }
+        Twist { linear: self.position, angular: Configuration::magnitude(&self.orientation) }
     }
 }

@@ -114,14 +114,7 @@ struct Run<'a, S: System> {
 impl Adaptive {
     /// Tolerances `relative` and `absolute`; at most 100,000 steps of any length.
     pub const fn new(relative: f64, absolute: f64) -> Self {
-        Self {
-            relative,
-            absolute,
-            first_step: 0.0,
-            min_step: 0.0,
-            max_step: f64::INFINITY,
-            max_steps: 100_000,
-        }
+        Self { relative, absolute, first_step: 0.0, min_step: 0.0, max_step: f64::INFINITY, max_steps: 100_000 }
     }
 
     /// The state at `t1` `[s]`, from `state` at `t0` `[s]`, which may be later than `t1`, with the input held throughout.
@@ -180,15 +173,9 @@ impl Adaptive {
     /// The mean square of an error, divided by the tolerance at states of the given sizes; the worst of all lanes.
     fn norm<T: Real, V: Tangent<T>>(&self, error: &V, size: &V, other_size: &V) -> f64 {
         let (relative, absolute) = (T::lit(self.relative), T::lit(self.absolute));
-        let greater = size.zip(other_size, &mut |a, b| {
-            Real::max(Real::abs(a), Real::abs(b))
-        });
-        let weighted = error.zip(&greater, &mut |error, size| {
-            error / (absolute + relative * size)
-        });
-        let (sum, count) = weighted.fold((T::lit(0.0), 0.0), &mut |(sum, count), e| {
-            (sum + e * e, count + 1.0)
-        });
+        let greater = size.zip(other_size, &mut |a, b| Real::max(Real::abs(a), Real::abs(b)));
+        let weighted = error.zip(&greater, &mut |error, size| error / (absolute + relative * size));
+        let (sum, count) = weighted.fold((T::lit(0.0), 0.0), &mut |(sum, count), e| (sum + e * e, count + 1.0));
         Real::sqrt(Real::greatest(sum) / Real::max(count, 1.0))
     }
 }
@@ -206,10 +193,7 @@ impl<'a, S: System> Run<'a, S> {
         if !(is_finite(&magnitude(state)) && is_finite(&slope)) {
             return Err(IntegrationError::NonFinite { time: t0 });
         }
-        let statistics = Statistics {
-            evaluations: 1,
-            ..Statistics::default()
-        };
+        let statistics = Statistics { evaluations: 1, ..Statistics::default() };
         let mut run = Self {
             settings,
             system,
@@ -223,11 +207,7 @@ impl<'a, S: System> Run<'a, S> {
             after_rejection: false,
             statistics,
         };
-        let length = if settings.first_step > 0.0 {
-            settings.first_step
-        } else {
-            run.first_step()
-        };
+        let length = if settings.first_step > 0.0 { settings.first_step } else { run.first_step() };
         run.step = Real::min(length, settings.max_step).copysign(t1 - t0);
         Ok(run)
     }
@@ -238,30 +218,17 @@ impl<'a, S: System> Run<'a, S> {
         let size = magnitude(&self.state);
         let norm = |vector: &SlopeOf<S>| self.settings.norm(vector, &size, &size);
         let (d0, d1) = (norm(&size), norm(&self.slope));
-        let guess = if d0 < 1e-5 || d1 < 1e-5 {
-            1e-6
-        } else {
-            0.01 * d0 / d1
-        };
+        let guess = if d0 < 1e-5 || d1 < 1e-5 { 1e-6 } else { 0.01 * d0 / d1 };
         let euler = clamp(guess, span * 1e-12, Real::min(span, self.settings.max_step));
 
         let dt = euler.copysign(self.end - self.t);
         let d = self.slope.scale(S::Scalar::lit(dt));
-        let next = slope(
-            self.system,
-            S::Scalar::lit(self.t + dt),
-            &displaced(&self.state, &d),
-            self.input,
-        );
+        let next = slope(self.system, S::Scalar::lit(self.t + dt), &displaced(&self.state, &d), self.input);
         let change = norm(&next.add_scaled(S::Scalar::lit(-1.0), &self.slope)) / euler;
         self.statistics.evaluations += 1;
 
         let steepest = if change > d1 { change } else { d1 };
-        let step = if steepest <= 1e-15 {
-            Real::max(1e-6, euler * 1e-3)
-        } else {
-            Real::powf(0.01 / steepest, 0.2)
-        };
+        let step = if steepest <= 1e-15 { Real::max(1e-6, euler * 1e-3) } else { Real::powf(0.01 / steepest, 0.2) };
         clamp(step, span * 1e-12, Real::min(100.0 * euler, span))
     }
 
@@ -274,10 +241,7 @@ impl<'a, S: System> Run<'a, S> {
         let step = target - self.t;
         let least = Real::max(self.settings.min_step, 10.0 * f64::EPSILON * self.t.abs());
         if !last && step.abs() <= least {
-            return Err(IntegrationError::StepTooSmall {
-                time: self.t,
-                step: self.step.abs(),
-            });
+            return Err(IntegrationError::StepTooSmall { time: self.t, step: self.step.abs() });
         }
 
         let dt = S::Scalar::lit(step);
@@ -286,14 +250,11 @@ impl<'a, S: System> Run<'a, S> {
         let next = displaced(&self.state, &stages.displacement);
         let slope = slope(self.system, time(1.0), &next, self.input);
         let error = stages.error(dt, &rate_of_displacement::<S>(&stages.displacement, &slope));
-        let error = self
-            .settings
-            .norm(&error, &magnitude(&self.state), &magnitude(&next));
+        let error = self.settings.norm(&error, &magnitude(&self.state), &magnitude(&next));
         self.statistics.evaluations = self.statistics.evaluations.saturating_add(6);
 
         if error <= 1.0 {
-            let mut factor =
-                Real::powf(error, PROPORTIONAL) / Real::powf(self.memory, INTEGRAL) / SAFETY;
+            let mut factor = Real::powf(error, PROPORTIONAL) / Real::powf(self.memory, INTEGRAL) / SAFETY;
             factor = clamp(factor, 1.0 / GROW, 1.0 / SHRINK);
             let mut length = step.abs() / factor;
             if self.after_rejection {
@@ -301,18 +262,12 @@ impl<'a, S: System> Run<'a, S> {
             }
             self.memory = Real::max(error, 1e-4);
             self.t = target;
-            self.state = self
-                .system
-                .accepted(S::Scalar::lit(target), &next, self.input);
+            self.state = self.system.accepted(S::Scalar::lit(target), &next, self.input);
             self.slope = slope;
             self.step = Real::min(length, self.settings.max_step).copysign(step);
             self.after_rejection = false;
             self.statistics.accepted += 1;
-            return Ok(if last {
-                Attempt::Arrived
-            } else {
-                Attempt::Accepted
-            });
+            return Ok(if last { Attempt::Arrived } else { Attempt::Accepted });
         }
 
         let shrink = if error.is_finite() {

@@ -38,15 +38,9 @@ impl fmt::Display for IntegrationError {
                 write!(f, "the state is no longer finite after t = {time} s")
             }
             Self::StepTooSmall { time, step } => {
-                write!(
-                    f,
-                    "at t = {time} s the tolerance asks for a step of {step} s, below the least one"
-                )
+                write!(f, "at t = {time} s the tolerance asks for a step of {step} s, below the least one")
             }
-            Self::TooManySteps { time } => write!(
-                f,
-                "the bound on the number of steps was reached at t = {time} s"
-            ),
+            Self::TooManySteps { time } => write!(f, "the bound on the number of steps was reached at t = {time} s"),
         }
     }
 }

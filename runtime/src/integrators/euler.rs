@@ -13,13 +13,7 @@ impl Method for Euler {
     const STAGES: u32 = 1;
 
     #[inline]
-    fn step<S: System>(
-        system: &S,
-        t: S::Scalar,
-        state: &S::State,
-        input: &S::Input,
-        dt: S::Scalar,
-    ) -> S::State {
+    fn step<S: System>(system: &S, t: S::Scalar, state: &S::State, input: &S::Input, dt: S::Scalar) -> S::State {
         let d = slope(system, t, state, input).scale(dt);
         system.accepted(t + dt, &displaced(state, &d), input)
     }

@@ -14,13 +14,7 @@ pub trait Method {
     const STAGES: u32;
 
     /// The state after one step of `dt` `[s]` from the time `t` `[s]`, with the input held.
-    fn step<S: System>(
-        system: &S,
-        t: S::Scalar,
-        state: &S::State,
-        input: &S::Input,
-        dt: S::Scalar,
-    ) -> S::State;
+    fn step<S: System>(system: &S, t: S::Scalar, state: &S::State, input: &S::Input, dt: S::Scalar) -> S::State;
 
     /// The state after `steps` steps of `dt` `[s]`, with the input held throughout.
     ///
@@ -85,9 +79,7 @@ macro_rules! inherent {
                 steps: u32,
                 observe: impl FnMut(S::Scalar, &S::State),
             ) -> Result<S::State, $crate::IntegrationError> {
-                <Self as $crate::integrators::Method>::integrate(
-                    system, t0, state, input, dt, steps, observe,
-                )
+                <Self as $crate::integrators::Method>::integrate(system, t0, state, input, dt, steps, observe)
             }
         }
     };

@@ -14,13 +14,7 @@ impl Method for SemiImplicitEuler {
     const STAGES: u32 = 1;
 
     #[inline]
-    fn step<S: System>(
-        system: &S,
-        t: S::Scalar,
-        state: &S::State,
-        input: &S::Input,
-        dt: S::Scalar,
-    ) -> S::State {
+    fn step<S: System>(system: &S, t: S::Scalar, state: &S::State, input: &S::Input, dt: S::Scalar) -> S::State {
         let mut slope = slope(system, t, state, input);
         slope.q = slope.q.add_scaled(dt, &slope.v);
         system.accepted(t + dt, &displaced(state, &slope.scale(dt)), input)

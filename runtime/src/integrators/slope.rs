@@ -16,19 +16,11 @@ pub(super) type SlopeOf<S> = Slope<VelocityOf<S>, ExtraOf<S>>;
 impl<T: Real, V: Tangent<T>, X: Tangent<T>> Tangent<T> for Slope<V, X> {
     #[inline]
     fn zero() -> Self {
-        Self {
-            q: V::zero(),
-            v: V::zero(),
-            x: X::zero(),
-        }
+        Self { q: V::zero(), v: V::zero(), x: X::zero() }
     }
     #[inline]
     fn zip<F: FnMut(T, T) -> T>(&self, other: &Self, f: &mut F) -> Self {
-        Self {
-            q: self.q.zip(&other.q, f),
-            v: self.v.zip(&other.v, f),
-            x: self.x.zip(&other.x, f),
-        }
+        Self { q: self.q.zip(&other.q, f), v: self.v.zip(&other.v, f), x: self.x.zip(&other.x, f) }
     }
     #[inline]
     fn fold<A, F: FnMut(A, T) -> A>(&self, start: A, f: &mut F) -> A {
@@ -40,12 +32,7 @@ impl<T: Real, V: Tangent<T>, X: Tangent<T>> Tangent<T> for Slope<V, X> {
 
 /// The slope at a state.
 #[inline]
-pub(super) fn slope<S: System>(
-    system: &S,
-    t: S::Scalar,
-    state: &S::State,
-    input: &S::Input,
-) -> SlopeOf<S> {
+pub(super) fn slope<S: System>(system: &S, t: S::Scalar, state: &S::State, input: &S::Input) -> SlopeOf<S> {
     let (_, velocity, _) = state.split();
     let (v, x) = system.derivative(t, state, input);
     Slope { q: velocity, v, x }
@@ -66,8 +53,7 @@ pub(super) fn stage<S: System>(
 /// A slope at the end of the displacement `d`, as the rate of that displacement.
 #[inline]
 pub(super) fn rate_of_displacement<S: System>(d: &SlopeOf<S>, slope: &SlopeOf<S>) -> SlopeOf<S> {
-    let q =
-        <<S::State as StateSpace>::Position as Configuration<S::Scalar>>::dexp_inv(&d.q, &slope.q);
+    let q = <<S::State as StateSpace>::Position as Configuration<S::Scalar>>::dexp_inv(&d.q, &slope.q);
     Slope { q, ..*slope }
 }
 
@@ -82,17 +68,11 @@ pub(super) fn displaced<Z: StateSpace>(state: &Z, d: &Slope<Z::Velocity, Z::Extr
 #[inline]
 pub(super) fn magnitude<Z: StateSpace>(state: &Z) -> Slope<Z::Velocity, Z::Extra> {
     let (q, v, x) = state.split();
-    Slope {
-        q: q.magnitude(),
-        v,
-        x,
-    }
+    Slope { q: q.magnitude(), v, x }
 }
 
 /// Whether every component of a vector is finite, in every lane.
 #[inline]
 pub(super) fn is_finite<T: Real, V: Tangent<T>>(vector: &V) -> bool {
-    vector.fold(true, &mut |finite, component| {
-        finite & all(Real::is_finite(component))
-    })
+    vector.fold(true, &mut |finite, component| finite & all(Real::is_finite(component)))
 }

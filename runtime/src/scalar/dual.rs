@@ -5,9 +5,7 @@
 
 use super::Real;
 use nalgebra::Const;
-use num_dual::{
-    Dual, Dual2, Dual2Vec, Dual3, DualNum, DualVec, HyperDual, HyperDualVec, HyperHyperDual,
-};
+use num_dual::{Dual, Dual2, Dual2Vec, Dual3, DualNum, DualVec, HyperDual, HyperDualVec, HyperHyperDual};
 
 /// `f(x)` from the derivatives `[f, f', f'', f''']` at the real part: the infinitesimal part of `x` is nilpotent, so
 /// Taylor's series ends by itself. Terms above the order of `D` are left out, since they may be infinite.

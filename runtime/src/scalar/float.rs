@@ -3,9 +3,7 @@
 //! In: one float. Out: the platform's best value. This is the only place that asks which of the two is at hand.
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
-compile_error!(
-    "multibody needs elementary functions: turn on the feature `std` or, without std, `libm`"
-);
+compile_error!("multibody needs elementary functions: turn on the feature `std` or, without std, `libm`");
 
 macro_rules! elementary {
     ($module:ident, $float:ident, $sincos:ident: $($name:ident($($arg:ident),+) = $libm:ident;)+) => {

@@ -26,19 +26,11 @@ pub(super) fn sin_cos(x: f32) -> (f32, f32) {
 
     let z = r * r;
     let sin = ((-1.951_529_6e-4 * z + 8.332_161e-3) * z - 1.666_665_5e-1) * z * r + r;
-    let cos =
-        ((2.443_315_7e-5 * z - 1.388_731_6e-3) * z + 4.166_664_6e-2) * (z * z) - 0.5 * z + 1.0;
+    let cos = ((2.443_315_7e-5 * z - 1.388_731_6e-3) * z + 4.166_664_6e-2) * (z * z) - 0.5 * z + 1.0;
 
-    let (sin, cos) = if quadrant & 1 == 0 {
-        (sin, cos)
-    } else {
-        (cos, sin)
-    };
+    let (sin, cos) = if quadrant & 1 == 0 { (sin, cos) } else { (cos, sin) };
     // Second bits say where a function is negative: sine in the quadrants two and three, cosine in one and two.
     let sign = |quadrant: i32| (quadrant as u32 & 2) << 30;
     let odd = x.to_bits() & (1 << 31);
-    (
-        f32::from_bits(sin.to_bits() ^ sign(quadrant) ^ odd),
-        f32::from_bits(cos.to_bits() ^ sign(quadrant + 1)),
-    )
+    (f32::from_bits(sin.to_bits() ^ sign(quadrant) ^ odd), f32::from_bits(cos.to_bits() ^ sign(quadrant + 1)))
 }

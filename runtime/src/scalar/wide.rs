@@ -90,11 +90,7 @@ macro_rules! lanes {
             }
             #[inline]
             fn greatest(self) -> f64 {
-                self.into_arr()
-                    .into_iter()
-                    .fold(f64::NEG_INFINITY, |greatest, lane| {
-                        Real::max(greatest, lane.into())
-                    })
+                self.into_arr().into_iter().fold(f64::NEG_INFINITY, |greatest, lane| Real::max(greatest, lane.into()))
             }
         }
     };

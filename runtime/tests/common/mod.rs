@@ -83,10 +83,7 @@ pub(crate) struct Body<T: Real> {
 impl<T: Real> Body<T> {
     /// No force, and three different moments of inertia.
     pub(crate) fn floating() -> Self {
-        Self {
-            inertia: Vector3::new(T::lit(1.0), T::lit(2.0), T::lit(2.5)),
-            force: Tangent::zero(),
-        }
+        Self { inertia: Vector3::new(T::lit(1.0), T::lit(2.0), T::lit(2.5)), force: Tangent::zero() }
     }
     /// Turns about all three axes.
     pub(crate) fn spinning() -> Flight<T> {
@@ -100,10 +97,7 @@ impl<T: Real> Body<T> {
     }
     /// Angular momentum in world axes.
     pub(crate) fn momentum(&self, state: &Flight<T>) -> Vector3<T> {
-        rotate(
-            &state.q.orientation,
-            &self.inertia.component_mul(&state.v.angular),
-        )
+        rotate(&state.q.orientation, &self.inertia.component_mul(&state.v.angular))
     }
     pub(crate) fn energy(&self, state: &Flight<T>) -> T {
         let w = state.v.angular;
@@ -125,18 +119,9 @@ impl<T: Real> System for Body<T> {
     type Input = ();
     fn derivative(&self, _t: T, state: &Flight<T>, (): &()) -> (Twist<T>, ()) {
         let (w, i) = (state.v.angular, self.inertia);
-        let angular = Vector3::new(
-            (i.y - i.z) * w.y * w.z / i.x,
-            (i.z - i.x) * w.z * w.x / i.y,
-            (i.x - i.y) * w.x * w.y / i.z,
-        );
-        (
-            Twist {
-                linear: self.force,
-                angular,
-            },
-            (),
-        )
+        let angular =
+            Vector3::new((i.y - i.z) * w.y * w.z / i.x, (i.z - i.x) * w.z * w.x / i.y, (i.x - i.y) * w.x * w.y / i.z);
+        (Twist { linear: self.force, angular }, ())
     }
 }
 
@@ -155,14 +140,10 @@ pub(crate) struct Currents<T> {
 
 impl<T: Real> Tangent<T> for Currents<T> {
     fn zero() -> Self {
-        Self {
-            current: Tangent::zero(),
-        }
+        Self { current: Tangent::zero() }
     }
     fn zip<F: FnMut(T, T) -> T>(&self, other: &Self, f: &mut F) -> Self {
-        Self {
-            current: Tangent::zip(&self.current, &other.current, f),
-        }
+        Self { current: Tangent::zip(&self.current, &other.current, f) }
     }
     fn fold<A, F: FnMut(A, T) -> A>(&self, start: A, f: &mut F) -> A {
         Tangent::fold(&self.current, start, f)
@@ -230,9 +211,5 @@ impl<S: System<Scalar = f64, State = Scalar<f64>>> System for Counted<S> {
 }
 
 pub(crate) fn counted<S>(system: S, nan_from: f64) -> Counted<S> {
-    Counted {
-        system,
-        evaluations: Cell::new(0),
-        nan_from,
-    }
+    Counted { system, evaluations: Cell::new(0), nan_from }
 }

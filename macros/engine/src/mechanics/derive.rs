@@ -196,10 +196,9 @@ impl<'m> Deriving<'m> {
                 ways.push((Style::Nested, Method::Articulated, "link axes, articulated body"));
             }
         }
-        let candidates =
-            ways.into_iter().filter_map(|(style, method, name)| {
-            self.candidate(name, Way { style, method, axes: None }, &kept, all)
-        });
+        let candidates = ways
+            .into_iter()
+            .filter_map(|(style, method, name)| self.candidate(name, Way { style, method, axes: None }, &kept, all));
         candidates.collect()
     }
 }

@@ -31,6 +31,7 @@ pub struct TooLarge;
 
 /// Optimises every candidate, takes the cheapest of each function, and moves parameter work into `Model::new`.
 pub fn compile(derivation: &Derivation) -> Result<Compiled, TooLarge> {
+    let mut sound = true;
     let mut chosen: Vec<(FunctionKind, &'static str, Cost, Dag)> = Vec::new();
     for function in &derivation.functions {
         let mut best: Option<(u32, &'static str, Cost, Dag)> = None;
@@ -43,7 +44,7 @@ pub fn compile(derivation: &Derivation) -> Result<Compiled, TooLarge> {
             let before = lowering.to.cost(&roots);
             let mut dag = Dag::import(&lowering.to, &roots, &derivation.symbols);
             dag.symbol_names.clone_from(&derivation.symbol_names);
-            simplify(&mut dag);
+            sound &= simplify(&mut dag);
             let weight = dag.cost().0.weight();
             if best.as_ref().is_none_or(|(least, ..)| weight < *least) {
                 best = Some((weight, *method, before, dag));
@@ -56,7 +57,7 @@ pub fn compile(derivation: &Derivation) -> Result<Compiled, TooLarge> {
     let dags: Vec<&Dag> = chosen.iter().map(|c| &c.3).collect();
     let fields::Gathered { mut prelude, fields, names } = fields::gather(&dags, &derivation.symbols);
     prelude.symbol_names.clone_from(&derivation.symbol_names);
-    simplify(&mut prelude);
+    sound &= simplify(&mut prelude);
     let prelude_cost = prelude.cost().1;
     let functions = chosen
         .iter()
@@ -69,14 +70,16 @@ pub fn compile(derivation: &Derivation) -> Result<Compiled, TooLarge> {
         })
         .collect();
     let prelude = schedule::schedule(&prelude, &schedule::Fields::new());
-    Ok(Compiled { fields: names, prelude, prelude_cost, functions })
+    Ok(Compiled { fields: names, prelude, prelude_cost, functions, sound })
 }
 
 /// All rewrites, a fixed number of rounds. Each pass pays by its own count, not always by the whole: what comes out
-/// dearer than it went in is given back as it came (law 7).
-pub fn simplify(dag: &mut Dag) {
+/// dearer than it went in is given back as it came (law 7), and so is what would not have the same value: then the
+/// answer is `false`, and a pass has an error.
+pub fn simplify(dag: &mut Dag) -> bool {
     flatten::flatten(dag);
     let derived = dag.clone();
+    let expected = dag.root_prints();
     angles::angles(dag);
     stage::split(dag);
     for _ in 0..3 {
@@ -89,9 +92,11 @@ pub fn simplify(dag: &mut Dag) {
     }
     multiples::multiples(dag);
     common::share(dag);
-    if dag.cost().0.weight() > derived.cost().0.weight() {
+    let sound = dag.is_sound(&expected);
+    if !sound || dag.cost().0.weight() > derived.cost().0.weight() {
         *dag = derived;
     }
+    sound
 }
 
 impl Cost {

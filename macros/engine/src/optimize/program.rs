@@ -168,4 +168,7 @@ pub struct Compiled {
     pub prelude: Program,
     pub prelude_cost: Cost,
     pub functions: Vec<Function>,
+    /// Whether every rewrite passed the identity test. Where one didn't, the function stands as it was derived: right, but
+    /// dearer than need be. The tests see to it that this never happens.
+    pub sound: bool,
 }

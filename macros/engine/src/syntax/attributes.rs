@@ -53,20 +53,14 @@ fn read(tokens: &mut TokenStream, group: Group, diagnostics: &mut Diagnostics) -
         return Err(Reported);
     }
     tokens.extend([TokenTree::Group(group)]);
-    match Attribute::parse_outer
-        .parse2(tokens.clone())
-        .map(|attributes| attributes.into_iter().next())
-    {
+    match Attribute::parse_outer.parse2(tokens.clone()).map(|attributes| attributes.into_iter().next()) {
         Ok(Some(attribute)) => Ok(attribute),
         Ok(None) => {
             diagnostics.error(span, "expected an attribute");
             Err(Reported)
         }
         Err(error) => {
-            diagnostics.error(
-                error.span(),
-                format!("this attribute can't be read: {error}"),
-            );
+            diagnostics.error(error.span(), format!("this attribute can't be read: {error}"));
             Err(Reported)
         }
     }
@@ -112,10 +106,7 @@ pub(super) fn visibility(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> 
     }
     tokens.extend(group.map(TokenTree::Group));
     syn::parse2(tokens).unwrap_or_else(|error: syn::Error| {
-        diagnostics.error(
-            error.span(),
-            format!("this visibility can't be read: {error}"),
-        );
+        diagnostics.error(error.span(), format!("this visibility can't be read: {error}"));
         Visibility::Public(Token![pub](span))
     })
 }
@@ -123,43 +114,23 @@ pub(super) fn visibility(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> 
 /// The path in `#![krate(::mb)]`.
 pub(super) fn krate(attribute: &Attribute, diagnostics: &mut Diagnostics) -> Read<Path> {
     const FORM: &str = "write `#![krate(::name)]`";
-    let Some(list) = attribute
-        .meta
-        .require_list()
-        .ok()
-        .filter(|list| !list.tokens.is_empty())
-    else {
-        diagnostics.error_help(
-            name(attribute).1,
-            "`krate` needs the path of the runtime crate",
-            FORM,
-        );
+    let Some(list) = attribute.meta.require_list().ok().filter(|list| !list.tokens.is_empty()) else {
+        diagnostics.error_help(name(attribute).1, "`krate` needs the path of the runtime crate", FORM);
         return Err(Reported);
     };
     let mut cursor = Cursor::new(list.tokens.clone());
     let start = cursor.span();
-    let mut path = Path {
-        leading_colon: None,
-        segments: syn::punctuated::Punctuated::new(),
-    };
+    let mut path = Path { leading_colon: None, segments: syn::punctuated::Punctuated::new() };
     if let Some(span) = cursor.take("::") {
         path.leading_colon = Some(Token![::](span));
     } else if !(cursor.at_word("crate") || cursor.at_word("$crate")) {
         // A relative path would mean something else inside the generated module.
-        diagnostics.error_help(
-            start,
-            "the path of the runtime crate starts with `::`",
-            FORM,
-        );
+        diagnostics.error_help(start, "the path of the runtime crate starts with `::`", FORM);
         return Err(Reported);
     }
     loop {
         let Some(segment) = cursor.ident(0).cloned() else {
-            diagnostics.error_help(
-                cursor.span(),
-                format!("expected a crate's name, found {}", cursor.found()),
-                FORM,
-            );
+            diagnostics.error_help(cursor.span(), format!("expected a crate's name, found {}", cursor.found()), FORM);
             return Err(Reported);
         };
         cursor.bump();
@@ -178,9 +149,6 @@ pub(super) fn krate(attribute: &Attribute, diagnostics: &mut Diagnostics) -> Rea
 /// The name of an attribute and where it stands.
 pub(super) fn name(attribute: &Attribute) -> (String, Span) {
     let path = attribute.path();
-    let span = path
-        .segments
-        .first()
-        .map_or(attribute.pound_token.span, |segment| segment.ident.span());
+    let span = path.segments.first().map_or(attribute.pound_token.span, |segment| segment.ident.span());
     (path.to_token_stream().to_string(), span)
 }

@@ -13,20 +13,9 @@ use super::tree::{Fields, ItemKind, Part, Solution, UNREADABLE, poison};
 use crate::diagnostics::Diagnostics;
 
 /// `{ .. }`: `world` and `formulation` have no name.
-pub(super) fn unnamed(
-    keyword: Keyword,
-    cursor: &mut Cursor,
-    diagnostics: &mut Diagnostics,
-) -> Fields {
-    if let (Some(name), true) = (
-        cursor.ident(0).cloned(),
-        cursor.at_group(1, Delimiter::Brace),
-    ) {
-        diagnostics.error_help(
-            name.span(),
-            format!("`{}` has no name", keyword.word()),
-            form(keyword),
-        );
+pub(super) fn unnamed(keyword: Keyword, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Fields {
+    if let (Some(name), true) = (cursor.ident(0).cloned(), cursor.at_group(1, Delimiter::Brace)) {
+        diagnostics.error_help(name.span(), format!("`{}` has no name", keyword.word()), form(keyword));
         cursor.bump();
     }
     fields(form(keyword), cursor, diagnostics)
@@ -56,11 +45,7 @@ pub(super) fn kinded(
     let kind = kind(keyword, cursor, diagnostics);
     // One error is enough for `joint elbow;`.
     let silent = kind == UNREADABLE && !cursor.at_group(0, Delimiter::Brace);
-    let fields = if silent {
-        lost(cursor)
-    } else {
-        fields(form(keyword), cursor, diagnostics)
-    };
+    let fields = if silent { lost(cursor) } else { fields(form(keyword), cursor, diagnostics) };
     Some((name, kind, fields))
 }
 
@@ -87,45 +72,22 @@ pub(super) fn part(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Option
     if !cursor.at_group(1, Delimiter::Bracket) {
         let kind = kind(keyword, cursor, diagnostics);
         let fields = part_fields(&kind, form(keyword), cursor, diagnostics);
-        return Some(ItemKind::Part(Part {
-            name,
-            kind,
-            count: None,
-            index: None,
-            fields,
-        }));
+        return Some(ItemKind::Part(Part { name, kind, count: None, index: None, fields }));
     }
     if cursor.take(":").is_none() {
-        diagnostics.error_help(
-            cursor.span(),
-            format!("expected `:`, found {}", cursor.found()),
-            ARRAY,
-        );
+        diagnostics.error_help(cursor.span(), format!("expected `:`, found {}", cursor.found()), ARRAY);
         cursor.bump();
     }
     let (kind, count) = array(cursor, diagnostics);
     let (index, fields) = match element(&kind, cursor, diagnostics) {
-        Ok(index) => (
-            index,
-            part_fields(&kind, ARRAY.to_owned(), cursor, diagnostics),
-        ),
+        Ok(index) => (index, part_fields(&kind, ARRAY.to_owned(), cursor, diagnostics)),
         Err(Reported) => (None, lost(cursor)),
     };
-    Some(ItemKind::Part(Part {
-        name,
-        kind,
-        count: Some(count),
-        index,
-        fields,
-    }))
+    Some(ItemKind::Part(Part { name, kind, count: Some(count), index, fields }))
 }
 
 /// `= |i| kind`: the index.
-fn element(
-    kind: &Ident,
-    cursor: &mut Cursor,
-    diagnostics: &mut Diagnostics,
-) -> Read<Option<Ident>> {
+fn element(kind: &Ident, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Read<Option<Ident>> {
     let mut wrong = |expected: &str, cursor: &Cursor| {
         let message = format!("expected {expected}, found {}", cursor.found());
         diagnostics.error_help(cursor.span(), message, ARRAY);
@@ -134,10 +96,7 @@ fn element(
     cursor.take("=").ok_or_else(|| wrong("`=`", cursor))?;
     let mut index = None;
     if cursor.at("||") || cursor.take("|").is_some() {
-        index = cursor
-            .ident(0)
-            .filter(|name| is_name(name) || *name == "_")
-            .cloned();
+        index = cursor.ident(0).filter(|name| is_name(name) || *name == "_").cloned();
         if index.is_none() {
             return Err(wrong("the name of an index", cursor));
         }
@@ -177,19 +136,10 @@ fn array(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> (Ident, syn::Exp
 }
 
 /// `{ .. };`
-fn part_fields(
-    kind: &Ident,
-    form: String,
-    cursor: &mut Cursor,
-    diagnostics: &mut Diagnostics,
-) -> Fields {
+fn part_fields(kind: &Ident, form: String, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Fields {
     if !cursor.at_group(0, Delimiter::Brace) {
         // One error is enough for `part legs: 6;`.
-        return if kind == UNREADABLE {
-            lost(cursor)
-        } else {
-            fields(form, cursor, diagnostics)
-        };
+        return if kind == UNREADABLE { lost(cursor) } else { fields(form, cursor, diagnostics) };
     }
     let fields = fields(form, cursor, diagnostics);
     // What stands in the braces is valid whatever comes behind.
@@ -205,27 +155,17 @@ pub(super) fn solve(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Optio
         let formulas = parenthesised("the formulas", FORMULAS, cursor, diagnostics);
         let read = formulas.ok_or(Reported);
         let formulas = finish(read, "`;`", cursor, diagnostics).ok()?;
-        return Some(ItemKind::Solve {
-            unknowns,
-            how: Solution::Formulas(formulas),
-        });
+        return Some(ItemKind::Solve { unknowns, how: Solution::Formulas(formulas) });
     }
     if !cursor.at_word("from") {
         let message = format!("expected `=` or `from`, found {}", cursor.found());
-        diagnostics.error_help(
-            cursor.span(),
-            message,
-            format!("{}, or {FORMULAS}", form(Keyword::Solve)),
-        );
+        diagnostics.error_help(cursor.span(), message, format!("{}, or {FORMULAS}", form(Keyword::Solve)));
         return None;
     }
     cursor.bump();
     let joint = Box::new(expression(cursor, diagnostics).ok()?);
     let Some(group) = cursor.take_group(Delimiter::Brace) else {
-        let message = format!(
-            "expected `{{` and the conditions that choose a branch, found {}",
-            cursor.found()
-        );
+        let message = format!("expected `{{` and the conditions that choose a branch, found {}", cursor.found());
         diagnostics.error_help(cursor.span(), message, form(Keyword::Solve));
         return None;
     };
@@ -233,34 +173,18 @@ pub(super) fn solve(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Optio
         Ok(mut inner) => list(&mut inner, diagnostics),
         Err(Reported) => vec![poison()],
     };
-    Some(ItemKind::Solve {
-        unknowns,
-        how: Solution::From { joint, branches },
-    })
+    Some(ItemKind::Solve { unknowns, how: Solution::From { joint, branches } })
 }
 
 /// `(a, b)`
-fn parenthesised(
-    what: &str,
-    form: &str,
-    cursor: &mut Cursor,
-    diagnostics: &mut Diagnostics,
-) -> Option<Vec<syn::Expr>> {
+fn parenthesised(what: &str, form: &str, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Option<Vec<syn::Expr>> {
     let Some(group) = cursor.take_group(Delimiter::Parenthesis) else {
-        diagnostics.error_help(
-            cursor.span(),
-            format!("expected `(` and {what}, found {}", cursor.found()),
-            form,
-        );
+        diagnostics.error_help(cursor.span(), format!("expected `(` and {what}, found {}", cursor.found()), form);
         return None;
     };
     match cursor.enter(&group, diagnostics) {
         Ok(inner) if inner.at_end() => {
-            diagnostics.error_help(
-                cursor.last_span(),
-                format!("expected {what}, found `)`"),
-                form,
-            );
+            diagnostics.error_help(cursor.last_span(), format!("expected {what}, found `)`"), form);
             None
         }
         Ok(mut inner) => Some(list(&mut inner, diagnostics)),

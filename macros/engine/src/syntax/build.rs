@@ -12,120 +12,65 @@ pub(super) type Elements = Punctuated<Expr, Token![,]>;
 
 /// A number.
 pub(super) fn number(lit: Lit) -> Box<Expr> {
-    Box::new(Expr::Lit(syn::ExprLit {
-        attrs: Vec::new(),
-        lit,
-    }))
+    Box::new(Expr::Lit(syn::ExprLit { attrs: Vec::new(), lit }))
 }
 
 /// One name.
 pub(super) fn name(name: Ident) -> Box<Expr> {
-    Box::new(Expr::Path(syn::ExprPath {
-        attrs: Vec::new(),
-        qself: None,
-        path: name.into(),
-    }))
+    Box::new(Expr::Path(syn::ExprPath { attrs: Vec::new(), qself: None, path: name.into() }))
 }
 
 /// `func(args)`
 pub(super) fn call(func: Box<Expr>, group: &Group, args: Elements) -> Box<Expr> {
-    let paren_token = token::Paren {
-        span: group.delim_span(),
-    };
-    Box::new(Expr::Call(syn::ExprCall {
-        attrs: Vec::new(),
-        func,
-        paren_token,
-        args,
-    }))
+    let paren_token = token::Paren { span: group.delim_span() };
+    Box::new(Expr::Call(syn::ExprCall { attrs: Vec::new(), func, paren_token, args }))
 }
 
 /// `(expr)`
 pub(super) fn paren(group: &Group, expr: Box<Expr>) -> Box<Expr> {
-    let paren_token = token::Paren {
-        span: group.delim_span(),
-    };
-    Box::new(Expr::Paren(syn::ExprParen {
-        attrs: Vec::new(),
-        paren_token,
-        expr,
-    }))
+    let paren_token = token::Paren { span: group.delim_span() };
+    Box::new(Expr::Paren(syn::ExprParen { attrs: Vec::new(), paren_token, expr }))
 }
 
 /// `[elems]`
 pub(super) fn array(group: &Group, elems: Elements) -> Box<Expr> {
-    let bracket_token = token::Bracket {
-        span: group.delim_span(),
-    };
-    Box::new(Expr::Array(syn::ExprArray {
-        attrs: Vec::new(),
-        bracket_token,
-        elems,
-    }))
+    let bracket_token = token::Bracket { span: group.delim_span() };
+    Box::new(Expr::Array(syn::ExprArray { attrs: Vec::new(), bracket_token, elems }))
 }
 
 /// `expr[index]`
 pub(super) fn index(expr: Box<Expr>, group: &Group, index: Box<Expr>) -> Box<Expr> {
-    let bracket_token = token::Bracket {
-        span: group.delim_span(),
-    };
-    Box::new(Expr::Index(syn::ExprIndex {
-        attrs: Vec::new(),
-        expr,
-        bracket_token,
-        index,
-    }))
+    let bracket_token = token::Bracket { span: group.delim_span() };
+    Box::new(Expr::Index(syn::ExprIndex { attrs: Vec::new(), expr, bracket_token, index }))
 }
 
 /// `base.name`
 pub(super) fn field(base: Box<Expr>, dot: Span, name: Ident) -> Box<Expr> {
     let (dot_token, member) = (Token![.](dot), Member::Named(name));
-    Box::new(Expr::Field(syn::ExprField {
-        attrs: Vec::new(),
-        base,
-        dot_token,
-        member,
-    }))
+    Box::new(Expr::Field(syn::ExprField { attrs: Vec::new(), base, dot_token, member }))
 }
 
 /// `receiver.method(args)`
-pub(super) fn method(
-    receiver: Box<Expr>,
-    dot: Span,
-    method: Ident,
-    group: &Group,
-    args: Elements,
-) -> Box<Expr> {
+pub(super) fn method(receiver: Box<Expr>, dot: Span, method: Ident, group: &Group, args: Elements) -> Box<Expr> {
     Box::new(Expr::MethodCall(syn::ExprMethodCall {
         attrs: Vec::new(),
         receiver,
         dot_token: Token![.](dot),
         method,
         turbofish: None,
-        paren_token: token::Paren {
-            span: group.delim_span(),
-        },
+        paren_token: token::Paren { span: group.delim_span() },
         args,
     }))
 }
 
 /// `-expr` or `!expr`
 pub(super) fn unary(op: UnOp, expr: Box<Expr>) -> Box<Expr> {
-    Box::new(Expr::Unary(syn::ExprUnary {
-        attrs: Vec::new(),
-        op,
-        expr,
-    }))
+    Box::new(Expr::Unary(syn::ExprUnary { attrs: Vec::new(), op, expr }))
 }
 
 /// `left op right`
 pub(super) fn binary(left: Box<Expr>, op: BinOp, right: Box<Expr>) -> Box<Expr> {
-    Box::new(Expr::Binary(syn::ExprBinary {
-        attrs: Vec::new(),
-        left,
-        op,
-        right,
-    }))
+    Box::new(Expr::Binary(syn::ExprBinary { attrs: Vec::new(), left, op, right }))
 }
 
 /// The operator that is written so, and how tightly it binds; `None` if it stands between no two values.

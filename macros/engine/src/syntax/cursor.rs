@@ -35,13 +35,7 @@ impl Cursor {
     pub(super) fn new(tokens: TokenStream) -> Cursor {
         let tokens = visible(tokens);
         let end = tokens.last().map_or_else(Span::call_site, end_of);
-        Cursor {
-            tokens,
-            position: 0,
-            end,
-            last: Span::call_site(),
-            depth: 0,
-        }
+        Cursor { tokens, position: 0, end, last: Span::call_site(), depth: 0 }
     }
 
     /// At the first token inside `group`, one level deeper.
@@ -129,16 +123,12 @@ impl Cursor {
 
     /// Whether a group in these brackets comes after `ahead` tokens.
     pub(super) fn at_group(&self, ahead: usize, delimiter: Delimiter) -> bool {
-        self.group(ahead)
-            .is_some_and(|group| group.delimiter() == delimiter)
+        self.group(ahead).is_some_and(|group| group.delimiter() == delimiter)
     }
 
     /// Takes the group in these brackets, if one comes next.
     pub(super) fn take_group(&mut self, delimiter: Delimiter) -> Option<Group> {
-        let group = self
-            .group(0)
-            .filter(|group| group.delimiter() == delimiter)?
-            .clone();
+        let group = self.group(0).filter(|group| group.delimiter() == delimiter)?.clone();
         self.bump();
         Some(group)
     }
@@ -202,10 +192,7 @@ impl Cursor {
     /// stand side by side. This is where a missing `;` shows, and where recovery may stop.
     pub(super) fn at_item(&self, ahead: usize) -> bool {
         let next = ahead.saturating_add(1);
-        if self
-            .punct(ahead)
-            .is_some_and(|punct| punct.as_char() == '#')
-        {
+        if self.punct(ahead).is_some_and(|punct| punct.as_char() == '#') {
             let behind = ahead.saturating_add(2);
             let followed = self.ident(behind).is_some() || self.operator(behind) == "#";
             return self.at_group(next, Delimiter::Bracket) && followed;
@@ -218,8 +205,7 @@ impl Cursor {
             Some(Keyword::World | Keyword::Formulation) => self.at_group(next, Delimiter::Brace),
             Some(Keyword::Solve) => {
                 let behind = ahead.saturating_add(2);
-                let goes_on = self.operator(behind) == "="
-                    || self.ident(behind).is_some_and(|word| word == "from");
+                let goes_on = self.operator(behind) == "=" || self.ident(behind).is_some_and(|word| word == "from");
                 self.at_group(next, Delimiter::Parenthesis) && goes_on
             }
             Some(Keyword::Assume) => name_follows || self.at_group(next, Delimiter::Parenthesis),
@@ -257,10 +243,7 @@ impl Cursor {
 
     /// Skips to the next one of these operators, or to where the item must be over.
     pub(super) fn skip_within_item(&mut self, operators: &[&str]) {
-        while !self.at_end()
-            && !self.at(";")
-            && !self.at_item(0)
-            && !operators.iter().any(|operator| self.at(operator))
+        while !self.at_end() && !self.at(";") && !self.at_item(0) && !operators.iter().any(|operator| self.at(operator))
         {
             self.bump();
         }
@@ -269,8 +252,8 @@ impl Cursor {
 
 /// Operators of more than one character that Rust knows.
 const OPERATORS: &[&str] = &[
-    "&&", "||", "==", "!=", "<=", ">=", "<<", ">>", "::", "..", "=>", "->", "+=", "-=", "*=", "/=",
-    "%=", "^=", "&=", "|=", "...", "..=", "<<=", ">>=",
+    "&&", "||", "==", "!=", "<=", ">=", "<<", ">>", "::", "..", "=>", "->", "+=", "-=", "*=", "/=", "%=", "^=", "&=",
+    "|=", "...", "..=", "<<=", ">>=",
 ];
 
 /// The tokens of one level. Groups without visible brackets come from macros of the user's own; where they hold one
@@ -285,8 +268,7 @@ fn visible(stream: TokenStream) -> Vec<TokenTree> {
         match token {
             TokenTree::Group(group) if group.delimiter() == Delimiter::None => {
                 let inner: Vec<TokenTree> = group.stream().into_iter().collect();
-                let visibility =
-                    matches!(inner.first(), Some(TokenTree::Ident(word)) if word == "pub");
+                let visibility = matches!(inner.first(), Some(TokenTree::Ident(word)) if word == "pub");
                 if inner.len() < 2 || visibility {
                     rest.extend(inner.into_iter().rev());
                 } else {

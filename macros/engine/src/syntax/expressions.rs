@@ -34,10 +34,7 @@ pub(super) fn expression(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> 
 /// What is between brackets, with commas. Elements that can't be read are poisoned.
 pub(super) fn list(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Vec<Expr> {
     let (nodes, _) = nodes(cursor, diagnostics);
-    nodes
-        .into_iter()
-        .map(|node| node.map_or_else(|Reported| poison(), |node| *node.expr))
-        .collect()
+    nodes.into_iter().map(|node| node.map_or_else(|Reported| poison(), |node| *node.expr)).collect()
 }
 
 /// A word that Rust doesn't keep for itself.
@@ -78,11 +75,7 @@ fn reduce(
             && strength == COMPARISON
             && waiting.strength == COMPARISON
         {
-            diagnostics.error_help(
-                next.span,
-                "comparisons can't be chained",
-                "write `a < b && b < c`",
-            );
+            diagnostics.error_help(next.span, "comparisons can't be chained", "write `a < b && b < c`");
             return Err(Reported);
         }
         let height = left.height.max(current.height);
@@ -95,10 +88,7 @@ fn reduce(
 /// One level higher, if that is allowed.
 fn grown(expr: Box<Expr>, height: usize, span: Span, diagnostics: &mut Diagnostics) -> Read<Node> {
     if height < HIGHEST {
-        return Ok(Node {
-            expr,
-            height: height + 1,
-        });
+        return Ok(Node { expr, height: height + 1 });
     }
     let message = format!("this expression has more than {HIGHEST} operators in a row");
     diagnostics.error_help(span, message, "name parts of it with `let`");
@@ -106,11 +96,7 @@ fn grown(expr: Box<Expr>, height: usize, span: Span, diagnostics: &mut Diagnosti
 }
 
 /// The operator that comes next, taken; `None` where the expression ends.
-fn operator(
-    left: &Expr,
-    cursor: &mut Cursor,
-    diagnostics: &mut Diagnostics,
-) -> Read<Option<Operator>> {
+fn operator(left: &Expr, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Read<Option<Operator>> {
     if hints::no_operator(left, cursor, diagnostics) {
         return Err(Reported);
     }
@@ -121,11 +107,7 @@ fn operator(
         return Ok(None);
     };
     cursor.take(&text);
-    Ok(Some(Operator {
-        symbol,
-        strength,
-        span,
-    }))
+    Ok(Some(Operator { symbol, strength, span }))
 }
 
 /// Signs, a value, and what is taken from it: `-a.b[c].d(e)`.
@@ -139,23 +121,13 @@ fn operand(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Read<Node> {
         } else if let Some(group) = cursor.take_group(Delimiter::Bracket) {
             let index = only(&group, cursor, diagnostics)?;
             let height = current.height.max(index.height);
-            current = grown(
-                build::index(current.expr, &group, index.expr),
-                height,
-                span,
-                diagnostics,
-            )?;
+            current = grown(build::index(current.expr, &group, index.expr), height, span, diagnostics)?;
         } else {
             break;
         }
     }
     for (op, span) in signs.into_iter().rev() {
-        current = grown(
-            build::unary(op, current.expr),
-            current.height,
-            span,
-            diagnostics,
-        )?;
+        current = grown(build::unary(op, current.expr), current.height, span, diagnostics)?;
     }
     Ok(current)
 }
@@ -178,21 +150,11 @@ fn signs(cursor: &mut Cursor) -> Vec<(UnOp, Span)> {
 fn value(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Read<Node> {
     if let Some(group) = cursor.take_group(Delimiter::Parenthesis) {
         let inner = only(&group, cursor, diagnostics)?;
-        return grown(
-            build::paren(&group, inner.expr),
-            inner.height,
-            group.span_open(),
-            diagnostics,
-        );
+        return grown(build::paren(&group, inner.expr), inner.height, group.span_open(), diagnostics);
     }
     if let Some(group) = cursor.take_group(Delimiter::Bracket) {
         let (elements, height) = elements(&group, cursor, diagnostics)?;
-        return grown(
-            build::array(&group, elements),
-            height,
-            group.span_open(),
-            diagnostics,
-        );
+        return grown(build::array(&group, elements), height, group.span_open(), diagnostics);
     }
     let leaf = leaf(cursor, diagnostics)?;
     if !matches!(*leaf.expr, Expr::Path(_)) {
@@ -202,21 +164,14 @@ fn value(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Read<Node> {
         return Ok(leaf);
     };
     let (arguments, height) = elements(&group, cursor, diagnostics)?;
-    grown(
-        build::call(leaf.expr, &group, arguments),
-        height,
-        group.span_open(),
-        diagnostics,
-    )
+    grown(build::call(leaf.expr, &group, arguments), height, group.span_open(), diagnostics)
 }
 
 /// A number or name.
 fn leaf(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Read<Node> {
     let expr = match cursor.peek(0) {
         Some(TokenTree::Literal(literal)) => build::number(number(literal, cursor, diagnostics)?),
-        Some(TokenTree::Ident(word)) if is_name(word) && !cursor.at_item(0) => {
-            build::name(word.clone())
-        }
+        Some(TokenTree::Ident(word)) if is_name(word) && !cursor.at_item(0) => build::name(word.clone()),
         _ => return Err(hints::no_value(cursor, diagnostics)),
     };
     cursor.bump();
@@ -230,21 +185,11 @@ fn member(left: Node, dot: Span, cursor: &mut Cursor, diagnostics: &mut Diagnost
     };
     cursor.bump();
     let Some(group) = cursor.take_group(Delimiter::Parenthesis) else {
-        return grown(
-            build::field(left.expr, dot, name),
-            left.height,
-            dot,
-            diagnostics,
-        );
+        return grown(build::field(left.expr, dot, name), left.height, dot, diagnostics);
     };
     let (arguments, height) = elements(&group, cursor, diagnostics)?;
     let height = left.height.max(height);
-    grown(
-        build::method(left.expr, dot, name, &group, arguments),
-        height,
-        dot,
-        diagnostics,
-    )
+    grown(build::method(left.expr, dot, name, &group, arguments), height, dot, diagnostics)
 }
 
 /// The one expression that a group holds.
@@ -262,11 +207,7 @@ fn only(group: &Group, cursor: &Cursor, diagnostics: &mut Diagnostics) -> Read<N
 }
 
 /// All expressions between brackets and the height of the highest; all of them are read, then the first error counts.
-fn elements(
-    group: &Group,
-    cursor: &Cursor,
-    diagnostics: &mut Diagnostics,
-) -> Read<(Elements, usize)> {
+fn elements(group: &Group, cursor: &Cursor, diagnostics: &mut Diagnostics) -> Read<(Elements, usize)> {
     let mut inner = cursor.enter(group, diagnostics)?;
     let (nodes, complete) = nodes(&mut inner, diagnostics);
     complete?;

@@ -34,11 +34,7 @@ pub(super) fn lost(cursor: &mut Cursor) -> Fields {
 
 /// The fields in a group.
 pub(super) fn between(group: &Group, cursor: &Cursor, diagnostics: &mut Diagnostics) -> Fields {
-    let mut fields = Fields {
-        span: group.span(),
-        list: Vec::new(),
-        broken: false,
-    };
+    let mut fields = Fields { span: group.span(), list: Vec::new(), broken: false };
     let Ok(mut inner) = cursor.enter(group, diagnostics) else {
         fields.broken = true;
         return fields;
@@ -72,11 +68,7 @@ fn field(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Result<Field, Re
     }
     let Some(name) = cursor.ident(0).filter(|name| is_name(name)).cloned() else {
         let message = format!("expected a field, found {}", cursor.found());
-        let help = if cursor.at("..") {
-            "fields left out have the defaults of the documentation"
-        } else {
-            FORM
-        };
+        let help = if cursor.at("..") { "fields left out have the defaults of the documentation" } else { FORM };
         diagnostics.error_help(cursor.span(), message, help);
         return Err(Reported);
     };
@@ -85,10 +77,7 @@ fn field(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Result<Field, Re
         let message = format!("field `{name}` has no value");
         diagnostics.error_help(name.span(), message, format!("write `{name}: value`"));
         cursor.take(",");
-        return Ok(Field {
-            name,
-            value: poison(),
-        });
+        return Ok(Field { name, value: poison() });
     }
     if cursor.take(":").is_none() {
         let message = format!("expected `:` after `{name}`, found {}", cursor.found());
@@ -96,10 +85,7 @@ fn field(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Result<Field, Re
         if cursor.take("=").is_none() {
             cursor.skip_to(&[","]);
             cursor.take(",");
-            return Ok(Field {
-                name,
-                value: poison(),
-            });
+            return Ok(Field { name, value: poison() });
         }
     }
     let value = expression(cursor, diagnostics).and_then(|value| {
@@ -107,10 +93,7 @@ fn field(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Result<Field, Re
         if cursor.at_end() || cursor.take(",").is_some() {
             Ok(value)
         } else if next_field {
-            diagnostics.error(
-                cursor.span(),
-                format!("missing `,` before {}", cursor.found()),
-            );
+            diagnostics.error(cursor.span(), format!("missing `,` before {}", cursor.found()));
             Ok(value)
         } else if cursor.at(";") {
             diagnostics.error(cursor.span(), "fields are separated by `,`, not by `;`");

@@ -22,21 +22,13 @@ pub(super) fn no_value(cursor: &Cursor, diagnostics: &mut Diagnostics) -> Report
         // The next item already: this one is half typed.
         Some(TokenTree::Ident(_)) if cursor.at_item(0) => (expected, None),
         Some(TokenTree::Ident(word)) => rust_word(&word.to_string()),
-        Some(TokenTree::Literal(_)) => (
-            "text means nothing in an expression".to_owned(),
-            Some("only numbers do"),
-        ),
-        Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Brace => {
-            (nothing("blocks"), Some(LET))
-        }
+        Some(TokenTree::Literal(_)) => ("text means nothing in an expression".to_owned(), Some("only numbers do")),
+        Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Brace => (nothing("blocks"), Some(LET)),
         Some(TokenTree::Punct(punct)) => match punct.as_char() {
             '&' => (nothing("references"), Some("remove the `&`")),
             '*' => (nothing("dereferences"), Some("remove the `*`")),
             '|' => (nothing("closures"), Some(LET)),
-            '+' => (
-                "a value has no plus sign".to_owned(),
-                Some("remove the `+`"),
-            ),
+            '+' => ("a value has no plus sign".to_owned(), Some("remove the `+`")),
             ':' if cursor.at("::") => (nothing("paths"), Some(ALONE)),
             '.' if found.starts_with("`..") => (nothing("ranges"), None),
             '\'' => (nothing("labels"), None),
@@ -52,19 +44,14 @@ pub(super) fn no_value(cursor: &Cursor, diagnostics: &mut Diagnostics) -> Report
 fn rust_word(word: &str) -> (String, Option<&'static str>) {
     let help = match word {
         "if" | "match" => Some(SELECT),
-        "for" | "while" | "loop" => {
-            Some("repeated parts are written `part name: [kind; n] = |i| kind { .. };`")
-        }
+        "for" | "while" | "loop" => Some("repeated parts are written `part name: [kind; n] = |i| kind { .. };`"),
         "true" | "false" => Some("a condition compares, such as `x > 0.0`"),
         "move" | "unsafe" | "async" | "const" | "let" => Some(LET),
         "self" | "Self" | "super" | "crate" => Some(ALONE),
         "_" => return ("expected a value, found `_`".to_owned(), None),
         _ => None,
     };
-    (
-        format!("`{}` means nothing in an expression", short(word)),
-        help,
-    )
+    (format!("`{}` means nothing in an expression", short(word)), help)
 }
 
 /// Reports what stands behind the value `left` but is no operator here, if that is so; `false` if an expression may
@@ -81,26 +68,21 @@ pub(super) fn no_operator(left: &Expr, cursor: &Cursor, diagnostics: &mut Diagno
         }
         "*" if cursor.operator(1) == "*" => {
             own = power(left, cursor, 2);
-            (
-                "`**` means nothing in an expression".to_owned(),
-                Some(own.as_str()),
-            )
+            ("`**` means nothing in an expression".to_owned(), Some(own.as_str()))
         }
         "?" => (one, Some("remove it: nothing fails")),
         "%" | "<<" | ">>" => (one, None),
         "&" => (one, Some("\"and\" is written `&&`")),
         "|" => (one, Some("\"or\" is written `||`")),
-        "+=" | "-=" | "*=" | "/=" | "%=" | "^=" | "&=" | "|=" | "<<=" | ">>=" => (
-            one,
-            Some("every name has one value: give the new one a name of its own with `let`"),
-        ),
+        "+=" | "-=" | "*=" | "/=" | "%=" | "^=" | "&=" | "|=" | "<<=" | ">>=" => {
+            (one, Some("every name has one value: give the new one a name of its own with `let`"))
+        }
         "!" => (nothing("macros"), None),
         "::" => (nothing("paths"), Some(ALONE)),
         ".." | "..=" | "..." => (nothing("ranges"), None),
-        _ if cursor.at_word("as") => (
-            "`as` means nothing in an expression".to_owned(),
-            Some("remove it: all numbers are of one type"),
-        ),
+        _ if cursor.at_word("as") => {
+            ("`as` means nothing in an expression".to_owned(), Some("remove it: all numbers are of one type"))
+        }
         _ => return false,
     };
     report(cursor, diagnostics, message, help);
@@ -125,9 +107,7 @@ fn power(left: &Expr, cursor: &Cursor, ahead: usize) -> String {
 /// Reports what stands behind a dot but is no name.
 pub(super) fn no_member(cursor: &Cursor, diagnostics: &mut Diagnostics) -> Reported {
     let message = format!("expected a name after `.`, found {}", cursor.found());
-    let help = cursor
-        .literal()
-        .map(|_| "elements are written `[0]`, components `.x`, `.y` and `.z`");
+    let help = cursor.literal().map(|_| "elements are written `[0]`, components `.x`, `.y` and `.z`");
     report(cursor, diagnostics, message, help)
 }
 
@@ -136,10 +116,7 @@ pub(super) fn no_tuple(group: &Group, comma: Span, diagnostics: &mut Diagnostics
     let (message, help) = if group.delimiter() == Delimiter::Bracket {
         ("one index at a time", "write `a[i][j]`")
     } else {
-        (
-            "tuples mean nothing in an expression",
-            "a vector is written `[x, y, z]`",
-        )
+        ("tuples mean nothing in an expression", "a vector is written `[x, y, z]`")
     };
     diagnostics.error_help(comma, message, help);
     Reported
@@ -148,35 +125,21 @@ pub(super) fn no_tuple(group: &Group, comma: Span, diagnostics: &mut Diagnostics
 /// Reports what stands behind a whole expression that should have been followed by `expected`.
 pub(super) fn no_end(expected: &str, cursor: &Cursor, diagnostics: &mut Diagnostics) -> Reported {
     let message = format!("expected {expected}, found {}", cursor.found());
-    let value = matches!(
-        cursor.peek(0),
-        Some(TokenTree::Ident(_) | TokenTree::Literal(_))
-    );
+    let value = matches!(cursor.peek(0), Some(TokenTree::Ident(_) | TokenTree::Literal(_)));
     let (message, help) = match cursor.operator(0).as_str() {
         _ if !expected.contains("operator") => (message, None),
-        ";" => (
-            message,
-            Some("values are separated by `,`; arrays are written element by element"),
-        ),
+        ";" => (message, Some("values are separated by `,`; arrays are written element by element")),
         "=" => (message, Some("to compare, write `==`")),
-        _ if cursor.at_group(0, Delimiter::Brace) => (
-            message,
-            Some("blocks and structs mean nothing in an expression"),
-        ),
-        _ if value || cursor.at_group(0, Delimiter::Parenthesis) => {
-            (message, Some("a product is written with `*`"))
+        _ if cursor.at_group(0, Delimiter::Brace) => {
+            (message, Some("blocks and structs mean nothing in an expression"))
         }
+        _ if value || cursor.at_group(0, Delimiter::Parenthesis) => (message, Some("a product is written with `*`")),
         _ => (message, None),
     };
     report(cursor, diagnostics, message, help)
 }
 
-fn report(
-    cursor: &Cursor,
-    diagnostics: &mut Diagnostics,
-    message: String,
-    help: Option<&str>,
-) -> Reported {
+fn report(cursor: &Cursor, diagnostics: &mut Diagnostics, message: String, help: Option<&str>) -> Reported {
     match help {
         Some(help) => diagnostics.error_help(cursor.span(), message, help),
         None => diagnostics.error(cursor.span(), message),

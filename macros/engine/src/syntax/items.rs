@@ -32,21 +32,13 @@ pub(super) fn items(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> (Vec<
             break;
         }
         if cursor.at_word("pub") {
-            diagnostics.error_help(
-                cursor.span(),
-                "items are as visible as their model",
-                "remove the `pub`",
-            );
+            diagnostics.error_help(cursor.span(), "items are as visible as their model", "remove the `pub`");
             visibility(cursor, diagnostics);
         }
         let keyword = cursor.span();
         let kind = start(cursor, diagnostics).and_then(|word| item(word, cursor, diagnostics));
         match kind {
-            Some(kind) => items.push(Item {
-                attrs,
-                keyword,
-                kind,
-            }),
+            Some(kind) => items.push(Item { attrs, keyword, kind }),
             None => {
                 broken = true;
                 cursor.skip_item();
@@ -70,11 +62,7 @@ fn stray(before: Option<&Item>, cursor: &mut Cursor, diagnostics: &mut Diagnosti
                 | ItemKind::Solve { .. }
         )
     });
-    let message = if block {
-        "an item with braces has no `;`"
-    } else {
-        "expected an item, found `;`"
-    };
+    let message = if block { "an item with braces has no `;`" } else { "expected an item, found `;`" };
     diagnostics.error_help(cursor.span(), message, "remove the `;`");
     cursor.bump();
 }
@@ -126,21 +114,19 @@ fn item(keyword: Keyword, cursor: &mut Cursor, diagnostics: &mut Diagnostics) ->
         Keyword::Output => value(keyword, cursor, diagnostics).map(ItemKind::Output),
         Keyword::State => state(cursor, diagnostics),
         Keyword::Port => port(cursor, diagnostics),
-        Keyword::World => Some(ItemKind::World(blocks::unnamed(
-            keyword,
-            cursor,
-            diagnostics,
-        ))),
-        Keyword::Formulation => Some(ItemKind::Formulation(blocks::unnamed(
-            keyword,
-            cursor,
-            diagnostics,
-        ))),
+        Keyword::World => Some(ItemKind::World(blocks::unnamed(keyword, cursor, diagnostics))),
+        Keyword::Formulation => Some(ItemKind::Formulation(blocks::unnamed(keyword, cursor, diagnostics))),
         Keyword::Body => blocks::body(cursor, diagnostics),
-        Keyword::Joint => blocks::kinded(keyword, cursor, diagnostics)
-            .map(|(name, kind, fields)| ItemKind::Joint { name, kind, fields }),
-        Keyword::Force => blocks::kinded(keyword, cursor, diagnostics)
-            .map(|(name, kind, fields)| ItemKind::Force { name, kind, fields }),
+        Keyword::Joint => blocks::kinded(keyword, cursor, diagnostics).map(|(name, kind, fields)| ItemKind::Joint {
+            name,
+            kind,
+            fields,
+        }),
+        Keyword::Force => blocks::kinded(keyword, cursor, diagnostics).map(|(name, kind, fields)| ItemKind::Force {
+            name,
+            kind,
+            fields,
+        }),
         Keyword::Constraint => blocks::constraint(cursor, diagnostics),
         Keyword::Drive => Some(drive(cursor, diagnostics)),
         Keyword::Solve => blocks::solve(cursor, diagnostics),
@@ -161,11 +147,7 @@ fn value(keyword: Keyword, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -
             let help = "a `param` has a value, an `input` gets one with every call";
             diagnostics.error_help(equals, "an `input` has no value", help);
         }
-        return Some(Value {
-            name,
-            ty,
-            value: valued.then_some(value),
-        });
+        return Some(Value { name, ty, value: valued.then_some(value) });
     }
     if !valued {
         // The input is valid whatever comes behind.
@@ -179,11 +161,7 @@ fn value(keyword: Keyword, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -
         diagnostics.error_help(cursor.span(), message, form(keyword));
         cursor.skip_item();
     }
-    Some(Value {
-        name,
-        ty,
-        value: valued.then(poison),
-    })
+    Some(Value { name, ty, value: valued.then(poison) })
 }
 
 /// `name: rate = value, start: value;`
@@ -198,13 +176,7 @@ fn state(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Option<ItemKind>
         }
         found
     };
-    let lost = |name| {
-        Some(ItemKind::State {
-            name,
-            rate: poison(),
-            start: Some(poison()),
-        })
-    };
+    let lost = |name| Some(ItemKind::State { name, rate: poison(), start: Some(poison()) });
     let colon = cursor.take(":").is_some();
     if !expect(colon, "`:`", cursor) || !expect(cursor.at_word("rate"), "`rate`", cursor) {
         return lost(name);
@@ -221,21 +193,13 @@ fn state(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Option<ItemKind>
     let more = cursor.take(",").is_some() && !cursor.at(";");
     if !more {
         let end = finish(Ok(rate), "an operator, `,` or `;`", cursor, diagnostics);
-        return Some(ItemKind::State {
-            name,
-            rate: end.unwrap_or_else(|Reported| poison()),
-            start: None,
-        });
+        return Some(ItemKind::State { name, rate: end.unwrap_or_else(|Reported| poison()), start: None });
     }
     if !cursor.at_word("start") || cursor.operator(1) != ":" {
         let message = format!("expected `start:`, found {}", cursor.found());
         diagnostics.error_help(cursor.span(), message, form(keyword));
         cursor.skip_item();
-        return Some(ItemKind::State {
-            name,
-            rate,
-            start: Some(poison()),
-        });
+        return Some(ItemKind::State { name, rate, start: Some(poison()) });
     }
     cursor.bump();
     cursor.take(":");
@@ -243,13 +207,8 @@ fn state(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Option<ItemKind>
     if start.is_ok() {
         cursor.take(",");
     }
-    let start = finish(start, "an operator or `;`", cursor, diagnostics)
-        .unwrap_or_else(|Reported| poison());
-    Some(ItemKind::State {
-        name,
-        rate,
-        start: Some(start),
-    })
+    let start = finish(start, "an operator or `;`", cursor, diagnostics).unwrap_or_else(|Reported| poison());
+    Some(ItemKind::State { name, rate, start: Some(start) })
 }
 
 /// `name: Frame;`
@@ -257,11 +216,7 @@ fn port(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Option<ItemKind> 
     let keyword = Keyword::Port;
     let name = name(keyword, cursor, diagnostics).ok()?;
     let colon = cursor.take(":").is_some();
-    let ty = cursor
-        .ident(0)
-        .filter(|ty| colon && is_name(ty))
-        .filter(|_| !cursor.at_item(0))
-        .cloned();
+    let ty = cursor.ident(0).filter(|ty| colon && is_name(ty)).filter(|_| !cursor.at_item(0)).cloned();
     let Some(ty) = ty else {
         let expected = if colon { "`Frame`" } else { "`: Frame`" };
         let message = format!("expected {expected}, found {}", cursor.found());
@@ -289,23 +244,13 @@ fn drive(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> ItemKind {
             },
             _ => None,
         };
-        let (span, found) = doubled.map_or_else(
-            || (cursor.span(), cursor.found()),
-            |span| (span, "`==`".to_owned()),
-        );
-        diagnostics.error_help(
-            span,
-            format!("expected `=`, found {found}"),
-            form(Keyword::Drive),
-        );
+        let (span, found) = doubled.map_or_else(|| (cursor.span(), cursor.found()), |span| (span, "`==`".to_owned()));
+        diagnostics.error_help(span, format!("expected `=`, found {found}"), form(Keyword::Drive));
         Err(Reported)
     });
     let Ok(target) = target else {
         cursor.skip_item();
-        return ItemKind::Drive {
-            target: poison(),
-            value: poison(),
-        };
+        return ItemKind::Drive { target: poison(), value: poison() };
     };
     cursor.take("=");
     let value = last_value(cursor, diagnostics);
@@ -316,11 +261,7 @@ fn drive(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> ItemKind {
 fn emit(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Option<ItemKind> {
     let mut requests = Vec::new();
     loop {
-        let name = cursor
-            .ident(0)
-            .filter(|name| is_name(name))
-            .filter(|_| !cursor.at_item(0))
-            .cloned();
+        let name = cursor.ident(0).filter(|name| is_name(name)).filter(|_| !cursor.at_item(0)).cloned();
         let Some(name) = name else {
             let message = format!("expected the name of a function, found {}", cursor.found());
             diagnostics.error_help(cursor.span(), message, form(Keyword::Emit));

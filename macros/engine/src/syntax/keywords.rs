@@ -95,38 +95,23 @@ const ELSEWHERE: &[(&str, Keyword)] = &[
 impl Keyword {
     /// The keyword that `name` is.
     pub fn of(name: &Ident) -> Option<Keyword> {
-        Self::ALL
-            .iter()
-            .copied()
-            .find(|keyword| name == keyword.word())
+        Self::ALL.iter().copied().find(|keyword| name == keyword.word())
     }
 
     /// The keyword that `name` is a misspelling of.
     pub fn near(name: &Ident) -> Option<Keyword> {
-        let word = nearest(
-            &name.to_string(),
-            Self::ALL.iter().map(|keyword| keyword.word()),
-        )?;
-        Self::ALL
-            .iter()
-            .copied()
-            .find(|keyword| keyword.word() == word)
+        let word = nearest(&name.to_string(), Self::ALL.iter().map(|keyword| keyword.word()))?;
+        Self::ALL.iter().copied().find(|keyword| keyword.word() == word)
     }
 
     /// The keyword that somebody who writes `name` is looking for; the item is written in another way.
     pub fn meant_by(name: &Ident) -> Option<Keyword> {
-        ELSEWHERE
-            .iter()
-            .find(|(word, _)| name == word)
-            .map(|(_, keyword)| *keyword)
+        ELSEWHERE.iter().find(|(word, _)| name == word).map(|(_, keyword)| *keyword)
     }
 
     /// All words, as a list for error messages.
     pub fn list() -> String {
-        let words: Vec<String> = Self::ALL
-            .iter()
-            .map(|keyword| format!("`{}`", keyword.word()))
-            .collect();
+        let words: Vec<String> = Self::ALL.iter().map(|keyword| format!("`{}`", keyword.word())).collect();
         words.join(", ")
     }
 }

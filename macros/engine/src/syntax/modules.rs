@@ -17,10 +17,7 @@ const FORM: &str = "write `pub mod name { .. }`";
 /// The whole call.
 pub(super) fn source(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Source {
     let mut cursor = Cursor::new(tokens);
-    let mut source = Source {
-        krate: None,
-        modules: Vec::new(),
-    };
+    let mut source = Source { krate: None, modules: Vec::new() };
     let errors = diagnostics.errors().len();
     beginning(&mut source, &mut cursor, diagnostics);
     let mut seen = false;
@@ -36,9 +33,7 @@ pub(super) fn source(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Sour
         if cursor.at_end() {
             diagnostics.error_help(before, "expected a model after this", FORM);
         } else if start(&mut cursor, diagnostics) {
-            source
-                .modules
-                .extend(module(attrs, vis, &mut cursor, diagnostics));
+            source.modules.extend(module(attrs, vis, &mut cursor, diagnostics));
         } else {
             while !cursor.at_end() && !at_module(&cursor) {
                 cursor.bump();
@@ -74,8 +69,7 @@ fn at_module(cursor: &Cursor) -> bool {
     let name_follows = cursor.ident(1).is_some() && cursor.at_group(2, Delimiter::Brace);
     let public = cursor.at_word("pub")
         && (cursor.ident(1).is_some_and(|word| word == "mod")
-            || cursor.at_group(1, Delimiter::Parenthesis)
-                && cursor.ident(2).is_some_and(|word| word == "mod"));
+            || cursor.at_group(1, Delimiter::Parenthesis) && cursor.ident(2).is_some_and(|word| word == "mod"));
     public || cursor.at_word("mod") && name_follows
 }
 
@@ -87,11 +81,8 @@ fn start(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> bool {
     }
     let (span, found) = (cursor.span(), cursor.found());
     // `model arm { .. }` and `pub arm { .. }`; but `body arm { .. }` is an item.
-    let other_word =
-        cursor.ident(1).is_some() && cursor.at_group(2, Delimiter::Brace) && !cursor.at_item(0);
-    let no_word = cursor.ident(0).is_some_and(is_name)
-        && cursor.at_group(1, Delimiter::Brace)
-        && !cursor.at_item(0);
+    let other_word = cursor.ident(1).is_some() && cursor.at_group(2, Delimiter::Brace) && !cursor.at_item(0);
+    let no_word = cursor.ident(0).is_some_and(is_name) && cursor.at_group(1, Delimiter::Brace) && !cursor.at_item(0);
     if other_word || no_word {
         diagnostics.error_help(span, format!("expected `mod`, found {found}"), FORM);
         if other_word {
@@ -100,11 +91,7 @@ fn start(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> bool {
         return true;
     }
     if cursor.at_item(0) {
-        diagnostics.error_help(
-            span,
-            "items stand inside a model",
-            format!("{FORM} around them"),
-        );
+        diagnostics.error_help(span, "items stand inside a model", format!("{FORM} around them"));
     } else {
         diagnostics.error_help(span, format!("expected a model, found {found}"), FORM);
     }
@@ -128,22 +115,13 @@ fn module(
     }
     let Some(group) = cursor.take_group(Delimiter::Brace) else {
         if name.is_some() {
-            let message = format!(
-                "expected `{{` and the model's items, found {}",
-                cursor.found()
-            );
+            let message = format!("expected `{{` and the model's items, found {}", cursor.found());
             diagnostics.error_help(cursor.span(), message, FORM);
         }
         while !cursor.at_end() && !at_module(cursor) {
             cursor.bump();
         }
-        return name.map(|name| Module {
-            attrs,
-            vis,
-            name,
-            items: Vec::new(),
-            broken: true,
-        });
+        return name.map(|name| Module { attrs, vis, name, items: Vec::new(), broken: true });
     };
     let Ok(mut inner) = cursor.enter(&group, diagnostics) else {
         return None;
@@ -151,21 +129,12 @@ fn module(
     for attribute in attributes::inner(&mut inner, diagnostics) {
         let (name, span) = attributes::name(&attribute);
         if name == "krate" {
-            diagnostics.error(
-                span,
-                "`krate` stands at the beginning of the call, before the first model",
-            );
+            diagnostics.error(span, "`krate` stands at the beginning of the call, before the first model");
         } else {
             attrs.push(attribute);
         }
     }
     // Items of a model without a name are read all the same, for their own mistakes.
     let (items, broken) = items(&mut inner, diagnostics);
-    name.map(|name| Module {
-        attrs,
-        vis,
-        name,
-        items,
-        broken,
-    })
+    name.map(|name| Module { attrs, vis, name, items, broken })
 }

@@ -15,39 +15,24 @@ use crate::diagnostics::Diagnostics;
 /// `write ..`, for an item.
 pub(super) fn form(keyword: Keyword) -> String {
     match keyword {
-        Keyword::Constraint => format!(
-            "write `{}` or `constraint name: Rod {{ .. }}`",
-            keyword.form()
-        ),
+        Keyword::Constraint => format!("write `{}` or `constraint name: Rod {{ .. }}`", keyword.form()),
         _ => format!("write `{}`", keyword.form()),
     }
 }
 
 /// The name behind a keyword.
-pub(super) fn name(
-    keyword: Keyword,
-    cursor: &mut Cursor,
-    diagnostics: &mut Diagnostics,
-) -> Read<Ident> {
+pub(super) fn name(keyword: Keyword, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Read<Ident> {
     match cursor.ident(0).cloned() {
         Some(name) if is_name(&name) && !cursor.at_item(0) => {
             cursor.bump();
             Ok(name)
         }
         Some(word) if word != "_" && !cursor.at_item(0) => {
-            diagnostics.error_help(
-                word.span(),
-                format!("`{word}` is a word of Rust's"),
-                "choose another name",
-            );
+            diagnostics.error_help(word.span(), format!("`{word}` is a word of Rust's"), "choose another name");
             Err(Reported)
         }
         _ => {
-            let message = format!(
-                "expected a name after `{}`, found {}",
-                keyword.word(),
-                cursor.found()
-            );
+            let message = format!("expected a name after `{}`, found {}", keyword.word(), cursor.found());
             diagnostics.error_help(cursor.span(), message, form(keyword));
             Err(Reported)
         }
@@ -87,10 +72,7 @@ pub(super) fn optional_type(cursor: &mut Cursor, diagnostics: &mut Diagnostics) 
     cursor.take(":")?;
     let read = ty(cursor, diagnostics).and_then(|ty| match cursor.operator(0).as_str() {
         "::" | "<" => {
-            diagnostics.error(
-                cursor.span(),
-                "a type is one name here, such as `Scalar` or `Vec3`",
-            );
+            diagnostics.error(cursor.span(), "a type is one name here, such as `Scalar` or `Vec3`");
             Err(Reported)
         }
         _ => Ok(ty),
@@ -105,43 +87,24 @@ pub(super) fn optional_type(cursor: &mut Cursor, diagnostics: &mut Diagnostics) 
 fn ty(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Read<Type> {
     if let Some(name) = cursor.ident(0).filter(|name| is_name(name)).cloned() {
         cursor.bump();
-        return Ok(Type::Path(syn::TypePath {
-            attrs: Vec::new(),
-            qself: None,
-            path: name.into(),
-        }));
+        return Ok(Type::Path(syn::TypePath { attrs: Vec::new(), qself: None, path: name.into() }));
     }
     let Some(group) = cursor.take_group(Delimiter::Bracket) else {
         let message = format!("expected a type, found {}", cursor.found());
-        diagnostics.error_help(
-            cursor.span(),
-            message,
-            "types are `Scalar`, `Vec3` and arrays such as `[Scalar; 6]`",
-        );
+        diagnostics.error_help(cursor.span(), message, "types are `Scalar`, `Vec3` and arrays such as `[Scalar; 6]`");
         return Err(Reported);
     };
     let mut inner = cursor.enter(&group, diagnostics)?;
     let elem = Box::new(ty(&mut inner, diagnostics)?);
     let (semi, len) = count(&mut inner, diagnostics)?;
-    let bracket_token = token::Bracket {
-        span: group.delim_span(),
-    };
-    Ok(Type::Array(syn::TypeArray {
-        attrs: Vec::new(),
-        bracket_token,
-        elem,
-        semi_token: Token![;](semi),
-        len,
-    }))
+    let bracket_token = token::Bracket { span: group.delim_span() };
+    Ok(Type::Array(syn::TypeArray { attrs: Vec::new(), bracket_token, elem, semi_token: Token![;](semi), len }))
 }
 
 /// `; count` at the end of an array's type.
 pub(super) fn count(inner: &mut Cursor, diagnostics: &mut Diagnostics) -> Read<(Span, Expr)> {
     let Some(semi) = inner.take(";") else {
-        let message = format!(
-            "expected `;` and the number of elements, found {}",
-            inner.found()
-        );
+        let message = format!("expected `;` and the number of elements, found {}", inner.found());
         diagnostics.error(inner.span(), message);
         return Err(Reported);
     };
@@ -159,12 +122,7 @@ pub(super) fn last_value(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> 
 }
 
 /// The `;` at the end of an item of which `read` came last. Only a missing `;` leaves `read` valid.
-pub(super) fn finish<T>(
-    read: Read<T>,
-    expected: &str,
-    cursor: &mut Cursor,
-    diagnostics: &mut Diagnostics,
-) -> Read<T> {
+pub(super) fn finish<T>(read: Read<T>, expected: &str, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Read<T> {
     let result = read.and_then(|read| {
         if cursor.take(";").is_some() {
             return Ok(read);

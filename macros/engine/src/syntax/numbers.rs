@@ -13,20 +13,13 @@ use crate::diagnostics::Diagnostics;
 const LONGEST: usize = 800;
 
 /// The number that comes next; not taken.
-pub(super) fn number(
-    literal: &Literal,
-    cursor: &Cursor,
-    diagnostics: &mut Diagnostics,
-) -> Read<Lit> {
+pub(super) fn number(literal: &Literal, cursor: &Cursor, diagnostics: &mut Diagnostics) -> Read<Lit> {
     let text = literal.to_string();
     if !text.starts_with(|first: char| first.is_ascii_digit() || first == '-') {
         return Err(hints::no_value(cursor, diagnostics));
     }
     if text.len() > LONGEST {
-        diagnostics.error(
-            literal.span(),
-            format!("this number has more than {LONGEST} digits"),
-        );
+        diagnostics.error(literal.span(), format!("this number has more than {LONGEST} digits"));
         return Err(Reported);
     }
     let lit = syn::parse2::<Lit>(TokenTree::Literal(literal.clone()).into());
@@ -36,10 +29,7 @@ pub(super) fn number(
         _ => Default::default(),
     };
     if !suffix.is_empty() {
-        let plain = text
-            .strip_suffix(&suffix)
-            .unwrap_or(&digits)
-            .trim_end_matches('_');
+        let plain = text.strip_suffix(&suffix).unwrap_or(&digits).trim_end_matches('_');
         let message = format!("a number has no suffix here: remove `{}`", short(&suffix));
         diagnostics.error_help(literal.span(), message, format!("write `{}`", short(plain)));
         return Err(Reported);

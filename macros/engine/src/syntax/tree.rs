@@ -182,11 +182,7 @@ pub struct Fields {
 impl Fields {
     /// Not one field, for an item of which nothing more could be read.
     pub fn none(span: Span) -> Fields {
-        Fields {
-            span,
-            list: Vec::new(),
-            broken: true,
-        }
+        Fields { span, list: Vec::new(), broken: true }
     }
 }
 

@@ -227,6 +227,7 @@ pub fn pendulum() -> (Model, Compiled) {
             ],
         ),
         prelude_cost: Cost { mul: 4, div: 2, ..Cost::default() },
+        sound: true,
         functions: vec![
             derived(
                 FunctionKind::ForwardDynamics,
@@ -381,6 +382,7 @@ fn everything_read(model: &Model) -> Compiled {
         fields: vec!["total".into()],
         prelude: program(&[], vec![], vec![sum(&params)]),
         prelude_cost: Cost::default(),
+        sound: true,
         functions: vec![
             function(FunctionKind::ForwardDynamics, dof + states.len(), &all),
             function(FunctionKind::InverseDynamics, dof, &with_accel),
@@ -410,6 +412,7 @@ pub fn nothing() -> (Model, Compiled) {
     add_joint(&mut model, place(0, "weld"), JointKind::Fixed);
     let none = || program(&[], vec![], vec![]);
     let compiled = Compiled {
+        sound: true,
         functions: vec![
             derived(FunctionKind::ForwardDynamics, none()),
             derived(FunctionKind::InverseDynamics, none()),
@@ -437,6 +440,7 @@ pub fn long(count: usize) -> (Model, Compiled) {
         statements.push(set(i, value));
     }
     let compiled = Compiled {
+        sound: true,
         functions: vec![derived(
             FunctionKind::ForwardDynamics,
             Program { locals, statements, results: vec![local(count - 1)] },

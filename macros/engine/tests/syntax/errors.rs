@@ -12,11 +12,7 @@ fn said(text: &str) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for error in diagnostics.errors() {
         let token = error.span.source_text().unwrap_or_default();
-        let help = error
-            .help
-            .as_deref()
-            .map(|help| format!(" | {help}"))
-            .unwrap_or_default();
+        let help = error.help.as_deref().map(|help| format!(" | {help}")).unwrap_or_default();
         lines.push(format!("{token} | {}{help}", error.message));
     }
     let items: usize = source.modules.iter().map(|module| module.items.len()).sum();
@@ -27,23 +23,15 @@ fn said(text: &str) -> Vec<String> {
 #[test]
 fn cases() {
     let mut wrong = String::new();
-    let mut lines = CASES
-        .lines()
-        .filter(|line| !line.is_empty() && !line.starts_with("# "))
-        .peekable();
+    let mut lines = CASES.lines().filter(|line| !line.is_empty() && !line.starts_with("# ")).peekable();
     let mut count = 0;
     while let Some(case) = lines.next() {
         let mut expected: Vec<&str> = Vec::new();
         while let Some(line) = lines.next_if(|line| line.starts_with("    ")) {
             expected.push(line.trim());
         }
-        let text = case
-            .strip_prefix("call:")
-            .map_or_else(|| format!("mod m {{ {case} }}"), str::to_owned);
-        let said: Vec<String> = said(&text)
-            .iter()
-            .map(|line| line.trim().to_owned())
-            .collect();
+        let text = case.strip_prefix("call:").map_or_else(|| format!("mod m {{ {case} }}"), str::to_owned);
+        let said: Vec<String> = said(&text).iter().map(|line| line.trim().to_owned()).collect();
         if said != expected {
             wrong += &format!("{case}\n    {}\n", said.join("\n    "));
         }
@@ -66,26 +54,17 @@ fn placeholders() {
         mod n { body b { mass: x^2 } }";
     let (source, diagnostics) = parse_text(text);
     assert_eq!(diagnostics.errors().len(), 7);
-    let [m, n] = source.modules.as_slice() else {
-        panic!("two models")
-    };
+    let [m, n] = source.modules.as_slice() else { panic!("two models") };
     assert_eq!((m.broken, n.broken), (true, false));
-    let [
-        ItemKind::Param(a),
-        ItemKind::Body { fields: b, .. },
-        ItemKind::Joint {
-            kind, fields: j, ..
-        },
-    ] = [&m.items[0].kind, &m.items[1].kind, &m.items[2].kind]
+    let [ItemKind::Param(a), ItemKind::Body { fields: b, .. }, ItemKind::Joint { kind, fields: j, .. }] =
+        [&m.items[0].kind, &m.items[1].kind, &m.items[2].kind]
     else {
         panic!("three items")
     };
     assert!(a.ty.as_ref().is_some_and(poisoned_type) && a.value.as_ref().is_some_and(poisoned));
     assert!(b.broken && poisoned(&b.list[0].value) && !poisoned(&b.list[1].value));
     assert!(kind == UNREADABLE && !j.broken && !poisoned(&j.list[0].value));
-    let ItemKind::Body { fields, .. } = &n.items[0].kind else {
-        panic!("a body")
-    };
+    let ItemKind::Body { fields, .. } = &n.items[0].kind else { panic!("a body") };
     assert!(!fields.broken && poisoned(&fields.list[0].value));
 }
 
@@ -121,11 +100,8 @@ fn all_mistakes_at_once() {
 /// Limits that no model written by hand meets.
 #[test]
 fn limits() {
-    let case = |value: String, expected: &str| {
-        check(&format!("mod m {{ let a = {value}; }}"), 1, &[expected])
-    };
-    let nested =
-        "( | brackets are nested more than 64 deep | name the inner expressions with `let`";
+    let case = |value: String, expected: &str| check(&format!("mod m {{ let a = {value}; }}"), 1, &[expected]);
+    let nested = "( | brackets are nested more than 64 deep | name the inner expressions with `let`";
     case(format!("{}x{}", "(".repeat(64), ")".repeat(64)), nested);
     let tokens = [
         ("+ | ", "x + ".repeat(256) + "x"),
@@ -133,13 +109,9 @@ fn limits() {
         (". | ", "x".to_owned() + &".y".repeat(256)),
     ];
     for (token, value) in tokens {
-        let message =
-            "this expression has more than 256 operators in a row | name parts of it with `let`";
+        let message = "this expression has more than 256 operators in a row | name parts of it with `let`";
         case(value, &format!("{token}{message}"));
     }
     let digits = "9".repeat(801);
-    case(
-        digits.clone(),
-        &format!("{digits} | this number has more than 800 digits"),
-    );
+    case(digits.clone(), &format!("{digits} | this number has more than 800 digits"));
 }

@@ -9,13 +9,7 @@ use crate::valid;
 /// The expression as the engine reads it.
 fn read(text: &str) -> Expr {
     let source = valid(&format!("mod m {{ let a = {text}; }}"));
-    match source
-        .modules
-        .into_iter()
-        .next()
-        .and_then(|module| module.items.into_iter().next())
-        .map(|item| item.kind)
-    {
+    match source.modules.into_iter().next().and_then(|module| module.items.into_iter().next()).map(|item| item.kind) {
         Some(ItemKind::Let(value)) => value.value.unwrap_or_else(|| panic!("a value in {text}")),
         _ => panic!("one `let` in {text}"),
     }
@@ -67,11 +61,7 @@ fn expression(random: &mut Random, depth: usize, compare: bool, text: &mut Strin
     let compared = compare && random.below(4) == 0;
     for term in 0..terms {
         if term > 0 {
-            let operators = if compared {
-                &["<", "<=", "==", "!="] as &[&str]
-            } else {
-                &["+", "-", "*", "/", "-"]
-            };
+            let operators = if compared { &["<", "<=", "==", "!="] as &[&str] } else { &["+", "-", "*", "/", "-"] };
             text.push_str(operators[random.below(operators.len())]);
         }
         if term > 0 && compared {
@@ -98,14 +88,7 @@ fn operand(random: &mut Random, depth: usize, text: &mut String) {
     }
 }
 
-fn bracketed(
-    open: &str,
-    close: &str,
-    elements: usize,
-    random: &mut Random,
-    depth: usize,
-    text: &mut String,
-) {
+fn bracketed(open: &str, close: &str, elements: usize, random: &mut Random, depth: usize, text: &mut String) {
     text.push_str(open);
     for element in 0..elements {
         if element > 0 {

@@ -8,10 +8,7 @@ use crate::{DOUBLE_PENDULUM, OTHERS, STEWART, parse_tokens, valid};
 
 /// Text of tokens without any spaces.
 fn text(tokens: impl ToTokens) -> String {
-    tokens
-        .to_token_stream()
-        .to_string()
-        .replace(char::is_whitespace, "")
+    tokens.to_token_stream().to_string().replace(char::is_whitespace, "")
 }
 
 fn list(exprs: &[syn::Expr]) -> String {
@@ -20,22 +17,13 @@ fn list(exprs: &[syn::Expr]) -> String {
 
 fn fields(fields: &Fields) -> String {
     let broken = if fields.broken { "!" } else { "" };
-    let list: Vec<String> = fields
-        .list
-        .iter()
-        .map(|field| format!("{}={}", field.name, text(&field.value)))
-        .collect();
+    let list: Vec<String> = fields.list.iter().map(|field| format!("{}={}", field.name, text(&field.value))).collect();
     format!("{{{}}}{broken}", list.join("|"))
 }
 
 fn value(word: &str, value: &Value) -> String {
     let (ty, expr) = (value.ty.as_ref().map(text), value.value.as_ref().map(text));
-    format!(
-        "{word} {} {} {}",
-        value.name,
-        ty.unwrap_or_default(),
-        expr.unwrap_or_default()
-    )
+    format!("{word} {} {} {}", value.name, ty.unwrap_or_default(), expr.unwrap_or_default())
 }
 
 /// An item in one line, for comparison.
@@ -53,56 +41,25 @@ fn line(item: &Item) -> String {
         ItemKind::World(f) => format!("world {}", fields(f)),
         ItemKind::Formulation(f) => format!("formulation {}", fields(f)),
         ItemKind::Body { name, fields: f } => format!("body {name} {}", fields(f)),
-        ItemKind::Joint {
-            name,
-            kind,
-            fields: f,
-        } => format!("joint {name} {kind} {}", fields(f)),
-        ItemKind::Force {
-            name,
-            kind,
-            fields: f,
-        } => format!("force {name} {kind} {}", fields(f)),
+        ItemKind::Joint { name, kind, fields: f } => format!("joint {name} {kind} {}", fields(f)),
+        ItemKind::Force { name, kind, fields: f } => format!("force {name} {kind} {}", fields(f)),
         ItemKind::Part(p) => {
             let (count, index) = (text(&p.count), text(&p.index));
-            format!(
-                "part {} {} {count} {index} {}",
-                p.name,
-                p.kind,
-                fields(&p.fields)
-            )
+            format!("part {} {} {count} {index} {}", p.name, p.kind, fields(&p.fields))
         }
         ItemKind::ConstraintValue { name, value } => format!("constraint {name} {}", text(value)),
-        ItemKind::ConstraintKind {
-            name,
-            kind,
-            fields: f,
-        } => format!("constraint {name} {kind} {}", fields(f)),
+        ItemKind::ConstraintKind { name, kind, fields: f } => format!("constraint {name} {kind} {}", fields(f)),
         ItemKind::Drive { target, value } => format!("drive {} {}", text(target), text(value)),
-        ItemKind::Solve {
-            unknowns,
-            how: Solution::Formulas(formulas),
-        } => {
+        ItemKind::Solve { unknowns, how: Solution::Formulas(formulas) } => {
             format!("solve {} {}", list(unknowns), list(formulas))
         }
-        ItemKind::Solve {
-            unknowns,
-            how: Solution::From { joint, branches },
-        } => {
-            format!(
-                "solve {} from {} {}",
-                list(unknowns),
-                text(joint),
-                list(branches)
-            )
+        ItemKind::Solve { unknowns, how: Solution::From { joint, branches } } => {
+            format!("solve {} from {} {}", list(unknowns), text(joint), list(branches))
         }
         ItemKind::Assume(condition) => format!("assume {}", text(condition)),
         ItemKind::Emit(requests) => {
             let options = |f: &Option<Fields>| f.as_ref().map(fields).unwrap_or_default();
-            let names: Vec<String> = requests
-                .iter()
-                .map(|r| format!("{}{}", r.name, options(&r.options)))
-                .collect();
+            let names: Vec<String> = requests.iter().map(|r| format!("{}{}", r.name, options(&r.options))).collect();
             format!("emit {}", names.join(" "))
         }
     };
@@ -121,9 +78,7 @@ fn lines(items: &str) -> Vec<String> {
 fn double_pendulum() {
     let source = valid(DOUBLE_PENDULUM);
     assert!(source.krate.is_none());
-    let [module] = source.modules.as_slice() else {
-        panic!("one model")
-    };
+    let [module] = source.modules.as_slice() else { panic!("one model") };
     assert_eq!(module.name, "double_pendulum");
     assert!(matches!(module.vis, syn::Visibility::Public(_)));
     assert_eq!(module.attrs.len(), 1);
@@ -144,19 +99,14 @@ fn double_pendulum() {
         output energy  kinetic()+potential()
         emit forward_dynamics inverse_dynamics mass_matrix bias";
     let expected: Vec<&str> = expected.lines().map(str::trim).collect();
-    let plain: Vec<String> = lines
-        .iter()
-        .map(|line| line.replace("doc=\"", "doc=r\""))
-        .collect();
+    let plain: Vec<String> = lines.iter().map(|line| line.replace("doc=\"", "doc=r\"")).collect();
     assert_eq!(plain, expected);
 }
 
 #[test]
 fn stewart() {
     let source = valid(STEWART);
-    let [leg, stewart] = source.modules.as_slice() else {
-        panic!("a part and a model")
-    };
+    let [leg, stewart] = source.modules.as_slice() else { panic!("a part and a model") };
     assert!(matches!(leg.vis, syn::Visibility::Inherited));
     let lines: Vec<String> = leg.items.iter().chain(&stewart.items).map(line).collect();
     for expected in [
@@ -170,10 +120,7 @@ fn stewart() {
         "output pose Pose platform.pose",
         "emit forward_dynamics inverse_dynamics{solve_for=legs.thrust}",
     ] {
-        assert!(
-            lines.iter().any(|line| line == expected),
-            "{expected} in {lines:#?}"
-        );
+        assert!(lines.iter().any(|line| line == expected), "{expected} in {lines:#?}");
     }
     assert_eq!((leg.items.len(), stewart.items.len()), (12, 9));
 }
@@ -201,24 +148,12 @@ fn other_items() {
 
 #[test]
 fn trailing_commas_are_optional() {
-    assert_eq!(
-        lines("body b { mass: 1.0, }"),
-        lines("body b { mass: 1.0 }")
-    );
+    assert_eq!(lines("body b { mass: 1.0, }"), lines("body b { mass: 1.0 }"));
     assert_eq!(lines("emit a, b,;"), lines("emit a, b;"));
     assert_eq!(lines("emit a { x: 1, }, b;"), lines("emit a { x: 1 }, b;"));
-    assert_eq!(
-        lines("state x: rate = 1, start: 0,;"),
-        lines("state x: rate = 1, start: 0;")
-    );
-    assert_eq!(
-        lines("solve (a, b,) = (c, d,);"),
-        lines("solve (a, b) = (c, d);")
-    );
-    assert_eq!(
-        lines("solve (a) from j { a > 0, }"),
-        lines("solve (a) from j { a > 0 }")
-    );
+    assert_eq!(lines("state x: rate = 1, start: 0,;"), lines("state x: rate = 1, start: 0;"));
+    assert_eq!(lines("solve (a, b,) = (c, d,);"), lines("solve (a, b) = (c, d);"));
+    assert_eq!(lines("solve (a) from j { a > 0, }"), lines("solve (a) from j { a > 0 }"));
     assert_eq!(lines("let v = [a, b,];"), ["let v  [a,b]"]);
     assert_eq!(lines("let v = f(a, b,);").len(), 1);
 }
@@ -231,20 +166,11 @@ fn optional_things() {
     );
     assert_eq!(lines("let x: Scalar = 1;"), ["let x Scalar 1"]);
     assert_eq!(lines("state x: rate = 1;"), ["state x 1"]);
-    assert_eq!(
-        lines("param k: [[Vec3; 2]; 3] = m;"),
-        ["param k [[Vec3;2];3] m"]
-    );
+    assert_eq!(lines("param k: [[Vec3; 2]; 3] = m;"), ["param k [[Vec3;2];3] m"]);
     assert_eq!(lines("emit forward_dynamics;"), ["emit forward_dynamics"]);
     assert_eq!(lines("body b {} world {}"), ["body b {}", "world {}"]);
-    assert_eq!(
-        lines("part p: [leg; n + 1] = leg { base: ground };"),
-        ["part p leg n+1  {base=ground}"]
-    );
-    assert_eq!(
-        lines("part p: [leg; 2] = |_| leg {};"),
-        ["part p leg 2  {}"]
-    );
+    assert_eq!(lines("part p: [leg; n + 1] = leg { base: ground };"), ["part p leg n+1  {base=ground}"]);
+    assert_eq!(lines("part p: [leg; 2] = |_| leg {};"), ["part p leg 2  {}"]);
     assert_eq!(lines("solve (a) from j {}"), ["solve a from j"]);
     assert_eq!(lines(""), [""; 0]);
 }
@@ -252,14 +178,8 @@ fn optional_things() {
 /// Keywords are words like others where no item starts.
 #[test]
 fn keywords_may_be_names() {
-    assert_eq!(
-        lines("param force = 1; let state = force + port;"),
-        ["param force  1", "let state  force+port"]
-    );
-    assert_eq!(
-        lines("force drive: Effort { joint: joint, value: solve(a) }").len(),
-        1
-    );
+    assert_eq!(lines("param force = 1; let state = force + port;"), ["param force  1", "let state  force+port"]);
+    assert_eq!(lines("force drive: Effort { joint: joint, value: solve(a) }").len(), 1);
     assert_eq!(lines("let x = assume; let y = f(x) - world;").len(), 2);
     assert_eq!(lines("param r#type = 1;"), ["param r#type  1"]);
 }
@@ -276,23 +196,14 @@ fn attributes_go_before_everything() {
         mod n {}",
     );
     assert_eq!(source.krate.map(text).as_deref(), Some("::mb"));
-    let [m, n] = source.modules.as_slice() else {
-        panic!("two models")
-    };
+    let [m, n] = source.modules.as_slice() else { panic!("two models") };
     let attrs: Vec<String> = m.attrs.iter().map(text).collect();
     assert_eq!(attrs.len(), 4);
     assert_eq!(attrs[1], "#[cfg(feature=\"x\")]");
-    assert!(
-        attrs.iter().all(|attr| attr.starts_with("#[")),
-        "inner ones become outer ones: {attrs:?}"
-    );
+    assert!(attrs.iter().all(|attr| attr.starts_with("#[")), "inner ones become outer ones: {attrs:?}");
     assert_eq!(text(&m.vis), "pub(crate)");
     assert_eq!(m.items.len(), 18);
-    assert!(
-        m.items
-            .iter()
-            .all(|item| item.attrs[0].path().is_ident("doc"))
-    );
+    assert!(m.items.iter().all(|item| item.attrs[0].path().is_ident("doc")));
     assert!(n.items.is_empty());
 }
 
@@ -319,13 +230,10 @@ fn fragments_of_other_macros() {
     let (vis, none) = (hidden(quote!(pub(crate))), hidden(TokenStream::new()));
     let (name, expr) = (hidden(hidden(quote!(a)).into()), hidden(quote!(1 + x)));
     let ty = hidden(quote!([Vec3; 2]));
-    let tokens =
-        quote! { #vis mod m { param #name: #ty = 2 * #expr; } #none mod n { let b = #name.x; } };
+    let tokens = quote! { #vis mod m { param #name: #ty = 2 * #expr; } #none mod n { let b = #name.x; } };
     let (source, diagnostics) = parse_tokens(tokens);
     assert!(diagnostics.is_empty(), "{:?}", diagnostics.errors());
-    let [m, n] = source.modules.as_slice() else {
-        panic!("two models")
-    };
+    let [m, n] = source.modules.as_slice() else { panic!("two models") };
     assert_eq!(text(&m.vis), "pub(crate)");
     assert_eq!(line(&m.items[0]), "param a [Vec3;2] 2*(1+x)");
     assert_eq!(line(&n.items[0]), "let b  a.x");
@@ -335,10 +243,8 @@ fn fragments_of_other_macros() {
 #[test]
 fn punctuation_from_a_compiler() {
     let mut tokens = quote! { param a };
-    tokens.extend([
-        TokenTree::Punct(Punct::new('=', Spacing::Joint)),
-        TokenTree::Punct(Punct::new('-', Spacing::Alone)),
-    ]);
+    tokens
+        .extend([TokenTree::Punct(Punct::new('=', Spacing::Joint)), TokenTree::Punct(Punct::new('-', Spacing::Alone))]);
     tokens.extend([TokenTree::Ident(Ident::new("b", Span::call_site()))]);
     tokens.extend([TokenTree::Punct(Punct::new(';', Spacing::Joint))]);
     let (source, diagnostics) = parse_tokens(quote! { mod m { #tokens } });

@@ -12,9 +12,7 @@ use proc_macro2::TokenStream;
 
 /// Parses the text of a whole call.
 fn parse_text(text: &str) -> (Source, Diagnostics) {
-    let tokens: TokenStream = text
-        .parse()
-        .unwrap_or_else(|error| panic!("{error} in {text}"));
+    let tokens: TokenStream = text.parse().unwrap_or_else(|error| panic!("{error} in {text}"));
     parse_tokens(tokens)
 }
 
@@ -27,11 +25,7 @@ fn parse_tokens(tokens: TokenStream) -> (Source, Diagnostics) {
 /// Parses text that has no mistakes.
 fn valid(text: &str) -> Source {
     let (source, diagnostics) = parse_text(text);
-    let messages: Vec<&str> = diagnostics
-        .errors()
-        .iter()
-        .map(|error| error.message.as_str())
-        .collect();
+    let messages: Vec<&str> = diagnostics.errors().iter().map(|error| error.message.as_str()).collect();
     assert!(messages.is_empty(), "{messages:?} in {text}");
     source
 }

@@ -41,9 +41,7 @@ fn mutate(stream: TokenStream, pool: &[TokenTree], random: &mut Random) -> Token
     }
     let at = random.below(tokens.len());
     // The only group of a level holds nearly everything: go in more often than not.
-    let groups: Vec<usize> = (0..tokens.len())
-        .filter(|&i| matches!(tokens[i], TokenTree::Group(_)))
-        .collect();
+    let groups: Vec<usize> = (0..tokens.len()).filter(|&i| matches!(tokens[i], TokenTree::Group(_))).collect();
     if !groups.is_empty() && random.below(4) != 0 {
         let at = groups[random.below(groups.len())];
         if let TokenTree::Group(group) = &tokens[at] {
@@ -61,18 +59,10 @@ fn mutate(stream: TokenStream, pool: &[TokenTree], random: &mut Random) -> Token
         3 => tokens[at] = pool[random.below(pool.len())].clone(),
         4 => tokens.insert(at, pool[random.below(pool.len())].clone()),
         5 => {
-            let delimiters = [
-                Delimiter::Brace,
-                Delimiter::Bracket,
-                Delimiter::Parenthesis,
-                Delimiter::None,
-            ];
+            let delimiters = [Delimiter::Brace, Delimiter::Bracket, Delimiter::Parenthesis, Delimiter::None];
             let end = at + random.below(tokens.len() - at);
             let inner: TokenStream = tokens.drain(at..=end).collect();
-            tokens.insert(
-                at,
-                TokenTree::Group(Group::new(delimiters[random.below(4)], inner)),
-            );
+            tokens.insert(at, TokenTree::Group(Group::new(delimiters[random.below(4)], inner)));
         }
         _ => tokens.truncate(at),
     }
@@ -81,25 +71,15 @@ fn mutate(stream: TokenStream, pool: &[TokenTree], random: &mut Random) -> Token
 
 #[test]
 fn mutated_models() {
-    let samples = [
-        DOUBLE_PENDULUM.to_owned(),
-        STEWART.to_owned(),
-        format!("#![krate(::mb)] mod m {{ {OTHERS} }}"),
-    ];
-    let samples: Vec<TokenStream> = samples
-        .iter()
-        .map(|text| text.parse().expect("a sample"))
-        .collect();
+    let samples = [DOUBLE_PENDULUM.to_owned(), STEWART.to_owned(), format!("#![krate(::mb)] mod m {{ {OTHERS} }}")];
+    let samples: Vec<TokenStream> = samples.iter().map(|text| text.parse().expect("a sample")).collect();
     let mut pool = Vec::new();
     for sample in &samples {
         flatten(sample.clone(), &mut pool);
     }
-    let odd = "$crate r#fn 'a' b\"x\" 1f32 0x 999999999999999999999999 \u{e9} # ! ? @ ~ % ^ & | :: .. => -> \\u _ if mod pub";
-    pool.extend(
-        odd.split(' ')
-            .filter_map(|text| text.parse::<TokenStream>().ok())
-            .flatten(),
-    );
+    let odd =
+        "$crate r#fn 'a' b\"x\" 1f32 0x 999999999999999999999999 \u{e9} # ! ? @ ~ % ^ & | :: .. => -> \\u _ if mod pub";
+    pool.extend(odd.split(' ').filter_map(|text| text.parse::<TokenStream>().ok()).flatten());
     pool.push(TokenTree::Literal(Literal::f64_unsuffixed(-1.5)));
     pool.push(TokenTree::Punct(Punct::new('\'', Spacing::Joint)));
     let mut random = Random::new(1);
@@ -113,13 +93,9 @@ fn mutated_models() {
         accepted += usize::from(diagnostics.is_empty());
         // What is lost has been reported.
         let broken = source.modules.iter().any(|module| module.broken);
-        assert!(
-            !broken || !diagnostics.is_empty(),
-            "lost without a word in {tokens}"
-        );
+        assert!(!broken || !diagnostics.is_empty(), "lost without a word in {tokens}");
         for error in diagnostics.errors() {
-            let lower =
-                !error.message.starts_with(char::is_uppercase) && !error.message.ends_with('.');
+            let lower = !error.message.starts_with(char::is_uppercase) && !error.message.ends_with('.');
             assert!(lower, "style of {}", error.message);
         }
         drop(diagnostics.to_tokens());
@@ -155,10 +131,7 @@ fn bounded(name: &str, text: String) {
         drop(source);
         (start.elapsed(), errors)
     };
-    let thread = std::thread::Builder::new()
-        .stack_size(1 << 20)
-        .spawn(run)
-        .expect("a thread");
+    let thread = std::thread::Builder::new().stack_size(1 << 20).spawn(run).expect("a thread");
     let (time, _) = thread.join().unwrap_or_else(|_| panic!("{name} panics"));
     assert!(time < Duration::from_secs(20), "{name} takes {time:?}");
 }
@@ -168,18 +141,11 @@ const SIZE: usize = 64 << 10;
 /// `open` and `close` around each other, as many as fit, where a value stands.
 fn nested(open: &str, close: &str) -> String {
     let times = SIZE / (open.len() + close.len());
-    format!(
-        "mod m {{ let a = {}x{}; }}",
-        open.repeat(times),
-        close.repeat(times)
-    )
+    format!("mod m {{ let a = {}x{}; }}", open.repeat(times), close.repeat(times))
 }
 
 fn repeated(size: usize, start: &str, piece: &str, end: &str) -> String {
-    format!(
-        "mod m {{ {start}{}{end} }}",
-        piece.repeat(size / piece.len())
-    )
+    format!("mod m {{ {start}{}{end} }}", piece.repeat(size / piece.len()))
 }
 
 #[test]
@@ -211,46 +177,11 @@ fn deep_nesting_ends() {
         ),
     );
     bounded("models", "mod a {".repeat(SIZE / 8) + &"}".repeat(SIZE / 8));
-    bounded(
-        "bodies",
-        format!(
-            "mod m {{ {}{} }}",
-            "body a { b: ".repeat(5_000),
-            "}".repeat(5_000)
-        ),
-    );
-    bounded(
-        "attributes",
-        format!(
-            "#[a{}{}] mod m {{}}",
-            "(".repeat(SIZE / 2),
-            ")".repeat(SIZE / 2)
-        ),
-    );
-    bounded(
-        "values",
-        format!(
-            "#[a = {}{}] mod m {{}}",
-            "(".repeat(SIZE / 2),
-            ")".repeat(SIZE / 2)
-        ),
-    );
-    bounded(
-        "visibility",
-        format!(
-            "pub({}{}) mod m {{}}",
-            "(".repeat(SIZE / 2),
-            ")".repeat(SIZE / 2)
-        ),
-    );
-    bounded(
-        "krate",
-        format!(
-            "#![krate{}{}] mod m {{}}",
-            "(".repeat(SIZE / 2),
-            ")".repeat(SIZE / 2)
-        ),
-    );
+    bounded("bodies", format!("mod m {{ {}{} }}", "body a { b: ".repeat(5_000), "}".repeat(5_000)));
+    bounded("attributes", format!("#[a{}{}] mod m {{}}", "(".repeat(SIZE / 2), ")".repeat(SIZE / 2)));
+    bounded("values", format!("#[a = {}{}] mod m {{}}", "(".repeat(SIZE / 2), ")".repeat(SIZE / 2)));
+    bounded("visibility", format!("pub({}{}) mod m {{}}", "(".repeat(SIZE / 2), ")".repeat(SIZE / 2)));
+    bounded("krate", format!("#![krate{}{}] mod m {{}}", "(".repeat(SIZE / 2), ")".repeat(SIZE / 2)));
 }
 
 /// Pieces between spaces; `_` stands for a space.
@@ -291,14 +222,7 @@ fn long_words_and_numbers_end() {
         }
     }
     let word = "x".repeat(SIZE);
-    bounded(
-        "word",
-        format!("mod m {{ {word} {word} = 1; }}")
-            .chars()
-            .take(66_000 - 3)
-            .collect::<String>()
-            + " }",
-    );
+    bounded("word", format!("mod m {{ {word} {word} = 1; }}").chars().take(66_000 - 3).collect::<String>() + " }");
     bounded("doc", format!("/// {word}\nmod m {{}}"));
 }
 
@@ -323,27 +247,15 @@ fn invisible_groups_end() {
             assert!(!diagnostics.is_empty());
         }
     };
-    std::thread::Builder::new()
-        .stack_size(1 << 20)
-        .spawn(run)
-        .expect("a thread")
-        .join()
-        .expect("no panic");
+    std::thread::Builder::new().stack_size(1 << 20).spawn(run).expect("a thread").join().expect("no panic");
 }
 
 /// Deepest legal expressions: other stages recurse into them.
 #[test]
 fn limits_are_generous() {
     let brackets = 60;
-    crate::valid(&format!(
-        "mod m {{ let a = {}x{}; }}",
-        "(".repeat(brackets),
-        ")".repeat(brackets)
-    ));
+    crate::valid(&format!("mod m {{ let a = {}x{}; }}", "(".repeat(brackets), ")".repeat(brackets)));
     crate::valid(&format!("mod m {{ let a = x{}; }}", " + x".repeat(250)));
-    crate::valid(&format!(
-        "mod m {{ let a = [{}]; }}",
-        "1.0, ".repeat(10_000)
-    ));
+    crate::valid(&format!("mod m {{ let a = [{}]; }}", "1.0, ".repeat(10_000)));
     assert!(Span::call_site().source_text().is_none());
 }
