@@ -1,0 +1,558 @@
+/// A rod hinged to a cart that a force pushes.
+///
+/// ## Parameters
+///
+/// | field | unit | default |  |
+/// |---|---|---|---|
+/// | `g` | `m/s^2` | `9.81` | gravity |
+/// | `mc` | `kg` | `1.0` | cart |
+/// | `mp` | `kg` | `0.2` | pole |
+/// | `l` | `m` | `0.8` | pole |
+///
+/// ## Coordinates
+///
+/// | joint | kind | parent | child | freedoms |  |
+/// |---|---|---|---|---|---|
+/// | `track` | prismatic | ground | `cart` | 1 |  |
+/// | `hinge` | revolute | `cart` | `pole` | 1 |  |
+///
+/// ## Inputs
+///
+/// | field | unit | type |  |
+/// |---|---|---|---|
+/// | `push` | `N` | scalar | along +x |
+///
+/// ## Outputs
+///
+/// | field | unit | type |  |
+/// |---|---|---|---|
+/// | `tip` | `m` | vector | tip of the pole |
+///
+/// ## Bodies
+///
+/// | body | inertia |  |
+/// |---|---|---|
+/// | `cart` | point mass |  |
+/// | `pole` | rigid body |  |
+///
+/// ## Functions
+///
+/// | function | method | operations | as derived |
+/// |---|---|---|---|
+/// | `new` |  | 1 add, 10 mul, 1 div |  |
+/// | `forward_dynamics` | articulated body | 4 add, 11 mul, 1 div, 1 sincos | 6 add, 26 mul, 2 div, 1 sincos |
+/// | `inverse_dynamics` | recursive Newton-Euler | 5 add, 10 mul, 1 sincos | 7 add, 19 mul, 1 sincos |
+/// | `mass_matrix` | composite rigid body | 2 mul, 1 sincos | 2 add, 8 mul, 1 sincos |
+/// | `bias` | recursive Newton-Euler | 1 add, 5 mul, 1 sincos | 1 add, 8 mul, 1 sincos |
+/// | `kinetic_energy` | sum over links | 2 add, 7 mul, 1 sincos | 4 add, 14 mul, 1 sincos |
+/// | `potential_energy` | first moment of mass, springs | 2 mul, 1 sincos | 4 mul, 1 sincos |
+/// | `outputs` | world axes | 1 add, 2 mul, 1 sincos | 1 add, 2 mul, 1 sincos |
+///
+/// ## Defaults in force
+///
+/// - centre of mass at the body's origin: `cart`
+pub mod cart_pole {
+    use ::multibody::Real;
+    /// Number of degrees of freedom: components of a velocity.
+    pub const DOF: usize = 2;
+    /// Operation counts of every function, and of `Model::new`.
+    pub const COSTS: &[::multibody::Cost] = &[
+        ::multibody::Cost {
+            function: "new",
+            add: 1,
+            mul: 10,
+            div: 1,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "forward_dynamics",
+            add: 4,
+            mul: 11,
+            div: 1,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "inverse_dynamics",
+            add: 5,
+            mul: 10,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "mass_matrix",
+            add: 0,
+            mul: 2,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "bias",
+            add: 1,
+            mul: 5,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "kinetic_energy",
+            add: 2,
+            mul: 7,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "potential_energy",
+            add: 0,
+            mul: 2,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "outputs",
+            add: 1,
+            mul: 2,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+    ];
+    /// Parameters of `cart_pole`. The default is what the model declares.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Params<T = f64> {
+        /// `[m/s^2]` gravity
+        ///
+        /// Default: `9.81`
+        pub g: T,
+        /// `[kg]` cart
+        ///
+        /// Default: `1.0`
+        pub mc: T,
+        /// `[kg]` pole
+        ///
+        /// Default: `0.2`
+        pub mp: T,
+        /// `[m]` pole
+        ///
+        /// Default: `0.8`
+        pub l: T,
+    }
+    /// Positions of the joints of `cart_pole`. The default is zero, or the identity.
+    ///
+    /// Components in order of declaration: 2.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Position<T = f64> {
+        /// `[m]` position of the prismatic joint
+        pub track: T,
+        /// `[rad]` position of the revolute joint
+        pub hinge: T,
+    }
+    /// Velocities of `cart_pole`; accelerations and efforts have the same components.
+    ///
+    /// Components in order of declaration: 2.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Velocity<T = f64> {
+        /// `[m/s]` velocity of the prismatic joint
+        pub track: T,
+        /// `[rad/s]` velocity of the revolute joint
+        pub hinge: T,
+    }
+    /// Inputs of `cart_pole`, held over a step. The default is zero.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Input<T = f64> {
+        /// `[N]` along +x
+        pub push: T,
+    }
+    /// Outputs of `cart_pole`.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Output<T = f64> {
+        /// `[m]` tip of the pole
+        pub tip: ::multibody::nalgebra::Vector3<T>,
+    }
+    impl<T: Real> Default for Params<T> {
+        fn default() -> Self {
+            Self {
+                g: T::lit(9.81),
+                mc: T::lit(1.0),
+                mp: T::lit(0.2),
+                l: T::lit(0.8),
+            }
+        }
+    }
+    impl<T: Real> Default for Position<T> {
+        fn default() -> Self {
+            Self {
+                track: T::lit(0.0),
+                hinge: T::lit(0.0),
+            }
+        }
+    }
+    impl<T: Real> Default for Velocity<T> {
+        fn default() -> Self {
+            Self {
+                track: T::lit(0.0),
+                hinge: T::lit(0.0),
+            }
+        }
+    }
+    impl<T: Real> Default for Input<T> {
+        fn default() -> Self {
+            Self { push: T::lit(0.0) }
+        }
+    }
+    impl<T: Real> Default for Output<T> {
+        fn default() -> Self {
+            Self {
+                tip: ::multibody::nalgebra::Vector3::zeros(),
+            }
+        }
+    }
+    impl<T: Real> Params<T> {
+        /// Whether rigid bodies can have the masses and inertias that follow from these parameters.
+        ///
+        /// # Errors
+        ///
+        /// Names the first body whose mass or inertia is impossible.
+        pub fn check(&self) -> Result<(), ::multibody::ParamError> {
+            let params = self;
+            {
+                let mass = params.mc;
+                if !::multibody::all(
+                    Real::ge(mass, T::lit(0.0)) & Real::is_finite(mass),
+                ) {
+                    return Err(::multibody::ParamError {
+                        what: "the mass of `cart` is negative or not finite",
+                    });
+                }
+            }
+            {
+                let mass = params.mp;
+                if !::multibody::all(
+                    Real::ge(mass, T::lit(0.0)) & Real::is_finite(mass),
+                ) {
+                    return Err(::multibody::ParamError {
+                        what: "the mass of `pole` is negative or not finite",
+                    });
+                }
+            }
+            if ::multibody::any(
+                ::multibody::inertia_violation(
+                    params.mp * (params.l * params.l) / T::lit(12.0),
+                    T::lit(0.0),
+                    params.mp * (params.l * params.l) / T::lit(12.0),
+                    T::lit(0.0),
+                    T::lit(0.0),
+                    T::lit(0.0),
+                ),
+            ) {
+                return Err(::multibody::ParamError {
+                    what: "no rigid body can have the inertia of `pole`",
+                });
+            }
+            Ok(())
+        }
+    }
+    /// All that changes in time. Its default is every joint at zero, at rest.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct State<T = f64> {
+        /// positions
+        pub q: Position<T>,
+        /// velocities
+        pub v: Velocity<T>,
+    }
+    impl<T: Real> Default for State<T> {
+        fn default() -> Self {
+            Self {
+                q: Position::default(),
+                v: Velocity::default(),
+            }
+        }
+    }
+    impl<T: Real> ::multibody::Tangent<T> for Velocity<T> {
+        fn zero() -> Self {
+            Self {
+                track: ::multibody::Tangent::zero(),
+                hinge: ::multibody::Tangent::zero(),
+            }
+        }
+        fn zip<F: FnMut(T, T) -> T>(&self, other: &Self, f: &mut F) -> Self {
+            Self {
+                track: ::multibody::Tangent::zip(&self.track, &other.track, f),
+                hinge: ::multibody::Tangent::zip(&self.hinge, &other.hinge, f),
+            }
+        }
+        fn fold<A, F: FnMut(A, T) -> A>(&self, start: A, f: &mut F) -> A {
+            let start = ::multibody::Tangent::fold(&self.track, start, f);
+            ::multibody::Tangent::fold(&self.hinge, start, f)
+        }
+    }
+    impl<T: Real> ::multibody::Configuration<T> for Position<T> {
+        type Velocity = Velocity<T>;
+        fn displace(&self, d: &Velocity<T>) -> Self {
+            Self {
+                track: ::multibody::Configuration::displace(&self.track, &d.track),
+                hinge: ::multibody::Configuration::displace(&self.hinge, &d.hinge),
+            }
+        }
+        fn dexp_inv(_d: &Velocity<T>, v: &Velocity<T>) -> Velocity<T> {
+            *v
+        }
+        fn magnitude(&self) -> Velocity<T> {
+            Velocity {
+                track: ::multibody::Configuration::magnitude(&self.track),
+                hinge: ::multibody::Configuration::magnitude(&self.hinge),
+            }
+        }
+    }
+    impl<T: Real> ::multibody::StateSpace for State<T> {
+        type Scalar = T;
+        type Position = Position<T>;
+        type Velocity = Velocity<T>;
+        type Extra = ();
+        fn split(&self) -> (Position<T>, Velocity<T>, ()) {
+            (self.q, self.v, ())
+        }
+        fn join(&self, q: Position<T>, v: Velocity<T>, (): ()) -> Self {
+            Self { q, v }
+        }
+    }
+    impl<T: Real> From<Velocity<T>> for ::multibody::nalgebra::SVector<T, 2> {
+        fn from(velocity: Velocity<T>) -> Self {
+            Self::from([velocity.track, velocity.hinge])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 2>> for Velocity<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 2>) -> Self {
+            let [[track, hinge]] = vector.data.0;
+            Velocity { track, hinge }
+        }
+    }
+    impl<T: Real> From<Position<T>> for ::multibody::nalgebra::SVector<T, 2> {
+        fn from(position: Position<T>) -> Self {
+            Self::from([position.track, position.hinge])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 2>> for Position<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 2>) -> Self {
+            let [[track, hinge]] = vector.data.0;
+            Position { track, hinge }
+        }
+    }
+    /// The equations of motion of `cart_pole`. It holds the 12 values that depend on parameters alone.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Model<T = f64> {
+        pivot_1_factor: T,
+        mass_track: T,
+        acceleration_2_factor: T,
+        acceleration_1_factor: T,
+        acceleration_1_factor_v2: T,
+        acceleration_2_factor_v2: T,
+        acceleration_2_factor_v3: T,
+        g: T,
+        n_hinge_z_factor: T,
+        second_hinge_yy_factor: T,
+        second_hinge_yy: T,
+        l: T,
+    }
+    impl<T: Real> Model<T> {
+        /// Does the work that depends on parameters alone.
+        ///
+        /// Operations: 1 add, 10 mul, 1 div.
+        #[must_use]
+        pub fn new(params: &Params<T>) -> Self {
+            let mass_track = params.mp + params.mc;
+            let second_hinge_yy = params.mp * params.l;
+            let second_hinge_yy_v2 = params.l * second_hinge_yy;
+            let inverse_2 = T::lit(1.0) / second_hinge_yy_v2;
+            let value = second_hinge_yy * inverse_2;
+            Self {
+                pivot_1_factor: T::lit(0.75) * params.mp,
+                mass_track,
+                acceleration_2_factor: second_hinge_yy * params.g,
+                acceleration_1_factor: T::lit(0.75) * value,
+                acceleration_1_factor_v2: T::lit(0.5) * second_hinge_yy,
+                acceleration_2_factor_v2: T::lit(1.5) * inverse_2,
+                acceleration_2_factor_v3: T::lit(1.5) * value,
+                g: params.g,
+                n_hinge_z_factor: T::lit(0.3333333333333333) * second_hinge_yy_v2,
+                second_hinge_yy_factor: second_hinge_yy,
+                second_hinge_yy: second_hinge_yy_v2,
+                l: params.l,
+            }
+        }
+        /// Accelerations.
+        ///
+        /// Method: articulated body.
+        ///
+        /// Operations: 4 add, 11 mul, 1 div, 1 sincos; as derived, before optimisation: 6 add, 26 mul, 2 div, 1 sincos.
+        #[must_use]
+        pub fn forward_dynamics(
+            &self,
+            _t: T,
+            state: &State<T>,
+            input: &Input<T>,
+        ) -> Velocity<T> {
+            let q = &state.q;
+            let v = &state.v;
+            let (sin_hinge, cos_hinge) = Real::sin_cos(q.hinge);
+            let pivot_1 = self.mass_track - cos_hinge * cos_hinge * self.pivot_1_factor;
+            let acceleration_2_v3 = sin_hinge * self.acceleration_2_factor;
+            let acceleration_1 = (input.push
+                + cos_hinge * acceleration_2_v3 * self.acceleration_1_factor
+                - v.hinge * v.hinge * sin_hinge * self.acceleration_1_factor_v2)
+                / pivot_1;
+            let acceleration_2_v4 = acceleration_2_v3 * self.acceleration_2_factor_v2
+                + cos_hinge * acceleration_1 * self.acceleration_2_factor_v3;
+            Velocity {
+                track: acceleration_1,
+                hinge: acceleration_2_v4,
+            }
+        }
+        /// Efforts that the accelerations `accel` need beside all declared forces.
+        ///
+        /// Method: recursive Newton-Euler.
+        ///
+        /// Operations: 5 add, 10 mul, 1 sincos; as derived, before optimisation: 7 add, 19 mul, 1 sincos.
+        #[must_use]
+        pub fn inverse_dynamics(
+            &self,
+            _t: T,
+            state: &State<T>,
+            input: &Input<T>,
+            accel: &Velocity<T>,
+        ) -> Velocity<T> {
+            let q = &state.q;
+            let v = &state.v;
+            let (sin_hinge, cos_hinge) = Real::sin_cos(q.hinge);
+            let a_hinge_x = accel.track * cos_hinge + self.g * sin_hinge;
+            let n_hinge_z = a_hinge_x * self.acceleration_1_factor_v2
+                - accel.hinge * self.n_hinge_z_factor;
+            Velocity {
+                track: -(input.push - accel.track * self.mass_track
+                    + accel.hinge * cos_hinge * self.acceleration_1_factor_v2
+                    - v.hinge * v.hinge * sin_hinge * self.acceleration_1_factor_v2),
+                hinge: -n_hinge_z,
+            }
+        }
+        /// Mass matrix `M` of `M * accel + bias = effort`.
+        ///
+        /// Method: composite rigid body.
+        ///
+        /// Operations: 2 mul, 1 sincos; as derived, before optimisation: 2 add, 8 mul, 1 sincos.
+        #[must_use]
+        pub fn mass_matrix(
+            &self,
+            q: &Position<T>,
+        ) -> ::multibody::nalgebra::SMatrix<T, 2, 2> {
+            let (_, cos_hinge) = Real::sin_cos(q.hinge);
+            let m_1_2 = T::lit(0.5) * self.second_hinge_yy_factor * cos_hinge;
+            ::multibody::nalgebra::SMatrix::from([
+                [self.mass_track, -m_1_2],
+                [-m_1_2, (T::lit(0.3333333333333333) * self.second_hinge_yy)],
+            ])
+        }
+        /// The efforts at zero acceleration, `bias` of `M * accel + bias = effort`; declared forces and gravity are in it.
+        ///
+        /// Method: recursive Newton-Euler.
+        ///
+        /// Operations: 1 add, 5 mul, 1 sincos; as derived, before optimisation: 1 add, 8 mul, 1 sincos.
+        #[must_use]
+        pub fn bias(
+            &self,
+            _t: T,
+            state: &State<T>,
+            input: &Input<T>,
+        ) -> ::multibody::nalgebra::SVector<T, 2> {
+            let q = &state.q;
+            let v = &state.v;
+            let (sin_hinge, _) = Real::sin_cos(q.hinge);
+            let n_hinge_z = sin_hinge * self.acceleration_2_factor;
+            ::multibody::nalgebra::SVector::from([
+                -(input.push
+                    - v.hinge * v.hinge * sin_hinge * self.acceleration_1_factor_v2),
+                (T::lit(-0.5) * n_hinge_z),
+            ])
+        }
+        /// `[J]` Kinetic energy of all bodies.
+        ///
+        /// Method: sum over links.
+        ///
+        /// Operations: 2 add, 7 mul, 1 sincos; as derived, before optimisation: 4 add, 14 mul, 1 sincos.
+        #[must_use]
+        pub fn kinetic_energy(&self, state: &State<T>) -> T {
+            let q = &state.q;
+            let v = &state.v;
+            let (_, cos_hinge) = Real::sin_cos(q.hinge);
+            T::lit(0.5)
+                * (v.hinge * v.hinge * self.n_hinge_z_factor
+                    + v.track
+                        * (v.track * self.mass_track
+                            - v.hinge * self.second_hinge_yy_factor * cos_hinge))
+        }
+        /// `[J]` Potential energy: gravity's, zero at the world's origin, plus the springs'.
+        ///
+        /// Method: first moment of mass, springs.
+        ///
+        /// Operations: 2 mul, 1 sincos; as derived, before optimisation: 4 mul, 1 sincos.
+        #[must_use]
+        pub fn potential_energy(&self, q: &Position<T>) -> T {
+            let (_, cos_hinge) = Real::sin_cos(q.hinge);
+            T::lit(0.5) * cos_hinge * self.acceleration_2_factor
+        }
+        /// Outputs.
+        ///
+        /// Method: world axes.
+        ///
+        /// Operations: 1 add, 2 mul, 1 sincos; as derived, before optimisation: 1 add, 2 mul, 1 sincos.
+        #[must_use]
+        pub fn outputs(&self, _t: T, state: &State<T>, _input: &Input<T>) -> Output<T> {
+            let q = &state.q;
+            let (sin_hinge, cos_hinge) = Real::sin_cos(q.hinge);
+            Output {
+                tip: ::multibody::nalgebra::Vector3::from([
+                    (q.track - self.l * sin_hinge),
+                    (self.l * cos_hinge),
+                    T::lit(0.0),
+                ]),
+            }
+        }
+    }
+    impl<T: Real> Default for Model<T> {
+        fn default() -> Self {
+            Self::new(&Params::default())
+        }
+    }
+    impl<T: Real> ::multibody::System for Model<T> {
+        type Scalar = T;
+        type State = State<T>;
+        type Input = Input<T>;
+        fn derivative(
+            &self,
+            t: T,
+            state: &State<T>,
+            input: &Input<T>,
+        ) -> (Velocity<T>, ()) {
+            (self.forward_dynamics(t, state, input), ())
+        }
+    }
+}

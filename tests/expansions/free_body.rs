@@ -1,0 +1,582 @@
+/// A free rigid body, no gravity.
+///
+/// ## Parameters
+///
+/// | field | unit | default |  |
+/// |---|---|---|---|
+/// | `m` | `kg` | `1.0` | mass |
+/// | `i` | `kg m^2` | `[1.0, 2.0, 3.0]` | principal moments |
+///
+/// ## Coordinates
+///
+/// | joint | kind | parent | child | freedoms |  |
+/// |---|---|---|---|---|---|
+/// | `free` | free | ground | `nut` | 6 |  |
+///
+/// ## Bodies
+///
+/// | body | inertia |  |
+/// |---|---|---|
+/// | `nut` | rigid body |  |
+///
+/// ## Functions
+///
+/// | function | method | operations | as derived |
+/// |---|---|---|---|
+/// | `new` |  | 8 add, 6 mul, 3 div |  |
+/// | `forward_dynamics` | composite rigid body, LDL^T | 6 mul | 8 add, 13 mul, 3 div |
+/// | `inverse_dynamics` | recursive Newton-Euler | 9 add, 12 mul | 14 add, 13 mul |
+/// | `mass_matrix` | composite rigid body | none | none |
+/// | `bias` | recursive Newton-Euler | 6 mul | 8 add, 10 mul |
+/// | `kinetic_energy` | sum over links | 5 add, 13 mul | 5 add, 13 mul |
+/// | `potential_energy` | first moment of mass, springs | none | none |
+///
+/// ## Defaults in force
+///
+/// - no gravity
+/// - orientation by quaternions: `free`
+/// - centre of mass at the body's origin: `nut`
+pub mod free_body {
+    use ::multibody::Real;
+    /// Number of degrees of freedom: components of a velocity.
+    pub const DOF: usize = 6;
+    /// Operation counts of every function, and of `Model::new`.
+    pub const COSTS: &[::multibody::Cost] = &[
+        ::multibody::Cost {
+            function: "new",
+            add: 8,
+            mul: 6,
+            div: 3,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "forward_dynamics",
+            add: 0,
+            mul: 6,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "inverse_dynamics",
+            add: 9,
+            mul: 12,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "mass_matrix",
+            add: 0,
+            mul: 0,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "bias",
+            add: 0,
+            mul: 6,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "kinetic_energy",
+            add: 5,
+            mul: 13,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "potential_energy",
+            add: 0,
+            mul: 0,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+    ];
+    /// Parameters of `free_body`. The default is what the model declares.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Params<T = f64> {
+        /// `[kg]` mass
+        ///
+        /// Default: `1.0`
+        pub m: T,
+        /// `[kg m^2]` principal moments
+        ///
+        /// Default: `[1.0, 2.0, 3.0]`
+        pub i: [T; 3],
+    }
+    /// Positions of the joints of `free_body`. The default is zero, or the identity.
+    ///
+    /// Components in order of declaration: 7.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug)]
+    pub struct Position<T = f64> {
+        /// position of the free joint
+        pub free: ::multibody::Pose<T>,
+    }
+    /// Velocities of `free_body`; accelerations and efforts have the same components.
+    ///
+    /// Components in order of declaration: 6.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Velocity<T = f64> {
+        /// velocity of the free joint
+        pub free: ::multibody::Twist<T>,
+    }
+    /// The model has no inputs.
+    pub type Input = ();
+    impl<T: Real> Default for Params<T> {
+        fn default() -> Self {
+            Self {
+                m: T::lit(1.0),
+                i: [T::lit(1.0), T::lit(2.0), T::lit(3.0)],
+            }
+        }
+    }
+    impl<T: Real> Default for Position<T> {
+        fn default() -> Self {
+            Self {
+                free: ::multibody::Pose::default(),
+            }
+        }
+    }
+    impl<T: Real> PartialEq for Position<T> {
+        fn eq(&self, other: &Self) -> bool {
+            self.free == other.free
+        }
+    }
+    impl<T: Real> Default for Velocity<T> {
+        fn default() -> Self {
+            Self {
+                free: ::multibody::Twist::default(),
+            }
+        }
+    }
+    impl<T: Real> Params<T> {
+        /// Whether rigid bodies can have the masses and inertias that follow from these parameters.
+        ///
+        /// # Errors
+        ///
+        /// Names the first body whose mass or inertia is impossible.
+        pub fn check(&self) -> Result<(), ::multibody::ParamError> {
+            let params = self;
+            {
+                let mass = params.m;
+                if !::multibody::all(
+                    Real::ge(mass, T::lit(0.0)) & Real::is_finite(mass),
+                ) {
+                    return Err(::multibody::ParamError {
+                        what: "the mass of `nut` is negative or not finite",
+                    });
+                }
+            }
+            if ::multibody::any(
+                ::multibody::inertia_violation(
+                    params.i[0],
+                    params.i[1],
+                    params.i[2],
+                    T::lit(0.0),
+                    T::lit(0.0),
+                    T::lit(0.0),
+                ),
+            ) {
+                return Err(::multibody::ParamError {
+                    what: "no rigid body can have the inertia of `nut`",
+                });
+            }
+            Ok(())
+        }
+    }
+    /// All that changes in time. Its default is every joint at zero, at rest.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug)]
+    pub struct State<T = f64> {
+        /// positions
+        pub q: Position<T>,
+        /// velocities
+        pub v: Velocity<T>,
+    }
+    impl<T: Real> Default for State<T> {
+        fn default() -> Self {
+            Self {
+                q: Position::default(),
+                v: Velocity::default(),
+            }
+        }
+    }
+    impl<T: Real> PartialEq for State<T> {
+        fn eq(&self, other: &Self) -> bool {
+            self.q == other.q && self.v == other.v
+        }
+    }
+    impl<T: Real> ::multibody::Tangent<T> for Velocity<T> {
+        fn zero() -> Self {
+            Self {
+                free: ::multibody::Tangent::zero(),
+            }
+        }
+        fn zip<F: FnMut(T, T) -> T>(&self, other: &Self, f: &mut F) -> Self {
+            Self {
+                free: ::multibody::Tangent::zip(&self.free, &other.free, f),
+            }
+        }
+        fn fold<A, F: FnMut(A, T) -> A>(&self, start: A, f: &mut F) -> A {
+            ::multibody::Tangent::fold(&self.free, start, f)
+        }
+    }
+    impl<T: Real> ::multibody::Configuration<T> for Position<T> {
+        type Velocity = Velocity<T>;
+        fn displace(&self, d: &Velocity<T>) -> Self {
+            Self {
+                free: ::multibody::Configuration::displace(&self.free, &d.free),
+            }
+        }
+        fn dexp_inv(d: &Velocity<T>, v: &Velocity<T>) -> Velocity<T> {
+            Velocity {
+                free: <::multibody::Pose<
+                    T,
+                > as ::multibody::Configuration<T>>::dexp_inv(&d.free, &v.free),
+            }
+        }
+        fn magnitude(&self) -> Velocity<T> {
+            Velocity {
+                free: ::multibody::Configuration::magnitude(&self.free),
+            }
+        }
+    }
+    impl<T: Real> ::multibody::StateSpace for State<T> {
+        type Scalar = T;
+        type Position = Position<T>;
+        type Velocity = Velocity<T>;
+        type Extra = ();
+        fn split(&self) -> (Position<T>, Velocity<T>, ()) {
+            (self.q, self.v, ())
+        }
+        fn join(&self, q: Position<T>, v: Velocity<T>, (): ()) -> Self {
+            Self { q, v }
+        }
+    }
+    impl<T: Real> From<Velocity<T>> for ::multibody::nalgebra::SVector<T, 6> {
+        fn from(velocity: Velocity<T>) -> Self {
+            Self::from([
+                velocity.free.linear.x,
+                velocity.free.linear.y,
+                velocity.free.linear.z,
+                velocity.free.angular.x,
+                velocity.free.angular.y,
+                velocity.free.angular.z,
+            ])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 6>> for Velocity<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 6>) -> Self {
+            let [[free_linear_x, free_linear_y, free_linear_z, free_angular_x,
+            free_angular_y, free_angular_z]] = vector.data.0;
+            Velocity {
+                free: ::multibody::Twist {
+                    linear: ::multibody::nalgebra::Vector3::from([
+                        free_linear_x,
+                        free_linear_y,
+                        free_linear_z,
+                    ]),
+                    angular: ::multibody::nalgebra::Vector3::from([
+                        free_angular_x,
+                        free_angular_y,
+                        free_angular_z,
+                    ]),
+                },
+            }
+        }
+    }
+    impl<T: Real> From<Position<T>> for ::multibody::nalgebra::SVector<T, 7> {
+        fn from(position: Position<T>) -> Self {
+            Self::from([
+                position.free.position.x,
+                position.free.position.y,
+                position.free.position.z,
+                position.free.orientation.w,
+                position.free.orientation.i,
+                position.free.orientation.j,
+                position.free.orientation.k,
+            ])
+        }
+    }
+    impl<T: Real> Position<T> {
+        /// From a vector of all coordinates in order, quaternions as w, x, y, z; they are normalised.
+        #[must_use]
+        pub fn normalized(vector: ::multibody::nalgebra::SVector<T, 7>) -> Self {
+            let [[free_position_x, free_position_y, free_position_z, free_orientation_w,
+            free_orientation_i, free_orientation_j, free_orientation_k]] = vector.data.0;
+            Position {
+                free: ::multibody::Pose {
+                    position: ::multibody::nalgebra::Vector3::from([
+                        free_position_x,
+                        free_position_y,
+                        free_position_z,
+                    ]),
+                    orientation: ::multibody::rotation::normalized(
+                        free_orientation_w,
+                        free_orientation_i,
+                        free_orientation_j,
+                        free_orientation_k,
+                    ),
+                },
+            }
+        }
+    }
+    /// The equations of motion of `free_body`. It holds the 13 values that depend on parameters alone.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Model<T = f64> {
+        constant: T,
+        constant_v2: T,
+        constant_v3: T,
+        m: T,
+        second_free_yy: T,
+        second_free_zz: T,
+        second_free_xx: T,
+        i_0: T,
+        i_1: T,
+        i_2: T,
+        constant_v4: T,
+        constant_v5: T,
+        constant_v6: T,
+    }
+    impl<T: Real> Model<T> {
+        /// Does the work that depends on parameters alone.
+        ///
+        /// Operations: 8 add, 6 mul, 3 div.
+        #[must_use]
+        pub fn new(params: &Params<T>) -> Self {
+            let inverse_4 = T::lit(1.0) / params.i[0];
+            let second_free_xx = params.i[0] + params.i[1] + params.i[2];
+            let second_free_yy = params.i[1] - T::lit(0.5) * second_free_xx;
+            let second_free_zz = params.i[2] - T::lit(0.5) * second_free_xx;
+            let value = second_free_yy - second_free_zz;
+            let inverse_5 = T::lit(1.0) / params.i[1];
+            let second_free_xx_v2 = params.i[0] - T::lit(0.5) * second_free_xx;
+            let value_v2 = second_free_zz - second_free_xx_v2;
+            let inverse_6 = T::lit(1.0) / params.i[2];
+            let value_v3 = second_free_xx_v2 - second_free_yy;
+            Self {
+                constant: inverse_4 * value,
+                constant_v2: inverse_5 * value_v2,
+                constant_v3: inverse_6 * value_v3,
+                m: params.m,
+                second_free_yy,
+                second_free_zz,
+                second_free_xx: second_free_xx_v2,
+                i_0: params.i[0],
+                i_1: params.i[1],
+                i_2: params.i[2],
+                constant_v4: value,
+                constant_v5: value_v2,
+                constant_v6: value_v3,
+            }
+        }
+        /// Accelerations.
+        ///
+        /// Method: composite rigid body, LDL^T.
+        ///
+        /// Operations: 6 mul; as derived, before optimisation: 8 add, 13 mul, 3 div.
+        #[must_use]
+        pub fn forward_dynamics(
+            &self,
+            _t: T,
+            state: &State<T>,
+            _input: &(),
+        ) -> Velocity<T> {
+            let v = &state.v;
+            Velocity {
+                free: ::multibody::Twist {
+                    linear: ::multibody::nalgebra::Vector3::from([
+                        T::lit(0.0),
+                        T::lit(0.0),
+                        T::lit(0.0),
+                    ]),
+                    angular: ::multibody::nalgebra::Vector3::from([
+                        (v.free.angular.y * v.free.angular.z * self.constant),
+                        (v.free.angular.x * v.free.angular.z * self.constant_v2),
+                        (v.free.angular.x * v.free.angular.y * self.constant_v3),
+                    ]),
+                },
+            }
+        }
+        /// Efforts that the accelerations `accel` need beside all declared forces.
+        ///
+        /// Method: recursive Newton-Euler.
+        ///
+        /// Operations: 9 add, 12 mul; as derived, before optimisation: 14 add, 13 mul.
+        #[must_use]
+        pub fn inverse_dynamics(
+            &self,
+            _t: T,
+            state: &State<T>,
+            _input: &(),
+            accel: &Velocity<T>,
+        ) -> Velocity<T> {
+            let v = &state.v;
+            let u_free_yz = v.free.angular.y * v.free.angular.z;
+            let u_free_zy = accel.free.angular.x + u_free_yz;
+            let u_free_yz_v2 = accel.free.angular.x - u_free_yz;
+            let u_free_zx = v.free.angular.x * v.free.angular.z;
+            let u_free_xz = accel.free.angular.y + u_free_zx;
+            let u_free_zx_v2 = accel.free.angular.y - u_free_zx;
+            let u_free_xy = v.free.angular.x * v.free.angular.y;
+            let u_free_yx = accel.free.angular.z + u_free_xy;
+            let u_free_xy_v2 = accel.free.angular.z - u_free_xy;
+            Velocity {
+                free: ::multibody::Twist {
+                    linear: ::multibody::nalgebra::Vector3::from([
+                        (self.m * accel.free.linear.x),
+                        (self.m * accel.free.linear.y),
+                        (self.m * accel.free.linear.z),
+                    ]),
+                    angular: ::multibody::nalgebra::Vector3::from([
+                        -(self.second_free_yy * u_free_zy
+                            + self.second_free_zz * u_free_yz_v2),
+                        -(self.second_free_zz * u_free_xz
+                            + self.second_free_xx * u_free_zx_v2),
+                        -(self.second_free_xx * u_free_yx
+                            + self.second_free_yy * u_free_xy_v2),
+                    ]),
+                },
+            }
+        }
+        /// Mass matrix `M` of `M * accel + bias = effort`.
+        ///
+        /// Method: composite rigid body.
+        ///
+        /// Operations: none; as derived, before optimisation: none.
+        #[must_use]
+        pub fn mass_matrix(
+            &self,
+            _q: &Position<T>,
+        ) -> ::multibody::nalgebra::SMatrix<T, 6, 6> {
+            ::multibody::nalgebra::SMatrix::from([
+                [
+                    self.m,
+                    T::lit(0.0),
+                    T::lit(0.0),
+                    T::lit(0.0),
+                    T::lit(0.0),
+                    T::lit(0.0),
+                ],
+                [
+                    T::lit(0.0),
+                    self.m,
+                    T::lit(0.0),
+                    T::lit(0.0),
+                    T::lit(0.0),
+                    T::lit(0.0),
+                ],
+                [
+                    T::lit(0.0),
+                    T::lit(0.0),
+                    self.m,
+                    T::lit(0.0),
+                    T::lit(0.0),
+                    T::lit(0.0),
+                ],
+                [
+                    T::lit(0.0),
+                    T::lit(0.0),
+                    T::lit(0.0),
+                    self.i_0,
+                    T::lit(0.0),
+                    T::lit(0.0),
+                ],
+                [
+                    T::lit(0.0),
+                    T::lit(0.0),
+                    T::lit(0.0),
+                    T::lit(0.0),
+                    self.i_1,
+                    T::lit(0.0),
+                ],
+                [
+                    T::lit(0.0),
+                    T::lit(0.0),
+                    T::lit(0.0),
+                    T::lit(0.0),
+                    T::lit(0.0),
+                    self.i_2,
+                ],
+            ])
+        }
+        /// The efforts at zero acceleration, `bias` of `M * accel + bias = effort`; declared forces and gravity are in it.
+        ///
+        /// Method: recursive Newton-Euler.
+        ///
+        /// Operations: 6 mul; as derived, before optimisation: 8 add, 10 mul.
+        #[must_use]
+        pub fn bias(
+            &self,
+            _t: T,
+            state: &State<T>,
+            _input: &(),
+        ) -> ::multibody::nalgebra::SVector<T, 6> {
+            let v = &state.v;
+            ::multibody::nalgebra::SVector::from([
+                T::lit(0.0),
+                T::lit(0.0),
+                T::lit(0.0),
+                (-v.free.angular.y * v.free.angular.z * self.constant_v4),
+                (-v.free.angular.x * v.free.angular.z * self.constant_v5),
+                (-v.free.angular.x * v.free.angular.y * self.constant_v6),
+            ])
+        }
+        /// `[J]` Kinetic energy of all bodies.
+        ///
+        /// Method: sum over links.
+        ///
+        /// Operations: 5 add, 13 mul; as derived, before optimisation: 5 add, 13 mul.
+        #[must_use]
+        pub fn kinetic_energy(&self, state: &State<T>) -> T {
+            let v = &state.v;
+            let value = self.m * v.free.linear.x * v.free.linear.x
+                + self.m * v.free.linear.y * v.free.linear.y
+                + self.m * v.free.linear.z * v.free.linear.z
+                + self.i_0 * v.free.angular.x * v.free.angular.x
+                + self.i_1 * v.free.angular.y * v.free.angular.y
+                + self.i_2 * v.free.angular.z * v.free.angular.z;
+            T::lit(0.5) * value
+        }
+        /// `[J]` Potential energy: gravity's, zero at the world's origin, plus the springs'.
+        ///
+        /// Method: first moment of mass, springs.
+        ///
+        /// Operations: none; as derived, before optimisation: none.
+        #[must_use]
+        pub fn potential_energy(&self, _q: &Position<T>) -> T {
+            T::lit(0.0)
+        }
+    }
+    impl<T: Real> Default for Model<T> {
+        fn default() -> Self {
+            Self::new(&Params::default())
+        }
+    }
+    impl<T: Real> ::multibody::System for Model<T> {
+        type Scalar = T;
+        type State = State<T>;
+        type Input = ();
+        fn derivative(&self, t: T, state: &State<T>, input: &()) -> (Velocity<T>, ()) {
+            (self.forward_dynamics(t, state, input), ())
+        }
+    }
+}

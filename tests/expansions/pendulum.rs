@@ -1,0 +1,408 @@
+/// A rod on a hinge.
+///
+/// ## Parameters
+///
+/// | field | unit | default |  |
+/// |---|---|---|---|
+/// | `g` | `m/s^2` | `9.81` | gravity |
+/// | `m` | `kg` | `2.0` | mass |
+/// | `l` | `m` | `1.5` | length |
+///
+/// ## Coordinates
+///
+/// | joint | kind | parent | child | freedoms |  |
+/// |---|---|---|---|---|---|
+/// | `hinge` | revolute | ground | `bob` | 1 |  |
+///
+/// ## Bodies
+///
+/// | body | inertia |  |
+/// |---|---|---|
+/// | `bob` | rigid body |  |
+///
+/// ## Functions
+///
+/// | function | method | operations | as derived |
+/// |---|---|---|---|
+/// | `new` |  | 6 mul, 1 div |  |
+/// | `forward_dynamics` | composite rigid body, LDL^T | 2 mul, 1 sincos | 1 add, 10 mul, 1 div, 1 sincos |
+/// | `inverse_dynamics` | recursive Newton-Euler | 1 add, 2 mul, 1 sincos | 2 add, 10 mul, 1 sincos |
+/// | `mass_matrix` | composite rigid body | none | 1 add, 6 mul |
+/// | `bias` | recursive Newton-Euler | 2 mul, 1 sincos | 4 mul, 1 sincos |
+/// | `kinetic_energy` | sum over links | 3 mul | 1 add, 9 mul |
+/// | `potential_energy` | first moment of mass, springs | 2 mul, 1 sincos | 4 mul, 1 sincos |
+pub mod pendulum {
+    use ::multibody::Real;
+    /// Number of degrees of freedom: components of a velocity.
+    pub const DOF: usize = 1;
+    /// Operation counts of every function, and of `Model::new`.
+    pub const COSTS: &[::multibody::Cost] = &[
+        ::multibody::Cost {
+            function: "new",
+            add: 0,
+            mul: 6,
+            div: 1,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "forward_dynamics",
+            add: 0,
+            mul: 2,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "inverse_dynamics",
+            add: 1,
+            mul: 2,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "mass_matrix",
+            add: 0,
+            mul: 0,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "bias",
+            add: 0,
+            mul: 2,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "kinetic_energy",
+            add: 0,
+            mul: 3,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "potential_energy",
+            add: 0,
+            mul: 2,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+    ];
+    /// Parameters of `pendulum`. The default is what the model declares.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Params<T = f64> {
+        /// `[m/s^2]` gravity
+        ///
+        /// Default: `9.81`
+        pub g: T,
+        /// `[kg]` mass
+        ///
+        /// Default: `2.0`
+        pub m: T,
+        /// `[m]` length
+        ///
+        /// Default: `1.5`
+        pub l: T,
+    }
+    /// Positions of the joints of `pendulum`. The default is zero, or the identity.
+    ///
+    /// Components in order of declaration: 1.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Position<T = f64> {
+        /// `[rad]` position of the revolute joint
+        pub hinge: T,
+    }
+    /// Velocities of `pendulum`; accelerations and efforts have the same components.
+    ///
+    /// Components in order of declaration: 1.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Velocity<T = f64> {
+        /// `[rad/s]` velocity of the revolute joint
+        pub hinge: T,
+    }
+    /// The model has no inputs.
+    pub type Input = ();
+    impl<T: Real> Default for Params<T> {
+        fn default() -> Self {
+            Self {
+                g: T::lit(9.81),
+                m: T::lit(2.0),
+                l: T::lit(1.5),
+            }
+        }
+    }
+    impl<T: Real> Default for Position<T> {
+        fn default() -> Self {
+            Self { hinge: T::lit(0.0) }
+        }
+    }
+    impl<T: Real> Default for Velocity<T> {
+        fn default() -> Self {
+            Self { hinge: T::lit(0.0) }
+        }
+    }
+    impl<T: Real> Params<T> {
+        /// Whether rigid bodies can have the masses and inertias that follow from these parameters.
+        ///
+        /// # Errors
+        ///
+        /// Names the first body whose mass or inertia is impossible.
+        pub fn check(&self) -> Result<(), ::multibody::ParamError> {
+            let params = self;
+            {
+                let mass = params.m;
+                if !::multibody::all(
+                    Real::ge(mass, T::lit(0.0)) & Real::is_finite(mass),
+                ) {
+                    return Err(::multibody::ParamError {
+                        what: "the mass of `bob` is negative or not finite",
+                    });
+                }
+            }
+            if ::multibody::any(
+                ::multibody::inertia_violation(
+                    params.m * (params.l * params.l) / T::lit(12.0),
+                    T::lit(0.0),
+                    params.m * (params.l * params.l) / T::lit(12.0),
+                    T::lit(0.0),
+                    T::lit(0.0),
+                    T::lit(0.0),
+                ),
+            ) {
+                return Err(::multibody::ParamError {
+                    what: "no rigid body can have the inertia of `bob`",
+                });
+            }
+            Ok(())
+        }
+    }
+    /// All that changes in time. Its default is every joint at zero, at rest.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct State<T = f64> {
+        /// positions
+        pub q: Position<T>,
+        /// velocities
+        pub v: Velocity<T>,
+    }
+    impl<T: Real> Default for State<T> {
+        fn default() -> Self {
+            Self {
+                q: Position::default(),
+                v: Velocity::default(),
+            }
+        }
+    }
+    impl<T: Real> ::multibody::Tangent<T> for Velocity<T> {
+        fn zero() -> Self {
+            Self {
+                hinge: ::multibody::Tangent::zero(),
+            }
+        }
+        fn zip<F: FnMut(T, T) -> T>(&self, other: &Self, f: &mut F) -> Self {
+            Self {
+                hinge: ::multibody::Tangent::zip(&self.hinge, &other.hinge, f),
+            }
+        }
+        fn fold<A, F: FnMut(A, T) -> A>(&self, start: A, f: &mut F) -> A {
+            ::multibody::Tangent::fold(&self.hinge, start, f)
+        }
+    }
+    impl<T: Real> ::multibody::Configuration<T> for Position<T> {
+        type Velocity = Velocity<T>;
+        fn displace(&self, d: &Velocity<T>) -> Self {
+            Self {
+                hinge: ::multibody::Configuration::displace(&self.hinge, &d.hinge),
+            }
+        }
+        fn dexp_inv(_d: &Velocity<T>, v: &Velocity<T>) -> Velocity<T> {
+            *v
+        }
+        fn magnitude(&self) -> Velocity<T> {
+            Velocity {
+                hinge: ::multibody::Configuration::magnitude(&self.hinge),
+            }
+        }
+    }
+    impl<T: Real> ::multibody::StateSpace for State<T> {
+        type Scalar = T;
+        type Position = Position<T>;
+        type Velocity = Velocity<T>;
+        type Extra = ();
+        fn split(&self) -> (Position<T>, Velocity<T>, ()) {
+            (self.q, self.v, ())
+        }
+        fn join(&self, q: Position<T>, v: Velocity<T>, (): ()) -> Self {
+            Self { q, v }
+        }
+    }
+    impl<T: Real> From<Velocity<T>> for ::multibody::nalgebra::SVector<T, 1> {
+        fn from(velocity: Velocity<T>) -> Self {
+            Self::from([velocity.hinge])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 1>> for Velocity<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 1>) -> Self {
+            let [[hinge]] = vector.data.0;
+            Velocity { hinge }
+        }
+    }
+    impl<T: Real> From<Position<T>> for ::multibody::nalgebra::SVector<T, 1> {
+        fn from(position: Position<T>) -> Self {
+            Self::from([position.hinge])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 1>> for Position<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 1>) -> Self {
+            let [[hinge]] = vector.data.0;
+            Position { hinge }
+        }
+    }
+    /// The equations of motion of `pendulum`. It holds the 5 values that depend on parameters alone.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Model<T = f64> {
+        constant: T,
+        n_hinge_z_factor: T,
+        n_hinge_z_factor_v2: T,
+        second_hinge_yy: T,
+        n_hinge_z_factor_v3: T,
+    }
+    impl<T: Real> Model<T> {
+        /// Does the work that depends on parameters alone.
+        ///
+        /// Operations: 6 mul, 1 div.
+        #[must_use]
+        pub fn new(params: &Params<T>) -> Self {
+            let second_hinge_yy = params.m * params.l;
+            let second_hinge_yy_v2 = params.l * second_hinge_yy;
+            let inverse_1 = T::lit(1.0) / second_hinge_yy_v2;
+            let value = params.g * second_hinge_yy;
+            Self {
+                constant: inverse_1 * value,
+                n_hinge_z_factor: T::lit(0.5) * value,
+                n_hinge_z_factor_v2: T::lit(0.3333333333333333) * second_hinge_yy_v2,
+                second_hinge_yy: second_hinge_yy_v2,
+                n_hinge_z_factor_v3: value,
+            }
+        }
+        /// Accelerations.
+        ///
+        /// Method: composite rigid body, LDL^T.
+        ///
+        /// Operations: 2 mul, 1 sincos; as derived, before optimisation: 1 add, 10 mul, 1 div, 1 sincos.
+        #[must_use]
+        pub fn forward_dynamics(
+            &self,
+            _t: T,
+            state: &State<T>,
+            _input: &(),
+        ) -> Velocity<T> {
+            let q = &state.q;
+            let (sin_hinge, _) = Real::sin_cos(q.hinge);
+            Velocity {
+                hinge: T::lit(-1.5) * sin_hinge * self.constant,
+            }
+        }
+        /// Efforts that the accelerations `accel` need beside all declared forces.
+        ///
+        /// Method: recursive Newton-Euler.
+        ///
+        /// Operations: 1 add, 2 mul, 1 sincos; as derived, before optimisation: 2 add, 10 mul, 1 sincos.
+        #[must_use]
+        pub fn inverse_dynamics(
+            &self,
+            _t: T,
+            state: &State<T>,
+            _input: &(),
+            accel: &Velocity<T>,
+        ) -> Velocity<T> {
+            let q = &state.q;
+            let (sin_hinge, _) = Real::sin_cos(q.hinge);
+            Velocity {
+                hinge: sin_hinge * self.n_hinge_z_factor
+                    + accel.hinge * self.n_hinge_z_factor_v2,
+            }
+        }
+        /// Mass matrix `M` of `M * accel + bias = effort`.
+        ///
+        /// Method: composite rigid body.
+        ///
+        /// Operations: none; as derived, before optimisation: 1 add, 6 mul.
+        #[must_use]
+        pub fn mass_matrix(
+            &self,
+            _q: &Position<T>,
+        ) -> ::multibody::nalgebra::SMatrix<T, 1, 1> {
+            ::multibody::nalgebra::SMatrix::from([
+                [(T::lit(0.3333333333333333) * self.second_hinge_yy)],
+            ])
+        }
+        /// The efforts at zero acceleration, `bias` of `M * accel + bias = effort`; declared forces and gravity are in it.
+        ///
+        /// Method: recursive Newton-Euler.
+        ///
+        /// Operations: 2 mul, 1 sincos; as derived, before optimisation: 4 mul, 1 sincos.
+        #[must_use]
+        pub fn bias(
+            &self,
+            _t: T,
+            state: &State<T>,
+            _input: &(),
+        ) -> ::multibody::nalgebra::SVector<T, 1> {
+            let q = &state.q;
+            let (sin_hinge, _) = Real::sin_cos(q.hinge);
+            let n_hinge_z = sin_hinge * self.n_hinge_z_factor_v3;
+            ::multibody::nalgebra::SVector::from([(T::lit(0.5) * n_hinge_z)])
+        }
+        /// `[J]` Kinetic energy of all bodies.
+        ///
+        /// Method: sum over links.
+        ///
+        /// Operations: 3 mul; as derived, before optimisation: 1 add, 9 mul.
+        #[must_use]
+        pub fn kinetic_energy(&self, state: &State<T>) -> T {
+            let v = &state.v;
+            T::lit(0.16666666666666666) * v.hinge * v.hinge * self.second_hinge_yy
+        }
+        /// `[J]` Potential energy: gravity's, zero at the world's origin, plus the springs'.
+        ///
+        /// Method: first moment of mass, springs.
+        ///
+        /// Operations: 2 mul, 1 sincos; as derived, before optimisation: 4 mul, 1 sincos.
+        #[must_use]
+        pub fn potential_energy(&self, q: &Position<T>) -> T {
+            let (_, cos_hinge) = Real::sin_cos(q.hinge);
+            T::lit(-0.5) * cos_hinge * self.n_hinge_z_factor_v3
+        }
+    }
+    impl<T: Real> Default for Model<T> {
+        fn default() -> Self {
+            Self::new(&Params::default())
+        }
+    }
+    impl<T: Real> ::multibody::System for Model<T> {
+        type Scalar = T;
+        type State = State<T>;
+        type Input = ();
+        fn derivative(&self, t: T, state: &State<T>, input: &()) -> (Velocity<T>, ()) {
+            (self.forward_dynamics(t, state, input), ())
+        }
+    }
+}
