@@ -20,7 +20,6 @@ fn state(random: &mut Random) -> tree::State {
     tree::State {
         q: tree::Position::normalized(SVector::from(position)),
         v: SVector::<f64, { tree::DOF }>::from(random.units()).into(),
-        ..Default::default()
     }
 }
 

@@ -49,8 +49,8 @@ fn planar(point: &Value, q: &[f64], v: &[f64]) -> f64 {
 
 fn double(params: &two_masses::Params, angles: [f64; 2], points: &[Value], dt: f64, bound: impl Fn(&Value) -> f64) {
     let model = two_masses::Model::new(params);
-    let mut start = two_masses::State::default();
-    start.q = two_masses::Position { shoulder: angles[0], elbow: angles[1] - angles[0] };
+    let q = two_masses::Position { shoulder: angles[0], elbow: angles[1] - angles[0] };
+    let start = two_masses::State { q, ..Default::default() };
     let mut most = 0.0;
     follow(&model, start, points, dt, |point, x| {
         let error = planar(point, &[x.q.shoulder, x.q.elbow], &[x.v.shoulder, x.v.elbow]);

@@ -51,7 +51,8 @@ fn write(file: &Path, text: &str) {
 
 #[test]
 fn ten_thousand_statements() {
-    let model = model_of("pub mod model { body b { mass: 1.0 } joint rail: Prismatic { parent: ground, child: b, axis: X } }");
+    let model =
+        model_of("pub mod model { body b { mass: 1.0 } joint rail: Prismatic { parent: ground, child: b, axis: X } }");
     let derivation = mechanics::derive(&model);
     let mut compiled = optimize::compile(&derivation).unwrap_or_else(|_| panic!("too large"));
     let angle = derivation.symbols.iter().copied().find(|s| matches!(s, Symbol::Position { .. })).unwrap();

@@ -4,7 +4,29 @@ use proc_macro::TokenStream;
 
 /// Derives the equations of motion of the declared mechanisms and emits them as Rust modules.
 ///
-/// The language is described in the documentation of the `multibody` crate, which re-exports this macro.
+/// A call holds models and the parts that they use, one `mod` for each:
+///
+/// ```text
+/// multibody! {
+///     /// A rod that hangs from a hinge.
+///     pub mod pendulum {
+///         /// [m]
+///         param length = 1.0;
+///         world { gravity: -9.81 * Y }
+///         body rod { mass: 2.0, com: -0.5 * length * Y, inertia: rod(2.0, length, Y) }
+///         joint hinge: Revolute { parent: ground, child: rod, axis: Z }
+///         output energy = kinetic() + potential();
+///         emit forward_dynamics, mass_matrix; // outputs are always emitted
+///     }
+/// }
+/// ```
+///
+/// The crate `multibody`, which re-exports this macro, documents the language in its module `language` and what is
+/// emitted in its module `generated`.
+///
+/// # Errors
+///
+/// Every mistake of a call is a compile error at the token where it stands, all of them in one build.
 #[proc_macro]
 pub fn multibody(input: TokenStream) -> TokenStream {
     multibody_engine::expand(input.into()).into()

@@ -1,17 +1,48 @@
-//! The runtime of `multibody`: what generated equations of motion need, and what integrates them in time.
+//! Equations of motion of mechanisms, derived symbolically while your crate compiles.
 //!
-//! - [`Real`]: the scalar that generated code is generic over: `f32`, `f64`, lanes of them, dual numbers.
-//! - [`System`], [`StateSpace`], [`Configuration`], [`Tangent`]: what integrators see of a model, of its state, of its
-//!   position and of its velocity. Generated models implement them; so do wrappers written by hand.
+//! A mechanism is declared inside [`multibody!`]; the macro checks its mechanics, derives its equations, removes all
+//! work that is repeated or not needed, and emits plain Rust. This crate is what that code needs, and what integrates
+//! it in time.
+//!
+//! ```
+//! use multibody::{Rk4, multibody};
+//!
+//! multibody! {
+//!     /// A rod that hangs from a hinge.
+//!     pub mod pendulum {
+//!         /// [m]
+//!         param length = 1.0;
+//!         world { gravity: -9.81 * Y }
+//!         body rod { mass: 2.0, com: -0.5 * length * Y, inertia: rod(2.0, length, Y) }
+//!         joint hinge: Revolute { parent: ground, child: rod, axis: Z }
+//!         output energy = kinetic() + potential();
+//!     }
+//! }
+//!
+//! let model = pendulum::Model::new(&pendulum::Params { length: 0.8 });
+//! let mut state = pendulum::State::default();
+//! state.q.hinge = 0.5; // rad
+//! let energy = model.outputs(0.0, &state, &()).energy;
+//! for k in 0..1000 {
+//!     state = Rk4::step(&model, 1e-3 * f64::from(k), &state, &(), 1e-3);
+//! }
+//! assert!((model.outputs(1.0, &state, &()).energy - energy).abs() < 1e-9);
+//! ```
+//!
+//! - [`language`]: what a mechanism is declared with.
+//! - [`generated`]: what the macro makes of it, and how to use that.
 //! - [`integrators`]: [`Rk4`], [`SemiImplicitEuler`], [`Euler`], [`DormandPrince`] with a given step, [`Adaptive`] with
 //!   steps chosen by error.
+//! - [`System`], [`StateSpace`], [`Configuration`], [`Tangent`]: what integrators see of a model, of its state, of its
+//!   position and of its velocity. Generated models implement them; so do wrappers written by hand.
+//! - [`Real`]: the scalar that generated code is generic over: `f32`, `f64`, lanes of them, dual numbers.
 //! - [`coordinates`]: the coordinates of joints that have several, [`Pose`], [`Twist`] and [`Wrench`].
 //! - [`rotation`]: unit quaternions that stay of unit length.
 //!
 //! # Conventions
 //! Right-handed axes, SI units, radians; rotations map child to parent components. Velocities belong to coordinates:
 //! with a quaternion it is the angular velocity of the child relative to the parent, in child axes, with
-//! roll-pitch-yaw angles it is the rates of the three.
+//! roll-pitch-yaw angles it is the rates of the three. All of them stand in [`language`](language#conventions).
 //!
 //! # Without std
 //! Turn default features off and the feature `libm` on. There is no allocation, no `unsafe` code, and no panic on any
@@ -32,8 +63,12 @@ extern crate self as multibody;
 mod configuration;
 pub mod coordinates;
 mod cost;
+#[doc = include_str!("../docs/generated.md")]
+pub mod generated {}
 mod inertia;
 pub mod integrators;
+#[doc = include_str!("../docs/language.md")]
+pub mod language {}
 pub mod rotation;
 mod scalar;
 mod system;

@@ -72,7 +72,10 @@ pub fn model(m2: f32) -> Option<double_pendulum::Model<f32>> {
 }
 
 /// Everything that a state says.
-pub fn outputs(model: &double_pendulum::Model<f32>, state: &double_pendulum::State<f32>) -> double_pendulum::Output<f32> {
+pub fn outputs(
+    model: &double_pendulum::Model<f32>,
+    state: &double_pendulum::State<f32>,
+) -> double_pendulum::Output<f32> {
     model.outputs(0.0, state, &double_pendulum::Input { torque: 0.0 })
 }
 

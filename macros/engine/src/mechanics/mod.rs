@@ -1,7 +1,7 @@
 //! From the checked model to equations on the graph.
 //!
-//! [`build`] makes the tree of links, the recursions walk it, and [`derive`] tells which functions are made of them.
-//! User expressions are translated by [`expressions`].
+//! [`build`] makes the tree of links, the recursions walk it, and [`derive()`] tells which functions are made of them.
+//! User expressions are translated by `expressions`.
 
 pub mod articulated;
 pub mod articulated_inertia;

@@ -115,6 +115,8 @@ impl<'a> Checker<'a, '_> {
                     name.span(),
                     format!("the name `{text}` is taken: {} `{first}` above has it already", article(first)),
                 );
+                // Nothing can hang on it.
+                self.lost |= matches!(item.kind, ItemKind::Body { .. });
                 own.push(false);
                 continue;
             }

@@ -23,6 +23,20 @@ impl Known<'_> {
     fn has(&self, name: &str) -> bool {
         self.names().any(|known| known == name)
     }
+
+    /// The field that somebody who writes `name` is looking for.
+    fn meant(&self, name: &str) -> Option<&'static str> {
+        let meant = match name {
+            "k" | "spring" => "stiffness",
+            "c" | "d" | "damper" => "damping",
+            "body" | "frame" => "at",
+            "centre" | "center" | "cog" => "com",
+            "l0" | "rest_length" | "natural_length" => "length",
+            "force" | "torque" => "value",
+            _ => return None,
+        };
+        self.has(meant).then_some(meant)
+    }
 }
 
 /// The value of a field; the first one where it is repeated.
@@ -40,8 +54,9 @@ impl Checker<'_, '_> {
         }
         // A misspelt field is told as such, not as a missing one too.
         let misspelt = |name: &str| {
-            let mut given = fields.list.iter().map(|f| f.name.to_string());
-            given.any(|given| nearest(&given, [name]).is_some() && !known.has(&given))
+            let given = fields.list.iter().map(|f| f.name.to_string());
+            let mut unknown = given.filter(|given| !known.has(given));
+            unknown.any(|given| known.meant(&given) == Some(name) || nearest(&given, [name]).is_some())
         };
         let missing: Vec<&str> =
             known.required.iter().copied().filter(|name| field(fields, name).is_none() && !misspelt(name)).collect();
@@ -63,7 +78,10 @@ impl Checker<'_, '_> {
                 self.report.silent();
                 continue;
             }
-            if !known.has(&name) {
+            if let (false, Some(meant)) = (known.has(&name), known.meant(&name)) {
+                let message = format!("{owner} has no field `{name}`");
+                self.report.help(given.name.span(), message, format!("write `{meant}`"));
+            } else if !known.has(&name) {
                 let list: Vec<&str> = known.names().collect();
                 self.report.unknown(
                     given.name.span(),

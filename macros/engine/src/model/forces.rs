@@ -48,6 +48,16 @@ impl<'a> Checker<'a, '_> {
                 self.report.silent();
                 None
             }
+            "Motor" | "Actuator" | "Friction" => {
+                let message = format!("unknown kind of force `{text}`");
+                self.report.help(kind.span(), message, "write `Effort`");
+                None
+            }
+            "Gravity" => {
+                let message = "unknown kind of force `Gravity`";
+                self.report.help(kind.span(), message, "gravity acts on all bodies: `world { gravity: -9.81 * Z }`");
+                None
+            }
             _ => {
                 self.report.unknown(
                     kind.span(),
@@ -167,14 +177,14 @@ impl<'a> Checker<'a, '_> {
         }
         let known = Known { required: known.0, optional: known.1 };
         self.check_fields(owner, name, fields, &known);
-        let mut scalar = |name: &str| match field(fields, name) {
-            Some(expr) => self.scalar(expr, context, Allowed::Forces).map(|value| Some(value.expr)),
+        let mut scalar = |name: &str, allowed| match field(fields, name) {
+            Some(expr) => self.scalar(expr, context, allowed).map(|value| Some(value.expr)),
             None => Some(None),
         };
-        let stiffness = scalar("stiffness");
-        let damping = scalar("damping");
-        let rest = scalar("rest");
-        let length = scalar("length");
+        let stiffness = scalar("stiffness", Allowed::Springs);
+        let damping = scalar("damping", Allowed::Forces);
+        let rest = scalar("rest", Allowed::Springs);
+        let length = scalar("length", Allowed::Springs);
         if let Some(expr) = on_joint {
             let (joint, coordinate) = self.spring_target(expr, context)?;
             return Some(ForceKind::JointSpring {

@@ -16,13 +16,22 @@ pub(super) enum Class {
     Input,
     /// Coordinates, velocities, states, and all that follows from them.
     State,
+    /// The potential energy, of which springs are a part.
+    Potential,
     Acceleration,
     /// Efforts, reactions, power: known only when all forces are.
     Load,
 }
 
-const CLASSES: [Class; 6] =
-    [Class::Parameter, Class::Time, Class::Input, Class::State, Class::Acceleration, Class::Load];
+const CLASSES: [Class; 7] = [
+    Class::Parameter,
+    Class::Time,
+    Class::Input,
+    Class::State,
+    Class::Potential,
+    Class::Acceleration,
+    Class::Load,
+];
 
 /// The first name that brings a dependence in.
 #[derive(Debug)]
@@ -92,6 +101,8 @@ pub(super) enum Allowed {
     Parameters,
     /// All that is known before forces and accelerations are.
     Forces,
+    /// Those, without the potential energy: a spring's is part of it.
+    Springs,
 }
 
 impl Allowed {
@@ -100,16 +111,18 @@ impl Allowed {
             Allowed::Constants => false,
             Allowed::Parameters => class == Class::Parameter,
             Allowed::Forces => !matches!(class, Class::Acceleration | Class::Load),
+            Allowed::Springs => !matches!(class, Class::Potential | Class::Acceleration | Class::Load),
         }
     }
 
     fn why(self, class: Class) -> &'static str {
         match (self, class) {
             (Allowed::Constants, Class::Parameter) => "is a `param`; only literals and `const` may stand here",
-            (Allowed::Forces, Class::Acceleration) => {
+            (Allowed::Springs, Class::Potential) => "holds this spring's energy, so the spring can't follow from it",
+            (Allowed::Forces | Allowed::Springs, Class::Acceleration) => {
                 "is an acceleration, not known where forces and states are evaluated"
             }
-            (Allowed::Forces, Class::Load) => "follows from the forces, so no force or state may use it",
+            (Allowed::Forces | Allowed::Springs, Class::Load) => "follows from the forces, so no force or state may use it",
             (Allowed::Constants, _) => "changes in time; only literals and `const` may stand here",
             _ => "changes in time; only `const` and `param` may stand here",
         }

@@ -57,7 +57,9 @@ fn hint(dag: &Dag, id: Id, hints: &[Option<String>]) -> String {
 
 /// Early values that later ones or the results read.
 fn frontier(dag: &Dag) -> Vec<Id> {
-    let early = |id: Id| id != ONE && dag.nodes[id].stage <= Stage::Parameter;
+    // A number that stands alone, as in `max(x, 0)`, is written where it is read.
+    let number = |id: Id| matches!(&dag.nodes[id].kind, Kind::Sum(terms) if terms.iter().all(|&(_, t)| t == ONE));
+    let early = |id: Id| id != ONE && dag.nodes[id].stage <= Stage::Parameter && !number(id);
     let mut found: Vec<Id> = Vec::new();
     for id in dag.order() {
         if dag.nodes[id].stage > Stage::Parameter {

@@ -185,6 +185,9 @@ impl<'a> Scheduler<'a> {
     }
 
     fn sum(&mut self, id: Id, terms: &[(Number, Id)]) -> (Expression, usize) {
+        if terms.is_empty() {
+            return (Expression::Literal(0.0), 1);
+        }
         let mut list: Vec<(bool, Expression, usize)> = terms.iter().map(|&(c, t)| self.scaled(c, t)).collect();
         if list.iter().all(|t| t.0) {
             self.flipped[id] = true;

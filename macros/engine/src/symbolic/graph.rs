@@ -7,7 +7,7 @@
 //! by its print before it is made: expressions that are equal by the field laws, the circle (sin^2 + cos^2 = 1,
 //! addition theorems) or the unit sphere of a quaternion are one node, in whatever form they were derived first. Signs
 //! belong to edges, not to nodes: of x and -x only one is a node, so a - b and b - a are one node and a sign. In the same way a rotation and its transpose are one node and a flag. What the prints cannot see
-//! (the order of terms, zeros inside sums, common angles) the constructors in [`super::scalar`] and [`super::vector`]
+//! (the order of terms, zeros inside sums, common angles) the constructors in `scalar` and `vector`
 //! normalise: sums and products are n-ary and sorted, and not distributed.
 
 use std::collections::HashMap;

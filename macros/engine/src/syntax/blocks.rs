@@ -18,7 +18,16 @@ pub(super) fn unnamed(keyword: Keyword, cursor: &mut Cursor, diagnostics: &mut D
         diagnostics.error_help(name.span(), format!("`{}` has no name", keyword.word()), form(keyword));
         cursor.bump();
     }
-    fields(form(keyword), cursor, diagnostics)
+    block(keyword, cursor, diagnostics)
+}
+
+/// The braces of an item that ends with them. What stands in other brackets may have a `;` behind.
+fn block(keyword: Keyword, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Fields {
+    let fields = fields(form(keyword), cursor, diagnostics);
+    if fields.broken && fields.list.is_empty() {
+        cursor.take(";");
+    }
+    fields
 }
 
 /// `name { .. }`
@@ -31,7 +40,7 @@ pub(super) fn body(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Option
             cursor.bump();
         }
     }
-    let fields = fields(form(keyword), cursor, diagnostics);
+    let fields = block(keyword, cursor, diagnostics);
     Some(ItemKind::Body { name, fields })
 }
 
@@ -45,7 +54,7 @@ pub(super) fn kinded(
     let kind = kind(keyword, cursor, diagnostics);
     // One error is enough for `joint elbow;`.
     let silent = kind == UNREADABLE && !cursor.at_group(0, Delimiter::Brace);
-    let fields = if silent { lost(cursor) } else { fields(form(keyword), cursor, diagnostics) };
+    let fields = if silent { lost(cursor) } else { block(keyword, cursor, diagnostics) };
     Some((name, kind, fields))
 }
 

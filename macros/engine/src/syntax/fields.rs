@@ -2,7 +2,7 @@
 //!
 //! In: the place of the braces. Out: fields in source order. A field that can't be read costs only itself.
 
-use proc_macro2::{Delimiter, Group};
+use proc_macro2::{Delimiter, Group, TokenTree};
 
 use super::cursor::{Cursor, Reported};
 use super::expressions::{expression, is_name};
@@ -19,10 +19,22 @@ pub(super) fn fields(form: String, cursor: &mut Cursor, diagnostics: &mut Diagno
     if let Some(group) = cursor.group(0).cloned() {
         diagnostics.error_help(cursor.span(), format!("expected `{{`, found {found}"), form);
         cursor.bump();
-        return between(&group, cursor, diagnostics);
+        if named(&group) {
+            return between(&group, cursor, diagnostics);
+        }
+        // Values by position: said once.
+        return Fields::none(group.span());
     }
     diagnostics.error_help(cursor.span(), format!("expected `{{`, found {found}"), form);
     lost(cursor)
+}
+
+/// Whether the first of what a group holds is written `name: ..`.
+fn named(group: &Group) -> bool {
+    let mut tokens = group.stream().into_iter();
+    let name = tokens.next();
+    let colon = tokens.next();
+    matches!(name, Some(TokenTree::Ident(_))) && matches!(colon, Some(TokenTree::Punct(punct)) if punct.as_char() == ':')
 }
 
 /// Fields of an item whose braces are unreadable or missing; goes on behind them.

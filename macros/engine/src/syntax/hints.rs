@@ -11,7 +11,7 @@ use crate::diagnostics::Diagnostics;
 
 const LET: &str = "name intermediate results with `let name = value;`";
 const SELECT: &str = "write `select(condition, a, b)`";
-const ALONE: &str = "a name stands alone, such as `sin(x)` or `pi`";
+const ALONE: &str = "a name stands alone, such as `sin(x)` or `PI`";
 
 /// Reports the token that stands where a value should be.
 pub(super) fn no_value(cursor: &Cursor, diagnostics: &mut Diagnostics) -> Reported {
@@ -132,6 +132,9 @@ pub(super) fn no_end(expected: &str, cursor: &Cursor, diagnostics: &mut Diagnost
         "=" => (message, Some("to compare, write `==`")),
         _ if cursor.at_group(0, Delimiter::Brace) => {
             (message, Some("blocks and structs mean nothing in an expression"))
+        }
+        _ if matches!(cursor.ident(0), Some(word) if word == "deg" || word == "degrees") => {
+            (message, Some("angles are in radians: write `deg(30.0)`"))
         }
         _ if value || cursor.at_group(0, Delimiter::Parenthesis) => (message, Some("a product is written with `*`")),
         _ => (message, None),

@@ -13,7 +13,7 @@ use super::expressions::{expression, is_name};
 use super::fields::{between, fields};
 use super::keywords::Keyword;
 use super::names::{finish, form, last_value, name, optional_type, unreadable};
-use super::tree::{Item, ItemKind, Request, Value, poison};
+use super::tree::{Item, ItemKind, Request, Value, poison, poisoned_type};
 use crate::diagnostics::Diagnostics;
 
 /// All items, and whether one was lost.
@@ -153,8 +153,11 @@ fn value(keyword: Keyword, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -
         // The input is valid whatever comes behind.
         let _ = finish(Ok(()), "`;`", cursor, diagnostics);
     } else if cursor.at(";") || cursor.at_end() || cursor.at_item(0) {
-        let message = format!("`{} {name}` has no value", keyword.word());
-        diagnostics.error_help(name.span(), message, form(keyword));
+        // `param name: 1.0;` is one mistake.
+        if !ty.as_ref().is_some_and(poisoned_type) {
+            let message = format!("`{} {name}` has no value", keyword.word());
+            diagnostics.error_help(name.span(), message, form(keyword));
+        }
         cursor.take(";");
     } else {
         let message = format!("expected `=`, found {}", cursor.found());
@@ -190,10 +193,13 @@ fn state(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Option<ItemKind>
         cursor.skip_within_item(&[","]);
         poison()
     });
-    let more = cursor.take(",").is_some() && !cursor.at(";");
-    if !more {
+    if cursor.at_word("start") && cursor.operator(1) == ":" {
+        diagnostics.error(cursor.span(), "missing `,` before `start`");
+    } else if cursor.take(",").is_none() || cursor.at(";") {
         let end = finish(Ok(rate), "an operator, `,` or `;`", cursor, diagnostics);
-        return Some(ItemKind::State { name, rate: end.unwrap_or_else(|Reported| poison()), start: None });
+        // Where the end can't be read, a start may have been lost.
+        let start = end.is_err().then(poison);
+        return Some(ItemKind::State { name, rate: end.unwrap_or_else(|Reported| poison()), start });
     }
     if !cursor.at_word("start") || cursor.operator(1) != ":" {
         let message = format!("expected `start:`, found {}", cursor.found());

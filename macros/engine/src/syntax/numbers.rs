@@ -30,8 +30,14 @@ pub(super) fn number(literal: &Literal, cursor: &Cursor, diagnostics: &mut Diagn
     };
     if !suffix.is_empty() {
         let plain = text.strip_suffix(&suffix).unwrap_or(&digits).trim_end_matches('_');
-        let message = format!("a number has no suffix here: remove `{}`", short(&suffix));
-        diagnostics.error_help(literal.span(), message, format!("write `{}`", short(plain)));
+        let (message, help) = match suffix.as_str() {
+            "deg" | "degrees" => ("a number has no suffix here".to_owned(), format!("write `deg({})`", short(plain))),
+            _ => {
+                let message = format!("a number has no suffix here: remove `{}`", short(&suffix));
+                (message, format!("write `{}`", short(plain)))
+            }
+        };
+        diagnostics.error_help(literal.span(), message, help);
         return Err(Reported);
     }
     let message = match (lit, digits.parse::<f64>()) {

@@ -38,7 +38,10 @@ impl<'a> Checker<'a, '_> {
             "kinetic" | "potential" => {
                 self.arity(name, &arguments, 0, at)?;
                 let node = if text == "kinetic" { ExprNode::Kinetic } else { ExprNode::Potential };
-                let uses = Uses::of(Class::State, format!("{text}()"), name.span());
+                let mut uses = Uses::of(Class::State, format!("{text}()"), name.span());
+                if text == "potential" {
+                    uses.add(Class::Potential, "potential()", name.span());
+                }
                 return Some(Typed::leaf(node, Type::Scalar, at).with(uses));
             }
             _ => {}
@@ -140,6 +143,8 @@ impl<'a> Checker<'a, '_> {
             "sign" | "sgn" => pow("write `signum(x)`"),
             "degrees" | "rad" | "radians" | "to_radians" => pow("write `deg(30.0)`"),
             "length" | "magnitude" => pow("write `norm(v)`"),
+            "energy" => pow("write `kinetic() + potential()`"),
+            "if_else" | "ifelse" | "cond" => pow("write `select(condition, a, b)`"),
             _ => None,
         };
         if let Some(help) = help {
@@ -164,14 +169,15 @@ impl<'a> Checker<'a, '_> {
     }
 
     /// `x.sin()`: a function written as a method.
-    pub(super) fn function_as_method(&mut self, receiver: &Expr, method: &Ident) -> bool {
+    pub(super) fn function_as_method(&mut self, receiver: &Expr, method: &Ident, arguments: &[&Expr]) -> bool {
         let text = method.to_string();
         let known = FUNCTIONS.iter().any(|(known, ..)| *known == text);
         if known {
+            let all: Vec<String> = std::iter::once(receiver).chain(arguments.iter().copied()).map(source_text).collect();
             self.report.help(
                 method.span(),
                 format!("`{text}` is a function, not a method"),
-                format!("write `{text}({})`", source_text(receiver)),
+                format!("write `{text}({})`", all.join(", ")),
             );
         }
         known

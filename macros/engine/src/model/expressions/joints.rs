@@ -161,6 +161,13 @@ impl Checker<'_, '_> {
         let several = shape.freedoms() > 1 && OF_COORDINATE.contains(&name.as_str());
         let help = match shape.coordinates() {
             [first, ..] if several => format!("write `{text}.{first}.{name}`"),
+            [coordinate] => match name.as_str() {
+                "q" | "position" | "displacement" => format!("write `{text}.{coordinate}`"),
+                "v" | "velocity" | "speed" | "omega" | "angular_velocity" => format!("write `{text}.rate`"),
+                "a" | "acceleration" => format!("write `{text}.accel`"),
+                "torque" => format!("write `{text}.effort`"),
+                _ => format!("it has {}", offers(shape, &text)),
+            },
             _ if name == "rates" => format!("write `{text}.angular_velocity`"),
             _ => format!("it has {}", offers(shape, &text)),
         };

@@ -2,7 +2,7 @@
 //!
 //! In: field accesses. Out: quantities of frames, joints, forces and values; things inside parts.
 
-use proc_macro2::Ident;
+use proc_macro2::{Ident, Span};
 use syn::spanned::Spanned;
 use syn::{Expr, ExprField, Member};
 
@@ -85,15 +85,7 @@ impl<'a> Checker<'a, '_> {
             return Some(Meaning::Value(value));
         }
         let Some((_, quantity, ty, class)) = QUANTITIES.iter().find(|(known, ..)| *known == name) else {
-            let component = matches!(name.as_str(), "x" | "y" | "z")
-                .then(|| format!("write `{}.position.{name}`", source_text(base)));
-            self.report.unknown(
-                at,
-                format!("a frame has no `{name}`"),
-                &name,
-                QUANTITIES.iter().map(|q| q.0).chain(["jacobian"]),
-                component,
-            );
+            self.unknown_quantity(&name, base, at);
             return None;
         };
         let mut uses = frame.uses;
@@ -103,6 +95,24 @@ impl<'a> Checker<'a, '_> {
         }
         let node = ExprNode::OfFrame(frame.frame, *quantity);
         Some(Meaning::Value(Typed::leaf(node, ty.clone(), at).with(uses)))
+    }
+
+    fn unknown_quantity(&mut self, name: &str, base: &Expr, at: Span) {
+        let message = format!("a frame has no `{name}`");
+        let instead = match name {
+            "x" | "y" | "z" => format!("position.{name}"),
+            "linear_velocity" => "velocity".into(),
+            "linear_acceleration" => "acceleration".into(),
+            "omega" | "angular" => "angular_velocity".into(),
+            "orientation" | "quaternion" | "attitude" => "rotation".into(),
+            _ => {
+                let names = || QUANTITIES.iter().map(|q| q.0).chain(["jacobian"]);
+                let list: Vec<&str> = names().collect();
+                let help = format!("it has `{}`", list.join("`, `"));
+                return self.report.unknown(at, message, name, names(), Some(help));
+            }
+        };
+        self.report.help(at, message, format!("write `{}.{instead}`", source_text(base)));
     }
 
     fn force_member(&mut self, force: ForceId, base: &Expr, member: &Ident) -> Option<Meaning> {

@@ -36,7 +36,7 @@ impl<'a> Checker<'a, '_> {
                 self.express_value(value, argument, call, context)
             }
             other => {
-                if !self.function_as_method(&call.receiver, &call.method) {
+                if !self.function_as_method(&call.receiver, &call.method, &arguments) {
                     let what = match &other {
                         Meaning::Value(value) => type_text(&value.expr.ty),
                         Meaning::Joint(_) => "a joint".into(),
@@ -46,12 +46,15 @@ impl<'a> Checker<'a, '_> {
                     };
                     let name = call.method.to_string();
                     let message = format!("{what} has no method `{name}`");
-                    if OF_FRAME.contains(&name.as_str()) {
-                        let help = "frames have it: `ground`, bodies, ports";
-                        self.report.help(call.method.span(), message, help);
-                    } else {
-                        self.report.error(call.method.span(), message);
-                    }
+                    let help = match name.as_str() {
+                        "to_radians" | "to_degrees" => "angles are in radians; `deg(30.0)` is thirty degrees",
+                        _ if OF_FRAME.contains(&name.as_str()) => "frames have it: `ground`, bodies, ports",
+                        _ => {
+                            self.report.error(call.method.span(), message);
+                            return None;
+                        }
+                    };
+                    self.report.help(call.method.span(), message, help);
                 }
                 None
             }
