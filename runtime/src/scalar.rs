@@ -71,7 +71,7 @@ pub trait Real: SimdRealField<Element: RealField + Copy> + Copy {
     fn hypot(self, other: Self) -> Self;
     /// The absolute value.
     fn abs(self) -> Self;
-    /// One with the sign of `self`, as Rust has it: a positive zero gives 1, a negative zero -1, NaN gives NaN.
+    /// One with the sign of `self`; unlike Rust's, zero gives zero, so that friction at rest pushes nowhere. NaN gives NaN.
     fn signum(self) -> Self;
     /// The largest integer that is not above `self`.
     fn floor(self) -> Self;

@@ -30,7 +30,7 @@ pub fn expand(tokens: TokenStream) -> TokenStream {
     for model in &models {
         match optimize::compile(&mechanics::derive(model)) {
             Ok(compiled) => output.extend(emit::emit(model, &compiled)),
-            Err(optimize::TooLarge) => diagnostics.error_help(
+            Err(optimize::Refusal::TooLarge) => diagnostics.error_help(
                 model.name.span(),
                 format!("the equations of `{}` are too large", model.name),
                 format!(
@@ -38,6 +38,11 @@ pub fn expand(tokens: TokenStream) -> TokenStream {
                      with the square of the coordinates), or declare fewer bodies",
                     optimize::MOST_OPERATIONS
                 ),
+            ),
+            Err(optimize::Refusal::NotFinite) => diagnostics.error_help(
+                model.name.span(),
+                format!("the equations of `{}` hold a number that is not finite", model.name),
+                "literals multiply out of the range of f64, or something is divided by what is always zero",
             ),
         }
     }

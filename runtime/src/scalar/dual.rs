@@ -86,7 +86,7 @@ macro_rules! dual {
                 }
                 #[inline]
                 fn signum(self) -> Self {
-                    Self::from_re(self.re.signum())
+                    Self::from_re(Real::signum(self.re))
                 }
                 #[inline]
                 fn floor(self) -> Self {

@@ -76,7 +76,13 @@ impl Real for f32 {
     }
     #[inline]
     fn signum(self) -> Self {
-        f32::signum(self)
+        if self > 0.0 {
+            1.0
+        } else if self < 0.0 {
+            -1.0
+        } else {
+            self
+        }
     }
     #[inline]
     fn floor(self) -> Self {

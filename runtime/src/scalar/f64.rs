@@ -80,7 +80,13 @@ impl Real for f64 {
     }
     #[inline]
     fn signum(self) -> Self {
-        f64::signum(self)
+        if self > 0.0 {
+            1.0
+        } else if self < 0.0 {
+            -1.0
+        } else {
+            self
+        }
     }
     #[inline]
     fn floor(self) -> Self {

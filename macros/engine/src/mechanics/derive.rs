@@ -117,7 +117,9 @@ impl<'m> Deriving<'m> {
         kept: &[JointId],
         f: impl Fn(&mut Equations<'m>) -> Vec<Scalar>,
     ) -> Vec<Candidate> {
-        let ways = AXES.into_iter().zip(names);
+        // Common axes pay where a matrix is factored or passed on; beyond that size each way costs too much time.
+        let ways = if freedoms(self.model) > MOST_COMPOSITE { 1 } else { AXES.len() };
+        let ways = AXES.into_iter().zip(names).take(ways);
         ways.filter_map(|(axes, name)| self.candidate(name, Way { style: Style::Nested, method, axes }, kept, &f))
             .collect()
     }

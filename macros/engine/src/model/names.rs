@@ -42,37 +42,12 @@ pub(super) const SPECIAL_FUNCTIONS: [&str; 3] = ["select", "kinetic", "potential
 pub(super) const TYPES: [&str; 7] = ["Scalar", "Vec3", "Pose", "Rotation", "Twist", "Wrench", "Jacobian"];
 
 /// Structs and constants of a generated module.
-const GENERATED: [&str; 11] = [
-    "Params",
-    "Position",
-    "Velocity",
-    "State",
-    "States",
-    "Derivative",
-    "Input",
-    "Output",
-    "Model",
-    "DOF",
-    "COSTS",
-];
+const GENERATED: [&str; 11] =
+    ["Params", "Position", "Velocity", "State", "States", "Derivative", "Input", "Output", "Model", "DOF", "COSTS"];
 
 /// What generated code names without a path: a part of this name would stand in its way.
-const IN_SCOPE: [&str; 14] = [
-    "T",
-    "F",
-    "A",
-    "Real",
-    "Default",
-    "From",
-    "FnMut",
-    "Clone",
-    "Copy",
-    "Debug",
-    "PartialEq",
-    "Result",
-    "Ok",
-    "Err",
-];
+const IN_SCOPE: [&str; 14] =
+    ["T", "F", "A", "Real", "Default", "From", "FnMut", "Clone", "Copy", "Debug", "PartialEq", "Result", "Ok", "Err"];
 
 const KEYWORDS: [&str; 53] = [
     "as", "break", "const", "continue", "crate", "else", "enum", "extern", "false", "fn", "for", "if", "impl", "in",

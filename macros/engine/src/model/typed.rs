@@ -23,15 +23,8 @@ pub(super) enum Class {
     Load,
 }
 
-const CLASSES: [Class; 7] = [
-    Class::Parameter,
-    Class::Time,
-    Class::Input,
-    Class::State,
-    Class::Potential,
-    Class::Acceleration,
-    Class::Load,
-];
+const CLASSES: [Class; 7] =
+    [Class::Parameter, Class::Time, Class::Input, Class::State, Class::Potential, Class::Acceleration, Class::Load];
 
 /// The first name that brings a dependence in.
 #[derive(Debug)]
@@ -122,7 +115,9 @@ impl Allowed {
             (Allowed::Forces | Allowed::Springs, Class::Acceleration) => {
                 "is an acceleration, not known where forces and states are evaluated"
             }
-            (Allowed::Forces | Allowed::Springs, Class::Load) => "follows from the forces, so no force or state may use it",
+            (Allowed::Forces | Allowed::Springs, Class::Load) => {
+                "follows from the forces, so no force or state may use it"
+            }
             (Allowed::Constants, _) => "changes in time; only literals and `const` may stand here",
             _ => "changes in time; only `const` and `param` may stand here",
         }

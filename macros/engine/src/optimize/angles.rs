@@ -3,13 +3,16 @@
 //! In: a DAG. Out: where an angle is the sum or difference of two others whose sines and cosines are there anyway, the
 //! addition theorems (4 products, 2 sums) in place of another sincos, which weighs 20.
 
-use std::collections::BTreeMap;
-use std::ops::{Add, Mul, Neg};
+use std::collections::{BTreeMap, HashMap};
+use std::ops::{Mul, Neg};
 
 use crate::symbolic::number::Number;
 
 use super::dag::{Dag, Id, Kind, ONE};
 use super::stage::Stage;
+
+/// Known angles that are tried as a part of another, for each of its units: a bound, not a rule.
+const MOST_TRIED: usize = 64;
 
 /// An angle as a combination of units.
 type Combination = BTreeMap<Id, Number>;
@@ -22,7 +25,7 @@ struct Angle {
 }
 
 pub fn angles(dag: &mut Dag) {
-    let mut known: Vec<Angle> = Vec::new();
+    let mut known = Known::default();
     let mut list = gather(dag);
     // Few units first, and halves before wholes, so that a double angle finds its half.
     let size = |angle: &Angle| angle.units.values().fold(0.0, |most: f64, c| most.max(c.value().abs()));
@@ -31,7 +34,7 @@ pub fn angles(dag: &mut Dag) {
         let late = dag.nodes[angle.id].stage > Stage::Parameter;
         let pair = if late { find_pair(&known, &angle.units) } else { None };
         if let Some((a, b, minus)) = pair {
-            expand(dag, &angle, [&known[a], &known[b]], minus);
+            expand(dag, &angle, [&known.angles[a], &known.angles[b]], minus);
         }
         if late {
             known.push(angle);
@@ -41,19 +44,17 @@ pub fn angles(dag: &mut Dag) {
 
 fn gather(dag: &Dag) -> Vec<Angle> {
     let mut list: Vec<Angle> = Vec::new();
+    let mut places: HashMap<Id, usize> = HashMap::new();
     for id in dag.order() {
         let (argument, is_sin) = match dag.nodes[id].kind {
             Kind::Sin(argument) => (argument, true),
             Kind::Cos(argument) => (argument, false),
             _ => continue,
         };
-        let at = match list.iter().position(|angle| angle.id == argument) {
-            Some(at) => at,
-            None => {
-                list.push(Angle { id: argument, units: units(dag, argument), sin: None, cos: None });
-                list.len() - 1
-            }
-        };
+        let at = *places.entry(argument).or_insert(list.len());
+        if at == list.len() {
+            list.push(Angle { id: argument, units: units(dag, argument), sin: None, cos: None });
+        }
         if is_sin {
             list[at].sin = Some(id);
         } else {
@@ -79,28 +80,63 @@ fn units(dag: &Dag, id: Id) -> Combination {
     combination
 }
 
-/// Two known angles whose sum (or difference, first minus second) this is.
-fn find_pair(known: &[Angle], units: &Combination) -> Option<(usize, usize, bool)> {
-    for (a, first) in known.iter().enumerate() {
-        for (b, second) in known.iter().enumerate() {
-            for minus in [false, true] {
-                if (minus && a != b || !minus && a <= b) && combine(&first.units, &second.units, minus) == *units {
-                    return Some((a, b, minus));
-                }
+/// Two known angles whose sum (or difference, first minus second) this is. The first shares a unit with it; the second is
+/// then looked up.
+fn find_pair(known: &Known, units: &Combination) -> Option<(usize, usize, bool)> {
+    let mut tried = Vec::new();
+    for unit in units.keys() {
+        for &a in known.by_unit.get(unit).into_iter().flatten().rev().take(MOST_TRIED) {
+            if tried.contains(&a) {
+                continue;
+            }
+            tried.push(a);
+            let first = &known.angles[a].units;
+            if let Some(b) = known.find(&minus(units, first)) {
+                return Some((a, b, false));
+            }
+            if let Some(b) = known.find(&minus(first, units)) {
+                return Some((a, b, true));
             }
         }
     }
     None
 }
 
-fn combine(a: &Combination, b: &Combination, minus: bool) -> Combination {
-    let mut sum = a.clone();
+fn minus(a: &Combination, b: &Combination) -> Combination {
+    let mut difference = a.clone();
     for (&id, &c) in b {
-        let entry = sum.entry(id).or_insert(Number::ZERO);
-        *entry = entry.add(if minus { c.neg() } else { c });
+        let entry = difference.entry(id).or_insert(Number::ZERO);
+        *entry = *entry - c;
     }
-    sum.retain(|_, c| !c.is_zero());
-    sum
+    difference.retain(|_, c| !c.is_zero());
+    difference
+}
+
+/// Angles whose sines and cosines are there.
+#[derive(Default)]
+struct Known {
+    angles: Vec<Angle>,
+    by_unit: BTreeMap<Id, Vec<usize>>,
+    by_units: HashMap<Vec<(Id, u64)>, usize>,
+}
+
+impl Known {
+    fn key(units: &Combination) -> Vec<(Id, u64)> {
+        units.iter().map(|(&id, c)| (id, c.residue)).collect()
+    }
+
+    fn find(&self, units: &Combination) -> Option<usize> {
+        self.by_units.get(&Known::key(units)).copied()
+    }
+
+    fn push(&mut self, angle: Angle) {
+        let at = self.angles.len();
+        for &unit in angle.units.keys() {
+            self.by_unit.entry(unit).or_default().push(at);
+        }
+        self.by_units.entry(Known::key(&angle.units)).or_insert(at);
+        self.angles.push(angle);
+    }
 }
 
 fn expand(dag: &mut Dag, angle: &Angle, parts: [&Angle; 2], minus: bool) {

@@ -174,6 +174,8 @@ fn apply(dag: &mut Dag, id: Id, terms: Vec<(Number, Id)>, reach: &Reach, factor:
     for &(node, print) in &scaled {
         let kind = if node == id { Kind::Sum(Vec::clone(&terms)) } else { dag.nodes[node].kind.clone() };
         dag.replace(node, kind, print);
+        // What is three times a moment is not called that moment.
+        dag.nodes[node].name = None;
     }
     // Several terms of one sum may be scaled: its value is kept only by all of them together.
     let mut sums: Vec<Id> = reach.coefficients.iter().map(|&(sum, ..)| sum).collect();

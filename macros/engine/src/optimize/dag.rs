@@ -264,14 +264,14 @@ impl Dag {
     /// looked up or, being new, drawn afresh.
     pub fn trigonometric(&mut self, angle: Id, sine: bool) -> Id {
         let kind = if sine { Kind::Sin(angle) } else { Kind::Cos(angle) };
-        if let Some(found) = self.nodes.iter().position(|node| node.kind == kind) {
-            return found;
-        }
         let print = self.points.get(&angle).map_or_else(
             || Print::opaque(u64::from(sine), &[self.nodes[angle].print]),
             |point| if sine { point.sin } else { point.cos },
         );
-        self.push(kind, print)
+        match self.find(print) {
+            Some((sign, found)) if sign.is_one() && self.nodes[found].kind == kind => found,
+            _ => self.push(kind, print),
+        }
     }
 
     /// A product of nodes without coefficients, with the signs of its factors in front.
@@ -453,7 +453,7 @@ impl Dag {
     pub fn cost(&self) -> (Cost, Cost) {
         let (mut runtime, mut prelude) = (Cost::default(), Cost::default());
         let order = self.order();
-        let mut angles = Vec::new();
+        let mut angles = std::collections::HashSet::new();
         let uses = self.uses(&order);
         for &id in &order {
             let node = &self.nodes[id];
@@ -476,8 +476,7 @@ impl Dag {
                 Kind::Reciprocal(_) => cost.div += 1,
                 Kind::Sqrt(_) => cost.sqrt += 1,
                 Kind::Sin(angle) | Kind::Cos(angle) => {
-                    if !angles.contains(angle) {
-                        angles.push(*angle);
+                    if angles.insert(*angle) {
                         cost.sincos += 1;
                     }
                 }

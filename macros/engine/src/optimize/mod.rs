@@ -25,12 +25,17 @@ use program::{Compiled, Cost, Function, FunctionKind};
 /// unoptimised build, and rustc takes longer.
 pub const MOST_OPERATIONS: usize = 60_000;
 
-/// The equations are larger than the compiler can take within a reasonable time.
+/// Why a model can't be compiled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TooLarge;
+pub enum Refusal {
+    /// The equations are larger than the compiler can take within a reasonable time.
+    TooLarge,
+    /// A number in the equations is infinite: a product of literals that is out of range, or a division by what is zero.
+    NotFinite,
+}
 
 /// Optimises every candidate, takes the cheapest of each function, and moves parameter work into `Model::new`.
-pub fn compile(derivation: &Derivation) -> Result<Compiled, TooLarge> {
+pub fn compile(derivation: &Derivation) -> Result<Compiled, Refusal> {
     let mut sound = true;
     let mut chosen: Vec<(FunctionKind, &'static str, Cost, Dag)> = Vec::new();
     for function in &derivation.functions {
@@ -39,7 +44,7 @@ pub fn compile(derivation: &Derivation) -> Result<Compiled, TooLarge> {
             let mut lowering = Lowering::new(&derivation.graph);
             let roots = lowering.run(results);
             if derivation.graph.is_full() || lowering.to.len() > MOST_OPERATIONS {
-                return Err(TooLarge);
+                return Err(Refusal::TooLarge);
             }
             let before = lowering.to.cost(&roots);
             let mut dag = Dag::import(&lowering.to, &roots, &derivation.symbols);
@@ -59,7 +64,7 @@ pub fn compile(derivation: &Derivation) -> Result<Compiled, TooLarge> {
     prelude.symbol_names.clone_from(&derivation.symbol_names);
     sound &= simplify(&mut prelude);
     let prelude_cost = prelude.cost().1;
-    let functions = chosen
+    let functions: Vec<Function> = chosen
         .iter()
         .map(|(kind, method, before, dag)| Function {
             kind: *kind,
@@ -70,6 +75,10 @@ pub fn compile(derivation: &Derivation) -> Result<Compiled, TooLarge> {
         })
         .collect();
     let prelude = schedule::schedule(&prelude, &schedule::Fields::new());
+    let finite = |program: &program::Program| program.literals().all(f64::is_finite);
+    if !finite(&prelude) || !functions.iter().all(|f| finite(&f.program)) {
+        return Err(Refusal::NotFinite);
+    }
     Ok(Compiled { fields: names, prelude, prelude_cost, functions, sound })
 }
 

@@ -117,6 +117,30 @@ pub struct Program {
     pub results: Vec<Expression>,
 }
 
+impl Program {
+    /// All numbers that are written in it.
+    pub fn literals(&self) -> impl Iterator<Item = f64> + '_ {
+        let mut stack: Vec<&Expression> = self.results.iter().collect();
+        stack.extend(self.statements.iter().map(|statement| match statement {
+            Statement::Let { value, .. } => value,
+            Statement::SinCos { angle, .. } => angle,
+        }));
+        std::iter::from_fn(move || {
+            while let Some(expression) = stack.pop() {
+                match expression {
+                    Expression::Literal(x) => return Some(*x),
+                    Expression::Symbol(_) | Expression::Field(_) | Expression::Local(_) => {}
+                    Expression::Neg(inner) => stack.push(inner),
+                    Expression::Sum(terms) => stack.extend(terms.iter().map(|t| &t.1)),
+                    Expression::Product(list) | Expression::Call(_, list) => stack.extend(list),
+                    Expression::Quotient(a, b) => stack.extend([&**a, &**b]),
+                }
+            }
+            None
+        })
+    }
+}
+
 /// Operations by the counting rule: sign changes and factors of one are free.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cost {

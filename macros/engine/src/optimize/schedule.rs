@@ -5,7 +5,7 @@
 //! with a positive term where it can. Statements come in the order in which results need them, which keeps few values
 //! alive.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use crate::symbolic::fingerprint::Print;
 use crate::symbolic::graph::Call;
@@ -43,6 +43,9 @@ struct Scheduler<'a> {
     /// How a node is written where it is used, and its number of operands.
     written: Vec<Option<(Expression, usize)>>,
     angles: HashMap<Id, (Local, Local)>,
+    /// Angles whose sine or cosine is used.
+    sines: HashSet<Id>,
+    cosines: HashSet<Id>,
     hints: Vec<Option<String>>,
     names: Names,
     program: Program,
@@ -58,6 +61,8 @@ impl<'a> Scheduler<'a> {
             flipped: vec![false; dag.nodes.len()],
             written: vec![None; dag.nodes.len()],
             angles: HashMap::new(),
+            sines: of_kind(dag, &order, |kind| if let Kind::Sin(x) = kind { Some(*x) } else { None }),
+            cosines: of_kind(dag, &order, |kind| if let Kind::Cos(x) = kind { Some(*x) } else { None }),
             hints: dag.hints(),
             names: Names::default(),
             program: Program::default(),
@@ -112,10 +117,19 @@ impl<'a> Scheduler<'a> {
         self.written[id] = Some(if alone {
             (expression, size)
         } else {
-            let local = self.local(self.hints[id].clone().unwrap_or_else(|| "value".to_owned()));
+            let local = self.local(self.name_of(id));
             self.program.statements.push(Statement::Let { local, value: expression });
             (Expression::Local(local), 1)
         });
+    }
+
+    /// A value's own name, or that it is a part of a named one.
+    fn name_of(&self, id: Id) -> String {
+        match (&self.dag.nodes[id].name, &self.hints[id]) {
+            (Some(name), _) => name.clone(),
+            (None, Some(hint)) => format!("{hint}_part"),
+            (None, None) => "value".to_owned(),
+        }
     }
 
     fn local(&mut self, name: String) -> Local {
@@ -132,11 +146,7 @@ impl<'a> Scheduler<'a> {
             Kind::Symbol(id) => self.dag.symbol_name(id),
             _ => self.hints[angle].clone().unwrap_or_else(|| "angle".to_owned()),
         };
-        let (mut sin, mut cos) = (false, false);
-        for (id, node) in self.dag.nodes.iter().enumerate() {
-            sin |= node.kind == Kind::Sin(angle) && self.uses[id] > 0;
-            cos |= node.kind == Kind::Cos(angle) && self.uses[id] > 0;
-        }
+        let (sin, cos) = (self.sines.contains(&angle), self.cosines.contains(&angle));
         let prefix = |used: bool, f: &str| format!("{}{f}_{name}", if used { "" } else { "_" });
         let locals = (self.local(prefix(sin, "sin")), self.local(prefix(cos, "cos")));
         self.program.statements.push(Statement::SinCos { sin: locals.0, cos: locals.1, angle: expression });
@@ -228,6 +238,10 @@ impl<'a> Scheduler<'a> {
         }
         (product, size)
     }
+}
+
+fn of_kind(dag: &Dag, order: &[Id], f: impl Fn(&Kind) -> Option<Id>) -> HashSet<Id> {
+    order.iter().filter_map(|&id| f(&dag.nodes[id].kind)).collect()
 }
 
 fn negated(expression: Expression) -> Expression {

@@ -256,7 +256,13 @@ pub fn call_f64(call: Call, x: &[f64]) -> f64 {
         (Call::Powf, [a, b]) => a.powf(*b),
         (Call::Sqrt, [a]) => a.sqrt(),
         (Call::Abs, [a]) => a.abs(),
-        (Call::Signum, [a]) => a.signum(),
+        (Call::Signum, [a]) => {
+            if *a == 0.0 {
+                *a
+            } else {
+                a.signum()
+            }
+        }
         (Call::Min, [a, b]) => {
             if a.is_nan() || a < b {
                 *a

@@ -170,7 +170,8 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
 
 fn quick_two_sum(a: f64, b: f64) -> (f64, f64) {
     let s = a + b;
-    (s, b - (s - a))
+    // Beyond the range there are no further digits, and infinity minus itself is no number.
+    if s.is_finite() { (s, b - (s - a)) } else { (if a.is_finite() { s } else { a }, 0.0) }
 }
 
 #[cfg(test)]

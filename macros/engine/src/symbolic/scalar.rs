@@ -5,6 +5,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use super::evaluate::call_f64;
 use super::fingerprint::{Print, mix, reconstruct};
 use super::graph::{Call, Graph, Scalar, ScalarNode, SymbolId, Vector, VectorNode};
 use super::number::Number;
@@ -282,7 +283,7 @@ impl Graph {
         if n < 0 { self.reciprocal(result) } else { result }
     }
 
-    /// Any other function. Literal arguments are not folded: the runtime's own function decides.
+    /// Any other function.
     pub fn call(&mut self, call: Call, arguments: &[Scalar]) -> Scalar {
         let mut arguments = arguments.to_vec();
         let mut sign = false;
@@ -308,6 +309,9 @@ impl Graph {
             (Call::Select, [_, a, b]) if a == b => return *a,
             _ => {}
         }
+        if let Some(folded) = self.fold_call(call, &arguments) {
+            return folded.flip_if(sign);
+        }
         let prints: Vec<Print> = arguments.iter().map(|&a| self.print(a)).collect();
         let print = Print::opaque(0xCA_0000 + call as u64, &prints);
         let found = match self.find(print) {
@@ -315,6 +319,28 @@ impl Graph {
             None => self.insert_scalar(ScalarNode::Call(call, arguments.into()), print),
         };
         found.flip_if(sign)
+    }
+
+    /// A function of literals is a literal; a choice by a condition of literals is made.
+    fn fold_call(&mut self, call: Call, arguments: &[Scalar]) -> Option<Scalar> {
+        if let (Call::Select, &[mask, a, b]) = (call, arguments) {
+            let ScalarNode::Call(condition, inner) = self.node(mask) else { return None };
+            let (Call::Less | Call::LessEqual | Call::Equal, [x, y]) = (condition, &inner[..]) else { return None };
+            let values = [self.literal(*x)?.value(), self.literal(*y)?.value()];
+            return Some(if call_f64(*condition, &values) != 0.0 { a } else { b });
+        }
+        if matches!(call, Call::Less | Call::LessEqual | Call::Equal | Call::And | Call::Or | Call::Not) {
+            return None;
+        }
+        let values: Option<Vec<f64>> = arguments.iter().map(|&a| self.literal(a).map(Number::value)).collect();
+        let value = call_f64(call, &values?);
+        let prints: Vec<Print> = arguments.iter().map(|&a| self.print(a)).collect();
+        // Whole results (exp(0), max(1, 2)) are exact; others are known to double precision.
+        let exact = Number::decimal(value);
+        let residue = Print::opaque(0xCA_0000 + call as u64, &prints).0[0];
+        let known = matches!(call, Call::Min | Call::Max | Call::Abs | Call::Signum)
+            || (value == value.round() && value.abs() < 1e6);
+        value.is_finite().then(|| self.number(if known { exact } else { Number::transcendental(value, residue) }))
     }
 
     /// x, y or z of a vector.

@@ -141,12 +141,8 @@ fn quarters(n: Number) -> Option<i64> {
 fn unit_point(print: Print, factor: Number) -> Point {
     let key = print.canonical();
     let sign = if key == print { 1 } else { -1 };
-    let draw = |print: Print| {
-        Point::from_tangent(Print([
-            field::reduce(mix(print.0[0] ^ 0xA9_61E5)),
-            field::reduce(mix(print.0[1] ^ 0x1E5_A961)),
-        ]))
-    };
+    // The same mixing in both draws: a literal, whose draws agree, is a literal point.
+    let draw = |print: Print| Point::from_tangent(Print(print.0.map(|lane| field::reduce(mix(lane ^ 0xA9_61E5)))));
     match reconstruct(factor.residue) {
         Some((n, d)) if PARTS % d == 0 && n.abs() < 1 << 20 => draw(key).times(sign * n * (PARTS / d)),
         // An irrational or odd fraction of a unit is a unit of its own.

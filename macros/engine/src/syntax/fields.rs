@@ -34,7 +34,8 @@ fn named(group: &Group) -> bool {
     let mut tokens = group.stream().into_iter();
     let name = tokens.next();
     let colon = tokens.next();
-    matches!(name, Some(TokenTree::Ident(_))) && matches!(colon, Some(TokenTree::Punct(punct)) if punct.as_char() == ':')
+    matches!(name, Some(TokenTree::Ident(_)))
+        && matches!(colon, Some(TokenTree::Punct(punct)) if punct.as_char() == ':')
 }
 
 /// Fields of an item whose braces are unreadable or missing; goes on behind them.

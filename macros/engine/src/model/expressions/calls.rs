@@ -173,7 +173,8 @@ impl<'a> Checker<'a, '_> {
         let text = method.to_string();
         let known = FUNCTIONS.iter().any(|(known, ..)| *known == text);
         if known {
-            let all: Vec<String> = std::iter::once(receiver).chain(arguments.iter().copied()).map(source_text).collect();
+            let all: Vec<String> =
+                std::iter::once(receiver).chain(arguments.iter().copied()).map(source_text).collect();
             self.report.help(
                 method.span(),
                 format!("`{text}` is a function, not a method"),
