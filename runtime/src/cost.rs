@@ -5,8 +5,8 @@ use core::fmt;
 /// Operation counts of one generated function.
 ///
 /// An addition or subtraction is one `add`, a product one `mul`, a quotient one `div`, a square root one `sqrt`, sine
-/// and cosine of one angle together one `sincos`; sign changes and factors of one are free. What is left (minimum,
-/// maximum, selection, other functions) is in `other`.
+/// and cosine of one angle together one `sincos`; sign changes and factors of one are free. A minimum, a maximum and a
+/// selection count as one `add` each; comparisons and other functions are in `other`.
 ///
 /// ```
 /// use multibody::Cost;
@@ -20,7 +20,7 @@ use core::fmt;
 pub struct Cost {
     /// Name of the function.
     pub function: &'static str,
-    /// Additions and subtractions.
+    /// Additions and subtractions, with `min`, `max` and `select`.
     pub add: u32,
     /// Products.
     pub mul: u32,

@@ -381,22 +381,22 @@ pub mod cart_pole {
         #[must_use]
         pub fn new(params: &Params<T>) -> Self {
             let mass_track = params.mp + params.mc;
-            let second_hinge_yy = params.mp * params.l;
-            let second_hinge_yy_v2 = params.l * second_hinge_yy;
-            let inverse_2 = T::lit(1.0) / second_hinge_yy_v2;
-            let value = second_hinge_yy * inverse_2;
+            let second_hinge_yy_part = params.mp * params.l;
+            let second_hinge_yy = params.l * second_hinge_yy_part;
+            let inverse_2 = T::lit(1.0) / second_hinge_yy;
+            let value = second_hinge_yy_part * inverse_2;
             Self {
                 pivot_1_factor: T::lit(0.75) * params.mp,
                 mass_track,
-                acceleration_2_factor: second_hinge_yy * params.g,
+                acceleration_2_factor: second_hinge_yy_part * params.g,
                 acceleration_1_factor: T::lit(0.75) * value,
-                acceleration_1_factor_v2: T::lit(0.5) * second_hinge_yy,
+                acceleration_1_factor_v2: T::lit(0.5) * second_hinge_yy_part,
                 acceleration_2_factor_v2: T::lit(1.5) * inverse_2,
                 acceleration_2_factor_v3: T::lit(1.5) * value,
                 g: params.g,
-                n_hinge_z_factor: T::lit(0.3333333333333333) * second_hinge_yy_v2,
-                second_hinge_yy_factor: second_hinge_yy,
-                second_hinge_yy: second_hinge_yy_v2,
+                n_hinge_z_factor: T::lit(0.3333333333333333) * second_hinge_yy,
+                second_hinge_yy_factor: second_hinge_yy_part,
+                second_hinge_yy,
                 l: params.l,
             }
         }
@@ -416,16 +416,16 @@ pub mod cart_pole {
             let v = &state.v;
             let (sin_hinge, cos_hinge) = Real::sin_cos(q.hinge);
             let pivot_1 = self.mass_track - cos_hinge * cos_hinge * self.pivot_1_factor;
-            let acceleration_2_v3 = sin_hinge * self.acceleration_2_factor;
+            let acceleration_2_part_v3 = sin_hinge * self.acceleration_2_factor;
             let acceleration_1 = (input.push
-                + cos_hinge * acceleration_2_v3 * self.acceleration_1_factor
+                + cos_hinge * acceleration_2_part_v3 * self.acceleration_1_factor
                 - v.hinge * v.hinge * sin_hinge * self.acceleration_1_factor_v2)
                 / pivot_1;
-            let acceleration_2_v4 = acceleration_2_v3 * self.acceleration_2_factor_v2
+            let acceleration_2 = acceleration_2_part_v3 * self.acceleration_2_factor_v2
                 + cos_hinge * acceleration_1 * self.acceleration_2_factor_v3;
             Velocity {
                 track: acceleration_1,
-                hinge: acceleration_2_v4,
+                hinge: acceleration_2,
             }
         }
         /// Efforts that the accelerations `accel` need beside all declared forces.

@@ -363,15 +363,15 @@ pub mod free_body {
         #[must_use]
         pub fn new(params: &Params<T>) -> Self {
             let inverse_4 = T::lit(1.0) / params.i[0];
-            let second_free_xx = params.i[0] + params.i[1] + params.i[2];
-            let second_free_yy = params.i[1] - T::lit(0.5) * second_free_xx;
-            let second_free_zz = params.i[2] - T::lit(0.5) * second_free_xx;
+            let second_free_xx_part = params.i[0] + params.i[1] + params.i[2];
+            let second_free_yy = params.i[1] - T::lit(0.5) * second_free_xx_part;
+            let second_free_zz = params.i[2] - T::lit(0.5) * second_free_xx_part;
             let value = second_free_yy - second_free_zz;
             let inverse_5 = T::lit(1.0) / params.i[1];
-            let second_free_xx_v2 = params.i[0] - T::lit(0.5) * second_free_xx;
-            let value_v2 = second_free_zz - second_free_xx_v2;
+            let second_free_xx = params.i[0] - T::lit(0.5) * second_free_xx_part;
+            let value_v2 = second_free_zz - second_free_xx;
             let inverse_6 = T::lit(1.0) / params.i[2];
-            let value_v3 = second_free_xx_v2 - second_free_yy;
+            let value_v3 = second_free_xx - second_free_yy;
             Self {
                 constant: inverse_4 * value,
                 constant_v2: inverse_5 * value_v2,
@@ -379,7 +379,7 @@ pub mod free_body {
                 m: params.m,
                 second_free_yy,
                 second_free_zz,
-                second_free_xx: second_free_xx_v2,
+                second_free_xx,
                 i_0: params.i[0],
                 i_1: params.i[1],
                 i_2: params.i[2],
@@ -430,15 +430,15 @@ pub mod free_body {
             accel: &Velocity<T>,
         ) -> Velocity<T> {
             let v = &state.v;
-            let u_free_yz = v.free.angular.y * v.free.angular.z;
-            let u_free_zy = accel.free.angular.x + u_free_yz;
-            let u_free_yz_v2 = accel.free.angular.x - u_free_yz;
-            let u_free_zx = v.free.angular.x * v.free.angular.z;
-            let u_free_xz = accel.free.angular.y + u_free_zx;
-            let u_free_zx_v2 = accel.free.angular.y - u_free_zx;
-            let u_free_xy = v.free.angular.x * v.free.angular.y;
-            let u_free_yx = accel.free.angular.z + u_free_xy;
-            let u_free_xy_v2 = accel.free.angular.z - u_free_xy;
+            let u_free_yz_part = v.free.angular.y * v.free.angular.z;
+            let u_free_zy = accel.free.angular.x + u_free_yz_part;
+            let u_free_yz = accel.free.angular.x - u_free_yz_part;
+            let u_free_zx_part = v.free.angular.x * v.free.angular.z;
+            let u_free_xz = accel.free.angular.y + u_free_zx_part;
+            let u_free_zx = accel.free.angular.y - u_free_zx_part;
+            let u_free_xy_part = v.free.angular.x * v.free.angular.y;
+            let u_free_yx = accel.free.angular.z + u_free_xy_part;
+            let u_free_xy = accel.free.angular.z - u_free_xy_part;
             Velocity {
                 free: ::multibody::Twist {
                     linear: ::multibody::nalgebra::Vector3::from([
@@ -448,11 +448,11 @@ pub mod free_body {
                     ]),
                     angular: ::multibody::nalgebra::Vector3::from([
                         -(self.second_free_yy * u_free_zy
-                            + self.second_free_zz * u_free_yz_v2),
+                            + self.second_free_zz * u_free_yz),
                         -(self.second_free_zz * u_free_xz
-                            + self.second_free_xx * u_free_zx_v2),
+                            + self.second_free_xx * u_free_zx),
                         -(self.second_free_xx * u_free_yx
-                            + self.second_free_yy * u_free_xy_v2),
+                            + self.second_free_yy * u_free_xy),
                     ]),
                 },
             }

@@ -290,15 +290,15 @@ pub mod pendulum {
         /// Operations: 6 mul, 1 div.
         #[must_use]
         pub fn new(params: &Params<T>) -> Self {
-            let second_hinge_yy = params.m * params.l;
-            let second_hinge_yy_v2 = params.l * second_hinge_yy;
-            let inverse_1 = T::lit(1.0) / second_hinge_yy_v2;
-            let value = params.g * second_hinge_yy;
+            let second_hinge_yy_part = params.m * params.l;
+            let second_hinge_yy = params.l * second_hinge_yy_part;
+            let inverse_1 = T::lit(1.0) / second_hinge_yy;
+            let value = params.g * second_hinge_yy_part;
             Self {
                 constant: inverse_1 * value,
                 n_hinge_z_factor: T::lit(0.5) * value,
-                n_hinge_z_factor_v2: T::lit(0.3333333333333333) * second_hinge_yy_v2,
-                second_hinge_yy: second_hinge_yy_v2,
+                n_hinge_z_factor_v2: T::lit(0.3333333333333333) * second_hinge_yy,
+                second_hinge_yy,
                 n_hinge_z_factor_v3: value,
             }
         }

@@ -28,14 +28,15 @@ pub fn expand(tokens: TokenStream) -> TokenStream {
     }
     let mut output = TokenStream::new();
     for model in &models {
-        match optimize::compile(&mechanics::derive(model)) {
+        match compile(model) {
             Ok(compiled) => output.extend(emit::emit(model, &compiled)),
             Err(optimize::Refusal::TooLarge) => diagnostics.error_help(
                 model.name.span(),
                 format!("the equations of `{}` are too large", model.name),
                 format!(
-                    "a function may have {} operations before optimisation; ask for less in `emit` (a mass matrix grows \
-                     with the square of the coordinates), or declare fewer bodies",
+                    "a model may have {} coordinates and a function {} operations before optimisation; ask for less in \
+                     `emit` (a mass matrix grows with the square of the coordinates), or declare fewer bodies",
+                    mechanics::MOST_FREEDOMS,
                     optimize::MOST_OPERATIONS
                 ),
             ),
@@ -52,4 +53,12 @@ pub fn expand(tokens: TokenStream) -> TokenStream {
     let mut errors = diagnostics.to_tokens();
     errors.extend(emit::skeletons(&source));
     errors
+}
+
+/// The stages behind the checked model.
+fn compile(model: &model::types::Model) -> Result<optimize::program::Compiled, optimize::Refusal> {
+    if mechanics::freedoms(model) > mechanics::MOST_FREEDOMS {
+        return Err(optimize::Refusal::TooLarge);
+    }
+    optimize::compile(&mechanics::derive(model))
 }

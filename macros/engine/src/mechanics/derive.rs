@@ -53,6 +53,9 @@ const METHODS: [(Method, Names); 2] = [
     ),
 ];
 
+/// Most coordinates of one model: a bound on the time that a derivation takes.
+pub const MOST_FREEDOMS: usize = 500;
+
 /// Beyond this many coordinates a factorisation, whose cost grows with their cube, is no candidate.
 const MOST_COMPOSITE: usize = 32;
 
@@ -217,7 +220,8 @@ fn floats(model: &Model) -> bool {
     model.joints.iter().any(|joint| floating(joint) && joint.parent.body == BodyRef::Ground)
 }
 
-fn freedoms(model: &Model) -> usize {
+/// Number of velocity coordinates.
+pub fn freedoms(model: &Model) -> usize {
     model.joints.iter().map(|joint| joint.kind.freedoms()).sum()
 }
 

@@ -35,7 +35,7 @@ mod values;
 mod velocities;
 mod world;
 
-pub use derive::derive;
+pub use derive::{MOST_FREEDOMS, derive, freedoms};
 
 use crate::optimize::program::{FunctionKind, Symbol};
 use crate::symbolic::graph::{Graph, Scalar};

@@ -141,7 +141,8 @@ impl Program {
     }
 }
 
-/// Operations by the counting rule: sign changes and factors of one are free.
+/// Operations by the counting rule: sign changes and factors of one are free; `min`, `max` and a selection count as
+/// additions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cost {
     pub add: u32,
@@ -149,7 +150,7 @@ pub struct Cost {
     pub div: u32,
     pub sqrt: u32,
     pub sincos: u32,
-    /// Any other function, comparison or selection.
+    /// Any other function or comparison.
     pub other: u32,
 }
 
