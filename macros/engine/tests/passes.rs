@@ -279,7 +279,7 @@ const STAGES: [Symbol; SYMBOLS] = [
     Symbol::Input { input: InputId(0), element: 0 },
 ];
 
-/// Whether a quotient by nothing is left, which has no value that a pass could keep.
+/// Whether a quotient by nothing is left: `compile` refuses it, and there is no value that a pass could keep.
 fn divides_by_zero(derivation: &Derivation) -> bool {
     let (Reference { graph, roots }, _) = lower(derivation, &derivation.functions[0].candidates[0].1);
     let nothing = |index| matches!(graph.node(graph.scalar_at(index)), ScalarNode::Reciprocal(x) if *x == Scalar::ZERO);
