@@ -293,6 +293,19 @@ fn sixty_four_kilobytes() {
     within_a_minute("chain", &filled("mod m { world { gravity: -9.81 * Z }", chain, "}"));
     within_a_minute("params", &filled("mod m {", |k| format!("param p{k} = 1.0;"), "}"));
     within_a_minute("sum", &filled("mod m { output a = 0.0", |k| format!(" + sin({k}.0 * t)"), "; }"));
+    let hinge = "mod m { body b { mass: 1.0, com: X, inertia: diag(1.0, 1.0, 1.0) }
+                  joint j: Revolute { parent: ground, child: b, axis: Z }";
+    within_a_minute("sines", &filled(hinge, |k| format!("output o{k} = sin(j.angle + {k}.5);"), "}"));
+    let fan = |count: usize| {
+        format!(
+            "mod arm {{ port base: Frame; body b {{ mass: 1.0, com: X, inertia: diag(1.0, 1.0, 1.0) }}
+             joint j: Revolute {{ parent: base, child: b, axis: Z }} }}
+             mod m {{ part arms: [arm; {count}] = |i| arm {{ base: ground }};
+             emit forward_dynamics, inverse_dynamics, mass_matrix, bias, energy; }}"
+        )
+    };
+    within_a_minute("fan", &fan(200));
+    within_a_minute("wide fan", &fan(3000));
     within_a_minute("nest", &format!("mod m {{ output a = {}1.0{}; }}", "(".repeat(30_000), ")".repeat(30_000)));
     within_a_minute("minus", &filled("mod m { output a = ", |_| "-".to_owned(), "1.0; }"));
     within_a_minute(
