@@ -54,7 +54,7 @@ const METHODS: [(Method, Names); 2] = [
 ];
 
 /// Most coordinates of one model: a bound on the time that a derivation takes.
-pub const MOST_FREEDOMS: usize = 500;
+pub const MOST_FREEDOMS: usize = 200;
 
 /// Beyond this many coordinates a factorisation, whose cost grows with their cube, is no candidate.
 const MOST_COMPOSITE: usize = 32;

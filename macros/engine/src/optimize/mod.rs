@@ -36,6 +36,9 @@ pub enum Refusal {
 
 /// Optimises every candidate, takes the cheapest of each function, and moves parameter work into `Model::new`.
 pub fn compile(derivation: &Derivation) -> Result<Compiled, Refusal> {
+    if derivation.graph.is_full() {
+        return Err(Refusal::TooLarge);
+    }
     let mut sound = true;
     let mut chosen: Vec<(FunctionKind, &'static str, Cost, Dag)> = Vec::new();
     for function in &derivation.functions {
@@ -43,7 +46,7 @@ pub fn compile(derivation: &Derivation) -> Result<Compiled, Refusal> {
         for (method, results) in &function.candidates {
             let mut lowering = Lowering::new(&derivation.graph);
             let roots = lowering.run(results);
-            if derivation.graph.is_full() || lowering.to.len() > MOST_OPERATIONS {
+            if lowering.to.len() > MOST_OPERATIONS {
                 return Err(Refusal::TooLarge);
             }
             let before = lowering.to.cost(&roots);
