@@ -9,6 +9,7 @@ pub mod emit;
 pub mod mechanics;
 pub mod model;
 pub mod optimize;
+mod rust_keywords;
 pub mod symbolic;
 pub mod syntax;
 

@@ -10,13 +10,7 @@ use std::collections::HashSet;
 use proc_macro2::{Ident, Span};
 use syn::ext::IdentExt;
 
-/// Strict and reserved keywords of edition 2024, and names that our own code uses in the same place.
-const KEYWORDS: &[&str] = &[
-    "Self", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn",
-    "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro",
-    "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static", "struct", "super",
-    "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
-];
+use crate::rust_keywords::is_keyword;
 
 /// An identifier for generated code; what can't be one is mended.
 pub(super) fn ident(name: &str) -> Ident {
@@ -54,7 +48,7 @@ pub(super) fn unique<'a>(names: impl IntoIterator<Item = &'a str>, reserved: &[&
 
 /// `name` itself where it is an identifier, else the nearest one.
 fn valid(name: &str) -> String {
-    if KEYWORDS.contains(&name) {
+    if name != "_" && is_keyword(name) {
         return format!("{name}_");
     }
     let start = |c: char| c == '_' || c.is_ascii_alphabetic();

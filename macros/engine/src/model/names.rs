@@ -2,6 +2,8 @@
 //!
 //! In: names. Out: whether a user may have them, and why not.
 
+use crate::rust_keywords::is_keyword;
+
 use super::types::{Function, JointKind, Orientation};
 
 /// Constants, the world frame, and time: values that every expression may name.
@@ -49,13 +51,6 @@ const GENERATED: [&str; 11] =
 const IN_SCOPE: [&str; 14] =
     ["T", "F", "A", "Real", "Default", "From", "FnMut", "Clone", "Copy", "Debug", "PartialEq", "Result", "Ok", "Err"];
 
-const KEYWORDS: [&str; 53] = [
-    "as", "break", "const", "continue", "crate", "else", "enum", "extern", "false", "fn", "for", "if", "impl", "in",
-    "let", "loop", "match", "mod", "move", "mut", "pub", "ref", "return", "self", "Self", "static", "struct", "super",
-    "trait", "true", "type", "unsafe", "use", "where", "while", "async", "await", "dyn", "abstract", "become", "box",
-    "do", "final", "macro", "override", "priv", "typeof", "unsized", "virtual", "yield", "try", "gen", "_",
-];
-
 /// Why an item can't have this name.
 pub(super) fn refusal(name: &str) -> Option<String> {
     if VALUES.contains(&name) {
@@ -64,7 +59,7 @@ pub(super) fn refusal(name: &str) -> Option<String> {
     if FUNCTIONS.iter().any(|(function, ..)| *function == name) || SPECIAL_FUNCTIONS.contains(&name) {
         return Some(format!("`{name}` is a function of the language"));
     }
-    if KEYWORDS.contains(&name) {
+    if is_keyword(name) {
         return Some(format!("`{name}` is a keyword of Rust"));
     }
     if TYPES.contains(&name) {
@@ -81,7 +76,7 @@ pub(super) fn module_refusal(name: &str) -> Option<String> {
     if IN_SCOPE.contains(&name) {
         return Some(format!("generated code needs the name `{name}`"));
     }
-    if KEYWORDS.contains(&name) {
+    if is_keyword(name) {
         return Some(format!("`{name}` is a keyword of Rust"));
     }
     None

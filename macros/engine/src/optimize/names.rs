@@ -5,33 +5,39 @@
 
 use std::collections::HashMap;
 
+use crate::rust_keywords::is_keyword;
+
 /// Names given so far.
 #[derive(Default)]
 pub struct Names {
     used: HashMap<String, u32>,
 }
 
-const RESERVED: &[&str] = &[
-    "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn", "else", "enum",
-    "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro", "match", "mod", "move",
-    "mut", "override", "priv", "pub", "ref", "return", "self", "static", "struct", "super", "trait", "true", "try",
-    "type", "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield", "t", "state", "input", "accel",
-    "q", "params", "abstract",
-];
+/// What generated functions call their arguments.
+const RESERVED: &[&str] = &["t", "state", "input", "accel", "q", "v", "params"];
 
 impl Names {
     /// The hint itself if it is free, else with a number.
     pub fn unique(&mut self, hint: &str) -> String {
         let base = identifier(hint);
-        let count = self.used.entry(base.clone()).or_insert(0);
-        *count += 1;
-        let number = *count;
-        if number == 1 && !RESERVED.contains(&base.as_str()) {
-            return base;
+        let reserved = RESERVED.contains(&base.as_str()) || is_keyword(&base);
+        loop {
+            let count = self.used.entry(base.clone()).or_insert(0);
+            *count += 1;
+            let number = *count;
+            if number == 1 {
+                if !reserved {
+                    return base;
+                }
+                continue;
+            }
+            // A hint may look like a numbered name.
+            let name = format!("{base}_v{number}");
+            if !self.used.contains_key(&name) {
+                self.used.insert(name.clone(), 1);
+                return name;
+            }
         }
-        let name = format!("{base}_v{number}");
-        self.used.entry(name.clone()).or_insert(1);
-        name
     }
 }
 
@@ -48,4 +54,18 @@ fn identifier(hint: &str) -> String {
         name.insert(0, 'v');
     }
     name
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_never_meet() {
+        let mut names = Names::default();
+        let hints = ["x_v2", "x", "x", "x", "type", "q", "x_v3", "X", ""];
+        let given: std::collections::HashSet<String> = hints.iter().map(|hint| names.unique(hint)).collect();
+        assert_eq!(given.len(), hints.len());
+        assert!(given.iter().all(|name| !is_keyword(name) && !RESERVED.contains(&name.as_str())));
+    }
 }
