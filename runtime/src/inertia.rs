@@ -37,7 +37,7 @@ impl core::error::Error for ParamError {}
 pub fn inertia_violation<T: Real>(xx: T, yy: T, zz: T, xy: T, xz: T, yz: T) -> T::Mask {
     let zero = T::lit(0.0);
     let trace = xx + yy + zz;
-    let tolerance = Real::max(T::lit(1e-9), T::lit(16.0) * T::simd_default_epsilon());
+    let tolerance = Real::max(T::lit(1e-9), T::lit(16.0) * T::epsilon());
     // The least positive number keeps the pivots of an inertia of zero from dividing zero by zero.
     let half = T::lit(0.5) * trace + tolerance * trace + T::lit(f64::from(f32::MIN_POSITIVE));
     let (a, b, c) = (half - xx, half - yy, half - zz);

@@ -38,6 +38,9 @@
 //! - [`Real`]: the scalar that generated code is generic over: `f32`, `f64`, lanes of them, dual numbers.
 //! - [`coordinates`]: the coordinates of joints that have several, [`Pose`], [`Twist`] and [`Wrench`].
 //! - [`rotation`]: unit quaternions that stay of unit length.
+//! - [`Constrained`]: a model whose coordinates obey equations; [`assemble`] closes its loops, and [`projection`] keeps
+//!   them closed.
+//! - [`linear`]: small linear systems, with their rank and without a branch.
 //!
 //! # Conventions
 //! Right-handed axes, SI units, radians; rotations map child to parent components. Velocities belong to coordinates:
@@ -61,6 +64,7 @@
 extern crate self as multibody;
 
 mod configuration;
+mod constrained;
 pub mod coordinates;
 mod cost;
 #[doc = include_str!("../docs/generated.md")]
@@ -69,19 +73,23 @@ mod inertia;
 pub mod integrators;
 #[doc = include_str!("../docs/language.md")]
 pub mod language {}
+pub mod linear;
+pub mod projection;
 pub mod rotation;
 mod scalar;
 mod system;
 mod tangent;
 
 pub use configuration::Configuration;
+pub use constrained::{Constrained, Kinematics};
 pub use coordinates::{Cylindrical, FreeRollPitchYaw, Planar, Pose, RollPitchYaw, Twist, Universal, Wrench};
 pub use cost::Cost;
 pub use inertia::{ParamError, inertia_violation};
 pub use integrators::{Adaptive, DormandPrince, Euler, IntegrationError, Method, Rk4, SemiImplicitEuler, Statistics};
 pub use multibody_macros::multibody;
 pub use nalgebra;
+pub use projection::{Assembled, AssemblyError, Projected, Projection, ProjectionError, WithProjection, assemble};
 pub use scalar::{Real, all, any};
 pub use simba;
-pub use system::{ExtraOf, StateSpace, System, VelocityOf};
+pub use system::{ExtraOf, PositionOf, StateSpace, System, VelocityOf};
 pub use tangent::Tangent;

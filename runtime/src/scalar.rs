@@ -41,6 +41,12 @@ pub trait Real: SimdRealField<Element: RealField + Copy> + Copy {
     /// A literal, rounded to this scalar's precision and repeated in every lane.
     fn lit(value: f64) -> Self;
 
+    /// The distance from one to the next greater number: 2.2e-16 in double, 1.2e-7 in single precision.
+    #[inline]
+    fn epsilon() -> Self {
+        Self::simd_default_epsilon()
+    }
+
     /// Sine and cosine of one angle in radians, reduced correctly for every finite argument.
     fn sin_cos(self) -> (Self, Self);
     /// Tangent of an angle in radians.

@@ -27,6 +27,9 @@ pub trait StateSpace: Copy {
     fn join(&self, q: Self::Position, v: Self::Velocity, x: Self::Extra) -> Self;
 }
 
+/// The position type of a system.
+pub type PositionOf<S> = <<S as System>::State as StateSpace>::Position;
+
 /// The velocity type of a system.
 pub type VelocityOf<S> = <<S as System>::State as StateSpace>::Velocity;
 

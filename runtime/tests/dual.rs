@@ -129,3 +129,47 @@ fn a_body_at_rest() {
     let q: UnitQuaternion<Dual64> = end.q.orientation;
     assert_eq!(Configuration::magnitude(&q).x.re, 1.0);
 }
+
+#[test]
+fn linear_systems() {
+    use multibody::linear::{least_norm, solve, solve_symmetric};
+    use multibody::nalgebra::{SMatrix, SVector};
+
+    let entry = |i: usize, j: usize, x: f64| (x + 1.3 * (i * 3 + j) as f64).sin() + if i == j { 2.0 } else { 0.0 };
+    let plain = |x: f64| -> [[f64; 3]; 3] { core::array::from_fn(|i| core::array::from_fn(|j| entry(i, j, x))) };
+    let dual = |x: f64| -> [[Dual64; 3]; 3] {
+        core::array::from_fn(|i| {
+            core::array::from_fn(|j| Dual64::new(entry(i, j, x), (x + 1.3 * (i * 3 + j) as f64).cos()))
+        })
+    };
+    let product = |a: [[f64; 3]; 3]| a.map(|r| a.map(|s| r.iter().zip(s).map(|(x, y)| x * y).sum::<f64>()));
+    let product_of_duals =
+        |a: [[Dual64; 3]; 3]| a.map(|r| a.map(|s| r.iter().zip(s).fold(Dual64::lit(0.0), |sum, (&x, y)| sum + x * y)));
+    let b = [1.0, -2.0, 0.5];
+    for x in [0.0, 0.4, 1.1] {
+        let (general, _) = solve(dual(x), b.map(Dual64::lit));
+        let (symmetric, rank) = solve_symmetric(product_of_duals(dual(x)), b.map(Dual64::lit));
+        assert_eq!((rank.re, rank.eps), (3.0, 0.0));
+        let g = |a: [[Dual64; 3]; 3]| SMatrix::<Dual64, 2, 3>::from_fn(|i, j| a[i][j]);
+        let (least, _) = least_norm(
+            &g(dual(x)),
+            &SVector::from([1.0, 2.0].map(Dual64::lit)),
+            &SVector::from([1.0; 3].map(Dual64::lit)),
+        );
+        for i in 0..3 {
+            let want = difference(|x| solve(plain(x), b).0[i], x);
+            assert!((general[i].eps - want).abs() < 1e-6 * (1.0 + want.abs()), "{} {want}", general[i].eps);
+            let want = difference(|x| solve_symmetric(product(plain(x)), b).0[i], x);
+            assert!((symmetric[i].eps - want).abs() < 1e-6 * (1.0 + want.abs()), "{} {want}", symmetric[i].eps);
+            let want = difference(
+                |x| {
+                    let a = plain(x);
+                    let g = SMatrix::<f64, 2, 3>::from_fn(|i, j| a[i][j]);
+                    least_norm(&g, &SVector::from([1.0, 2.0]), &SVector::from([1.0; 3])).0[i]
+                },
+                x,
+            );
+            assert!((least[i].eps - want).abs() < 1e-6 * (1.0 + want.abs()), "{} {want}", least[i].eps);
+        }
+    }
+}

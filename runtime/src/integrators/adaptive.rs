@@ -7,7 +7,7 @@
 use super::dormand_prince::Stages;
 use super::error::IntegrationError;
 use super::slope::{SlopeOf, displaced, is_finite, magnitude, rate_of_displacement, slope};
-use crate::{Real, System, Tangent, any};
+use crate::{Real, StateSpace, System, Tangent, any};
 
 /// Weight of the integral part, `beta` in `dopri5`.
 const INTEGRAL: f64 = 0.04;
@@ -261,9 +261,13 @@ impl<'a, S: System> Run<'a, S> {
                 length = Real::min(length, step.abs());
             }
             self.memory = Real::max(error, 1e-4);
-            self.t = target;
             self.state = self.system.accepted(S::Scalar::lit(target), &next, self.input);
-            self.slope = slope;
+            if !is_finite(&magnitude(&self.state)) {
+                return Err(IntegrationError::NonFinite { time: self.t });
+            }
+            self.t = target;
+            let (_, velocity, _) = self.state.split(); // a projection has changed it
+            self.slope = SlopeOf::<S> { q: velocity, ..slope };
             self.step = Real::min(length, self.settings.max_step).copysign(step);
             self.after_rejection = false;
             self.statistics.accepted += 1;

@@ -1,6 +1,8 @@
 //! Systems written by hand, as generated code would be: an oscillator, a pendulum, a free rigid body, a motor.
 #![allow(dead_code)] // every test file uses some of them
 
+pub(crate) mod loops;
+
 use core::cell::Cell;
 use multibody::nalgebra::{UnitQuaternion, Vector3};
 use multibody::{Configuration, Pose, Real, StateSpace, System, Tangent, Twist};

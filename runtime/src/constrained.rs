@@ -1,0 +1,122 @@
+//! What projection and assembly see of a model whose coordinates obey equations: [`Constrained`], and what
+//! `emit kinematics` gives: [`Kinematics`].
+
+use crate::{PositionOf, System, Tangent, VelocityOf};
+use nalgebra::SVector;
+
+/// A system whose position has to satisfy `Phi(t, q) = 0`, and its velocity `G v + dPhi/dt = 0` with `G = dPhi/dq`.
+///
+/// Generated models with loops that are not reduced implement it. Written by hand, for a bead on a vertical ring, whose
+/// force of constraint is part of its equations:
+///
+/// ```
+/// use multibody::{Constrained, StateSpace, System, linear::least_norm, nalgebra::{Vector1, Vector2}};
+///
+/// #[derive(Clone, Copy)]
+/// struct State { q: Vector2<f64>, v: Vector2<f64> }
+///
+/// impl StateSpace for State {
+///     type Scalar = f64;
+///     type Position = Vector2<f64>;
+///     type Velocity = Vector2<f64>;
+///     type Extra = ();
+///     fn split(&self) -> (Vector2<f64>, Vector2<f64>, ()) { (self.q, self.v, ()) }
+///     fn join(&self, q: Vector2<f64>, v: Vector2<f64>, (): ()) -> Self { Self { q, v } }
+/// }
+///
+/// struct Bead;
+///
+/// impl System for Bead {
+///     type Scalar = f64;
+///     type State = State;
+///     type Input = ();
+///     fn derivative(&self, _t: f64, state: &State, (): &()) -> (Vector2<f64>, ()) {
+///         let gravity = Vector2::new(0.0, -9.81);
+///         let pull = (gravity.dot(&state.q) + state.v.norm_squared()) / state.q.norm_squared();
+///         (gravity - state.q * pull, ())
+///     }
+/// }
+///
+/// impl Constrained for Bead {
+///     type Residual = f64;
+///     fn constraints(&self, _t: f64, q: &Vector2<f64>) -> f64 { 0.5 * (q.norm_squared() - 1.0) }
+///     fn constraint_rate(&self, _t: f64, state: &State) -> f64 { state.q.dot(&state.v) }
+///     fn correction(&self, _t: f64, q: &Vector2<f64>, residual: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
+///         least_norm(&q.transpose(), &Vector1::new(*residual), weights)
+///     }
+/// }
+///
+/// let (d, rank) = Bead.correction(0.0, &Vector2::new(2.0, 0.0), &0.5, &Vector2::new(1.0, 1.0));
+/// assert_eq!((d, rank), (Vector2::new(0.25, 0.0), 1.0));
+/// ```
+pub trait Constrained: System {
+    /// One component for each equation.
+    type Residual: Tangent<Self::Scalar>;
+
+    /// `Phi(t, q)`, zero where the loops are closed. Each component has the unit of its equation, m or rad.
+    fn constraints(&self, t: Self::Scalar, q: &PositionOf<Self>) -> Self::Residual;
+
+    /// `G v + dPhi/dt`: the rate of [`Constrained::constraints`] along a motion.
+    fn constraint_rate(&self, t: Self::Scalar, state: &Self::State) -> Self::Residual;
+
+    /// The displacement `d` with `G d = residual` for which the sum of `d^2 / weight` is least, and the rank of the
+    /// equations. A coordinate of weight zero is held.
+    ///
+    /// Equations that depend on others at this position are left out, so the displacement is always finite where `G`
+    /// is. [`least_norm`](crate::linear::least_norm) is all that it takes.
+    fn correction(
+        &self,
+        t: Self::Scalar,
+        q: &PositionOf<Self>,
+        residual: &Self::Residual,
+        weights: &VelocityOf<Self>,
+    ) -> (VelocityOf<Self>, Self::Scalar);
+}
+
+impl<S: Constrained + ?Sized> Constrained for &S {
+    type Residual = S::Residual;
+
+    #[inline]
+    fn constraints(&self, t: S::Scalar, q: &PositionOf<S>) -> S::Residual {
+        (**self).constraints(t, q)
+    }
+    #[inline]
+    fn constraint_rate(&self, t: S::Scalar, state: &S::State) -> S::Residual {
+        (**self).constraint_rate(t, state)
+    }
+    #[inline]
+    fn correction(
+        &self,
+        t: S::Scalar,
+        q: &PositionOf<S>,
+        residual: &S::Residual,
+        weights: &VelocityOf<S>,
+    ) -> (VelocityOf<S>, S::Scalar) {
+        (**self).correction(t, q, residual, weights)
+    }
+}
+
+/// Coordinates that follow from others, with their rates: what `emit kinematics` gives.
+///
+/// The components stand in the order in which `find` names them; each has the unit of its coordinate.
+///
+/// ```
+/// use multibody::{Kinematics, nalgebra::SVector};
+///
+/// let found = Kinematics {
+///     position: SVector::from([0.1, 0.2]),
+///     velocity: SVector::from([0.0; 2]),
+///     acceleration: SVector::from([0.0; 2]),
+/// };
+/// assert_eq!(found.position[1], 0.2);
+/// ```
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kinematics<T, const N: usize> {
+    /// `[m]` or `[rad]`
+    pub position: SVector<T, N>,
+    /// `[m/s]` or `[rad/s]`
+    pub velocity: SVector<T, N>,
+    /// `[m/s^2]` or `[rad/s^2]`
+    pub acceleration: SVector<T, N>,
+}

@@ -1,0 +1,352 @@
+//! Keeps constraints satisfied: [`Projection`] after steps, [`assemble`] before the first one.
+//!
+//! Steps of an integrator keep constraints in their accelerations only, so positions and velocities drift away by the
+//! error of the steps. A projection brings them back by the least displacement (Hairer, Lubich and Wanner, Geometric
+//! Numerical Integration, section IV.4): positions by Newton's method, then velocities by one linear system. Both are
+//! exact for the state they start from, so the order of a method stays what it is.
+//!
+//! ```
+//! # mod bead {
+//! # use multibody::{Constrained, StateSpace, System, linear::least_norm, nalgebra::{Vector1, Vector2}};
+//! # #[derive(Clone, Copy)]
+//! # pub struct State { pub q: Vector2<f64>, pub v: Vector2<f64> }
+//! # impl StateSpace for State {
+//! #     type Scalar = f64;
+//! #     type Position = Vector2<f64>;
+//! #     type Velocity = Vector2<f64>;
+//! #     type Extra = ();
+//! #     fn split(&self) -> (Vector2<f64>, Vector2<f64>, ()) { (self.q, self.v, ()) }
+//! #     fn join(&self, q: Vector2<f64>, v: Vector2<f64>, (): ()) -> Self { Self { q, v } }
+//! # }
+//! # pub struct Model;
+//! # impl System for Model {
+//! #     type Scalar = f64;
+//! #     type State = State;
+//! #     type Input = ();
+//! #     fn derivative(&self, _t: f64, state: &State, (): &()) -> (Vector2<f64>, ()) {
+//! #         let gravity = Vector2::new(0.0, -9.81);
+//! #         (gravity - state.q * (gravity.dot(&state.q) + state.v.norm_squared()) / state.q.norm_squared(), ())
+//! #     }
+//! # }
+//! # impl Constrained for Model {
+//! #     type Residual = f64;
+//! #     fn constraints(&self, _t: f64, q: &Vector2<f64>) -> f64 { 0.5 * (q.norm_squared() - 1.0) }
+//! #     fn constraint_rate(&self, _t: f64, state: &State) -> f64 { state.q.dot(&state.v) }
+//! #     fn correction(&self, _t: f64, q: &Vector2<f64>, r: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
+//! #         least_norm(&q.transpose(), &Vector1::new(*r), weights)
+//! #     }
+//! # }
+//! # }
+//! use bead::{Model, State}; // a bead on a ring of radius one, see `Constrained`
+//! use multibody::{Adaptive, Projection, Rk4, WithProjection, assemble, nalgebra::Vector2};
+//!
+//! // From a rough guess; the height is held.
+//! let guess = State { q: Vector2::new(0.9, -0.6), v: Vector2::new(1.0, 0.0) };
+//! let assembled = assemble(&Model, 0.0, &guess, &Vector2::new(1.0, 0.0))?;
+//! assert!((assembled.state.q.x - 0.8).abs() < 1e-12);
+//!
+//! // Steps of a given length, each with a projection after it.
+//! let projection = Projection::default();
+//! let mut x = assembled.state;
+//! for k in 0..1000 {
+//!     let t = 1e-2 * f64::from(k);
+//!     x = Rk4::step(&Model, t, &x, &(), 1e-2);
+//!     x = projection.project(&Model, t + 1e-2, &x)?.state;
+//! }
+//! assert!((x.q.norm() - 1.0).abs() < 1e-12 && x.q.dot(&x.v).abs() < 1e-12);
+//!
+//! // The same within any integrator.
+//! let projected = WithProjection::new(&Model, projection);
+//! let (y, _) = Adaptive::new(1e-9, 1e-9).integrate(&projected, 0.0, 10.0, &assembled.state, &(), |_, _| ())?;
+//! assert!((y.q.norm() - 1.0).abs() < 1e-12 && (y.q - x.q).norm() < 1e-3);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # What is close enough
+//! The greatest component of a residual counts, in metres and radians alike, and the tolerance is never below 16
+//! roundings of one plus the greatest coordinate. Where even that is out of reach, because a model's lengths are far
+//! greater than its coordinates, a position counts as closed when what Newton's method would still change is below the
+//! rounding of the coordinates, and would close it.
+//!
+//! # Lanes
+//! Every lane is iterated as if it were alone: lanes that have converged stay where they are while others go on. An
+//! error is given if any lane fails; [`Projection::project_fixed`] has no errors and reports lane by lane.
+
+mod assembly;
+mod error;
+mod wrapper;
+
+pub use assembly::{Assembled, assemble};
+pub use error::{AssemblyError, ProjectionError};
+pub use wrapper::WithProjection;
+
+use crate::{Configuration, Constrained, PositionOf, Real, StateSpace, System, Tangent, VelocityOf, all, any};
+
+/// Tolerances are at least this many roundings.
+const ROUNDINGS: f64 = 16.0;
+
+/// Brings states back to where the constraints are satisfied, after each step of an integrator.
+///
+/// Of all displacements that do so the least is taken: that of the least sum of squares, of metres and radians alike,
+/// or weighted coordinate by coordinate. See the [module](self) for an example.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Projection {
+    /// `[m]` or `[rad]`: greatest residual of a position. That of velocities, per second, is this times one plus the
+    /// greatest velocity.
+    pub tolerance: f64,
+    /// Greatest number of Newton's iterations; with [`Projection::project_fixed`] exactly this many.
+    pub iterations: u32,
+    /// Whether positions are projected.
+    pub position: bool,
+    /// Whether velocities are projected.
+    pub velocity: bool,
+}
+
+/// Positions and velocities, to 1e-12 and in at most 20 iterations.
+impl Default for Projection {
+    fn default() -> Self {
+        Self { tolerance: 1e-12, iterations: 20, position: true, velocity: true }
+    }
+}
+
+/// A state that satisfies the constraints.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Projected<Z, T = f64> {
+    /// The state.
+    pub state: Z,
+    /// How many of the equations are independent at this position, in each lane. Less than their number in a singular
+    /// configuration, where bars come to lie in one line, and always less where equations repeat others.
+    pub rank: T,
+    /// `[m]` or `[rad]` greatest component of what is left of the position's residual, in each lane.
+    pub residual: T,
+    /// Newton's iterations, of the lane that took most.
+    pub iterations: u32,
+}
+
+impl Projection {
+    /// The state nearest to `state` that satisfies the constraints at the time `t` `[s]`. Own states are kept.
+    ///
+    /// A position within the tolerance is not moved. Velocities are always corrected, so the rank is that of the final
+    /// position.
+    ///
+    /// # Errors
+    /// See [`ProjectionError`]; one is given if any lane fails.
+    pub fn project<S: Constrained>(
+        &self,
+        system: &S,
+        t: S::Scalar,
+        state: &S::State,
+    ) -> Result<Projected<S::State, S::Scalar>, ProjectionError> {
+        self.project_weighted(system, t, state, &ones())
+    }
+
+    /// The same for other weights: the sum of `d^2 / weight` is least, and a coordinate of weight zero is held.
+    ///
+    /// With the inverses of masses and moments of inertia as weights, what is heavy moves less.
+    ///
+    /// # Errors
+    /// See [`ProjectionError`].
+    pub fn project_weighted<S: Constrained>(
+        &self,
+        system: &S,
+        t: S::Scalar,
+        state: &S::State,
+        weights: &VelocityOf<S>,
+    ) -> Result<Projected<S::State, S::Scalar>, ProjectionError> {
+        self.run(system, t, state, weights).check()
+    }
+
+    /// Exactly [`Projection::iterations`] corrections of the position and one of the velocities, whatever the numbers:
+    /// no branch depends on them, and every call costs the same. One or two suffice after a short step.
+    ///
+    /// Nothing is refused: the residual tells lane by lane how far it came, and what is not finite passes through.
+    ///
+    /// ```
+    /// use multibody::Projection;
+    ///
+    /// let projection = Projection { iterations: 1, ..Projection::default() };
+    /// # let _ = projection;
+    /// // let x = projection.project_fixed(&model, t, &x).state;
+    /// ```
+    pub fn project_fixed<S: Constrained>(
+        &self,
+        system: &S,
+        t: S::Scalar,
+        state: &S::State,
+    ) -> Projected<S::State, S::Scalar> {
+        let weights = ones();
+        let (mut q, mut v, x) = state.split();
+        let mut rank = S::Scalar::lit(f64::NAN);
+        let iterations = if self.position { self.iterations } else { 0 };
+        for _ in 0..iterations {
+            let residual = negative(&system.constraints(t, &q));
+            let (d, now) = system.correction(t, &q, &residual, &weights);
+            q = q.displace(&d);
+            rank = now;
+        }
+        if self.velocity {
+            let rate = negative(&system.constraint_rate(t, &state.join(q, v, x)));
+            let (d, now) = system.correction(t, &q, &rate, &weights);
+            v = v.add(&d);
+            rank = now;
+        }
+        let residual = greatest(&system.constraints(t, &q));
+        Projected { state: state.join(q, v, x), rank, residual, iterations }
+    }
+
+    /// Newton's method on the position, one correction of the velocities, and how each lane fared.
+    fn run<S: Constrained>(&self, system: &S, t: S::Scalar, state: &S::State, weights: &VelocityOf<S>) -> Run<S> {
+        let (mut q, v, x) = state.split();
+        let mut residual = system.constraints(t, &q);
+        let mut closed = if self.position { never::<S>() } else { !never::<S>() };
+        let mut rank = None;
+        let mut iterations = 0;
+        for _ in 0..self.iterations {
+            let size = greatest(&residual);
+            closed = closed | Real::le(size, closeness::<S>(self.tolerance, &q));
+            let settled = closed | !Real::is_finite(size);
+            if all(settled) {
+                break;
+            }
+            let (d, now) = system.correction(t, &q, &negative(&residual), weights);
+            rank = Some(now);
+            closed = closed | (!settled & at_rounding(system, t, &state.join(q, v, x), &d, &residual));
+            q = q.displace(&d.map(&mut |d| Real::select(settled, S::Scalar::lit(0.0), d)));
+            residual = system.constraints(t, &q);
+            iterations += 1;
+        }
+        let size = greatest(&residual);
+        closed = closed | Real::le(size, closeness::<S>(self.tolerance, &q));
+
+        let state = state.join(q, v, x);
+        let motion = if self.velocity {
+            Motion::of(system, t, &state, weights, self.tolerance)
+        } else {
+            let rank = rank.unwrap_or_else(|| system.correction(t, &q, &S::Residual::zero(), weights).1);
+            Motion { state, rank, rate: S::Scalar::lit(0.0), consistent: !never::<S>() }
+        };
+        Run { motion, residual: size, closed, iterations }
+    }
+}
+
+/// A projection in progress or at its end, lane by lane.
+struct Run<S: System> {
+    motion: Motion<S>,
+    residual: S::Scalar,
+    closed: Mask<S>,
+    iterations: u32,
+}
+
+impl<S: System> Run<S> {
+    /// The state, if all lanes have one.
+    fn check(self) -> Result<Projected<S::State, S::Scalar>, ProjectionError> {
+        let Self { motion, residual, closed, iterations } = self;
+        if !all(finite::<S>(&motion.state)) || !all(Real::is_finite(residual)) {
+            Err(ProjectionError::NotFinite)
+        } else if !all(closed) {
+            let residual = Real::select(closed, S::Scalar::lit(0.0), residual).greatest();
+            Err(ProjectionError::NoConvergence { residual, iterations })
+        } else if !all(motion.consistent) {
+            Err(ProjectionError::NoVelocity { rate: motion.worst_rate() })
+        } else {
+            Ok(Projected { state: motion.state, rank: motion.rank, residual, iterations })
+        }
+    }
+}
+
+/// Velocities that satisfy the constraints' rates, or come as near as they can.
+struct Motion<S: System> {
+    state: S::State,
+    rank: S::Scalar,
+    rate: S::Scalar,
+    consistent: Mask<S>,
+}
+
+impl<S: Constrained> Motion<S> {
+    /// The equations are linear in the velocities, so one correction does it; a second one is for what rounding left
+    /// near a singular configuration.
+    fn of(system: &S, t: S::Scalar, state: &S::State, weights: &VelocityOf<S>, tolerance: f64) -> Self {
+        let (q, mut v, x) = state.split();
+        let position = closeness::<S>(tolerance, &q);
+        let mut rate = system.constraint_rate(t, state);
+        let mut rank = S::Scalar::lit(0.0);
+        let mut consistent = never::<S>();
+        for _ in 0..2 {
+            let (d, now) = system.correction(t, &q, &negative(&rate), weights);
+            let at_rounding = at_rounding(system, t, &state.join(q, v, x), &d, &rate);
+            v = v.zip(&d, &mut |v, d| Real::select(consistent, v, v + d));
+            rate = system.constraint_rate(t, &state.join(q, v, x));
+            rank = now;
+            let close = position * (S::Scalar::lit(1.0) + greatest(&v));
+            consistent = consistent | at_rounding | Real::le(greatest(&rate), close);
+            if all(consistent | !Real::is_finite(close)) {
+                break;
+            }
+        }
+        Self { state: state.join(q, v, x), rank, rate: greatest(&rate), consistent }
+    }
+}
+
+impl<S: System> Motion<S> {
+    /// The greatest rate left in a lane that found no velocities.
+    fn worst_rate(&self) -> f64 {
+        Real::select(self.consistent, S::Scalar::lit(0.0), self.rate).greatest()
+    }
+}
+
+/// The mask of a system's scalar.
+type Mask<S> = <<S as System>::Scalar as Real>::Mask;
+
+/// False in every lane.
+fn never<S: System>() -> Mask<S> {
+    Real::lt(S::Scalar::lit(0.0), S::Scalar::lit(0.0))
+}
+
+/// One for every coordinate.
+fn ones<T: Real, V: Tangent<T>>() -> V {
+    V::zero().map(&mut |_| T::lit(1.0))
+}
+
+fn negative<T: Real, V: Tangent<T>>(v: &V) -> V {
+    v.map(&mut |x| -x)
+}
+
+/// The greatest size of a component in each lane; NaN if one is.
+fn greatest<T: Real, V: Tangent<T>>(v: &V) -> T {
+    v.fold(T::lit(0.0), &mut |greatest, x| Real::max(greatest, Real::abs(x)))
+}
+
+/// Whether position and velocity are finite.
+fn finite<S: System>(state: &S::State) -> Mask<S> {
+    let (q, v, _) = state.split();
+    Real::is_finite(greatest(&q.magnitude())) & Real::is_finite(greatest(&v))
+}
+
+/// The tolerance for residuals at a position: what was asked for, or what rounding allows.
+fn closeness<S: System>(tolerance: f64, q: &PositionOf<S>) -> S::Scalar {
+    let roundings = S::Scalar::lit(ROUNDINGS) * S::Scalar::epsilon();
+    Real::max(S::Scalar::lit(tolerance), roundings * (S::Scalar::lit(1.0) + greatest(&q.magnitude())))
+}
+
+/// Whether the correction `d` for a residual is lost in the rounding of the coordinates, and yet would make up for at
+/// least half of the residual: then the residual is rounding too. Residuals that no displacement changes are not.
+fn at_rounding<S: Constrained>(
+    system: &S,
+    t: S::Scalar,
+    state: &S::State,
+    d: &VelocityOf<S>,
+    residual: &S::Residual,
+) -> Mask<S> {
+    let one = S::Scalar::lit(1.0);
+    let (q, _, x) = state.split();
+    let relative = d.zip(&q.magnitude(), &mut |d, q| d / (one + Real::abs(q)));
+    let small = Real::le(greatest(&relative), S::Scalar::lit(ROUNDINGS) * S::Scalar::epsilon());
+    if !any(small) {
+        return small;
+    }
+
+    let rate = |v: VelocityOf<S>| system.constraint_rate(t, &state.join(q, v, x));
+    let change = rate(*d).add_scaled(-one, &rate(Tangent::zero()));
+    let left = greatest(&residual.add(&change));
+    small & Real::le(left, S::Scalar::lit(0.5) * greatest(residual))
+}
