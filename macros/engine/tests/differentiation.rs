@@ -5,7 +5,7 @@ mod rng;
 
 use multibody_engine::symbolic::differentiate::Differentiator;
 use multibody_engine::symbolic::evaluate::{Evaluator, Field, Real, call_f64};
-use multibody_engine::symbolic::graph::{Call, Graph, Rotation, Scalar, SymbolId, Vector};
+use multibody_engine::symbolic::graph::{BlockKind, Call, Graph, Rotation, Scalar, SymbolId, Vector};
 use multibody_engine::symbolic::identity::{Verdict, identical};
 use multibody_engine::symbolic::lower::Lowering;
 use multibody_engine::symbolic::number::Number;
@@ -61,9 +61,28 @@ impl Field for Duals<'_> {
         };
         (value, slope)
     }
-    fn point(&self, _: &Graph, _: Scalar, a: Dual) -> (Dual, Dual) {
+    fn point(&self, _: &Graph, _: Scalar, a: Dual, _: &dyn Fn(Scalar) -> Dual) -> (Dual, Dual) {
         let (s, c) = a.0.sin_cos();
         ((c, -s * a.1), (s, c * a.1))
+    }
+    /// Elimination without pivots.
+    fn solve(&self, _: bool, matrix: &[Dual], rhs: &[Dual]) -> Vec<Dual> {
+        let n = rhs.len();
+        let mut rows: Vec<Vec<Dual>> =
+            (0..n).map(|i| matrix[i * n..(i + 1) * n].iter().chain([&rhs[i]]).copied().collect()).collect();
+        for k in 0..n {
+            let row = rows[k].clone();
+            let inverse = self.reciprocal(row[k]);
+            rows[k].iter_mut().for_each(|x| *x = self.mul(*x, inverse));
+            let row = rows[k].clone();
+            for i in (0..n).filter(|&i| i != k) {
+                let factor = self.neg(rows[i][k]);
+                for (x, &y) in rows[i].iter_mut().zip(&row) {
+                    *x = self.add(*x, self.mul(factor, y));
+                }
+            }
+        }
+        rows.iter().map(|row| row[n]).chain([(n as f64, 0.0)]).collect()
     }
 }
 
@@ -311,4 +330,25 @@ fn deep_expressions_are_fine() {
     }
     let d = g.derivative(s, &[(x, Scalar::ONE)]);
     assert!((values(&g, &[d], &[1.0, 0.5])[0] - 2.0).abs() < 1e-12);
+}
+
+#[test]
+fn linear_systems() {
+    let mut g = Graph::new();
+    let x: [Scalar; 3] = std::array::from_fn(|_| g.symbol());
+    let (square, sine) = (g.mul(x[0], x[0]), g.sin(x[1]));
+    let diagonal = g.add(square, Scalar::ONE);
+    let system = [diagonal, sine, x[2], -sine, x[0], x[1], Scalar::ONE, -x[2], diagonal, x[1], sine, x[0]];
+    let outputs = g.block_outputs(BlockKind::Solve { size: 3, symmetric: false }, &system);
+    let product = g.mul(outputs[0], outputs[1]);
+    let roots = [product, outputs[2], outputs[3]];
+    let seeds: Vec<(Scalar, Scalar)> = x.iter().map(|&s| (s, g.symbol())).collect();
+    let mut along = Differentiator::new(&seeds);
+    let slopes = along.scalars(&mut g, &roots);
+    let point = [0.7, -0.4, 1.3, 0.2, -1.1, 0.6];
+    let duals: Vec<Dual> = (0..6).map(|k| (point[k], if k < 3 { point[k + 3] } else { 0.0 })).collect();
+    let expected = Evaluator::new(&g, Duals(&duals)).run(&roots);
+    for (value, expected) in values(&g, &slopes, &point).iter().zip(expected) {
+        assert!((value - expected.1).abs() < 1e-13 * (1.0 + value.abs()), "{value} {}", expected.1);
+    }
 }

@@ -7,7 +7,7 @@ mod parsed;
 use std::process::Command;
 
 use emit_samples::*;
-use multibody_engine::emit::{emit, source};
+use multibody_engine::emit::source;
 use syn::{Block, Expr, Stmt};
 
 /// The longest row of `let`s, and how many there are that compute something.

@@ -5,7 +5,7 @@ mod emit_samples;
 mod parsed;
 
 use emit_samples::*;
-use multibody_engine::emit::{emit, report};
+use multibody_engine::mechanics::structure::Structure;
 use multibody_engine::model::types::{Model, Type};
 use multibody_engine::optimize::program::{Compiled, FunctionKind};
 use proc_macro2::{TokenStream, TokenTree};
@@ -23,6 +23,10 @@ fn the_same_model_gives_the_same_code() {
         assert_eq!(first, emit(&again, &compiled_again).to_string());
         assert_eq!(report(&model, &compiled), report(&again, &compiled_again));
     }
+}
+
+fn report(model: &Model, compiled: &Compiled) -> String {
+    multibody_engine::emit::report(model, &Structure::open(model), compiled)
 }
 
 fn documented(attrs: &[Attribute]) -> bool {

@@ -63,6 +63,41 @@ fn fields_are_guessed() {
     assert_eq!(text.matches("modbroken").count(), 1);
 }
 
+/// Methods, fields and types of loops exist, whatever else is wrong.
+#[test]
+fn loops_are_guessed() {
+    let items = "body a { mass: 1.0 } body b { mass: 1.0, coordinates: Absolute(RollPitchYaw) }
+        input push; input wind: Vec3;
+        joint one: Revolute { parent: ground, child: a, axis: Q }
+        #[cut] joint two: Ball { parent: a, child: b }
+        constraint gear = one + mistake;
+        emit inverse_dynamics { solve_for: push }, kinematics { given: b.pose, find: one },
+            kinematics { given: one, find: [b, one] };";
+    let text = skeletons_of(&format!("mod broken {{ {items} }}"));
+    for piece in [
+        "pubb:::multibody::FreeRollPitchYaw<T>",
+        "pubconstCONSTRAINTS:usize=4;",
+        "pubmultipliers:::multibody::nalgebra::SVector<T,4>",
+        "pubfnconstraint_jacobian(&self,_t:T,_q:&Position<T>)->::multibody::nalgebra::SMatrix<T,4,10>",
+        "pubfnresidual(",
+        "pubfninverse_dynamics(&self,_t:T,_state:&State<T>,_input:&Input<T>,_accel:&Velocity<T>)->Solved<T>",
+        "pubfnkinematics(&self,_t:T,_state:&State<T>,_accel:&Velocity<T>)->::multibody::Kinematics<T,1>",
+        "->::multibody::Kinematics<T,7>",
+        "impl<T:Real>::multibody::ConstrainedforModel<T>",
+    ] {
+        assert!(text.contains(piece), "{piece} is not in {text}");
+    }
+    assert!(!text.contains("guess"));
+    let text = skeletons_of(&format!("mod broken {{ formulation {{ constraints: Reduced }} {items} }}"));
+    for piece in ["pubguess:::multibody::nalgebra::SVector<T,4>", "pubfnclose(", "pubresidual:T"] {
+        assert!(text.contains(piece), "{piece} is not in {text}");
+    }
+    assert!(!text.contains("pubmultipliers"));
+    let solved = "solve (one) from two {}";
+    let text = skeletons_of(&format!("mod broken {{ formulation {{ constraints: Reduced }} {items} {solved} }}"));
+    assert!(!text.contains("guess") && !text.contains("Derivative"));
+}
+
 #[test]
 fn nothing_grows_without_bound() {
     let text = skeletons_of(

@@ -4,27 +4,40 @@ mod model_support;
 
 use model_support::said;
 
-const CASES: &str = include_str!("model_cases/errors.txt");
+const CASES: [&str; 2] = [include_str!("model_cases/errors.txt"), include_str!("model_cases/loops.txt")];
 
 /// A body on a joint, for cases about other things.
 const AROUND: &str = "body b { mass: 1.0, com: 0.5 * X, inertia: diag(1.0, 1.0, 1.0) } \
     joint j: Revolute { parent: ground, child: b, axis: Z } ";
 
+/// Four bars: the last joint closes the loop.
+const FOUR_BAR: &str = "input u; param p = 1.0; \
+    body crank { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) } \
+    body coupler { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) } \
+    body rocker { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) } \
+    joint j1: Revolute { parent: ground, child: crank, axis: Z } \
+    joint j2: Revolute { parent: crank.at(X), child: coupler, axis: Z } \
+    joint j3: Revolute { parent: ground.at(2 * X), child: rocker, axis: Z } \
+    joint closing: Revolute { parent: coupler.at(X), child: rocker.at(X), axis: Z } ";
+
+/// A free body beside the world.
+const FREE: &str = "body b { mass: 1.0, inertia: diag(1.0, 1.0, 1.0) } ";
+
 fn text(case: &str) -> String {
     if let Some(call) = case.strip_prefix("call: ") {
         return call.to_string();
     }
-    match case.strip_prefix("alone: ") {
-        Some(items) => format!("mod m {{ {items} }}"),
-        None => format!("mod m {{ {AROUND}{case} }}"),
-    }
+    let around = [("alone: ", ""), ("loop: ", FOUR_BAR), ("free: ", FREE), ("", AROUND)];
+    let found = around.iter().find_map(|(prefix, around)| Some((case.strip_prefix(prefix)?, around)));
+    found.map_or_else(String::new, |(items, around)| format!("mod m {{ {around}{items} }}"))
 }
 
 #[test]
 fn cases() {
     let mut wrong = String::new();
     let mut count = 0;
-    let mut lines = CASES.lines().filter(|line| !line.is_empty() && !line.starts_with("# ")).peekable();
+    let all = CASES.join("\n");
+    let mut lines = all.lines().filter(|line| !line.is_empty() && !line.starts_with("# ")).peekable();
     while let Some(case) = lines.next() {
         let mut case = case.to_string();
         while let Some(more) = lines.next_if(|line| line.starts_with("  ") && !line.starts_with("    ")) {

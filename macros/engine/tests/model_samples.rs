@@ -2,11 +2,10 @@
 
 mod model_support;
 
-use model_support::{Writer, check, model, said};
+use model_support::{Writer, model};
 use multibody_engine::model::types::*;
 
 const DOUBLE_PENDULUM: &str = include_str!("syntax/samples/double_pendulum.txt");
-const STEWART: &str = include_str!("syntax/samples/stewart.txt");
 
 #[test]
 fn double_pendulum() {
@@ -29,18 +28,6 @@ fn double_pendulum() {
     assert_eq!((joint, w.list(values)), (&JointId(1), "[(-0.01 * v(elbow, 0))]".into()));
     use Request::{Bias, ForwardDynamics, InverseDynamics, MassMatrix};
     assert_eq!(m.emit, [ForwardDynamics, InverseDynamics, MassMatrix, Bias]);
-}
-
-/// Loops come later: only that is said.
-#[test]
-fn stewart() {
-    let text = ["[-2.12, 1.374, 0.0], ", "[0.17, 0.595, -0.4], ", "-0.75, "]
-        .iter()
-        .fold(STEWART.to_string(), |text, element| text.replace(&format!("{element}/* .. */"), &element.repeat(6)));
-    assert!(check(&text).0.is_empty());
-    let said = said(&text);
-    let later = |line: &String| line.contains("not available yet");
-    assert!(said.len() == 5 && said.iter().all(later), "{said:#?}");
 }
 
 #[test]

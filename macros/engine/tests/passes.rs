@@ -18,7 +18,7 @@ use arms::{ARMS, Arm, load};
 use expressions::{Expression, SYMBOLS};
 use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::mechanics::regroup::regroup;
-use multibody_engine::mechanics::{Derivation, Derived, derive};
+use multibody_engine::mechanics::{Derivation, Derived, of};
 use multibody_engine::model;
 use multibody_engine::model::types::{InputId, JointId, ParamId};
 use multibody_engine::optimize::dag::{Dag, Kind};
@@ -167,7 +167,7 @@ fn derivation(
 ) -> Derivation {
     let symbol_names = (0..symbols.len()).map(|k| format!("symbol{k}")).collect();
     let functions = vec![Derived { kind, candidates: vec![(method, results)] }];
-    Derivation { graph, symbols, symbol_names, functions }
+    Derivation { graph, symbols, symbol_names, functions, notes: Vec::new(), dead_centres: Vec::new() }
 }
 
 /// The equations of the body of a `mod m { .. }`.
@@ -178,7 +178,7 @@ fn from_text(body: &str) -> Derivation {
     let models = model::check(&source, &mut diagnostics);
     let messages: Vec<&str> = diagnostics.errors().iter().map(|error| error.message.as_str()).collect();
     assert!(messages.is_empty(), "{messages:?}");
-    derive(&models[0])
+    of(&models[0]).map(|(_, derivation)| derivation).expect("a mechanism")
 }
 
 #[test]

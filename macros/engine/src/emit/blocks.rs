@@ -4,10 +4,11 @@
 //! stack; more than [`MOST`] are therefore grouped into blocks that return their live values as a tuple,
 //! `let (a, b) = { ..; (a, b) };`, and very many into blocks of blocks. Values that nothing reads are left out.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::expressions::Names;
+use super::{leaf, names};
 use crate::optimize::program::{Expression, Local, Program, Statement};
 
 /// As many statements may stand in a row.
@@ -24,67 +25,136 @@ pub(super) struct Body {
 
 /// Expands to a program's statements.
 pub(super) fn body(program: &Program, names: &Names<'_>) -> Body {
-    let mut blocks = Blocks::new(program, names);
-    let mut results: Vec<TokenStream> = Vec::new();
-    match (blocks.live.split_last(), &program.results[..]) {
-        // `let a = x + y; a` says less than `x + y`.
-        (Some((Statement::Let { local, value }, rest)), [Expression::Local(result)])
-            if local == result && rest.len() < MOST =>
-        {
-            results.push(names.expression(value));
-            blocks.live.pop();
-        }
-        _ => results.extend(program.results.iter().map(|r| names.expression(r))),
+    let mut live = live_statements(program);
+    let mut read: Vec<&Expression> = program.results.iter().collect();
+    // `let a = x + y; a` says less than `x + y`.
+    if let (Some((Live { statement: Statement::Let { local, value }, .. }, rest)), [Expression::Local(result)]) =
+        (live.split_last(), &program.results[..])
+        && local == result
+        && rest.len() < MOST
+    {
+        read = vec![value];
+        live.pop();
     }
-    let mut statements = TokenStream::new();
-    blocks.print(0, blocks.live.len(), &mut statements);
+    let results = read.iter().map(|result| names.expression(result)).collect();
+    let statements = Blocks::new(names, &live, &read).all();
     Body { statements, results }
+}
+
+/// Statements that something reads.
+fn live_statements(program: &Program) -> Vec<Live<'_>> {
+    let mut read = vec![false; program.locals.len()];
+    for result in &program.results {
+        each_local(result, &mut |local| set(&mut read, local, true));
+    }
+    live(&program.statements, &mut read)
+}
+
+/// A statement that something reads, and what lives inside it.
+struct Live<'a> {
+    statement: &'a Statement,
+    body: Vec<Live<'a>>,
+    /// Unknowns of an iteration that are read, by number.
+    unknowns: Vec<usize>,
+    /// Whether its residual is.
+    residual: bool,
+}
+
+/// Those that are read; what they read is marked.
+fn live<'a>(statements: &'a [Statement], read: &mut Vec<bool>) -> Vec<Live<'a>> {
+    let mut found = Vec::new();
+    for statement in statements.iter().rev() {
+        if !statement.defined().iter().any(|&local| get(read, local)) {
+            continue;
+        }
+        let mark = |expression: &Expression, read: &mut Vec<bool>| {
+            each_local(expression, &mut |local| set(read, local, true));
+        };
+        let mut entry = Live { statement, body: Vec::new(), unknowns: Vec::new(), residual: false };
+        if let Statement::Iterate { unknowns, start, body, next, residual, .. } = statement {
+            entry.residual = get(read, residual.0);
+            if entry.residual {
+                mark(&residual.1, read);
+            }
+            // A round reads what the one before has left: again until nothing more is read.
+            loop {
+                let now: Vec<usize> = (0..unknowns.len()).filter(|&k| get(read, unknowns[k])).collect();
+                now.iter().for_each(|&k| mark(&next[k], read));
+                entry.body = live(body, read);
+                let more = (0..unknowns.len()).any(|k| get(read, unknowns[k]) && !now.contains(&k));
+                if !more {
+                    entry.unknowns = now;
+                    break;
+                }
+            }
+            entry.unknowns.iter().for_each(|&k| mark(&start[k], read));
+        } else {
+            statement.expressions().for_each(|expression| mark(expression, read));
+        }
+        found.push(entry);
+    }
+    found.reverse();
+    found
+}
+
+impl Live<'_> {
+    /// What it reads, inside too.
+    fn expressions(&self) -> Vec<&Expression> {
+        match self.statement {
+            Statement::Iterate { start, next, residual, .. } => {
+                let each = self.unknowns.iter().flat_map(|&k| [&start[k], &next[k]]);
+                let residual = self.residual.then_some(&residual.1);
+                each.chain(residual).chain(self.body.iter().flat_map(Live::expressions)).collect()
+            }
+            statement => statement.expressions().collect(),
+        }
+    }
+
+    fn defined(&self) -> Vec<Local> {
+        match self.statement {
+            Statement::Iterate { unknowns, residual, .. } => {
+                let residual = self.residual.then_some(residual.0);
+                self.unknowns.iter().map(|&k| unknowns[k]).chain(residual).collect()
+            }
+            statement => statement.defined(),
+        }
+    }
 }
 
 struct Blocks<'a> {
     names: &'a Names<'a>,
-    /// Statements that something reads.
-    live: Vec<&'a Statement>,
-    /// For each local, the number of the last live statement that reads it; results count as one more.
+    live: &'a [Live<'a>],
+    /// For each local, the number of the last live statement that reads it; what follows them counts as one more.
     last_use: Vec<Option<usize>>,
 }
 
 impl<'a> Blocks<'a> {
-    fn new(program: &'a Program, names: &'a Names<'a>) -> Self {
-        let mut read = vec![false; program.locals.len()];
-        for result in &program.results {
-            each_local(result, &mut |local| set(&mut read, local, true));
-        }
-        let mut live = Vec::new();
-        for statement in program.statements.iter().rev() {
-            let is_read = |local: &Local| read.get(local.0).copied().unwrap_or(false);
-            if defined(statement).any(|local| is_read(&local)) {
-                each_local(value(statement), &mut |local| set(&mut read, local, true));
-                live.push(statement);
+    /// `after` is what is read behind the statements.
+    fn new(names: &'a Names<'a>, live: &'a [Live<'a>], after: &[&Expression]) -> Self {
+        let mut last_use = vec![None; names.locals.len()];
+        for (number, statement) in live.iter().enumerate() {
+            for expression in statement.expressions() {
+                each_local(expression, &mut |local| set(&mut last_use, local, Some(number)));
             }
         }
-        live.reverse();
-
-        let mut last_use = vec![None; program.locals.len()];
-        for (number, statement) in live.iter().enumerate() {
-            each_local(value(statement), &mut |local| {
-                set(&mut last_use, local, Some(number));
-            });
-        }
-        for result in &program.results {
-            each_local(result, &mut |local| {
-                set(&mut last_use, local, Some(live.len()));
-            });
+        for expression in after {
+            each_local(expression, &mut |local| set(&mut last_use, local, Some(live.len())));
         }
         Blocks { names, live, last_use }
+    }
+
+    fn all(&self) -> TokenStream {
+        let mut out = TokenStream::new();
+        self.print(0, self.live.len(), &mut out);
+        out
     }
 
     /// Statements `start..end`.
     fn print(&self, start: usize, end: usize, out: &mut TokenStream) {
         let count = end - start;
         if count <= MOST {
-            for statement in self.live.iter().skip(start).take(count) {
-                out.extend(self.statement(statement));
+            for live in self.live.iter().skip(start).take(count) {
+                out.extend(self.statement(live));
             }
             return;
         }
@@ -112,7 +182,7 @@ impl<'a> Blocks<'a> {
     fn leaving(&self, from: usize, to: usize) -> impl Iterator<Item = &Ident> {
         let inside = self.live.iter().skip(from).take(to - from);
         inside
-            .flat_map(|statement| defined(statement))
+            .flat_map(Live::defined)
             .filter(move |local| self.last_use(*local).is_some_and(|last| last >= to))
             .filter_map(|local| self.names.locals.get(local.0))
     }
@@ -121,39 +191,95 @@ impl<'a> Blocks<'a> {
         self.last_use.get(local.0).copied().flatten()
     }
 
-    /// Expands to `let a = ..;` or `let (sin_a, cos_a) = Real::sin_cos(..);`.
-    fn statement(&self, statement: &Statement) -> TokenStream {
-        let value = self.names.expression(value(statement));
-        let name = |local: Local| match self.names.locals.get(local.0) {
+    fn name(&self, local: Local) -> TokenStream {
+        match self.names.locals.get(local.0) {
             Some(name) if self.last_use(local).is_some() => quote!(#name),
             _ => quote!(_),
-        };
-        match statement {
-            Statement::Let { local, .. } => {
-                let name = name(*local);
+        }
+    }
+
+    /// Expands to `let a = ..;`, `let (sin_a, cos_a) = Real::sin_cos(..);`, a solve or a loop.
+    fn statement(&self, live: &Live<'_>) -> TokenStream {
+        match live.statement {
+            Statement::Let { local, value } => {
+                let (name, value) = (self.name(*local), self.names.expression(value));
                 quote!(let #name = #value;)
             }
-            Statement::SinCos { sin, cos, .. } => {
-                let (sin, cos) = (name(*sin), name(*cos));
-                quote!(let (#sin, #cos) = Real::sin_cos(#value);)
+            Statement::SinCos { sin, cos, angle } => {
+                let (sin, cos, angle) = (self.name(*sin), self.name(*cos), self.names.expression(angle));
+                quote!(let (#sin, #cos) = Real::sin_cos(#angle);)
+            }
+            Statement::Solve { size, symmetric, matrix, rhs, results } => {
+                self.solve(*size, *symmetric, matrix, rhs, results)
+            }
+            Statement::Iterate { count, unknowns, start, next, residual, .. } => {
+                let locals: Vec<Local> = live.unknowns.iter().map(|&k| unknowns[k]).collect();
+                let (start, next) = [start, next].map(|list| live.unknowns.iter().map(|&k| &list[k]).collect()).into();
+                let residual = live.residual.then_some(residual);
+                self.iterate(*count, &locals, start, next, residual, &live.body)
             }
         }
     }
-}
 
-fn value(statement: &Statement) -> &Expression {
-    match statement {
-        Statement::Let { value, .. } => value,
-        Statement::SinCos { angle, .. } => angle,
+    /// Expands to `let ([x, y], rank) = ::multibody::linear::solve([[..], [..]], [..]);`.
+    fn solve(
+        &self,
+        size: usize,
+        symmetric: bool,
+        matrix: &[Expression],
+        rhs: &[Expression],
+        results: &[Local],
+    ) -> TokenStream {
+        let krate = self.names.layout.krate();
+        let function = names::ident(if symmetric { "solve_symmetric" } else { "solve" });
+        let list = |list: &[Expression]| {
+            let list = list.iter().map(|e| leaf::element(self.names.expression(e)));
+            quote!([#(#list),*])
+        };
+        let rows = matrix.chunks(size.max(1)).map(list);
+        let rhs = list(rhs);
+        let names: Vec<TokenStream> = results.iter().map(|&local| self.name(local)).collect();
+        let (unknowns, rank) = names.split_at(size.min(names.len()));
+        quote!(let ([#(#unknowns),*], #(#rank)*) = #krate::linear::#function([#(#rows),*], #rhs);)
+    }
+
+    /// Expands to a counted loop; all unknowns change at once.
+    fn iterate(
+        &self,
+        count: usize,
+        locals: &[Local],
+        start: Vec<&Expression>,
+        next: Vec<&Expression>,
+        residual: Option<&(Local, Expression)>,
+        body: &[Live<'_>],
+    ) -> TokenStream {
+        let names: Vec<&Ident> = locals.iter().filter_map(|local| self.names.locals.get(local.0)).collect();
+        let start = start.into_iter().map(|e| self.names.expression(e));
+        let mut after = next.clone();
+        let mut out = quote!(#(let mut #names = #start;)*);
+        let next: Vec<TokenStream> = next.into_iter().map(|e| self.names.expression(e)).collect();
+        let mut last = TokenStream::new();
+        if let Some((local, value)) = residual {
+            let name = self.names.locals.get(local.0);
+            after.push(value);
+            let value = self.names.expression(value);
+            out.extend(quote!(let mut #name = T::lit(0.0);));
+            last.extend(quote!(#name = #value;));
+        }
+        match (&names[..], &next[..]) {
+            ([], _) => {}
+            ([name], [next]) => last.extend(quote!(#name = #next;)),
+            _ => last.extend(quote!((#(#names),*) = (#(#next),*);)),
+        }
+        let body = Blocks::new(self.names, body, &after).all();
+        let count = Literal::usize_unsuffixed(count);
+        out.extend(quote!(for _ in 0..#count { #body #last }));
+        out
     }
 }
 
-fn defined(statement: &Statement) -> impl Iterator<Item = Local> {
-    let (first, second) = match statement {
-        Statement::Let { local, .. } => (*local, None),
-        Statement::SinCos { sin, cos, .. } => (*sin, Some(*cos)),
-    };
-    std::iter::once(first).chain(second)
+fn get(list: &[bool], local: Local) -> bool {
+    list.get(local.0).copied().unwrap_or(false)
 }
 
 fn set<V>(list: &mut [V], local: Local, value: V) {
@@ -196,10 +322,5 @@ pub(super) fn each_leaf(expression: &Expression, visit: &mut dyn FnMut(&Expressi
 
 /// Every leaf of a program's live and dead expressions.
 pub(super) fn each_leaf_of(program: &Program, visit: &mut dyn FnMut(&Expression)) {
-    for statement in &program.statements {
-        each_leaf(value(statement), visit);
-    }
-    for result in &program.results {
-        each_leaf(result, visit);
-    }
+    program.expressions().for_each(|expression| each_leaf(expression, visit));
 }

@@ -100,6 +100,15 @@ pub(super) fn velocity(joint: &Joint) -> Vec<String> {
     with_unit(&Docs::default(), unit.as_deref(), &otherwise)
 }
 
+/// Of a part of a joint, in `Position` and in `Velocity`.
+pub(super) fn piece(joint: &Joint, what: &str, unit: &str) -> [Vec<String>; 2] {
+    let kind = kind(&joint.kind);
+    let (position, velocity) =
+        (format!("{what} of the {kind} joint"), format!("rate of the {what} of the {kind} joint"));
+    let rate = format!("{unit}/s");
+    [with_unit(&joint.docs, Some(unit), &position), with_unit(&Docs::default(), Some(&rate), &velocity)]
+}
+
 /// Of a joint's one coordinate.
 fn unit(kind: &JointKind) -> Option<&'static str> {
     match kind {
@@ -159,8 +168,13 @@ pub(super) fn new(compiled: &Compiled) -> Vec<String> {
 /// Of a derived function.
 pub(super) fn function(layout: &Layout<'_>, function: &Function) -> Vec<String> {
     let text = match function.kind {
-        FunctionKind::ForwardDynamics if !layout.is_empty(Group::States, None) => {
-            "Accelerations, and the rates of the model's own states."
+        FunctionKind::ForwardDynamics if layout.has_derivative() => match (layout.rows(), layout.structure.guesses()) {
+            (0, 0) => "Accelerations, and the rates of the model's own states.",
+            (0, _) => "Accelerations, and how well the loops are closed.",
+            _ => "Accelerations, and the multipliers of the constraint equations.",
+        },
+        FunctionKind::InverseDynamics if layout.solves_inputs() => {
+            "The inputs that produce the accelerations `accel`, in the place of what `input` says of them."
         }
         FunctionKind::ForwardDynamics => "Accelerations.",
         FunctionKind::InverseDynamics => "Efforts that the accelerations `accel` need beside all declared forces.",
@@ -174,6 +188,32 @@ pub(super) fn function(layout: &Layout<'_>, function: &Function) -> Vec<String> 
             "`[J]` Potential energy: gravity's, zero at the world's origin, plus the springs'."
         }
         FunctionKind::Outputs => "Outputs.",
+        FunctionKind::Constraints => "Residuals of the constraint equations, zero where the loops are closed.",
+        FunctionKind::ConstraintJacobian => "The Jacobian `G` of the constraint equations by the velocities.",
+        FunctionKind::ConstraintRate => {
+            "Time derivatives of the residuals of the constraint equations, `G * v` and what moves in time by itself."
+        }
+        FunctionKind::ConstraintBias => {
+            "What is left of the second time derivatives of the residuals of the constraint equations where the \
+             accelerations are zero: the derivatives are `G * accel + constraint_bias`."
+        }
+        FunctionKind::Residual => {
+            "All equations as a residual: `M * accel + bias + G^T * multipliers`, then the residuals of the constraint \
+             equations."
+        }
+        FunctionKind::Kinematics(number) => {
+            let found = layout.model.kinematics.get(number).map_or(&[][..], |kinematics| &kinematics.find);
+            let found: Vec<String> = found.iter().map(|c| format!("`{}`", code(&layout.coordinate(*c)))).collect();
+            &format!("Positions, rates and accelerations, in this order: {}.", found.join(", "))
+        }
+        FunctionKind::Guess => {
+            "Closes the loops by Newton's method: the state with the solution as its guess, and the greatest residual."
+        }
+        FunctionKind::DeadCentres => {
+            "Distances from dead centres, in the order of `DEAD_CENTRES`: the square roots in the solutions of the loops, \
+             products of lengths. Zero where two solutions meet, and rates of the solution grow without bound; NaN where \
+             the loop cannot be closed."
+        }
     };
     let mut lines = vec![text.to_string(), String::new()];
     if !function.method.is_empty() {
@@ -186,7 +226,8 @@ pub(super) fn function(layout: &Layout<'_>, function: &Function) -> Vec<String> 
 
 /// `19 add, 28 mul, 1 div`
 pub(super) fn cost(cost: &Cost) -> String {
-    let Cost { add, mul, div, sqrt, sincos, other } = *cost;
+    let Cost { add, mul, div, sqrt, sincos, compare, other } = *cost;
+    let other = compare + other;
     let all = [(add, "add"), (mul, "mul"), (div, "div"), (sqrt, "sqrt"), (sincos, "sincos"), (other, "other")];
     let some: Vec<String> =
         all.iter().filter(|(count, _)| *count > 0).map(|(count, name)| format!("{count} {name}")).collect();

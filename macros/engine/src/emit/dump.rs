@@ -11,6 +11,7 @@ use std::process::{Command, Stdio};
 use proc_macro2::TokenStream;
 
 use super::{names, report, source};
+use crate::mechanics::structure::Structure;
 use crate::model::types::Model;
 use crate::optimize::program::Compiled;
 
@@ -18,7 +19,7 @@ use crate::optimize::program::Compiled;
 const VARIABLE: &str = "MULTIBODY_DUMP";
 
 /// Writes the files if the variable is set.
-pub(super) fn dump(model: &Model, compiled: &Compiled, tokens: &TokenStream) {
+pub(super) fn dump(model: &Model, structure: &Structure, compiled: &Compiled, tokens: &TokenStream) {
     let Some(directory) = std::env::var_os(VARIABLE).filter(|value| !value.is_empty()) else {
         return;
     };
@@ -28,7 +29,7 @@ pub(super) fn dump(model: &Model, compiled: &Compiled, tokens: &TokenStream) {
     let source = formatted(&source).unwrap_or(source);
     // A build goes on without the files.
     let _ = std::fs::create_dir_all(&directory);
-    let _ = std::fs::write(directory.join(format!("{name}.md")), report(model, compiled));
+    let _ = std::fs::write(directory.join(format!("{name}.md")), report(model, structure, compiled));
     let _ = std::fs::write(directory.join(format!("{name}.rs")), source);
 }
 

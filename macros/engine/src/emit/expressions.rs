@@ -108,6 +108,9 @@ impl Names<'_> {
             let write = move |a: &Expression| self.write(a, is_negative(a), least);
             arguments.iter().map(write)
         };
+        if call == Call::Epsilon {
+            return quote!(<T as Real>::epsilon());
+        }
         if let Some(name) = function(call) {
             let (name, arguments) = (names::ident(name), each(Level::Or));
             return quote!(Real::#name(#(#arguments),*));
@@ -152,7 +155,7 @@ fn function(call: Call) -> Option<&'static str> {
         Call::LessEqual => "le",
         Call::Equal => "eq",
         Call::Select => "select",
-        Call::And | Call::Or | Call::Not => return None,
+        Call::And | Call::Or | Call::Not | Call::Epsilon => return None,
     })
 }
 

@@ -1,7 +1,8 @@
 //! Stage `emit`: which field of which generated struct holds what.
 //!
-//! In: the checked model. Out: a [`Layout`]: for each group of structs (`Params`, `Position`, ..) the leaves in the
-//! order of the model, and from them the fields of every struct, the path of every leaf, and values built from leaves.
+//! In: the checked model and its structure. Out: a [`Layout`]: for each group of structs (`Params`, `Position`, ..) the
+//! leaves in the order of the model, and from them the fields of every struct, the path of every leaf, and values built
+//! from leaves.
 //!
 //! A part's structs have the union of the fields of its instances, so that one type serves them all.
 
@@ -9,8 +10,10 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 use syn::Path;
 
+use super::joints::{self, Piece};
 use super::leaf::Leaf;
 use super::{document, names};
+use crate::mechanics::structure::Structure;
 use crate::model::types::{InstanceId, JointId, Model, PartTypeId, Place};
 
 /// The kinds of generated structs with fields of the model.
@@ -82,20 +85,22 @@ pub(super) enum FieldKind {
 /// All groups of one model.
 pub(super) struct Layout<'a> {
     pub(super) model: &'a Model,
+    pub(super) structure: &'a Structure,
     params: Table,
     position: Table,
     velocity: Table,
     states: Table,
     input: Table,
     output: Table,
-    /// Number of the joint's leaf in `position` and `velocity`; `None` without coordinates.
-    joints: Vec<Option<usize>>,
+    /// By joint: numbers of its leaves in `position` and `velocity`, and what of the joint they hold.
+    joints: Vec<Vec<(usize, Piece)>>,
 }
 
 impl<'a> Layout<'a> {
-    pub(super) fn new(model: &'a Model) -> Self {
+    pub(super) fn new(model: &'a Model, structure: &'a Structure) -> Self {
         let mut layout = Layout {
             model,
+            structure,
             params: Table::default(),
             position: Table::default(),
             velocity: Table::default(),
@@ -130,16 +135,28 @@ impl<'a> Layout<'a> {
         layout
     }
 
+    /// In the order of the state, coordinates of one joint together.
     fn add_joints(&mut self) {
-        for joint in &self.model.joints {
-            let leaves = Leaf::position(&joint.kind).zip(Leaf::velocity(&joint.kind));
-            let index = leaves.map(|(position, velocity)| {
-                let docs = document::position(joint);
-                self.add(Group::Position, &joint.place, position, docs);
-                let docs = document::velocity(joint);
-                self.add(Group::Velocity, &joint.place, velocity, docs)
-            });
-            self.joints.push(index);
+        let (model, structure) = (self.model, self.structure);
+        self.joints = model.joints.iter().map(|_| Vec::new()).collect();
+        for coordinate in &structure.state {
+            let id = coordinate.joint;
+            let Some(joint) = model.joints.get(id.0) else {
+                continue;
+            };
+            if self.joints.get(id.0).is_none_or(|pieces| !pieces.is_empty()) {
+                continue;
+            }
+            for piece in joints::pieces(&joint.kind, &joints::held(model, structure, id)) {
+                let field = joints::field(model, structure, id, joint, &piece);
+                let place = Place { instance: joint.place.instance, field };
+                let [of_position, of_velocity] = piece.docs(joint);
+                self.add(Group::Position, &place, piece.position.clone(), of_position);
+                let index = self.add(Group::Velocity, &place, piece.velocity.clone(), of_velocity);
+                if let Some(pieces) = self.joints.get_mut(id.0) {
+                    pieces.push((index, piece));
+                }
+            }
         }
     }
 
@@ -195,10 +212,13 @@ impl<'a> Layout<'a> {
         &self.model.krate
     }
 
-    /// The joint's leaf in `Position` or `Velocity`.
-    pub(super) fn joint(&self, group: Group, joint: JointId) -> Option<&Entry> {
-        let index = (*self.joints.get(joint.0)?)?;
-        self.table(group).entries.get(index)
+    /// The leaf in `Position` or `Velocity` that holds a component of a joint, and its number there.
+    pub(super) fn joint(&self, group: Group, joint: JointId, component: usize) -> Option<(&Entry, usize)> {
+        let is_velocity = group == Group::Velocity;
+        let mut pieces = self.joints.get(joint.0)?.iter();
+        let (index, component) =
+            pieces.find_map(|(index, piece)| Some((*index, piece.component(is_velocity, component)?)))?;
+        Some((self.table(group).entries.get(index)?, component))
     }
 
     /// Whether the structs of this group have nothing in them, in the model (`None`) or in a part.

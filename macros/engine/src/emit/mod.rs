@@ -1,27 +1,33 @@
 //! Stage `emit`: the optimised programs as a Rust module.
 //!
-//! In: the checked [`Model`] and the [`Compiled`] programs. Out: tokens, and on request (`MULTIBODY_DUMP`) files. Nothing about
-//! the equations is decided here. The code needs no `#[allow]` in the user's crate: names that the user chose count as
+//! In: the checked [`Model`], its [`Structure`] and the [`Compiled`] programs. Out: tokens, and on request
+//! (`MULTIBODY_DUMP`) files. Nothing about the equations is decided here. The code needs no `#[allow]` in the user's crate: names that the user chose count as
 //! generated, so that lints of style and dead code don't apply, and what lints check even there is kept: every public
-//! item is documented, no function has more than five arguments, no literal looks like a constant of `core`.
+//! item is documented, no function has more than six arguments, no literal looks like a constant of `core`.
 //!
 //! `layout` knows which field of which struct holds what, `values` builds them, `expressions` and `blocks` print programs, `items` has one
 //! file per generated thing, `document` and `report` write its documentation, `skeleton` stands in after errors.
 
+mod arguments;
 mod blocks;
 mod document;
 mod dump;
 mod expressions;
+mod formula;
 mod functions;
+mod guesses;
 mod items;
+mod joints;
 mod layout;
 mod leaf;
 mod literals;
+mod loops;
 mod lower;
 mod names;
 mod numeric;
 mod places;
 mod report;
+mod results;
 mod skeleton;
 mod text;
 mod values;
@@ -30,9 +36,11 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use self::layout::Layout;
+use crate::mechanics::structure::Structure;
 use crate::model::types::Model;
-use crate::optimize::program::Compiled;
+use crate::optimize::program::{Compiled, Function, FunctionKind};
 
+pub use self::functions::name as function_name;
 pub use self::report::report;
 pub use self::skeleton::{skeleton, skeletons};
 pub use self::text::source;
@@ -47,18 +55,24 @@ struct Context<'a> {
     hollow: bool,
 }
 
+impl Context<'_> {
+    fn function(&self, kind: FunctionKind) -> Option<&Function> {
+        self.compiled.functions.iter().find(|function| function.kind == kind)
+    }
+}
+
 /// The generated module of one model. Writes it to files too where the environment asks for that.
 ///
 /// Expands to `pub mod double_pendulum { pub struct Params<T = f64> { .. } .. }`.
-pub fn emit(model: &Model, compiled: &Compiled) -> TokenStream {
-    let tokens = module(&context(model, compiled, false));
-    dump::dump(model, compiled, &tokens);
+pub fn emit(model: &Model, structure: &Structure, compiled: &Compiled) -> TokenStream {
+    let tokens = module(&context(model, structure, compiled, false));
+    dump::dump(model, structure, compiled, &tokens);
     tokens
 }
 
-fn context<'a>(model: &'a Model, compiled: &'a Compiled, hollow: bool) -> Context<'a> {
+fn context<'a>(model: &'a Model, structure: &'a Structure, compiled: &'a Compiled, hollow: bool) -> Context<'a> {
     Context {
-        layout: Layout::new(model),
+        layout: Layout::new(model, structure),
         compiled,
         fields: names::unique(compiled.fields.iter().map(String::as_str), &["scalar", "self"]),
         hollow,

@@ -24,6 +24,11 @@ pub(super) fn field(user: &Ident) -> Ident {
     ident
 }
 
+/// A name made from the user's, at the user's place.
+pub(super) fn derived(user: &Ident, name: &str) -> Ident {
+    Ident::new(&valid(name), Span::mixed_site().located_at(user.span()))
+}
+
 /// The user's name as text, without `r#`.
 pub(super) fn plain(user: &Ident) -> String {
     user.unraw().to_string()

@@ -2,7 +2,7 @@
 //!
 //! In: the layout. Out: for a symbol the tokens `q.legs[2].gimbal.first`, `params.feet[3].x`, `input.u`, `t`.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::layout::{Entry, Group, Layout};
@@ -17,13 +17,16 @@ pub(super) enum Root {
     Position,
     Velocity,
     States,
+    Guess,
     Input,
     Acceleration,
+    Multipliers,
 }
 
 impl Root {
-    pub(super) fn of(symbol: Symbol) -> Root {
-        match symbol {
+    /// Nothing for what a program defines itself.
+    pub(super) fn of(symbol: Symbol) -> Option<Root> {
+        Some(match symbol {
             Symbol::Time => Root::Time,
             Symbol::Param { .. } => Root::Params,
             Symbol::Input { .. } => Root::Input,
@@ -31,7 +34,10 @@ impl Root {
             Symbol::Position { .. } => Root::Position,
             Symbol::Velocity { .. } => Root::Velocity,
             Symbol::Acceleration { .. } => Root::Acceleration,
-        }
+            Symbol::Multiplier { .. } => Root::Multipliers,
+            Symbol::Guess { .. } => Root::Guess,
+            Symbol::Unknown { .. } => return None,
+        })
     }
 
     pub(super) fn name(self) -> &'static str {
@@ -41,39 +47,50 @@ impl Root {
             Root::Position => "q",
             Root::Velocity => "v",
             Root::States => "x",
+            Root::Guess => "guess",
             Root::Input => "input",
             Root::Acceleration => "accel",
+            Root::Multipliers => "multipliers",
         }
     }
 }
 
 /// Names that locals of programs can't have.
-pub(super) const RESERVED: &[&str] = &["t", "params", "q", "v", "x", "input", "accel", "state", "scalar"];
+pub(super) const RESERVED: &[&str] =
+    &["t", "params", "q", "v", "x", "guess", "input", "accel", "multipliers", "state", "solved", "scalar"];
 
 impl Layout<'_> {
     /// Expands to the path of `symbol`.
     pub(super) fn symbol(&self, symbol: Symbol) -> TokenStream {
-        let root = names::ident(Root::of(symbol).name());
-        let (entry, component) = match symbol {
-            Symbol::Time => return quote!(#root),
-            Symbol::Param { param, element } => (self.entry(Group::Params, param.0), element),
-            Symbol::Input { input, element } => (self.entry(Group::Input, input.0), element),
-            Symbol::State { state } => (self.entry(Group::States, state.0), 0),
-            Symbol::Position { joint, component } => (self.joint(Group::Position, joint), component),
-            Symbol::Velocity { joint, component } | Symbol::Acceleration { joint, component } => {
-                (self.joint(Group::Velocity, joint), component)
-            }
-        };
-        entry.map_or_else(
-            || quote!(#root),
-            |entry| {
-                let (path, access) = (self.leaf_path(entry), entry.leaf.access(component));
-                quote!(#root #path #access)
-            },
-        )
+        let root = Root::of(symbol).map(|root| names::ident(root.name()));
+        let path = self.path_of(symbol);
+        quote!(#root #path)
     }
 
-    fn entry(&self, group: Group, index: usize) -> Option<&Entry> {
-        self.table(group).entries.get(index)
+    /// Expands to the path behind its variable: `.legs[2].force`.
+    pub(super) fn path_of(&self, symbol: Symbol) -> TokenStream {
+        let place = match symbol {
+            Symbol::Time | Symbol::Unknown { .. } => None,
+            Symbol::Multiplier { row: index } | Symbol::Guess { index } => {
+                let index = Literal::usize_unsuffixed(index);
+                return quote!([#index]);
+            }
+            Symbol::Param { param, element } => self.entry(Group::Params, param.0, element),
+            Symbol::Input { input, element } => self.entry(Group::Input, input.0, element),
+            Symbol::State { state } => self.entry(Group::States, state.0, 0),
+            Symbol::Position { joint, component } => self.joint(Group::Position, joint, component),
+            Symbol::Velocity { joint, component } | Symbol::Acceleration { joint, component } => {
+                self.joint(Group::Velocity, joint, component)
+            }
+        };
+        let path = place.map(|(entry, component)| {
+            let (path, access) = (self.leaf_path(entry), entry.leaf.access(component));
+            quote!(#path #access)
+        });
+        path.unwrap_or_default()
+    }
+
+    fn entry(&self, group: Group, index: usize, component: usize) -> Option<(&Entry, usize)> {
+        Some((self.table(group).entries.get(index)?, component))
     }
 }

@@ -6,18 +6,19 @@
 
 use super::document::{code, cost, kind, values};
 use super::layout::Layout;
-use super::{Context, context, document, functions, names};
-use crate::model::types::{Body, BodyRef, Docs, ExprNode, Frame, JointKind, Model, Orientation, Place, Type};
+use super::{Context, context, document, functions, joints, loops, names};
+use crate::mechanics::structure::Structure;
+use crate::model::types::{Body, BodyRef, Docs, ExprNode, Frame, JointId, JointKind, Model, Orientation, Place, Type};
 use crate::optimize::program::{Compiled, FunctionKind};
 
 /// The report as a Markdown document.
-pub fn report(model: &Model, compiled: &Compiled) -> String {
+pub fn report(model: &Model, structure: &Structure, compiled: &Compiled) -> String {
     let mut all = vec![format!("# `{}`", names::plain(&model.name)), String::new()];
     all.extend(model.attrs.iter().filter_map(doc_text).map(|text| {
         let text = text.strip_prefix(' ').unwrap_or(&text);
         text.to_string()
     }));
-    all.extend(lines(&context(model, compiled, false)));
+    all.extend(lines(&context(model, structure, compiled, false)));
     all.push(String::new());
     all.join("\n")
 }
@@ -43,9 +44,12 @@ pub(super) fn lines(context: &Context<'_>) -> Vec<String> {
         params.map(|p| row(layout, &p.place, vec![unit(&p.docs), format!("`{}`", values(&p.default)), text(&p.docs)]))
     });
     section(&mut lines, "Coordinates", &["joint", "kind", "parent", "child", "freedoms", ""], {
-        model.joints.iter().map(|j| {
+        let joints = model.joints.iter().enumerate().map(|(number, j)| (JointId(number), j));
+        joints.filter(|(id, _)| !model.cuts.contains(id)).map(|(id, j)| {
             let (parent, child) = (frame(layout, &j.parent), frame(layout, &j.child));
-            let freedoms = j.kind.freedoms().to_string();
+            let all = j.kind.freedoms();
+            let held = joints::held(model, layout.structure, id).iter().filter(|held| **held).count();
+            let freedoms = if held == all { all.to_string() } else { format!("{held} of {all}") };
             let kind = kind(&j.kind).to_string();
             row(layout, &j.place, vec![kind, parent, child, freedoms, text(&j.docs)])
         })
@@ -66,6 +70,12 @@ pub(super) fn lines(context: &Context<'_>) -> Vec<String> {
         let bodies = model.bodies.iter();
         bodies.map(|b| row(layout, &b.place, vec![inertia(b).to_string(), text(&b.docs)]))
     });
+    lines.extend(loops::section_lines(context));
+    let groups = &layout.structure.groups;
+    if !groups.is_empty() {
+        lines.extend(["", "## Repeated parts", ""].map(String::from));
+        lines.extend(groups.iter().map(|group| format!("- {}", group.sentence())));
+    }
     section(&mut lines, "Functions", &["function", "method", "operations", "as derived"], {
         let compiled = context.compiled;
         let new = vec![String::new(), cost(&compiled.prelude_cost), String::new()];
@@ -73,7 +83,7 @@ pub(super) fn lines(context: &Context<'_>) -> Vec<String> {
         let functions = functions.filter(|f| f.kind != FunctionKind::Outputs || !model.outputs.is_empty());
         let functions = functions.map(|f| {
             let rest = vec![cell(f.method), cost(&f.after), cost(&f.before)];
-            plain_row(functions::name(f.kind), rest)
+            plain_row(&functions::name(f.kind), rest)
         });
         std::iter::once(plain_row("new", new)).chain(functions)
     });
@@ -86,20 +96,20 @@ pub(super) fn lines(context: &Context<'_>) -> Vec<String> {
 }
 
 /// A row of a table: name, the same with indices left open, other cells.
-struct Row {
+pub(super) struct Row {
     name: String,
     general: String,
     rest: Vec<String>,
 }
 
-fn row(layout: &Layout<'_>, place: &Place, rest: Vec<String>) -> Row {
+pub(super) fn row(layout: &Layout<'_>, place: &Place, rest: Vec<String>) -> Row {
     let name = layout.name(place);
     let general = general(&name);
     Row { name, general, rest }
 }
 
 /// `legs[_].m` for `legs[2].m`
-fn general(name: &str) -> String {
+pub(super) fn general(name: &str) -> String {
     let mut general = String::new();
     for (number, piece) in name.split('[').enumerate() {
         match piece.split_once(']') {
@@ -115,7 +125,7 @@ fn plain_row(name: &str, rest: Vec<String>) -> Row {
 }
 
 /// A table under a heading; nothing where there are no rows.
-fn section(lines: &mut Vec<String>, heading: &str, columns: &[&str], rows: impl Iterator<Item = Row>) {
+pub(super) fn section(lines: &mut Vec<String>, heading: &str, columns: &[&str], rows: impl Iterator<Item = Row>) {
     let rows: Vec<Row> = rows.collect();
     if rows.is_empty() {
         return;
@@ -139,7 +149,7 @@ fn cell(text: &str) -> String {
     text.replace('|', "\\|").replace('\n', " ")
 }
 
-fn text(docs: &Docs) -> String {
+pub(super) fn text(docs: &Docs) -> String {
     let lines = document::text(docs);
     let first: Vec<&str> = lines.iter().map(String::as_str).take_while(|line| !line.is_empty()).collect();
     cell(&first.join(" "))
@@ -164,7 +174,7 @@ fn ty(ty: &Type) -> String {
     }
 }
 
-fn frame(layout: &Layout<'_>, frame: &Frame) -> String {
+pub(super) fn frame(layout: &Layout<'_>, frame: &Frame) -> String {
     match frame.body {
         BodyRef::Ground => "ground".to_string(),
         BodyRef::Body(body) => {
@@ -201,7 +211,8 @@ fn defaults(layout: &Layout<'_>) -> Vec<String> {
             lines.push(format!("- {what}: {}", names.join(", ")));
         }
     };
-    let quaternions = model.joints.iter().filter(|joint| {
+    let in_tree = model.joints.iter().enumerate().filter(|(number, _)| !model.cuts.contains(&JointId(*number)));
+    let quaternions = in_tree.map(|(_, joint)| joint).filter(|joint| {
         matches!(joint.kind, JointKind::Ball(Orientation::Quaternion) | JointKind::Free(Orientation::Quaternion))
     });
     list("orientation by quaternions", quaternions.map(|joint| &joint.place).collect());

@@ -10,10 +10,11 @@ use std::rc::Rc;
 use proc_macro2::{Ident, Span, TokenStream};
 use syn::{Expr as Tokens, ExprLit, Lit, Path};
 
+use super::guesses::{self, Loops};
 use super::{context, module};
 use crate::model::types::{
-    BodyRef, Docs, Expr, ExprNode, Frame, Input, Instance, InstanceId, Joint, JointKind, Model, Orientation, Output,
-    Param, PartType, PartTypeId, Place, State, Type,
+    BodyRef, Docs, Expr, ExprNode, Frame, Handling, Input, Instance, InstanceId, Joint, JointKind, Model, Orientation,
+    Output, Param, PartType, PartTypeId, Place, State, Type,
 };
 use crate::optimize::program::{Compiled, Cost, Function, FunctionKind, Program};
 use crate::syntax::tree::{Fields, Item, ItemKind, Module, Part, Source, UNREADABLE, Value};
@@ -50,10 +51,12 @@ fn has_cfg(module: &Module) -> bool {
 }
 
 fn build(of: &Module, krate: Option<Path>, all: &[Module]) -> TokenStream {
-    let mut guess = Guess { modules: all, model: empty(of, krate) };
+    let mut guess = Guess { modules: all, root: of, model: empty(of, krate), loops: Loops::default() };
     guess.module(of, InstanceId(0), DEEPEST);
+    guesses::options(&mut guess.model, of);
+    let structure = guess.loops.structure(&guess.model);
     let mut compiled = Compiled::default();
-    let kinds = [
+    let mut kinds = vec![
         FunctionKind::ForwardDynamics,
         FunctionKind::InverseDynamics,
         FunctionKind::MassMatrix,
@@ -61,15 +64,26 @@ fn build(of: &Module, krate: Option<Path>, all: &[Module]) -> TokenStream {
         FunctionKind::KineticEnergy,
         FunctionKind::PotentialEnergy,
         FunctionKind::Outputs,
+        FunctionKind::Residual,
     ];
-    compiled.functions.extend(kinds.map(|kind| Function {
+    if !structure.rows.is_empty() {
+        kinds.extend([
+            FunctionKind::Constraints,
+            FunctionKind::ConstraintJacobian,
+            FunctionKind::ConstraintRate,
+            FunctionKind::ConstraintBias,
+        ]);
+    }
+    kinds.extend((0..guess.model.kinematics.len()).map(FunctionKind::Kinematics));
+    kinds.extend((structure.guesses() > 0).then_some(FunctionKind::Guess));
+    compiled.functions.extend(kinds.into_iter().map(|kind| Function {
         kind,
         program: Program::default(),
         before: Cost::default(),
         after: Cost::default(),
         method: "",
     }));
-    module(&context(&guess.model, &compiled, true))
+    module(&context(&guess.model, &structure, &compiled, true))
 }
 
 fn empty(module: &Module, krate: Option<Path>) -> Model {
@@ -92,10 +106,20 @@ fn empty(module: &Module, krate: Option<Path>) -> Model {
         bodies: Vec::new(),
         joints: Vec::new(),
         tree: Vec::new(),
+        cuts: Vec::new(),
+        constraints: Vec::new(),
+        drives: Vec::new(),
+        solves: Vec::new(),
+        assumptions: Vec::new(),
+        handling: Handling::default(),
+        independent: Vec::new(),
+        skipped: Vec::new(),
         forces: Vec::new(),
         outputs: Vec::new(),
         gravity: None,
         emit: Vec::new(),
+        solve_for: Vec::new(),
+        kinematics: Vec::new(),
     }
 }
 
@@ -107,7 +131,10 @@ fn runtime() -> Path {
 
 struct Guess<'a> {
     modules: &'a [Module],
+    /// The model's own module.
+    root: &'a Module,
     model: Model,
+    loops: Loops,
 }
 
 impl Guess<'_> {
@@ -119,7 +146,11 @@ impl Guess<'_> {
                 ItemKind::Param(value) | ItemKind::Input(value) | ItemKind::Output(value) => &value.name,
                 ItemKind::State { name, .. } | ItemKind::Joint { name, .. } => name,
                 ItemKind::Part(part) => &part.name,
-                _ => continue,
+                ItemKind::Body { name, .. } => name,
+                other => {
+                    self.loops.item(other);
+                    continue;
+                }
             };
             if name != UNREADABLE && taken.insert(name.to_string()) {
                 let place = Place { instance, field: name.clone() };
@@ -148,21 +179,34 @@ impl Guess<'_> {
                 self.model.states.push(State { place, rate: zero(Type::Scalar), start: 0.0, docs })
             }
             ItemKind::Joint { kind, fields, .. } => {
-                if let Some(kind) = joint_kind(kind, fields) {
-                    self.model.joints.push(Joint {
-                        place,
-                        kind,
-                        parent: ground(),
-                        child: ground(),
-                        armature: None,
-                        docs,
-                        span: Span::call_site(),
-                    });
+                let kind = joint_kind(kind, fields);
+                self.loops.joint(kind.as_ref().map_or(0, JointKind::freedoms), item);
+                if let Some(kind) = kind {
+                    self.joint(place, kind);
+                }
+            }
+            ItemKind::Body { fields, .. } => {
+                self.loops.body();
+                if let Some(orientation) = guesses::absolute(self.root, fields) {
+                    self.loops.joint(6, item);
+                    self.joint(place, JointKind::Free(orientation));
                 }
             }
             ItemKind::Part(part) => self.part(module, part, place, depth),
             _ => {}
         }
+    }
+
+    fn joint(&mut self, place: Place, kind: JointKind) {
+        self.model.joints.push(Joint {
+            place,
+            kind,
+            parent: ground(),
+            child: ground(),
+            armature: None,
+            docs: Docs::default(),
+            span: Span::call_site(),
+        });
     }
 
     fn part(&mut self, module: &Module, part: &Part, place: Place, depth: usize) {

@@ -146,7 +146,7 @@ impl Equations<'_> {
     }
 
     /// The axis that an expression means.
-    fn axis(&mut self, axis: &Expr) -> Axis {
+    pub(super) fn axis(&mut self, axis: &Expr) -> Axis {
         let direction = self.vector(axis);
         let direction = self.g.components(direction);
         constants::axis(&mut self.g, direction)

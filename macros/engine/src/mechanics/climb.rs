@@ -25,6 +25,10 @@ impl Part {
     fn fixed(local: [Vector; 3]) -> Part {
         Part { rotation: Rotation::IDENTITY, local, angular: Vector::ZERO, angular_rate: Vector::ZERO }
     }
+
+    fn is_fixed(&self) -> bool {
+        self.rotation == Rotation::IDENTITY && self.angular == Vector::ZERO && self.angular_rate == Vector::ZERO
+    }
 }
 
 /// A point and the frame that it belongs to, as the present link sees them.
@@ -56,6 +60,13 @@ impl<'t> Climb<'t> {
 
     /// Out of a link: through its motion, then from the joint's frame to the parent's.
     fn step(&mut self, g: &mut Graph, link: &Link) {
+        self.leave(g, link);
+        self.turn(g, link.rotation, (Vector::ZERO, Vector::ZERO));
+        self.push(g, [link.offset, Vector::ZERO, Vector::ZERO]);
+    }
+
+    /// Through a link's motion, into the frame that its joint stands in.
+    pub(super) fn leave(&mut self, g: &mut Graph, link: &Link) {
         let tree = self.tree;
         let turn = match link.motion {
             Motion::Revolute(axis) | Motion::Screw(axis, _) => g.axis_rotation(axis, link.q),
@@ -81,14 +92,19 @@ impl<'t> Climb<'t> {
             dw = g.rotate(turn, dw);
         }
         self.turn(g, turn, (w, dw));
-        self.push(travel);
-        self.turn(g, link.rotation, (Vector::ZERO, Vector::ZERO));
-        self.push([link.offset, Vector::ZERO, Vector::ZERO]);
+        self.push(g, travel);
     }
 
-    fn push(&mut self, local: [Vector; 3]) {
-        if local != [Vector::ZERO; 3] {
-            self.parts.push(Part::fixed(local));
+    /// Pieces that nothing has turned against each other are one.
+    fn push(&mut self, g: &mut Graph, local: [Vector; 3]) {
+        if local == [Vector::ZERO; 3] {
+            return;
+        }
+        match self.parts.last_mut() {
+            Some(part) if part.is_fixed() => {
+                part.local = [0, 1, 2].map(|k| g.add_vectors(part.local[k], local[k]));
+            }
+            _ => self.parts.push(Part::fixed(local)),
         }
     }
 

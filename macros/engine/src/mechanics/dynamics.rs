@@ -11,8 +11,10 @@ use crate::symbolic::linear_algebra::solve_symmetric;
 use super::articulated;
 use super::composite;
 use super::equations::{Equations, Method};
+use super::gathered;
 use super::kinematics::motions;
 use super::newton_euler::{efforts, transmitted};
+use super::regroup::regroup_but;
 
 impl Equations<'_> {
     /// Efforts that the accelerations take beside all declared forces.
@@ -30,6 +32,9 @@ impl Equations<'_> {
 
     /// In the tree's coordinates.
     fn efforts(&mut self, acceleration: &[Scalar]) -> Vec<Scalar> {
+        if self.gathered {
+            return self.gathered_efforts(acceleration);
+        }
         let shared = self.shared();
         let tree = &shared.tree;
         let loads = self.loads();
@@ -39,6 +44,17 @@ impl Equations<'_> {
         let applied = shared.turn(g, &loads.applied);
         let wrenches = transmitted(g, tree, &motions, &applied);
         let needed = efforts(g, tree, &wrenches, acceleration);
+        let rest = needed.iter().zip(&loads.efforts).map(|(&needed, &given)| g.sub(needed, given));
+        rest.take(self.symbols.freedoms).collect()
+    }
+
+    /// The same over groups of links.
+    fn gathered_efforts(&mut self, acceleration: &[Scalar]) -> Vec<Scalar> {
+        let tree = regroup_but(&mut self.g, &self.mechanism.tree, true);
+        let loads = self.loads();
+        let base = self.base();
+        let g = &mut self.g;
+        let needed = gathered::efforts(g, &tree, acceleration, base, &loads.applied, &loads.world);
         let rest = needed.iter().zip(&loads.efforts).map(|(&needed, &given)| g.sub(needed, given));
         rest.take(self.symbols.freedoms).collect()
     }
@@ -64,6 +80,9 @@ impl Equations<'_> {
         if self.loading {
             // Forces that depend on accelerations are refused by the checker.
             return vec![Scalar::ZERO; self.symbols.freedoms].into();
+        }
+        if self.is_constrained() {
+            return self.tree_accelerations();
         }
         let mechanism = Rc::clone(&self.mechanism);
         let shared = self.shared();

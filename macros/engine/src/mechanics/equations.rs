@@ -6,15 +6,20 @@
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use crate::model::types::{ExprNode, JointId, Model};
+use crate::model::types::{Closing, ExprNode, JointId, Model};
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
 use super::build::Mechanism;
+use super::closings::Writing;
 use super::columns::Columns;
+use super::constrained::Solved;
+use super::cycles::Branch;
 use super::forces::Loads;
 use super::newton_euler::Wrench;
 use super::parallel::{Axes, Shared, share_axes};
+use super::reduction::Reduction;
 use super::regroup::regroup;
+use super::structure::{Row, Structure};
 use super::symbols::Symbols;
 use super::tree::Tree;
 use super::values::Value;
@@ -44,6 +49,8 @@ pub struct Way {
     pub method: Method,
     /// Common axes for parallel hinges in the recursions of the dynamics.
     pub axes: Option<Axes>,
+    /// In which axes loops are closed.
+    pub writing: Writing,
 }
 
 /// Angular velocity, and velocity of the origin, in link axes.
@@ -54,10 +61,15 @@ pub struct Equations<'m> {
     pub(super) model: &'m Model,
     pub g: Graph,
     pub symbols: Symbols,
+    /// Roles of coordinates and equations; without loops and drives an empty one.
+    pub(super) structure: Rc<Structure>,
     pub(super) mechanism: Rc<Mechanism>,
     pub(super) style: Style,
     pub(super) method: Method,
     pub(super) axes: Option<Axes>,
+    pub(super) writing: Writing,
+    /// Equations of closings, once written.
+    pub(super) closed: HashMap<Closing, Rc<[Scalar]>>,
     /// By address: the model outlives this.
     pub(super) memo: HashMap<*const ExprNode, Value>,
     pub(super) world: Columns,
@@ -69,7 +81,19 @@ pub struct Equations<'m> {
     pub(super) shared: Option<Rc<Shared>>,
     pub(super) loads: Option<Rc<Loads>>,
     pub(super) accelerations: Option<Rc<[Scalar]>>,
+    /// Definitions of the coordinates outside the state, where outputs are derived.
+    pub(super) reduction: Option<Rc<Reduction>>,
+    /// Constrained accelerations, where outputs have asked for them.
+    pub(super) solved: Option<Rc<Solved>>,
     pub(super) transmitted: Option<Rc<[Wrench]>>,
+    /// How loops are solved, and the signs of roots that conditions have chosen, by `solve` item: decided once.
+    pub(super) branches: HashMap<usize, Branch>,
+    /// Multipliers whose forces act beside the declared ones.
+    pub(super) multiplied: Vec<(Row, Scalar)>,
+    /// Inverse dynamics by [`super::gathered`].
+    pub(super) gathered: bool,
+    /// Multipliers of the equations by which dependent coordinates are found, where reactions have asked for them.
+    pub(super) holding: Option<Rc<[(Row, Scalar)]>>,
     /// Forces are being derived: the checker lets none depend on loads, and here that would be an endless regress.
     pub(super) loading: bool,
 }
@@ -81,10 +105,13 @@ impl<'m> Equations<'m> {
             model,
             g,
             symbols,
+            structure: Rc::new(Structure::default()),
             mechanism: Rc::new(Mechanism::default()),
             style: way.style,
             method: way.method,
             axes: way.axes,
+            writing: way.writing,
+            closed: HashMap::new(),
             shared: None,
             memo: HashMap::new(),
             world: Columns::new(None, Rotation::IDENTITY),
@@ -93,7 +120,13 @@ impl<'m> Equations<'m> {
             regrouped: None,
             loads: None,
             accelerations: None,
+            reduction: None,
+            solved: None,
             transmitted: None,
+            branches: HashMap::new(),
+            multiplied: Vec::new(),
+            gathered: false,
+            holding: None,
             loading: false,
         };
         let mechanism = equations.build(kept);

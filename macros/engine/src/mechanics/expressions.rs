@@ -5,10 +5,12 @@
 
 use std::rc::Rc;
 
-use crate::model::types::{Expr, ExprNode, Order};
-use crate::symbolic::graph::{Call, Scalar, Vector};
+use crate::model::types::{Coordinate, Expr, ExprNode, Order};
+use crate::symbolic::graph::{Call, Rotation, Scalar, Vector};
 
+use super::constants;
 use super::equations::Equations;
+use super::structure::Role;
 use super::symbols::Symbols;
 use super::values::{Part, Value};
 
@@ -79,7 +81,13 @@ impl Equations<'_> {
                 Value::Scalar(scalar.unwrap_or(Scalar::ZERO))
             }
             &ExprNode::RelativeAngularVelocity(joint) => Value::Vector(self.relative_angular_velocity(joint)),
-            &ExprNode::Effort { joint, index } => Value::Scalar(self.effort(joint, index)),
+            &ExprNode::Effort { joint, index } => {
+                let coordinate = Coordinate { joint, index };
+                Value::Scalar(match self.structure.role(coordinate) {
+                    Role::Driven(_) => self.drive_effort(coordinate),
+                    _ => self.effort(joint, index),
+                })
+            }
             ExprNode::OfFrame(frame, quantity) => {
                 let place = self.place(frame);
                 self.of_place(&place, *quantity)
@@ -109,6 +117,36 @@ impl Equations<'_> {
             ExprNode::Vec3(components) => {
                 let components = [0, 1, 2].map(|k| self.known(&components[k]).scalar());
                 Value::Vector(self.g.vector(components))
+            }
+            ExprNode::Identity => self.rotation_value(Rotation::IDENTITY),
+            ExprNode::RotationAbout { axis, angle } => {
+                let axis = self.known_vector(axis);
+                let axis = self.g.components(axis);
+                let angle = self.known(angle).scalar();
+                let rotation = constants::about(&mut self.g, axis, angle);
+                self.rotation_value(rotation)
+            }
+            ExprNode::RollPitchYaw(angles) => {
+                let turns = [2, 1, 0].map(|k| {
+                    let angle = self.known(&angles[k]).scalar();
+                    self.g.axis_rotation(k, angle)
+                });
+                let rotation = constants::compose(&mut self.g, turns[1], turns[2]);
+                let rotation = constants::compose(&mut self.g, turns[0], rotation);
+                self.rotation_value(rotation)
+            }
+            ExprNode::Compose(a, b) => {
+                let [a, b] = [a, b].map(|e| self.known_rotation(e));
+                let rotation = constants::compose(&mut self.g, a, b);
+                self.rotation_value(rotation)
+            }
+            ExprNode::Pose(position, orientation) => {
+                let position = self.known_vector(position);
+                let rows = match self.known(orientation) {
+                    Value::Rotation(rows) => *rows,
+                    _ => constants::rows(&mut self.g, Rotation::IDENTITY),
+                };
+                Value::Pose(position, super::orientation::of_rows(&mut self.g, &rows))
             }
             ExprNode::Array(list) => Value::Array(list.iter().map(|e| self.known(e)).collect()),
             ExprNode::Index(array, index) => match self.known(array) {
@@ -168,6 +206,17 @@ impl Equations<'_> {
         }
     }
 
+    fn rotation_value(&mut self, rotation: Rotation) -> Value {
+        Value::Rotation(Rc::new(constants::rows(&mut self.g, rotation)))
+    }
+
+    fn known_rotation(&mut self, expr: &Expr) -> Rotation {
+        match self.known(expr) {
+            Value::Rotation(rows) => self.g.matrix_rotation(*rows),
+            _ => Rotation::IDENTITY,
+        }
+    }
+
     fn both(
         &mut self,
         a: &Expr,
@@ -196,6 +245,9 @@ impl Equations<'_> {
 pub(super) fn operands(node: &ExprNode) -> Vec<&Expr> {
     match node {
         ExprNode::Express { vector, .. } => vec![vector],
+        ExprNode::RotationAbout { axis, angle } => vec![axis, angle],
+        ExprNode::RollPitchYaw(angles) => angles.iter().collect(),
+        ExprNode::Compose(a, b) | ExprNode::Pose(a, b) => vec![a, b],
         ExprNode::Vec3(list) => list.iter().collect(),
         ExprNode::Array(list) | ExprNode::Call(_, list) => list.iter().collect(),
         ExprNode::Index(a, _)

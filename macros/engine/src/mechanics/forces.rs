@@ -6,13 +6,15 @@
 
 use std::rc::Rc;
 
-use crate::model::types::{Expr, ForceId, ForceKind, Frame, JointId};
+use crate::model::types::{Expr, ForceId, ForceKind, Frame, JointId, JointKind};
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
-use super::build::Place;
+use super::build::{Mechanism, Place};
+use super::closings::{Held, row_count};
 use super::equations::Equations;
 use super::newton_euler::Wrench;
 use super::springs::JointSpring;
+use super::structure::Row;
 
 /// What acts on the tree.
 #[derive(Clone, Debug)]
@@ -21,23 +23,57 @@ pub(super) struct Loads {
     pub applied: Vec<Wrench>,
     /// By coordinate of the tree.
     pub efforts: Vec<Scalar>,
+    /// Further wrenches on links about their origins, in world axes; only where [`super::gathered`] takes them.
+    pub world: Vec<(usize, Wrench)>,
 }
 
 /// Terms of sums, added up once.
-struct Terms {
+pub(super) struct Terms {
     moments: Vec<Vec<Vector>>,
     forces: Vec<Vec<Vector>>,
     efforts: Vec<Vec<Scalar>>,
 }
 
 impl Terms {
-    fn effort(&mut self, freedom: usize, effort: Scalar) {
+    pub(super) fn new(mechanism: &Mechanism) -> Self {
+        let tree = &mechanism.tree;
+        Terms {
+            moments: vec![Vec::new(); tree.links.len()],
+            forces: vec![Vec::new(); tree.links.len()],
+            efforts: vec![Vec::new(); tree.freedoms()],
+        }
+    }
+
+    /// The sums; efforts were those of the user's coordinates.
+    pub(super) fn sums(&self, g: &mut Graph, mechanism: &Mechanism) -> Loads {
+        let sums = self.moments.iter().zip(&self.forces);
+        let applied =
+            sums.map(|(moments, forces)| Wrench { moment: g.sum_vectors(moments), force: g.sum_vectors(forces) });
+        let applied = applied.collect();
+        let efforts: Vec<Scalar> = self.efforts.iter().map(|list| g.sum(list)).collect();
+        Loads { applied, efforts: mechanism.sign(&efforts), world: Vec::new() }
+    }
+
+    pub(super) fn wrench(&mut self, link: usize, moment: Vector, force: Vector) {
+        if let (Some(moments), Some(forces)) = (self.moments.get_mut(link), self.forces.get_mut(link)) {
+            moments.push(moment);
+            forces.push(force);
+        }
+    }
+
+    pub(super) fn effort(&mut self, freedom: usize, effort: Scalar) {
         if let Some(list) = self.efforts.get_mut(freedom) {
             list.push(effort);
         }
     }
 
-    fn force(&mut self, g: &mut Graph, place: &Place, force: Vector) {
+    fn moment(&mut self, place: &Place, moment: Vector) {
+        if let Some(moments) = place.link.and_then(|link| self.moments.get_mut(link)) {
+            moments.push(moment);
+        }
+    }
+
+    pub(super) fn force(&mut self, g: &mut Graph, place: &Place, force: Vector) {
         let Some(link) = place.link else { return };
         let moment = g.cross(place.offset, force);
         self.moments[link].push(moment);
@@ -52,12 +88,7 @@ impl Equations<'_> {
             return Rc::clone(loads);
         }
         let mechanism = Rc::clone(&self.mechanism);
-        let tree = &mechanism.tree;
-        let mut terms = Terms {
-            moments: vec![Vec::new(); tree.links.len()],
-            forces: vec![Vec::new(); tree.links.len()],
-            efforts: vec![Vec::new(); tree.freedoms()],
-        };
+        let mut terms = Terms::new(&mechanism);
         let model = self.model;
         if !std::mem::replace(&mut self.loading, true) {
             for force in &model.forces {
@@ -65,19 +96,54 @@ impl Equations<'_> {
             }
             self.loading = false;
         }
-        let g = &mut self.g;
-        let sums = terms.moments.iter().zip(&terms.forces);
-        let applied =
-            sums.map(|(moments, forces)| Wrench { moment: g.sum_vectors(moments), force: g.sum_vectors(forces) });
-        let applied = applied.collect();
-        let efforts: Vec<Scalar> = terms.efforts.iter().map(|list| g.sum(list)).collect();
-        let loads = Rc::new(Loads { applied, efforts: mechanism.sign(&efforts) });
+        let loads = Rc::new(terms.sums(&mut self.g, &mechanism));
+        let loads = self.with_multipliers(loads);
         self.loads = Some(Rc::clone(&loads));
         loads
     }
 
+    /// Declared forces and those of the multipliers that act.
+    fn with_multipliers(&mut self, loads: Rc<Loads>) -> Rc<Loads> {
+        if self.multiplied.is_empty() {
+            return loads;
+        }
+        let multiplied = std::mem::take(&mut self.multiplied);
+        self.held_by(&loads, &multiplied)
+    }
+
+    /// Loads with the forces of multipliers.
+    pub(super) fn held_by(&mut self, loads: &Loads, multiplied: &[(Row, Scalar)]) -> Rc<Loads> {
+        let held = self.by_closing(multiplied);
+        let others = self.constraint_wrenches(&held);
+        let g = &mut self.g;
+        let applied = loads.applied.iter().zip(&others.applied).map(|(a, b)| a.add(g, b)).collect();
+        let efforts = loads.efforts.iter().zip(&others.efforts).map(|(&a, &b)| g.add(a, b)).collect();
+        let world = [&loads.world[..], &others.world].concat();
+        Rc::new(Loads { applied, efforts, world })
+    }
+
+    /// Multipliers gathered by what they close.
+    pub(super) fn by_closing(&self, multiplied: &[(Row, Scalar)]) -> Vec<Held> {
+        let mut held: Vec<Held> = Vec::new();
+        for &(row, multiplier) in multiplied {
+            let at = held.iter().position(|one| one.closing == row.closing).unwrap_or_else(|| {
+                let multipliers = vec![Scalar::ZERO; row_count(self.model, row.closing)];
+                held.push(Held { closing: row.closing, multipliers, writing: self.writing });
+                held.len() - 1
+            });
+            if let Some(slot) = held[at].multipliers.get_mut(row.index) {
+                *slot = multiplier;
+            }
+        }
+        held
+    }
+
     fn act(&mut self, terms: &mut Terms, kind: &ForceKind) {
         match kind {
+            ForceKind::Effort { joint, values } if self.model.cuts.contains(joint) => {
+                let values: Vec<Scalar> = values.iter().map(|value| self.scalar(value)).collect();
+                self.act_across(terms, *joint, &values);
+            }
             ForceKind::Effort { joint, values } => {
                 let first = self.symbols.first.get(joint.0).copied().unwrap_or(0);
                 for (k, value) in values.iter().enumerate() {
@@ -118,6 +184,67 @@ impl Equations<'_> {
                 }
             }
         }
+    }
+
+    /// Efforts on a joint that closes a loop: a wrench on the child at its point, and its opposite on the parent there.
+    fn act_across(&mut self, terms: &mut Terms, id: JointId, efforts: &[Scalar]) {
+        let Some((ends, Wrench { moment, force })) = self.across(id, efforts) else { return };
+        let [parent, child] = ends;
+        let ([way, _], common) = self.way(&parent, &child, 0);
+        let way = self.between(common, parent.link, way);
+        let lever = self.g.cross(way, force);
+        let back = self.g.add_vectors(moment, lever);
+        terms.force(&mut self.g, &parent, -force);
+        terms.moment(&parent, -back);
+        let [force, moment] = [force, moment].map(|v| self.between(parent.link, child.link, v));
+        terms.force(&mut self.g, &child, force);
+        terms.moment(&child, moment);
+    }
+
+    /// Efforts on a joint that closes a loop as a wrench on the child at its point, in the axes of the parent's link; the
+    /// joint's two ends.
+    pub(super) fn across(&mut self, id: JointId, efforts: &[Scalar]) -> Option<([Place; 2], Wrench)> {
+        let model = self.model;
+        let joint = model.joints.get(id.0)?;
+        let effort = |k: usize| efforts.get(k).copied().unwrap_or(Scalar::ZERO);
+        let ends = [self.place(&joint.parent), self.place(&joint.child)];
+        // In the axes of the parent's frame, but for what belongs to axes of the child.
+        let (mut force, mut moment, mut own) = (Vector::ZERO, Vector::ZERO, Vector::ZERO);
+        match &joint.kind {
+            JointKind::Revolute { axis } | JointKind::Screw { axis, .. } => moment = self.along(axis, 0, effort(0)),
+            JointKind::Prismatic { axis } => force = self.along(axis, 0, effort(0)),
+            JointKind::Cylindrical { axis } => {
+                force = self.along(axis, 0, effort(0));
+                moment = self.along(axis, 0, effort(1));
+            }
+            // The axes are perpendicular, so each moment works on its own angle alone.
+            JointKind::Universal { axes } => {
+                moment = self.along(&axes[0], 0, effort(0));
+                own = self.along(&axes[1], 0, effort(1));
+            }
+            JointKind::Planar { axis } => {
+                let (x, y) = (self.along(axis, 1, effort(0)), self.along(axis, 2, effort(1)));
+                force = self.g.add_vectors(x, y);
+                moment = self.along(axis, 0, effort(2));
+            }
+            JointKind::Ball(_) => own = self.g.vector([effort(0), effort(1), effort(2)]),
+            JointKind::Fixed | JointKind::Free(_) => {}
+        }
+        let [parent, child] = &ends;
+        let force = self.g.rotate(parent.rotation, force);
+        let moment = self.g.rotate(parent.rotation, moment);
+        let own = self.g.rotate(child.rotation, own);
+        let own = self.between(child.link, parent.link, own);
+        let moment = self.g.add_vectors(moment, own);
+        Some((ends, Wrench { moment, force }))
+    }
+
+    /// A length along a joint's axis, or along the following axes of its plane.
+    fn along(&mut self, axis: &Expr, next: usize, length: Scalar) -> Vector {
+        let axis = self.axis(axis);
+        let length = if axis.flipped && next == 0 { -length } else { length };
+        let along = self.g.along((axis.index + next) % 3, length);
+        self.g.rotate(axis.turn, along)
     }
 
     /// A vector given in a frame's axes, in those of a place's link.

@@ -39,6 +39,11 @@ impl Field {
         Field { w: g.components(motion.angular), dw: g.components(motion.angular_rate), name: name.to_owned() }
     }
 
+    /// dw_k
+    pub fn angular_rate(&self, k: usize) -> Scalar {
+        self.dw[k]
+    }
+
     /// U_ij
     pub fn entry(&self, g: &mut Graph, i: usize, j: usize) -> Scalar {
         let entry = if i == j {

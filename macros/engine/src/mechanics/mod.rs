@@ -3,15 +3,21 @@
 //! [`build`] makes the tree of links, the recursions walk it, and [`derive()`] tells which functions are made of them.
 //! User expressions are translated by `expressions`.
 
+mod actuation;
+pub mod analysis;
 pub mod articulated;
 pub mod articulated_inertia;
 pub mod build;
 mod chain;
 mod climb;
+pub mod closings;
 mod columns;
 pub mod composite;
 mod constants;
+mod constrained;
+mod cycles;
 mod derive;
+mod drives;
 mod dynamics;
 mod energy;
 pub mod equations;
@@ -19,26 +25,48 @@ mod expressions;
 mod forces;
 mod frames;
 mod functions;
+mod gathered;
+pub mod groups;
+mod holding;
 pub mod inertia;
 mod jacobian;
 pub mod kinematics;
 mod names;
+mod needs;
 pub mod newton_euler;
 mod orientation;
 pub mod parallel;
 mod reactions;
+mod reduction;
 pub mod regroup;
 mod springs;
+pub mod structure;
+pub mod strut;
 pub mod symbols;
+pub mod time;
 pub mod tree;
 mod values;
 mod velocities;
+mod verification;
 mod world;
 
 pub use derive::{MOST_FREEDOMS, derive, freedoms};
 
+use crate::model::types::{Coordinate, Model};
 use crate::optimize::program::{FunctionKind, Symbol};
 use crate::symbolic::graph::{Graph, Scalar};
+
+use analysis::Complaint;
+use structure::Structure;
+
+/// Structure and equations of a model.
+pub fn of(model: &Model) -> Result<(Structure, Derivation), Vec<Complaint>> {
+    let structure = analysis::analyse(model)?;
+    let mut derivation = derive(model, &structure)?;
+    let mut structure = structure.with_notes(std::mem::take(&mut derivation.notes));
+    structure.dead_centres.clone_from(&derivation.dead_centres);
+    Ok((structure, derivation))
+}
 
 /// Equations of one model, ready for optimisation.
 pub struct Derivation {
@@ -48,6 +76,10 @@ pub struct Derivation {
     /// Readable names of the symbols, in snake case, such as `elbow`, `elbow_rate`, `m1`.
     pub symbol_names: Vec<String>,
     pub functions: Vec<Derived>,
+    /// Sentences for the report: how loops were solved and checked.
+    pub notes: Vec<String>,
+    /// Unknowns whose roots [`FunctionKind::DeadCentres`] gives, in this order.
+    pub dead_centres: Vec<Coordinate>,
 }
 
 /// One function with the ways in which it was derived; the cheapest will be taken, ties by order.

@@ -41,6 +41,9 @@ pub(super) fn symbol(model: &Model, symbol: Symbol) -> String {
         Symbol::Position { joint, component } => of_joint(model, joint, |kind| position(kind, component)),
         Symbol::Velocity { joint, component } => of_joint(model, joint, |kind| rate(kind, component, "rate")),
         Symbol::Acceleration { joint, component } => of_joint(model, joint, |kind| rate(kind, component, "accel")),
+        Symbol::Multiplier { row } => Some(format!("multiplier_{row}")),
+        Symbol::Guess { index } => Some(format!("guess_{index}")),
+        Symbol::Unknown { index } => Some(format!("unknown_{index}")),
     };
     known.unwrap_or_default()
 }

@@ -42,6 +42,30 @@ pub fn inertial_wrench(g: &mut Graph, link: &Link, motion: &LinkMotion) -> Wrenc
     Wrench { moment: g.add_vectors(lever, spin), force }
 }
 
+/// Moment of a distribution that turns. Where two second moments are equal, both entries of U between them have one
+/// factor: their difference, 2 dw.
+pub fn spin_moment(g: &mut Graph, field: &Field, second: &[Scalar; 6]) -> Vector {
+    let mut rest = *second;
+    let mut round = [Scalar::ZERO; 3];
+    for (i, round) in round.iter_mut().enumerate() {
+        let (a, b) = ((i + 1) % 3, (i + 2) % 3);
+        if second[a] == second[b] {
+            let whole = g.add(second[a], second[b]);
+            *round = g.mul(whole, field.angular_rate(i));
+        }
+    }
+    let plain = axial(g, field, second);
+    let plain = g.components(plain);
+    rest[..3].fill(Scalar::ZERO);
+    let mixed = axial(g, field, &rest);
+    let mixed = g.components(mixed);
+    let components = [0, 1, 2].map(|i| {
+        let (a, b) = ((i + 1) % 3, (i + 2) % 3);
+        if second[a] == second[b] { g.add(mixed[i], round[i]) } else { plain[i] }
+    });
+    g.vector(components)
+}
+
 /// Axial vector of U D - (U D)^T: component i is the sum over k of U_bk D_ka - U_ak D_kb, with (i, a, b) cyclic.
 fn axial(g: &mut Graph, field: &Field, second: &[Scalar; 6]) -> Vector {
     let components = [0, 1, 2].map(|i| {

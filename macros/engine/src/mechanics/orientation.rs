@@ -6,7 +6,7 @@
 //! one is selected whose pivot is at least 1/2, so there is one root and one reciprocal and no cancellation (after
 //! Shepperd 1978).
 
-use crate::symbolic::graph::{Call, Graph, Rotation, RotationNode, Scalar, ScalarNode};
+use crate::symbolic::graph::{Call, Graph, Rotation, RotationNode, Scalar, ScalarNode, Vector};
 
 use super::build::Place;
 use super::constants;
@@ -99,6 +99,21 @@ fn is_axis(g: &Graph, r: Rotation) -> bool {
     matches!(g.rotation_node(r), RotationNode::Axis(..))
 }
 
+/// Rate of a unit quaternion: q (0, w) / 2.
+pub(super) fn quaternion_rate(g: &mut Graph, q: Quaternion, w: [Scalar; 3]) -> Quaternion {
+    let half = g.decimal(0.5);
+    let w = w.map(|w| g.mul(half, w));
+    multiply(g, q, [Scalar::ZERO, w[0], w[1], w[2]])
+}
+
+/// Of a unit quaternion that changes at this rate, in the child's axes: the vector of 2 q* q'.
+pub(super) fn angular_velocity(g: &mut Graph, [w, x, y, z]: Quaternion, dq: Quaternion) -> Vector {
+    let two = g.integer(2);
+    let product = multiply(g, [w, -x, -y, -z], dq);
+    let vector = g.vector([product[1], product[2], product[3]]);
+    g.scale(two, vector)
+}
+
 fn multiply(g: &mut Graph, p: Quaternion, q: Quaternion) -> Quaternion {
     // Row by row: which component of q meets w, i, j, k of p, and with which sign.
     let table: [[(usize, bool); 4]; 4] = [
@@ -118,7 +133,7 @@ fn multiply(g: &mut Graph, p: Quaternion, q: Quaternion) -> Quaternion {
 }
 
 /// Of a rotation matrix, row by row.
-fn of_rows(g: &mut Graph, m: &[[Scalar; 3]; 3]) -> Quaternion {
+pub(super) fn of_rows(g: &mut Graph, m: &[[Scalar; 3]; 3]) -> Quaternion {
     if let Some(literal) = literal(g, m) {
         return literal;
     }

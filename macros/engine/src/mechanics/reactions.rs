@@ -1,12 +1,15 @@
 //! Stage `mechanics`: what joints transmit.
 //!
-//! In: the tree with its original inertias, accelerations, forces. Out: force and moment that the parent exerts on the
-//! child at the joint's child frame, by the Newton-Euler recursion; the efforts of the joint itself are part of them.
+//! In: the tree with its original inertias, accelerations, forces, multipliers. Out: force and moment that the parent exerts
+//! on the child at the joint's child frame; the efforts of the joint itself are part of them. For joints of the tree by the
+//! Newton-Euler recursion, on which the multipliers' forces act like declared ones, for joints that close loops from their
+//! multipliers. Equations that follow from others have none: how an over-constrained loop shares its load among them is
+//! not determined by rigid bodies.
 
 use std::rc::Rc;
 
-use crate::model::types::JointId;
-use crate::symbolic::graph::Scalar;
+use crate::model::types::{Closing, ForceKind, JointId};
+use crate::symbolic::graph::{Scalar, Vector};
 
 use super::build::Place;
 use super::equations::Equations;
@@ -17,19 +20,69 @@ use super::values::Value;
 impl Equations<'_> {
     /// In the axes of a frame.
     pub(super) fn reaction(&mut self, joint: JointId, axes: &Place) -> Value {
+        if self.model.cuts.contains(&joint) {
+            let [force, moment] = self.closing_reaction(joint, axes);
+            return Value::Pair(force, moment);
+        }
         let wrenches = self.wrenches();
         let link = self.mechanism.joints.get(joint.0).and_then(|joint| joint.child).and_then(|child| child.link);
         let Some(&wrench) = link.and_then(|index| wrenches.get(index)) else {
-            return Value::Pair(crate::symbolic::graph::Vector::ZERO, crate::symbolic::graph::Vector::ZERO);
+            return Value::Pair(Vector::ZERO, Vector::ZERO);
         };
-        let [force, moment] = [wrench.force, wrench.moment].map(|v| {
-            let v = self.between(link, axes.link, v);
-            self.g.rotate(axes.rotation.transpose(), v)
-        });
+        let [force, moment] = self.turned_to(axes, link, [wrench.force, wrench.moment]);
         Value::Pair(force, moment)
     }
 
-    /// Of all joints, at the links' origins in their axes.
+    /// Vectors in a link's axes, in those of a frame.
+    fn turned_to(&mut self, axes: &Place, link: Option<usize>, vectors: [Vector; 2]) -> [Vector; 2] {
+        vectors.map(|v| {
+            let v = self.between(link, axes.link, v);
+            self.g.rotate(axes.rotation.transpose(), v)
+        })
+    }
+
+    /// Of a joint that closes a loop.
+    fn closing_reaction(&mut self, joint: JointId, axes: &Place) -> [Vector; 2] {
+        if self.loading {
+            // Forces that depend on reactions are refused by the checker.
+            return [Vector::ZERO; 2];
+        }
+        self.accelerations();
+        let mut multiplied = self.rows_with_multipliers();
+        multiplied.extend(self.holding_multipliers().iter().copied());
+        multiplied.retain(|(row, _)| row.closing == Closing::Cut(joint));
+        let held = self.by_closing(&multiplied);
+        let mut parts: Vec<[Vector; 2]> = held.iter().map(|one| self.cut_reaction(joint, one, axes)).collect();
+        let efforts = self.efforts_across(joint);
+        if let Some((ends, Wrench { moment, force })) = self.across(joint, &efforts) {
+            parts.push(self.turned_to(axes, ends[0].link, [force, moment]));
+        }
+        [0, 1].map(|k| {
+            let list: Vec<Vector> = parts.iter().map(|part| part[k]).collect();
+            self.g.sum_vectors(&list)
+        })
+    }
+
+    /// Sums of the declared efforts on a joint that closes a loop.
+    fn efforts_across(&mut self, joint: JointId) -> Vec<Scalar> {
+        let model = self.model;
+        let mut sums: Vec<Scalar> = Vec::new();
+        self.loading = true;
+        for force in &model.forces {
+            let ForceKind::Effort { joint: at, values } = &force.kind else { continue };
+            if *at == joint {
+                sums.resize(sums.len().max(values.len()), Scalar::ZERO);
+                for (sum, value) in sums.iter_mut().zip(values) {
+                    let value = self.scalar(value);
+                    *sum = self.g.add(*sum, value);
+                }
+            }
+        }
+        self.loading = false;
+        sums
+    }
+
+    /// Of all joints of the tree, at the links' origins in their axes.
     fn wrenches(&mut self) -> Rc<[Wrench]> {
         if let Some(wrenches) = &self.transmitted {
             return Rc::clone(wrenches);
@@ -39,7 +92,11 @@ impl Equations<'_> {
         let user = self.accelerations();
         let mut acceleration = mechanism.sign(&user);
         acceleration.resize(tree.freedoms(), Scalar::ZERO);
-        let loads = self.loads();
+        let mut loads = self.loads();
+        let holding = self.holding_multipliers();
+        if !holding.is_empty() {
+            loads = self.held_by(&loads, &holding);
+        }
         let base = self.base();
         let motions = motions(&mut self.g, tree, &tree.velocity, &acceleration, base);
         let wrenches: Rc<[Wrench]> = transmitted(&mut self.g, tree, &motions, &loads.applied).into();

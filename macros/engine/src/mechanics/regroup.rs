@@ -16,10 +16,21 @@ use super::tree::{Motion, Tree};
 
 /// Regroups from the leaves to the ground.
 pub fn regroup(g: &mut Graph, tree: &Tree) -> Tree {
+    regroup_but(g, tree, false)
+}
+
+/// The same; second moments that a hinge turns into themselves may stay whole where they stand.
+pub fn regroup_but(g: &mut Graph, tree: &Tree, whole: bool) -> Tree {
     let mut tree = tree.clone();
     for index in (0..tree.links.len()).rev() {
         let link = tree.links[index].clone();
-        let kept = unmoved(&link.inertia, link.motion);
+        let mut kept = unmoved(&link.inertia, link.motion);
+        if let Motion::Revolute(axis) = link.motion
+            && whole
+            && is_round(&link.inertia, axis)
+        {
+            kept.second[axis] = Scalar::ZERO;
+        }
         if kept.is_zero() {
             continue;
         }
@@ -51,6 +62,13 @@ fn name(g: &mut Graph, inertia: &Inertia, link: &str) {
     for (axes, &moment) in ["xx", "yy", "zz", "xy", "xz", "yz"].iter().zip(&inertia.second) {
         g.name(moment, || format!("second_{link}_{axes}"));
     }
+}
+
+/// Whether a turn about an axis leaves the second moments as they are, and they don't lie on the axis.
+fn is_round(inertia: &Inertia, axis: usize) -> bool {
+    let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+    let second = &inertia.second;
+    second[j] != Scalar::ZERO && second[j] == second[k] && second[3..].iter().all(|&moment| moment == Scalar::ZERO)
 }
 
 /// The part of a distribution that does not move when the joint does.

@@ -2,11 +2,13 @@
 //!
 //! In: the checked model. Out: one graph symbol for time and for every scalar of parameters, inputs, states, positions,
 //! velocities and accelerations, in this order, whatever is derived later: the same symbol has the same number, and the
-//! same print, in every graph of one model.
+//! same print, in every graph of one model. Joints that close loops have no coordinates.
 
-use crate::model::types::{InputId, Joint, JointId, JointKind, Model, Orientation, ParamId, StateId};
+use crate::model::types::{Coordinate, InputId, Joint, JointId, JointKind, Model, Orientation, ParamId, StateId};
 use crate::optimize::program::Symbol;
 use crate::symbolic::graph::{Graph, Scalar};
+
+use super::structure::{Role, Structure};
 
 /// Handles of all symbols, by what they stand for.
 #[derive(Clone, Debug)]
@@ -24,9 +26,78 @@ pub struct Symbols {
     /// Place of each joint's first velocity coordinate among all.
     pub first: Vec<usize>,
     pub freedoms: usize,
+    /// By constraint equation with a multiplier.
+    pub multipliers: Vec<Scalar>,
+    guesses: Vec<Scalar>,
+    unknowns: Vec<Scalar>,
 }
 
+/// Bits for coordinates outside the state.
+const MARKS: usize = 126;
+
+/// Unknowns that one closing brings into its loop, at most: two balls.
+const UNWANTED: usize = 6;
+
 impl Symbols {
+    /// The same with symbols for multipliers and iterations, if there are any.
+    pub fn with_structure(mut self, g: &mut Graph, structure: &Structure) -> Symbols {
+        self.mark(g, structure);
+        let table = &mut self.table;
+        self.multipliers = several(g, table, structure.rows.len(), |row| Symbol::Multiplier { row });
+        let guesses = structure.guesses();
+        self.guesses = several(g, table, guesses, |index| Symbol::Guess { index });
+        let unknowns = if structure.steps.is_empty() { 0 } else { guesses + UNWANTED };
+        self.unknowns = several(g, table, unknowns, |index| Symbol::Unknown { index });
+        self
+    }
+
+    /// Marks what will be replaced in results: coordinates that are not in the state, one bit for each order of each; and
+    /// accelerations of the state, and inputs, which are set to zero where they are solved for.
+    fn mark(&self, g: &mut Graph, structure: &Structure) {
+        for input in self.inputs.iter().flatten() {
+            g.mark(*input, MARKS + 1);
+        }
+        let mut next = 0;
+        for joint in 0..self.velocities.len() {
+            let lists = [&self.positions, &self.velocities, &self.accelerations].map(|lists| &lists[joint]);
+            for index in 0..lists[1].len() {
+                let role = structure.role(Coordinate { joint: JointId(joint), index });
+                if role == Role::State {
+                    g.mark(lists[2][index], MARKS);
+                    continue;
+                }
+                for list in lists {
+                    list.get(index).iter().for_each(|&&symbol| g.mark(symbol, next % MARKS));
+                    next += 1;
+                }
+                // The fourth component of a quaternion.
+                if index + 1 == lists[1].len() {
+                    lists[0][lists[1].len()..].iter().for_each(|&symbol| g.mark(symbol, (next + MARKS - 3) % MARKS));
+                }
+            }
+        }
+    }
+
+    /// Whether an expression reads a coordinate that is not in the state: such symbols must be replaced.
+    pub fn is_unfinished(g: &Graph, s: Scalar) -> bool {
+        g.marks(s) & ((1 << MARKS) - 1) != 0
+    }
+
+    /// Where an iteration starts.
+    pub fn guess(&self, index: usize) -> Scalar {
+        self.guesses.get(index).copied().unwrap_or(Scalar::ZERO)
+    }
+
+    /// The unknown of an iteration, inside it.
+    pub fn unknown(&self, index: usize) -> Scalar {
+        self.unknowns.get(index).copied().unwrap_or(Scalar::ZERO)
+    }
+
+    /// A placeholder for a coordinate of what closes a loop.
+    pub fn unwanted(&self, number: usize) -> Scalar {
+        self.unknown(self.guesses.len() + number)
+    }
+
     pub fn new(g: &mut Graph, model: &Model) -> Symbols {
         let mut table = Vec::new();
         let time = one(g, &mut table, Symbol::Time);
@@ -44,9 +115,10 @@ impl Symbols {
         let states = states.collect();
         let positions = model.joints.iter().enumerate().map(|(k, joint)| {
             let symbol = |component| Symbol::Position { joint: JointId(k), component };
-            let straight = straight_positions(joint);
+            let cut = model.cuts.contains(&JointId(k));
+            let straight = if cut { 0 } else { straight_positions(joint) };
             let mut list = several(g, &mut table, straight, symbol);
-            if has_quaternion(joint) {
+            if has_quaternion(joint) && !cut {
                 table.extend((straight..straight + 4).map(symbol));
                 list.extend(g.unit_quaternion());
             }
@@ -56,26 +128,46 @@ impl Symbols {
         let mut of_joints = |make: fn(JointId, usize) -> Symbol| -> Vec<Vec<Scalar>> {
             let joints = model.joints.iter().enumerate();
             let lists = joints.map(|(k, joint)| {
-                several(g, &mut table, joint.kind.freedoms(), |component| make(JointId(k), component))
+                let freedoms = freedoms_of(model, JointId(k), joint);
+                several(g, &mut table, freedoms, |component| make(JointId(k), component))
             });
             lists.collect()
         };
         let velocities = of_joints(|joint, component| Symbol::Velocity { joint, component });
         let accelerations = of_joints(|joint, component| Symbol::Acceleration { joint, component });
         let mut freedoms = 0;
-        let first = model.joints.iter().map(|joint| {
+        let first = model.joints.iter().enumerate().map(|(k, joint)| {
             let first = freedoms;
-            freedoms += joint.kind.freedoms();
+            freedoms += freedoms_of(model, JointId(k), joint);
             first
         });
         let first = first.collect();
-        Symbols { table, time, params, inputs, states, positions, velocities, accelerations, first, freedoms }
+        Symbols {
+            table,
+            time,
+            params,
+            inputs,
+            states,
+            positions,
+            velocities,
+            accelerations,
+            first,
+            freedoms,
+            multipliers: Vec::new(),
+            guesses: Vec::new(),
+            unknowns: Vec::new(),
+        }
     }
 
     /// The scalars of one joint's list, or nothing.
     pub fn of(lists: &[Vec<Scalar>], joint: JointId) -> &[Scalar] {
         lists.get(joint.0).map_or(&[], Vec::as_slice)
     }
+}
+
+/// Number of velocity coordinates that a joint has in the tree.
+pub fn freedoms_of(model: &Model, id: JointId, joint: &Joint) -> usize {
+    if model.cuts.contains(&id) { 0 } else { joint.kind.freedoms() }
 }
 
 /// Whether the joint's orientation is a quaternion.

@@ -2,27 +2,51 @@
 //!
 //! In: the expanded scopes and slots. Out: the checked model, if nothing was wrong.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::Span;
 use syn::Path;
 
-use super::checker::{Checker, Context, Subject, Task};
+use super::checker::{Checker, ScopeId, Subject, Task};
 use super::docs;
 use super::expand::root;
-use super::types::{Body, Expr, Force, Input, Joint, Model, Output, Param, Request, State, Type};
-use crate::syntax::tree::{self, Item, ItemKind, Solution};
+use super::requests::Requested;
+use super::solves::Solved;
+use super::topology::Topology;
+use super::types::{
+    Body, Constraint, Coordinate, Drive, Expr, Force, Handling, Input, Joint, Kinematics, Model, Output, Param,
+    Request, Solve, State, Type,
+};
+use crate::syntax::tree::{self, ItemKind};
 
 /// What the items have given so far; `None` for those with mistakes.
 #[derive(Default)]
-struct Collected {
+struct Collected<'a> {
     states: Vec<Option<State>>,
     bodies: Vec<Option<Body>>,
     joints: Vec<Option<Joint>>,
     forces: Vec<Option<Force>>,
     outputs: Vec<Option<Output>>,
+    constraints: Vec<Option<Constraint>>,
+    assumptions: Vec<Option<Expr>>,
     gravity: Option<Expr>,
-    emit: Vec<Request>,
+    handling: Option<Handling>,
+    independent: Option<(&'a tree::Fields, ScopeId)>,
+    requested: Requested<'a>,
+    /// `drive` and `solve`, which need to know what hangs on what.
+    deferred: Vec<Task<'a>>,
     world: bool,
     formulation: bool,
+}
+
+/// What closes loops and what follows from that.
+#[derive(Default)]
+struct Loops {
+    drives: Vec<Drive>,
+    solves: Vec<Solve>,
+    independent: Vec<Coordinate>,
+    kinematics: Vec<Kinematics>,
+    skipped: Vec<String>,
 }
 
 impl<'a> Checker<'a, '_> {
@@ -36,24 +60,36 @@ impl<'a> Checker<'a, '_> {
         for task in &tasks {
             self.task(*task, &mut collected);
         }
-        if self.alone {
-            return None;
-        }
         // Without all joints and bodies nothing can be said about how they hang together.
-        let bodies: Vec<Body> = all(collected.bodies)?;
-        let joints: Vec<Joint> = all(collected.joints)?;
-        if self.lost_items() {
-            return None;
+        let bodies: Option<Vec<Body>> = all(std::mem::take(&mut collected.bodies));
+        let joints: Option<Vec<Joint>> = all(std::mem::take(&mut collected.joints));
+        let known = bodies.zip(joints).filter(|_| !self.alone && !self.lost_items());
+        let found = known.and_then(|(bodies, joints)| {
+            let topology = self.topology(&bodies, &joints, module)?;
+            Some((bodies, joints, topology))
+        });
+        let tree = found.as_ref().map(|(_, joints, topology)| (topology, joints.as_slice()));
+        let loops = self.loops(&collected, tree);
+        let (bodies, joints, topology) = found?;
+        self.check_coordinate_uses(&topology, &joints);
+        let constraints: Vec<Constraint> = all(collected.constraints)?;
+        if let Some(span) =
+            collected.requested.constraints.filter(|_| constraints.is_empty() && topology.cuts.is_empty())
+        {
+            self.report.error(span, "this model has no constraints");
         }
-        let tree = self.tree(&bodies, &joints, module)?;
-        let massless = self.check_massless(&bodies, &joints, &tree);
+        let held = self.held(bodies.len(), &joints, &topology, &constraints, &loops.drives);
+        let massless = self.check_massless(&bodies, &joints, &topology.tree, &held);
         if massless && !self.report.failed() {
-            self.check_mass_matrix(&bodies, &joints, &tree);
+            self.check_mass_matrix(&bodies, &joints, &topology.tree, &held);
         }
         let (params, inputs) = (self.finish_params()?, self.finish_inputs()?);
-        if collected.emit.is_empty() {
-            collected.emit.push(Request::ForwardDynamics);
+        let mut emit = collected.requested.list;
+        if emit.is_empty() {
+            emit.push(Request::ForwardDynamics);
         }
+        let mut skipped = topology.skipped;
+        skipped.extend(loops.skipped);
         Some(Model {
             name: module.name.clone(),
             vis: module.vis.clone(),
@@ -66,11 +102,21 @@ impl<'a> Checker<'a, '_> {
             states: all(collected.states)?,
             bodies,
             joints,
-            tree,
+            tree: topology.tree,
+            cuts: topology.cuts,
+            constraints,
+            drives: loops.drives,
+            solves: loops.solves,
+            assumptions: all(collected.assumptions)?,
+            handling: collected.handling.unwrap_or_default(),
+            independent: loops.independent,
+            skipped,
+            solve_for: collected.requested.solve_for,
+            kinematics: loops.kinematics,
             forces: all(collected.forces)?,
             outputs: all(collected.outputs)?,
             gravity: collected.gravity,
-            emit: collected.emit,
+            emit,
         })
     }
 
@@ -83,7 +129,7 @@ impl<'a> Checker<'a, '_> {
         lost
     }
 
-    fn task(&mut self, task: Task<'a>, into: &mut Collected) {
+    fn task(&mut self, task: Task<'a>, into: &mut Collected<'a>) {
         match task.subject {
             Subject::Named(id) => {
                 if let ItemKind::Output(_) = task.item.kind {
@@ -109,11 +155,18 @@ impl<'a> Checker<'a, '_> {
             Subject::Body(id) => {
                 let body = self.bodies.get(id.0).cloned();
                 into.bodies.push(body.and_then(|slot| self.finish_body(&slot)));
+                if let Some(joint) = self.absolute.get(id.0).copied().flatten() {
+                    into.joints.push(self.finish_joint(joint));
+                }
             }
             Subject::Joint(id) => into.joints.push(self.finish_joint(id)),
             Subject::Force(id) => {
                 let force = self.forces.get(id.0).cloned();
                 into.forces.push(force.and_then(|slot| self.finish_force(&slot)));
+            }
+            Subject::Constraint(id) => {
+                let constraint = self.constraints.get(id.0).cloned();
+                into.constraints.push(constraint.and_then(|slot| self.finish_constraint(&slot)));
             }
             Subject::None => {}
         }
@@ -126,9 +179,8 @@ impl<'a> Checker<'a, '_> {
     }
 
     /// Items without a slot.
-    fn other(&mut self, task: Task<'a>, into: &mut Collected) {
+    fn other(&mut self, task: Task<'a>, into: &mut Collected<'a>) {
         let Task { scope, item, .. } = task;
-        let context = root(scope);
         match &item.kind {
             ItemKind::World(_) | ItemKind::Formulation(_) | ItemKind::Emit(_) if self.is_part_scope(scope) => {
                 self.report.help(
@@ -144,42 +196,71 @@ impl<'a> Checker<'a, '_> {
             }
             ItemKind::Formulation(fields) => {
                 self.only_once(&mut into.formulation, item.keyword, "formulation");
-                self.formulation(fields);
+                let handling = self.formulation(fields, scope);
+                into.handling = into.handling.take().or(handling);
+                into.independent.get_or_insert((fields, scope));
             }
-            ItemKind::Emit(requests) => self.emit(requests, &mut into.emit),
-            ItemKind::Port { ty, .. } => {
-                if ty != "Frame" && ty != tree::UNREADABLE {
-                    self.report.help(ty.span(), format!("a port is no `{ty}`"), "write `port name: Frame;`");
-                }
+            ItemKind::Emit(requests) => self.emit(requests, scope, &mut into.requested),
+            ItemKind::Assume(condition) => into.assumptions.push(self.assumption(condition, root(scope))),
+            ItemKind::Drive { .. } | ItemKind::Solve { .. } => into.deferred.push(task),
+            ItemKind::Port { ty, .. } if ty != "Frame" && ty != tree::UNREADABLE => {
+                self.report.help(ty.span(), format!("a port is no `{ty}`"), "write `port name: Frame;`");
             }
-            _ => self.later(item, context),
+            _ => {}
         }
     }
 
-    /// What later versions bring. Expressions are checked all the same, where they are ordinary ones.
-    fn later(&mut self, item: &'a Item, context: Context<'a>) {
-        let what = match &item.kind {
-            ItemKind::ConstraintValue { value, .. } => {
-                self.value(value, context);
-                "constraints are"
-            }
-            ItemKind::ConstraintKind { .. } => "constraints are",
-            ItemKind::Drive { value, .. } => {
-                self.value(value, context);
-                "drives are"
-            }
-            ItemKind::Solve { how, .. } => {
-                if let Solution::Formulas(formulas) = how {
-                    for formula in formulas {
-                        self.value(formula, context);
+    /// What needs to know the tree. Without one its mistakes are told all the same.
+    fn loops(&mut self, collected: &Collected<'a>, tree: Option<(&Topology, &[Joint])>) -> Loops {
+        let mut loops = Loops::default();
+        for task in &collected.deferred {
+            let context = root(task.scope);
+            match &task.item.kind {
+                ItemKind::Drive { target, value } => loops.drives.extend(self.drive(target, value, context, tree)),
+                ItemKind::Solve { unknowns, how } => {
+                    match self.solve(unknowns, how, task.item.keyword, context, tree) {
+                        Some(Solved::Item(solve)) => loops.solves.push(solve),
+                        Some(Solved::Skipped(why)) => loops.skipped.push(why),
+                        None => {}
                     }
                 }
-                "`solve` is"
+                _ => {}
             }
-            ItemKind::Assume(_) => "`assume` is",
-            _ => return,
-        };
-        self.report.error(item.keyword, format!("{what} not available yet"));
+        }
+        if let Some((fields, scope)) = collected.independent {
+            loops.independent = self.independent(fields, scope, tree);
+        }
+        for (request, scope) in &collected.requested.kinematics {
+            loops.kinematics.extend(self.kinematics(request, *scope, tree));
+        }
+        self.check_conflicts(&loops);
+        loops
+    }
+
+    /// A coordinate is found in one way.
+    fn check_conflicts(&mut self, loops: &Loops) {
+        let mut driven: BTreeSet<Coordinate> = BTreeSet::new();
+        let solved: BTreeSet<Coordinate> = loops.solves.iter().flat_map(|solve| &solve.unknowns).copied().collect();
+        for drive in &loops.drives {
+            let list = self.driven(drive.target);
+            if let Some(twice) = list.iter().find(|coordinate| driven.contains(coordinate)) {
+                let message = format!("{} is driven twice", self.coordinate_name(*twice));
+                self.report.error(drive.span, message);
+            } else if let Some(dependent) = list.iter().find(|coordinate| solved.contains(coordinate)) {
+                let name = self.coordinate_name(*dependent);
+                let message = format!("{name} is dependent, it follows from a `solve`: a drive can't prescribe it");
+                self.report.help(drive.span, message, "drive an independent coordinate, or remove one of the two");
+            }
+            driven.extend(list);
+        }
+        let mut found: BTreeSet<Coordinate> = BTreeSet::new();
+        for solve in &loops.solves {
+            if let Some(twice) = solve.unknowns.iter().find(|coordinate| found.contains(coordinate)) {
+                let message = format!("{} is an unknown of another `solve` already", self.coordinate_name(*twice));
+                self.report.error(solve.span, message);
+            }
+            found.extend(&solve.unknowns);
+        }
     }
 
     fn is_part_scope(&self, scope: super::checker::ScopeId) -> bool {

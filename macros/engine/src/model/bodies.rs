@@ -111,33 +111,6 @@ impl<'a> Checker<'a, '_> {
         }
         Some(())
     }
-
-    fn check_coordinates(&mut self, expr: &Expr) {
-        let name = match expr {
-            Expr::Verbatim(_) => return self.report.silent(),
-            Expr::Path(path) => path.path.get_ident(),
-            Expr::Call(call) => match &*call.func {
-                Expr::Path(path) => path.path.get_ident(),
-                _ => None,
-            },
-            _ => None,
-        };
-        match name.map(ToString::to_string).as_deref() {
-            Some("Joint") => {}
-            Some("Absolute") => self.report.help(
-                expr.span(),
-                "absolute coordinates are not available yet",
-                "leave the field out, and write a joint of kind Free",
-            ),
-            other => self.report.unknown(
-                expr.span(),
-                "unknown kind of coordinates",
-                other.unwrap_or_default(),
-                ["Joint", "Absolute"],
-                Some("bodies have `Joint` or `Absolute(..)`".into()),
-            ),
-        }
-    }
 }
 
 fn is_zero(tensor: &Tensor) -> bool {

@@ -8,12 +8,14 @@ use std::rc::Rc;
 
 use proc_macro2::{Ident, Span};
 
+use super::coordinates::Coordinates;
 use super::evaluate::Evaluator;
 use super::names::Shape;
 use super::report::Report;
 use super::typed::{FrameValue, Typed};
 use super::types::{
-    BodyId, Docs, ForceId, InputId, Instance, InstanceId, JointId, ParamId, PartType, Place, StateId, Type,
+    BodyId, ConstraintId, Docs, ForceId, InputId, Instance, InstanceId, JointId, ParamId, PartType, Place, StateId,
+    Type,
 };
 use crate::syntax::tree;
 
@@ -48,6 +50,7 @@ pub(super) enum Symbol {
     Body(BodyId),
     Joint(JointId),
     Force(ForceId),
+    Constraint(ConstraintId),
     Part(ScopeId),
     Parts(Rc<[ScopeId]>),
 }
@@ -63,6 +66,7 @@ impl Symbol {
             Symbol::Body(_) => "body",
             Symbol::Joint(_) => "joint",
             Symbol::Force(_) => "force",
+            Symbol::Constraint(_) => "constraint",
             Symbol::Part(_) | Symbol::Parts(_) => "part",
         }
     }
@@ -84,6 +88,7 @@ pub(super) enum Meaning {
     /// One scalar coordinate of a joint.
     Coordinate(JointId, usize),
     Force(ForceId),
+    Constraint(ConstraintId),
     Part(ScopeId),
     Parts(Rc<[ScopeId]>),
 }
@@ -148,6 +153,7 @@ pub(super) struct InputSlot<'a> {
 /// What expressions need to know of a joint.
 pub(super) struct JointSlot<'a> {
     pub(super) place: Place,
+    /// The joint's, or the body's for the implicit joint of absolute coordinates.
     pub(super) item: &'a tree::Item,
     pub(super) scope: ScopeId,
     /// `None`: unknown kind, reported.
@@ -183,6 +189,7 @@ pub(super) enum Subject {
     Body(BodyId),
     Joint(JointId),
     Force(ForceId),
+    Constraint(ConstraintId),
 }
 
 pub(super) struct Checker<'a, 'd> {
@@ -202,6 +209,13 @@ pub(super) struct Checker<'a, 'd> {
     pub(super) bodies: Vec<Slot<'a>>,
     pub(super) joints: Vec<JointSlot<'a>>,
     pub(super) forces: Vec<Slot<'a>>,
+    pub(super) constraints: Vec<Slot<'a>>,
+    /// What `formulation` says about the coordinates of all bodies.
+    pub(super) coordinates: Option<Coordinates>,
+    /// Per body: its implicit joint on the ground, where its coordinates are absolute.
+    pub(super) absolute: Vec<Option<JointId>>,
+    /// Where coordinates, rates, .. of joints are named.
+    pub(super) coordinate_uses: Vec<(JointId, Span)>,
     pub(super) tasks: Vec<Task<'a>>,
     pub(super) evaluator: Evaluator,
     /// Modules that are being expanded, outermost first.
@@ -241,6 +255,10 @@ impl<'a, 'd> Checker<'a, 'd> {
             bodies: Vec::new(),
             joints: Vec::new(),
             forces: Vec::new(),
+            constraints: Vec::new(),
+            coordinates: None,
+            absolute: Vec::new(),
+            coordinate_uses: Vec::new(),
             tasks: Vec::new(),
             evaluator: Evaluator::default(),
             expanding: Vec::new(),

@@ -9,7 +9,7 @@ use super::types::{Comparison, Expr, ExprNode, Function, ParamId};
 
 /// A value at compile time.
 #[derive(Clone, Debug)]
-pub(super) enum Value {
+pub(crate) enum Value {
     Scalar(f64),
     Bool(bool),
     Vec3([f64; 3]),
@@ -17,14 +17,14 @@ pub(super) enum Value {
 }
 
 impl Value {
-    pub(super) fn scalar(&self) -> Option<f64> {
+    pub(crate) fn scalar(&self) -> Option<f64> {
         match self {
             Value::Scalar(x) => Some(*x),
             _ => None,
         }
     }
 
-    pub(super) fn vector(&self) -> Option<[f64; 3]> {
+    pub(crate) fn vector(&self) -> Option<[f64; 3]> {
         match self {
             Value::Vec3(v) => Some(*v),
             _ => None,
@@ -32,7 +32,7 @@ impl Value {
     }
 
     /// All scalars in order, row by row.
-    pub(super) fn flatten(&self, into: &mut Vec<f64>) {
+    pub(crate) fn flatten(&self, into: &mut Vec<f64>) {
         match self {
             Value::Scalar(x) => into.push(*x),
             Value::Bool(b) => into.push(f64::from(u8::from(*b))),
@@ -41,7 +41,7 @@ impl Value {
         }
     }
 
-    pub(super) fn is_finite(&self) -> bool {
+    pub(crate) fn is_finite(&self) -> bool {
         match self {
             Value::Scalar(x) => x.is_finite(),
             Value::Bool(_) => true,
@@ -59,30 +59,30 @@ impl From<Vec<Value>> for Value {
 
 /// Remembers every node that it has met: shared subtrees cost once.
 #[derive(Default)]
-pub(super) struct Evaluator {
+pub(crate) struct Evaluator {
     params: HashMap<usize, Value>,
     /// By address of the node; the node is kept, so that the address stays its own.
     memo: HashMap<*const ExprNode, (Rc<ExprNode>, Option<Value>)>,
 }
 
 impl Evaluator {
-    pub(super) fn set_param(&mut self, id: ParamId, default: Value) {
+    pub(crate) fn set_param(&mut self, id: ParamId, default: Value) {
         self.params.insert(id.0, default);
     }
 
-    pub(super) fn param(&self, id: ParamId) -> Option<&Value> {
+    pub(crate) fn param(&self, id: ParamId) -> Option<&Value> {
         self.params.get(&id.0)
     }
 
-    pub(super) fn scalar(&mut self, expr: &Expr) -> Option<f64> {
+    pub(crate) fn scalar(&mut self, expr: &Expr) -> Option<f64> {
         self.value(expr)?.scalar()
     }
 
-    pub(super) fn vector(&mut self, expr: &Expr) -> Option<[f64; 3]> {
+    pub(crate) fn vector(&mut self, expr: &Expr) -> Option<[f64; 3]> {
         self.value(expr)?.vector()
     }
 
-    pub(super) fn value(&mut self, expr: &Expr) -> Option<Value> {
+    pub(crate) fn value(&mut self, expr: &Expr) -> Option<Value> {
         if let ExprNode::Number(x) = &*expr.node {
             return Some(Value::Scalar(*x));
         }
@@ -233,10 +233,10 @@ fn compare(comparison: Comparison, a: f64, b: f64) -> bool {
     }
 }
 
-pub(super) fn dot([ax, ay, az]: [f64; 3], [bx, by, bz]: [f64; 3]) -> f64 {
+pub(crate) fn dot([ax, ay, az]: [f64; 3], [bx, by, bz]: [f64; 3]) -> f64 {
     ax * bx + ay * by + az * bz
 }
 
-pub(super) fn cross([ax, ay, az]: [f64; 3], [bx, by, bz]: [f64; 3]) -> [f64; 3] {
+pub(crate) fn cross([ax, ay, az]: [f64; 3], [bx, by, bz]: [f64; 3]) -> [f64; 3] {
     [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]
 }

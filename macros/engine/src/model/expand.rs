@@ -13,11 +13,14 @@ use super::checker::{
     Checker, Context, InputSlot, JointSlot, Lazy, Meaning, Named, NamedId, ParamSlot, Role, Scope, ScopeId, Slot,
     Subject, Symbol, Task,
 };
+use super::coordinates::Coordinates;
 use super::docs;
+use super::fields::field;
 use super::names::{self, Shape};
 use super::typed::{FrameValue, Uses};
 use super::types::{
-    BodyId, BodyRef, ForceId, Frame, InputId, Instance, InstanceId, JointId, Orientation, ParamId, Place, StateId,
+    BodyId, BodyRef, ConstraintId, ForceId, Frame, InputId, Instance, InstanceId, JointId, Orientation, ParamId, Place,
+    StateId,
 };
 use crate::syntax::tree::{self, ItemKind};
 
@@ -71,6 +74,11 @@ impl<'a> Checker<'a, '_> {
             part_type: None,
             docs: docs::docs(&module.attrs),
         });
+        match super::coordinates::of_formulation(module) {
+            Some(said) => self.coordinates = said,
+            // What hangs on what is not known then.
+            None => self.lost = true,
+        }
         self.expand(index, InstanceId(0), None);
     }
 
@@ -227,8 +235,10 @@ impl<'a> Checker<'a, '_> {
                 self.states.push(Slot { place, item, scope });
                 (Subject::State(id), Symbol::State(id))
             }
-            ItemKind::Body { .. } => {
+            ItemKind::Body { fields, .. } => {
                 let id = BodyId(self.bodies.len());
+                let joint = self.implicit_joint(id, fields, &place, item, scope);
+                self.absolute.push(joint);
                 self.bodies.push(Slot { place, item, scope });
                 (Subject::Body(id), Symbol::Body(id))
             }
@@ -249,12 +259,50 @@ impl<'a> Checker<'a, '_> {
                     (Subject::None, Symbol::Opaque(keyword))
                 }
             },
+            ItemKind::ConstraintValue { .. } | ItemKind::ConstraintKind { .. } => {
+                let id = ConstraintId(self.constraints.len());
+                self.constraints.push(Slot { place, item, scope });
+                (Subject::Constraint(id), Symbol::Constraint(id))
+            }
             _ => (Subject::None, Symbol::Opaque(keyword)),
         };
         if own {
             self.set_symbol(scope, name, symbol);
         }
         subject
+    }
+
+    /// The joint on the ground that a body with absolute coordinates hangs on. It has the body's name and place.
+    fn implicit_joint(
+        &mut self,
+        body: BodyId,
+        fields: &tree::Fields,
+        place: &Place,
+        item: &'a tree::Item,
+        scope: ScopeId,
+    ) -> Option<JointId> {
+        let own = match field(fields, "coordinates") {
+            Some(expr) => {
+                let own = Coordinates::read(expr);
+                self.lost |= own.is_none();
+                own
+            }
+            None => None,
+        };
+        let Coordinates::Absolute(orientation) = self.coordinates.or(own)? else {
+            return None;
+        };
+        let id = JointId(self.joints.len());
+        let span = place.field.span();
+        let frame = |body| FrameValue { frame: Frame { body, steps: Vec::new(), span }, uses: Uses::default() };
+        self.joints.push(JointSlot {
+            place: place.clone(),
+            item,
+            scope,
+            shape: Some(Shape::Free(orientation)),
+            frames: Lazy::Done(Some([frame(BodyRef::Ground), frame(BodyRef::Body(body))])),
+        });
+        Some(id)
     }
 
     /// A part by itself: what its ports lead to is not known, but they are frames of different bodies.

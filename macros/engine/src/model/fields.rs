@@ -109,7 +109,9 @@ fn example(name: &str, known: &Known<'_>) -> &'static str {
         "parent" | "child" | "at" => "<frame>",
         "between" => "[<frame>, <frame>]",
         "pitch" => "<metres per radian>",
-        "length" => "<natural length>",
+        "length" if known.has("stiffness") => "<natural length>",
+        "given" => "<joint or body.pose>",
+        "find" => "<coordinates>",
         "joint" => "<joint>",
         _ => "<value>",
     }

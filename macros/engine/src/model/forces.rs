@@ -84,6 +84,11 @@ impl<'a> Checker<'a, '_> {
         };
         let value = value?;
         let freedoms = shape.freedoms();
+        // Along the axes of a joint an effort acts between the two bodies, be the joint a coordinate or not; efforts on
+        // angles in sequence, and on what is free, have no such meaning.
+        if matches!(shape, Shape::Ball(Orientation::RollPitchYaw) | Shape::Free(_)) {
+            self.uses_coordinates(joint, field(fields, "joint").map_or(fields.span, Spanned::span));
+        }
         if freedoms == 0 {
             let at = field(fields, "joint").map_or(fields.span, Spanned::span);
             self.report.error(at, "a fixed joint has no coordinate to act on");
@@ -216,9 +221,11 @@ impl<'a> Checker<'a, '_> {
             return None;
         }
         if let Some(index) = index {
+            self.uses_coordinates(joint, expr.span());
             return Some((joint, index));
         }
         if shape.freedoms() == 1 {
+            self.uses_coordinates(joint, expr.span());
             return Some((joint, 0));
         }
         let text = source_text(expr);
@@ -235,7 +242,7 @@ impl<'a> Checker<'a, '_> {
         None
     }
 
-    fn between(&mut self, expr: &Expr, context: Context<'a>) -> Option<[Frame; 2]> {
+    pub(super) fn between(&mut self, expr: &Expr, context: Context<'a>) -> Option<[Frame; 2]> {
         let frames: Vec<Option<Frame>> = match expr {
             Expr::Array(array) => {
                 let frames = array.elems.iter();

@@ -28,13 +28,10 @@ impl<'a> Checker<'a, '_> {
         let slot = self.joints.get(id.0)?;
         let (item, scope, place, shape) = (slot.item, slot.scope, slot.place.clone(), slot.shape);
         let ItemKind::Joint { name, kind, fields } = &item.kind else {
-            return None;
+            return self.implicit(id);
         };
         let attributes = docs::attributes(&item.attrs, self.report);
         self.refuse_waiver(&attributes);
-        if let Some(span) = attributes.cut {
-            self.report.error(span, "cut joints are not available yet: loops come later");
-        }
         let frames = self.joint_frames(id, name.span());
         let Some(shape) = shape else {
             self.unknown_kind(kind);
@@ -52,14 +49,10 @@ impl<'a> Checker<'a, '_> {
             None => Some(None),
         };
         let [parent, child] = frames?;
-        if child.frame.body == BodyRef::Ground {
-            let help = if parent.frame.body == BodyRef::Ground {
-                "one side must be a body"
-            } else {
-                "swap `parent` and `child`"
-            };
+        // With a body as its parent it may close a loop.
+        if child.frame.body == BodyRef::Ground && parent.frame.body == BodyRef::Ground {
             let message = format!("the child of the joint `{name}` is the ground, which cannot move");
-            self.report.help(child.frame.span, message, help);
+            self.report.help(child.frame.span, message, "one side must be a body");
             return None;
         }
         if child.frame.body == parent.frame.body {
@@ -75,6 +68,24 @@ impl<'a> Checker<'a, '_> {
             armature: armature?,
             docs: attributes.docs,
             span: name.span(),
+        })
+    }
+
+    /// The joint of a body with absolute coordinates.
+    fn implicit(&mut self, id: JointId) -> Option<Joint> {
+        let [parent, child] = self.joint_frames(id, Span::call_site())?;
+        let slot = self.joints.get(id.0)?;
+        let Some(Shape::Free(orientation)) = slot.shape else {
+            return None;
+        };
+        Some(Joint {
+            place: slot.place.clone(),
+            kind: JointKind::Free(orientation),
+            parent: parent.frame,
+            child: child.frame,
+            armature: None,
+            docs: docs::docs(&slot.item.attrs),
+            span: slot.place.field.span(),
         })
     }
 
@@ -228,7 +239,7 @@ impl<'a> Checker<'a, '_> {
 }
 
 impl Orientation {
-    fn named(name: &str) -> Option<Orientation> {
+    pub(super) fn named(name: &str) -> Option<Orientation> {
         match name {
             "Quaternion" => Some(Orientation::Quaternion),
             "RollPitchYaw" => Some(Orientation::RollPitchYaw),

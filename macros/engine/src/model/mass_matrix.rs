@@ -12,7 +12,7 @@ use super::checker::Checker;
 use super::configuration::{Configuration, Link};
 use super::names::Shape;
 use super::spatial::{Matrix6, Vector6, accumulate, apply, deflate, dot6, magnitude, shifted};
-use super::types::{Body, Joint, JointId};
+use super::types::{Body, BodyRef, Joint, JointId};
 
 /// Configurations that are tried.
 const TRIALS: u64 = 5;
@@ -38,14 +38,16 @@ struct Idle {
 }
 
 impl Checker<'_, '_> {
-    pub(super) fn check_mass_matrix(&mut self, bodies: &[Body], joints: &[Joint], tree: &[JointId]) {
+    pub(super) fn check_mass_matrix(&mut self, bodies: &[Body], joints: &[Joint], tree: &[JointId], held: &[bool]) {
         let Some(links) = self.links(bodies, joints, tree) else {
             return;
         };
         let mut idle: Vec<Idle> = Vec::new();
         for trial in 0..TRIALS {
             let configuration = Configuration::random(&links, trial);
-            let found = eliminate(&links, &configuration);
+            let mut found = eliminate(&links, &configuration);
+            // What a loop holds is no idle motion for sure.
+            found.retain(|idle| !is_held(idle, joints, tree, held));
             if trial == 0 {
                 idle = found;
             } else {
@@ -88,6 +90,14 @@ impl Checker<'_, '_> {
             help,
         );
     }
+}
+
+fn is_held(idle: &Idle, joints: &[Joint], tree: &[JointId], held: &[bool]) -> bool {
+    let joint = tree.get(idle.joint).and_then(|id| joints.get(id.0));
+    joint.is_some_and(|joint| match joint.child.body {
+        BodyRef::Body(id) => held.get(id.0) == Some(&true),
+        BodyRef::Ground => false,
+    })
 }
 
 /// One pass from the branch ends to the ground.

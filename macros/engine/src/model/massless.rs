@@ -4,11 +4,63 @@
 //! defaults: its coordinate's equation would have no acceleration in it.
 
 use super::checker::Checker;
-use super::types::{Body, BodyRef, Joint, JointId};
+use super::topology::Topology;
+use super::types::{Body, BodyRef, Constraint, ConstraintKind, Drive, Joint, JointId};
 
 impl Checker<'_, '_> {
+    /// Bodies beyond which a loop closes, a constraint holds or a drive moves something. The coordinates up to there obey
+    /// more than the equations of motion, so a mass matrix that is singular in them may be well: what is said of the
+    /// others stays true, since a motion in which nothing but bodies beyond a joint takes part is not hindered by what
+    /// happens elsewhere. An expression that is held at zero may hold anything.
+    pub(super) fn held(
+        &self,
+        bodies: usize,
+        joints: &[Joint],
+        topology: &Topology,
+        constraints: &[Constraint],
+        drives: &[Drive],
+    ) -> Vec<bool> {
+        let mut held = vec![false; bodies];
+        let mut hold = |body: BodyRef| {
+            if let BodyRef::Body(id) = body
+                && let Some(slot) = held.get_mut(id.0)
+            {
+                *slot = true;
+            }
+        };
+        for joint in topology.cuts.iter().filter_map(|id| joints.get(id.0)) {
+            hold(joint.parent.body);
+            hold(joint.child.body);
+        }
+        for constraint in constraints {
+            match &constraint.kind {
+                ConstraintKind::Rod { between, .. } => between.iter().for_each(|frame| hold(frame.body)),
+                ConstraintKind::Value(_) => return vec![true; bodies],
+            }
+        }
+        let driven = drives.iter().flat_map(|drive| self.driven(drive.target));
+        for joint in driven.filter_map(|coordinate| joints.get(coordinate.joint.0)) {
+            hold(joint.child.body);
+        }
+        for joint in topology.tree.iter().rev().filter_map(|id| joints.get(id.0)) {
+            if let (BodyRef::Body(child), BodyRef::Body(parent)) = (joint.child.body, joint.parent.body)
+                && held.get(child.0) == Some(&true)
+                && let Some(slot) = held.get_mut(parent.0)
+            {
+                *slot = true;
+            }
+        }
+        held
+    }
+
     /// Whether every joint that moves has something to move.
-    pub(super) fn check_massless(&mut self, bodies: &[Body], joints: &[Joint], tree: &[JointId]) -> bool {
+    pub(super) fn check_massless(
+        &mut self,
+        bodies: &[Body],
+        joints: &[Joint],
+        tree: &[JointId],
+        held: &[bool],
+    ) -> bool {
         let mut heavy: Vec<bool> = bodies
             .iter()
             .map(|body| {
@@ -48,7 +100,7 @@ impl Checker<'_, '_> {
             let light = heavy.get(child.0) == Some(&false);
             let armature = joint.armature.as_ref();
             let driven = armature.is_some_and(|a| self.evaluator.scalar(a) != Some(0.0));
-            let wrong = light && joint.kind.freedoms() > 0 && !driven;
+            let wrong = light && joint.kind.freedoms() > 0 && !driven && held.get(child.0) != Some(&true);
             if let Some(told) = told.get_mut(child.0) {
                 *told = inherited || wrong;
             }

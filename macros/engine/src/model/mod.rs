@@ -4,24 +4,29 @@
 //! parts; they are expanded where they are used, and a part that nobody uses is checked by itself. All mistakes are
 //! reported in one go, and a model with a mistake is left out.
 
+mod arborescence;
 mod assemble;
 mod bodies;
 mod checker;
 mod configuration;
+mod coordinates;
 mod docs;
-mod evaluate;
+pub(crate) mod evaluate;
 mod expand;
 mod expressions;
 mod fields;
 mod forces;
 mod inertia;
 mod joints;
+mod loops;
 mod mass_matrix;
 mod massless;
 mod matrix3;
 mod names;
 mod parts;
 mod report;
+mod requests;
+mod solves;
 mod spatial;
 mod topology;
 mod typed;

@@ -40,12 +40,33 @@ pub(super) const FUNCTIONS: [(&str, Function, usize); 24] = [
 /// Functions that are no [`Function`].
 pub(super) const SPECIAL_FUNCTIONS: [&str; 3] = ["select", "kinetic", "potential"];
 
+/// Functions that make rotations and poses. Their names stay free for items: a call is never mistaken for one.
+pub(super) const CONSTRUCTORS: [&str; 4] = ["identity", "rotation", "roll_pitch_yaw", "pose"];
+
 /// Types that a user may name.
 pub(super) const TYPES: [&str; 7] = ["Scalar", "Vec3", "Pose", "Rotation", "Twist", "Wrench", "Jacobian"];
 
 /// Structs and constants of a generated module.
-const GENERATED: [&str; 11] =
-    ["Params", "Position", "Velocity", "State", "States", "Derivative", "Input", "Output", "Model", "DOF", "COSTS"];
+const GENERATED: [&str; 18] = [
+    "Params",
+    "Position",
+    "Velocity",
+    "State",
+    "States",
+    "Derivative",
+    "Closed",
+    "Solved",
+    "Input",
+    "Output",
+    "Model",
+    "DOF",
+    "COSTS",
+    "DERIVED",
+    "COORDINATES",
+    "CONSTRAINTS",
+    "EQUATIONS",
+    "JACOBIAN",
+];
 
 /// What generated code names without a path: a part of this name would stand in its way.
 const IN_SCOPE: [&str; 14] =

@@ -1,17 +1,51 @@
 //! Stage `model`: how the bodies hang together.
 //!
-//! In: bodies and joints. Out: the spanning tree from the ground, parents before children; errors for bodies that no
-//! joint reaches, for joints written against the tree, and for loops.
+//! In: bodies and joints. Out: the spanning tree from the ground, parents before children, and the joints that close
+//! loops; errors for bodies that no joint reaches and for joints written against the tree.
+//!
+//! The tree is the one with the fewest coordinates: each joint costs its freedoms, so the joints that close loops are
+//! those that give the fewest equations; of equals the later one closes. A `Free` joint costs nothing: as a closing one it
+//! would say nothing at all, it stands there for its coordinates. A body with absolute coordinates hangs on the ground,
+//! and the joints at it are taken into the tree only for bodies that nothing else reaches.
 
 use std::collections::BTreeSet;
 
+use super::arborescence::{self, Edge};
 use super::checker::Checker;
-use super::types::{Body, BodyId, BodyRef, Joint, JointId};
+use super::types::{Body, BodyId, BodyRef, Joint, JointId, JointKind, Place};
 use crate::syntax::tree;
 
+/// What hangs on what.
+pub(super) struct Topology {
+    /// Parents before children, in source order as far as that goes.
+    pub(super) tree: Vec<JointId>,
+    /// Joints that close loops, in source order.
+    pub(super) cuts: Vec<JointId>,
+    /// `#[cut]`s that another choice of coordinates has made void.
+    pub(super) skipped: Vec<String>,
+}
+
+impl Topology {
+    pub(super) fn is_cut(&self, joint: JointId) -> bool {
+        self.cuts.binary_search(&joint).is_ok()
+    }
+
+    /// The joint that carries a body.
+    pub(super) fn carrier(&self, body: BodyRef, joints: &[Joint]) -> Option<JointId> {
+        let carries = |id: &&JointId| joints.get(id.0).is_some_and(|joint| joint.child.body == body);
+        self.tree.iter().find(carries).copied()
+    }
+}
+
+/// Weights of joints in the tree, so far apart that a sum over all joints keeps their order: `#[cut]`, then whether the
+/// parent is absolute, then freedoms, and source order last.
+const FREEDOM: i128 = 1 << 30;
+const AT_ABSOLUTE: i128 = 1 << 48;
+const CUT: i128 = 1 << 63;
+
 impl Checker<'_, '_> {
-    /// The joints towards the ground, one per body, in source order as far as parents come first.
-    pub(super) fn tree(&mut self, bodies: &[Body], joints: &[Joint], module: &tree::Module) -> Option<Vec<JointId>> {
+    /// The tree that costs least, and what is left over.
+    pub(super) fn topology(&mut self, bodies: &[Body], joints: &[Joint], module: &tree::Module) -> Option<Topology> {
         if bodies.is_empty() && self.report.failed() {
             return None;
         }
@@ -20,51 +54,179 @@ impl Checker<'_, '_> {
             self.report.help(module.name.span(), message, "write `body name { mass: 1.0 }` and a joint that holds it");
             return None;
         }
-        let mut walk = Walk::new(bodies.len(), joints);
+        let cuts: Vec<bool> = (0..joints.len()).map(|index| self.says_cut(index)).collect();
+        // Where the formulation sets all coordinates, `#[cut]` is a wish.
+        let firm = self.coordinates.is_none();
+        let usable: Vec<bool> = cuts.iter().map(|cut| !(firm && *cut)).collect();
+        let follow: Vec<bool> = joints
+            .iter()
+            .zip(&usable)
+            .enumerate()
+            .map(|(index, (joint, usable))| *usable && self.may_carry(JointId(index), joint))
+            .collect();
+        self.connected(bodies, joints, usable, follow.clone()).then_some(())?;
+        let chosen = self.cheapest(bodies, joints, &cuts, &follow).unwrap_or_else(|| {
+            // Any tree is a good one.
+            let mut walk = Walk::new(bodies.len(), joints, vec![true; joints.len()], follow);
+            walk.reach(BodyRef::Ground);
+            walk.run();
+            (0..joints.len()).map(|index| walk.tree.contains(&JointId(index))).collect()
+        });
+        let mut walk = Walk::new(bodies.len(), joints, vec![true; joints.len()], chosen.clone());
+        walk.reach(BodyRef::Ground);
+        walk.run();
+        let closing = (0..joints.len()).filter(|index| chosen.get(*index) == Some(&false)).map(JointId);
+        let void = chosen.iter().zip(&cuts).zip(joints).filter(|((chosen, cut), _)| **chosen && **cut);
+        let skipped = void.map(|(_, joint)| {
+            format!("`#[cut]` of `{}`: with these coordinates the joint lies in the tree", self.path_text(&joint.place))
+        });
+        Some(Topology { skipped: skipped.collect(), tree: walk.tree, cuts: closing.collect() })
+    }
+
+    /// Whether the joint may be the one that carries its child.
+    fn may_carry(&self, id: JointId, joint: &Joint) -> bool {
+        match joint.child.body {
+            BodyRef::Ground => false,
+            BodyRef::Body(body) => {
+                let implicit = self.absolute.get(body.0).copied().flatten();
+                implicit.is_none_or(|implicit| implicit == id)
+            }
+        }
+    }
+
+    /// Reports bodies that are not reached from the ground, or only against the direction of a joint.
+    fn connected(&mut self, bodies: &[Body], joints: &[Joint], usable: Vec<bool>, follow: Vec<bool>) -> bool {
+        let mut walk = Walk::new(bodies.len(), joints, usable, follow);
         walk.reach(BodyRef::Ground);
         let mut sound = true;
         loop {
             walk.run();
             if let Some(id) = walk.against_the_tree() {
                 if let Some(joint) = joints.get(id.0) {
-                    let name = &joint.place.field;
-                    self.report.help(
-                        joint.span,
-                        format!("the joint `{name}` leads towards the ground: its parent hangs on its child"),
-                        "swap `parent` and `child`",
-                    );
-                    walk.used.insert(id.0);
+                    self.report_against(joint);
                     walk.reach(joint.parent.body);
                 }
                 sound = false;
                 continue;
             }
             let Some(first) = walk.unreached() else { break };
-            self.report_disconnected(first, &walk.group(first), bodies);
+            let group = walk.group(first);
+            match self.held_by_cut(&group, joints) {
+                Some(joint) => {
+                    let body = bodies.get(first.0).map_or_else(String::new, |body| body.place.field.to_string());
+                    let name = &joint.place.field;
+                    self.report.help(
+                        joint.span,
+                        format!("the joint `{name}` can't be cut: nothing else holds the body `{body}`"),
+                        "remove the `#[cut]`, or give the body a joint of its own",
+                    );
+                }
+                None => self.report_disconnected(first, &group, bodies),
+            }
             sound = false;
             walk.reach(BodyRef::Body(first));
         }
-        for (index, joint) in joints.iter().enumerate() {
-            if walk.used.contains(&index) {
-                continue;
-            }
-            sound = false;
-            // Of a cut joint it has been said.
-            if !self.is_cut(index) {
-                let name = &joint.place.field;
-                self.report.help(
-                    joint.span,
-                    format!("the joint `{name}` closes a loop: loops are not available yet"),
-                    "every body hangs on one joint for now",
-                );
-            }
-        }
-        sound.then_some(walk.tree)
+        sound
     }
 
-    fn is_cut(&self, joint: usize) -> bool {
+    fn report_against(&mut self, joint: &Joint) {
+        let name = &joint.place.field;
+        if joint.child.body == BodyRef::Ground {
+            let message = format!("the child of the joint `{name}` is the ground, which cannot move");
+            self.report.help(joint.child.span, message, "swap `parent` and `child`");
+            return;
+        }
+        self.report.help(
+            joint.span,
+            format!("the joint `{name}` leads towards the ground: its parent hangs on its child"),
+            "swap `parent` and `child`",
+        );
+    }
+
+    /// A cut joint that holds one of these bodies to something else.
+    fn held_by_cut<'j>(&self, group: &[BodyId], joints: &'j [Joint]) -> Option<&'j Joint> {
+        let inside = |body: BodyRef| matches!(body, BodyRef::Body(id) if group.binary_search(&id).is_ok());
+        let mut joints = joints.iter().enumerate();
+        let found = joints
+            .find(|(index, joint)| self.says_cut(*index) && inside(joint.child.body) != inside(joint.parent.body));
+        found.map(|(_, joint)| joint)
+    }
+
+    /// Which joints the cheapest tree is made of.
+    fn cheapest(&self, bodies: &[Body], joints: &[Joint], cuts: &[bool], follow: &[bool]) -> Option<Vec<bool>> {
+        let node = |body| match body {
+            BodyRef::Ground => bodies.len(),
+            BodyRef::Body(id) => id.0,
+        };
+        let mut origins = Vec::new();
+        let mut edges = Vec::new();
+        for (index, (joint, cut)) in joints.iter().zip(cuts).enumerate() {
+            if follow.get(index) != Some(&true) {
+                continue;
+            }
+            let freedoms = match &joint.kind {
+                JointKind::Free(_) => 0,
+                kind => i128::try_from(kind.freedoms()).ok()? + 1,
+            };
+            let absolute = match joint.parent.body {
+                BodyRef::Body(id) => self.absolute.get(id.0).is_some_and(Option::is_some),
+                BodyRef::Ground => false,
+            };
+            let mut weight = freedoms * FREEDOM + i128::try_from(index).ok()?;
+            weight += i128::from(absolute) * AT_ABSOLUTE + i128::from(*cut) * CUT;
+            origins.push(index);
+            edges.push(Edge { from: node(joint.parent.body), to: node(joint.child.body), weight });
+        }
+        let best = arborescence::cheapest(bodies.len() + 1, bodies.len(), &edges)?;
+        let mut chosen = vec![false; joints.len()];
+        for position in best.into_iter().flatten() {
+            *chosen.get_mut(*origins.get(position)?)? = true;
+        }
+        Some(chosen)
+    }
+
+    fn says_cut(&self, joint: usize) -> bool {
         let slot = self.joints.get(joint);
         slot.is_some_and(|slot| slot.item.attrs.iter().any(|a| a.path().is_ident("cut")))
+    }
+
+    /// Refuses coordinates of joints that have none.
+    pub(super) fn check_coordinate_uses(&mut self, topology: &Topology, joints: &[Joint]) {
+        for (id, span) in std::mem::take(&mut self.coordinate_uses) {
+            if topology.is_cut(id) {
+                self.refuse_cut_coordinate(id, span, joints);
+            }
+        }
+    }
+
+    pub(super) fn refuse_cut_coordinate(&mut self, id: JointId, span: proc_macro2::Span, joints: &[Joint]) {
+        let Some(joint) = joints.get(id.0) else {
+            return;
+        };
+        let help = if self.coordinates.is_some() {
+            "with the coordinates that `formulation` sets it has none; take what frames have, such as `.position`"
+        } else if self.says_cut(id.0) {
+            "take coordinates of the joints in the tree, or cut another joint of the loop"
+        } else {
+            "take coordinates of the joints in the tree, or choose another cut: `#[cut]` on another joint of the loop"
+        };
+        let message = format!("the joint `{}` closes a loop and has no coordinates", joint.place.field);
+        self.report.help(span, message, help);
+    }
+
+    /// `legs[2].ball`
+    pub(super) fn path_text(&self, place: &Place) -> String {
+        let mut text = place.field.to_string();
+        let mut at = self.instances.get(place.instance.0);
+        while let Some(instance) = at {
+            let Some(parent) = instance.parent else { break };
+            text = match instance.index {
+                Some((k, _)) => format!("{}[{k}].{text}", instance.field),
+                None => format!("{}.{text}", instance.field),
+            };
+            at = self.instances.get(parent.0);
+        }
+        text
     }
 
     fn report_disconnected(&mut self, first: BodyId, group: &[BodyId], bodies: &[Body]) {
@@ -92,13 +254,13 @@ impl Checker<'_, '_> {
 /// A walk from the ground over joints.
 struct Walk<'j> {
     joints: &'j [Joint],
+    /// Joints that may be followed from parent to child.
+    follow: Vec<bool>,
     /// Joints at each body, and at the ground as the last entry.
     at: Vec<Vec<usize>>,
     reached: Vec<bool>,
     /// Joints whose parent is reached and that were not looked at.
     ready: BTreeSet<usize>,
-    /// Joints of the tree, those against it included.
-    used: BTreeSet<usize>,
     /// Joints whose child is reached and whose parent was not.
     against: BTreeSet<usize>,
     /// All bodies before this one are reached.
@@ -107,18 +269,19 @@ struct Walk<'j> {
 }
 
 impl<'j> Walk<'j> {
-    fn new(bodies: usize, joints: &'j [Joint]) -> Self {
+    /// Over the `usable` joints; others are not there.
+    fn new(bodies: usize, joints: &'j [Joint], usable: Vec<bool>, follow: Vec<bool>) -> Self {
         let mut walk = Walk {
             joints,
+            follow,
             at: vec![Vec::new(); bodies + 1],
             reached: vec![false; bodies + 1],
             ready: BTreeSet::new(),
-            used: BTreeSet::new(),
             against: BTreeSet::new(),
             searched: 0,
             tree: Vec::new(),
         };
-        for (index, joint) in joints.iter().enumerate() {
+        for (index, joint) in joints.iter().enumerate().filter(|(index, _)| usable.get(*index) == Some(&true)) {
             for body in [joint.parent.body, joint.child.body] {
                 let slot = walk.slot(body);
                 if let Some(list) = walk.at.get_mut(slot) {
@@ -150,10 +313,10 @@ impl<'j> Walk<'j> {
             let Some(joint) = self.joints.get(index) else {
                 continue;
             };
-            if joint.parent.body == body {
-                self.ready.insert(index);
-            } else {
+            if joint.parent.body != body {
                 self.against.insert(index);
+            } else if self.follow.get(index) == Some(&true) {
+                self.ready.insert(index);
             }
         }
     }
@@ -165,7 +328,6 @@ impl<'j> Walk<'j> {
                 continue;
             };
             if !self.is_reached(joint.child.body) {
-                self.used.insert(index);
                 self.tree.push(JointId(index));
                 self.reach(joint.child.body);
             }

@@ -14,7 +14,9 @@ pub(super) enum Class {
     Parameter,
     Time,
     Input,
-    /// Coordinates, velocities, states, and all that follows from them.
+    /// Coordinates, and where frames are.
+    Position,
+    /// Velocities, states, energies, and all that follows from them.
     State,
     /// The potential energy, of which springs are a part.
     Potential,
@@ -23,8 +25,16 @@ pub(super) enum Class {
     Load,
 }
 
-const CLASSES: [Class; 7] =
-    [Class::Parameter, Class::Time, Class::Input, Class::State, Class::Potential, Class::Acceleration, Class::Load];
+const CLASSES: [Class; 8] = [
+    Class::Parameter,
+    Class::Time,
+    Class::Input,
+    Class::Position,
+    Class::State,
+    Class::Potential,
+    Class::Acceleration,
+    Class::Load,
+];
 
 /// The first name that brings a dependence in.
 #[derive(Debug)]
@@ -92,6 +102,10 @@ pub(super) enum Allowed {
     Constants,
     /// Those and `param`.
     Parameters,
+    /// Those and time: what a drive may follow.
+    Time,
+    /// Those and positions: what holds or chooses a position.
+    Positions,
     /// All that is known before forces and accelerations are.
     Forces,
     /// Those, without the potential energy: a spring's is part of it.
@@ -103,6 +117,8 @@ impl Allowed {
         match self {
             Allowed::Constants => false,
             Allowed::Parameters => class == Class::Parameter,
+            Allowed::Time => matches!(class, Class::Parameter | Class::Time),
+            Allowed::Positions => matches!(class, Class::Parameter | Class::Time | Class::Position),
             Allowed::Forces => !matches!(class, Class::Acceleration | Class::Load),
             Allowed::Springs => !matches!(class, Class::Potential | Class::Acceleration | Class::Load),
         }
@@ -118,6 +134,12 @@ impl Allowed {
             (Allowed::Forces | Allowed::Springs, Class::Load) => {
                 "follows from the forces, so no force or state may use it"
             }
+            (Allowed::Time, Class::Input) => {
+                "is an input, whose rate nobody knows; a drive follows time and parameters"
+            }
+            (Allowed::Time, _) => "moves with the mechanism; a drive follows time and parameters",
+            (Allowed::Positions, Class::Input) => "is an input; only positions, parameters and time may stand here",
+            (Allowed::Positions, _) => "is no position; only positions, parameters and time may stand here",
             (Allowed::Constants, _) => "changes in time; only literals and `const` may stand here",
             _ => "changes in time; only `const` and `param` may stand here",
         }

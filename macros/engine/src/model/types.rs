@@ -28,6 +28,7 @@ ids! {
     BodyId,
     JointId,
     ForceId,
+    ConstraintId,
 }
 
 /// A mechanism, ready for derivation.
@@ -48,11 +49,121 @@ pub struct Model {
     pub joints: Vec<Joint>,
     /// Every body's joint towards the ground, parents before children.
     pub tree: Vec<JointId>,
+    /// Joints that close loops, in source order: they have no coordinates and stand in no generated struct.
+    pub cuts: Vec<JointId>,
+    pub constraints: Vec<Constraint>,
+    pub drives: Vec<Drive>,
+    /// In source order.
+    pub solves: Vec<Solve>,
+    /// Conditions (`Bool`) that the user vouches for.
+    pub assumptions: Vec<Expr>,
+    pub handling: Handling,
+    /// Coordinates that `formulation { independent: [..] }` names.
+    pub independent: Vec<Coordinate>,
+    /// Said in the report: items that another choice of coordinates has made void, such as a `#[cut]` in the tree.
+    pub skipped: Vec<String>,
     pub forces: Vec<Force>,
     pub outputs: Vec<Output>,
     /// `Vec3` in world axes, m/s^2; `None`: no gravity declared.
     pub gravity: Option<Expr>,
     pub emit: Vec<Request>,
+    /// Of `emit inverse_dynamics { solve_for: .. }`: the inputs that take the place of efforts, scalar by scalar.
+    pub solve_for: Vec<SolveFor>,
+    /// Of `emit kinematics { .. }`.
+    pub kinematics: Vec<Kinematics>,
+}
+
+/// One velocity coordinate of a joint in the tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Coordinate {
+    pub joint: JointId,
+    pub index: usize,
+}
+
+/// What is held at zero besides the closing joints.
+pub struct Constraint {
+    pub place: Place,
+    pub kind: ConstraintKind,
+    pub docs: Docs,
+    pub span: Span,
+}
+
+pub enum ConstraintKind {
+    /// A scalar of positions, parameters and time.
+    Value(Expr),
+    /// The distance between the origins of two frames is `length` (m).
+    Rod { between: Box<[Frame; 2]>, length: Expr },
+}
+
+/// What follows a prescribed course. Values depend on time and parameters at most.
+pub struct Drive {
+    pub target: DriveTarget,
+    pub value: Expr,
+    pub span: Span,
+}
+
+/// Coordinates that leave the state together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DriveTarget {
+    /// A coordinate whose rate is its velocity coordinate; the value is a scalar.
+    Coordinate(Coordinate),
+    /// Of a Free joint (or an absolute body); the value is a `Vec3`.
+    Position(JointId),
+    /// Of a Free or Ball joint; the value is a `Rotation`.
+    Orientation(JointId),
+    /// Of a Free joint; the value is a `Pose`.
+    Pose(JointId),
+}
+
+/// Coordinates found from others.
+pub struct Solve {
+    pub unknowns: Vec<Coordinate>,
+    pub how: SolveHow,
+    pub span: Span,
+}
+
+pub enum SolveHow {
+    /// One scalar for each unknown.
+    Formulas(Vec<Expr>),
+    /// Found by the macro from what closes the loop; the conditions (`Bool`) choose one branch.
+    From { closing: Closing, branches: Vec<Expr> },
+}
+
+/// What gives constraint equations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Closing {
+    Cut(JointId),
+    Constraint(ConstraintId),
+}
+
+/// What becomes of constraint equations.
+#[derive(Clone, Default)]
+pub enum Handling {
+    /// They stay, with multipliers.
+    #[default]
+    Multipliers,
+    /// With Baumgarte's terms: second derivative + `rate` * first derivative + `position` * residual = 0, with
+    /// coefficients in 1/s and 1/s^2.
+    Stabilised { rate: Expr, position: Expr },
+    /// Dependent coordinates are eliminated.
+    Reduced,
+}
+
+/// One scalar input that inverse dynamics finds.
+#[derive(Clone, Copy, Debug)]
+pub struct SolveFor {
+    pub input: InputId,
+    pub element: usize,
+    pub span: Span,
+}
+
+/// `emit kinematics { given: .., find: .. }`
+pub struct Kinematics {
+    /// Coordinates whose positions, velocities and accelerations are given: whole joints.
+    pub given: Vec<JointId>,
+    /// Scalars to find, coordinates of joints.
+    pub find: Vec<Coordinate>,
+    pub span: Span,
 }
 
 /// A module with ports, used by this model at least once.
@@ -182,7 +293,7 @@ pub struct Joint {
     pub place: Place,
     pub kind: JointKind,
     pub parent: Frame,
-    /// Its body is never the ground.
+    /// Of a joint in the tree its body is never the ground.
     pub child: Frame,
     /// kg m^2 or kg, added to the diagonal of the mass matrix.
     pub armature: Option<Expr>,
@@ -280,6 +391,11 @@ pub enum Request {
     MassMatrix,
     Bias,
     Energy,
+    /// Constraint equations, their Jacobian, rate and bias; with loops and multipliers they are always emitted.
+    Constraints,
+    /// The equations as a residual for solvers of differential-algebraic equations.
+    Residual,
+    Kinematics,
 }
 
 /// A typed expression; shared subtrees (`const`, `let`) are shared here too.
@@ -346,6 +462,19 @@ pub enum ExprNode {
     Neg(Expr),
     Add(Expr, Expr),
     Sub(Expr, Expr),
+    /// Of type `Rotation`: no turn at all.
+    Identity,
+    /// A turn about an axis (`Vec3`, of parameters at most, of any length but zero) by an angle.
+    RotationAbout {
+        axis: Expr,
+        angle: Expr,
+    },
+    /// `Rz(yaw) * Ry(pitch) * Rx(roll)`, given as roll, pitch, yaw.
+    RollPitchYaw([Expr; 3]),
+    /// Two rotations, the right one first applied.
+    Compose(Expr, Expr),
+    /// Position (`Vec3`) and orientation (`Rotation`).
+    Pose(Expr, Expr),
     /// Scalar by scalar, scalar by `Vec3` or `Vec3` by scalar.
     Mul(Expr, Expr),
     Div(Expr, Expr),

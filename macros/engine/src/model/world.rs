@@ -1,6 +1,6 @@
-//! Stage `model`: what is said once per model: `world`, `formulation`, `emit`.
+//! Stage `model`: what is said once per model: `world`, `formulation`.
 //!
-//! In: their items. Out: gravity, the functions to derive; 'not yet' for what later versions bring.
+//! In: their items. Out: gravity, what becomes of constraints, the independent coordinates.
 
 use proc_macro2::Span;
 use syn::Expr;
@@ -9,36 +9,17 @@ use syn::spanned::Spanned;
 use super::checker::{Checker, ScopeId};
 use super::expand::root;
 use super::fields::{Known, field};
+use super::topology::Topology;
 use super::typed::Allowed;
-use super::types::{Expr as Checked, Request};
+use super::types::{Coordinate, Expr as Checked, Handling, Joint};
 use crate::syntax::tree;
 
 const WORLD: Known<'static> = Known { required: &[], optional: &["gravity"] };
 
-const FORMULATION: Known<'static> = Known { required: &[], optional: &["coordinates", "constraints", "independent"] };
+const FORMULATION: Known<'static> =
+    Known { required: &[], optional: &["coordinates", "constraints", "independent", "rate", "position"] };
 
-const REQUESTS: [(&str, Request); 5] = [
-    ("forward_dynamics", Request::ForwardDynamics),
-    ("inverse_dynamics", Request::InverseDynamics),
-    ("mass_matrix", Request::MassMatrix),
-    ("bias", Request::Bias),
-    ("energy", Request::Energy),
-];
-
-/// Named by the design, derived by later versions.
-const NOT_YET: [&str; 11] = [
-    "kinematics",
-    "residual",
-    "derivatives",
-    "linearize",
-    "regressor",
-    "constraints",
-    "constraint_jacobian",
-    "constraint_bias",
-    "assemble",
-    "reactions",
-    "gravity",
-];
+const HANDLINGS: [&str; 3] = ["Multipliers", "Reduced", "Stabilised"];
 
 impl<'a> Checker<'a, '_> {
     pub(super) fn world(&mut self, fields: &'a tree::Fields, scope: ScopeId) -> Option<Checked> {
@@ -49,66 +30,97 @@ impl<'a> Checker<'a, '_> {
         Some(gravity.expr)
     }
 
-    pub(super) fn formulation(&mut self, fields: &tree::Fields) {
+    /// The coordinates have been read before anything else; here their mistakes are told.
+    pub(super) fn formulation(&mut self, fields: &'a tree::Fields, scope: ScopeId) -> Option<Handling> {
         self.check_given("the formulation", fields, &FORMULATION);
-        for given in &fields.list {
-            let name = given.name.to_string();
-            let joint = matches!(&given.value, Expr::Path(path) if path.path.is_ident("Joint"));
-            if matches!(given.value, Expr::Verbatim(_)) {
+        if let Some(expr) = field(fields, "coordinates") {
+            self.check_coordinates(expr);
+        }
+        let mut term = |name: &str| {
+            let expr = field(fields, name)?;
+            let value = self.scalar(expr, root(scope), Allowed::Parameters)?;
+            self.not_negative(&value, "a term of the stabilisation").map(|value| (expr.span(), value.expr))
+        };
+        let (rate, position) = (term("rate"), term("position"));
+        let Some(expr) = field(fields, "constraints") else {
+            if let Some(stray) = fields.list.iter().find(|given| given.name == "rate" || given.name == "position") {
+                self.stray_term(&stray.name);
+            }
+            return None;
+        };
+        let name = match expr {
+            Expr::Verbatim(_) => {
                 self.report.silent();
-            } else if name == "coordinates" && !joint {
-                self.report.help(
-                    given.value.span(),
-                    "coordinates other than `Joint` are not available yet",
-                    "write `coordinates: Joint`",
+                return None;
+            }
+            Expr::Path(path) => path.path.get_ident().map(ToString::to_string).unwrap_or_default(),
+            _ => String::new(),
+        };
+        if matches!(name.as_str(), "Multipliers" | "Reduced")
+            && let Some(stray) = fields.list.iter().find(|given| given.name == "rate" || given.name == "position")
+        {
+            self.stray_term(&stray.name);
+        }
+        match name.as_str() {
+            "Multipliers" => Some(Handling::Multipliers),
+            "Reduced" => Some(Handling::Reduced),
+            "Stabilised" => {
+                if let (Some((_, rate)), Some((_, position))) = (&rate, &position) {
+                    return Some(Handling::Stabilised { rate: rate.clone(), position: position.clone() });
+                }
+                for missing in ["rate", "position"].iter().filter(|name| field(fields, name).is_none()) {
+                    self.report.help(
+                        expr.span(),
+                        format!("`Stabilised` needs `{missing}`"),
+                        "write `constraints: Stabilised, rate: 40.0, position: 400.0`, in 1/s and 1/s^2",
+                    );
+                }
+                None
+            }
+            other => {
+                self.report.unknown(
+                    expr.span(),
+                    "unknown treatment of constraints",
+                    other,
+                    HANDLINGS,
+                    Some(format!("there are `{}`", HANDLINGS.join("`, `"))),
                 );
-            } else if matches!(name.as_str(), "constraints" | "independent") {
-                self.report.error(given.name.span(), format!("`{name}` is not available yet: loops come later"));
+                None
             }
         }
     }
 
-    pub(super) fn emit(&mut self, requests: &[tree::Request], into: &mut Vec<Request>) {
-        for request in requests {
-            let name = request.name.to_string();
-            let span = request.name.span();
-            if name == tree::UNREADABLE {
-                self.report.silent();
-                continue;
-            }
-            if let Some(options) = &request.options {
-                match options.list.first() {
-                    Some(option) => self.report.error(
-                        option.name.span(),
-                        format!("options of `emit`, such as `{}`, are not available yet", option.name),
-                    ),
-                    None if options.broken => self.report.silent(),
-                    None => {}
+    fn stray_term(&mut self, name: &proc_macro2::Ident) {
+        self.report.error(name.span(), format!("`{name}` goes with `constraints: Stabilised` only"));
+    }
+
+    /// `independent: [crank, rocker.angle]`
+    pub(super) fn independent(
+        &mut self,
+        fields: &'a tree::Fields,
+        scope: ScopeId,
+        joints: Option<(&Topology, &[Joint])>,
+    ) -> Vec<Coordinate> {
+        let Some(expr) = field(fields, "independent") else {
+            return Vec::new();
+        };
+        let Some(found) = self.several_coordinates(expr, root(scope)) else {
+            return Vec::new();
+        };
+        let mut independent = Vec::new();
+        for (coordinate, at) in found {
+            match joints {
+                Some((topology, list)) if topology.is_cut(coordinate.joint) => {
+                    self.refuse_cut_coordinate(coordinate.joint, at, list);
                 }
-            }
-            if let Some((_, found)) = REQUESTS.iter().find(|(known, _)| *known == name) {
-                if into.contains(found) {
-                    let message = format!("`{name}` is asked for twice");
-                    self.report.error(span, message);
-                } else {
-                    into.push(*found);
+                _ if independent.contains(&coordinate) => {
+                    let message = format!("{} is named twice", self.coordinate_name(coordinate));
+                    self.report.error(at, message);
                 }
-            } else if NOT_YET.contains(&name.as_str()) {
-                let message = format!("`{name}` is not available yet");
-                self.report.error(span, message);
-            } else if name == "outputs" {
-                self.report.help(span, "`outputs` needs no asking for", "outputs are always emitted");
-            } else {
-                let list: Vec<&str> = REQUESTS.iter().map(|(known, _)| *known).collect();
-                self.report.unknown(
-                    span,
-                    format!("`{name}` is nothing that can be derived"),
-                    &name,
-                    list.iter().copied().chain(NOT_YET),
-                    Some(format!("there are `{}`", list.join("`, `"))),
-                );
+                _ => independent.push(coordinate),
             }
         }
+        independent
     }
 
     /// An item of which a model has one.

@@ -10,7 +10,7 @@ use std::ops::{Div, Mul};
 use crate::symbolic::fingerprint::Print;
 use crate::symbolic::number::Number;
 
-use super::dag::{Dag, Id, Kind, ONE, operands};
+use super::dag::{Dag, Id, Kind, ONE};
 use super::stage::Stage;
 
 /// Scales sums one after the other while that saves products, at most a few rounds.
@@ -40,7 +40,7 @@ fn users(dag: &Dag, order: &[Id]) -> Users {
     let mut nodes = vec![Vec::new(); dag.nodes.len()];
     let mut roots = vec![Vec::new(); dag.nodes.len()];
     for &id in order {
-        for operand in operands(&dag.nodes[id].kind) {
+        for operand in dag.operands(&dag.nodes[id].kind) {
             if nodes[operand].last() != Some(&id) {
                 nodes[operand].push(id);
             }

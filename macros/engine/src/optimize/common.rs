@@ -9,7 +9,7 @@ use std::ops::{Div, Mul};
 
 use crate::symbolic::number::Number;
 
-use super::dag::{Dag, Id, Kind, ONE, ratio};
+use super::dag::{Dag, Id, Kind, ratio};
 
 /// Repeats until nothing is shared that could be.
 pub fn share(dag: &mut Dag) {
@@ -28,8 +28,8 @@ fn share_sums(dag: &mut Dag) -> bool {
     let uses = dag.uses(&order);
     for &id in &order {
         let Kind::Sum(terms) = &dag.nodes[id].kind else { continue };
-        // A term that only this sum has is in no common pair.
-        let shared: Vec<(Number, Id)> = terms.iter().copied().filter(|&(_, x)| x != ONE && uses[x] > 1).collect();
+        // A term that only this sum has is in no common pair. The constant is a term like others.
+        let shared: Vec<(Number, Id)> = terms.iter().copied().filter(|&(_, x)| uses[x] > 1).collect();
         if shared.len() > 64 {
             continue;
         }

@@ -6,10 +6,10 @@
 
 use std::collections::HashMap;
 use std::hash::BuildHasherDefault;
-use std::ops::{Add, Div, Mul, Neg};
+use std::ops::{Add, Mul, Neg};
 
 use crate::symbolic::fingerprint::{self as field, Point, Print};
-use crate::symbolic::graph::{Call, Graph, PassHasher, Scalar, ScalarNode, SymbolId};
+use crate::symbolic::graph::{BlockKind, Call, PassHasher, SymbolId};
 use crate::symbolic::number::Number;
 
 use super::program::{Cost, Symbol};
@@ -35,6 +35,18 @@ pub enum Kind {
     Sin(Id),
     Cos(Id),
     Call(Call, Vec<Id>),
+    /// A result of the block with this number in [`Dag::blocks`].
+    Output {
+        block: usize,
+        index: usize,
+    },
+}
+
+/// Work that is no formula, see [`BlockKind`]. Its operands stay what they are: passes rewrite the nodes themselves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Block {
+    pub kind: BlockKind,
+    pub operands: Vec<Id>,
 }
 
 /// One node with what passes ask of it.
@@ -50,11 +62,12 @@ pub struct Node {
 #[derive(Clone)]
 pub struct Dag {
     pub nodes: Vec<Node>,
+    pub blocks: Vec<Block>,
     index: HashMap<Print, Id, BuildHasherDefault<PassHasher>>,
     pub roots: Vec<(Number, Id)>,
     pub symbols: Vec<Symbol>,
     /// Where angles lie on the circle.
-    points: HashMap<Id, Point>,
+    pub(super) points: HashMap<Id, Point>,
     /// Readable names of the symbols, where known.
     pub symbol_names: Vec<String>,
 }
@@ -64,6 +77,7 @@ impl Dag {
     pub fn new(symbols: &[Symbol]) -> Dag {
         let mut dag = Dag {
             nodes: Vec::new(),
+            blocks: Vec::new(),
             index: HashMap::default(),
             roots: Vec::new(),
             symbols: symbols.to_vec(),
@@ -74,74 +88,18 @@ impl Dag {
         dag
     }
 
-    /// Takes over the roots of a graph of scalars. `symbols` tells what each of its symbols is.
-    pub fn import(graph: &Graph, roots: &[Scalar], symbols: &[Symbol]) -> Dag {
-        let mut dag = Dag::new(symbols);
-        let mut map: HashMap<usize, (Number, Id)> = HashMap::new();
-        let reachable = graph.reachable_scalars(roots);
-        let shared = graph.shared(&reachable, roots);
-        for index in reachable {
-            let s = graph.scalar_at(index);
-            let mut value = dag.import_node(graph, s, &map);
-            // A multiple that several places use stays a value of its own.
-            if shared[index] && value.1 != ONE && !value.0.is_unit() {
-                value = (Number::ONE, dag.plain(value));
-            }
-            if let (Some(name), (_, id)) = (graph.name_of(s), value) {
-                dag.nodes[id].name.get_or_insert_with(|| name.to_owned());
-            }
-            map.insert(index, value);
-        }
-        dag.roots = roots.iter().map(|&root| operand(&map, root)).collect();
-        dag
-    }
-
-    fn import_node(&mut self, graph: &Graph, s: Scalar, map: &HashMap<usize, (Number, Id)>) -> (Number, Id) {
-        match graph.node(s) {
-            ScalarNode::Literal(n) => (*n, ONE),
-            ScalarNode::Symbol(id) => (Number::ONE, self.make(Kind::Symbol(*id), graph.print(s))),
-            ScalarNode::Sum(terms) => {
-                let terms = terms.iter().map(|&t| operand(map, t)).collect();
-                self.sum(terms)
-            }
-            ScalarNode::Product(factors) => {
-                let mut coefficient = Number::ONE;
-                let mut ids = Vec::with_capacity(factors.len());
-                for &factor in factors {
-                    let (c, id) = operand(map, factor);
-                    coefficient = coefficient.mul(c);
-                    ids.push(id);
-                }
-                let (c, id) = self.product(ids);
-                (coefficient.mul(c), id)
-            }
-            ScalarNode::Reciprocal(x) => {
-                let (c, id) = operand(map, *x);
-                (Number::ONE.div(c), self.make(Kind::Reciprocal(id), self.nodes[id].print.inverse()))
-            }
-            ScalarNode::Sqrt(x) => {
-                let x = self.plain(operand(map, *x));
-                (Number::ONE, self.make(Kind::Sqrt(x), graph.print(s)))
-            }
-            ScalarNode::Sin(angle) => {
-                let point = graph.point(*angle);
-                let angle = self.plain(operand(map, *angle));
-                self.points.insert(angle, point);
-                (Number::ONE, self.make(Kind::Sin(angle), graph.print(s)))
-            }
-            ScalarNode::Cos(angle) => {
-                let point = graph.point(*angle);
-                let angle = self.plain(operand(map, *angle));
-                self.points.insert(angle, point);
-                (Number::ONE, self.make(Kind::Cos(angle), graph.print(s)))
-            }
-            ScalarNode::Call(call, arguments) => {
-                let arguments = arguments.iter().map(|&a| self.plain(operand(map, a))).collect();
-                (Number::ONE, self.make(Kind::Call(*call, arguments), graph.print(s)))
-            }
-            // Lowering leaves no vectors; were one left, it would stand out as a symbol that nobody knows.
-            ScalarNode::Component(..) | ScalarNode::Dot(..) => (Number::ZERO, ONE),
-        }
+    /// The number of a block, a new one if need be.
+    pub(super) fn block(&mut self, block: Block) -> usize {
+        // By value: a negative operand may stand in several nodes.
+        let print = |id: &Id| self.nodes[*id].print;
+        let same = |known: &Block| {
+            let mut pairs = known.operands.iter().map(print).zip(block.operands.iter().map(print));
+            known.kind == block.kind && known.operands.len() == block.operands.len() && pairs.all(|(a, b)| a == b)
+        };
+        self.blocks.iter().position(same).unwrap_or_else(|| {
+            self.blocks.push(block);
+            self.blocks.len() - 1
+        })
     }
 
     /// A node for a multiple of another node: where an operand must be plain.
@@ -164,68 +122,12 @@ impl Dag {
         (self.nodes[id].print.canonical() == print.canonical()).then_some((sign, id))
     }
 
-    fn make(&mut self, kind: Kind, print: Print) -> Id {
+    /// A node with this value, a new one if need be.
+    pub(super) fn make(&mut self, kind: Kind, print: Print) -> Id {
         match self.find(print) {
             Some((sign, id)) if sign.is_one() => id,
             _ => self.push(kind, print),
         }
-    }
-
-    /// Takes over a node of another DAG with the same symbols, and what it needs. `map` remembers what has been taken.
-    pub fn adopt(&mut self, from: &Dag, id: Id, map: &mut HashMap<Id, (Number, Id)>) -> (Number, Id) {
-        if id == ONE {
-            return (Number::ONE, ONE);
-        }
-        if let Some(&known) = map.get(&id) {
-            return known;
-        }
-        let node = &from.nodes[id];
-        let value = match &node.kind {
-            Kind::One => (Number::ONE, ONE),
-            Kind::Symbol(_) => (Number::ONE, self.make(node.kind.clone(), node.print)),
-            Kind::Sum(terms) => {
-                let terms = terms.iter().map(|&(c, t)| {
-                    let (d, t) = self.adopt(from, t, map);
-                    (c.mul(d), t)
-                });
-                let terms = terms.collect();
-                self.sum(terms)
-            }
-            Kind::Product(factors) => {
-                let mut coefficient = Number::ONE;
-                let factors = factors.iter().map(|&f| {
-                    let (c, f) = self.adopt(from, f, map);
-                    coefficient = coefficient.mul(c);
-                    f
-                });
-                let factors = factors.collect();
-                let (c, id) = self.product(factors);
-                (coefficient.mul(c), id)
-            }
-            Kind::Reciprocal(x) => {
-                let (c, x) = self.adopt(from, *x, map);
-                (Number::ONE.div(c), self.make(Kind::Reciprocal(x), self.nodes[x].print.inverse()))
-            }
-            kind => {
-                let mut take = |x: Id| {
-                    let value = self.adopt(from, x, map);
-                    self.plain(value)
-                };
-                let kind = match kind {
-                    Kind::Sqrt(x) => Kind::Sqrt(take(*x)),
-                    Kind::Sin(x) => Kind::Sin(take(*x)),
-                    Kind::Cos(x) => Kind::Cos(take(*x)),
-                    Kind::Call(call, list) => Kind::Call(*call, list.iter().map(|&x| take(x)).collect()),
-                    other => other.clone(),
-                };
-                (Number::ONE, self.make(kind, node.print))
-            }
-        };
-        if let Some(name) = &node.name {
-            self.nodes[value.1].name.get_or_insert_with(|| name.clone());
-        }
-        map.insert(id, value);
-        value
     }
 
     /// A new node, whatever exists.
@@ -241,7 +143,7 @@ impl Dag {
         match kind {
             Kind::One => Stage::Literal,
             Kind::Symbol(id) => self.symbols.get(id.0).map_or(Stage::Input, |s| Stage::of(*s)),
-            _ => operands(kind).map(|id| self.nodes[id].stage).max().unwrap_or(Stage::Literal),
+            _ => self.operands(kind).map(|id| self.nodes[id].stage).max().unwrap_or(Stage::Literal),
         }
     }
 
@@ -313,6 +215,10 @@ impl Dag {
         for term in &mut terms {
             while let Kind::Sum(inner) = &self.nodes[term.1].kind {
                 match inner[..] {
+                    [] => {
+                        *term = (Number::ZERO, ONE);
+                        break;
+                    }
                     // A multiple of a multiple costs nothing more; the constant and shared multiples stay.
                     [(c, id)] if id == ONE || c.is_unit() || !term.0.is_unit() => *term = (term.0.mul(c), id),
                     _ => break,
@@ -349,8 +255,8 @@ impl Dag {
 
     /// Whether an operation reads a node, directly or not.
     fn depends(&self, kind: &Kind, id: Id) -> bool {
-        let known: Vec<Id> = operands(&self.nodes[id].kind).collect();
-        let mut stack: Vec<Id> = operands(kind).filter(|operand| !known.contains(operand)).collect();
+        let known: Vec<Id> = self.operands(&self.nodes[id].kind).collect();
+        let mut stack: Vec<Id> = self.operands(kind).filter(|operand| !known.contains(operand)).collect();
         let mut seen = vec![false; if stack.is_empty() { 0 } else { self.nodes.len() }];
         while let Some(node) = stack.pop() {
             if node == id {
@@ -360,7 +266,7 @@ impl Dag {
                 continue;
             }
             seen[node] = true;
-            stack.extend(operands(&self.nodes[node].kind));
+            stack.extend(self.operands(&self.nodes[node].kind));
         }
         false
     }
@@ -400,7 +306,7 @@ impl Dag {
                 Kind::Reciprocal(x) if !value(*x).is_zero() => value(*x).inverse(),
                 // Opaque: what it was, of operands that are what they were.
                 kind => {
-                    if operands(kind).any(|operand| value(operand) != self.nodes[operand].print) {
+                    if self.operands(kind).any(|operand| value(operand) != self.nodes[operand].print) {
                         return false;
                     }
                     node.print
@@ -417,6 +323,7 @@ impl Dag {
     pub fn order(&self) -> Vec<Id> {
         let mut state = vec![0_u8; self.nodes.len()];
         let mut order = Vec::new();
+        let mut seen = vec![false; self.blocks.len()];
         let mut stack: Vec<(Id, bool)> = self.roots.iter().rev().map(|r| (r.1, false)).collect();
         while let Some((id, done)) = stack.pop() {
             if done {
@@ -428,8 +335,12 @@ impl Dag {
             }
             state[id] = 1;
             stack.push((id, true));
+            // What a block reads stands before its first result.
+            if self.is_seen(id, &mut seen) {
+                continue;
+            }
             let before = stack.len();
-            stack.extend(operands(&self.nodes[id].kind).map(|id| (id, false)));
+            stack.extend(self.operands(&self.nodes[id].kind).map(|id| (id, false)));
             stack[before..].reverse();
         }
         order
@@ -438,8 +349,12 @@ impl Dag {
     /// How often each node is used by living nodes and roots.
     pub fn uses(&self, order: &[Id]) -> Vec<u32> {
         let mut uses = vec![0; self.nodes.len()];
+        let mut seen = vec![false; self.blocks.len()];
         for &id in order {
-            for operand in operands(&self.nodes[id].kind) {
+            if self.is_seen(id, &mut seen) {
+                continue;
+            }
+            for operand in self.operands(&self.nodes[id].kind) {
                 uses[operand] += 1;
             }
         }
@@ -449,12 +364,32 @@ impl Dag {
         uses
     }
 
+    /// Whether a node is a further result of a block that has been seen.
+    fn is_seen(&self, id: Id, seen: &mut [bool]) -> bool {
+        match self.nodes[id].kind {
+            Kind::Output { block, .. } => std::mem::replace(&mut seen[block], true),
+            _ => false,
+        }
+    }
+
+    /// Nodes that an operation reads.
+    pub fn operands<'a>(&'a self, kind: &'a Kind) -> Box<dyn Iterator<Item = Id> + 'a> {
+        match kind {
+            Kind::One | Kind::Symbol(_) => Box::new(std::iter::empty()),
+            Kind::Sum(terms) => Box::new(terms.iter().map(|t| t.1)),
+            Kind::Product(list) | Kind::Call(_, list) => Box::new(list.iter().copied()),
+            Kind::Reciprocal(x) | Kind::Sqrt(x) | Kind::Sin(x) | Kind::Cos(x) => Box::new(std::iter::once(*x)),
+            Kind::Output { block, .. } => Box::new(self.blocks[*block].operands.iter().copied()),
+        }
+    }
+
     /// Operations of all living nodes at a stage later than parameters, and of those at parameters.
     pub fn cost(&self) -> (Cost, Cost) {
         let (mut runtime, mut prelude) = (Cost::default(), Cost::default());
         let order = self.order();
         let mut angles = std::collections::HashSet::new();
         let uses = self.uses(&order);
+        let mut seen = vec![false; self.blocks.len()];
         for &id in &order {
             let node = &self.nodes[id];
             let cost = match node.stage {
@@ -481,7 +416,10 @@ impl Dag {
                     }
                 }
                 Kind::Call(Call::Min | Call::Max | Call::Select, _) => cost.add += 1,
+                Kind::Call(call, _) if call.is_comparison() => cost.compare += 1,
                 Kind::Call(..) => cost.other += 1,
+                Kind::Output { .. } if self.is_seen(id, &mut seen) => {}
+                Kind::Output { block, .. } => *cost = cost.plus(Cost::of_block(&self.blocks[*block].kind)),
             }
         }
         for &(c, id) in &self.roots {
@@ -496,21 +434,6 @@ impl Dag {
     /// A reciprocal that runs in the stage of its users.
     pub fn is_quotient(&self, id: Id) -> bool {
         matches!(self.nodes[id].kind, Kind::Reciprocal(_)) && self.nodes[id].stage > Stage::Parameter
-    }
-}
-
-fn operand(map: &HashMap<usize, (Number, Id)>, s: Scalar) -> (Number, Id) {
-    let (c, id) = map.get(&s.index()).copied().unwrap_or((Number::ZERO, ONE));
-    (if s.is_negative() { c.neg() } else { c }, id)
-}
-
-/// Nodes that an operation reads.
-pub fn operands(kind: &Kind) -> Box<dyn Iterator<Item = Id> + '_> {
-    match kind {
-        Kind::One | Kind::Symbol(_) => Box::new(std::iter::empty()),
-        Kind::Sum(terms) => Box::new(terms.iter().map(|t| t.1)),
-        Kind::Product(list) | Kind::Call(_, list) => Box::new(list.iter().copied()),
-        Kind::Reciprocal(x) | Kind::Sqrt(x) | Kind::Sin(x) | Kind::Cos(x) => Box::new(std::iter::once(*x)),
     }
 }
 

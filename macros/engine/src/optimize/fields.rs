@@ -5,9 +5,9 @@
 
 use std::collections::HashMap;
 
-use super::dag::{Dag, Id, Kind, ONE, operands};
+use super::dag::{Dag, Id, Kind, ONE};
 use super::names::Names;
-use super::program::{FieldId, Symbol};
+use super::program::{Call, FieldId, Symbol};
 use super::schedule::Fields;
 use super::stage::Stage;
 
@@ -58,12 +58,16 @@ fn hint(dag: &Dag, id: Id, hints: &[Option<String>]) -> String {
 /// Early values that later ones or the results read.
 fn frontier(dag: &Dag) -> Vec<Id> {
     // A number that stands alone, as in `max(x, 0)`, is written where it is read.
-    let number = |id: Id| matches!(&dag.nodes[id].kind, Kind::Sum(terms) if terms.iter().all(|&(_, t)| t == ONE));
+    let epsilon = |id: Id| matches!(&dag.nodes[id].kind, Kind::Call(Call::Epsilon, _));
+    let number = |id: Id| match &dag.nodes[id].kind {
+        Kind::Sum(terms) => terms.iter().all(|&(_, t)| t == ONE || epsilon(t)),
+        _ => epsilon(id),
+    };
     let early = |id: Id| id != ONE && dag.nodes[id].stage <= Stage::Parameter && !number(id);
     let mut found: Vec<Id> = Vec::new();
     for id in dag.order() {
         if dag.nodes[id].stage > Stage::Parameter {
-            found.extend(operands(&dag.nodes[id].kind).filter(|&operand| early(operand)));
+            found.extend(dag.operands(&dag.nodes[id].kind).filter(|&operand| early(operand)));
         }
     }
     found.extend(dag.roots.iter().map(|root| root.1).filter(|&id| early(id)));

@@ -5,10 +5,12 @@
 pub mod angles;
 pub mod balance;
 pub mod common;
+mod cost;
 pub mod dag;
 pub mod factor;
 pub mod fields;
 pub mod flatten;
+mod import;
 pub mod multiples;
 pub mod names;
 pub mod program;
@@ -109,11 +111,4 @@ pub fn simplify(dag: &mut Dag) -> bool {
         *dag = derived;
     }
     sound
-}
-
-impl Cost {
-    /// What choices between candidates compare: additions, products, selections 1, quotients and roots 8, sincos 20.
-    pub fn weight(&self) -> u32 {
-        self.add + self.mul + 8 * (self.div + self.sqrt) + 20 * (self.sincos + self.other)
-    }
 }

@@ -37,6 +37,18 @@ pub enum Symbol {
         joint: JointId,
         component: usize,
     },
+    /// Of a constraint equation: an argument of the residual.
+    Multiplier {
+        row: usize,
+    },
+    /// Where Newton's method starts: a component of the guess in `State`.
+    Guess {
+        index: usize,
+    },
+    /// An unknown inside an iteration; it is printed as a local.
+    Unknown {
+        index: usize,
+    },
 }
 
 /// Index into [`Program::locals`].
@@ -75,6 +87,16 @@ pub enum Call {
     Not,
     /// Mask, then, else.
     Select,
+    /// The rounding unit of the scalar, of no arguments.
+    Epsilon,
+}
+
+impl Call {
+    /// Work of one instruction or two, as additions are.
+    pub fn is_comparison(self) -> bool {
+        use Call::{Abs, And, Equal, Less, LessEqual, Not, Or, Signum};
+        matches!(self, Less | LessEqual | Equal | And | Or | Not | Abs | Signum)
+    }
 }
 
 /// An expression over symbols, fields and locals.
@@ -105,6 +127,25 @@ pub enum Statement {
         cos: Local,
         angle: Expression,
     },
+    /// A pivoted solution of a linear system in the runtime; `results` are the unknowns, then the rank.
+    Solve {
+        size: usize,
+        symmetric: bool,
+        /// Row by row.
+        matrix: Vec<Expression>,
+        rhs: Vec<Expression>,
+        results: Vec<Local>,
+    },
+    /// A counted loop. `unknowns` start at `start` and become `next` in every round; they are read inside and behind it.
+    /// `residual` is set in every round, before the unknowns are, and read behind the loop; it is zero where there is none.
+    Iterate {
+        count: usize,
+        unknowns: Vec<Local>,
+        start: Vec<Expression>,
+        body: Vec<Statement>,
+        next: Vec<Expression>,
+        residual: (Local, Expression),
+    },
 }
 
 /// One function body.
@@ -117,14 +158,40 @@ pub struct Program {
     pub results: Vec<Expression>,
 }
 
+impl Statement {
+    /// Its expressions, those of statements inside included.
+    pub fn expressions(&self) -> Box<dyn Iterator<Item = &Expression> + '_> {
+        match self {
+            Statement::Let { value, .. } => Box::new(std::iter::once(value)),
+            Statement::SinCos { angle, .. } => Box::new(std::iter::once(angle)),
+            Statement::Solve { matrix, rhs, .. } => Box::new(matrix.iter().chain(rhs)),
+            Statement::Iterate { start, body, next, residual, .. } => {
+                let inside = body.iter().flat_map(Statement::expressions);
+                Box::new(start.iter().chain(inside).chain(next).chain(std::iter::once(&residual.1)))
+            }
+        }
+    }
+
+    /// Locals that later statements may read.
+    pub fn defined(&self) -> Vec<Local> {
+        match self {
+            Statement::Let { local, .. } => vec![*local],
+            Statement::SinCos { sin, cos, .. } => vec![*sin, *cos],
+            Statement::Solve { results, .. } => results.clone(),
+            Statement::Iterate { unknowns, residual, .. } => unknowns.iter().copied().chain([residual.0]).collect(),
+        }
+    }
+}
+
 impl Program {
+    /// All expressions of statements and results.
+    pub fn expressions(&self) -> impl Iterator<Item = &Expression> + '_ {
+        self.statements.iter().flat_map(Statement::expressions).chain(&self.results)
+    }
+
     /// All numbers that are written in it.
     pub fn literals(&self) -> impl Iterator<Item = f64> + '_ {
-        let mut stack: Vec<&Expression> = self.results.iter().collect();
-        stack.extend(self.statements.iter().map(|statement| match statement {
-            Statement::Let { value, .. } => value,
-            Statement::SinCos { angle, .. } => angle,
-        }));
+        let mut stack: Vec<&Expression> = self.expressions().collect();
         std::iter::from_fn(move || {
             while let Some(expression) = stack.pop() {
                 match expression {
@@ -150,15 +217,18 @@ pub struct Cost {
     pub div: u32,
     pub sqrt: u32,
     pub sincos: u32,
-    /// Any other function or comparison.
+    /// Comparisons, what is done with masks, absolute values and signs.
+    pub compare: u32,
+    /// Any other function.
     pub other: u32,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum FunctionKind {
-    /// Accelerations in the order of velocity coordinates, then the rates of the user's states.
+    /// Accelerations in the order of velocity coordinates, then the rates of the user's states; with constraints the
+    /// multipliers and the rank of their system; with iterations the greatest residual of the loops.
     ForwardDynamics,
-    /// Efforts in the order of velocity coordinates.
+    /// Efforts in the order of velocity coordinates; with `solve_for` the inputs found, then the rank of their system.
     InverseDynamics,
     /// DOF x DOF, row by row.
     MassMatrix,
@@ -166,6 +236,22 @@ pub enum FunctionKind {
     Bias,
     KineticEnergy,
     PotentialEnergy,
+    /// Residuals of the constraint equations.
+    Constraints,
+    /// Equations x DOF, row by row.
+    ConstraintJacobian,
+    /// Time derivatives of the residuals.
+    ConstraintRate,
+    /// What is left of the second time derivatives of the residuals where accelerations are zero.
+    ConstraintBias,
+    /// DOF dynamic rows M a + bias + G^T lambda, then the residuals of the constraint equations.
+    Residual,
+    /// Of the model's kinematics number k: values, then rates, then accelerations.
+    Kinematics(usize),
+    /// The unknowns of all iterations, then the greatest residual.
+    Guess,
+    /// Roots in closed forms of loops that vanish where two solutions meet.
+    DeadCentres,
     /// Output after output, flattened: `Vec3` 3, `Rotation` 9 row by row, `Pose` x, y, z, w, i, j, k, `Twist` and
     /// `Wrench` 6, `Jacobian` 6 x DOF row by row, arrays element by element.
     Outputs,

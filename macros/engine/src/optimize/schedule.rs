@@ -8,10 +8,10 @@
 use std::collections::{HashMap, HashSet};
 
 use crate::symbolic::fingerprint::Print;
-use crate::symbolic::graph::Call;
+use crate::symbolic::graph::{BlockKind, Call, SymbolId};
 use crate::symbolic::number::Number;
 
-use super::dag::{Dag, Id, Kind, ONE};
+use super::dag::{Block, Dag, Id, Kind, ONE};
 use super::names::Names;
 use super::program::{Expression, FieldId, Local, Program, Statement, Symbol};
 use super::stage::Stage;
@@ -25,9 +25,7 @@ pub type Fields = HashMap<Print, (FieldId, Print)>;
 /// Prints a DAG as a program. Nodes found in `fields` are read from there.
 pub fn schedule(dag: &Dag, fields: &Fields) -> Program {
     let mut scheduler = Scheduler::new(dag, fields);
-    for id in dag.order() {
-        scheduler.visit(id);
-    }
+    scheduler.make(dag.roots.iter().map(|root| root.1));
     let results = dag.roots.iter().map(|&root| scheduler.term(root)).collect();
     let mut program = scheduler.program;
     program.results = results;
@@ -48,12 +46,19 @@ struct Scheduler<'a> {
     cosines: HashSet<Id>,
     hints: Vec<Option<String>>,
     names: Names,
+    /// What belongs into the body of each iteration, and what its body reads.
+    loops: Vec<Loop>,
+    /// What the bodies read.
+    boundary: HashSet<Id>,
+    /// Locals of the results of blocks that have been written.
+    results: HashMap<usize, Vec<Local>>,
     program: Program,
 }
 
 impl<'a> Scheduler<'a> {
     fn new(dag: &'a Dag, fields: &'a Fields) -> Self {
         let order = dag.order();
+        let loops = Loop::all(dag, &order);
         Scheduler {
             dag,
             fields,
@@ -65,6 +70,9 @@ impl<'a> Scheduler<'a> {
             cosines: of_kind(dag, &order, |kind| if let Kind::Cos(x) = kind { Some(*x) } else { None }),
             hints: dag.hints(),
             names: Names::default(),
+            boundary: loops.iter().flat_map(|l| l.frontier.iter().copied()).collect(),
+            loops,
+            results: HashMap::new(),
             program: Program::default(),
         }
     }
@@ -73,6 +81,126 @@ impl<'a> Scheduler<'a> {
         let print = self.dag.nodes[id].print;
         let &(field, value) = self.fields.get(&print.canonical())?;
         Some((print != value, field))
+    }
+
+    /// Writes what these nodes need and what isn't written, operands before users. Bodies of iterations wait until their
+    /// iteration is written; what they read from outside goes before it.
+    fn make(&mut self, wanted: impl DoubleEndedIterator<Item = Id>) {
+        let mut stack: Vec<(Id, bool)> = wanted.rev().map(|id| (id, false)).collect();
+        let mut seen = vec![false; self.dag.nodes.len()];
+        while let Some((id, done)) = stack.pop() {
+            if self.written[id].is_some() {
+                continue;
+            }
+            if done {
+                self.visit(id);
+                continue;
+            }
+            if std::mem::replace(&mut seen[id], true) {
+                continue;
+            }
+            stack.push((id, true));
+            let before = stack.len();
+            match self.dag.nodes[id].kind {
+                Kind::Output { block, .. } if self.loops[block].is_loop => {
+                    let (start, _) = self.parts(block);
+                    stack.extend(start.iter().chain(&self.loops[block].frontier).map(|&id| (id, false)));
+                }
+                _ => stack.extend(self.dag.operands(&self.dag.nodes[id].kind).map(|id| (id, false))),
+            }
+            stack[before..].reverse();
+        }
+    }
+
+    /// Starting values of an iteration; next values and the residual.
+    fn parts(&self, block: usize) -> (&'a [Id], &'a [Id]) {
+        let dag: &'a Dag = self.dag;
+        let Block { kind, operands } = &dag.blocks[block];
+        match kind {
+            BlockKind::Iterate { unknowns, .. } => operands.split_at(unknowns.len()),
+            BlockKind::Solve { .. } => (operands, &[]),
+        }
+    }
+
+    /// The local of a block's result; the block is written when the first is asked for.
+    fn result(&mut self, block: usize, index: usize) -> Expression {
+        if !self.results.contains_key(&block) {
+            let locals = self.block(block);
+            self.results.insert(block, locals);
+        }
+        let local = self.results.get(&block).and_then(|locals| locals.get(index));
+        local.map_or(Expression::Literal(f64::NAN), |&local| Expression::Local(local))
+    }
+
+    fn block(&mut self, block: usize) -> Vec<Local> {
+        let dag: &'a Dag = self.dag;
+        let Block { kind, operands } = &dag.blocks[block];
+        match kind {
+            &BlockKind::Solve { size, symmetric } => {
+                let matrix: Vec<Expression> = operands.iter().map(|&id| self.signed(id).0).collect();
+                let (matrix, rhs) = matrix.split_at(size * size);
+                let named = |k| self.output(block, k).unwrap_or(if k == size { "rank" } else { "solution" }.to_owned());
+                let names: Vec<String> = (0..=size).map(named).collect();
+                let results: Vec<Local> = names.into_iter().map(|name| self.local(name)).collect();
+                self.program.statements.push(Statement::Solve {
+                    size,
+                    symmetric,
+                    matrix: matrix.to_vec(),
+                    rhs: rhs.to_vec(),
+                    results: results.clone(),
+                });
+                results
+            }
+            BlockKind::Iterate { unknowns, count } => self.iterate(block, unknowns, *count),
+        }
+    }
+
+    /// A result's own name.
+    fn output(&self, block: usize, index: usize) -> Option<String> {
+        let kind = Kind::Output { block, index };
+        let id = self.loops[block].outputs.iter().find(|&&id| self.dag.nodes[id].kind == kind)?;
+        self.dag.nodes[*id].name.clone()
+    }
+
+    /// Nodes of the body are written for this body alone: another iteration over the same symbols has its own.
+    fn iterate(&mut self, block: usize, symbols: &[SymbolId], count: usize) -> Vec<Local> {
+        let (start, body) = self.parts(block);
+        let start: Vec<Expression> = start.iter().map(|&id| self.signed(id).0).collect();
+        let names = symbols.iter().enumerate().map(|(k, &id)| {
+            let named = self.dag.symbol_names.get(id.0).filter(|name| !name.is_empty());
+            self.output(block, k).or(named.cloned()).unwrap_or("unknown".to_owned())
+        });
+        let names: Vec<String> = names.collect();
+        let mut locals: Vec<Local> = names.into_iter().map(|name| self.local(name)).collect();
+        let inside = self.loops[block].inside.clone();
+        let is_inside: HashSet<Id> = inside.iter().copied().collect();
+        let outer = std::mem::take(&mut self.program.statements);
+        let kept: Vec<_> = inside.iter().map(|&id| (id, self.written[id].take(), self.flipped[id])).collect();
+        for &id in &inside {
+            if let Kind::Symbol(symbol) = self.dag.nodes[id].kind
+                && let Some(at) = symbols.iter().position(|&s| s == symbol)
+            {
+                self.written[id] = Some((Expression::Local(locals[at]), 1));
+            }
+        }
+        self.make(body.iter().copied());
+        let mut next: Vec<Expression> = body.iter().map(|&id| self.signed(id).0).collect();
+        let residual = next.pop().unwrap_or(Expression::Literal(0.0));
+        for (id, written, flipped) in kept {
+            (self.written[id], self.flipped[id]) = (written, flipped);
+            if let Kind::Output { block, .. } = self.dag.nodes[id].kind {
+                self.results.remove(&block);
+            }
+        }
+        self.angles.retain(|angle, _| !is_inside.contains(angle));
+        let body = std::mem::replace(&mut self.program.statements, outer);
+        let unknowns = locals.clone();
+        let name = self.output(block, symbols.len()).unwrap_or("residual".to_owned());
+        let local = self.local(name);
+        locals.push(local);
+        let residual = (local, residual);
+        self.program.statements.push(Statement::Iterate { count, unknowns, start, body, next, residual });
+        locals
     }
 
     fn visit(&mut self, id: Id) {
@@ -88,6 +216,8 @@ impl<'a> Scheduler<'a> {
         let (expression, size) = match &node.kind {
             Kind::One => (Expression::Literal(1.0), 1),
             Kind::Symbol(symbol) => match self.dag.symbols.get(symbol.0) {
+                // Outside its iteration an unknown is read only by values that don't change with it.
+                Some(&Symbol::Unknown { .. }) => (Expression::Literal(1.0), 1),
                 Some(&symbol) => (Expression::Symbol(symbol), 1),
                 None => (Expression::Literal(0.0), 1),
             },
@@ -103,6 +233,7 @@ impl<'a> Scheduler<'a> {
                 let (x, size) = self.signed(*x);
                 (Expression::Call(Call::Sqrt, vec![x]), size)
             }
+            &Kind::Output { block, index } => (self.result(block, index), 1),
             Kind::Sin(angle) => (Expression::Local(self.sin_cos(*angle).0), 1),
             Kind::Cos(angle) => (Expression::Local(self.sin_cos(*angle).1), 1),
             Kind::Call(call, arguments) => {
@@ -112,8 +243,8 @@ impl<'a> Scheduler<'a> {
             }
         };
         let leaf = matches!(expression, Expression::Literal(_) | Expression::Symbol(_) | Expression::Local(_));
-        let quotient = self.dag.is_quotient(id) && self.uses[id] == 1;
-        let alone = leaf || quotient || (self.uses[id] == 1 && node.name.is_none() && size <= READABLE);
+        let once = self.uses[id] == 1 && !self.boundary.contains(&id);
+        let alone = leaf || self.is_divisor(id) || (once && node.name.is_none() && size <= READABLE);
         self.written[id] = Some(if alone {
             (expression, size)
         } else {
@@ -121,6 +252,11 @@ impl<'a> Scheduler<'a> {
             self.program.statements.push(Statement::Let { local, value: expression });
             (Expression::Local(local), 1)
         });
+    }
+
+    /// A reciprocal that stands where it is used.
+    fn is_divisor(&self, id: Id) -> bool {
+        self.dag.is_quotient(id) && self.uses[id] == 1
     }
 
     /// A value's own name, or that it is a part of a named one.
@@ -216,7 +352,7 @@ impl<'a> Scheduler<'a> {
 
     fn product(&mut self, id: Id, factors: &[Id]) -> (Expression, usize) {
         self.flipped[id] = factors.iter().filter(|&&f| self.flipped[f]).count() % 2 == 1;
-        let divisor = factors.iter().position(|&f| self.uses[f] == 1 && self.dag.is_quotient(f));
+        let divisor = factors.iter().position(|&f| self.is_divisor(f));
         let mut size = 0;
         let mut list = Vec::with_capacity(factors.len());
         for (at, &factor) in factors.iter().enumerate() {
@@ -237,6 +373,70 @@ impl<'a> Scheduler<'a> {
             product = Expression::Quotient(Box::new(product), x);
         }
         (product, size)
+    }
+}
+
+/// The body of an iteration; empty for other blocks.
+#[derive(Default)]
+struct Loop {
+    is_loop: bool,
+    /// Nodes that change in every round, operands before users.
+    inside: Vec<Id>,
+    /// What they read that doesn't.
+    frontier: Vec<Id>,
+    /// Living results of the block.
+    outputs: Vec<Id>,
+}
+
+impl Loop {
+    /// One for each block of a DAG. Blocks stand before those whose bodies hold them.
+    fn all(dag: &Dag, order: &[Id]) -> Vec<Loop> {
+        let mut loops: Vec<Loop> = Vec::with_capacity(dag.blocks.len());
+        for (number, block) in dag.blocks.iter().enumerate() {
+            let is_output = |&id: &Id| matches!(dag.nodes[id].kind, Kind::Output { block, .. } if block == number);
+            let outputs = order.iter().copied().filter(is_output).collect();
+            let body = match &block.kind {
+                BlockKind::Iterate { unknowns, .. } => Loop::of(dag, order, unknowns, block, &loops),
+                BlockKind::Solve { .. } => Loop::default(),
+            };
+            loops.push(Loop { outputs, ..body });
+        }
+        loops
+    }
+
+    fn of(dag: &Dag, order: &[Id], unknowns: &[SymbolId], block: &Block, before: &[Loop]) -> Loop {
+        // Another iteration reads what it starts from and what its body reads, and nothing that is inside.
+        let operands = |id: Id| -> Box<dyn Iterator<Item = Id> + '_> {
+            match dag.nodes[id].kind {
+                Kind::Output { block, .. } if before.get(block).is_some_and(|l| l.is_loop) => {
+                    let Block { kind, operands } = &dag.blocks[block];
+                    let BlockKind::Iterate { unknowns, .. } = kind else { return Box::new(std::iter::empty()) };
+                    Box::new(operands[..unknowns.len()].iter().chain(&before[block].frontier).copied())
+                }
+                _ => dag.operands(&dag.nodes[id].kind),
+            }
+        };
+        let mut changes = vec![false; dag.nodes.len()];
+        let mut needed = vec![false; dag.nodes.len()];
+        for &id in order {
+            changes[id] = match &dag.nodes[id].kind {
+                Kind::Symbol(symbol) => unknowns.contains(symbol),
+                _ => operands(id).any(|id| changes[id]),
+            };
+        }
+        block.operands[unknowns.len()..].iter().for_each(|&id| needed[id] = true);
+        let (mut inside, mut frontier) = (Vec::new(), Vec::new());
+        for &id in order.iter().rev().filter(|&&id| id != ONE) {
+            if needed[id] && changes[id] {
+                inside.push(id);
+                operands(id).for_each(|operand| needed[operand] = true);
+            } else if needed[id] {
+                frontier.push(id);
+            }
+        }
+        inside.reverse();
+        frontier.reverse();
+        Loop { is_loop: true, inside, frontier, outputs: Vec::new() }
     }
 }
 
@@ -261,7 +461,7 @@ impl Dag {
                 hints[id] = Some(name.clone());
             }
             let Some(hint) = hints[id].clone() else { continue };
-            for operand in super::dag::operands(&self.nodes[id].kind) {
+            for operand in self.operands(&self.nodes[id].kind) {
                 hints[operand].get_or_insert_with(|| hint.clone());
             }
         }
@@ -269,7 +469,7 @@ impl Dag {
     }
 
     /// A readable name for a symbol, from its kind alone where the owner gave none.
-    pub fn symbol_name(&self, id: crate::symbolic::graph::SymbolId) -> String {
+    pub fn symbol_name(&self, id: SymbolId) -> String {
         let named = self.symbol_names.get(id.0).filter(|name| !name.is_empty());
         named.cloned().unwrap_or_else(|| match self.symbols.get(id.0) {
             Some(Symbol::Time) => "t".to_owned(),

@@ -28,9 +28,11 @@ impl Stage {
         match symbol {
             Symbol::Param { .. } => Stage::Parameter,
             Symbol::Time => Stage::Time,
-            Symbol::Position { .. } | Symbol::State { .. } => Stage::Position,
+            Symbol::Position { .. } | Symbol::State { .. } | Symbol::Guess { .. } | Symbol::Unknown { .. } => {
+                Stage::Position
+            }
             Symbol::Velocity { .. } => Stage::Velocity,
-            Symbol::Input { .. } => Stage::Input,
+            Symbol::Input { .. } | Symbol::Multiplier { .. } => Stage::Input,
             Symbol::Acceleration { .. } => Stage::Acceleration,
         }
     }

@@ -10,7 +10,9 @@
 
 use std::collections::HashMap;
 
-use super::graph::{AnyNode, Call, Graph, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode};
+use super::graph::{
+    AnyNode, BlockId, BlockKind, Call, Graph, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode,
+};
 
 impl Graph {
     /// Derivative of a scalar along the seeds, given as (symbol, seed). Symbols without one rest.
@@ -52,6 +54,11 @@ impl Differentiator {
         Differentiator { scalars: scalars.collect(), vectors: HashMap::new(), rotations: HashMap::new() }
     }
 
+    /// Of a node whose operands rest, but for those with a seed.
+    pub(super) fn slope(&self, g: &mut Graph, s: Scalar) -> Scalar {
+        self.scalar_rule(g, s)
+    }
+
     pub fn scalar(&mut self, g: &mut Graph, s: Scalar) -> Scalar {
         self.walk(g, AnyNode::Scalar(s.index()));
         self.of(s)
@@ -77,7 +84,7 @@ impl Differentiator {
                 self.differentiate(g, node);
             } else {
                 stack.push((node, true));
-                push_operands(g, node, &mut stack);
+                g.each_operand(node, &mut |operand| stack.push((operand, false)));
             }
         }
     }
@@ -143,6 +150,12 @@ impl Differentiator {
                 }
                 self.call_rule(g, s, call, &x)
             }
+            // c ds - s dc on the unit circle
+            ScalarNode::Angle(c, sin) => {
+                let (plus, minus) = (g.mul(c, self.of(sin)), g.mul(sin, self.of(c)));
+                g.sub(plus, minus)
+            }
+            ScalarNode::Output(id, k) => self.block_rule(g, id, k),
             ScalarNode::Component(v, axis) => g.component(self.of_vector(v), axis),
             ScalarNode::Dot(a, b) => {
                 let left = g.dot(self.of_vector(a), b);
@@ -150,6 +163,25 @@ impl Differentiator {
                 g.add(left, right)
             }
         }
+    }
+
+    /// A x = b: A dx = db - dA x. The rank is constant but where it jumps. An iteration has a derivative of zero: who
+    /// iterates knows the equation that is solved, and differentiates that.
+    fn block_rule(&self, g: &mut Graph, id: BlockId, k: usize) -> Scalar {
+        let block = g.block(id).clone();
+        let BlockKind::Solve { size, .. } = block.kind else { return Scalar::ZERO };
+        if k >= size || block.operands.iter().all(|&s| self.of(s) == Scalar::ZERO) {
+            return Scalar::ZERO;
+        }
+        let x = g.block_outputs(block.kind.clone(), &block.operands);
+        let (matrix, rhs) = block.operands.split_at(size * size);
+        let mut system = matrix.to_vec();
+        for (row, &b) in matrix.chunks(size).zip(rhs) {
+            let mut terms = vec![self.of(b)];
+            terms.extend(row.iter().zip(&x).map(|(&a, &x)| -g.mul(self.of(a), x)));
+            system.push(g.sum(&terms));
+        }
+        g.block_outputs(block.kind, &system)[k]
     }
 
     fn product_rule(&self, g: &mut Graph, factors: &[Scalar]) -> Scalar {
@@ -362,38 +394,4 @@ fn angular_velocity(g: &mut Graph, q: [Scalar; 4], dq: [Scalar; 4]) -> Vector {
     let half = g.sum_vectors(&[along, -across, -back]);
     let two = g.integer(2);
     g.scale(two, half)
-}
-
-fn push_operands(g: &Graph, node: AnyNode, stack: &mut Vec<(AnyNode, bool)>) {
-    let mut scalar = |s: &Scalar| stack.push((AnyNode::Scalar(s.index()), false));
-    match node {
-        AnyNode::Scalar(i) => match g.node(Scalar::new(i, false)) {
-            ScalarNode::Literal(_) | ScalarNode::Symbol(_) => {}
-            ScalarNode::Sum(list) | ScalarNode::Product(list) | ScalarNode::Call(_, list) => {
-                list.iter().for_each(scalar);
-            }
-            ScalarNode::Reciprocal(x) | ScalarNode::Sqrt(x) | ScalarNode::Sin(x) | ScalarNode::Cos(x) => scalar(x),
-            ScalarNode::Component(v, _) => stack.push((AnyNode::Vector(v.index()), false)),
-            ScalarNode::Dot(a, b) => stack.extend([a, b].map(|v| (AnyNode::Vector(v.index()), false))),
-        },
-        AnyNode::Vector(i) => match g.vector_node(Vector::new(i, false)) {
-            VectorNode::Triple(list) => list.iter().for_each(scalar),
-            VectorNode::Sum(list) => stack.extend(list.iter().map(|v| (AnyNode::Vector(v.index()), false))),
-            VectorNode::Scale(s, v) => {
-                scalar(s);
-                stack.push((AnyNode::Vector(v.index()), false));
-            }
-            VectorNode::Cross(a, b) => stack.extend([a, b].map(|v| (AnyNode::Vector(v.index()), false))),
-            VectorNode::Rotate(r, v) => {
-                stack.extend([(AnyNode::Rotation(r.index()), false), (AnyNode::Vector(v.index()), false)]);
-            }
-        },
-        AnyNode::Rotation(i) => match g.rotation_node(Rotation::new(i, false)) {
-            RotationNode::Identity => {}
-            RotationNode::Axis(_, angle) => scalar(angle),
-            RotationNode::Matrix(rows) => rows.iter().flatten().for_each(scalar),
-            RotationNode::Quaternion(q) => q.iter().for_each(scalar),
-            RotationNode::Product(a, b) => stack.extend([a, b].map(|r| (AnyNode::Rotation(r.index()), false))),
-        },
-    }
 }

@@ -6,7 +6,9 @@
 
 use std::collections::HashMap;
 
-use super::graph::{AnyNode, Call, Graph, Rotation, RotationNode, Scalar, ScalarNode, SymbolId, Vector, VectorNode};
+use super::graph::{
+    AnyNode, BlockId, BlockKind, Call, Graph, Rotation, RotationNode, Scalar, ScalarNode, SymbolId, Vector, VectorNode,
+};
 use super::number::Number;
 
 /// A field in which a graph can be evaluated.
@@ -19,9 +21,22 @@ pub trait Field {
     fn neg(&self, a: Self::Value) -> Self::Value;
     fn reciprocal(&self, a: Self::Value) -> Self::Value;
     fn call(&self, call: Call, arguments: &[Self::Value]) -> Self::Value;
-    /// Cosine and sine; the angle is given as a node too, since a field may not know angles as numbers.
-    fn point(&self, graph: &Graph, angle: Scalar, value: Self::Value) -> (Self::Value, Self::Value);
+    /// Cosine and sine; the angle is given as a node too, since a field may not know angles as numbers, and
+    /// with the values of what it is the sum of.
+    fn point(
+        &self,
+        graph: &Graph,
+        angle: Scalar,
+        value: Self::Value,
+        known: &dyn Fn(Scalar) -> Self::Value,
+    ) -> (Self::Value, Self::Value);
+
+    /// The unknowns of a linear system given by rows, then its rank.
+    fn solve(&self, symmetric: bool, matrix: &[Self::Value], rhs: &[Self::Value]) -> Vec<Self::Value>;
 }
+
+/// A node's position and its value.
+type Known<V> = Option<(usize, V)>;
 
 /// Evaluates nodes of one graph, each once.
 pub struct Evaluator<'g, F: Field> {
@@ -29,23 +44,28 @@ pub struct Evaluator<'g, F: Field> {
     field: F,
     scalars: HashMap<usize, F::Value>,
     vectors: HashMap<usize, [F::Value; 3]>,
+    blocks: HashMap<BlockId, Vec<F::Value>>,
 }
 
 impl<'g, F: Field> Evaluator<'g, F> {
     pub fn new(graph: &'g Graph, field: F) -> Self {
-        Evaluator { graph, field, scalars: HashMap::new(), vectors: HashMap::new() }
+        Evaluator { graph, field, scalars: HashMap::new(), vectors: HashMap::new(), blocks: HashMap::new() }
     }
 
     /// Values of these scalars; operands go first, so that no recursion is deep.
     pub fn run(&mut self, roots: &[Scalar]) -> Vec<F::Value> {
         for node in self.graph.reachable(roots) {
-            match node {
-                AnyNode::Scalar(index) => drop(self.scalar(Scalar::new(index, false))),
-                AnyNode::Vector(index) => drop(self.vector(Vector::new(index, false))),
-                AnyNode::Rotation(_) => {}
-            }
+            self.visit(node);
         }
         roots.iter().map(|&root| self.scalar(root)).collect()
+    }
+
+    fn visit(&mut self, node: AnyNode) {
+        match node {
+            AnyNode::Scalar(index) => drop(self.scalar(Scalar::new(index, false))),
+            AnyNode::Vector(index) => drop(self.vector(Vector::new(index, false))),
+            AnyNode::Rotation(_) => {}
+        }
     }
 
     fn scalar(&mut self, s: Scalar) -> F::Value {
@@ -87,6 +107,18 @@ impl<'g, F: Field> Evaluator<'g, F> {
                 let values: Vec<F::Value> = arguments.iter().map(|&a| self.scalar(a)).collect();
                 self.field.call(*call, &values)
             }
+            ScalarNode::Angle(c, s) => {
+                let point = [self.scalar(*s), self.scalar(*c)];
+                self.field.call(Call::Atan2, &point)
+            }
+            ScalarNode::Output(id, k) => {
+                let zero = self.field.literal(Number::ZERO);
+                if !self.blocks.contains_key(id) {
+                    let results = self.block(*id);
+                    self.blocks.insert(*id, results);
+                }
+                self.blocks.get(id).and_then(|results| results.get(*k).copied()).unwrap_or(zero)
+            }
             ScalarNode::Component(v, axis) => self.vector(*v)[*axis],
             ScalarNode::Dot(a, b) => {
                 let (a, b) = (self.vector(*a), self.vector(*b));
@@ -95,9 +127,78 @@ impl<'g, F: Field> Evaluator<'g, F> {
         }
     }
 
+    fn block(&mut self, id: BlockId) -> Vec<F::Value> {
+        let block = self.graph.block(id);
+        match &block.kind {
+            &BlockKind::Solve { size, symmetric } => {
+                let values: Vec<F::Value> = block.operands.iter().map(|&s| self.scalar(s)).collect();
+                let (matrix, rhs) = values.split_at(size * size);
+                self.field.solve(symmetric, matrix, rhs)
+            }
+            BlockKind::Iterate { unknowns, count } => {
+                let (start, body) = block.operands.split_at(unknowns.len());
+                self.iterate(unknowns, *count, start, body)
+            }
+        }
+    }
+
+    /// What depends on the unknowns gets a value of its own in every round; afterwards it has the one it had before.
+    fn iterate(&mut self, unknowns: &[SymbolId], count: usize, start: &[Scalar], body: &[Scalar]) -> Vec<F::Value> {
+        let graph = self.graph;
+        let mut values: Vec<F::Value> = start.iter().map(|&s| self.scalar(s)).collect();
+        let mut residual = self.field.literal(Number::ZERO);
+        let symbols: Vec<Scalar> = unknowns.iter().filter_map(|&id| graph.symbol_handle(id)).collect();
+        let nodes = graph.reachable(body);
+        let depends = graph.depending(&nodes, symbols.iter().copied());
+        let own: Vec<AnyNode> = symbols.iter().map(|s| AnyNode::Scalar(s.index())).collect();
+        let body_nodes = nodes.into_iter().filter(|&node| depends.has(node) && !own.contains(&node));
+        let inside: Vec<AnyNode> = own.iter().copied().chain(body_nodes).collect();
+        let outside: (Vec<_>, Vec<_>) = inside.iter().map(|&node| self.take(node)).unzip();
+        for _ in 0..count {
+            self.forget(&inside);
+            for (symbol, &value) in symbols.iter().zip(&values) {
+                self.scalars.insert(symbol.index(), value);
+            }
+            inside.iter().for_each(|&node| self.visit(node));
+            let mut results = body.iter().map(|&s| self.scalar(s)).collect::<Vec<_>>();
+            residual = results.pop().unwrap_or(residual);
+            values = results;
+        }
+        self.forget(&inside);
+        self.scalars.extend(outside.0.into_iter().flatten());
+        self.vectors.extend(outside.1.into_iter().flatten());
+        values.push(residual);
+        values
+    }
+
+    fn forget(&mut self, nodes: &[AnyNode]) {
+        for &node in nodes {
+            self.take(node);
+        }
+    }
+
+    /// Forgets the value of a node, and hands it out.
+    fn take(&mut self, node: AnyNode) -> (Known<F::Value>, Known<[F::Value; 3]>) {
+        match node {
+            AnyNode::Scalar(i) => {
+                if let ScalarNode::Output(id, _) = self.graph.node(Scalar::new(i, false)) {
+                    self.blocks.remove(id);
+                }
+                (self.scalars.remove(&i).map(|value| (i, value)), None)
+            }
+            AnyNode::Vector(i) => (None, self.vectors.remove(&i).map(|value| (i, value))),
+            AnyNode::Rotation(_) => (None, None),
+        }
+    }
+
     fn point(&mut self, angle: Scalar) -> (F::Value, F::Value) {
         let value = self.scalar(angle);
-        self.field.point(self.graph, angle, value)
+        // Terms were evaluated with the sum.
+        let known = |s: Scalar| {
+            let value = self.scalars.get(&s.index()).copied().unwrap_or_else(|| self.field.literal(Number::ZERO));
+            if s.is_negative() { self.field.neg(value) } else { value }
+        };
+        self.field.point(self.graph, angle, value, &known)
     }
 
     fn fold(&self, values: &[F::Value], f: impl Fn(&F, F::Value, F::Value) -> F::Value) -> F::Value {
@@ -234,8 +335,11 @@ impl Field for Real<'_> {
     fn call(&self, call: Call, x: &[f64]) -> f64 {
         call_f64(call, x)
     }
-    fn point(&self, _: &Graph, _: Scalar, angle: f64) -> (f64, f64) {
+    fn point(&self, _: &Graph, _: Scalar, angle: f64, _: &dyn Fn(Scalar) -> f64) -> (f64, f64) {
         (angle.cos(), angle.sin())
+    }
+    fn solve(&self, _: bool, matrix: &[f64], rhs: &[f64]) -> Vec<f64> {
+        solve_f64(matrix, rhs)
     }
 }
 
@@ -243,6 +347,7 @@ impl Field for Real<'_> {
 pub fn call_f64(call: Call, x: &[f64]) -> f64 {
     let mask = |b: bool| f64::from(u8::from(b));
     match (call, x) {
+        (Call::Epsilon, []) => f64::EPSILON,
         (Call::Tan, [a]) => a.tan(),
         (Call::Asin, [a]) => a.asin(),
         (Call::Acos, [a]) => a.acos(),
@@ -292,4 +397,48 @@ pub fn call_f64(call: Call, x: &[f64]) -> f64 {
         }
         _ => f64::NAN,
     }
+}
+
+/// The unknowns of a linear system given by rows, then its rank: complete pivoting after rows and columns have been brought
+/// to one scale, as in the runtime. Unknowns beyond the rank are zero.
+pub fn solve_f64(matrix: &[f64], rhs: &[f64]) -> Vec<f64> {
+    let n = rhs.len();
+    let mut a: Vec<Vec<f64>> = (0..n).map(|i| matrix[i * n..(i + 1) * n].to_vec()).collect();
+    let mut b = rhs.to_vec();
+    let scale = |largest: f64| if largest > 0.0 { 1.0 / largest } else { 1.0 };
+    for (row, b) in a.iter_mut().zip(&mut b) {
+        let factor = scale(row.iter().fold(0.0, |most: f64, x| most.max(x.abs())));
+        row.iter_mut().chain([b]).for_each(|x| *x *= factor);
+    }
+    let columns: Vec<f64> =
+        (0..n).map(|j| scale(a.iter().fold(0.0, |most: f64, row| most.max(row[j].abs())))).collect();
+    for row in &mut a {
+        row.iter_mut().zip(&columns).for_each(|(x, factor)| *x *= factor);
+    }
+    let mut origin: Vec<usize> = (0..n).collect();
+    let mut rank = 0;
+    while rank < n {
+        let candidates = (rank..n).flat_map(|i| (rank..n).map(move |j| (i, j)));
+        let pivot = candidates.max_by(|&(i, j), &(k, l)| a[i][j].abs().total_cmp(&a[k][l].abs()));
+        let Some((i, j)) = pivot.filter(|&(i, j)| a[i][j].abs() > 16.0 * n as f64 * f64::EPSILON) else { break };
+        a.swap(rank, i);
+        b.swap(rank, i);
+        a.iter_mut().for_each(|row| row.swap(rank, j));
+        origin.swap(rank, j);
+        let (row, right) = (a[rank].clone(), b[rank]);
+        for i in rank + 1..n {
+            let factor = a[i][rank] / row[rank];
+            a[i].iter_mut().zip(&row).for_each(|(x, y)| *x -= factor * y);
+            b[i] -= factor * right;
+        }
+        rank += 1;
+    }
+    let mut x = vec![0.0; n];
+    for k in (0..rank).rev() {
+        let known: f64 = (k + 1..rank).map(|j| a[k][j] * x[origin[j]]).sum();
+        x[origin[k]] = (b[k] - known) / a[k][k];
+    }
+    x.iter_mut().zip(&columns).for_each(|(x, factor)| *x *= factor);
+    x.push(rank as f64);
+    x
 }

@@ -111,6 +111,36 @@ pub enum ScalarNode {
     Call(Call, Box<[Scalar]>),
     Component(Vector, usize),
     Dot(Vector, Vector),
+    /// The angle of a point on the unit circle, given as cosine and sine. Its own sine and cosine are these two, so that
+    /// no inverse function is computed unless the angle itself is asked for.
+    Angle(Scalar, Scalar),
+    /// One result of a [`Block`].
+    Output(BlockId, usize),
+}
+
+/// A [`Block`] of the graph, numbered in the order of making.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct BlockId(pub usize);
+
+/// Several results of one piece of work that is not a formula.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Block {
+    pub kind: BlockKind,
+    /// What it reads; the kind tells in which order.
+    pub operands: Box<[Scalar]>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum BlockKind {
+    /// The solution of A x = b by a pivoted, branch-free factorisation in the runtime. Operands: A row by row (size^2),
+    /// b (size). Results: x (size), then the numerical rank as a scalar. Rows and columns beyond the rank are left out:
+    /// then x is one solution with zeros there.
+    Solve { size: usize, symmetric: bool },
+    /// x = next(x), a fixed number of times. Operands: starting values (one per unknown), then next values, which depend
+    /// on the symbols `unknowns` and on other nodes, then the size of the residual, a scalar that depends on them too.
+    /// Results: the unknowns after the last round, then the residual of the values with which that round began. The
+    /// symbols mean nothing outside.
+    Iterate { unknowns: Box<[SymbolId]>, count: usize },
 }
 
 /// Vector nodes.
@@ -169,6 +199,7 @@ impl Hasher for PassHasher {
 type PrintMap<K> = HashMap<K, u32, BuildHasherDefault<PassHasher>>;
 
 /// Expressions with shared subexpressions.
+#[derive(Clone)]
 pub struct Graph {
     pub(super) scalars: Vec<ScalarNode>,
     pub(super) prints: Vec<Print>,
@@ -180,10 +211,17 @@ pub struct Graph {
     pub(super) rotation_prints: Vec<[[Print; 3]; 3]>,
     rotation_index: PrintMap<[Print; 9]>,
     pub(super) symbols: Vec<Scalar>,
+    pub(super) blocks: Vec<Block>,
     /// First symbols of the unit quaternions, four in a row each.
     pub(super) quaternions: Vec<SymbolId>,
     /// All nodes in the order of their making, operands before users.
     pub(super) order: Vec<AnyNode>,
+    /// Places in that order: of scalars, vectors, rotations.
+    places: [Vec<u32>; 3],
+    /// Which marked symbols a node reads, by kind of node; see [`Graph::mark`].
+    reads: [Vec<u128>; 3],
+    /// Nodes that read these are not looked up.
+    pub(super) shunned: u128,
     names: HashMap<u32, String>,
     vector_names: HashMap<u32, String>,
 }
@@ -207,8 +245,12 @@ impl Graph {
             rotation_prints: Vec::new(),
             rotation_index: HashMap::default(),
             symbols: Vec::new(),
+            blocks: Vec::new(),
             quaternions: Vec::new(),
             order: Vec::new(),
+            places: Default::default(),
+            reads: Default::default(),
+            shunned: 0,
             names: HashMap::new(),
             vector_names: HashMap::new(),
         };
@@ -233,6 +275,42 @@ impl Graph {
         self.rotation_index.insert(rotation_key(&self.rotation_prints[0], false), 0);
     }
 
+    /// Marks a symbol that is to be replaced later (see [`Graph::substitute`]) with one of 128 bits. Expressions are looked up
+    /// by value, and one that merely looks as if it depended on the symbol, since the symbol cancels in it, has the
+    /// value of its replacement too: without the mark it would be found and the symbol would stay.
+    pub fn mark(&mut self, symbol: Scalar, bit: usize) {
+        self.reads[0][symbol.index()] |= 1 << (bit % 128);
+    }
+
+    /// The marks that a scalar reads.
+    pub fn marks(&self, s: Scalar) -> u128 {
+        self.reads[0][s.index()]
+    }
+
+    /// The marks that a node reads.
+    pub(super) fn reads(&self, node: AnyNode) -> u128 {
+        match node {
+            AnyNode::Scalar(i) => self.reads[0][i],
+            AnyNode::Vector(i) => self.reads[1][i],
+            AnyNode::Rotation(i) => self.reads[2][i],
+        }
+    }
+
+    fn reads_of_operands(&self, node: AnyNode) -> u128 {
+        let mut reads = 0;
+        self.each_operand(node, &mut |operand| reads |= self.reads(operand));
+        reads
+    }
+
+    /// Where a node stands in the order of making.
+    pub(super) fn position(&self, node: AnyNode) -> u32 {
+        match node {
+            AnyNode::Scalar(i) => self.places[0][i],
+            AnyNode::Vector(i) => self.places[1][i],
+            AnyNode::Rotation(i) => self.places[2][i],
+        }
+    }
+
     /// Whether the bound on nodes is reached: results made since are worthless, and the model is to be refused.
     pub fn is_full(&self) -> bool {
         self.order.len() >= MOST_NODES
@@ -250,6 +328,10 @@ impl Graph {
 
     pub fn node(&self, s: Scalar) -> &ScalarNode {
         &self.scalars[s.index()]
+    }
+
+    pub fn block(&self, id: BlockId) -> &Block {
+        &self.blocks[id.0]
     }
 
     pub fn vector_node(&self, v: Vector) -> &VectorNode {
@@ -287,6 +369,9 @@ impl Graph {
     /// The node with this value or its negative, if there is one.
     pub(super) fn find(&self, print: Print) -> Option<Scalar> {
         let index = *self.scalar_index.get(&print.canonical())? as usize;
+        if self.reads[0][index] & self.shunned != 0 {
+            return None;
+        }
         Some(Scalar::new(index, self.prints[index] != print))
     }
 
@@ -297,6 +382,10 @@ impl Graph {
         }
         let index = self.scalars.len();
         self.scalars.push(node);
+        self.places[0].push(self.order.len() as u32);
+        self.reads[0].push(0);
+        let reads = self.reads_of_operands(AnyNode::Scalar(index));
+        self.reads[0][index] = reads;
         self.order.push(AnyNode::Scalar(index));
         self.prints.push(print);
         self.scalar_index.insert(print.canonical(), index as u32);
@@ -305,6 +394,9 @@ impl Graph {
 
     pub(super) fn find_vector(&self, print: [Print; 3]) -> Option<Vector> {
         let index = *self.vector_index.get(&vector_key(print))? as usize;
+        if self.reads[1][index] & self.shunned != 0 {
+            return None;
+        }
         Some(Vector::new(index, self.vector_prints[index] != print))
     }
 
@@ -314,6 +406,10 @@ impl Graph {
         }
         let index = self.vectors.len();
         self.vectors.push(node);
+        self.places[1].push(self.order.len() as u32);
+        self.reads[1].push(0);
+        let reads = self.reads_of_operands(AnyNode::Vector(index));
+        self.reads[1][index] = reads;
         self.order.push(AnyNode::Vector(index));
         self.vector_prints.push(print);
         self.vector_index.insert(vector_key(print), index as u32);
@@ -323,7 +419,9 @@ impl Graph {
     pub(super) fn find_rotation(&self, print: &[[Print; 3]; 3]) -> Option<Rotation> {
         let look = |transposed| {
             let key = rotation_key(print, transposed);
-            self.rotation_index.get(&key).map(|&index| Rotation::new(index as usize, transposed))
+            let found = self.rotation_index.get(&key).map(|&index| index as usize);
+            let found = found.filter(|&index| self.reads[2][index] & self.shunned == 0);
+            found.map(|index| Rotation::new(index, transposed))
         };
         look(false).or_else(|| look(true))
     }
@@ -334,6 +432,10 @@ impl Graph {
         }
         let index = self.rotations.len();
         self.rotations.push(node);
+        self.places[2].push(self.order.len() as u32);
+        self.reads[2].push(0);
+        let reads = self.reads_of_operands(AnyNode::Rotation(index));
+        self.reads[2][index] = reads;
         self.order.push(AnyNode::Rotation(index));
         self.rotation_prints.push(print);
         self.rotation_index.insert(rotation_key(&print, false), index as u32);

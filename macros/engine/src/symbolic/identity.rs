@@ -15,7 +15,7 @@ use std::cell::Cell;
 
 use super::evaluate::{Evaluator, Field, Real};
 use super::fingerprint::{self as field, Point, Print, mix, reconstruct, reduce};
-use super::graph::{Call, Graph, Scalar, ScalarNode, SymbolId};
+use super::graph::{Call, Graph, Scalar, SymbolId};
 use super::number::Number;
 use super::trigonometry::{PARTS, literal_point};
 
@@ -136,6 +136,10 @@ impl Draw {
 
     /// The point of a multiple of an angle that has this value, on the circle of this draw.
     fn unit(&self, value: u64, factor: Number) -> Point {
+        // An unknown may start at zero, which has no sign.
+        if value == 0 {
+            return Point::ZERO;
+        }
         let angle = |value: u64| {
             let (key, sign) = canonical(value);
             let tangent = reduce(mix(self.seed ^ mix(key)));
@@ -249,29 +253,46 @@ impl Field for Modular<'_> {
         }
     }
 
-    /// Sums and literal factors are taken apart; what is left is a unit of angle, known by its value.
-    fn point(&self, graph: &Graph, angle: Scalar, _: u64) -> (u64, u64) {
-        let mut constant = Number::ZERO;
-        let mut terms = Vec::new();
-        let mut stack = vec![(angle, Number::ONE)];
-        while let Some((s, factor)) = stack.pop() {
-            let factor = if s.is_negative() { -factor } else { factor };
-            match graph.node(s) {
-                ScalarNode::Literal(n) => constant = constant + *n * factor,
-                ScalarNode::Sum(list) => stack.extend(list.iter().map(|&t| (t, factor))),
-                ScalarNode::Product(list) => match (list.first().and_then(|&f| graph.literal(f)), &list[..]) {
-                    (Some(n), &[_, rest]) => stack.push((rest, factor * n)),
-                    _ => terms.push((s.positive(), factor)),
-                },
-                _ => terms.push((s.positive(), factor)),
+    /// Sums and literal factors are taken apart; what is left is a unit of angle, known by its value, or given as a point.
+    fn point(&self, graph: &Graph, angle: Scalar, _: u64, known: &dyn Fn(Scalar) -> u64) -> (u64, u64) {
+        let units = graph.units(angle);
+        let (mut terms, mut point) = (Vec::new(), Point::ZERO);
+        for (unit, factor) in units.terms {
+            match graph.given_point(unit, factor) {
+                Some((c, s, times)) => {
+                    let [cos, sin] = [c, s].map(|x| Print::constant(known(x)));
+                    point = point + Point { cos, sin }.times(times);
+                }
+                None => terms.push((known(unit), factor)),
             }
         }
-        let values: Vec<(u64, Number)> = terms
-            .into_iter()
-            .flat_map(|(s, factor)| {
-                Evaluator::new(graph, *self).run(&[s]).into_iter().map(move |value| (value, factor))
-            })
-            .collect();
-        self.angle(&values, constant)
+        let (cos, sin) = self.angle(&terms, units.constant);
+        let sum = point + Point { cos: Print::constant(cos), sin: Print::constant(sin) };
+        (sum.cos.0[0], sum.sin.0[0])
+    }
+
+    /// Elimination with the first pivot there is. The rank is that modulo the prime: the true one, but by chance.
+    fn solve(&self, _: bool, matrix: &[u64], rhs: &[u64]) -> Vec<u64> {
+        let n = rhs.len();
+        let mut rows: Vec<Vec<u64>> =
+            (0..n).map(|i| matrix[i * n..(i + 1) * n].iter().chain([&rhs[i]]).copied().collect()).collect();
+        let mut pivots = Vec::new();
+        for column in 0..n {
+            let Some(row) = (pivots.len()..n).find(|&i| rows[i][column] != 0) else { continue };
+            rows.swap(pivots.len(), row);
+            let row = rows[pivots.len()].clone();
+            let inverse = field::inverse(row[column]);
+            for (_, other) in rows.iter_mut().enumerate().filter(|(i, _)| *i != pivots.len()) {
+                let factor = field::neg(field::mul(other[column], inverse));
+                other.iter_mut().zip(&row).for_each(|(x, &y)| *x = field::add(*x, field::mul(factor, y)));
+            }
+            pivots.push(column);
+        }
+        let mut x = vec![0; n];
+        for (row, &column) in pivots.iter().enumerate() {
+            x[column] = field::mul(rows[row][n], field::inverse(rows[row][column]));
+        }
+        x.push(pivots.len() as u64);
+        x
     }
 }

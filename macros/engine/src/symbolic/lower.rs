@@ -85,6 +85,15 @@ impl<'g> Lowering<'g> {
                 let arguments: Vec<Scalar> = arguments.iter().map(|&a| self.scalar(a)).collect();
                 self.to.call(*call, &arguments)
             }
+            ScalarNode::Angle(c, s) => {
+                let (c, s) = (self.scalar(*c), self.scalar(*s));
+                self.to.angle(c, s)
+            }
+            ScalarNode::Output(id, k) => {
+                let block = from.block(*id);
+                let operands: Vec<Scalar> = block.operands.iter().map(|&s| self.scalar(s)).collect();
+                self.to.block_outputs(block.kind.clone(), &operands)[*k]
+            }
             ScalarNode::Component(v, axis) => self.vector(*v)[*axis],
             ScalarNode::Dot(a, b) => {
                 let (a, b) = (self.vector(*a), self.vector(*b));
@@ -195,81 +204,6 @@ impl<'g> Lowering<'g> {
 }
 
 impl Graph {
-    /// All nodes that these scalars need, operands before users.
-    pub(super) fn reachable(&self, roots: &[Scalar]) -> Vec<AnyNode> {
-        let mut scalars = vec![false; self.scalars.len()];
-        let mut vectors = vec![false; self.vectors.len()];
-        let mut rotations = vec![false; self.rotations.len()];
-        for root in roots {
-            scalars[root.index()] = true;
-        }
-        let mut found = Vec::new();
-        for &node in self.order.iter().rev() {
-            match node {
-                AnyNode::Scalar(i) if scalars[i] => match &self.scalars[i] {
-                    ScalarNode::Literal(_) | ScalarNode::Symbol(_) => {}
-                    ScalarNode::Sum(list) | ScalarNode::Product(list) | ScalarNode::Call(_, list) => {
-                        list.iter().for_each(|s| scalars[s.index()] = true);
-                    }
-                    ScalarNode::Reciprocal(x) | ScalarNode::Sqrt(x) | ScalarNode::Sin(x) | ScalarNode::Cos(x) => {
-                        scalars[x.index()] = true;
-                    }
-                    ScalarNode::Component(v, _) => vectors[v.index()] = true,
-                    ScalarNode::Dot(a, b) => (vectors[a.index()], vectors[b.index()]) = (true, true),
-                },
-                AnyNode::Vector(i) if vectors[i] => match &self.vectors[i] {
-                    VectorNode::Triple(list) => list.iter().for_each(|s| scalars[s.index()] = true),
-                    VectorNode::Sum(list) => list.iter().for_each(|v| vectors[v.index()] = true),
-                    VectorNode::Scale(s, v) => (scalars[s.index()], vectors[v.index()]) = (true, true),
-                    VectorNode::Cross(a, b) => (vectors[a.index()], vectors[b.index()]) = (true, true),
-                    VectorNode::Rotate(r, v) => (rotations[r.index()], vectors[v.index()]) = (true, true),
-                },
-                AnyNode::Rotation(i) if rotations[i] => match &self.rotations[i] {
-                    RotationNode::Identity => {}
-                    RotationNode::Axis(_, angle) => scalars[angle.index()] = true,
-                    RotationNode::Matrix(rows) => rows.iter().flatten().for_each(|s| scalars[s.index()] = true),
-                    RotationNode::Quaternion(q) => q.iter().for_each(|s| scalars[s.index()] = true),
-                    RotationNode::Product(a, b) => (rotations[a.index()], rotations[b.index()]) = (true, true),
-                },
-                _ => continue,
-            }
-            found.push(node);
-        }
-        found.reverse();
-        found
-    }
-
-    /// Positions of all scalars that these need, operands before users.
-    pub fn reachable_scalars(&self, roots: &[Scalar]) -> Vec<usize> {
-        let scalar = |node| match node {
-            AnyNode::Scalar(index) => Some(index),
-            _ => None,
-        };
-        self.reachable(roots).into_iter().filter_map(scalar).collect()
-    }
-
-    /// Which of these scalars are used more than once.
-    pub fn shared(&self, reachable: &[usize], roots: &[Scalar]) -> Vec<bool> {
-        let mut uses = vec![0_u8; self.scalars.len()];
-        let mut count = |s: &Scalar| uses[s.index()] = uses[s.index()].saturating_add(1);
-        for &index in reachable {
-            match &self.scalars[index] {
-                ScalarNode::Sum(list) | ScalarNode::Product(list) | ScalarNode::Call(_, list) => {
-                    list.iter().for_each(&mut count);
-                }
-                ScalarNode::Reciprocal(x) | ScalarNode::Sqrt(x) | ScalarNode::Sin(x) | ScalarNode::Cos(x) => count(x),
-                _ => {}
-            }
-        }
-        roots.iter().for_each(&mut count);
-        uses.iter().map(|&n| n > 1).collect()
-    }
-
-    /// The handle of the scalar at a position.
-    pub fn scalar_at(&self, index: usize) -> Scalar {
-        Scalar::new(index, false)
-    }
-
     /// A graph with the same symbols and nothing else.
     pub fn empty_copy(&self) -> Graph {
         let mut copy = Graph::new();

@@ -2,15 +2,22 @@
 //!
 //! It knows no mechanics. See [`graph`] for the normal form.
 
+pub mod adjoint;
 pub mod count;
+pub mod dependence;
 pub mod differentiate;
+mod echelon;
 pub mod evaluate;
 pub mod fingerprint;
 pub mod graph;
 pub mod identity;
+pub mod inputs;
 pub mod linear_algebra;
 pub mod lower;
 pub mod number;
+pub mod pivoted;
 mod scalar;
+pub mod substitute;
 mod trigonometry;
 mod vector;
+pub mod walk;

@@ -7,7 +7,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::evaluate::call_f64;
 use super::fingerprint::{Print, mix, reconstruct};
-use super::graph::{Call, Graph, Scalar, ScalarNode, SymbolId, Vector, VectorNode};
+use super::graph::{Block, BlockId, BlockKind, Call, Graph, Scalar, ScalarNode, SymbolId, Vector, VectorNode};
 use super::number::Number;
 
 impl Graph {
@@ -323,6 +323,9 @@ impl Graph {
 
     /// A function of literals is a literal; a choice by a condition of literals is made.
     fn fold_call(&mut self, call: Call, arguments: &[Scalar]) -> Option<Scalar> {
+        if call == Call::Epsilon {
+            return None;
+        }
         if let (Call::Select, &[mask, a, b]) = (call, arguments) {
             let ScalarNode::Call(condition, inner) = self.node(mask) else { return None };
             let (Call::Less | Call::LessEqual | Call::Equal, [x, y]) = (condition, &inner[..]) else { return None };
@@ -341,6 +344,33 @@ impl Graph {
         let known = matches!(call, Call::Min | Call::Max | Call::Abs | Call::Signum)
             || (value == value.round() && value.abs() < 1e6);
         value.is_finite().then(|| self.number(if known { exact } else { Number::transcendental(value, residue) }))
+    }
+
+    /// The results of a block over these operands: unknown values, equal only for an equal block.
+    pub fn block_outputs(&mut self, kind: BlockKind, operands: &[Scalar]) -> Vec<Scalar> {
+        let count = match &kind {
+            BlockKind::Solve { size, .. } => size + 1,
+            BlockKind::Iterate { unknowns, .. } => unknowns.len() + 1,
+        };
+        let tag = match &kind {
+            BlockKind::Solve { symmetric, .. } => 0xB10C_u64 + u64::from(*symmetric),
+            BlockKind::Iterate { count, .. } => 0xB10C_0000_u64 + *count as u64,
+        };
+        let prints: Vec<Print> = operands.iter().map(|&s| self.print(s)).collect();
+        let print = |k: usize| Print::opaque(tag ^ ((k as u64 + 1) << 40), &prints);
+        // Nothing on the right is answered by nothing, whatever the rank.
+        let nothing = match kind {
+            BlockKind::Solve { size, .. } if operands[size * size..].iter().all(|&b| b == Scalar::ZERO) => size,
+            _ => 0,
+        };
+        let known: Option<Vec<Scalar>> = (0..count).map(|k| self.find(print(k))).collect();
+        let mut outputs = known.unwrap_or_else(|| {
+            let id = BlockId(self.blocks.len());
+            self.blocks.push(Block { kind, operands: operands.into() });
+            (0..count).map(|k| self.insert_scalar(ScalarNode::Output(id, k), print(k))).collect()
+        });
+        outputs[..nothing].fill(Scalar::ZERO);
+        outputs
     }
 
     /// x, y or z of a vector.

@@ -30,6 +30,11 @@ pub(crate) fn rebuild(from: &Graph, dag: &Dag) -> (Graph, Vec<Scalar>) {
                 let arguments = of(&made, arguments);
                 g.call(*call, &arguments)
             }
+            Kind::Output { block, index } => {
+                let block = &dag.blocks[*block];
+                let operands = of(&made, &block.operands);
+                g.block_outputs(block.kind.clone(), &operands)[*index]
+            }
         };
     }
     let roots = dag.roots.iter().map(|&(c, id)| multiple(&mut g, c, made[id])).collect();

@@ -4,11 +4,12 @@
 
 use std::rc::Rc;
 
+use multibody_engine::mechanics::structure::Structure;
 use multibody_engine::model::types::*;
 use multibody_engine::optimize::program::{
     Call, Compiled, Cost, Expression, FieldId, Function as Derived, FunctionKind, Local, Program, Statement, Symbol,
 };
-use proc_macro2::{Ident, Span};
+use proc_macro2::{Ident, Span, TokenStream};
 use syn::parse_quote;
 
 pub fn name(text: &str) -> Ident {
@@ -42,6 +43,11 @@ pub fn param(id: usize) -> Expr {
     expr(ExprNode::Param(ParamId(id)), Type::Scalar)
 }
 
+/// The module of a model without loops.
+pub fn emit(model: &Model, compiled: &Compiled) -> TokenStream {
+    multibody_engine::emit::emit(model, &Structure::open(model), compiled)
+}
+
 /// A model of nothing.
 pub fn empty(module: &str) -> Model {
     Model {
@@ -63,10 +69,20 @@ pub fn empty(module: &str) -> Model {
         bodies: Vec::new(),
         joints: Vec::new(),
         tree: Vec::new(),
+        cuts: Vec::new(),
+        constraints: Vec::new(),
+        drives: Vec::new(),
+        solves: Vec::new(),
+        assumptions: Vec::new(),
+        handling: Handling::default(),
+        independent: Vec::new(),
+        skipped: Vec::new(),
         forces: Vec::new(),
         outputs: Vec::new(),
         gravity: None,
         emit: vec![Request::ForwardDynamics],
+        solve_for: Vec::new(),
+        kinematics: Vec::new(),
     }
 }
 
@@ -194,8 +210,8 @@ pub fn derived(kind: FunctionKind, program: Program) -> Derived {
     Derived {
         kind,
         program,
-        before: Cost { add: 7, mul: 9, div: 1, sqrt: 0, sincos: 1, other: 0 },
-        after: Cost { add: 0, mul: 1, div: 0, sqrt: 0, sincos: 1, other: 0 },
+        before: Cost { add: 7, mul: 9, div: 1, sqrt: 0, sincos: 1, compare: 0, other: 0 },
+        after: Cost { add: 0, mul: 1, div: 0, sqrt: 0, sincos: 1, compare: 0, other: 0 },
         method: "articulated body",
     }
 }

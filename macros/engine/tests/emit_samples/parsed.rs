@@ -2,12 +2,11 @@
 
 #![allow(dead_code, unreachable_pub)]
 
-use multibody_engine::emit::emit;
 use multibody_engine::model::types::Model;
 use multibody_engine::optimize::program::{Compiled, Expression, FunctionKind, Program, Statement};
 use syn::{ImplItem, Item, ItemMod};
 
-use super::{derived, pendulum};
+use super::{derived, emit, pendulum};
 
 pub fn module(model: &Model, compiled: &Compiled) -> ItemMod {
     syn::parse2(emit(model, compiled)).expect("emitted code is a module")

@@ -1,10 +1,13 @@
 //! From the checked model to numbers: derived functions are interpreted on the graph and compared with plain f64
 //! computations, with finite differences and with laws of mechanics.
 
+mod analysis;
 mod balance;
+mod closings;
 mod expressions;
 mod forces;
 mod joints;
+mod loops;
 mod motion;
 mod reactions;
 mod support;

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use multibody_engine::diagnostics::Diagnostics;
-use multibody_engine::mechanics::{Derivation, derive};
+use multibody_engine::mechanics::Derivation;
 use multibody_engine::model::check;
 use multibody_engine::model::types::{Joint, JointKind, Model, Orientation};
 use multibody_engine::optimize::program::{FunctionKind, Symbol};
@@ -25,6 +25,18 @@ pub(crate) struct Point {
 
 /// Derives the body of `mod m { .. }`, preceded by `parts`.
 pub(crate) fn case_with(parts: &str, body: &str) -> Case {
+    let model = model_with(parts, body);
+    let derivation = multibody_engine::mechanics::of(&model).unwrap_or_else(|_| panic!("mechanics")).1;
+    Case { model, derivation }
+}
+
+/// The checked model of `mod m { .. }`.
+pub(crate) fn model_of(body: &str) -> Model {
+    model_with("", body)
+}
+
+/// The same, preceded by `parts`.
+pub(crate) fn model_with(parts: &str, body: &str) -> Model {
     let text = format!("{parts} pub mod m {{ {body} }}");
     let tokens = text.parse().unwrap_or_else(|error| panic!("{error} in {text}"));
     let mut diagnostics = Diagnostics::default();
@@ -32,9 +44,7 @@ pub(crate) fn case_with(parts: &str, body: &str) -> Case {
     let models = check(&source, &mut diagnostics);
     let messages: Vec<&str> = diagnostics.errors().iter().map(|error| error.message.as_str()).collect();
     assert!(messages.is_empty(), "{messages:?}");
-    let model = models.into_iter().find(|model| model.name == "m").expect("a model");
-    let derivation = derive(&model);
-    Case { model, derivation }
+    models.into_iter().find(|model| model.name == "m").expect("a model")
 }
 
 pub(crate) fn case(body: &str) -> Case {
@@ -96,6 +106,8 @@ impl Case {
         let joints = self.model.joints.iter().enumerate();
         joints
             .filter_map(|(k, joint)| Some((multibody_engine::model::types::JointId(k), quaternion_start(joint)?)))
+            // Joints that close loops have no coordinates.
+            .filter(|(id, _)| !self.model.cuts.contains(id))
             .collect()
     }
 

@@ -6,7 +6,7 @@ use quote::quote;
 
 use crate::emit::layout::{Group, Layout};
 use crate::emit::places::RESERVED;
-use crate::emit::{Context, functions, names};
+use crate::emit::{Context, names, results};
 use crate::model::types::{InstanceId, Place};
 
 /// Expands to the conversions; a model without coordinates has none.
@@ -56,7 +56,7 @@ fn from_vector(layout: &Layout<'_>, group: Group) -> TokenStream {
     let size = Literal::usize_unsuffixed(layout.table(group).size);
     let scalars = scalars(layout, group);
     let list: Vec<TokenStream> = scalars.iter().map(|scalar| quote!(#scalar)).collect();
-    let value = functions::filled(layout, group, &list);
+    let value = results::filled(layout, group, &list);
     quote! {
         impl<T: Real> From<#krate::nalgebra::SVector<T, #size>> for #name<T> {
             fn from(vector: #krate::nalgebra::SVector<T, #size>) -> Self {

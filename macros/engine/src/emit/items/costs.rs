@@ -1,38 +1,47 @@
-//! Stage `emit`: the constants `DOF` and `COSTS`.
+//! Stage `emit`: the constants `DOF`, `COSTS` and `DERIVED`.
+
+use std::borrow::Cow;
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
+use syn::Path;
 
 use crate::emit::{Context, functions};
 use crate::optimize::program::Cost;
 
-/// Expands to `pub const DOF: usize = 2;` and `pub const COSTS: &[Cost] = &[..];`.
+/// Expands to `pub const DOF: usize = 2;`, `pub const COSTS: &[Cost] = &[..];` and `pub const DERIVED: &[Cost] = &[..];`.
 pub(super) fn items(context: &Context<'_>) -> TokenStream {
     let krate = context.layout.krate();
     let dof = Literal::usize_unsuffixed(context.layout.dof());
     let compiled = context.compiled;
-    let prelude = std::iter::once(("new", &compiled.prelude_cost));
-    let functions = compiled.functions.iter();
-    let functions = functions.map(|function| (functions::name(function.kind), &function.after));
-    let rows = prelude.chain(functions).map(|(function, cost)| {
-        let Cost { add, mul, div, sqrt, sincos, other } = *cost;
-        let [add, mul, div, sqrt, sincos, other] = [add, mul, div, sqrt, sincos, other].map(Literal::u32_unsuffixed);
-        quote! {
-            #krate::Cost {
-                function: #function,
-                add: #add,
-                mul: #mul,
-                div: #div,
-                sqrt: #sqrt,
-                sincos: #sincos,
-                other: #other,
-            }
-        }
-    });
+    let functions = || compiled.functions.iter().map(|function| (functions::name(function.kind), function));
+    let after = functions().map(|(name, function)| row(krate, name, &function.after));
+    let costs = std::iter::once(row(krate, "new".into(), &compiled.prelude_cost)).chain(after);
+    let derived = functions().map(|(name, function)| row(krate, name, &function.before));
     quote! {
         /// Number of degrees of freedom: components of a velocity.
         pub const DOF: usize = #dof;
         /// Operation counts of every function, and of `Model::new`.
-        pub const COSTS: &[#krate::Cost] = &[#(#rows),*];
+        pub const COSTS: &[#krate::Cost] = &[#(#costs),*];
+        /// The same of every function as it was derived, before optimisation, with the work on parameters in it.
+        pub const DERIVED: &[#krate::Cost] = &[#(#derived),*];
+    }
+}
+
+/// `Cost { function: "bias", add: 3, .. }`
+fn row(krate: &Path, function: Cow<'_, str>, cost: &Cost) -> TokenStream {
+    let Cost { add, mul, div, sqrt, sincos, compare, other } = *cost;
+    let other = compare + other;
+    let [add, mul, div, sqrt, sincos, other] = [add, mul, div, sqrt, sincos, other].map(Literal::u32_unsuffixed);
+    quote! {
+        #krate::Cost {
+            function: #function,
+            add: #add,
+            mul: #mul,
+            div: #div,
+            sqrt: #sqrt,
+            sincos: #sincos,
+            other: #other,
+        }
     }
 }

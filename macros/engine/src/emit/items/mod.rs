@@ -4,6 +4,7 @@ mod check;
 mod conversions;
 mod costs;
 mod defaults;
+mod equations;
 mod model;
 mod parts;
 mod space;
@@ -19,6 +20,7 @@ use super::Context;
 pub(super) fn all(context: &Context<'_>) -> TokenStream {
     [
         costs::items(context),
+        equations::items(context),
         structs::items(context),
         defaults::items(context),
         check::item(context),

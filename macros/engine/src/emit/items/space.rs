@@ -21,7 +21,8 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
         tokens.extend(tangent(layout, Group::States, None));
         (quote!(States<T>), quote!(self.x), quote!(x: States<T>))
     };
-    let x = (!layout.is_empty(Group::States, None)).then(|| quote!(x));
+    let x = layout.has_states().then(|| quote!(x,));
+    let guess = (layout.structure.guesses() > 0).then(|| quote!(guess: self.guess,));
     tokens.extend(quote! {
         impl<T: Real> #krate::StateSpace for State<T> {
             type Scalar = T;
@@ -34,7 +35,7 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
             }
 
             fn join(&self, q: Position<T>, v: Velocity<T>, #join) -> Self {
-                Self { q, v, #x }
+                Self { q, v, #x #guess }
             }
         }
     });

@@ -1,72 +1,151 @@
-//! Stage `emit`: `State`, and `Derivative` where the model has states of its own.
+//! Stage `emit`: `State`, and what functions give that is more than one of the other structs: `Derivative`, `Closed`,
+//! `Solved`.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::structs::compares_by_hand;
-use crate::emit::Context;
 use crate::emit::layout::Group;
+use crate::emit::{Context, document, names, results};
+use crate::optimize::program::FunctionKind;
 
-/// Expands to `pub struct State<T = f64> { pub q: Position<T>, pub v: Velocity<T> }` and its impls.
+/// Expands to `pub struct State<T = f64> { pub q: Position<T>, pub v: Velocity<T> }` and its impls, and to the others.
 pub(super) fn items(context: &Context<'_>) -> TokenStream {
-    let layout = &context.layout;
-    let states = !layout.is_empty(Group::States, None);
-    let field = states.then(|| {
-        quote! {
-            /// the model's own states
-            pub x: States<T>,
+    let mut tokens = state(context);
+    tokens.extend(derivative(context));
+    tokens.extend(closed(context));
+    tokens.extend(solved(context));
+    tokens
+}
+
+/// A field with its type, its text and its default.
+struct Field {
+    name: Ident,
+    ty: TokenStream,
+    docs: String,
+    start: TokenStream,
+}
+
+impl Field {
+    /// Of another generated struct.
+    fn of(name: &str, ty: &str, docs: &str) -> Field {
+        let ty = names::ident(ty);
+        Field { name: names::ident(name), ty: quote!(#ty<T>), docs: docs.to_string(), start: quote!(#ty::default()) }
+    }
+
+    fn scalar(name: &str, docs: &str) -> Field {
+        Field { name: names::ident(name), ty: quote!(T), docs: docs.to_string(), start: quote!(T::lit(0.0)) }
+    }
+
+    fn vector(context: &Context<'_>, name: &str, size: usize, docs: &str) -> Field {
+        let krate = context.layout.krate();
+        Field {
+            name: names::ident(name),
+            ty: results::vector_type(&context.layout, size),
+            docs: docs.to_string(),
+            start: quote!(#krate::nalgebra::SVector::zeros()),
         }
+    }
+}
+
+fn state(context: &Context<'_>) -> TokenStream {
+    let layout = &context.layout;
+    let mut fields = vec![Field::of("q", "Position", "positions"), Field::of("v", "Velocity", "velocities")];
+    if layout.has_states() {
+        fields.push(Field::of("x", "States", "the model's own states"));
+    }
+    let guesses = layout.structure.guesses();
+    if guesses > 0 {
+        let text = "where Newton's method starts to close loops; not integrated, renewed by every accepted step";
+        fields.push(Field::vector(context, "guess", guesses, text));
+    }
+    let docs = "All that changes in time. Its default is every joint at zero, at rest.";
+    declare("State", docs, &fields, compares_by_hand(layout, Group::Position))
+}
+
+fn derivative(context: &Context<'_>) -> Option<TokenStream> {
+    let layout = &context.layout;
+    let mut fields = vec![Field::of("v", "Velocity", "accelerations")];
+    let mut also = Vec::new();
+    if layout.has_states() {
+        also.push("the rates of the model's own states");
+        fields.push(Field::of("x", "States", "rates of the model's own states"));
+    }
+    if layout.rows() > 0 {
+        also.push("the multipliers of the constraint equations");
+        let text = "of the constraint equations: `M * accel + bias + G^T * multipliers` are the efforts";
+        fields.push(Field::vector(context, "multipliers", layout.rows(), text));
+        fields.push(Field::scalar("rank", "rank of the equations for the multipliers"));
+    }
+    if layout.structure.guesses() > 0 {
+        also.push("how well the loops are closed");
+        fields.push(Field::scalar("residual", "the greatest residual of the loops that Newton's method closes"));
+    }
+    let docs = match also.split_last() {
+        Some((last, [])) => format!("What forward dynamics gives: accelerations, and {last}."),
+        Some((last, others)) => {
+            format!("What forward dynamics gives: accelerations, {}, and {last}.", others.join(", "))
+        }
+        None => return None,
+    };
+    Some(declare("Derivative", &docs, &fields, false))
+}
+
+/// What `close` gives.
+fn closed(context: &Context<'_>) -> Option<TokenStream> {
+    context.function(FunctionKind::Guess)?;
+    let fields = [
+        Field::of("state", "State", "the state whose guess is the solution"),
+        Field::scalar("residual", "the greatest residual that is left"),
+    ];
+    let by_hand = compares_by_hand(&context.layout, Group::Position);
+    Some(declare("Closed", "A state with its loops closed by Newton's method.", &fields, by_hand))
+}
+
+/// What inverse dynamics gives where inputs are looked for.
+fn solved(context: &Context<'_>) -> Option<TokenStream> {
+    context.function(FunctionKind::InverseDynamics).filter(|_| context.layout.solves_inputs())?;
+    let fields = [
+        Field::of("input", "Input", "the given inputs, with those that were looked for in their places"),
+        Field::scalar("rank", "rank of their equations"),
+    ];
+    let by_hand = compares_by_hand(&context.layout, Group::Input);
+    Some(declare("Solved", "What inverse dynamics gives: the inputs that produce the motion.", &fields, by_hand))
+}
+
+/// Expands to a struct with its `Default` and, if need be, `PartialEq`.
+fn declare(name: &str, docs: &str, fields: &[Field], by_hand: bool) -> TokenStream {
+    let docs = document::attributes(&[docs.to_string()]);
+    let name = names::ident(name);
+    let list = fields.iter().map(|Field { name, ty, docs, .. }| {
+        let docs = document::attributes(std::slice::from_ref(docs));
+        quote!(#docs pub #name: #ty,)
     });
-    let default = states.then(|| quote!(x: States::default(),));
-    let by_hand = compares_by_hand(layout, Group::Position);
+    let starts = fields.iter().map(|Field { name, start, .. }| quote!(#name: #start));
     let derived = (!by_hand).then(|| quote!(, PartialEq));
     let comparison = by_hand.then(|| {
-        let x = states.then(|| quote!(&&self.x == other.x));
+        let names = fields.iter().map(|field| &field.name);
         quote! {
-            impl<T: Real> PartialEq for State<T> {
+            impl<T: Real> PartialEq for #name<T> {
                 fn eq(&self, other: &Self) -> bool {
-                    self.q == other.q && self.v == other.v #x
-                }
-            }
-        }
-    });
-    let derivative = states.then(|| {
-        quote! {
-            /// What forward dynamics gives: accelerations, and the rates of the model's own states.
-            #[repr(C)]
-            #[derive(Clone, Copy, Debug, PartialEq)]
-            pub struct Derivative<T = f64> {
-                /// accelerations
-                pub v: Velocity<T>,
-                /// rates of the model's own states
-                pub x: States<T>,
-            }
-
-            impl<T: Real> Default for Derivative<T> {
-                fn default() -> Self {
-                    Self { v: Velocity::default(), x: States::default() }
+                    #(self.#names == other.#names)&&*
                 }
             }
         }
     });
     quote! {
-        /// All that changes in time. Its default is every joint at zero, at rest.
+        #docs
         #[repr(C)]
         #[derive(Clone, Copy, Debug #derived)]
-        pub struct State<T = f64> {
-            /// positions
-            pub q: Position<T>,
-            /// velocities
-            pub v: Velocity<T>,
-            #field
+        pub struct #name<T = f64> {
+            #(#list)*
         }
 
-        impl<T: Real> Default for State<T> {
+        impl<T: Real> Default for #name<T> {
             fn default() -> Self {
-                Self { q: Position::default(), v: Velocity::default(), #default }
+                Self { #(#starts),* }
             }
         }
         #comparison
-        #derivative
     }
 }

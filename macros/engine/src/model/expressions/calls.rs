@@ -7,7 +7,7 @@ use syn::spanned::Spanned;
 use syn::{Expr, ExprCall};
 
 use crate::model::checker::{Checker, Context};
-use crate::model::names::{FUNCTIONS, SPECIAL_FUNCTIONS};
+use crate::model::names::{CONSTRUCTORS, FUNCTIONS, SPECIAL_FUNCTIONS};
 use crate::model::typed::{Class, Typed, Uses, type_text};
 use crate::model::types::{Expr as Checked, ExprNode, Function, Type};
 
@@ -44,6 +44,7 @@ impl<'a> Checker<'a, '_> {
                 }
                 return Some(Typed::leaf(node, Type::Scalar, at).with(uses));
             }
+            _ if CONSTRUCTORS.contains(&text.as_str()) => return self.constructor(name, &arguments, at, context),
             _ => {}
         }
         let found = FUNCTIONS.iter().find(|(known, ..)| *known == text);
@@ -68,6 +69,43 @@ impl<'a> Checker<'a, '_> {
         correct?;
         let values: Vec<Typed> = values.into_iter().collect::<Option<_>>()?;
         self.function(*function, values, result, at)
+    }
+
+    /// Functions whose values are rotations and poses.
+    fn constructor(&mut self, name: &Ident, arguments: &[&Expr], at: Span, context: Context<'a>) -> Option<Typed> {
+        let build = |this: &mut Self, node, ty, parts: &[&Typed]| this.build(node, ty, at, parts);
+        match (name.to_string().as_str(), arguments) {
+            ("identity", []) => Some(Typed::leaf(ExprNode::Identity, Type::Rotation, at)),
+            ("rotation", [axis, angle]) => {
+                let axis = self.axis(axis, context);
+                let angle = self.expect(angle, context, &Type::Scalar);
+                let (axis, angle) = (axis?, angle?);
+                let node = ExprNode::RotationAbout { axis: axis.expr.clone(), angle: angle.expr.clone() };
+                build(self, node, Type::Rotation, &[&axis, &angle])
+            }
+            ("roll_pitch_yaw", [roll, pitch, yaw]) => {
+                let [roll, pitch, yaw] = [roll, pitch, yaw].map(|e| self.expect(e, context, &Type::Scalar));
+                let (roll, pitch, yaw) = (roll?, pitch?, yaw?);
+                let node = ExprNode::RollPitchYaw([&roll, &pitch, &yaw].map(|angle| angle.expr.clone()));
+                build(self, node, Type::Rotation, &[&roll, &pitch, &yaw])
+            }
+            ("pose", [position, orientation]) => {
+                let position = self.expect(position, context, &Type::Vec3);
+                let orientation = self.expect(orientation, context, &Type::Rotation);
+                let (position, orientation) = (position?, orientation?);
+                let node = ExprNode::Pose(position.expr.clone(), orientation.expr.clone());
+                build(self, node, Type::Pose, &[&position, &orientation])
+            }
+            (text, _) => {
+                let count = match text {
+                    "identity" => 0,
+                    "roll_pitch_yaw" => 3,
+                    _ => 2,
+                };
+                self.arity(name, arguments, count, at);
+                None
+            }
+        }
     }
 
     fn arity(&mut self, name: &Ident, arguments: &[&Expr], count: usize, at: Span) -> Option<()> {
@@ -163,7 +201,7 @@ impl<'a> Checker<'a, '_> {
             name.span(),
             format!("unknown function `{text}`"),
             &text,
-            FUNCTIONS.iter().map(|(known, ..)| *known).chain(SPECIAL_FUNCTIONS),
+            FUNCTIONS.iter().map(|(known, ..)| *known).chain(SPECIAL_FUNCTIONS).chain(CONSTRUCTORS),
             None,
         );
     }

@@ -18,7 +18,12 @@ use super::{source_text, span};
 const OF_COORDINATE: [&str; 3] = ["rate", "accel", "effort"];
 
 impl Checker<'_, '_> {
-    fn shape(&mut self, joint: JointId) -> Option<Shape> {
+    /// Remembers where a coordinate is used: which joints have some is known when the tree is.
+    pub(in crate::model) fn uses_coordinates(&mut self, joint: JointId, at: Span) {
+        self.coordinate_uses.push((joint, at));
+    }
+
+    pub(in crate::model) fn shape(&mut self, joint: JointId) -> Option<Shape> {
         let shape = self.joints.get(joint.0).and_then(|slot| slot.shape);
         if shape.is_none() {
             // An unknown kind: reported with the joint itself.
@@ -47,7 +52,11 @@ impl Checker<'_, '_> {
     pub(super) fn coordinate(&mut self, joint: JointId, index: usize, expr: &Expr) -> Option<Typed> {
         let shape = self.shape(joint)?;
         let at = span(expr);
-        let uses = Uses::of(Class::State, source_text(expr), at);
+        let uses = Uses::of(Class::Position, source_text(expr), at);
+        if let Some(value) = self.measured(joint, index, Order::Position, at)? {
+            return Some(value.with(uses));
+        }
+        self.uses_coordinates(joint, at);
         if shape != Shape::Free(Orientation::Quaternion) {
             let node = ExprNode::Coordinate { joint, index, order: Order::Position };
             return Some(Typed::leaf(node, Type::Scalar, at).with(uses));
@@ -78,6 +87,13 @@ impl Checker<'_, '_> {
     ) -> Option<Meaning> {
         let name = member.to_string();
         let text = format!("{}.{name}", source_text(base));
+        if name == "rate"
+            && let Some(value) = self.measured(joint, index, Order::Rate, member.span())?
+        {
+            let uses = Uses::of(Class::State, text, member.span());
+            return Some(Meaning::Value(value.with(uses)));
+        }
+        self.uses_coordinates(joint, member.span());
         let (node, class) = match name.as_str() {
             "rate" => (coordinate(joint, index, Order::Rate), Class::State),
             "accel" => (coordinate(joint, index, Order::Acceleration), Class::Acceleration),
@@ -144,6 +160,9 @@ impl Checker<'_, '_> {
                 return None;
             }
         };
+        if name != "reaction" {
+            self.uses_coordinates(joint, at);
+        }
         Some(Meaning::Value(value.with(Uses::of(class, text, at))))
     }
 
@@ -198,7 +217,7 @@ fn members(shape: Shape) -> Vec<&'static str> {
     names
 }
 
-fn offers(shape: Shape, text: &str) -> String {
+pub(in crate::model) fn offers(shape: Shape, text: &str) -> String {
     let names: Vec<String> = members(shape).iter().map(|name| format!("`{text}.{name}`")).collect();
     names.join(", ")
 }

@@ -8,7 +8,7 @@ use syn::{Expr, ExprField, Member};
 
 use crate::model::checker::{Checker, Context, Meaning, ScopeId};
 use crate::model::typed::{Class, FrameValue, Typed, Uses, type_text};
-use crate::model::types::{BodyRef, ExprNode, ForceId, FrameQuantity, Type};
+use crate::model::types::{BodyRef, ExprNode, ForceId, FrameQuantity, JointId, Type};
 
 use super::coerce::{component_of, convert};
 use super::paths::plain_frame;
@@ -16,9 +16,9 @@ use super::source_text;
 
 /// Quantities of a frame by name.
 const QUANTITIES: [(&str, FrameQuantity, Type, Class); 8] = [
-    ("position", FrameQuantity::Position, Type::Vec3, Class::State),
-    ("rotation", FrameQuantity::Rotation, Type::Rotation, Class::State),
-    ("pose", FrameQuantity::Pose, Type::Pose, Class::State),
+    ("position", FrameQuantity::Position, Type::Vec3, Class::Position),
+    ("rotation", FrameQuantity::Rotation, Type::Rotation, Class::Position),
+    ("pose", FrameQuantity::Pose, Type::Pose, Class::Position),
     ("velocity", FrameQuantity::Velocity, Type::Vec3, Class::State),
     ("angular_velocity", FrameQuantity::AngularVelocity, Type::Vec3, Class::State),
     ("twist", FrameQuantity::Twist, Type::Twist, Class::State),
@@ -29,6 +29,11 @@ const QUANTITIES: [(&str, FrameQuantity, Type, Class); 8] = [
 impl<'a> Checker<'a, '_> {
     pub(super) fn member(&mut self, field: &ExprField, context: Context<'a>) -> Option<Meaning> {
         let base = self.meaning(&field.base, context)?;
+        self.member_of(base, field)
+    }
+
+    /// A member of what its base means.
+    pub(super) fn member_of(&mut self, base: Meaning, field: &ExprField) -> Option<Meaning> {
         let Member::Named(member) = &field.member else {
             self.report.help(field.member.span(), "there are no tuples here", "elements of arrays are `a[0]`");
             return None;
@@ -48,6 +53,10 @@ impl<'a> Checker<'a, '_> {
             Meaning::Coordinate(joint, index) => self.coordinate_member(joint, index, &field.base, member),
             Meaning::Frame(frame) => self.frame_member(frame, &field.base, member),
             Meaning::Force(force) => self.force_member(force, &field.base, member),
+            Meaning::Constraint(_) => {
+                self.report.error(member.span(), format!("a constraint has no `{member}`"));
+                None
+            }
             Meaning::Value(value) => self.value_member(value, member),
         }
     }
@@ -80,11 +89,18 @@ impl<'a> Checker<'a, '_> {
         if name == "jacobian" {
             let axes = plain_frame(BodyRef::Ground, at);
             let node = ExprNode::Jacobian { frame: frame.frame, axes };
-            let uses = Uses::of(Class::State, text, at);
+            let uses = Uses::of(Class::Position, text, at);
             let value = Typed::leaf(node, Type::Jacobian, at).with(uses);
             return Some(Meaning::Value(value));
         }
         let Some((_, quantity, ty, class)) = QUANTITIES.iter().find(|(known, ..)| *known == name) else {
+            if let Some(joint) = self.absolute(&frame) {
+                let shape = self.joints.get(joint.0).and_then(|slot| slot.shape);
+                let coordinates = shape.map_or(&[][..], |shape| shape.coordinates());
+                if coordinates.contains(&name.as_str()) || matches!(name.as_str(), "rates" | "effort") {
+                    return self.joint_member(joint, base, member);
+                }
+            }
             self.unknown_quantity(&name, base, at);
             return None;
         };
@@ -95,6 +111,14 @@ impl<'a> Checker<'a, '_> {
         }
         let node = ExprNode::OfFrame(frame.frame, *quantity);
         Some(Meaning::Value(Typed::leaf(node, ty.clone(), at).with(uses)))
+    }
+
+    /// The implicit joint of a body with absolute coordinates, if `frame` is that body's own.
+    pub(in crate::model) fn absolute(&self, frame: &FrameValue) -> Option<JointId> {
+        match frame.frame.body {
+            BodyRef::Body(id) if frame.frame.steps.is_empty() => self.absolute.get(id.0).copied().flatten(),
+            _ => None,
+        }
     }
 
     fn unknown_quantity(&mut self, name: &str, base: &Expr, at: Span) {
@@ -158,6 +182,12 @@ impl<'a> Checker<'a, '_> {
                 let node = ExprNode::OfFrame(frame.clone(), FrameQuantity::Rotation);
                 let ty = Type::Rotation;
                 return Some(Meaning::Value(Typed::leaf(node, ty, at).with(value.uses)));
+            }
+            (ExprNode::Pose(position, _), "position") => {
+                return Some(Meaning::Value(Typed { expr: position.clone(), ..value }));
+            }
+            (ExprNode::Pose(_, orientation), "rotation") => {
+                return Some(Meaning::Value(Typed { expr: orientation.clone(), ..value }));
             }
             (_, "linear" | "force") if offered.contains(&name.as_str()) => ExprNode::Linear(value.expr.clone()),
             (_, "angular" | "moment") if offered.contains(&name.as_str()) => ExprNode::Angular(value.expr.clone()),

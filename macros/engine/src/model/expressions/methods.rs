@@ -42,6 +42,7 @@ impl<'a> Checker<'a, '_> {
                         Meaning::Joint(_) => "a joint".into(),
                         Meaning::Coordinate(..) => "a coordinate".into(),
                         Meaning::Force(_) => "a force".into(),
+                        Meaning::Constraint(_) => "a constraint".into(),
                         _ => "a part".into(),
                     };
                     let name = call.method.to_string();
@@ -134,7 +135,7 @@ impl<'a> Checker<'a, '_> {
     fn express(&mut self, frame: FrameValue, vector: Typed, text: String, at: Span) -> Option<Typed> {
         let mut uses = frame.uses;
         if frame.frame.body != BodyRef::Ground {
-            uses.add(Class::State, text, at);
+            uses.add(Class::Position, text, at);
         } else if frame.frame.steps.is_empty() {
             return Some(vector);
         }

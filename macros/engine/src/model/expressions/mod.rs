@@ -4,9 +4,11 @@
 //! error has been reported, so that one mistake is told once.
 
 mod arrays;
+mod broadcast;
 mod calls;
 mod coerce;
 mod joints;
+mod measured;
 mod members;
 mod methods;
 mod operators;
@@ -107,6 +109,7 @@ impl<'a> Checker<'a, '_> {
             Meaning::Joint(joint) => return self.joint_value(joint, expr),
             Meaning::Frame(_) => ("a frame", "take `.position`, `.velocity`, `.pose`, .. of it".to_string()),
             Meaning::Force(_) => ("a force", "take `.power` of it".to_string()),
+            Meaning::Constraint(_) => ("a constraint", "name it in `solve (..) from ..`".to_string()),
             Meaning::Part(_) => ("a part", "take something inside it".to_string()),
             Meaning::Parts(_) => ("an array of parts", format!("write `{}[0]. ..`", source_text(expr))),
         };
@@ -152,6 +155,7 @@ impl<'a> Checker<'a, '_> {
             Meaning::Joint(_) => "a joint".into(),
             Meaning::Coordinate(..) => "a coordinate".into(),
             Meaning::Force(_) => "a force".into(),
+            Meaning::Constraint(_) => "a constraint".into(),
             Meaning::Part(_) | Meaning::Parts(_) => "a part".into(),
         };
         self.report.help(

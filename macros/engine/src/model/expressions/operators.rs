@@ -166,6 +166,10 @@ impl<'a> Checker<'a, '_> {
             let help = "write `dot(a, b)` or `cross(a, b)`";
             return self.mismatch("multiply", at, &left, &right, Some(help));
         }
+        if (&left.expr.ty, &right.expr.ty) == (&Type::Rotation, &Type::Rotation) {
+            let node = ExprNode::Compose(left.expr.clone(), right.expr.clone());
+            return self.build(node, Type::Rotation, at, &[&left, &right]);
+        }
         self.mismatch("multiply", at, &left, &right, None)
     }
 

@@ -123,6 +123,7 @@ impl<'a> Checker<'a, '_> {
             }
             Symbol::Joint(id) => Some(Meaning::Joint(*id)),
             Symbol::Force(id) => Some(Meaning::Force(*id)),
+            Symbol::Constraint(id) => Some(Meaning::Constraint(*id)),
             Symbol::Part(scope) => Some(Meaning::Part(*scope)),
             Symbol::Parts(scopes) => Some(Meaning::Parts(scopes.clone())),
         }

@@ -1,0 +1,163 @@
+//! Stage `emit`: what methods of `Model` give back.
+//!
+//! In: a function's kind and its scalars, in the order that [`FunctionKind`] documents. Out: the return type, and the value
+//! built from the scalars.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use super::layout::{Group, Layout};
+use super::{leaf, names};
+use crate::model::types::{InstanceId, SolveFor};
+use crate::optimize::program::{FunctionKind, Symbol};
+
+impl Layout<'_> {
+    /// Number of equations that keep a multiplier.
+    pub(super) fn rows(&self) -> usize {
+        self.structure.rows.len()
+    }
+
+    /// Whether the model has states of its own.
+    pub(super) fn has_states(&self) -> bool {
+        !self.is_empty(Group::States, None)
+    }
+
+    /// Whether forward dynamics gives more than accelerations.
+    pub(super) fn has_derivative(&self) -> bool {
+        self.has_states() || self.rows() > 0 || self.structure.guesses() > 0
+    }
+
+    /// Whether inverse dynamics finds inputs instead of efforts.
+    pub(super) fn solves_inputs(&self) -> bool {
+        !self.model.solve_for.is_empty() && !self.is_empty(Group::Input, None)
+    }
+}
+
+/// Expands to the method's return type.
+pub(super) fn ty(layout: &Layout<'_>, kind: FunctionKind) -> TokenStream {
+    let dof = layout.dof();
+    match kind {
+        FunctionKind::ForwardDynamics if layout.has_derivative() => quote!(Derivative<T>),
+        FunctionKind::InverseDynamics if layout.solves_inputs() => quote!(Solved<T>),
+        FunctionKind::ForwardDynamics | FunctionKind::InverseDynamics => quote!(Velocity<T>),
+        FunctionKind::MassMatrix => matrix_type(layout, dof, dof),
+        FunctionKind::Bias => vector_type(layout, dof),
+        FunctionKind::KineticEnergy | FunctionKind::PotentialEnergy => quote!(T),
+        FunctionKind::Outputs => quote!(Output<T>),
+        FunctionKind::Constraints | FunctionKind::ConstraintRate | FunctionKind::ConstraintBias => {
+            vector_type(layout, layout.rows())
+        }
+        FunctionKind::ConstraintJacobian => matrix_type(layout, layout.rows(), dof),
+        FunctionKind::Residual => vector_type(layout, dof + layout.rows()),
+        FunctionKind::Kinematics(number) => {
+            let (krate, count) = (layout.krate(), Literal::usize_unsuffixed(found(layout, number)));
+            quote!(#krate::Kinematics<T, #count>)
+        }
+        FunctionKind::Guess => quote!(Closed<T>),
+        FunctionKind::DeadCentres => vector_type(layout, layout.structure.dead_centres.len()),
+    }
+}
+
+/// Expands to the method's value, from its scalars.
+pub(super) fn value(layout: &Layout<'_>, kind: FunctionKind, results: Vec<TokenStream>) -> TokenStream {
+    let krate = layout.krate();
+    let dof = layout.dof();
+    match kind {
+        FunctionKind::ForwardDynamics if layout.has_derivative() => derivative(layout, results),
+        FunctionKind::InverseDynamics if layout.solves_inputs() => solved(layout, results),
+        FunctionKind::ForwardDynamics | FunctionKind::InverseDynamics => filled(layout, Group::Velocity, &results),
+        FunctionKind::MassMatrix => leaf::matrix(krate, dof, dof, &mut results.into_iter()),
+        FunctionKind::ConstraintJacobian => leaf::matrix(krate, layout.rows(), dof, &mut results.into_iter()),
+        FunctionKind::KineticEnergy | FunctionKind::PotentialEnergy => quote!(#(#results)*),
+        FunctionKind::Outputs => filled(layout, Group::Output, &results),
+        FunctionKind::Kinematics(number) => {
+            let mut results = results.into_iter();
+            let mut next = || vector(layout, results.by_ref().take(found(layout, number)).collect());
+            let (position, velocity, acceleration) = (next(), next(), next());
+            quote!(#krate::Kinematics { position: #position, velocity: #velocity, acceleration: #acceleration })
+        }
+        FunctionKind::Guess => {
+            let (mut results, state) = (results, names::ident("state"));
+            let residual = results.split_off(layout.structure.guesses().min(results.len()));
+            let guess = vector(layout, results);
+            quote!(Closed { state: State { guess: #guess, ..*#state }, residual: #(#residual)* })
+        }
+        FunctionKind::Bias
+        | FunctionKind::Constraints
+        | FunctionKind::ConstraintRate
+        | FunctionKind::ConstraintBias
+        | FunctionKind::DeadCentres
+        | FunctionKind::Residual => vector(layout, results),
+    }
+}
+
+/// Expands to `Derivative { v: .., x: .., multipliers: .., rank: .., residual: .. }`.
+fn derivative(layout: &Layout<'_>, results: Vec<TokenStream>) -> TokenStream {
+    let mut results = results.into_iter();
+    let mut next = |count: usize| -> Vec<TokenStream> { results.by_ref().take(count).collect() };
+    let v = filled(layout, Group::Velocity, &next(layout.dof()));
+    let x = layout.has_states().then(|| {
+        let x = filled(layout, Group::States, &next(layout.table(Group::States).size));
+        quote!(x: #x,)
+    });
+    let rows = (layout.rows() > 0).then(|| {
+        let multipliers = vector(layout, next(layout.rows()));
+        let rank = next(1);
+        quote!(multipliers: #multipliers, rank: #(#rank)*,)
+    });
+    let residual = (layout.structure.guesses() > 0).then(|| {
+        let residual = next(1);
+        quote!(residual: #(#residual)*,)
+    });
+    quote!(Derivative { v: #v, #x #rows #residual })
+}
+
+/// Expands to `{ let mut solved = *input; solved.force = ..; Solved { input: solved, rank: .. } }`.
+fn solved(layout: &Layout<'_>, results: Vec<TokenStream>) -> TokenStream {
+    let [input, solved] = ["input", "solved"].map(names::ident);
+    let inputs = &layout.model.solve_for;
+    let rank = results.get(inputs.len()).into_iter();
+    let set = inputs.iter().zip(&results).map(|(SolveFor { input, element, .. }, value)| {
+        let place = layout.path_of(Symbol::Input { input: *input, element: *element });
+        quote!(#solved #place = #value;)
+    });
+    quote! {
+        let mut #solved = *#input;
+        #(#set)*
+        Solved { input: #solved, rank: #(#rank)* }
+    }
+}
+
+/// Number of scalars that these kinematics find.
+fn found(layout: &Layout<'_>, number: usize) -> usize {
+    layout.model.kinematics.get(number).map_or(0, |kinematics| kinematics.find.len())
+}
+
+pub(super) fn vector_type(layout: &Layout<'_>, size: usize) -> TokenStream {
+    let (krate, size) = (layout.krate(), Literal::usize_unsuffixed(size));
+    quote!(#krate::nalgebra::SVector<T, #size>)
+}
+
+fn matrix_type(layout: &Layout<'_>, rows: usize, columns: usize) -> TokenStream {
+    let krate = layout.krate();
+    let [rows, columns] = [rows, columns].map(Literal::usize_unsuffixed);
+    quote!(#krate::nalgebra::SMatrix<T, #rows, #columns>)
+}
+
+/// Expands to `SVector::from([..])`.
+fn vector(layout: &Layout<'_>, scalars: Vec<TokenStream>) -> TokenStream {
+    let krate = layout.krate();
+    if scalars.is_empty() {
+        return quote!(#krate::nalgebra::SVector::zeros());
+    }
+    let scalars = scalars.into_iter().map(leaf::element);
+    quote!(#krate::nalgebra::SVector::from([#(#scalars),*]))
+}
+
+/// Expands to a struct of the model from all its scalars.
+pub(super) fn filled(layout: &Layout<'_>, group: Group, scalars: &[TokenStream]) -> TokenStream {
+    layout.construct(group, InstanceId(0), false, &mut |entry| {
+        let own = scalars.iter().skip(entry.offset).take(entry.leaf.size());
+        entry.leaf.build(layout.krate(), &mut own.cloned())
+    })
+}

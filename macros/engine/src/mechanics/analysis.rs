@@ -1,0 +1,389 @@
+//! Stage `mechanics`: what becomes of every coordinate and every constraint equation, before anything is derived.
+//!
+//! In: the checked model. Out: its [`Structure`], or complaints. Equations fall into groups that share coordinates. For
+//! each group closed configurations are found, the equations that follow from the others at all of them are dropped, and
+//! what cannot close, cannot move, or is driven twice is refused. With `Reduced` the dependent coordinates are found in
+//! steps: linear couplings first, then `solve` items and the smallest possible systems for Newton's method, in an order
+//! in which each needs earlier ones only. (A linear step gives its unknown from coordinates that later steps may find.)
+
+pub(super) mod blocks;
+mod checks;
+mod configurations;
+mod linear;
+mod problem;
+mod rank;
+mod reduction;
+pub mod singular;
+mod tape;
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+use proc_macro2::Span;
+
+use crate::model::types::{Closing, Coordinate, DriveTarget, Handling, JointId, JointKind, Model};
+
+use super::closings::{closings, coordinate_name, row_count, row_name};
+use super::groups;
+use super::structure::{Means, Role, Row, Step, Structure};
+
+use configurations::Effort;
+use linear::Elimination;
+use problem::{Problem, Source};
+
+/// How far parameters are moved to see what holds at their defaults alone; relative to one and their size.
+const OFF: f64 = 1e-2;
+
+/// A mistake that only the equations show.
+#[derive(Clone, Debug)]
+pub struct Complaint {
+    pub span: Span,
+    pub message: String,
+    pub help: Option<String>,
+}
+
+/// Splits a model's coordinates and equations.
+pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
+    let mut structure = Structure::open(model);
+    structure.groups = groups::find(model);
+    if model.cuts.is_empty() && model.constraints.is_empty() && model.drives.is_empty() {
+        return Ok(structure);
+    }
+    let mut analysis = Analysis { model, complaints: Vec::new(), driven: HashMap::new(), steps: Vec::new() };
+    analysis.drive();
+    analysis.run(&mut structure);
+    if !analysis.complaints.is_empty() {
+        return Err(analysis.complaints);
+    }
+    analysis.assign(&mut structure);
+    analysis.check_quaternions(&structure);
+    if analysis.complaints.is_empty() { Ok(structure) } else { Err(analysis.complaints) }
+}
+
+struct Analysis<'m> {
+    model: &'m Model,
+    complaints: Vec<Complaint>,
+    /// Coordinates that follow a drive, with its number.
+    driven: HashMap<Coordinate, usize>,
+    steps: Vec<Step>,
+}
+
+/// Equations that share coordinates.
+struct Group {
+    /// Numbers in the problem, couplings that are eliminated first, then formulas, then all others.
+    equations: Vec<usize>,
+    columns: Vec<usize>,
+}
+
+impl<'m> Analysis<'m> {
+    fn complain(&mut self, span: Span, message: impl Into<String>, help: Option<&str>) {
+        self.complaints.push(Complaint { span, message: message.into(), help: help.map(str::to_owned) });
+    }
+
+    fn drive(&mut self) {
+        let model = self.model;
+        for (number, drive) in model.drives.iter().enumerate() {
+            for coordinate in driven_by(model, drive.target) {
+                if self.driven.insert(coordinate, number).is_some() {
+                    let name = coordinate_name(model, coordinate);
+                    self.complain(drive.span, format!("the coordinate `{name}` is driven twice"), None);
+                }
+            }
+        }
+    }
+
+    fn run(&mut self, structure: &mut Structure) {
+        let model = self.model;
+        if model.cuts.is_empty() && model.constraints.is_empty() {
+            return;
+        }
+        let problem = Problem::new(model);
+        let reduced = matches!(model.handling, Handling::Reduced);
+        let mut taken: HashSet<Coordinate> = self.driven.keys().copied().collect();
+        if reduced {
+            taken.extend(model.independent.iter().copied());
+        }
+        let eliminations = linear::eliminations(&linear::couplings(model), &taken);
+        self.constants(&problem, structure);
+        let mut freedoms = problem.columns.len() - self.driven.len();
+        let mut linear_steps = Vec::new();
+        for group in groups(&problem, &eliminations) {
+            let Some(found) = self.close(&problem, &group, structure) else { continue };
+            let jacobians: Vec<&[Vec<f64>]> = found.iter().map(|c| c.jacobian.as_slice()).collect();
+            let all: Vec<usize> = (0..group.equations.len()).collect();
+            let is_formula = |&k: &usize| matches!(problem.equations[group.equations[k]].source, Source::Formula(..));
+            let (formulas, rows): (Vec<usize>, Vec<usize>) = all.iter().partition(|k| is_formula(k));
+            // Without formulas: what follows from the rows before it. With them: what needs no step of its own.
+            let independent = rank::kept(&jacobians, &rows);
+            let staying = self.with_other_parameters(&problem, &group, &rows, independent.clone(), structure);
+            let kept = if formulas.is_empty() { independent.clone() } else { rank::kept(&jacobians, &all) };
+            self.drop_redundant(&problem, &group, &rows, &staying, structure);
+            let rank = independent.len();
+            if kept.len() > rank {
+                self.complain_formulas(&problem, &group);
+                continue;
+            }
+            let closed = found.iter().any(|configuration| configuration.closed);
+            if rank >= group.columns.len() && (closed || reduced) {
+                self.complain_locked(&problem, &group, closed);
+                continue;
+            }
+            if !self.check_drives(&problem, &group, &jacobians, &independent) {
+                continue;
+            }
+            freedoms -= rank;
+            structure.independent.extend(independent.iter().filter_map(|&k| row_of(&problem, group.equations[k])));
+            let of_group: Vec<&Elimination> =
+                eliminations.iter().filter(|one| has_row(&problem, &group, &independent, one)).collect();
+            linear_steps.extend(
+                of_group.iter().map(|one| Step { unknowns: vec![one.unknown], means: Means::Linear(one.constraint) }),
+            );
+            if reduced {
+                let reduction = reduction::Reduction {
+                    model,
+                    problem: &problem,
+                    group: &group,
+                    configurations: &found,
+                    kept: &kept,
+                    eliminations: &of_group,
+                    driven: &self.driven,
+                };
+                match reduction.steps() {
+                    Ok(steps) => self.steps.extend(steps),
+                    Err(complaints) => self.complaints.extend(complaints),
+                }
+            } else {
+                let eliminated =
+                    |row: &Row| of_group.iter().any(|one| row.closing == Closing::Constraint(one.constraint));
+                let rows = staying.iter().filter_map(|&k| row_of(&problem, group.equations[k]));
+                structure.rows.extend(rows.filter(|row| !eliminated(row)));
+            }
+        }
+        // Couplings stand in an order of their own, whatever the groups.
+        let place = |step: &Step| eliminations.iter().position(|one| step.unknowns.contains(&one.unknown));
+        linear_steps.sort_by_key(place);
+        let mut guess = 0;
+        for step in &mut self.steps {
+            if let Means::Newton { guess: first, .. } = &mut step.means {
+                *first = guess;
+                guess += step.unknowns.len();
+            }
+        }
+        linear_steps.append(&mut self.steps);
+        self.steps = linear_steps;
+        structure.rows.sort_unstable();
+        structure.independent.sort_unstable();
+        if reduced && self.complaints.is_empty() && model.independent.len() > freedoms {
+            let (named, found) = (model.independent.len(), freedoms);
+            let message = format!("`independent` names {named} coordinates, but {found} are independent");
+            self.complain(model.name.span(), message, Some("dependent coordinates follow from the loops"));
+        }
+    }
+
+    /// Rows that are redundant at the parameters' defaults may not be so elsewhere: a tilt whose default is zero. They are
+    /// looked at once more with parameters a little off. Where the loop doesn't close any more its rows stay, so that
+    /// assembly and the pivoted solve see them; without multipliers the report says what is taken for granted.
+    fn with_other_parameters(
+        &self,
+        problem: &Problem,
+        group: &Group,
+        rows: &[usize],
+        independent: Vec<usize>,
+        structure: &mut Structure,
+    ) -> Vec<usize> {
+        let adjustable = group.equations.iter().any(|&k| problem.equations[k].adjustable);
+        let dropped: Vec<usize> = rows.iter().copied().filter(|k| !independent.contains(k)).collect();
+        if dropped.is_empty() || !adjustable {
+            return independent;
+        }
+        let moved = Problem::with(self.model, OFF);
+        let effort = Effort::of(group.equations.len());
+        let found = configurations::configurations(&moved, &group.equations, &group.columns, effort);
+        let closed: Vec<&[Vec<f64>]> =
+            found.configurations.iter().filter(|c| c.closed).map(|c| c.jacobian.as_slice()).collect();
+        let needed: Vec<usize> = match closed.is_empty() {
+            true => dropped,
+            false => {
+                let elsewhere = rank::kept(&closed, rows);
+                dropped.into_iter().filter(|k| elsewhere.contains(k)).collect()
+            }
+        };
+        if needed.is_empty() {
+            return independent;
+        }
+        if matches!(self.model.handling, Handling::Reduced) {
+            let names: Vec<String> = needed
+                .iter()
+                .filter_map(|&k| row_of(problem, group.equations[k]))
+                .map(|row| format!("`{}`", row_name(self.model, row.closing, row.index)))
+                .collect();
+            let names = names.join(", ");
+            structure
+                .notes
+                .push(format!("hold only for parameters like the declared ones, and are taken for granted: {names}"));
+            return independent;
+        }
+        let mut kept: Vec<usize> = independent.into_iter().chain(needed).collect();
+        kept.sort_unstable();
+        kept
+    }
+
+    fn drop_redundant(
+        &mut self,
+        problem: &Problem,
+        group: &Group,
+        rows: &[usize],
+        kept: &[usize],
+        structure: &mut Structure,
+    ) {
+        let mut names = Vec::new();
+        for &k in rows {
+            if kept.contains(&k) {
+                continue;
+            }
+            let Some(row) = row_of(problem, group.equations[k]) else { continue };
+            names.push(format!("`{}`", row_name(self.model, row.closing, row.index)));
+            structure.dropped.push(row);
+        }
+        if !names.is_empty() {
+            structure.notes.push(format!("redundant equations, left out: {}", names.join(", ")));
+        }
+    }
+
+    /// Roles, once all steps are known.
+    fn assign(&self, structure: &mut Structure) {
+        let mut set = |coordinate: Coordinate, role: Role| {
+            let joint = structure.roles.get_mut(coordinate.joint.0);
+            if let Some(slot) = joint.and_then(|roles| roles.get_mut(coordinate.index)) {
+                *slot = role;
+            }
+        };
+        for (&coordinate, &number) in &self.driven {
+            set(coordinate, Role::Driven(number));
+        }
+        for (number, step) in self.steps.iter().enumerate() {
+            for &unknown in &step.unknowns {
+                set(unknown, Role::Dependent(number));
+            }
+        }
+        structure.steps.clone_from(&self.steps);
+        let Structure { roles, state, .. } = structure;
+        state.retain(|c| roles.get(c.joint.0).and_then(|roles| roles.get(c.index)) == Some(&Role::State));
+        self.report(structure);
+    }
+
+    fn report(&self, structure: &mut Structure) {
+        let names = |list: &[Coordinate]| -> String {
+            let names: Vec<String> = list.iter().map(|&c| format!("`{}`", coordinate_name(self.model, c))).collect();
+            names.join(", ")
+        };
+        for step in &structure.steps {
+            let unknowns = names(&step.unknowns);
+            structure.notes.push(match &step.means {
+                Means::Linear(_) => format!("found by a linear coupling: {unknowns}"),
+                Means::Solve(_) => format!("found in closed form: {unknowns}"),
+                Means::Newton { .. } => format!("found by Newton's method: {unknowns}"),
+            });
+        }
+        let newton = structure.steps.iter().any(|step| matches!(step.means, Means::Newton { .. }));
+        if newton && self.model.independent.is_empty() {
+            structure.notes.push(format!("independent coordinates: {}", names(&structure.state)));
+        }
+    }
+}
+
+/// Coordinates that a drive prescribes.
+pub fn driven_by(model: &Model, target: DriveTarget) -> Vec<Coordinate> {
+    let several =
+        |joint: JointId, range: std::ops::Range<usize>| range.map(|index| Coordinate { joint, index }).collect();
+    match target {
+        DriveTarget::Coordinate(coordinate) => vec![coordinate],
+        DriveTarget::Position(joint) => several(joint, 0..3),
+        DriveTarget::Pose(joint) => several(joint, 0..6),
+        DriveTarget::Orientation(joint) => {
+            let free = model.joints.get(joint.0).is_some_and(|joint| matches!(joint.kind, JointKind::Free(_)));
+            several(joint, if free { 3..6 } else { 0..3 })
+        }
+    }
+}
+
+fn row_of(problem: &Problem, equation: usize) -> Option<Row> {
+    match problem.equations.get(equation)?.source {
+        Source::Row(row) => Some(row),
+        Source::Formula(..) => None,
+    }
+}
+
+fn formula_of(problem: &Problem, equation: usize) -> Option<usize> {
+    match problem.equations.get(equation)?.source {
+        Source::Formula(number, _) => Some(number),
+        Source::Row(_) => None,
+    }
+}
+
+fn has_row(problem: &Problem, group: &Group, kept: &[usize], one: &Elimination) -> bool {
+    kept.iter().any(|&k| {
+        row_of(problem, group.equations[k]).is_some_and(|row| row.closing == Closing::Constraint(one.constraint))
+    })
+}
+
+fn columns_of(problem: &Problem, equations: &[usize]) -> Vec<usize> {
+    let mut columns: Vec<usize> =
+        equations.iter().flat_map(|&k| problem.equations[k].columns.iter().copied()).collect();
+    columns.sort_unstable();
+    columns.dedup();
+    columns
+}
+
+/// Connected components of equations and columns, in the order of their first equation.
+fn groups(problem: &Problem, eliminations: &[Elimination]) -> Vec<Group> {
+    // The group that each column belongs to, by its least equation.
+    let mut root: Vec<usize> = (0..problem.equations.len()).collect();
+    let mut owner: Vec<Option<usize>> = vec![None; problem.columns.len()];
+    for (k, equation) in problem.equations.iter().enumerate() {
+        for &column in &equation.columns {
+            match owner[column] {
+                None => owner[column] = Some(k),
+                Some(other) => {
+                    let (a, b) = (find(&mut root, other), find(&mut root, k));
+                    root[a.max(b)] = a.min(b);
+                }
+            }
+        }
+    }
+    let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (k, equation) in problem.equations.iter().enumerate() {
+        if !equation.columns.is_empty() {
+            groups.entry(find(&mut root, k)).or_default().push(k);
+        }
+    }
+    let eliminated = |k: usize| {
+        let closing = row_of(problem, k).map(|row| row.closing);
+        eliminations.iter().any(|one| closing == Some(Closing::Constraint(one.constraint)))
+    };
+    let rank = |k: usize| match problem.equations[k].source {
+        Source::Row(_) if eliminated(k) => 0,
+        Source::Formula(..) => 1,
+        Source::Row(_) => 2,
+    };
+    let group = |mut equations: Vec<usize>| {
+        equations.sort_by_key(|&k| (rank(k), k));
+        Group { columns: columns_of(problem, &equations), equations }
+    };
+    groups.into_values().map(group).collect()
+}
+
+fn find(root: &mut [usize], mut k: usize) -> usize {
+    while root[k] != k {
+        root[k] = root[root[k]];
+        k = root[k];
+    }
+    k
+}
+
+/// All equations of a model with their names, in the order of closings.
+pub fn equation_names(model: &Model) -> Vec<(Row, String)> {
+    let rows = closings(model).into_iter().flat_map(|closing| {
+        (0..row_count(model, closing)).map(move |index| (Row { closing, index }, row_name(model, closing, index)))
+    });
+    rows.collect()
+}

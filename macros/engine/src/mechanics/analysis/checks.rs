@@ -1,0 +1,206 @@
+//! Stage `mechanics`: what is refused once the equations are known.
+//!
+//! In: groups of equations with what was found about them. Out: complaints about loops that cannot close or cannot move,
+//! formulas that don't close their loop, drives of what follows from the rest, quaternions that would have to be split.
+
+use std::collections::BTreeMap;
+
+use proc_macro2::Span;
+
+use crate::model::types::{Closing, JointId, Model};
+
+use super::super::closings::{coordinate_name, path, row_name};
+use super::super::structure::{Role, Structure};
+use super::super::symbols::has_quaternion;
+use super::configurations::{Configuration, Effort, configurations};
+use super::problem::{Gap, Problem};
+use super::{Analysis, Group, columns_of, driven_by, formula_of, rank, row_of};
+
+impl Analysis<'_> {
+    /// Equations without coordinates: they hold, or nothing can make them.
+    pub(super) fn constants(&mut self, problem: &Problem, structure: &mut Structure) {
+        let mut blamed: BTreeMap<Closing, Gap> = BTreeMap::new();
+        for (k, gap) in problem.constants() {
+            let Some(row) = row_of(problem, k) else { continue };
+            let adjustable = problem.equations[k].adjustable;
+            if gap.is_open(problem.size) && !adjustable {
+                blamed.entry(row.closing).or_default().widen(&gap);
+                continue;
+            }
+            structure.dropped.push(row);
+            if adjustable {
+                let name = row_name(self.model, row.closing, row.index);
+                structure.notes.push(format!("`{name}` depends on parameters alone: it must hold by their choice"));
+            }
+        }
+        for closing in problem.reversed() {
+            blamed.entry(closing).or_default();
+        }
+        for (closing, gap) in blamed {
+            self.complain_open(closing, &gap, problem.size);
+        }
+    }
+
+    fn complain_open(&mut self, closing: Closing, gap: &Gap, size: f64) {
+        let (span, what) = self.thing(closing);
+        let message = format!("{what} cannot close: {}", gap.text(size));
+        self.complain(span, message, Some("check lengths, frames and axes"));
+    }
+
+    /// Closed configurations of a group; nothing if it cannot be closed.
+    pub(super) fn close(
+        &mut self,
+        problem: &Problem,
+        group: &Group,
+        structure: &mut Structure,
+    ) -> Option<Vec<Configuration>> {
+        let effort = Effort::of(group.equations.len());
+        let found = configurations(problem, &group.equations, &group.columns, effort);
+        if found.configurations.iter().any(|configuration| configuration.closed) {
+            return Some(found.configurations);
+        }
+        let without: Vec<usize> =
+            group.equations.iter().copied().filter(|&k| formula_of(problem, k).is_none()).collect();
+        if without.len() < group.equations.len() {
+            let alone = configurations(problem, &without, &columns_of(problem, &without), effort);
+            if alone.configurations.iter().any(|configuration| configuration.closed) {
+                self.complain_formulas(problem, group);
+                return None;
+            }
+        }
+        let mut closings: Vec<Closing> =
+            group.equations.iter().filter_map(|&k| row_of(problem, k)).map(|row| row.closing).collect();
+        closings.sort_unstable();
+        closings.dedup();
+        let mut blamed = None;
+        if closings.len() > 1 {
+            for &closing in &closings {
+                let own = |&k: &usize| row_of(problem, k).is_some_and(|row| row.closing == closing);
+                let equations: Vec<usize> = group.equations.iter().copied().filter(own).collect();
+                let columns = columns_of(problem, &equations);
+                let alone = configurations(problem, &equations, &columns, Effort { wanted: 1, starts: 24 });
+                if !alone.configurations.iter().any(|configuration| configuration.closed) {
+                    blamed = Some((closing, equations, alone.gap));
+                    break;
+                }
+            }
+        }
+        let sure = blamed.is_some() || group.equations.len() <= 16;
+        let last = closings.last().copied();
+        let (closing, equations, gap) =
+            blamed.or_else(|| last.map(|closing| (closing, group.equations.clone(), found.gap)))?;
+        let (_, what) = self.thing(closing);
+        let adjustable = equations.iter().any(|&k| problem.equations[k].adjustable);
+        if sure && !adjustable {
+            self.complain_open(closing, &gap, problem.size);
+            return None;
+        }
+        let gap = gap.text(problem.size);
+        structure.notes.push(format!("{what} did not close at the declared values, and its rank is not known: {gap}"));
+        Some(found.configurations)
+    }
+
+    /// Formulas that the equations don't imply, or contradict.
+    pub(super) fn complain_formulas(&mut self, problem: &Problem, group: &Group) {
+        let model = self.model;
+        let mut numbers: Vec<usize> = group.equations.iter().filter_map(|&k| formula_of(problem, k)).collect();
+        numbers.dedup();
+        for solve in numbers.into_iter().filter_map(|number| model.solves.get(number)) {
+            let names: Vec<String> =
+                solve.unknowns.iter().map(|&unknown| format!("`{}`", coordinate_name(model, unknown))).collect();
+            let message = format!("the formulas of {} do not close their loop", names.join(", "));
+            self.complain(
+                solve.span,
+                message,
+                Some("check signs and branches, or let the macro solve: `from` a joint"),
+            );
+        }
+    }
+
+    pub(super) fn complain_locked(&mut self, problem: &Problem, group: &Group, closed: bool) {
+        let mut joints: Vec<JointId> =
+            group.columns.iter().map(|&column| problem.columns[column].coordinate.joint).collect();
+        joints.dedup();
+        let names: Vec<String> = joints.iter().take(8).map(|joint| self.joint_name(*joint)).collect();
+        let closing = group.equations.iter().filter_map(|&k| row_of(problem, k)).map(|row| row.closing).min();
+        let Some(closing) = closing else { return };
+        let (span, what) = self.thing(closing);
+        let names = names.join(", ");
+        if closed {
+            let message = format!("{what} leaves no freedom: nothing can move among {names}");
+            self.complain(span, message, Some("remove a constraint, or give a joint of the loop more freedom"));
+        } else {
+            // The rank of a loop that is open says nothing about the closed one.
+            let message = format!("{what} can't be reduced: with the declared defaults it does not close ({names})");
+            self.complain(span, message, Some("declare defaults with which it closes"));
+        }
+    }
+
+    /// Whether drives leave the rank alone: what they prescribe must not follow from the rest.
+    pub(super) fn check_drives(
+        &mut self,
+        problem: &Problem,
+        group: &Group,
+        jacobians: &[&[Vec<f64>]],
+        independent: &[usize],
+    ) -> bool {
+        let mut free = vec![true; group.columns.len()];
+        for (number, drive) in self.model.drives.iter().enumerate() {
+            let before = free.clone();
+            for (slot, &column) in free.iter_mut().zip(&group.columns) {
+                *slot &= self.driven.get(&problem.columns[column].coordinate) != Some(&number);
+            }
+            if free != before && rank::rank(jacobians, independent, &free) < independent.len() {
+                let names: Vec<String> = driven_by(self.model, drive.target)
+                    .into_iter()
+                    .map(|coordinate| format!("`{}`", coordinate_name(self.model, coordinate)))
+                    .collect();
+                let message =
+                    format!("the drive prescribes what follows from the loops and other drives: {}", names.join(", "));
+                self.complain(drive.span, message, Some("drive as many coordinates as the mechanism has freedoms"));
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Position and orientation of a joint with a quaternion are in the state as a whole or not at all.
+    pub(super) fn check_quaternions(&mut self, structure: &Structure) {
+        let model = self.model;
+        for (joint, roles) in model.joints.iter().zip(&structure.roles) {
+            if !has_quaternion(joint) || roles.len() < 3 {
+                continue;
+            }
+            let (position, orientation) = roles.split_at(roles.len() - 3);
+            let states = |part: &[Role]| part.iter().filter(|&&role| role == Role::State).count();
+            let split = |part: &[Role]| states(part) != 0 && states(part) != part.len();
+            if split(orientation) || (split(position) && states(orientation) > 0) {
+                let name = path(model, &joint.place);
+                let message = format!("a part of `{name}` leaves the state, and its orientation is a quaternion");
+                self.complain(joint.span, message, Some("write `coordinates: RollPitchYaw` at the joint or the body"));
+            }
+        }
+    }
+
+    fn joint_name(&self, joint: JointId) -> String {
+        let joint = self.model.joints.get(joint.0);
+        joint.map_or_else(String::new, |joint| format!("`{}`", path(self.model, &joint.place)))
+    }
+
+    /// Where a closing was written, and how to speak of it.
+    fn thing(&self, closing: Closing) -> (Span, String) {
+        thing(self.model, closing)
+    }
+}
+
+pub(super) fn thing(model: &Model, closing: Closing) -> (Span, String) {
+    let here = model.name.span();
+    match closing {
+        Closing::Cut(id) => model.joints.get(id.0).map_or((here, String::new()), |joint| {
+            (joint.span, format!("the loop that `{}` closes", path(model, &joint.place)))
+        }),
+        Closing::Constraint(id) => model.constraints.get(id.0).map_or((here, String::new()), |constraint| {
+            (constraint.span, format!("the constraint `{}`", path(model, &constraint.place)))
+        }),
+    }
+}

@@ -1,0 +1,260 @@
+//! Stage `mechanics`: configurations in which loops are closed.
+//!
+//! In: a [`Problem`] and some of its equations. Out: points at which they vanish, found from random starts by Levenberg's
+//! and Marquardt's method with a damping that falls with the square of the residual: then it converges quadratically
+//! also where rows are redundant and where solutions are not isolated (Yamashita and Fukushima 2001). How far axes are
+//! from their meant directions is minimised along with the equations; where these vanish it vanishes to second order.
+//! Everything is deterministic: the starts are numbered.
+
+use crate::model::types::Closing;
+
+use super::problem::{Gap, Linearised, Point, Problem, Random, Source};
+use super::singular::{add, clear_rank, dot, singular_values};
+use super::tape::Values;
+
+/// A residual below this counts as zero, in units of the equation's gradient.
+const CLOSED: f64 = 1e-11;
+
+/// Iterations of one start.
+const ITERATIONS: usize = 80;
+
+/// Steps are cut to this length in any column.
+const LONGEST: f64 = 0.7;
+
+/// A closed configuration, or the best that was found.
+pub(super) struct Configuration {
+    /// Jacobian rows of unit length or zero, over the group's columns.
+    pub jacobian: Vec<Vec<f64>>,
+    pub closed: bool,
+    /// Where there is a clear gap in the singular values.
+    pub rank: Option<usize>,
+}
+
+/// What was found about a group of equations that share coordinates.
+pub(super) struct Found {
+    pub configurations: Vec<Configuration>,
+    /// Of the start that came nearest.
+    pub gap: Gap,
+}
+
+/// How hard to look.
+#[derive(Clone, Copy)]
+pub(super) struct Effort {
+    pub wanted: usize,
+    pub starts: usize,
+}
+
+impl Effort {
+    /// Enough to be sure of what a few loops can do; bounded where a start costs much.
+    pub(super) fn of(equations: usize) -> Effort {
+        let wanted = match equations {
+            0..=30 => 5,
+            31..=120 => 3,
+            _ => 2,
+        };
+        let cube = equations.max(1).saturating_pow(3);
+        Effort { wanted, starts: (8_000_000 / cube).clamp(4, 48) }
+    }
+}
+
+/// Looks for closed configurations. `columns` are those of the group, in order.
+pub(super) fn configurations(problem: &Problem, equations: &[usize], columns: &[usize], effort: Effort) -> Found {
+    let mut closings: Vec<Closing> = Vec::new();
+    for &k in equations {
+        if let Source::Row(row) = problem.equations[k].source {
+            closings.push(row.closing);
+        }
+    }
+    closings.dedup();
+    let search = Search { problem, equations, columns, alignments: problem.alignments_of(&closings) };
+    let mut found = Found { configurations: Vec::new(), gap: Gap::default() };
+    let (mut unclear, mut best) = (Vec::new(), None);
+    let mut values = Values::default();
+    for start in 0..effort.starts {
+        let mut random = Random(0x5EED + 977 * start as u64);
+        let amplitude = [0.3, 0.6, 0.15, 1.0][start % 4];
+        let mut point = problem.start(&mut random, amplitude);
+        let closed = search.close(&mut point, &mut values);
+        let at = problem.linearise(&point, equations, &mut values);
+        let residual = dot(&at.residuals, &at.residuals);
+        let configuration = search.configuration(&at, closed);
+        if !closed {
+            if best.as_ref().is_none_or(|(least, _)| residual < *least) {
+                best = Some((residual, configuration));
+                found.gap = problem.gap(&values, equations);
+            }
+            continue;
+        }
+        if configuration.rank.is_some() {
+            found.configurations.push(configuration);
+        } else {
+            unclear.push(configuration);
+        }
+        if found.configurations.len() >= effort.wanted {
+            break;
+        }
+    }
+    if found.configurations.is_empty() {
+        found.configurations = unclear;
+    }
+    if found.configurations.is_empty() {
+        found.configurations.extend(best.map(|(_, configuration)| configuration));
+    }
+    found
+}
+
+struct Search<'p> {
+    problem: &'p Problem,
+    equations: &'p [usize],
+    columns: &'p [usize],
+    alignments: Vec<usize>,
+}
+
+impl Search<'_> {
+    /// Whether all equations vanish and all axes point as they should.
+    fn close(&self, point: &mut Point, values: &mut Values) -> bool {
+        let mut at = self.linearise(point, values);
+        let mut square = dot(&at.residuals, &at.residuals);
+        let mut damping = 0.1;
+        let mut stagnant = 0;
+        for _ in 0..ITERATIONS {
+            if self.is_closed(&at.residuals) {
+                return self.is_aligned(&at.residuals);
+            }
+            if !square.is_finite() || stagnant > 6 {
+                return false;
+            }
+            let normal = self.normal(&at.rows);
+            let before = square;
+            for _ in 0..8 {
+                let step = self.step(&normal, &at, damping * before.min(1.0));
+                let mut next = point.clone();
+                self.problem.displace(&mut next, &step);
+                let residuals = self.all_residuals(&next, values);
+                let after = dot(&residuals, &residuals);
+                if after < before || (before < 1e-20 && after < 4.0 * before) {
+                    *point = next;
+                    square = after;
+                    damping = (damping * 0.2).max(1e-6);
+                    break;
+                }
+                damping = (damping * 8.0).max(1e-4);
+            }
+            stagnant = if square > 0.98 * before { stagnant + 1 } else { 0 };
+            at = self.linearise(point, values);
+        }
+        self.is_closed(&at.residuals) && self.is_aligned(&at.residuals)
+    }
+
+    fn is_closed(&self, residuals: &[f64]) -> bool {
+        residuals.iter().take(self.equations.len()).all(|r| r.abs() < CLOSED)
+    }
+
+    fn is_aligned(&self, residuals: &[f64]) -> bool {
+        residuals.iter().skip(self.equations.len()).all(|r| r.abs() < 1e-6)
+    }
+
+    fn all_residuals(&self, point: &Point, values: &mut Values) -> Vec<f64> {
+        let mut residuals = self.problem.residuals(point, self.equations, values);
+        residuals.extend(self.problem.misalignments(&self.alignments, values));
+        residuals
+    }
+
+    fn linearise(&self, point: &Point, values: &mut Values) -> Linearised {
+        let mut at = self.problem.linearise(point, self.equations, values);
+        at.residuals.extend(self.problem.misalignments(&self.alignments, values));
+        at.rows.extend(self.problem.alignment_rows(point, &self.alignments, values));
+        at
+    }
+
+    /// J J^T
+    fn normal(&self, rows: &[Vec<(usize, f64)>]) -> Vec<Vec<f64>> {
+        let mut dense = vec![0.0; self.problem.columns.len()];
+        let mut normal = Vec::with_capacity(rows.len());
+        for (i, row) in rows.iter().enumerate() {
+            for &(column, entry) in row {
+                dense[column] = entry;
+            }
+            let mut list = Vec::with_capacity(rows.len());
+            for other in &rows[..=i] {
+                let mut sum = 0.0;
+                for &(column, entry) in other {
+                    sum += entry * dense[column];
+                }
+                list.push(sum);
+            }
+            normal.push(list);
+            for &(column, _) in row {
+                dense[column] = 0.0;
+            }
+        }
+        normal
+    }
+
+    /// -J^T (J J^T + damping)^-1 r, cut to a bounded length.
+    fn step(&self, normal: &[Vec<f64>], at: &Linearised, damping: f64) -> Vec<f64> {
+        let multipliers = solve(normal, &at.residuals, damping);
+        let mut step = vec![0.0; self.problem.columns.len()];
+        for (row, multiplier) in at.rows.iter().zip(multipliers) {
+            for &(column, entry) in row {
+                step[column] -= entry * multiplier;
+            }
+        }
+        let longest = step.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        if longest > LONGEST {
+            step.iter_mut().for_each(|x| *x *= LONGEST / longest);
+        }
+        step
+    }
+
+    fn configuration(&self, at: &Linearised, closed: bool) -> Configuration {
+        let mut place = vec![usize::MAX; self.problem.columns.len()];
+        for (k, &column) in self.columns.iter().enumerate() {
+            place[column] = k;
+        }
+        let rows = at.rows.iter().map(|row| {
+            let mut dense = vec![0.0; self.columns.len()];
+            for &(column, entry) in row {
+                if let Some(slot) = dense.get_mut(place[column]) {
+                    *slot += entry;
+                }
+            }
+            // Gradients that vanish there, as a cosine's does at one, stay zero and don't become noise.
+            let norm = dot(&dense, &dense).sqrt();
+            let factor = if norm > 1e-7 { 1.0 / norm } else { 0.0 };
+            dense.iter_mut().for_each(|x| *x *= factor);
+            dense
+        });
+        let jacobian: Vec<Vec<f64>> = rows.collect();
+        let rank = if closed { clear_rank(&singular_values(&jacobian)) } else { None };
+        Configuration { jacobian, closed, rank }
+    }
+}
+
+/// (A + damping) x = b by Cholesky; A is symmetric, given by its lower triangle, and semidefinite.
+fn solve(a: &[Vec<f64>], b: &[f64], damping: f64) -> Vec<f64> {
+    let trace = a.iter().enumerate().map(|(k, row)| row[k]).fold(0.0, f64::max);
+    let floor = 1e-13 * trace + f64::MIN_POSITIVE;
+    let mut lower: Vec<Vec<f64>> = Vec::with_capacity(a.len());
+    for (i, row) in a.iter().enumerate() {
+        let mut list: Vec<f64> = Vec::with_capacity(i + 1);
+        for (j, above) in lower.iter().enumerate() {
+            let sum = row[j] - dot(&list, &above[..j]);
+            list.push(sum / above[j]);
+        }
+        let rest = row[i] + damping + floor - dot(&list, &list);
+        list.push(rest.max(floor).sqrt());
+        lower.push(list);
+    }
+    let mut x: Vec<f64> = Vec::with_capacity(b.len());
+    for (i, row) in lower.iter().enumerate() {
+        let rest = b[i] - dot(&row[..i], &x);
+        x.push(rest / row[i]);
+    }
+    for i in (0..x.len()).rev() {
+        x[i] /= lower[i][i];
+        let value = x[i];
+        add(&mut x[..i], -value, &lower[i]);
+    }
+    x
+}

@@ -1,0 +1,118 @@
+//! Stage `mechanics`: linear couplings between coordinates.
+//!
+//! In: constraints that a user wrote. Out: those that are proven linear (no derivative by a coordinate depends on a
+//! position), and for each the coordinate that it gives. Gears, racks and mimics are of this kind: they are eliminated
+//! exactly, whatever becomes of the other equations.
+
+use std::collections::HashSet;
+
+use crate::model::types::{Closing, ConstraintId, ConstraintKind, Coordinate, Model};
+use crate::optimize::program::Symbol;
+use crate::symbolic::graph::{Graph, ScalarNode};
+
+use super::super::closings::Writing;
+use super::super::equations::{Equations, Method, Style, Way};
+use super::super::symbols::{Symbols, has_quaternion};
+
+/// A constraint that is linear in the coordinates.
+pub(super) struct Coupling {
+    pub constraint: ConstraintId,
+    /// Coordinates, and whether the coefficient is a number that isn't zero, so that the coordinate can be the one found.
+    pub terms: Vec<(Coordinate, bool)>,
+}
+
+/// A coupling with the coordinate that it gives.
+pub(super) struct Elimination {
+    pub constraint: ConstraintId,
+    pub unknown: Coordinate,
+    /// What it is found from.
+    pub others: Vec<Coordinate>,
+}
+
+/// All constraints that are linear couplings.
+pub(super) fn couplings(model: &Model) -> Vec<Coupling> {
+    let value = |k: usize| matches!(model.constraints.get(k).map(|c| &c.kind), Some(ConstraintKind::Value(_)));
+    if !(0..model.constraints.len()).any(value) {
+        return Vec::new();
+    }
+    let mut graph = Graph::new();
+    let symbols = Symbols::new(&mut graph, model);
+    let way = Way { style: Style::Nested, method: Method::Composite, axes: None, writing: Writing::PLAIN };
+    let mut e = Equations::new(model, graph, symbols, way, &[]);
+    (0..model.constraints.len())
+        .filter(|&k| value(k))
+        .filter_map(|k| coupling(&mut e, model, ConstraintId(k)))
+        .collect()
+}
+
+fn coupling(e: &mut Equations<'_>, model: &Model, constraint: ConstraintId) -> Option<Coupling> {
+    let residual = e.residuals(Closing::Constraint(constraint), Writing::PLAIN).first().copied()?;
+    let mut terms = Vec::new();
+    for (joint, component) in positions(e, residual) {
+        // No component of a quaternion is a coordinate.
+        let kind = model.joints.get(joint.0)?;
+        if has_quaternion(kind) && component + 3 >= kind.kind.freedoms() {
+            return None;
+        }
+        let coordinate = Coordinate { joint, index: component };
+        let slope = e.partial(&[residual], coordinate).first().copied()?;
+        if !positions(e, slope).is_empty() {
+            return None;
+        }
+        terms.push((coordinate, e.g.literal(slope).is_some_and(|n| n.value() != 0.0)));
+    }
+    terms.sort_unstable();
+    (!terms.is_empty()).then_some(Coupling { constraint, terms })
+}
+
+/// Components of positions that a scalar depends on.
+fn positions(e: &Equations<'_>, s: crate::symbolic::graph::Scalar) -> Vec<(crate::model::types::JointId, usize)> {
+    let reachable = e.g.reachable_scalars(&[s]);
+    let symbol = |index: usize| match e.g.node(e.g.scalar_at(index)) {
+        ScalarNode::Symbol(id) => match e.symbols.table.get(id.0) {
+            Some(&Symbol::Position { joint, component }) => Some((joint, component)),
+            _ => None,
+        },
+        _ => None,
+    };
+    reachable.into_iter().filter_map(symbol).collect()
+}
+
+/// Chooses what each coupling gives: not what is `taken` (driven, wished to be independent), the one latest in source
+/// order. The eliminations come in an order in which each is found from what stands before it.
+pub(super) fn eliminations(couplings: &[Coupling], taken: &HashSet<Coordinate>) -> Vec<Elimination> {
+    let mut list: Vec<Elimination> = Vec::new();
+    for coupling in couplings {
+        let free = |unknown: &Coordinate| {
+            !taken.contains(unknown)
+                && list.iter().all(|other| other.unknown != *unknown)
+                // What the unknown would be found from must not be found from it.
+                && coupling.terms.iter().all(|&(c, _)| c == *unknown || !depends(&list, c, *unknown))
+        };
+        let mut candidates = coupling.terms.iter().rev().filter(|term| term.1).map(|term| term.0);
+        let Some(unknown) = candidates.find(free) else { continue };
+        let others = coupling.terms.iter().map(|term| term.0).filter(|&c| c != unknown).collect();
+        list.push(Elimination { constraint: coupling.constraint, unknown, others });
+    }
+    let mut ordered: Vec<Elimination> = Vec::new();
+    while !list.is_empty() {
+        let ready = |one: &Elimination| one.others.iter().all(|c| list.iter().all(|other| other.unknown != *c));
+        let Some(next) = list.iter().position(ready) else { break };
+        ordered.push(list.remove(next));
+    }
+    ordered
+}
+
+/// Whether a coordinate is found from another, by eliminations.
+fn depends(list: &[Elimination], coordinate: Coordinate, on: Coordinate) -> bool {
+    let (mut open, mut seen) = (vec![coordinate], HashSet::new());
+    while let Some(c) = open.pop() {
+        if c == on {
+            return true;
+        }
+        if seen.insert(c) {
+            open.extend(list.iter().filter(|one| one.unknown == c).flat_map(|one| one.others.iter().copied()));
+        }
+    }
+    false
+}

@@ -1,0 +1,504 @@
+//! Stage `mechanics`: the equations of a mechanism as numbers.
+//!
+//! In: the model. Out: a [`Problem`]: residuals of all closings and of formulas that a user wrote, with what each of them
+//! depends on, evaluated in double precision with parameters at their defaults and inputs at zero. Columns are velocity
+//! coordinates of the tree; travels count in units of the mechanism's size, so that they compare with angles.
+
+use crate::model::types::{Closing, ConstraintKind, Coordinate, Handling, JointId, Model, SolveHow};
+use crate::optimize::program::Symbol;
+use crate::symbolic::graph::{Graph, Scalar};
+use crate::symbolic::lower::Lowering;
+
+use super::super::closings::{Writing, closings, is_length};
+use super::super::equations::{Equations, Method, Style, Way};
+use super::super::structure::Row;
+use super::super::symbols::{Symbols, has_quaternion};
+use super::super::tree::Motion;
+use super::tape::{Tape, Values};
+
+/// Where an equation comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Source {
+    Row(Row),
+    /// Unknown minus formula: number of the `solve` item and of its unknown.
+    Formula(usize, usize),
+}
+
+/// One scalar equation.
+pub(super) struct Equation {
+    pub source: Source,
+    /// Columns that it depends on, in order.
+    pub columns: Vec<usize>,
+    /// Whether a parameter has a say.
+    pub adjustable: bool,
+    root: usize,
+    measure: Measure,
+    /// A typical length of its gradient.
+    scale: f64,
+}
+
+/// What a residual is.
+#[derive(Clone, Copy, Debug)]
+enum Measure {
+    /// m
+    Length,
+    Cosine,
+    /// (d . d - length^2) / 2, with the root of the length.
+    Rod(usize),
+    /// A user's expression.
+    Value,
+}
+
+/// How far a loop is from being closed.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Gap {
+    /// m, squared
+    square: f64,
+    cosine: f64,
+    value: f64,
+}
+
+impl Gap {
+    pub(super) fn widen(&mut self, other: &Gap) {
+        self.square += other.square;
+        self.cosine = self.cosine.max(other.cosine);
+        self.value = self.value.max(other.value);
+    }
+
+    pub(super) fn is_open(&self, size: f64) -> bool {
+        self.square.sqrt() > 1e-9 * size || self.cosine > 1e-9 || self.value > 1e-9
+    }
+
+    pub(super) fn text(&self, size: f64) -> String {
+        let length = self.square.sqrt();
+        if length > 1e-7 * size {
+            format!("the smallest gap found is {} m", short(length))
+        } else if self.cosine > 1e-7 {
+            let angle = self.cosine.min(1.0).asin();
+            format!("its axes miss each other by {} rad at least", short(angle))
+        } else if self.value > 1e-7 {
+            format!("the smallest value found is {}", short(self.value))
+        } else {
+            "only with axes that point the wrong way does it".to_owned()
+        }
+    }
+}
+
+/// Three digits.
+fn short(x: f64) -> String {
+    let digits = (2.0 - x.abs().log10().floor()).clamp(0.0, 12.0) as usize;
+    let text = format!("{x:.digits$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+/// A column.
+pub(super) struct Column {
+    pub coordinate: Coordinate,
+    /// Part of a quaternion: no scalar of its own.
+    pub turns: bool,
+    /// What counts as one.
+    unit: f64,
+}
+
+/// How a symbol moves with the columns.
+#[derive(Clone, Copy)]
+enum Mover {
+    Rests,
+    Straight(usize),
+    /// Component of the quaternion with this number.
+    Turns(usize, usize),
+}
+
+struct Quaternion {
+    /// First symbol of four.
+    symbol: usize,
+    /// First column of three.
+    column: usize,
+}
+
+/// Cosine that is one where a joint is closed as it was meant.
+struct Alignment {
+    closing: Closing,
+    root: usize,
+}
+
+pub(super) struct Problem {
+    tape: Tape,
+    pub equations: Vec<Equation>,
+    pub columns: Vec<Column>,
+    alignments: Vec<Alignment>,
+    movers: Vec<Mover>,
+    quaternions: Vec<Quaternion>,
+    defaults: Vec<f64>,
+    /// m
+    pub size: f64,
+}
+
+/// Values of all symbols.
+#[derive(Clone)]
+pub(super) struct Point(Vec<f64>);
+
+/// Rows of numbers at one point.
+#[derive(Clone, Default)]
+pub(super) struct Linearised {
+    pub residuals: Vec<f64>,
+    /// (column, entry)
+    pub rows: Vec<Vec<(usize, f64)>>,
+}
+
+const WAY: Way = Way { style: Style::Nested, method: Method::Composite, axes: None, writing: Writing::PLAIN };
+
+impl Problem {
+    pub(super) fn new(model: &Model) -> Problem {
+        Problem::with(model, 0.0)
+    }
+
+    /// With parameters that are off their defaults by about this much.
+    pub(super) fn with(model: &Model, off: f64) -> Problem {
+        let mut graph = Graph::new();
+        let symbols = Symbols::new(&mut graph, model);
+        let mut e = Equations::new(model, graph, symbols, WAY, &[]);
+        let mut roots: Vec<Scalar> = Vec::new();
+        let mut sources = Vec::new();
+        let mut cosines = Vec::new();
+        let mut rods: Vec<Scalar> = Vec::new();
+        let mut measures: Vec<Measure> = Vec::new();
+        for closing in closings(model) {
+            let rod = e.rod_length(closing);
+            rods.extend(rod);
+            let residuals = e.residuals(closing, Writing::PLAIN);
+            for (index, residual) in residuals.into_iter().enumerate() {
+                measures.push(match closing {
+                    Closing::Constraint(_) if rod.is_some() => Measure::Rod(rods.len() - 1),
+                    Closing::Constraint(_) => Measure::Value,
+                    Closing::Cut(_) if is_length(model, closing, index) => Measure::Length,
+                    Closing::Cut(_) => Measure::Cosine,
+                });
+                sources.push((Source::Row(Row { closing, index }), residual));
+            }
+            cosines.extend(e.alignments(closing).into_iter().map(|cosine| (closing, cosine)));
+        }
+        for (number, solve) in model.solves.iter().enumerate() {
+            let (SolveHow::Formulas(list), Handling::Reduced) = (&solve.how, &model.handling) else { continue };
+            for (k, (formula, unknown)) in list.iter().zip(&solve.unknowns).enumerate() {
+                let value = e.scalar(formula);
+                let x = Symbols::of(&e.symbols.positions, unknown.joint).get(unknown.index).copied();
+                let residual = e.g.sub(x.unwrap_or(Scalar::ZERO), value);
+                sources.push((Source::Formula(number, k), residual));
+                measures.push(Measure::Value);
+            }
+        }
+        roots.extend(sources.iter().map(|source| source.1));
+        roots.extend(cosines.iter().map(|cosine| cosine.1));
+        let lengths = roots.len();
+        for measure in &mut measures {
+            if let Measure::Rod(number) = measure {
+                *number += lengths;
+            }
+        }
+        roots.extend(rods);
+        roots.extend(e.lengths());
+        let (movers, quaternions, columns) = columns(model, &e);
+        let mut lowering = Lowering::new(&e.g);
+        let roots = lowering.run(&roots);
+        let tape = Tape::new(&lowering.to, &roots);
+        let defaults = defaults(model, &e.symbols, off);
+        let parameter = |&id: &usize| matches!(e.symbols.table.get(id), Some(Symbol::Param { .. }));
+        let equations = sources.iter().zip(measures).enumerate().map(|(root, (&(source, _), measure))| {
+            let depends = tape.symbols(root);
+            let mut list: Vec<usize> = Vec::new();
+            for &id in &depends {
+                match movers.get(id) {
+                    Some(&Mover::Straight(column)) => list.push(column),
+                    Some(&Mover::Turns(number, _)) => {
+                        let first = quaternions.get(number).map_or(0, |q: &Quaternion| q.column);
+                        list.extend(first..first + 3);
+                    }
+                    _ => {}
+                }
+            }
+            list.sort_unstable();
+            list.dedup();
+            Equation { source, columns: list, adjustable: depends.iter().any(parameter), root, measure, scale: 1.0 }
+        });
+        let equations: Vec<Equation> = equations.collect();
+        let first = equations.len();
+        let alignments = cosines.iter().enumerate();
+        let alignments = alignments.map(|(k, &(closing, _))| Alignment { closing, root: first + k }).collect();
+        let mut problem = Problem { tape, equations, columns, alignments, movers, quaternions, defaults, size: 1.0 };
+        problem.measure(lengths, roots.len());
+        problem
+    }
+
+    /// Equations that depend on no coordinate.
+    pub(super) fn constants(&self) -> Vec<(usize, Gap)> {
+        let mut values = Values::default();
+        self.tape.run(&mut values, &self.defaults);
+        let constant = |k: &usize| self.equations[*k].columns.is_empty();
+        (0..self.equations.len()).filter(constant).map(|k| (k, self.gap(&values, &[k]))).collect()
+    }
+
+    /// Closings that move nothing, and are closed with axes that point the wrong way.
+    pub(super) fn reversed(&self) -> Vec<Closing> {
+        let mut values = Values::default();
+        self.tape.run(&mut values, &self.defaults);
+        let of = |equation: &Equation, closing: Closing| matches!(equation.source, Source::Row(row) if row.closing == closing);
+        let still = |closing: Closing| self.equations.iter().all(|one| !of(one, closing) || one.columns.is_empty());
+        let wrong = self.alignments.iter().filter(|one| self.tape.value(&values, one.root) < 0.5 && still(one.closing));
+        wrong.map(|one| one.closing).collect()
+    }
+
+    /// Size of the mechanism and scales of its equations.
+    fn measure(&mut self, first: usize, last: usize) {
+        let mut values = Values::default();
+        self.tape.run(&mut values, &self.defaults);
+        let lengths = (first..last).map(|root| self.tape.value(&values, root).abs());
+        let size = lengths.filter(|x| x.is_finite()).fold(0.0, f64::max);
+        self.size = if size > 0.0 { size } else { 1.0 };
+        for column in &mut self.columns {
+            column.unit *= if column.unit < 0.0 { -self.size } else { 1.0 };
+        }
+        let all: Vec<usize> = (0..self.equations.len()).collect();
+        let mut scales = vec![0.0_f64; all.len()];
+        let mut random = Random(7);
+        for _ in 0..3 {
+            let point = self.start(&mut random, 0.7);
+            let at = self.linearise(&point, &all, &mut values);
+            for (scale, row) in scales.iter_mut().zip(&at.rows) {
+                let square: f64 = row.iter().map(|entry| entry.1 * entry.1).sum();
+                if square.is_finite() {
+                    *scale = scale.max(square.sqrt());
+                }
+            }
+        }
+        for (equation, scale) in self.equations.iter_mut().zip(scales) {
+            equation.scale = if scale > 0.0 { scale } else { 1.0 };
+        }
+    }
+
+    /// Random coordinates; `amplitude` one fills the circle and twice the mechanism's size.
+    pub(super) fn start(&self, random: &mut Random, amplitude: f64) -> Point {
+        let mut point = Point(self.defaults.clone());
+        let step: Vec<f64> = self
+            .columns
+            .iter()
+            .map(|column| amplitude * random.next() * if column.unit == 1.0 { 3.0 } else { 1.0 })
+            .collect();
+        self.displace(&mut point, &step);
+        point
+    }
+
+    /// Moves along scaled columns.
+    pub(super) fn displace(&self, point: &mut Point, step: &[f64]) {
+        for (value, mover) in point.0.iter_mut().zip(&self.movers) {
+            if let Mover::Straight(column) = *mover {
+                *value += self.columns[column].unit * step[column];
+            }
+        }
+        for quaternion in &self.quaternions {
+            let Some(q) = point.0.get_mut(quaternion.symbol..quaternion.symbol + 4) else { continue };
+            let w = &step[quaternion.column..quaternion.column + 3];
+            let angle = (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]).sqrt();
+            let sinc = if angle < 1e-9 { 0.5 } else { (0.5 * angle).sin() / angle };
+            let turn = [(0.5 * angle).cos(), w[0] * sinc, w[1] * sinc, w[2] * sinc];
+            let turned = multiply([q[0], q[1], q[2], q[3]], turn);
+            let norm = turned.iter().map(|x| x * x).sum::<f64>().sqrt();
+            for (slot, x) in q.iter_mut().zip(turned) {
+                *slot = x / norm;
+            }
+        }
+    }
+
+    /// Scaled residuals of some equations.
+    pub(super) fn residuals(&self, point: &Point, equations: &[usize], values: &mut Values) -> Vec<f64> {
+        self.tape.run(values, &point.0);
+        let residual = |&k: &usize| {
+            let equation = &self.equations[k];
+            self.tape.value(values, equation.root) / equation.scale
+        };
+        equations.iter().map(residual).collect()
+    }
+
+    /// What is left of some equations, after an evaluation.
+    pub(super) fn gap(&self, values: &Values, equations: &[usize]) -> Gap {
+        let mut gap = Gap::default();
+        for equation in equations.iter().map(|&k| &self.equations[k]) {
+            let residual = self.tape.value(values, equation.root).abs();
+            match equation.measure {
+                Measure::Length => gap.square += residual * residual,
+                Measure::Cosine => gap.cosine = gap.cosine.max(residual),
+                Measure::Value => gap.value = gap.value.max(residual),
+                Measure::Rod(root) => {
+                    let length = self.tape.value(values, root).abs();
+                    let signed = self.tape.value(values, equation.root);
+                    let way = (length * length + 2.0 * signed).max(0.0).sqrt();
+                    gap.square += (way - length) * (way - length);
+                }
+            }
+        }
+        gap
+    }
+
+    /// Scaled residuals and Jacobian by scaled columns.
+    pub(super) fn linearise(&self, point: &Point, equations: &[usize], values: &mut Values) -> Linearised {
+        let residuals = self.residuals(point, equations, values);
+        let rows = equations.iter().map(|&k| {
+            let equation = &self.equations[k];
+            self.gradient(point, equation.root, 1.0 / equation.scale, values)
+        });
+        Linearised { rows: rows.collect(), residuals }
+    }
+
+    /// Numbers of the alignments of some closings.
+    pub(super) fn alignments_of(&self, closings: &[Closing]) -> Vec<usize> {
+        (0..self.alignments.len()).filter(|&k| closings.contains(&self.alignments[k].closing)).collect()
+    }
+
+    /// How far cosines are from one, after an evaluation.
+    pub(super) fn misalignments(&self, list: &[usize], values: &Values) -> Vec<f64> {
+        list.iter().map(|&k| self.tape.value(values, self.alignments[k].root) - 1.0).collect()
+    }
+
+    pub(super) fn alignment_rows(&self, point: &Point, list: &[usize], values: &mut Values) -> Vec<Vec<(usize, f64)>> {
+        list.iter().map(|&k| self.gradient(point, self.alignments[k].root, 1.0, values)).collect()
+    }
+
+    fn gradient(&self, point: &Point, root: usize, factor: f64, values: &mut Values) -> Vec<(usize, f64)> {
+        let mut row: Vec<(usize, f64)> = Vec::new();
+        let mut turns: Vec<(usize, [f64; 4])> = Vec::new();
+        self.tape.gradient(values, root, |symbol, slope| match self.movers.get(symbol) {
+            Some(&Mover::Straight(column)) => row.push((column, slope * factor * self.columns[column].unit)),
+            Some(&Mover::Turns(number, component)) => match turns.iter_mut().find(|turn| turn.0 == number) {
+                Some(turn) => turn.1[component] += slope * factor,
+                None => {
+                    let mut slopes = [0.0; 4];
+                    slopes[component] = slope * factor;
+                    turns.push((number, slopes));
+                }
+            },
+            _ => {}
+        });
+        for (number, slopes) in turns {
+            let quaternion = &self.quaternions[number];
+            let Some(&[w, i, j, k]) = point.0.get(quaternion.symbol..quaternion.symbol + 4) else { continue };
+            for axis in 0..3 {
+                let mut unit = [0.0; 4];
+                unit[axis + 1] = 0.5;
+                let rate = multiply([w, i, j, k], unit);
+                let entry: f64 = slopes.iter().zip(rate).map(|(a, b)| a * b).sum();
+                row.push((quaternion.column + axis, entry));
+            }
+        }
+        row
+    }
+}
+
+impl Equations<'_> {
+    fn rod_length(&mut self, closing: Closing) -> Option<Scalar> {
+        let Closing::Constraint(id) = closing else { return None };
+        match &self.model.constraints.get(id.0)?.kind {
+            ConstraintKind::Rod { length, .. } => Some(self.scalar(length)),
+            ConstraintKind::Value(_) => None,
+        }
+    }
+
+    /// Constant lengths of the mechanism, component by component.
+    fn lengths(&mut self) -> Vec<Scalar> {
+        let mechanism = std::rc::Rc::clone(&self.mechanism);
+        let model = self.model;
+        let mut offsets: Vec<_> = mechanism.tree.links.iter().map(|link| link.offset).collect();
+        let mut lengths = Vec::new();
+        let mut frames = Vec::new();
+        for joint in model.cuts.iter().filter_map(|id| model.joints.get(id.0)) {
+            frames.extend([&joint.parent, &joint.child]);
+        }
+        for constraint in &model.constraints {
+            if let ConstraintKind::Rod { between, length } = &constraint.kind {
+                frames.extend(between.iter());
+                lengths.push(self.scalar(length));
+            }
+        }
+        offsets.extend(frames.into_iter().map(|frame| self.place(frame).offset));
+        for offset in offsets {
+            lengths.extend(self.g.components(offset));
+        }
+        lengths
+    }
+}
+
+fn columns(model: &Model, e: &Equations<'_>) -> (Vec<Mover>, Vec<Quaternion>, Vec<Column>) {
+    let mut movers = vec![Mover::Rests; e.symbols.table.len()];
+    let mut quaternions: Vec<Quaternion> = Vec::new();
+    let mut columns: Vec<Column> = Vec::new();
+    for (joint, velocities) in e.symbols.velocities.iter().enumerate() {
+        let id = JointId(joint);
+        let first = columns.len();
+        let turns = model.joints.get(joint).is_some_and(has_quaternion) && velocities.len() >= 3;
+        let straight = velocities.len() - if turns { 3 } else { 0 };
+        for index in 0..velocities.len() {
+            columns.push(Column { coordinate: Coordinate { joint: id, index }, turns: index >= straight, unit: 1.0 });
+        }
+        if turns {
+            quaternions.push(Quaternion { symbol: usize::MAX, column: first + straight });
+        }
+        for (id, symbol) in e.symbols.table.iter().enumerate() {
+            let Symbol::Position { joint: at, component } = *symbol else { continue };
+            if at.0 != joint {
+                continue;
+            }
+            if component < straight {
+                movers[id] = Mover::Straight(first + component);
+            } else if let Some(last) = quaternions.last_mut() {
+                last.symbol = last.symbol.min(id);
+                movers[id] = Mover::Turns(quaternions.len() - 1, component - straight);
+            }
+        }
+    }
+    for link in &e.mechanism.tree.links {
+        if let (Motion::Prismatic(_), Some(column)) = (link.motion, columns.get_mut(link.freedom)) {
+            // Negative: in units of the size, which is not known yet.
+            column.unit = -1.0;
+        }
+    }
+    (movers, quaternions, columns)
+}
+
+/// Parameters near their defaults, orientations that turn nothing, all else zero.
+fn defaults(model: &Model, symbols: &Symbols, off: f64) -> Vec<f64> {
+    let mut random = Random(11);
+    let value = |symbol: &Symbol| match *symbol {
+        Symbol::Param { param, element } => {
+            let default = model.params.get(param.0).and_then(|param| param.default.get(element)).copied();
+            let default = default.unwrap_or(0.0);
+            default + off * (1.0 + default.abs()) * random.next()
+        }
+        Symbol::Position { joint, component } => {
+            let joint = model.joints.get(joint.0);
+            let turns = joint.is_some_and(|joint| has_quaternion(joint) && component == joint.kind.freedoms() - 3);
+            f64::from(u8::from(turns))
+        }
+        _ => 0.0,
+    };
+    symbols.table.iter().map(value).collect()
+}
+
+fn multiply(p: [f64; 4], q: [f64; 4]) -> [f64; 4] {
+    [
+        p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
+        p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
+        p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1],
+        p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0],
+    ]
+}
+
+/// Numbers between -1 and 1 (SplitMix64), the same in every build.
+pub(super) struct Random(pub u64);
+
+impl Random {
+    pub(super) fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((x ^ (x >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}

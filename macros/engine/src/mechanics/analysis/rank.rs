@@ -1,0 +1,75 @@
+//! Stage `mechanics`: which equations follow from the others.
+//!
+//! In: Jacobians at several closed configurations. Out: the rows that carry the rank, the earlier ones first: a row is kept if
+//! it raises the rank at some configuration, so one is dropped where it follows from those before it at all of them.
+
+use super::singular::{add, dot};
+
+/// A row is new if this much of it stands across all kept ones.
+const NEW: f64 = 1e-6;
+
+/// An orthonormal basis that grows.
+#[derive(Clone, Default)]
+pub(super) struct Basis {
+    vectors: Vec<Vec<f64>>,
+}
+
+impl Basis {
+    /// What stands across the basis, orthogonalised twice.
+    pub(super) fn rest(&self, vector: &[f64]) -> Vec<f64> {
+        let mut rest = vector.to_vec();
+        for _ in 0..2 {
+            for unit in &self.vectors {
+                let along = dot(unit, &rest);
+                add(&mut rest, -along, unit);
+            }
+        }
+        rest
+    }
+
+    /// Adds a direction if more than `least` of it is new.
+    pub(super) fn grow(&mut self, vector: &[f64], least: f64) -> bool {
+        let mut rest = self.rest(vector);
+        let norm = dot(&rest, &rest).sqrt();
+        if norm.is_nan() || norm <= least {
+            return false;
+        }
+        rest.iter_mut().for_each(|x| *x /= norm);
+        self.vectors.push(rest);
+        true
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.vectors.len()
+    }
+}
+
+/// Whether each row is kept, in the given order. Rows are unit or zero.
+pub(super) fn kept(jacobians: &[&[Vec<f64>]], order: &[usize]) -> Vec<usize> {
+    let mut bases = vec![Basis::default(); jacobians.len()];
+    let mut kept = Vec::new();
+    for &row in order {
+        let mut new = false;
+        for (basis, jacobian) in bases.iter_mut().zip(jacobians) {
+            new |= jacobian.get(row).is_some_and(|row| basis.grow(row, NEW));
+        }
+        if new {
+            kept.push(row);
+        }
+    }
+    kept
+}
+
+/// Greatest rank of some columns at any configuration.
+pub(super) fn rank(jacobians: &[&[Vec<f64>]], rows: &[usize], columns: &[bool]) -> usize {
+    let rank_of = |jacobian: &&[Vec<f64>]| {
+        let mut basis = Basis::default();
+        for &row in rows {
+            let Some(row) = jacobian.get(row) else { continue };
+            let part: Vec<f64> = row.iter().zip(columns).map(|(&x, &on)| if on { x } else { 0.0 }).collect();
+            basis.grow(&part, NEW);
+        }
+        basis.len()
+    };
+    jacobians.iter().map(rank_of).max().unwrap_or(0)
+}

@@ -1,0 +1,406 @@
+//! Stage `mechanics`: the steps that find dependent coordinates.
+//!
+//! In: one group of equations with Jacobians at closed configurations. Out: `solve` items and systems for Newton's method
+//! in an order in which each step needs earlier ones only. What couplings, formulas and closed forms give is eliminated
+//! from the Jacobians first; what is left of the other rows chooses the dependent coordinates among the rest, those
+//! farthest from the ground first, as far as they are well determined.
+
+use std::collections::HashMap;
+
+use crate::model::types::{BodyRef, Closing, Coordinate, JointId, Model, SolveHow};
+
+use super::super::closings::coordinate_name;
+use super::super::structure::{Means, Row, Step};
+use super::blocks::{components, matching};
+use super::checks::thing;
+use super::configurations::Configuration;
+use super::linear::Elimination;
+use super::problem::{Problem, Source};
+use super::rank::Basis;
+use super::singular::{add, dot};
+use super::{Complaint, Group, row_of};
+
+/// A pivot below this is none.
+const PIVOT: f64 = 1e-7;
+
+/// A column counts as well determined if this much of it stands across those chosen before.
+const WELL: [f64; 3] = [2e-2, 1e-3, 1e-6];
+
+pub(super) struct Reduction<'a> {
+    pub model: &'a Model,
+    pub problem: &'a Problem,
+    pub group: &'a Group,
+    pub configurations: &'a [Configuration],
+    /// Places in the group of equations that are not implied by those before them, formulas included.
+    pub kept: &'a [usize],
+    pub eliminations: &'a [&'a Elimination],
+    pub driven: &'a HashMap<Coordinate, usize>,
+}
+
+/// A `solve` item in this group.
+struct Item {
+    number: usize,
+    /// Places in the group.
+    rows: Vec<usize>,
+    /// Places among the group's columns.
+    unknowns: Vec<usize>,
+}
+
+type Matrix = Vec<Vec<f64>>;
+
+impl Reduction<'_> {
+    pub(super) fn steps(&self) -> Result<Vec<Step>, Vec<Complaint>> {
+        let mut matrices: Vec<Matrix> = self.configurations.iter().map(|c| c.jacobian.clone()).collect();
+        // Rows that are left for Newton's method, and columns that may be found by it.
+        let mut rows: Vec<usize> = self.kept.to_vec();
+        let mut columns: Vec<usize> = (0..self.group.columns.len()).collect();
+        columns.retain(|&k| !self.driven.contains_key(&self.coordinate(k)));
+        for one in self.eliminations {
+            let row = self.row_of_constraint(one);
+            let (Some(row), Some(column)) = (row, self.column(one.unknown)) else { continue };
+            matrices.iter_mut().for_each(|matrix| eliminate(matrix, row, column));
+            rows.retain(|&k| k != row);
+            columns.retain(|&k| k != column);
+        }
+        let items = self.items()?;
+        for item in &items {
+            if !self.solvable(item, &mut matrices) {
+                return Err(vec![self.undetermined(item)]);
+            }
+            rows.retain(|k| !item.rows.contains(k));
+            columns.retain(|k| !item.unknowns.contains(k));
+        }
+        // Loops that share coordinates can each be on a branch where something else moves, so one sample need not show
+        // all of them at their best: first each coordinate needs one vote, and every system one regular sample.
+        if let Ok(unknowns) = self.choose(&matrices, &rows, &columns, 1) {
+            let steps = self.order(&items, &matrices, &rows, &unknowns)?;
+            if self.regular(&steps, &matrices) {
+                return Ok(steps);
+            }
+        }
+        let unknowns = self.choose(&matrices, &rows, &columns, matrices.len() / 2 + 1)?;
+        self.order(&items, &matrices, &rows, &unknowns)
+    }
+
+    /// Whether each system is well determined at some sample.
+    fn regular(&self, steps: &[Step], matrices: &[Matrix]) -> bool {
+        steps.iter().all(|step| {
+            let Means::Newton { rows, .. } = &step.means else { return true };
+            let own = |&k: &usize| self.row(k).is_some_and(|row| rows.contains(&row));
+            let rows: Vec<usize> = self.kept.iter().copied().filter(own).collect();
+            let columns: Vec<usize> = step.unknowns.iter().filter_map(|&unknown| self.column(unknown)).collect();
+            matrices.iter().any(|matrix| {
+                let mut basis = Basis::default();
+                let part = |&row: &usize| -> Vec<f64> { columns.iter().map(|&column| matrix[row][column]).collect() };
+                rows.iter().map(part).all(|row| basis.grow(&row, WELL[1] * norm(&row).max(1e-3)))
+            })
+        })
+    }
+
+    fn coordinate(&self, column: usize) -> Coordinate {
+        self.problem.columns[self.group.columns[column]].coordinate
+    }
+
+    fn column(&self, coordinate: Coordinate) -> Option<usize> {
+        (0..self.group.columns.len()).find(|&k| self.coordinate(k) == coordinate)
+    }
+
+    fn row_of_constraint(&self, one: &Elimination) -> Option<usize> {
+        let own = |&k: &usize| self.row(k).is_some_and(|row| row.closing == Closing::Constraint(one.constraint));
+        self.kept.iter().copied().find(own)
+    }
+
+    fn row(&self, place: usize) -> Option<Row> {
+        row_of(self.problem, self.group.equations[place])
+    }
+
+    fn names(&self, columns: &[usize]) -> String {
+        let names: Vec<String> =
+            columns.iter().map(|&k| format!("`{}`", coordinate_name(self.model, self.coordinate(k)))).collect();
+        names.join(", ")
+    }
+
+    /// The `solve` items that speak of this group, checked against its equations.
+    fn items(&self) -> Result<Vec<Item>, Vec<Complaint>> {
+        let mut complaints = Vec::new();
+        let mut items: Vec<Item> = Vec::new();
+        for (number, solve) in self.model.solves.iter().enumerate() {
+            let rows: Vec<usize> = match &solve.how {
+                SolveHow::Formulas(_) => {
+                    let own = |&k: &usize| {
+                        let source = self.problem.equations[self.group.equations[k]].source;
+                        matches!(source, Source::Formula(item, _) if item == number)
+                    };
+                    self.kept.iter().copied().filter(own).collect()
+                }
+                SolveHow::From { closing, .. } => {
+                    let own = |&k: &usize| self.row(k).is_some_and(|row| row.closing == *closing);
+                    if !(0..self.group.equations.len()).any(|k| own(&k)) {
+                        continue;
+                    }
+                    self.kept.iter().copied().filter(own).collect()
+                }
+            };
+            let formulas = matches!(solve.how, SolveHow::Formulas(_));
+            if formulas && rows.is_empty() {
+                continue;
+            }
+            let mut complain = |message: String, help: &str| {
+                complaints.push(Complaint { span: solve.span, message, help: Some(help.to_owned()) });
+            };
+            let mut unknowns = Vec::new();
+            for &unknown in &solve.unknowns {
+                let name = coordinate_name(self.model, unknown);
+                let Some(column) = self.column(unknown) else {
+                    complain(format!("`{name}` has no part in this loop"), "name coordinates of the loop");
+                    continue;
+                };
+                let taken = self.eliminations.iter().any(|one| one.unknown == unknown)
+                    || items.iter().any(|item| item.unknowns.contains(&column));
+                if self.driven.contains_key(&unknown) {
+                    complain(format!("`{name}` is driven: it can't be solved for"), "remove the drive or the unknown");
+                } else if taken {
+                    complain(format!("`{name}` is found already"), "name each unknown once");
+                } else {
+                    unknowns.push(column);
+                }
+            }
+            if unknowns.len() < solve.unknowns.len() {
+                continue;
+            }
+            if rows.len() != unknowns.len() {
+                let (have, want) = (rows.len(), unknowns.len());
+                let help = if have > want {
+                    "name all coordinates that follow from the loop"
+                } else {
+                    "name as many coordinates as the loop gives equations"
+                };
+                complain(format!("`solve` names {want} unknowns, but the loop gives {have} equations for them"), help);
+                continue;
+            }
+            items.push(Item { number, rows, unknowns });
+        }
+        if complaints.is_empty() { Ok(items) } else { Err(complaints) }
+    }
+
+    /// Eliminates an item's unknowns; whether that is possible at some configuration.
+    fn solvable(&self, item: &Item, matrices: &mut [Matrix]) -> bool {
+        let mut some = false;
+        for matrix in matrices {
+            let (mut rows, mut columns) = (item.rows.clone(), item.unknowns.clone());
+            let mut sound = true;
+            while !rows.is_empty() {
+                let pivots = rows.iter().flat_map(|&i| columns.iter().map(move |&j| (i, j)));
+                let size = |&(i, j): &(usize, usize)| matrix[i][j].abs();
+                let best = pivots.max_by(|a, b| size(a).total_cmp(&size(b)).then(b.cmp(a)));
+                let Some((i, j)) = best else { break };
+                sound &= matrix[i][j].abs() > PIVOT;
+                eliminate(matrix, i, j);
+                rows.retain(|&k| k != i);
+                columns.retain(|&k| k != j);
+            }
+            some |= sound;
+        }
+        some
+    }
+
+    fn undetermined(&self, item: &Item) -> Complaint {
+        let solve = &self.model.solves[item.number];
+        Complaint {
+            span: solve.span,
+            message: format!("the loop does not determine {}", self.names(&item.unknowns)),
+            help: Some("name coordinates that follow from the loop when the others are known".to_owned()),
+        }
+    }
+
+    /// Dependent coordinates for the rows that are left, each well determined at `quorum` samples.
+    fn choose(
+        &self,
+        matrices: &[Matrix],
+        rows: &[usize],
+        columns: &[usize],
+        quorum: usize,
+    ) -> Result<Vec<usize>, Vec<Complaint>> {
+        let wished = |column: usize| self.model.independent.contains(&self.coordinate(column));
+        let turns = |column: usize| self.problem.columns[self.group.columns[column]].turns;
+        let mut candidates: Vec<usize> = columns.to_vec();
+        candidates.retain(|&k| !wished(k));
+        candidates.sort_by_key(|&k| std::cmp::Reverse((self.depth(self.coordinate(k).joint), k)));
+        let parts: Vec<HashMap<usize, Vec<f64>>> = matrices
+            .iter()
+            .map(|matrix| {
+                let column = |&k: &usize| (k, rows.iter().map(|&row| matrix[row][k]).collect());
+                candidates.iter().map(column).collect()
+            })
+            .collect();
+        let mut chosen: Vec<usize> = Vec::new();
+        let mut bases = vec![Basis::default(); matrices.len()];
+        for least in WELL {
+            for &column in &candidates {
+                if chosen.len() == rows.len() {
+                    break;
+                }
+                if chosen.contains(&column) {
+                    continue;
+                }
+                let votes = bases.iter().zip(&parts).filter(|(basis, part)| {
+                    part.get(&column).is_some_and(|vector| {
+                        let rest = basis.rest(vector);
+                        norm(&rest) > least * norm(vector).max(1e-3)
+                    })
+                });
+                if votes.count() >= quorum {
+                    for (basis, part) in bases.iter_mut().zip(&parts) {
+                        if let Some(vector) = part.get(&column) {
+                            basis.grow(vector, WELL[2] * norm(vector).max(1e-3));
+                        }
+                    }
+                    chosen.push(column);
+                }
+            }
+        }
+        if chosen.len() == rows.len() && !chosen.iter().any(|&k| turns(k)) {
+            return Ok(chosen);
+        }
+        let closing = rows.iter().filter_map(|&k| self.row(k)).map(|row| row.closing).min();
+        let (span, what) = closing.map_or((self.model.name.span(), String::new()), |c| thing(self.model, c));
+        let complaint = |message: String, help: &str| vec![Complaint { span, message, help: Some(help.to_owned()) }];
+        Err(if chosen.iter().any(|&k| turns(k)) {
+            // Not even if other coordinates would do: what they are worth on the branch that is meant is not known.
+            let message = format!("{what} makes an orientation depend on other coordinates, and it is a quaternion");
+            complaint(message, "write `coordinates: RollPitchYaw` at the joint or the body, or name it `independent`")
+        } else if columns.iter().any(|&k| wished(k)) {
+            let named: Vec<usize> = columns.iter().copied().filter(|&k| wished(k)).collect();
+            let message = format!("{what} does not leave all these independent: {}", self.names(&named));
+            complaint(message, "take coordinates out of `independent`")
+        } else {
+            complaint(format!("{what} does not determine its coordinates"), "give a joint of the loop less freedom")
+        })
+    }
+
+    /// Number of joints between the ground and what this one carries.
+    fn depth(&self, joint: JointId) -> usize {
+        let carrier =
+            |joint: JointId| match self.model.joints.get(joint.0)?.parent.body {
+                BodyRef::Ground => None,
+                BodyRef::Body(body) => self.model.tree.iter().copied().find(|id| {
+                    self.model.joints.get(id.0).is_some_and(|joint| joint.child.body == BodyRef::Body(body))
+                }),
+            };
+        std::iter::successors(Some(joint), |&joint| carrier(joint)).take(self.model.joints.len()).count()
+    }
+
+    /// Steps in an order in which each needs earlier ones only.
+    fn order(
+        &self,
+        items: &[Item],
+        matrices: &[Matrix],
+        rows: &[usize],
+        unknowns: &[usize],
+    ) -> Result<Vec<Step>, Vec<Complaint>> {
+        // Nodes: items, then rows with the unknown that each is matched with.
+        let entry = |row: usize, column: usize| matrices.iter().map(|m| m[row][column].abs()).fold(0.0, f64::max);
+        let direct: Vec<Vec<usize>> = rows.iter().map(|&row| self.depends(row)).collect();
+        let weights: Vec<Vec<(usize, f64)>> = rows
+            .iter()
+            .map(|&row| {
+                let weights = unknowns.iter().enumerate().map(|(k, &column)| (k, entry(row, column)));
+                weights.filter(|weight| weight.1 > 1e-9).collect()
+            })
+            .collect();
+        let matched = matching(&weights, unknowns.len());
+        let mut node_of: HashMap<usize, usize> = HashMap::new();
+        for (node, item) in items.iter().enumerate() {
+            node_of.extend(item.unknowns.iter().map(|&column| (column, node)));
+        }
+        for (k, unknown) in matched.iter().enumerate() {
+            if let Some(&column) = unknown.and_then(|unknown| unknowns.get(unknown)) {
+                node_of.insert(column, items.len() + k);
+            }
+        }
+        let needs_of = |columns: &mut dyn Iterator<Item = usize>| {
+            let mut needs: Vec<usize> = columns.filter_map(|column| node_of.get(&column).copied()).collect();
+            needs.sort_unstable();
+            needs.dedup();
+            needs
+        };
+        let mut needs: Vec<Vec<usize>> = Vec::new();
+        for item in items {
+            let own = |column: &usize| !item.unknowns.contains(column);
+            let mut columns = item.rows.iter().flat_map(|&row| self.depends(row)).filter(own);
+            needs.push(needs_of(&mut columns));
+        }
+        for columns in &direct {
+            needs.push(needs_of(&mut columns.iter().copied()));
+        }
+        let mut steps = Vec::new();
+        for group in components(&needs) {
+            let item = group.iter().find(|&&node| node < items.len()).and_then(|&node| items.get(node));
+            match item {
+                Some(item) if group.len() > 1 => {
+                    let span = self.model.solves[item.number].span;
+                    let names = self.names(&item.unknowns);
+                    let message =
+                        format!("{names} can't be solved for here: the loop needs coordinates that follow from them");
+                    let help =
+                        Some("let the coordinates that the loop needs be independent, or leave this out".to_owned());
+                    return Err(vec![Complaint { span, message, help }]);
+                }
+                Some(item) => {
+                    let unknowns = item.unknowns.iter().map(|&column| self.coordinate(column)).collect();
+                    steps.push(Step { unknowns, means: Means::Solve(item.number) });
+                }
+                None => {
+                    let places: Vec<usize> = group.iter().map(|node| node - items.len()).collect();
+                    let mut found: Vec<usize> = places
+                        .iter()
+                        .filter_map(|&k| matched[k].and_then(|unknown| unknowns.get(unknown)).copied())
+                        .collect();
+                    found.sort_unstable();
+                    let unknowns = found.into_iter().map(|column| self.coordinate(column)).collect();
+                    let rows = places.iter().filter_map(|&k| self.row(rows[k])).collect();
+                    steps.push(Step { unknowns, means: Means::Newton { rows, guess: 0 } });
+                }
+            }
+        }
+        Ok(steps)
+    }
+
+    /// Columns that an equation depends on, couplings seen through.
+    fn depends(&self, place: usize) -> Vec<usize> {
+        let mut open: Vec<Coordinate> = self.problem.equations[self.group.equations[place]]
+            .columns
+            .iter()
+            .map(|&column| self.problem.columns[column].coordinate)
+            .collect();
+        let mut found = Vec::new();
+        while let Some(coordinate) = open.pop() {
+            match self.eliminations.iter().find(|one| one.unknown == coordinate) {
+                Some(one) => open.extend(one.others.iter().copied()),
+                None => found.extend(self.column(coordinate)),
+            }
+        }
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+}
+
+fn norm(v: &[f64]) -> f64 {
+    dot(v, v).sqrt()
+}
+
+/// Takes a column out of all other rows.
+fn eliminate(matrix: &mut Matrix, row: usize, column: usize) {
+    let pivot = matrix[row].clone();
+    if pivot[column].abs() <= PIVOT {
+        return;
+    }
+    for (k, other) in matrix.iter_mut().enumerate() {
+        let factor = other[column] / pivot[column];
+        if k != row && factor != 0.0 {
+            add(other, -factor, &pivot);
+            other[column] = 0.0;
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! Stage `mechanics`: the equations of what closes loops.
+//!
+//! In: a closing (a joint that is cut, a rod, a user's expression), and how it is to be written. Out: its residuals, which
+//! vanish where the loop is closed. The equations of a joint are parts of the way d from the parent's to the child's
+//! point, and cosines of angles between axes of the child and axes of the parent that are perpendicular when it is
+//! closed (Haug 1989, chapter 9):
+//!
+//! | joint | rows |
+//! |---|---|
+//! | Ball | d |
+//! | Universal | d, second axis . first axis |
+//! | Revolute | d, child's axis . both parent's axes across it |
+//! | Prismatic | d . both parent's axes across the travel, three axes of the child . the next one of the parent |
+//! | Cylindrical | d . both axes across, child's axis . both axes across |
+//! | Screw | those of Cylindrical, pitch * sin(travel / pitch - angle) |
+//! | Planar | d . axis, child's axis . both axes across |
+//! | Fixed | d, three axes of the child . the next one of the parent |
+//!
+//! A rod is (d . d - length^2) / 2, an expression is itself. Cosines vanish on a further branch too, where axes point the
+//! other way: [`Equations::alignments`] tells the branches apart. The axes in which d and the cosines are worked out
+//! don't matter for what the equations say, but for what they cost: [`Writing`].
+
+mod cut;
+mod names;
+mod view;
+mod wrenches;
+
+use crate::model::types::{Closing, ConstraintId, ConstraintKind, JointKind, Model};
+use crate::symbolic::graph::Scalar;
+
+use super::equations::{Equations, Style};
+
+pub(super) use names::path;
+pub use names::{coordinate_name, row_name};
+pub use wrenches::Held;
+
+/// In which axes a closing is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Axes {
+    /// Those of the joint's parent frame, or the first frame of a rod.
+    Parent,
+    /// Those of the joint's child frame, or the second frame of a rod.
+    Child,
+    World,
+    /// Those of the last link that carries both.
+    Common,
+    /// Those of the frame on which the first joint of the parent's side stands: for a leg its frame on the ground, turned
+    /// by its heading. Where the parent itself carries both, this is `Parent`.
+    ParentBase,
+    /// The same of the child's side.
+    ChildBase,
+}
+
+/// How a closing is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Writing {
+    pub axes: Axes,
+    /// [`Style::World`]: points are taken in world axes from rotations that all closings share, but for the side on whose
+    /// base the equations are written; it pays for a body that many loops hang on, and gives planar loops absolute
+    /// angles. [`Style::Nested`]: each point passes joint by joint.
+    pub style: Style,
+}
+
+impl Writing {
+    /// What derivation tries.
+    pub const ALL: [Writing; 12] = {
+        let axes = [Axes::Parent, Axes::ParentBase, Axes::ChildBase, Axes::World, Axes::Common, Axes::Child];
+        let mut all = [Writing { axes: Axes::Parent, style: Style::Nested }; 12];
+        let mut k = 0;
+        while k < 12 {
+            let style = if k % 2 == 0 { Style::Nested } else { Style::World };
+            all[k] = Writing { axes: axes[k / 2], style };
+            k += 1;
+        }
+        all
+    };
+    /// As good as any where cost is of no concern.
+    pub const PLAIN: Writing = Writing { axes: Axes::Common, style: Style::Nested };
+}
+
+/// Number of equations that a closing gives.
+pub fn row_count(model: &Model, closing: Closing) -> usize {
+    match closing {
+        Closing::Cut(joint) => model.joints.get(joint.0).map_or(0, |joint| joint_rows(&joint.kind)),
+        Closing::Constraint(id) => usize::from(model.constraints.get(id.0).is_some()),
+    }
+}
+
+fn joint_rows(kind: &JointKind) -> usize {
+    6 - kind.freedoms().min(6)
+}
+
+/// Whether the equation of a cut joint is a length (m), and not a cosine.
+pub fn is_length(model: &Model, closing: Closing, index: usize) -> bool {
+    let Closing::Cut(joint) = closing else { return false };
+    let lengths = match model.joints.get(joint.0).map(|joint| &joint.kind) {
+        Some(JointKind::Prismatic { .. } | JointKind::Cylindrical { .. }) => 2,
+        Some(JointKind::Screw { .. }) if index == 4 => 5,
+        Some(JointKind::Screw { .. }) => 2,
+        Some(JointKind::Planar { .. }) => 1,
+        _ => 3,
+    };
+    index < lengths
+}
+
+/// Everything that gives equations, in source order: joints, then constraints.
+pub fn closings(model: &Model) -> Vec<Closing> {
+    let cuts = model.cuts.iter().map(|&joint| Closing::Cut(joint));
+    let constraints = (0..model.constraints.len()).map(|k| Closing::Constraint(ConstraintId(k)));
+    cuts.chain(constraints).collect()
+}
+
+impl Equations<'_> {
+    /// The equations of a closing, [`row_count`] of them: lengths in metres (half squares of lengths for a rod), cosines.
+    pub fn residuals(&mut self, closing: Closing, writing: Writing) -> Vec<Scalar> {
+        match closing {
+            Closing::Cut(joint) => self.cut(joint).map_or_else(Vec::new, |cut| self.cut_residuals(&cut, writing)),
+            Closing::Constraint(id) => {
+                let model = self.model;
+                match model.constraints.get(id.0).map(|constraint| &constraint.kind) {
+                    Some(ConstraintKind::Value(value)) => vec![self.scalar(value)],
+                    Some(ConstraintKind::Rod { between, length }) => {
+                        let ends = [self.place(&between[0]), self.place(&between[1])];
+                        let length = self.scalar(length);
+                        let way = self.way_in(&ends, writing);
+                        let g = &mut self.g;
+                        let (square, target) = (g.dot(way, way), g.mul(length, length));
+                        let (half, rest) = (g.decimal(0.5), g.sub(square, target));
+                        vec![g.mul(half, rest)]
+                    }
+                    None => Vec::new(),
+                }
+            }
+        }
+    }
+
+    /// Time derivatives of the residuals, in terms of the velocity symbols.
+    pub fn residual_rates(&mut self, closing: Closing, writing: Writing) -> Vec<Scalar> {
+        let residuals = self.residuals(closing, writing);
+        self.time_derivative(&residuals)
+    }
+
+    /// Cosines that are one where a joint is closed as it was meant, and minus one (or anything else) on the branches
+    /// that the equations cannot tell from it.
+    pub fn alignments(&mut self, closing: Closing) -> Vec<Scalar> {
+        match closing {
+            Closing::Cut(joint) => self.cut(joint).map_or_else(Vec::new, |cut| self.cut_alignments(&cut)),
+            Closing::Constraint(_) => Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! Stage `mechanics`: a cut joint as equations.
+//!
+//! In: the joint. Out: its two frames, turned so that its axis is a coordinate axis, and the list of its equations.
+
+use crate::model::types::{Expr, JointId, JointKind};
+use crate::symbolic::graph::{Scalar, Vector};
+
+use super::super::build::Place;
+use super::super::constants::{self, Axis};
+use super::super::equations::Equations;
+use super::Writing;
+use super::view::View;
+
+/// One equation of a joint.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Equation {
+    /// A component of the way in the axes that the equations are written in.
+    Gap(usize),
+    /// The way along one of the parent's axes.
+    Along(usize),
+    /// An axis of the child . an axis of the parent.
+    Turn(usize, usize),
+    /// Travel along the axis against the angle about it, with metres per radian.
+    Pitch(usize, Scalar),
+}
+
+/// A cut joint.
+#[derive(Clone, Debug)]
+pub(super) struct Cut {
+    /// Parent and child.
+    pub ends: [Place; 2],
+    pub equations: Vec<Equation>,
+    /// Axes that coincide when the joint is closed as it was meant.
+    aligned: Vec<usize>,
+}
+
+impl Equations<'_> {
+    pub(super) fn cut(&mut self, id: JointId) -> Option<Cut> {
+        let model = self.model;
+        let joint = model.joints.get(id.0)?;
+        let mut ends = [self.place(&joint.parent), self.place(&joint.child)];
+        let gap = || (0..3).map(Equation::Gap);
+        let all = || (0..3).map(|k| Equation::Turn(k, (k + 1) % 3));
+        let across = |k: usize| [(k + 1) % 3, (k + 2) % 3];
+        let along = |k: usize| across(k).map(Equation::Along).into_iter();
+        let turns = |k: usize| across(k).map(|other| Equation::Turn(k, other)).into_iter();
+        let (equations, aligned): (Vec<Equation>, Vec<usize>) = match &joint.kind {
+            JointKind::Free(_) => (Vec::new(), Vec::new()),
+            JointKind::Fixed => (gap().chain(all()).collect(), vec![0, 1, 2]),
+            JointKind::Ball(_) => (gap().collect(), Vec::new()),
+            JointKind::Universal { axes } => {
+                let [first, second] = [self.turned(&axes[0]), self.turned(&axes[1])];
+                self.turn_end(&mut ends[0], &first);
+                self.turn_end(&mut ends[1], &second);
+                (gap().chain([Equation::Turn(second.index, first.index)]).collect(), Vec::new())
+            }
+            JointKind::Revolute { axis } => {
+                let k = self.turn_ends(&mut ends, axis);
+                (gap().chain(turns(k)).collect(), vec![k])
+            }
+            JointKind::Prismatic { axis } => {
+                let k = self.turn_ends(&mut ends, axis);
+                (along(k).chain(all()).collect(), vec![0, 1, 2])
+            }
+            JointKind::Cylindrical { axis } => {
+                let k = self.turn_ends(&mut ends, axis);
+                (along(k).chain(turns(k)).collect(), vec![k])
+            }
+            JointKind::Screw { axis, pitch } => {
+                let k = self.turn_ends(&mut ends, axis);
+                let pitch = self.scalar(pitch);
+                (along(k).chain(turns(k)).chain([Equation::Pitch(k, pitch)]).collect(), vec![k])
+            }
+            JointKind::Planar { axis } => {
+                let k = self.turn_ends(&mut ends, axis);
+                ([Equation::Along(k)].into_iter().chain(turns(k)).collect(), vec![k])
+            }
+        };
+        Some(Cut { ends, equations, aligned })
+    }
+
+    fn turned(&mut self, axis: &Expr) -> Axis {
+        let direction = self.vector(axis);
+        let direction = self.g.components(direction);
+        constants::axis(&mut self.g, direction)
+    }
+
+    fn turn_end(&mut self, end: &mut Place, axis: &Axis) {
+        end.rotation = constants::compose(&mut self.g, end.rotation, axis.turn);
+    }
+
+    /// Turns both frames so that the axis is a coordinate axis, or the opposite of one: no equation minds.
+    fn turn_ends(&mut self, ends: &mut [Place; 2], axis: &Expr) -> usize {
+        let axis = self.turned(axis);
+        for end in ends {
+            self.turn_end(end, &axis);
+        }
+        axis.index
+    }
+
+    pub(super) fn cut_residuals(&mut self, cut: &Cut, writing: Writing) -> Vec<Scalar> {
+        let view = self.view(&cut.ends, writing);
+        let way = self.see_cut_way(&view, cut);
+        let equations = cut.equations.iter();
+        equations.map(|&equation| self.cut_residual(cut, &view, way, equation)).collect()
+    }
+
+    /// The way from parent to child, if an equation speaks of it.
+    pub(super) fn see_cut_way(&mut self, view: &View, cut: &Cut) -> Vector {
+        let turns = |equation: &Equation| matches!(equation, Equation::Turn(..));
+        if cut.equations.iter().all(turns) { Vector::ZERO } else { self.see_way(view, &cut.ends) }
+    }
+
+    fn cut_residual(&mut self, cut: &Cut, view: &View, way: Vector, equation: Equation) -> Scalar {
+        match equation {
+            Equation::Gap(k) => self.g.component(way, k),
+            Equation::Along(k) => {
+                let axis = self.see_axis(view, &cut.ends[0], k);
+                self.g.dot(way, axis)
+            }
+            Equation::Turn(k, other) => self.see_cosine(view, cut, k, other),
+            Equation::Pitch(k, pitch) => {
+                let axis = self.see_axis(view, &cut.ends[0], k);
+                let travel = self.g.dot(way, axis);
+                let Some((sin, cos)) = self.thread(travel, pitch) else { return travel };
+                let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+                let (c, s) = (self.see_cosine(view, cut, i, i), self.see_cosine(view, cut, i, j));
+                let g = &mut self.g;
+                let (plus, minus) = (g.mul(sin, c), g.mul(cos, s));
+                let lag = g.sub(plus, minus);
+                g.mul(pitch, lag)
+            }
+        }
+    }
+
+    /// Sine and cosine of the angle that belongs to a travel; nothing for a thread without pitch, which has no travel.
+    fn thread(&mut self, travel: Scalar, pitch: Scalar) -> Option<(Scalar, Scalar)> {
+        if pitch == Scalar::ZERO {
+            return None;
+        }
+        let angle = self.g.div(travel, pitch);
+        Some((self.g.sin(angle), self.g.cos(angle)))
+    }
+
+    pub(super) fn see_axis(&mut self, view: &View, place: &Place, axis: usize) -> Vector {
+        let axis = self.axis_in_link(place, axis);
+        self.see_vector(view, place.link, axis)
+    }
+
+    fn see_cosine(&mut self, view: &View, cut: &Cut, child: usize, parent: usize) -> Scalar {
+        let (c, p) = (self.see_axis(view, &cut.ends[1], child), self.see_axis(view, &cut.ends[0], parent));
+        self.g.dot(c, p)
+    }
+
+    pub(super) fn cut_alignments(&mut self, cut: &Cut) -> Vec<Scalar> {
+        let view = self.view(&cut.ends, Writing::PLAIN);
+        let mut cosines: Vec<Scalar> = Vec::new();
+        for &k in &cut.aligned {
+            cosines.push(self.see_cosine(&view, cut, k, k));
+        }
+        for &equation in &cut.equations {
+            let Equation::Pitch(k, pitch) = equation else { continue };
+            let way = self.see_cut_way(&view, cut);
+            let axis = self.see_axis(&view, &cut.ends[0], k);
+            let travel = self.g.dot(way, axis);
+            if let Some((sin, cos)) = self.thread(travel, pitch) {
+                let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+                let (c, s) = (self.see_cosine(&view, cut, i, i), self.see_cosine(&view, cut, i, j));
+                let products = [self.g.mul(cos, c), self.g.mul(sin, s)];
+                cosines.push(self.g.sum(&products));
+            }
+        }
+        cosines
+    }
+}

@@ -1,0 +1,124 @@
+//! Stage `mechanics`: what becomes of every coordinate and of every constraint equation.
+//!
+//! In: nothing. Out: the types that [`super::analysis`] fills before anything is derived, and that derivation and `emit`
+//! read. A mechanism with loops is an open tree whose coordinates obey equations. Coordinates of the tree are the state,
+//! or follow a drive, or are found from the others in an order of steps; equations that no step solves keep multipliers.
+
+use crate::model::types::{Closing, ConstraintId, Coordinate, JointId, Model};
+
+use super::groups::Group;
+
+/// The split of one model's coordinates and equations.
+#[derive(Clone, Debug, Default)]
+pub struct Structure {
+    /// By joint and velocity coordinate; nothing for joints that close loops.
+    pub roles: Vec<Vec<Role>>,
+    /// What generated structs hold, in their order.
+    pub state: Vec<Coordinate>,
+    /// Equations that keep a multiplier, in the order of multipliers.
+    pub rows: Vec<Row>,
+    /// Equations that don't follow from others, those with multipliers among them: the loops hold by their forces.
+    pub independent: Vec<Row>,
+    /// Equations that follow from the others everywhere.
+    pub dropped: Vec<Row>,
+    /// How dependent coordinates are found, in this order.
+    pub steps: Vec<Step>,
+    /// What is there several times.
+    pub groups: Vec<Group>,
+    /// Unknowns whose closed forms have a root, known once they are derived.
+    pub dead_centres: Vec<Coordinate>,
+    /// Sentences for the report: choices that were made for the user.
+    pub notes: Vec<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    State,
+    /// By the drive with this number in the model.
+    Driven(usize),
+    /// By the step with this number.
+    Dependent(usize),
+}
+
+/// One scalar equation of what closes a loop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Row {
+    pub closing: Closing,
+    /// Among those that this closing gives, see [`super::closings`].
+    pub index: usize,
+}
+
+/// Coordinates found together.
+#[derive(Clone, Debug)]
+pub struct Step {
+    pub unknowns: Vec<Coordinate>,
+    pub means: Means,
+}
+
+#[derive(Clone, Debug)]
+pub enum Means {
+    /// A linear coupling, eliminated exactly: one unknown.
+    Linear(ConstraintId),
+    /// By the `solve` item with this number in the model.
+    Solve(usize),
+    /// By Newton's method on these equations, as many as unknowns. The place of the first unknown in the guess.
+    Newton { rows: Vec<Row>, guess: usize },
+}
+
+impl Structure {
+    /// Every coordinate is the state, and nothing holds them together: what a model without loops and drives has.
+    pub fn open(model: &Model) -> Structure {
+        let mut structure = Structure::default();
+        for (index, joint) in model.joints.iter().enumerate() {
+            let id = JointId(index);
+            let freedoms = if model.cuts.contains(&id) { 0 } else { joint.kind.freedoms() };
+            structure.roles.push(vec![Role::State; freedoms]);
+            structure.state.extend((0..freedoms).map(|index| Coordinate { joint: id, index }));
+        }
+        structure
+    }
+
+    /// The same mechanism with its loops solved by all `solve` items, as `emit kinematics` needs it whatever becomes of the
+    /// constraint equations elsewhere.
+    pub fn solved(&self, model: &Model) -> Structure {
+        if self.steps.iter().any(|step| matches!(step.means, Means::Solve(_))) {
+            return self.clone();
+        }
+        let mut solved = self.clone();
+        solved.rows.clear();
+        for (number, solve) in model.solves.iter().enumerate() {
+            let step = solved.steps.len();
+            for unknown in &solve.unknowns {
+                let roles = solved.roles.get_mut(unknown.joint.0);
+                if let Some(role) = roles.and_then(|roles| roles.get_mut(unknown.index)) {
+                    *role = Role::Dependent(step);
+                }
+            }
+            solved.steps.push(Step { unknowns: solve.unknowns.clone(), means: Means::Solve(number) });
+        }
+        let role = |coordinate: &Coordinate| solved.role(*coordinate) == Role::State;
+        solved.state = self.state.iter().copied().filter(role).collect();
+        solved
+    }
+
+    pub fn with_notes(mut self, notes: Vec<String>) -> Structure {
+        self.notes.extend(notes);
+        self
+    }
+
+    /// Number of coordinates in the state.
+    pub fn freedoms(&self) -> usize {
+        self.state.len()
+    }
+
+    pub fn role(&self, coordinate: Coordinate) -> Role {
+        let roles = self.roles.get(coordinate.joint.0);
+        roles.and_then(|roles| roles.get(coordinate.index)).copied().unwrap_or(Role::State)
+    }
+
+    /// Number of unknowns that Newton's method finds: the size of the guess in `State`.
+    pub fn guesses(&self) -> usize {
+        let newton = |step: &&Step| matches!(step.means, Means::Newton { .. });
+        self.steps.iter().filter(newton).map(|step| step.unknowns.len()).sum()
+    }
+}

@@ -1,0 +1,262 @@
+//! Stage `solve`: pairs of joint groups, taken out of the cycle.
+//!
+//! In: the cycle, opened at one unknown motion. Out: every equation that holds that unknown and no other one. Two groups
+//! of neighbouring unknowns are taken out; what they leave free between them is measured across the unknown and along
+//! the rest of the cycle, and both must agree (Woernle 1988). With one group alone its points and directions are known
+//! on both sides of the unknown: the triangular part.
+
+use crate::mechanics::tree::Motion;
+use crate::symbolic::graph::{Graph, Scalar, ScalarNode, Vector};
+
+use super::chain::{Link, Way};
+use super::elements::{Features, Group};
+use super::measures::{Form, Measure, View};
+use super::primitives::Primitive;
+
+/// Where an equation comes from: runs of links in the opened cycle, and what is measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Source {
+    /// A direction, by its number, of one group that is taken out.
+    Direction(Run, usize),
+    Point(Run),
+    /// A point's place along the motion's axis.
+    Along(Run),
+    /// The first group is met first when going right from the unknown.
+    Pair(Run, Run, Measure),
+}
+
+/// Links taken out: the first, and the one behind the last. None at all is a place between two links.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Run {
+    from: usize,
+    to: usize,
+}
+
+/// An equation and where it comes from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    pub(super) primitive: Primitive,
+    pub(super) source: Source,
+}
+
+impl Candidate {
+    /// For the report.
+    pub(super) fn describe(&self) -> String {
+        let what = match self.source {
+            Source::Direction(..) => "a direction on both sides",
+            Source::Point(_) => "a point on both sides",
+            Source::Along(_) => "a point along the axis",
+            Source::Pair(_, _, measure) => measure.describe(),
+        };
+        format!("{what}: {}", self.primitive.describe())
+    }
+}
+
+/// The cycle opened at one unknown motion: the rest of it, from its right side round to its left.
+pub(super) struct Opened<'c> {
+    pub(super) motion: Motion,
+    pub(super) rest: &'c [Link],
+}
+
+/// A group taken out, as seen from the unknown.
+struct Taken {
+    run: Run,
+    features: Features,
+    /// On the right of the motion, going back to it from the group's left side.
+    near: View,
+    /// On the left of the motion, going on to it from the group's right side.
+    far: View,
+}
+
+impl Opened<'_> {
+    /// All equations in this unknown alone.
+    pub(super) fn candidates(&self, g: &mut Graph) -> Vec<Candidate> {
+        let groups: Vec<Taken> = self.runs(g).into_iter().map(|run| self.take(g, run)).collect();
+        let mut list = Vec::new();
+        let mut add = |source: Source, primitive: Option<Primitive>| {
+            list.extend(primitive.map(|primitive| Candidate { primitive, source }));
+        };
+        for group in &groups {
+            for k in 0..group.features.directions.len() {
+                add(Source::Direction(group.run, k), self.direction(g, group, k));
+            }
+            add(Source::Point(group.run), self.point(g, group));
+            add(Source::Along(group.run), self.along(g, group));
+        }
+        for first in groups.iter().filter(|group| !group.near.is_empty()) {
+            for second in groups.iter().filter(|group| !group.far.is_empty()) {
+                let empty = |run: Run| run.from == run.to;
+                // Two empty ones: the directions of one frame, seen above.
+                if second.run.from < first.run.to || (empty(first.run) && empty(second.run)) {
+                    continue;
+                }
+                for measure in Measure::all(&second.features, &first.features) {
+                    let primitive = self.between(g, first, second, measure);
+                    add(Source::Pair(first.run, second.run, measure), primitive);
+                }
+            }
+        }
+        list
+    }
+
+    /// One of these equations, derived alone.
+    pub(super) fn derive(&self, g: &mut Graph, source: Source) -> Option<Primitive> {
+        match source {
+            Source::Direction(run, k) => {
+                let group = self.take(g, run);
+                self.direction(g, &group, k)
+            }
+            Source::Point(run) => {
+                let group = self.take(g, run);
+                self.point(g, &group)
+            }
+            Source::Along(run) => {
+                let group = self.take(g, run);
+                self.along(g, &group)
+            }
+            Source::Pair(first, second, measure) => {
+                let (first, second) = (self.take(g, first), self.take(g, second));
+                self.between(g, &first, &second, measure)
+            }
+        }
+    }
+
+    /// All runs of neighbouring unknowns that leave something fixed, and nothing on either side of the unknown.
+    fn runs(&self, g: &mut Graph) -> Vec<Run> {
+        let end = self.rest.len();
+        let mut list = vec![Run { from: 0, to: 0 }, Run { from: end, to: end }];
+        for from in 0..end {
+            if !matches!(self.rest[from], Link::Free { .. }) {
+                continue;
+            }
+            let mut group = Group::new();
+            for (at, &link) in self.rest.iter().enumerate().skip(from) {
+                group.append(g, link);
+                if group.is_useless() {
+                    break;
+                }
+                if matches!(link, Link::Free { .. }) {
+                    list.push(Run { from, to: at + 1 });
+                }
+            }
+        }
+        list
+    }
+
+    fn take(&self, g: &mut Graph, run: Run) -> Taken {
+        let mut group = Group::new();
+        for &link in &self.rest[run.from..run.to] {
+            group.append(g, link);
+        }
+        let features = group.features(g);
+        let near = View::new(&features, Way::Left).carry_all(g, &self.rest[..run.from], Way::Left);
+        let far = View::new(&features, Way::Right).carry_all(g, &self.rest[run.to..], Way::Right);
+        Taken { run, features, near, far }
+    }
+
+    fn direction(&self, g: &mut Graph, group: &Taken, k: usize) -> Option<Primitive> {
+        let (w, v) = (*group.near.directions().get(k)?, *group.far.directions().get(k)?);
+        match self.motion {
+            Motion::Revolute(axis) | Motion::Screw(axis, _) => turn(g, axis, w?, v?),
+            _ => None,
+        }
+    }
+
+    fn point(&self, g: &mut Graph, group: &Taken) -> Option<Primitive> {
+        match self.motion {
+            Motion::Revolute(axis) => turn(g, axis, group.near.point()?, group.far.point()?),
+            _ => None,
+        }
+    }
+
+    fn along(&self, g: &mut Graph, group: &Taken) -> Option<Primitive> {
+        let (axis, slope) = match self.motion {
+            Motion::Prismatic(axis) => (axis, Scalar::ONE),
+            Motion::Screw(axis, pitch) => (axis, pitch),
+            _ => return None,
+        };
+        let (w, v) = (g.component(group.near.point()?, axis), g.component(group.far.point()?, axis));
+        Some(Primitive::Linear { slope, one: g.sub(w, v) })
+    }
+
+    /// Two groups taken out: what is measured across the unknown is what is measured along the rest.
+    fn between(&self, g: &mut Graph, first: &Taken, second: &Taken, measure: Measure) -> Option<Primitive> {
+        let across = measure.value(g, &second.far, Some(self.motion), &first.near)?;
+        if across.is_constant() {
+            return None;
+        }
+        let (left, right) = (View::new(&second.features, Way::Left), View::new(&first.features, Way::Right));
+        let links = &self.rest[first.run.to..second.run.from];
+        let mut at = |place: usize| {
+            let far = left.carry_all(g, &links[place..], Way::Left);
+            let near = right.carry_all(g, &links[..place], Way::Right);
+            measure.value(g, &far, None, &near)
+        };
+        // A ball's point is carried to the other group, so that it is seen in a frame that later steps use too.
+        let ball = |run: Run| matches!(self.rest[run.from..run.to], [Link::Free { motion: Motion::Ball(_), .. }]);
+        let places = if ball(first.run) { [links.len(), 0] } else { [0, links.len()] };
+        let along = at(places[0]).or_else(|| at(places[1]))?;
+        classify(g, across, along.one)
+    }
+}
+
+fn turn(g: &mut Graph, axis: usize, w: Vector, v: Vector) -> Option<Primitive> {
+    let plane = [1, 2].map(|k| (axis + k) % 3);
+    let (near, far) = (plane.map(|k| g.component(w, k)), plane.map(|k| g.component(v, k)));
+    let zero = [Scalar::ZERO; 2];
+    (near != zero && far != zero).then_some(Primitive::Turn { near, far })
+}
+
+/// What is measured across the unknown, less what is measured elsewhere, as an equation that can be solved.
+fn classify(g: &mut Graph, form: Form, other: Scalar) -> Option<Primitive> {
+    let zero = Scalar::ZERO;
+    if form.turns() {
+        if form.travel != zero || form.square != zero {
+            return None;
+        }
+        // Nothing is left of a length of a link that all terms have in common.
+        let scale = common_factor(g, form.cos, form.sin).unwrap_or(Scalar::ONE);
+        let [a, b] = [form.cos, form.sin].map(|s| g.mul(s, scale));
+        let c = difference(g, other, form.one, scale);
+        return Some(Primitive::Root { a, b, c });
+    }
+    if form.square == zero {
+        let one = difference(g, form.one, other, Scalar::ONE);
+        return (form.travel != zero).then_some(Primitive::Linear { slope: form.travel, one });
+    }
+    // Squares of distances come halved.
+    let two = g.integer(2);
+    let one = difference(g, form.one, other, two);
+    Some(Primitive::Quadratic { square: g.mul(two, form.square), half: form.travel, one })
+}
+
+/// (a - b) times a literal, which goes to the terms: they bear literals themselves.
+fn difference(g: &mut Graph, a: Scalar, b: Scalar, scale: Scalar) -> Scalar {
+    let terms_of = |s: Scalar| match g.node(s) {
+        ScalarNode::Sum(terms) => terms.iter().map(|&t| if s.is_negative() { -t } else { t }).collect(),
+        _ => vec![s],
+    };
+    let mut terms = terms_of(a);
+    terms.extend(terms_of(b).into_iter().map(|t| -t));
+    for term in &mut terms {
+        *term = g.mul(*term, scale);
+    }
+    g.sum(&terms)
+}
+
+/// One over a literal that two coefficients have in common.
+fn common_factor(g: &mut Graph, a: Scalar, b: Scalar) -> Option<Scalar> {
+    let literal = |s: Scalar| match g.node(s) {
+        ScalarNode::Product(factors) => factors.first().and_then(|&f| g.literal(f)),
+        ScalarNode::Literal(n) => Some(*n),
+        _ => None,
+    };
+    let factor = match (literal(a), literal(b)) {
+        (Some(m), Some(n)) if m == n => m,
+        (Some(n), _) if b == Scalar::ZERO => n,
+        (_, Some(n)) if a == Scalar::ZERO => n,
+        _ => return None,
+    };
+    let factor = g.number(factor);
+    Some(g.reciprocal(factor))
+}

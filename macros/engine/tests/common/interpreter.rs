@@ -1,0 +1,85 @@
+//! Programs as numbers: statement by statement in double precision.
+
+use multibody_engine::optimize::program::{Call, Expression, FieldId, Local, Program, Statement, Symbol};
+use multibody_engine::symbolic::evaluate::{call_f64, solve_f64};
+
+/// Results of a program.
+pub(crate) fn run(program: &Program, symbols: &dyn Fn(Symbol) -> f64, fields: &dyn Fn(FieldId) -> f64) -> Vec<f64> {
+    let mut machine = Machine { locals: vec![None; program.locals.len()], symbols, fields };
+    machine.run(&program.statements);
+    program.results.iter().map(|e| machine.value(e)).collect()
+}
+
+struct Machine<'a> {
+    locals: Vec<Option<f64>>,
+    symbols: &'a dyn Fn(Symbol) -> f64,
+    fields: &'a dyn Fn(FieldId) -> f64,
+}
+
+impl Machine<'_> {
+    fn run(&mut self, statements: &[Statement]) {
+        for statement in statements {
+            self.statement(statement);
+        }
+    }
+
+    /// Outside of loops a local is set once.
+    fn set(&mut self, local: Local, value: f64) {
+        self.locals[local.0] = Some(value);
+    }
+
+    fn statement(&mut self, statement: &Statement) {
+        match statement {
+            Statement::Let { local, value } => {
+                let value = self.value(value);
+                self.set(*local, value);
+            }
+            Statement::SinCos { sin, cos, angle } => {
+                let (s, c) = self.value(angle).sin_cos();
+                self.set(*sin, s);
+                self.set(*cos, c);
+            }
+            Statement::Solve { matrix, rhs, results, .. } => {
+                let (matrix, rhs) = (self.values(matrix), self.values(rhs));
+                for (&local, x) in results.iter().zip(solve_f64(&matrix, &rhs)) {
+                    self.set(local, x);
+                }
+            }
+            Statement::Iterate { count, unknowns, start, body, next, residual } => {
+                let mut values = self.values(start);
+                for _ in 0..*count {
+                    unknowns.iter().zip(&values).for_each(|(&local, &x)| self.set(local, x));
+                    // What a round doesn't set, it can't read: nothing is left of the one before.
+                    body.iter().flat_map(Statement::defined).for_each(|local| self.locals[local.0] = None);
+                    self.run(body);
+                    let size = self.value(&residual.1);
+                    self.set(residual.0, size);
+                    values = self.values(next);
+                }
+                body.iter().flat_map(Statement::defined).for_each(|local| self.locals[local.0] = None);
+                unknowns.iter().zip(&values).for_each(|(&local, &x)| self.set(local, x));
+            }
+        }
+    }
+
+    fn values(&self, list: &[Expression]) -> Vec<f64> {
+        list.iter().map(|e| self.value(e)).collect()
+    }
+
+    fn value(&self, expression: &Expression) -> f64 {
+        match expression {
+            Expression::Literal(x) => *x,
+            Expression::Symbol(symbol) => (self.symbols)(*symbol),
+            Expression::Field(field) => (self.fields)(*field),
+            Expression::Local(local) => self.locals[local.0].expect("a local that is set"),
+            Expression::Neg(x) => -self.value(x),
+            Expression::Sum(terms) => {
+                terms.iter().fold(0.0, |sum, (minus, x)| if *minus { sum - self.value(x) } else { sum + self.value(x) })
+            }
+            Expression::Product(list) => list.iter().map(|x| self.value(x)).product(),
+            Expression::Quotient(a, b) => self.value(a) / self.value(b),
+            Expression::Call(Call::Sqrt, x) => self.value(&x[0]).sqrt(),
+            Expression::Call(call, list) => call_f64(*call, &self.values(list)),
+        }
+    }
+}
