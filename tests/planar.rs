@@ -5,12 +5,13 @@ use std::collections::BTreeSet;
 
 use multibody_engine::emit::emit;
 use multibody_engine::model::types::Model;
-use multibody_engine::optimize::program::{Compiled, Cost, Expression, FunctionKind, Program, Statement, Symbol};
+use multibody_engine::optimize::program::{Compiled, Cost, Expression, FunctionKind, Program, Symbol};
 use multibody_engine::{mechanics, optimize};
 use multibody_tests::support::engine::model_of;
 
 fn compiled(model: &Model) -> Compiled {
-    optimize::compile(&mechanics::derive(model)).unwrap_or_else(|_| panic!("too large"))
+    optimize::compile(&mechanics::of(model).unwrap_or_else(|_| panic!("mechanics")).1)
+        .unwrap_or_else(|_| panic!("too large"))
 }
 
 fn of(text: &str) -> (Model, Compiled) {
@@ -37,11 +38,7 @@ fn collect(expression: &Expression, into: &mut BTreeSet<Symbol>) {
 fn symbols(programs: impl IntoIterator<Item = Program>) -> BTreeSet<Symbol> {
     let mut found = BTreeSet::new();
     for program in programs {
-        for statement in &program.statements {
-            let (Statement::Let { value, .. } | Statement::SinCos { angle: value, .. }) = statement;
-            collect(value, &mut found);
-        }
-        program.results.iter().for_each(|result| collect(result, &mut found));
+        program.expressions().for_each(|expression| collect(expression, &mut found));
     }
     found
 }
@@ -197,7 +194,7 @@ fn nothing_is_made_that_is_not_asked_for() {
     assert_eq!(kinds("emit energy; output p = b.position;"), [KineticEnergy, PotentialEnergy, Outputs]);
     assert_eq!(kinds(ALL), [ForwardDynamics, InverseDynamics, MassMatrix, Bias]);
     let (model, compiled) = of(&two_links("world { gravity: g }", "emit bias;"));
-    let text = emit(&model, &compiled).to_string();
+    let text = emit(&model, &mechanics::structure::Structure::open(&model), &compiled).to_string();
     assert!(text.contains("fn bias"));
     for name in ["fn forward_dynamics", "fn mass_matrix", "fn inverse_dynamics", "fn outputs", "fn kinetic_energy"] {
         assert!(!text.contains(name), "{name}");

@@ -53,12 +53,12 @@ fn write(file: &Path, text: &str) {
 fn ten_thousand_statements() {
     let model =
         model_of("pub mod model { body b { mass: 1.0 } joint rail: Prismatic { parent: ground, child: b, axis: X } }");
-    let derivation = mechanics::derive(&model);
+    let derivation = mechanics::of(&model).unwrap_or_else(|_| panic!("mechanics")).1;
     let mut compiled = optimize::compile(&derivation).unwrap_or_else(|_| panic!("too large"));
     let angle = derivation.symbols.iter().copied().find(|s| matches!(s, Symbol::Position { .. })).unwrap();
     let (program, expected) = program(angle, 0.3);
     compiled.functions[0].program = program;
-    let module = source(&emit(&model, &compiled));
+    let module = source(&emit(&model, &mechanics::structure::Structure::open(&model), &compiled));
 
     let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("statements");
     write(

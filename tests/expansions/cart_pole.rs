@@ -130,6 +130,74 @@ pub mod cart_pole {
             other: 0,
         },
     ];
+    /// The same of every function as it was derived, before optimisation, with the work on parameters in it.
+    pub const DERIVED: &[::multibody::Cost] = &[
+        ::multibody::Cost {
+            function: "forward_dynamics",
+            add: 6,
+            mul: 26,
+            div: 2,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "inverse_dynamics",
+            add: 7,
+            mul: 19,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "mass_matrix",
+            add: 2,
+            mul: 8,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "bias",
+            add: 1,
+            mul: 8,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "kinetic_energy",
+            add: 4,
+            mul: 14,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "potential_energy",
+            add: 0,
+            mul: 4,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "outputs",
+            add: 1,
+            mul: 2,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+    ];
+    /// Names of the components of a velocity, in order.
+    pub const COORDINATES: &[&str] = &["track", "hinge"];
     /// Parameters of `cart_pole`. The default is what the model declares.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq)]

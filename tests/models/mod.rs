@@ -2,6 +2,10 @@
 
 pub mod arms;
 pub mod laws;
+pub mod linkages;
+pub mod loops;
+pub mod mechanisms;
 pub mod motion;
 pub mod random;
 pub mod small;
+pub mod stewart;

@@ -1,11 +1,13 @@
 //! Operation counts of the committed models.
 
+use std::borrow::Cow;
 use std::fmt;
 
+use multibody_engine::emit::function_name;
 use multibody_engine::mechanics;
 use multibody_engine::model::types::Model;
 use multibody_engine::optimize;
-use multibody_engine::optimize::program::{Cost, FunctionKind};
+use multibody_engine::optimize::program::Cost;
 
 use super::engine::{calls, literal, models};
 
@@ -14,7 +16,7 @@ pub struct Row {
     /// Of the generated module.
     pub model: String,
     /// Of the generated method.
-    pub function: &'static str,
+    pub function: Cow<'static, str>,
     /// Every number is a param; else every number is a literal.
     pub params: bool,
     /// What it was made from.
@@ -29,22 +31,10 @@ pub struct Row {
     pub dof: usize,
 }
 
-/// Name of the generated method.
-pub fn name(kind: FunctionKind) -> &'static str {
-    match kind {
-        FunctionKind::ForwardDynamics => "forward_dynamics",
-        FunctionKind::InverseDynamics => "inverse_dynamics",
-        FunctionKind::MassMatrix => "mass_matrix",
-        FunctionKind::Bias => "bias",
-        FunctionKind::KineticEnergy => "kinetic_energy",
-        FunctionKind::PotentialEnergy => "potential_energy",
-        FunctionKind::Outputs => "outputs",
-    }
-}
-
 /// Every function of a model, each compiled alone so that its share of `new` is its own.
 pub fn count(model: &Model, params: bool) -> Vec<Row> {
-    let mut derivation = mechanics::derive(model);
+    let mut derivation =
+        mechanics::of(model).unwrap_or_else(|trouble| panic!("{}: {}", model.name, trouble[0].message)).1;
     let dof = model.joints.iter().map(|joint| joint.kind.freedoms()).sum();
     let functions = std::mem::take(&mut derivation.functions);
     let rows = functions.into_iter().map(|function| {
@@ -55,7 +45,7 @@ pub fn count(model: &Model, params: bool) -> Vec<Row> {
         let text = model.name.to_string();
         Row {
             model: text.strip_suffix("_params").unwrap_or(&text).to_owned(),
-            function: name(function.kind),
+            function: function_name(function.kind),
             params,
             method: function.method,
             before: function.before,
@@ -79,6 +69,12 @@ pub fn all() -> Vec<Row> {
             models(call).iter().for_each(|model| rows.extend(count(model, true)));
         }
     }
+    // The platform in several coordinates: everything literal.
+    for model in calls("models/stewart.rs").into_iter().flat_map(|call| models(literal(call))) {
+        let mut counted = count(&model, false);
+        counted.iter_mut().for_each(|row| row.model = format!("stewart, {}", row.model));
+        rows.extend(counted);
+    }
     rows
 }
 
@@ -92,9 +88,9 @@ pub struct Written<'a>(pub &'a Cost);
 
 impl fmt::Display for Written<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Cost { add, mul, div, sqrt, sincos, other } = self.0;
+        let Cost { add, mul, div, sqrt, sincos, compare, other } = self.0;
         write!(f, "{add}/{mul}/{div}")?;
-        for (count, what) in [(sqrt, "sqrt"), (sincos, "sincos"), (other, "other")] {
+        for (count, what) in [(sqrt, "sqrt"), (sincos, "sincos"), (compare, "compare"), (other, "other")] {
             if *count > 0 {
                 write!(f, " {count} {what}")?;
             }

@@ -1,4 +1,4 @@
-//! A closed loop.
+//! Mistakes about a closed loop.
 use multibody::multibody;
 
 multibody! {
@@ -8,6 +8,14 @@ multibody! {
         joint a: Revolute { parent: ground, child: crank, axis: Z }
         joint b: Revolute { parent: crank.at(X), child: rocker, axis: Z }
         joint closing: Revolute { parent: ground.at(X), child: rocker.at(X), axis: Z }
+        drive b = 2.0 * t;
+        solve (b) from closing { b > 0.0 }
+        output angle = closing.angle;
+    }
+    mod held_by_nothing {
+        body link { mass: 1.0, inertia: rod(1.0, 1.0, X) }
+        #[cut]
+        joint a: Revolute { parent: ground, child: link, axis: Z }
     }
 }
 
