@@ -82,8 +82,9 @@ pub fn guarded(g: &mut Graph, x: Scalar, scale: Scalar) -> (Scalar, Scalar) {
     let (count, unit) = (g.integer(UNITS), g.call(Call::Epsilon, &[]));
     let tiny = g.mul(count, unit);
     let tiny = g.mul(tiny, scale);
-    // What is no number is not above anything: it counts as lost.
+    // What is no number is neither: it shows in the solution, and the rank is not full.
+    let lost = g.call(Call::LessEqual, &[size, tiny]);
     let full = g.call(Call::Less, &[tiny, size]);
     let inverse = g.reciprocal(x);
-    (g.call(Call::Select, &[full, inverse, Scalar::ZERO]), g.call(Call::Select, &[full, Scalar::ONE, Scalar::ZERO]))
+    (g.call(Call::Select, &[lost, Scalar::ZERO, inverse]), g.call(Call::Select, &[full, Scalar::ONE, Scalar::ZERO]))
 }
