@@ -14,7 +14,6 @@ use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::{BlockKind, Call, Graph, Scalar};
 use crate::symbolic::linear_algebra::Factors;
 
-use super::composite;
 use super::equations::Equations;
 use super::reduction::{Map, Reduction};
 use super::structure::{Role, Row};
@@ -88,14 +87,9 @@ impl Equations<'_> {
 
     /// S^T M S.
     pub(super) fn reduced_mass_matrix(&mut self, reduction: &Reduction) -> Vec<Vec<Scalar>> {
-        let mechanism = Rc::clone(&self.mechanism);
-        let shared = self.shared();
-        let matrix = composite::mass_matrix(&mut self.g, &shared.tree);
         let n = self.symbols.freedoms;
-        let flip = |k: usize| mechanism.flipped.get(k) == Some(&true);
-        let matrix: Vec<Vec<Scalar>> = (0..n)
-            .map(|i| (0..n).map(|j| if flip(i) == flip(j) { matrix[i][j] } else { -matrix[i][j] }).collect())
-            .collect();
+        let entries = self.mass_matrix();
+        let matrix: Vec<&[Scalar]> = entries.chunks(n.max(1)).collect();
         let state = self.state();
         let map = self.velocity_map(reduction, &state);
         // M S, column by column, then S^T of it; rows of S are those of the tree.
