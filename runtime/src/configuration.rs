@@ -18,6 +18,15 @@ pub trait Configuration<T: Real>: Copy {
     /// The position after the displacement `d`: `self + d`, or `self * exp(d)` for rotations.
     fn displace(&self, d: &Self::Velocity) -> Self;
 
+    /// The position after the displacements `rest` and `d`, and what rounding left out of it, as a displacement that is
+    /// still to come: compensated summation. `rest` is of the size of a rounding.
+    ///
+    /// Written by default as a plain displacement that leaves no rest.
+    #[inline]
+    fn advance(&self, d: &Self::Velocity, rest: &Self::Velocity) -> (Self, Self::Velocity) {
+        (self.displace(&d.add(rest)), Self::Velocity::zero())
+    }
+
     /// The rate of the displacement `d` while the velocity is `v`: `v` itself where a displacement is a sum, the
     /// inverse of the exponential's differential where it is a rotation. With `v` in its place there, every
     /// Runge-Kutta method falls to second order.
@@ -47,6 +56,10 @@ impl<T: Real> Configuration<T> for T {
         *self + *d
     }
     #[inline]
+    fn advance(&self, d: &T, rest: &T) -> (T, T) {
+        compensated_sum(*self, *d + *rest)
+    }
+    #[inline]
     fn dexp_inv(_: &T, v: &T) -> T {
         *v
     }
@@ -62,6 +75,10 @@ impl<T: Real, const N: usize> Configuration<T> for SVector<T, N> {
     #[inline]
     fn displace(&self, d: &Self) -> Self {
         Tangent::add(self, d)
+    }
+    #[inline]
+    fn advance(&self, d: &Self, rest: &Self) -> (Self, Self) {
+        advanced(self, d, rest)
     }
     #[inline]
     fn dexp_inv(_: &Self, v: &Self) -> Self {
@@ -85,6 +102,14 @@ impl<T: Real, Q: Configuration<T>, const N: usize> Configuration<T> for [Q; N] {
         result
     }
     #[inline]
+    fn advance(&self, d: &Self::Velocity, rest: &Self::Velocity) -> (Self, Self::Velocity) {
+        let (mut result, mut left) = (*self, *rest);
+        for ((q, left), d) in result.iter_mut().zip(left.iter_mut()).zip(d) {
+            (*q, *left) = q.advance(d, left);
+        }
+        (result, left)
+    }
+    #[inline]
     fn dexp_inv(d: &Self::Velocity, v: &Self::Velocity) -> Self::Velocity {
         let mut result = *v;
         for (v, d) in result.iter_mut().zip(d) {
@@ -96,4 +121,19 @@ impl<T: Real, Q: Configuration<T>, const N: usize> Configuration<T> for [Q; N] {
     fn magnitude(&self) -> Self::Velocity {
         self.map(|q| q.magnitude())
     }
+}
+
+/// `a + b` and its rounding error, whichever is greater (Knuth's two-sum).
+#[inline]
+pub(crate) fn compensated_sum<T: Real>(a: T, b: T) -> (T, T) {
+    let sum = a + b;
+    let part = sum - a;
+    (sum, (a - (sum - part)) + (b - part))
+}
+
+/// The compensated sum of a vector and two displacements.
+#[inline]
+pub(crate) fn advanced<T: Real, V: Tangent<T>>(v: &V, d: &V, rest: &V) -> (V, V) {
+    let d = d.add(rest);
+    (v.add(&d), v.zip(&d, &mut |v, d| compensated_sum(v, d).1))
 }

@@ -63,12 +63,15 @@
 // Generated code names this crate `::multibody`; with this line it can do so in this crate's own examples.
 extern crate self as multibody;
 
+mod canonical;
 mod configuration;
 mod constrained;
 pub mod coordinates;
 mod cost;
+mod differentiable;
 #[doc = include_str!("../docs/generated.md")]
 pub mod generated {}
+mod impulsive;
 mod inertia;
 pub mod integrators;
 #[doc = include_str!("../docs/language.md")]
@@ -80,10 +83,13 @@ mod scalar;
 mod system;
 mod tangent;
 
+pub use canonical::{Canonical, Separable};
 pub use configuration::Configuration;
 pub use constrained::{Constrained, Kinematics};
 pub use coordinates::{Cylindrical, FreeRollPitchYaw, Planar, Pose, RollPitchYaw, Twist, Universal, Wrench};
 pub use cost::Cost;
+pub use differentiable::{Derivatives, Differentiable, Jacobian};
+pub use impulsive::Impulsive;
 pub use inertia::{ParamError, inertia_violation};
 pub use integrators::{Adaptive, DormandPrince, Euler, IntegrationError, Method, Rk4, SemiImplicitEuler, Statistics};
 pub use multibody_macros::multibody;

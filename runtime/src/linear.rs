@@ -17,6 +17,10 @@
 // A pivot's neighbours are found by index in rows and in columns.
 #![allow(clippy::needless_range_loop)]
 
+mod square;
+
+pub use square::Square;
+
 use crate::Real;
 use nalgebra::{SMatrix, SVector};
 

@@ -10,6 +10,7 @@
 //! of a root at zero comes up, in no lane and in no dual part.
 
 use crate::Real;
+use crate::configuration::compensated_sum;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 /// [rad^2] below this square of an angle, series are used: all terms kept, they are exact to rounding in `f64`.
@@ -36,6 +37,47 @@ pub fn displace<T: Real>(q: &UnitQuaternion<T>, d: &Vector3<T>) -> UnitQuaternio
     let qz = pw * z + px * y - py * x + pz * w;
     let newton = T::lit(1.5) - T::lit(0.5) * (qw * qw + qx * qx + qy * qy + qz * qz);
     UnitQuaternion::new_unchecked(Quaternion::new(newton * qw, newton * qx, newton * qy, newton * qz))
+}
+
+/// `q * exp(rest) * exp(d)`, and the rotation vector, in the axes of the result, that rounding left out of it.
+///
+/// The change of each component is small beside the component, so its sum is compensated; `exp(d) - 1` is made without
+/// cancellation. `rest` is of the size of a rounding: its square is dropped.
+#[inline]
+pub fn advance<T: Real>(q: &UnitQuaternion<T>, d: &Vector3<T>, rest: &Vector3<T>) -> (UnitQuaternion<T>, Vector3<T>) {
+    let zero = T::lit(0.0);
+    let (w, [x, y, z]) = exponential(d);
+    // exp(d) - 1: the real part is -2 sin^2(|d|/4), and sin^2(|d|/2) / (1 + cos(|d|/2)) is the same.
+    let sine2 = x * x + y * y + z * z;
+    let back = Real::lt(w, zero);
+    let dw = Real::select(back, w - T::lit(1.0), -sine2 / (T::lit(1.0) + Real::select(back, zero, w)));
+    // (1 + rest/2) * exp(d) - 1
+    let half = T::lit(0.5);
+    let (rx, ry, rz) = (half * rest.x, half * rest.y, half * rest.z);
+    let dw = dw - (rx * x + ry * y + rz * z);
+    let (dx, dy, dz) = (x + (rx * w + ry * z - rz * y), y + (ry * w + rz * x - rx * z), z + (rz * w + rx * y - ry * x));
+
+    let p = q.as_ref().coords;
+    let (px, py, pz, pw) = (p.x, p.y, p.z, p.w);
+    let (qw, ew) = compensated_sum(pw, pw * dw - px * dx - py * dy - pz * dz);
+    let (qx, ex) = compensated_sum(px, pw * dx + px * dw + py * dz - pz * dy);
+    let (qy, ey) = compensated_sum(py, pw * dy - px * dz + py * dw + pz * dx);
+    let (qz, ez) = compensated_sum(pz, pw * dz + px * dy - py * dx + pz * dw);
+
+    // The unit quaternion along q + e, and what that is beside its rounding: Newton's factor is one up to roundings.
+    let excess = half * (T::lit(1.0) - (qw * qw + qx * qx + qy * qy + qz * qz));
+    let (nw, fw) = compensated_sum(qw, excess * qw + ew);
+    let (nx, fx) = compensated_sum(qx, excess * qx + ex);
+    let (ny, fy) = compensated_sum(qy, excess * qy + ey);
+    let (nz, fz) = compensated_sum(qz, excess * qz + ez);
+    // Twice the vector part of conjugate(n) * f.
+    let two = T::lit(2.0);
+    let left = Vector3::new(
+        two * (nw * fx - nx * fw - ny * fz + nz * fy),
+        two * (nw * fy + nx * fz - ny * fw - nz * fx),
+        two * (nw * fz - nx * fy + ny * fx - nz * fw),
+    );
+    (UnitQuaternion::new_unchecked(Quaternion::new(nw, nx, ny, nz)), left)
 }
 
 /// The rate of the displacement `d` while the angular velocity in child axes is `v`.

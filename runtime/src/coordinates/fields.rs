@@ -37,6 +37,10 @@ macro_rules! field_by_field {
                 $crate::Tangent::add(self, d)
             }
             #[inline]
+            fn advance(&self, d: &Self, rest: &Self) -> (Self, Self) {
+                $crate::configuration::advanced(self, d, rest)
+            }
+            #[inline]
             fn dexp_inv(_: &Self, v: &Self) -> Self {
                 *v
             }

@@ -66,6 +66,10 @@ impl<T: Real> Configuration<T> for UnitQuaternion<T> {
         rotation::displace(self, d)
     }
     #[inline]
+    fn advance(&self, d: &Vector3<T>, rest: &Vector3<T>) -> (Self, Vector3<T>) {
+        rotation::advance(self, d, rest)
+    }
+    #[inline]
     fn dexp_inv(d: &Vector3<T>, v: &Vector3<T>) -> Vector3<T> {
         rotation::dexp_inv(d, v)
     }
@@ -87,6 +91,12 @@ impl<T: Real> Configuration<T> for Pose<T> {
             position: Configuration::displace(&self.position, &d.linear),
             orientation: Configuration::displace(&self.orientation, &d.angular),
         }
+    }
+    #[inline]
+    fn advance(&self, d: &Twist<T>, rest: &Twist<T>) -> (Self, Twist<T>) {
+        let (position, linear) = Configuration::advance(&self.position, &d.linear, &rest.linear);
+        let (orientation, angular) = Configuration::advance(&self.orientation, &d.angular, &rest.angular);
+        (Self { position, orientation }, Twist { linear, angular })
     }
     #[inline]
     fn dexp_inv(d: &Twist<T>, v: &Twist<T>) -> Twist<T> {

@@ -1,0 +1,55 @@
+//! Square matrices of a size that only their type knows: [`Square`].
+
+use super::solve;
+use crate::Real;
+
+/// A square matrix with rows of fixed length, so that code can be generic over its size: `[[T; N]; N]`, by rows.
+///
+/// ```
+/// use multibody::linear::Square;
+///
+/// fn twice<M: Square<f64>>(m: &M) -> M { M::from_fn(|i, j| 2.0 * m.get(i, j)) }
+/// assert_eq!(twice(&[[1.0, 2.0], [3.0, 4.0]]), [[2.0, 4.0], [6.0, 8.0]]);
+/// let x = [[2.0, 0.0], [0.0, 4.0]].solution(&[1.0, 1.0]).0;
+/// assert_eq!(x, [0.5, 0.25]);
+/// ```
+pub trait Square<T: Real>: Copy {
+    /// Rows and columns.
+    const SIZE: usize;
+    /// `[T; SIZE]`.
+    type Vector: Copy + AsRef<[T]> + AsMut<[T]>;
+
+    /// The matrix with the entry `entry(row, column)` everywhere.
+    fn from_fn(entry: impl FnMut(usize, usize) -> T) -> Self;
+
+    /// The vector with the component `entry(row)` everywhere.
+    fn vector(entry: impl FnMut(usize) -> T) -> Self::Vector;
+
+    /// An entry; zero outside of the matrix.
+    fn get(&self, row: usize, column: usize) -> T;
+
+    /// Solves `self * x = b` by [`solve`], with the rank.
+    fn solution(&self, b: &Self::Vector) -> (Self::Vector, T);
+}
+
+impl<T: Real, const N: usize> Square<T> for [[T; N]; N] {
+    const SIZE: usize = N;
+    type Vector = [T; N];
+
+    #[inline]
+    fn from_fn(mut entry: impl FnMut(usize, usize) -> T) -> Self {
+        core::array::from_fn(|i| core::array::from_fn(|j| entry(i, j)))
+    }
+    #[inline]
+    fn vector(entry: impl FnMut(usize) -> T) -> [T; N] {
+        core::array::from_fn(entry)
+    }
+    #[inline]
+    fn get(&self, row: usize, column: usize) -> T {
+        self.as_slice().get(row).and_then(|r| r.as_slice().get(column)).copied().unwrap_or_else(|| T::lit(0.0))
+    }
+    #[inline]
+    fn solution(&self, b: &[T; N]) -> ([T; N], T) {
+        solve(*self, *b)
+    }
+}
