@@ -19,6 +19,7 @@ use super::constrained::Solved;
 use super::cycles::Branch;
 use super::equations::{Equations, Method, Style, Way};
 use super::gathered;
+use super::linearisation::Accumulation;
 use super::names;
 use super::needs::Needs;
 use super::parallel::Axes;
@@ -61,6 +62,20 @@ const METHODS: [(Method, Names); 2] = [
             "articulated body, parallel hinges in the axes of their tip",
         ],
     ),
+];
+
+/// Ways to derivatives. From the results' side common axes cost more than they save.
+const SIDES: [(Accumulation, &[&str]); 3] = [
+    (
+        Accumulation::Forward,
+        &[
+            "differentiated recursion, by columns",
+            "differentiated recursion, by columns, parallel hinges in the axes of their base",
+            "differentiated recursion, by columns, parallel hinges in the axes of their tip",
+        ],
+    ),
+    (Accumulation::Reverse, &["differentiated recursion, by rows"]),
+    (Accumulation::Weighted, &["differentiated recursion, by rows of the inverse mass matrix"]),
 ];
 
 const GATHERED: &str = "Newton-Euler, links that turn together gathered";
@@ -134,6 +149,10 @@ fn kinds(model: &Model, structure: &Structure) -> Vec<FunctionKind> {
     }
     kinds.extend(wanted(Request::Residual, &[FunctionKind::Residual]));
     kinds.extend((0..model.kinematics.len()).map(FunctionKind::Kinematics));
+    kinds.extend(wanted(
+        Request::Derivatives,
+        &[FunctionKind::ForwardDerivatives, FunctionKind::InverseDerivatives],
+    ));
     if !model.outputs.is_empty() {
         kinds.push(FunctionKind::Outputs);
     }
@@ -186,6 +205,8 @@ impl<'m> Deriving<'m> {
                 }
                 FunctionKind::Residual => self.one(NEWTON_EULER, |e| Ok(e.inverse_dynamics())),
                 FunctionKind::Kinematics(k) => self.kinematics(k),
+                FunctionKind::ForwardDerivatives => self.forward_derivatives(),
+                FunctionKind::InverseDerivatives => self.inverse_derivatives(),
                 FunctionKind::Constraints
                 | FunctionKind::ConstraintJacobian
                 | FunctionKind::ConstraintRate
@@ -233,6 +254,8 @@ impl<'m> Deriving<'m> {
                 Ok(candidates)
             }
             FunctionKind::Kinematics(k) => self.kinematics(k),
+            FunctionKind::ForwardDerivatives => self.forward_derivatives(),
+            FunctionKind::InverseDerivatives => self.inverse_derivatives(),
             FunctionKind::Guess => self.equations("Newton's method", |e, reduction| {
                 let mut results = reduction.guesses.clone();
                 results.push(e.worst_residual(reduction));
@@ -277,7 +300,7 @@ impl<'m> Deriving<'m> {
         names: Names,
         f: impl FnMut(&mut Equations<'m>) -> Found,
     ) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        self.in_all_axes(names, Method::Composite, &[], f)
+        self.in_all_axes(&names, Method::Composite, &[], f)
     }
 
     /// The recursion over groups of links, where it is another way.
@@ -308,7 +331,7 @@ impl<'m> Deriving<'m> {
 
     fn in_all_axes(
         &mut self,
-        names: Names,
+        names: &[&'static str],
         method: Method,
         kept: &[JointId],
         mut f: impl FnMut(&mut Equations<'m>) -> Found,
@@ -316,7 +339,7 @@ impl<'m> Deriving<'m> {
         // Common axes pay where a matrix is factored or passed on; beyond that size each way costs too much time.
         let ways = if freedoms(self.model) > MOST_COMPOSITE { 1 } else { AXES.len() };
         let mut candidates = Vec::new();
-        for (axes, name) in AXES.into_iter().zip(names).take(ways) {
+        for (axes, &name) in AXES.into_iter().zip(names).take(ways) {
             candidates.extend(self.candidate(
                 name,
                 Way { style: Style::Nested, method, axes, writing: self.writing },
@@ -471,7 +494,7 @@ impl<'m> Deriving<'m> {
         };
         let mut candidates = Vec::new();
         for &(method, names) in methods {
-            candidates.extend(self.in_all_axes(names, method, &kept, all)?);
+            candidates.extend(self.in_all_axes(&names, method, &kept, all)?);
         }
         if floats(model) && freedoms(model) <= MOST_COMPOSITE {
             let name = "composite rigid body, LDL^T, translations first";
@@ -499,7 +522,7 @@ impl<'m> Deriving<'m> {
             }
             Ok(results)
         };
-        let mut candidates = self.in_all_axes(METHODS[0].1, Method::Composite, &kept, all)?;
+        let mut candidates = self.in_all_axes(&METHODS[0].1, Method::Composite, &kept, all)?;
         for at in 0..MOST_STRUT_WAYS {
             let found = self.maybe(|e| {
                 let reduction = e.reduce()?;
@@ -518,6 +541,33 @@ impl<'m> Deriving<'m> {
             let name = "composite rigid body, LDL^T, translations first";
             let way = Way { style: Style::Nested, method: Method::Floating, axes: None, writing: self.writing };
             candidates.extend(self.candidate(name, way, &kept, &mut { all })?);
+        }
+        Ok(candidates)
+    }
+
+    /// Derivatives of forward dynamics.
+    fn forward_derivatives(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        let kept = Needs::of(self.model.states.iter().map(|state| &state.rate)).kept(self.model);
+        self.linearised(&SIDES, &kept, |e, reduction, side| e.forward_derivatives(reduction, side))
+    }
+
+    /// Derivatives of inverse dynamics.
+    fn inverse_derivatives(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        self.linearised(&SIDES[..2], &[], |e, reduction, side| e.inverse_derivatives(reduction, side))
+    }
+
+    fn linearised(
+        &mut self,
+        sides: &[(Accumulation, &[&'static str])],
+        kept: &[JointId],
+        f: impl Fn(&mut Equations<'m>, &Reduction, Accumulation) -> Vec<Scalar>,
+    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        let mut candidates = Vec::new();
+        for &(side, names) in sides {
+            candidates.extend(self.in_all_axes(names, Method::Composite, kept, |e| {
+                let reduction = e.reduce()?;
+                Ok(f(e, &reduction, side))
+            })?);
         }
         Ok(candidates)
     }
