@@ -19,7 +19,6 @@ use super::constrained::Solved;
 use super::cycles::Branch;
 use super::equations::{Equations, Method, Style, Way};
 use super::gathered;
-use super::linearisation::Accumulation;
 use super::names;
 use super::needs::Needs;
 use super::parallel::Axes;
@@ -62,20 +61,6 @@ const METHODS: [(Method, Names); 2] = [
             "articulated body, parallel hinges in the axes of their tip",
         ],
     ),
-];
-
-/// Ways to derivatives. From the results' side common axes cost more than they save.
-const SIDES: [(Accumulation, &[&str]); 3] = [
-    (
-        Accumulation::Forward,
-        &[
-            "differentiated recursion, by columns",
-            "differentiated recursion, by columns, parallel hinges in the axes of their base",
-            "differentiated recursion, by columns, parallel hinges in the axes of their tip",
-        ],
-    ),
-    (Accumulation::Reverse, &["differentiated recursion, by rows"]),
-    (Accumulation::Weighted, &["differentiated recursion, by rows of the inverse mass matrix"]),
 ];
 
 const GATHERED: &str = "Newton-Euler, links that turn together gathered";
@@ -159,10 +144,10 @@ fn kinds(model: &Model, structure: &Structure) -> Vec<FunctionKind> {
     kinds
 }
 
-type Candidate = (&'static str, Vec<Scalar>);
+pub(super) type Candidate = (&'static str, Vec<Scalar>);
 
 /// A graph that goes from candidate to candidate.
-struct Deriving<'m> {
+pub(super) struct Deriving<'m> {
     model: &'m Model,
     structure: Rc<Structure>,
     graph: Graph,
@@ -329,7 +314,7 @@ impl<'m> Deriving<'m> {
         })
     }
 
-    fn in_all_axes(
+    pub(super) fn in_all_axes(
         &mut self,
         names: &[&'static str],
         method: Method,
@@ -420,15 +405,20 @@ impl<'m> Deriving<'m> {
                 all
             })?;
             let Some((_, results)) = found.into_iter().next() else { continue };
-            let mut lowering = Lowering::new(&self.graph);
-            let roots = lowering.run(&results);
-            let weight = lowering.to.cost(&roots).weight();
+            let weight = self.weight(&results);
             if least.is_none_or(|(known, _)| weight < known) {
                 least = Some((weight, writing));
             }
         }
         self.writing = least.map_or(Writing::PLAIN, |(_, writing)| writing);
         Ok(())
+    }
+
+    /// Of expressions as they are derived.
+    pub(super) fn weight(&self, results: &[Scalar]) -> u32 {
+        let mut lowering = Lowering::new(&self.graph);
+        let roots = lowering.run(results);
+        lowering.to.cost(&roots).weight()
     }
 
     /// The same, with the definitions at hand.
@@ -541,33 +531,6 @@ impl<'m> Deriving<'m> {
             let name = "composite rigid body, LDL^T, translations first";
             let way = Way { style: Style::Nested, method: Method::Floating, axes: None, writing: self.writing };
             candidates.extend(self.candidate(name, way, &kept, &mut { all })?);
-        }
-        Ok(candidates)
-    }
-
-    /// Derivatives of forward dynamics.
-    fn forward_derivatives(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        let kept = Needs::of(self.model.states.iter().map(|state| &state.rate)).kept(self.model);
-        self.linearised(&SIDES, &kept, |e, reduction, side| e.forward_derivatives(reduction, side))
-    }
-
-    /// Derivatives of inverse dynamics.
-    fn inverse_derivatives(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        self.linearised(&SIDES[..2], &[], |e, reduction, side| e.inverse_derivatives(reduction, side))
-    }
-
-    fn linearised(
-        &mut self,
-        sides: &[(Accumulation, &[&'static str])],
-        kept: &[JointId],
-        f: impl Fn(&mut Equations<'m>, &Reduction, Accumulation) -> Vec<Scalar>,
-    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        let mut candidates = Vec::new();
-        for &(side, names) in sides {
-            candidates.extend(self.in_all_axes(names, Method::Composite, kept, |e| {
-                let reduction = e.reduce()?;
-                Ok(f(e, &reduction, side))
-            })?);
         }
         Ok(candidates)
     }

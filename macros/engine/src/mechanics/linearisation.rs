@@ -4,7 +4,7 @@
 //! displacements of the position, velocities, own states and inputs. With the residual F(x, z) = (M a + bias + G^T l,
 //! G a + gamma) and z = (a, l), forward dynamics is F(x, z(x)) = 0, so that dz/dx = -(dF/dz)^-1 dF/dx at fixed z: the
 //! matrix is the one that forward dynamics has factorised, and nothing is differentiated through the solution
-//! (Carpentier and Mansard 2018). Rates r(x, z) of own states follow by dr/dx + dr/dz dz/dx.
+//! (Carpentier and Mansard 2018). Rates of own states depend on neither a nor l.
 //!
 //! Dependent positions are not differentiated through their closed form either: they move by the velocity map, whatever
 //! found them, and so an iteration's results have derivatives too.
@@ -14,8 +14,10 @@ use std::collections::HashMap;
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::{Scalar, ScalarNode};
 
+use super::analysis::Complaint;
 use super::constrained::Solved;
-use super::equations::Equations;
+use super::derive::{Candidate, Deriving};
+use super::equations::{Equations, Method};
 use super::reduction::Reduction;
 use super::saddle::Saddle;
 use super::time::Seeds;
@@ -32,6 +34,20 @@ pub(super) enum Accumulation {
     Weighted,
 }
 
+/// Ways to derivatives. From the results' side common axes cost more than they save.
+const SIDES: [(Accumulation, &[&str]); 3] = [
+    (
+        Accumulation::Forward,
+        &[
+            "differentiated recursion, by columns",
+            "differentiated recursion, by columns, parallel hinges in the axes of their base",
+            "differentiated recursion, by columns, parallel hinges in the axes of their tip",
+        ],
+    ),
+    (Accumulation::Reverse, &["differentiated recursion, by rows"]),
+    (Accumulation::Weighted, &["differentiated recursion, by rows of the inverse mass matrix"]),
+];
+
 /// A sum of expressions with weights.
 type Weighted = Vec<(Scalar, Scalar)>;
 
@@ -40,6 +56,38 @@ struct Directions {
     columns: Vec<Seeds>,
     /// Numbers of positions, velocities, own states and inputs.
     counts: [usize; 4],
+}
+
+impl<'m> Deriving<'m> {
+    /// Derivatives of forward dynamics.
+    pub(super) fn forward_derivatives(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        self.linearised(&SIDES, |e, reduction, side| e.forward_derivatives(reduction, side))
+    }
+
+    /// Derivatives of inverse dynamics.
+    pub(super) fn inverse_derivatives(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        self.linearised(&SIDES[..2], |e, reduction, side| e.inverse_derivatives(reduction, side))
+    }
+
+    fn linearised(
+        &mut self,
+        sides: &[(Accumulation, &[&'static str])],
+        f: impl Fn(&mut Equations<'m>, &Reduction, Accumulation) -> Vec<Scalar>,
+    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        let mut candidates = Vec::new();
+        for &(side, names) in sides {
+            candidates.extend(self.in_all_axes(names, Method::Composite, &[], |e| {
+                let reduction = e.reduce()?;
+                Ok(f(e, &reduction, side))
+            })?);
+        }
+        // The functions are long: only ways that may come out as the cheapest are worth optimising.
+        let weights: Vec<u32> = candidates.iter().map(|candidate| self.weight(&candidate.1)).collect();
+        let least = weights.iter().copied().min().unwrap_or(0);
+        let mut kept = weights.into_iter().map(|weight| 10 * weight <= 11 * least);
+        candidates.retain(|_| kept.next() == Some(true));
+        Ok(candidates)
+    }
 }
 
 impl Equations<'_> {
@@ -70,69 +118,44 @@ impl Equations<'_> {
             residual.push(self.g.sum(&terms));
         }
         let model = self.model;
-        let rates = if model.states.is_empty() {
-            Vec::new()
-        } else {
-            self.accelerations = Some(self.symbols.accelerations.concat().into());
-            let rates: Vec<Scalar> = model.states.iter().map(|state| self.scalar(&state.rate)).collect();
-            self.finish(reduction, &rates)
-        };
+        saddle.invert(&mut self.g);
         let mut columns = match accumulation {
-            Accumulation::Weighted => {
-                let wanted = freedoms + if rates.is_empty() { 0 } else { rows.bias.len() };
-                self.weighted(&mut saddle, &residual, &directions.columns, wanted)
-            }
+            Accumulation::Weighted => self.weighted(&saddle, &residual, &directions.columns, freedoms),
             accumulation => self.partials(&residual, &directions.columns, accumulation),
         };
         self.settle(&mut columns, &solved);
         if accumulation != Accumulation::Weighted {
-            self.solve_columns(&mut saddle, freedoms, &mut columns);
+            self.solve_columns(&saddle, freedoms, &mut columns);
         }
-        if !rates.is_empty() {
-            let unknowns: Seeds =
-                accelerations.iter().chain(&self.symbols.multipliers).map(|&symbol| (symbol, Scalar::ONE)).collect();
-            let unknowns: Vec<Seeds> = unknowns.into_iter().map(|seed| vec![seed]).collect();
-            let mut slopes = self.partials(&rates, &unknowns, Accumulation::Forward);
-            let mut direct = self.partials(&rates, &directions.columns, Accumulation::Forward);
-            self.settle(&mut slopes, &solved);
-            self.settle(&mut direct, &solved);
-            for (column, direct) in columns.iter_mut().zip(direct) {
-                let moved = std::mem::take(column);
-                *column = moved.iter().copied().take(freedoms).collect();
-                for (row, direct) in direct.into_iter().enumerate() {
-                    let mut terms = vec![direct];
-                    terms.extend(slopes.iter().zip(&moved).map(|(slope, &moved)| self.g.mul(slope[row], moved)));
-                    column.push(self.g.sum(&terms));
-                }
-            }
+        // The checker lets no rate depend on accelerations or reactions.
+        let rates: Vec<Scalar> = model.states.iter().map(|state| self.scalar(&state.rate)).collect();
+        let rates = self.finish(reduction, &rates);
+        let rates = self.partials(&rates, &directions.columns, Accumulation::Forward);
+        for (column, rates) in columns.iter_mut().zip(rates) {
+            column.extend(rates);
         }
-        columns.iter_mut().for_each(|column| column.truncate(freedoms + model.states.len()));
         directions.matrices(&columns)
     }
 
     /// -(dF/dz)^-1 dF/dx, column by column; a column holds what the matrix has to solve.
-    fn solve_columns(&mut self, saddle: &mut Saddle, freedoms: usize, columns: &mut [Vec<Scalar>]) {
-        saddle.invert(&mut self.g);
+    fn solve_columns(&mut self, saddle: &Saddle, freedoms: usize, columns: &mut [Vec<Scalar>]) {
         for column in columns {
             let negative: Vec<Scalar> = column.iter().map(|&entry| -entry).collect();
             let (efforts, equations) = negative.split_at(freedoms);
-            let moved = saddle.solve(&mut self.g, efforts, equations);
-            *column = [moved.unknowns, moved.multipliers].concat();
+            *column = saddle.solve(&mut self.g, efforts, equations).unknowns;
         }
     }
 
     /// The same, row by row: the matrix is symmetric, so a column of its inverse is a row of weights for the equations.
     fn weighted(
         &mut self,
-        saddle: &mut Saddle,
+        saddle: &Saddle,
         residual: &[Scalar],
         columns: &[Seeds],
-        wanted: usize,
+        freedoms: usize,
     ) -> Vec<Vec<Scalar>> {
-        saddle.invert(&mut self.g);
-        let freedoms = self.structure.state.len();
-        let mut results = Vec::with_capacity(wanted);
-        for row in 0..wanted {
+        let mut results = Vec::with_capacity(freedoms);
+        for row in 0..freedoms {
             let mut unit = vec![Scalar::ZERO; residual.len()];
             unit[row] = Scalar::ONE;
             let (efforts, equations) = unit.split_at(freedoms);

@@ -73,9 +73,10 @@ fn input_derivative(layout: &Layout<'_>, derivatives: &TokenStream) -> TokenStre
     let has_states = layout.has_states();
     let extra = if has_states { quote!(States<T>) } else { quote!(()) };
     if layout.is_empty(Group::Input, None) {
+        let rest = if has_states { quote!(#krate::Tangent::<T>::zero()) } else { quote!(()) };
         return quote! {
             fn input_derivative(&self, _t: T, _state: &State<T>, _input: &(), _change: &()) -> (Velocity<T>, #extra) {
-                (#krate::Tangent::zero(), #krate::Tangent::zero())
+                (#krate::Tangent::<T>::zero(), #rest)
             }
         };
     }
@@ -87,16 +88,16 @@ fn input_derivative(layout: &Layout<'_>, derivatives: &TokenStream) -> TokenStre
         })
     });
     let count = layout.dof() + layout.table(Group::States).size;
-    let rates: Vec<TokenStream> = (0..count)
+    let rates = names::ident(if count == 0 { "_rates" } else { "rates" });
+    let list: Vec<TokenStream> = (0..count)
         .map(|at| {
             let at = Literal::usize_unsuffixed(at);
-            quote!(rates[#at])
+            quote!(#rates[#at])
         })
         .collect();
-    let (velocities, states) = rates.split_at(layout.dof());
+    let (velocities, states) = list.split_at(layout.dof());
     let velocities = results::filled(layout, Group::Velocity, velocities);
     let states = if has_states { results::filled(layout, Group::States, states) } else { quote!(()) };
-    let rates = names::ident(if count == 0 { "_rates" } else { "rates" });
     quote! {
         fn input_derivative(
             &self,
