@@ -210,9 +210,9 @@ pub(super) fn function(layout: &Layout<'_>, function: &Function) -> Vec<String> 
             "Closes the loops by Newton's method: the state with the solution as its guess, and the greatest residual."
         }
         FunctionKind::DeadCentres => {
-            "Distances from dead centres, in the order of `DEAD_CENTRES`: the square roots in the solutions of the loops, \
-             products of lengths. Zero where two solutions meet, and rates of the solution grow without bound; NaN where \
-             the loop cannot be closed."
+            "Distances from dead centres, in the order of `DEAD_CENTRES`. Of a loop's solution: its square root, a product \
+             of lengths, zero where two solutions meet and NaN where the loop cannot be closed. Of roll, pitch and yaw: \
+             the cosine of the pitch, zero where roll and yaw turn about one axis. Rates grow without bound there."
         }
     };
     let mut lines = vec![text.to_string(), String::new()];
