@@ -2,6 +2,7 @@
 
 pub mod arms;
 pub mod extremes;
+pub mod hundred_rods;
 pub mod laws;
 pub mod linkages;
 pub mod loops;
