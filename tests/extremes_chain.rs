@@ -27,7 +27,12 @@ fn the_cost_of_a_rod_stays() {
         let rows = count(&model_of(&chain(rods)), false);
         let row = &rows[0];
         let each = f64::from(flops(&row.after)) / rods as f64;
-        println!("{rods:4} rods: {:6} operations, {each:5.1} each, {}, {:.1?}", flops(&row.after), row.method, start.elapsed());
+        println!(
+            "{rods:4} rods: {:6} operations, {each:5.1} each, {}, {:.1?}",
+            flops(&row.after),
+            row.method,
+            start.elapsed()
+        );
         assert!(row.after.sincos <= rods as u32);
         if let Some((fewer, before)) = last {
             assert!(each <= 1.25 * before || rods <= 10, "{each} with {rods} rods, {before} with {fewer}");

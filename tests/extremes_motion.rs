@@ -2,7 +2,7 @@
 //! Errors are largest differences over one plus the largest entry.
 
 use multibody::nalgebra::{Quaternion, Rotation3, SVector, UnitQuaternion, Vector3};
-use multibody::{Dop853, DormandPrince, Integrator, IntegrationError, Rk4, RollPitchYaw, System};
+use multibody::{Dop853, DormandPrince, IntegrationError, Integrator, Rk4, RollPitchYaw, System};
 use multibody_tests::models::extremes::{gimballed, turning};
 use multibody_tests::models::motion::{chain, pendulum_on_ball, top, two_masses};
 use multibody_tests::support::compare::{mixed, worse};
@@ -68,7 +68,8 @@ fn tips_lighter_and_heavier() {
         assert!(most <= 1e-11, "{name}: {most:e}");
         errors.push(most.max(f64::EPSILON));
     }
-    let (least, most) = (errors.iter().fold(f64::MAX, |a, &b| a.min(b)), errors.iter().fold(0.0, |a: f64, &b| a.max(b)));
+    let (least, most) =
+        (errors.iter().fold(f64::MAX, |a, &b| a.min(b)), errors.iter().fold(0.0, |a: f64, &b| a.max(b)));
     println!("mass ratios: within {:.1} times of each other", most / least);
     assert!(most <= 10.0 * least, "{errors:?}");
 }
