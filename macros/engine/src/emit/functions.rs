@@ -38,7 +38,7 @@ pub fn name(kind: FunctionKind) -> Cow<'static, str> {
 }
 
 /// The variables that a program reads.
-fn roots(program: &Program) -> BTreeSet<Root> {
+pub(super) fn roots(program: &Program) -> BTreeSet<Root> {
     let mut roots = BTreeSet::new();
     each_leaf_of(program, &mut |leaf| {
         if let Expression::Symbol(symbol) = leaf {

@@ -7,6 +7,7 @@ mod defaults;
 mod equations;
 mod model;
 mod parts;
+pub(super) mod separable;
 mod space;
 mod state;
 mod structs;
@@ -29,6 +30,7 @@ pub(super) fn all(context: &Context<'_>) -> TokenStream {
         conversions::items(context),
         model::items(context),
         system::item(context),
+        separable::item(context),
         parts::items(context),
     ]
     .into_iter()
