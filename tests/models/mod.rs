@@ -1,6 +1,7 @@
 //! Mechanisms as users write them, compiled once for all tests.
 
 pub mod arms;
+pub mod impulses;
 pub mod laws;
 pub mod linkages;
 pub mod loops;

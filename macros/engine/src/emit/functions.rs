@@ -34,6 +34,10 @@ pub fn name(kind: FunctionKind) -> Cow<'static, str> {
         FunctionKind::Kinematics(number) => return Cow::Owned(format!("kinematics_{}", number + 1)),
         FunctionKind::Guess => "close",
         FunctionKind::DeadCentres => "dead_centres",
+        FunctionKind::Impulse => "impulse",
+        FunctionKind::Momentum => "momentum",
+        FunctionKind::MomentumRate => "momentum_rate",
+        FunctionKind::MomentumVelocity => "velocity",
     })
 }
 

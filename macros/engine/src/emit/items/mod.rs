@@ -5,6 +5,7 @@ mod conversions;
 mod costs;
 mod defaults;
 mod equations;
+mod impulses;
 mod model;
 mod parts;
 pub(super) mod separable;
@@ -31,6 +32,7 @@ pub(super) fn all(context: &Context<'_>) -> TokenStream {
         model::items(context),
         system::item(context),
         separable::item(context),
+        impulses::items(context),
         parts::items(context),
     ]
     .into_iter()
