@@ -3,6 +3,7 @@
 pub mod arms;
 pub mod extremes;
 pub mod hundred_rods;
+pub mod impulses;
 pub mod laws;
 pub mod linkages;
 pub mod loops;

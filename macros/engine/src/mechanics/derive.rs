@@ -5,6 +5,8 @@
 //! value are one node, in the form that was made first, so a second way would come out as the first; and what one
 //! function costs must not depend on which others are asked for.
 
+mod impulses;
+
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -79,6 +81,7 @@ const MOST_COMPOSITE: usize = 32;
 pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Complaint>> {
     let mut graph = Graph::new();
     let symbols = Symbols::new(&mut graph, model).with_structure(&mut graph, structure);
+    let symbols = symbols.with_impulses(&mut graph, model, structure);
     let symbol_names = symbols.table.iter().map(|&symbol| names::symbol(model, symbol)).collect();
     let mut deriving = Deriving {
         model,
@@ -90,6 +93,7 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
         notes: Vec::new(),
         dead_centres: Vec::new(),
     };
+    deriving.check_impulses()?;
     deriving.check()?;
     deriving.choose_writing()?;
     let mut functions = Vec::new();
@@ -135,6 +139,7 @@ fn kinds(model: &Model, structure: &Structure) -> Vec<FunctionKind> {
     }
     kinds.extend(wanted(Request::Residual, &[FunctionKind::Residual]));
     kinds.extend((0..model.kinematics.len()).map(FunctionKind::Kinematics));
+    kinds.extend(impulses::kinds(model));
     if !model.outputs.is_empty() {
         kinds.push(FunctionKind::Outputs);
     }
@@ -196,6 +201,9 @@ impl<'m> Deriving<'m> {
                     let pitches = gimbals::pitches(e.model, &e.structure);
                     Ok(gimbals::cosines(&mut e.g, &e.symbols, &pitches))
                 }),
+                FunctionKind::Impulse | FunctionKind::MomentumVelocity => self.jumps(),
+                FunctionKind::Momentum => self.momenta(),
+                FunctionKind::MomentumRate => self.momentum_rates(),
             };
         }
         match kind {
@@ -248,6 +256,9 @@ impl<'m> Deriving<'m> {
                 roots.extend(gimbals::cosines(&mut e.g, &e.symbols, &pitches));
                 Ok(e.finish(reduction, &roots))
             }),
+            FunctionKind::Impulse | FunctionKind::MomentumVelocity => self.constrained_jumps(),
+            FunctionKind::Momentum => self.reduced_momenta(),
+            FunctionKind::MomentumRate => self.reduced_momentum_rates(),
         }
     }
 
