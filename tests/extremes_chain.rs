@@ -1,6 +1,6 @@
 //! Chains of rods, from five to a hundred: they derive, compile and conserve energy, and the cost of a rod stays what it is.
 
-use multibody::{DormandPrince, Integrator};
+use multibody::{Dop853, Integrator};
 use multibody_tests::models::hundred_rods::hundred_rods::{COSTS, DOF, Model, State};
 use multibody_tests::support::compare::worse;
 use multibody_tests::support::engine::model_of;
@@ -56,7 +56,7 @@ fn a_hundred_rods_conserve_energy() {
     // Above the chain that hangs.
     let scale = first - energy(&State::default());
     let mut most = 0.0;
-    let (end, statistics) = Integrator::adaptive(DormandPrince, 1e-11, 1e-11)
+    let (end, statistics) = Integrator::adaptive(Dop853, 1e-11, 1e-11)
         .integrate(&model, 0.0, 1.0, &start, &(), |_, x| most = worse(most, ((energy(x) - first) / scale).abs()))
         .unwrap();
     println!("100 rods: energy {most:.1e} over 1 s, {} evaluations", statistics.evaluations);

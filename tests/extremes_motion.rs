@@ -2,7 +2,7 @@
 //! Errors are largest differences over one plus the largest entry.
 
 use multibody::nalgebra::{Quaternion, Rotation3, SVector, UnitQuaternion, Vector3};
-use multibody::{DormandPrince, IntegrationError, Integrator, Rk4, RollPitchYaw, System};
+use multibody::{Dop853, DormandPrince, IntegrationError, Integrator, Rk4, RollPitchYaw, System};
 use multibody_tests::models::extremes::{gimballed, turning};
 use multibody_tests::models::motion::{chain, pendulum_on_ball, top, two_masses};
 use multibody_tests::support::compare::{mixed, worse};
@@ -14,7 +14,7 @@ fn follow<S>(system: &S, start: S::State, points: &[Value], mut check: impl FnMu
 where
     S: System<Scalar = f64, Input = ()>,
 {
-    let integrator = Integrator::adaptive(DormandPrince, 1e-14, 1e-14).compensated();
+    let integrator = Integrator::adaptive(Dop853, 1e-14, 1e-14).compensated();
     let (mut state, mut t, mut evaluations) = (start, 0.0, 0);
     for point in points {
         let end = number(&point["t"]);
@@ -84,7 +84,7 @@ fn tip_a_million_times_heavier() {
     // Above the lowest point, which is what the motion has to share.
     let scale = first - energy(&leaning([0.0, 0.0]));
     let mut most = 0.0;
-    let (_, statistics) = Integrator::adaptive(DormandPrince, 1e-13, 1e-13)
+    let (_, statistics) = Integrator::adaptive(Dop853, 1e-13, 1e-13)
         .integrate(&model, 0.0, 1.0, &start, &(), |_, x| most = worse(most, ((energy(x) - first) / scale).abs()))
         .unwrap();
     println!("heavy tip 1e6: energy {most:.1e} relative over 1 s, {} evaluations", statistics.evaluations);
@@ -218,7 +218,7 @@ fn gimbal_lock() {
         let model = turning::Model::default();
         let mut start = turning::State::default();
         (start.q.centre, start.v.centre) = (q, omega);
-        let precise = Integrator::adaptive(DormandPrince, 1e-14, 1e-14);
+        let precise = Integrator::adaptive(Dop853, 1e-14, 1e-14);
         let (x, _) = precise.integrate(&model, -1.0, 1.0, &start, &(), |_, _| ()).unwrap();
         let error = turned(&x.q.centre, &x.v.centre, &end, rates.as_slice());
         println!("gimbal lock missed by {miss:.0e}: quaternion {error:.1e}");
