@@ -183,15 +183,36 @@ impl Equations<'_> {
         let matrix = self.reduced_mass_matrix(reduction);
         let bias = self.reduced_efforts(reduction, false);
         let rhs: Vec<Scalar> = bias.iter().map(|&b| -b).collect();
-        let order = self.state_elimination();
         let rows = self.rows(reduction);
         let held: Vec<Scalar> = rows.bias.iter().map(|&gamma| -gamma).collect();
-        let saddle = Saddle::new(&mut self.g, matrix, rows.jacobian.clone(), &order);
-        let Solution { unknowns: accelerations, multipliers, rank } = saddle.solve(&mut self.g, &rhs, &held);
+        let (saddle, solved) = self.solve_rows(matrix, &rhs, rows.jacobian.clone(), &held);
+        (saddle, rows, solved)
+    }
+
+    /// The jump of velocities under an impulse: the same system with the impulse for the forces, and given rates of the
+    /// equations.
+    pub(super) fn constrained_jump(&mut self, reduction: &Reduction) -> Solved {
+        let matrix = self.reduced_mass_matrix(reduction);
+        let jacobian = self.rows(reduction).jacobian;
+        let (impulses, rates) = (self.symbols.impulses.clone(), self.symbols.rates.clone());
+        self.solve_rows(matrix, &impulses, jacobian, &rates).1
+    }
+
+    /// M a + G^T lambda = rhs, G a = held.
+    fn solve_rows(
+        &mut self,
+        matrix: Vec<Vec<Scalar>>,
+        rhs: &[Scalar],
+        jacobian: Vec<Vec<Scalar>>,
+        held: &[Scalar],
+    ) -> (Saddle, Solved) {
+        let order = self.state_elimination();
+        let saddle = Saddle::new(&mut self.g, matrix, jacobian, &order);
+        let Solution { unknowns: accelerations, multipliers, rank } = saddle.solve(&mut self.g, rhs, held);
         for (k, &multiplier) in multipliers.iter().enumerate() {
             self.g.name(multiplier, || format!("multiplier_{}", k + 1));
         }
-        (saddle, rows, Solved { accelerations, multipliers, rank })
+        (saddle, Solved { accelerations, multipliers, rank })
     }
 
     /// Elimination of the state's coordinates from the leaves inwards; by place in the state.

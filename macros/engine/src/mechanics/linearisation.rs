@@ -14,10 +14,8 @@ use std::collections::HashMap;
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::{Scalar, ScalarNode};
 
-use super::analysis::Complaint;
 use super::constrained::Solved;
-use super::derive::{Candidate, Deriving};
-use super::equations::{Equations, Method};
+use super::equations::Equations;
 use super::reduction::Reduction;
 use super::saddle::Saddle;
 use super::time::Seeds;
@@ -34,20 +32,6 @@ pub(super) enum Accumulation {
     Weighted,
 }
 
-/// Ways to derivatives. From the results' side common axes cost more than they save.
-const SIDES: [(Accumulation, &[&str]); 3] = [
-    (
-        Accumulation::Forward,
-        &[
-            "differentiated recursion, by columns",
-            "differentiated recursion, by columns, parallel hinges in the axes of their base",
-            "differentiated recursion, by columns, parallel hinges in the axes of their tip",
-        ],
-    ),
-    (Accumulation::Reverse, &["differentiated recursion, by rows"]),
-    (Accumulation::Weighted, &["differentiated recursion, by rows of the inverse mass matrix"]),
-];
-
 /// A sum of expressions with weights.
 type Weighted = Vec<(Scalar, Scalar)>;
 
@@ -56,38 +40,6 @@ struct Directions {
     columns: Vec<Seeds>,
     /// Numbers of positions, velocities, own states and inputs.
     counts: [usize; 4],
-}
-
-impl<'m> Deriving<'m> {
-    /// Derivatives of forward dynamics.
-    pub(super) fn forward_derivatives(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        self.linearised(&SIDES, |e, reduction, side| e.forward_derivatives(reduction, side))
-    }
-
-    /// Derivatives of inverse dynamics.
-    pub(super) fn inverse_derivatives(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        self.linearised(&SIDES[..2], |e, reduction, side| e.inverse_derivatives(reduction, side))
-    }
-
-    fn linearised(
-        &mut self,
-        sides: &[(Accumulation, &[&'static str])],
-        f: impl Fn(&mut Equations<'m>, &Reduction, Accumulation) -> Vec<Scalar>,
-    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        let mut candidates = Vec::new();
-        for &(side, names) in sides {
-            candidates.extend(self.in_all_axes(names, Method::Composite, &[], |e| {
-                let reduction = e.reduce()?;
-                Ok(f(e, &reduction, side))
-            })?);
-        }
-        // The functions are long: only ways that may come out as the cheapest are worth optimising.
-        let weights: Vec<u32> = candidates.iter().map(|candidate| self.weight(&candidate.1)).collect();
-        let least = weights.iter().copied().min().unwrap_or(0);
-        let mut kept = weights.into_iter().map(|weight| 10 * weight <= 11 * least);
-        candidates.retain(|_| kept.next() == Some(true));
-        Ok(candidates)
-    }
 }
 
 impl Equations<'_> {

@@ -18,7 +18,7 @@ use super::typed::MAX_SCALARS;
 use super::types::{Expr as Checked, ExprNode, InputId, Joint, JointId, Kinematics, Request, SolveFor};
 use crate::syntax::tree;
 
-const REQUESTS: [(&str, Request); 9] = [
+const REQUESTS: [(&str, Request); 11] = [
     ("forward_dynamics", Request::ForwardDynamics),
     ("inverse_dynamics", Request::InverseDynamics),
     ("mass_matrix", Request::MassMatrix),
@@ -28,6 +28,8 @@ const REQUESTS: [(&str, Request); 9] = [
     ("residual", Request::Residual),
     ("kinematics", Request::Kinematics),
     ("derivatives", Request::Derivatives),
+    ("impulse", Request::Impulse),
+    ("momentum", Request::Momentum),
 ];
 
 /// Named by the design, derived by later versions.
@@ -45,6 +47,8 @@ const INVERSE: Known<'static> = Known { required: &[], optional: &["solve_for"] 
 #[derive(Default)]
 pub(super) struct Requested<'a> {
     pub(super) list: Vec<Request>,
+    /// With the place of each.
+    pub(super) asked: Vec<(Request, Span)>,
     pub(super) solve_for: Vec<SolveFor>,
     /// Read when it is known what hangs on what.
     pub(super) kinematics: Vec<(&'a tree::Request, ScopeId)>,
@@ -76,6 +80,7 @@ impl<'a> Checker<'a, '_> {
                 }
                 if !into.list.contains(found) {
                     into.list.push(*found);
+                    into.asked.push((*found, span));
                 }
             } else if NOT_YET.contains(&name.as_str()) {
                 let message = format!("`{name}` is not available yet");

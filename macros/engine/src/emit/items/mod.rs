@@ -6,8 +6,10 @@ mod costs;
 mod defaults;
 mod differentiable;
 mod equations;
+mod impulses;
 mod model;
 mod parts;
+pub(super) mod separable;
 mod space;
 mod state;
 mod structs;
@@ -31,6 +33,8 @@ pub(super) fn all(context: &Context<'_>) -> TokenStream {
         model::items(context),
         system::item(context),
         differentiable::item(context),
+        separable::item(context),
+        impulses::items(context),
         parts::items(context),
     ]
     .into_iter()
