@@ -143,9 +143,10 @@ impl<const N: usize> Watch<N> {
         events: &mut impl Events<S, N>,
     ) -> Result<Option<Cut<S, M>>, IntegrationError> {
         let length = interval.length().abs();
+        let sharpest = resolution(interval, 0.0);
         let width = resolution(interval, events.tolerance()) / length;
         let first =
-            self.close.take().map(|time| if time.is_nan() { START } else { Real::max(time / length, 4.0 * width) });
+            self.close.take().map(|time| if time.is_nan() { START } else { Real::max(time, 4.0 * sharpest) / length });
         let inner = f64::from(events.samples()) + 1.0;
         let (mut low, mut c) = (0.0, 0.0);
         while c < 1.0 {
@@ -162,7 +163,7 @@ impl<const N: usize> Watch<N> {
                     Some(part) => {
                         let (index, part) = self.sooner(interval, events, (index, part), low, width)?;
                         low = part.share;
-                        if let Some(cut) = self.handle(interval, events, index, part, width * length)? {
+                        if let Some(cut) = self.handle(interval, events, index, part, sharpest)? {
                             return Ok(Some(cut));
                         }
                     }
