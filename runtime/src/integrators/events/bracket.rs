@@ -33,7 +33,7 @@ impl Bracket {
     /// Where to look next, if the bracket is wider than `width`.
     pub(super) fn next(&mut self, width: f64) -> Option<f64> {
         let span = self.width();
-        if !(span > width) {
+        if span <= width {
             return None;
         }
         self.moves += 1;

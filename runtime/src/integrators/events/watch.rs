@@ -243,7 +243,7 @@ impl<const N: usize> Watch<N> {
             let mut at_high = (guess, at_guess);
             for _ in 0..STEPS {
                 let x = at_high.0 - reach;
-                if !(x > low) {
+                if x <= low {
                     break;
                 }
                 let try_part = interval.part(x)?;
