@@ -171,9 +171,11 @@ impl<M> Integrator<M> {
     /// # multibody! { mod ball { world { gravity: -9.81 * Y } body ball { mass: 1.0 }
     /// #     joint height: Prismatic { parent: ground, child: ball, axis: Y } } }
     /// let tolerant = Integrator::adaptive(DormandPrince, 1e-6, 1e-6);
-    /// let (mut k, start) = (0, ball::State::default());
-    /// tolerant.sampled(&ball::Model::default(), 0.0, 1.0, &start, &(), (0..=10).map(|k| 0.1 * f64::from(k)), |t, x| {
-    ///     assert!((x.q.height + 0.5 * 9.81 * t * t).abs() < 1e-12);
+    /// let (mut k, start) = (0, ball::State::<f64>::default());
+    /// let tenths = (0..=10).map(|k| 0.1 * f64::from(k));
+    /// tolerant.sampled(&ball::Model::default(), 0.0, 1.0, &start, &(), tenths, |t, x| {
+    ///     let fallen: f64 = x.q.height + 0.5 * 9.81 * t * t;
+    ///     assert!(fallen.abs() < 1e-12);
     ///     k += 1;
     /// })?;
     /// assert_eq!(k, 11);
