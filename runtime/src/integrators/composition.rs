@@ -148,5 +148,5 @@ macro_rules! splitting {
 }
 
 splitting!(Verlet, 2, VERLET);
-splitting!(Composition4, 4, FOURTH);
+splitting!(Composition4, 4, FOURTH, quintic);
 splitting!(Composition6, 6, SIXTH, quintic);

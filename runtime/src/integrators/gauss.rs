@@ -95,8 +95,8 @@ macro_rules! gauss {
 }
 
 gauss!(ImplicitMidpoint: System, order 2, Velocities, ONE);
-gauss!(GaussLegendre4: System, order 4, Velocities, TWO);
+gauss!(GaussLegendre4: System, order 4, Velocities, TWO, quintic);
 gauss!(GaussLegendre6: System, order 6, Velocities, THREE, quintic);
 gauss!(SymplecticMidpoint: Canonical, order 2, Momenta, ONE);
-gauss!(SymplecticGauss4: Canonical, order 4, Momenta, TWO);
+gauss!(SymplecticGauss4: Canonical, order 4, Momenta, TWO, quintic);
 gauss!(SymplecticGauss6: Canonical, order 6, Momenta, THREE, quintic);

@@ -101,11 +101,7 @@ impl<const STAGES: usize, const HISTORY: usize> Tableau<STAGES, HISTORY> {
 
     /// First slopes: extrapolated from steps of the same length, else those of the last stage.
     #[inline]
-    fn first<S: System>(
-        &self,
-        step: &Step<'_, S>,
-        memory: &Stages<S, STAGES, HISTORY>,
-    ) -> [SlopeOf<S>; STAGES] {
+    fn first<S: System>(&self, step: &Step<'_, S>, memory: &Stages<S, STAGES, HISTORY>) -> [SlopeOf<S>; STAGES] {
         if !all(Real::eq(memory.dt, step.dt)) {
             let last = memory.slopes.first().and_then(|stages| stages.last()).copied();
             return [last.unwrap_or_else(SlopeOf::<S>::zero); STAGES];
@@ -154,7 +150,7 @@ impl<const STAGES: usize, const HISTORY: usize> Tableau<STAGES, HISTORY> {
         let huge = S::Scalar::lit(f64::INFINITY);
         let mut least = (*slopes).map(|slope| slope.map(&mut |_| huge));
         let mut positions = self.positions(step, start, slopes);
-        for _ in 0..MOST {
+        for k in 0..MOST {
             let before = *slopes;
             self.sweep::<S, V>(problem, step, start, slopes, &mut positions);
 
@@ -172,6 +168,10 @@ impl<const STAGES: usize, const HISTORY: usize> Tableau<STAGES, HISTORY> {
                 size = new.fold(size, &mut |size, k| Real::max(size, Real::abs(k)));
             }
             if !all(Real::is_finite(greatest)) {
+                if k > 0 {
+                    // The iteration ran away, where the system itself has values: the step ends where it started.
+                    *slopes = [SlopeOf::<S>::zero(); STAGES];
+                }
                 return false;
             }
             // Noise of the forces, not a transient of the iteration.
