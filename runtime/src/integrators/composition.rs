@@ -12,7 +12,7 @@
 use super::dense::Dense;
 use super::method::{Attempt, Method, inherent};
 use super::problem::{Problem, Step};
-use super::slope::SlopeOf;
+use super::slope::{SlopeOf, literals};
 use crate::{Configuration, PositionOf, Real, Separable, StateSpace, Tangent, VelocityOf};
 
 /// The velocity form of Verlet's method (Stormer, Verlet 1967), also known as leapfrog: second order, one evaluation,
@@ -75,22 +75,23 @@ impl<const KICKS: usize, const DRIFTS: usize> Splitting<KICKS, DRIFTS> {
         accel: &VelocityOf<S>,
     ) -> Attempt<S, VelocityOf<S>> {
         let (start, velocity, own) = step.state.split();
-        let kicks = self.kicks.map(|share| S::Scalar::lit(share) * step.dt);
-        let drifts = self.drifts.map(|share| S::Scalar::lit(share) * step.dt);
+        let kicks: [S::Scalar; KICKS] = literals(&self.kicks);
+        let drifts: [S::Scalar; DRIFTS] = literals(&self.drifts);
 
         let mut d = SlopeOf::<S>::zero();
         let mut accel = *accel;
         let mut elapsed = S::Scalar::lit(0.0);
         let mut kicks = kicks.into_iter();
         for (k, drift) in drifts.into_iter().enumerate() {
-            d.v = kicks.next().map_or(d.v, |kick| d.v.add_scaled(kick, &accel));
+            let drift = drift * step.dt;
+            d.v = kicks.next().map_or(d.v, |kick| d.v.add_scaled(kick * step.dt, &accel));
             let v = velocity.add(&d.v);
             d.q = <PositionOf<S> as Configuration<S::Scalar>>::compose(&d.q, &v.scale(drift));
             elapsed += drift;
             let t = if k + 1 == DRIFTS { step.end } else { step.t + elapsed };
             accel = problem.slope(t, &step.state.join(start.displace(&d.q), v, own)).v;
         }
-        d.v = kicks.next().map_or(d.v, |kick| d.v.add_scaled(kick, &accel));
+        d.v = kicks.next().map_or(d.v, |kick| d.v.add_scaled(kick * step.dt, &accel));
         Attempt::new(d, accel)
     }
 }

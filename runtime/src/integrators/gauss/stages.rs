@@ -46,7 +46,7 @@ struct Start<S: System> {
     w: VelocityOf<S>,
 }
 
-impl<const STAGES: usize, const HISTORY: usize> Tableau<STAGES, HISTORY> {
+impl<const STAGES: usize, const HISTORY: usize> Tableau<f64, STAGES, HISTORY> {
     #[inline]
     pub(super) fn begin<S: System, V: Variables<S>>(
         &self,
@@ -70,10 +70,11 @@ impl<const STAGES: usize, const HISTORY: usize> Tableau<STAGES, HISTORY> {
     ) -> Attempt<S, Stages<S, STAGES, HISTORY>> {
         let (q, v, _) = step.state.split();
         let start = Start::<S> { state: *step.state, q, w: memory.second };
-        let mut slopes = self.first(step, memory);
-        let converged = self.solve::<S, V>(problem, step, &start, &mut slopes);
+        let tableau = self.lit::<S::Scalar>();
+        let mut slopes = tableau.first(step, memory);
+        let converged = tableau.solve::<S, V>(problem, step, &start, &mut slopes);
 
-        let mut displacement = self.sum::<S::Scalar, SlopeOf<S>>(&slopes).scale(step.dt);
+        let mut displacement: SlopeOf<S> = tableau.sum(&slopes).scale(step.dt);
         let second = start.w.add(&displacement.v);
         let end = V::velocity(problem.system, &q.displace(&displacement.q), &second);
         displacement.v = end.add_scaled(S::Scalar::lit(-1.0), &v);
@@ -98,32 +99,41 @@ impl<const STAGES: usize, const HISTORY: usize> Tableau<STAGES, HISTORY> {
     ) -> Stages<S, STAGES, HISTORY> {
         Stages { second: V::of(problem.system, next), ..attempt.details }
     }
+}
 
+// Loops in place of `map` over tables: they become constants in the precision of the scalar.
+impl<T: Real, const STAGES: usize, const HISTORY: usize> Tableau<T, STAGES, HISTORY> {
     /// First slopes: extrapolated from steps of the same length, else those of the last stage.
     #[inline]
-    fn first<S: System>(&self, step: &Step<'_, S>, memory: &Stages<S, STAGES, HISTORY>) -> [SlopeOf<S>; STAGES] {
+    fn first<S: System<Scalar = T>>(
+        &self,
+        step: &Step<'_, S>,
+        memory: &Stages<S, STAGES, HISTORY>,
+    ) -> [SlopeOf<S>; STAGES] {
         if !all(Real::eq(memory.dt, step.dt)) {
             let last = memory.slopes.first().and_then(|stages| stages.last()).copied();
             return [last.unwrap_or_else(SlopeOf::<S>::zero); STAGES];
         }
-        self.extrapolation.map(|weights| {
-            let steps = weights.iter().zip(&memory.slopes);
-            steps.fold(SlopeOf::<S>::zero(), |sum, (weights, slopes)| {
-                let stages = weights.iter().zip(slopes);
-                stages.fold(sum, |sum, (&weight, slope)| sum.add_scaled(S::Scalar::lit(weight), slope))
-            })
-        })
+        let mut result = [SlopeOf::<S>::zero(); STAGES];
+        for (sum, weights) in result.iter_mut().zip(&self.extrapolation) {
+            for (weights, slopes) in weights.iter().zip(&memory.slopes) {
+                for (weight, slope) in weights.iter().zip(slopes) {
+                    *sum = sum.add_scaled(*weight, slope);
+                }
+            }
+        }
+        result
     }
 
     /// `sum b_j k_j` of slopes or parts of them, as the middle one and what the others differ from it, so that rounded
     /// weights still add up to one.
     #[inline]
-    fn sum<T: Real, W: Tangent<T>>(&self, slopes: &[W; STAGES]) -> W {
+    fn sum<W: Tangent<T>>(&self, slopes: &[W; STAGES]) -> W {
         let Some(middle) = slopes.get(STAGES / 2) else { return W::zero() };
         let mut sum = *middle;
         for (j, (weight, slope)) in self.weights.iter().zip(slopes).enumerate() {
             if j != STAGES / 2 {
-                sum = sum.add_scaled(T::lit(*weight), &slope.add_scaled(T::lit(-1.0), middle));
+                sum = sum.add_scaled(*weight, &slope.add_scaled(T::lit(-1.0), middle));
             }
         }
         sum
@@ -131,36 +141,40 @@ impl<const STAGES: usize, const HISTORY: usize> Tableau<STAGES, HISTORY> {
 
     /// The displacements of the stages from the middle of the step, for slopes, or parts of them.
     #[inline]
-    fn offsets<T: Real, W: Tangent<T>>(&self, dt: T, slopes: &[W; STAGES]) -> [W; STAGES] {
-        self.middle.map(|weights| {
-            let terms = weights.iter().zip(slopes).filter(|(weight, _)| **weight != 0.0);
-            terms.fold(W::zero(), |sum, (&weight, slope)| sum.add_scaled(T::lit(weight) * dt, slope))
-        })
+    fn offsets<W: Tangent<T>>(&self, dt: T, slopes: &[W; STAGES]) -> [W; STAGES] {
+        let mut result = [W::zero(); STAGES];
+        for (i, (sum, weights)) in result.iter_mut().zip(&self.middle).enumerate() {
+            for (j, (weight, slope)) in weights.iter().zip(slopes).enumerate() {
+                if i != j {
+                    *sum = sum.add_scaled(*weight * dt, slope);
+                }
+            }
+        }
+        result
     }
 
     /// Sweeps over the stages until nothing changes but rounding. False where that doesn't come to pass.
     #[inline]
-    fn solve<S: System, V: Variables<S>>(
+    fn solve<S: System<Scalar = T>, V: Variables<S>>(
         &self,
         problem: &Problem<'_, S>,
         step: &Step<'_, S>,
         start: &Start<S>,
         slopes: &mut [SlopeOf<S>; STAGES],
     ) -> bool {
-        let huge = S::Scalar::lit(f64::INFINITY);
-        let mut least = (*slopes).map(|slope| slope.map(&mut |_| huge));
+        let (zero, huge) = (T::lit(0.0), T::lit(f64::INFINITY));
+        let mut least = [SlopeOf::<S>::zero().map(&mut |_| huge); STAGES];
         let mut positions = self.positions(step, start, slopes);
         for k in 0..MOST {
             let before = *slopes;
             self.sweep::<S, V>(problem, step, start, slopes, &mut positions);
 
             let mut shrinking = false;
-            let (mut greatest, mut size) = (S::Scalar::lit(0.0), S::Scalar::lit(0.0));
+            let (mut greatest, mut size) = (zero, zero);
             for ((new, old), least) in slopes.iter().zip(&before).zip(&mut least) {
                 let change = new.zip(old, &mut |new, old| Real::abs(new - old));
                 *least = least.zip(&change, &mut |least, change| {
-                    let moves = Real::gt(change, S::Scalar::lit(0.0));
-                    let smaller = moves & Real::lt(change, least);
+                    let smaller = Real::gt(change, zero) & Real::lt(change, least);
                     shrinking |= any(smaller);
                     Real::select(smaller, change, least)
                 });
@@ -175,7 +189,7 @@ impl<const STAGES: usize, const HISTORY: usize> Tableau<STAGES, HISTORY> {
                 return false;
             }
             // Noise of the forces, not a transient of the iteration.
-            let small = Real::le(greatest, Real::sqrt(S::Scalar::epsilon()) * size);
+            let small = Real::le(greatest, Real::sqrt(T::epsilon()) * size);
             if !shrinking && all(small) {
                 return true;
             }
@@ -185,29 +199,36 @@ impl<const STAGES: usize, const HISTORY: usize> Tableau<STAGES, HISTORY> {
 
     /// Positions of the stages, each with its displacement from the middle.
     #[inline]
-    fn positions<S: System>(
+    fn positions<S: System<Scalar = T>>(
         &self,
         step: &Step<'_, S>,
         start: &Start<S>,
         slopes: &[SlopeOf<S>; STAGES],
     ) -> [(VelocityOf<S>, PositionOf<S>); STAGES] {
-        let rates = (*slopes).map(|slope| slope.q);
-        let half: VelocityOf<S> = self.sum(&rates).scale(S::Scalar::lit(0.5) * step.dt);
+        let rates = part(slopes, |slope| slope.q);
+        let half: VelocityOf<S> = self.sum(&rates).scale(T::lit(0.5) * step.dt);
         let middle = start.q.displace(&half);
-        let offsets: [VelocityOf<S>; STAGES] = self.offsets(step.dt, &rates);
-        offsets.map(|offset| (offset, middle.displace(&offset)))
+        let mut result = [(half, middle); STAGES];
+        for ((offset, q), d) in result.iter_mut().zip(self.offsets(step.dt, &rates)) {
+            (*offset, *q) = (d, middle.displace(&d));
+        }
+        result
     }
 
     /// The stages of what a vector space holds: momenta, velocities, own states.
     #[inline]
-    fn vectors<T: Real, W: Tangent<T>>(&self, dt: T, start: &W, rates: &[W; STAGES]) -> [W; STAGES] {
+    fn vectors<W: Tangent<T>>(&self, dt: T, start: &W, rates: &[W; STAGES]) -> [W; STAGES] {
         let middle = start.add_scaled(T::lit(0.5) * dt, &self.sum(rates));
-        self.offsets(dt, rates).map(|offset| middle.add(&offset))
+        let mut result = self.offsets(dt, rates);
+        for stage in &mut result {
+            *stage = middle.add(stage);
+        }
+        result
     }
 
     /// New slopes from the latest values of everything.
     #[inline]
-    fn sweep<S: System, V: Variables<S>>(
+    fn sweep<S: System<Scalar = T>, V: Variables<S>>(
         &self,
         problem: &Problem<'_, S>,
         step: &Step<'_, S>,
@@ -216,16 +237,29 @@ impl<const STAGES: usize, const HISTORY: usize> Tableau<STAGES, HISTORY> {
         positions: &mut [(VelocityOf<S>, PositionOf<S>); STAGES],
     ) {
         let (_, _, own) = start.state.split();
-        let mut velocities = self.vectors(step.dt, &start.w, &(*slopes).map(|slope| slope.v));
-        let own = self.vectors(step.dt, &own, &(*slopes).map(|slope| slope.x));
+        let mut velocities = self.vectors(step.dt, &start.w, &part(slopes, |slope| slope.v));
+        let own = self.vectors(step.dt, &own, &part(slopes, |slope| slope.x));
         for ((slope, velocity), (offset, q)) in slopes.iter_mut().zip(&mut velocities).zip(positions.iter()) {
             *velocity = V::velocity(problem.system, q, velocity);
-            slope.q = <PositionOf<S> as Configuration<S::Scalar>>::dexp_inv(offset, velocity);
+            slope.q = <PositionOf<S> as Configuration<T>>::dexp_inv(offset, velocity);
         }
         *positions = self.positions(step, start, slopes);
         let states = positions.iter().zip(&velocities).zip(&own);
         for ((slope, (((_, q), v), x)), node) in slopes.iter_mut().zip(states).zip(&self.nodes) {
-            (slope.v, slope.x) = V::rates(problem, step.time(*node), &start.state.join(*q, *v, *x));
+            (slope.v, slope.x) = V::rates(problem, step.t + *node * step.dt, &start.state.join(*q, *v, *x));
         }
     }
+}
+
+/// One part of the slopes of all stages.
+#[inline]
+fn part<T: Real, D: Copy, W: Tangent<T>, const STAGES: usize>(
+    slopes: &[D; STAGES],
+    of: impl Fn(&D) -> W,
+) -> [W; STAGES] {
+    let mut result = [W::zero(); STAGES];
+    for (part, slope) in result.iter_mut().zip(slopes) {
+        *part = of(slope);
+    }
+    result
 }
