@@ -7,12 +7,15 @@
 //! The common methods have `step` and `integrate` of their own (`Rk4::step(..)`), for loops of one's own and for
 //! microcontrollers: such steps cost no more than their stages.
 
+mod composition;
 mod control;
 mod dense;
 mod dop853;
 mod dormand_prince;
 mod error;
 mod euler;
+mod gauss;
+mod hermite;
 mod integrator;
 mod method;
 mod problem;
@@ -20,12 +23,16 @@ mod rk4;
 mod semi_implicit_euler;
 mod slope;
 
+pub use composition::{Composition4, Composition6, Verlet};
 pub use control::Tolerance;
 pub use dense::Dense;
 pub use dop853::Dop853;
 pub use dormand_prince::DormandPrince;
 pub use error::IntegrationError;
 pub use euler::Euler;
+pub use gauss::{
+    GaussLegendre4, GaussLegendre6, ImplicitMidpoint, SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint,
+};
 pub use integrator::{Integrator, Interval, Statistics, Steps};
 pub use method::{Attempt, Method};
 pub use problem::{Problem, Step};

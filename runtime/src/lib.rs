@@ -91,9 +91,13 @@ pub use cost::Cost;
 pub use differentiable::{Derivatives, Differentiable, Jacobian};
 pub use impulsive::Impulsive;
 pub use inertia::{ParamError, inertia_violation};
+pub use integrators::{Composition4, Composition6, Verlet};
 pub use integrators::{
     Dop853, DormandPrince, Euler, IntegrationError, Integrator, Method, Rk4, SemiImplicitEuler, Statistics, Steps,
     Tolerance,
+};
+pub use integrators::{
+    GaussLegendre4, GaussLegendre6, ImplicitMidpoint, SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint,
 };
 pub use multibody_macros::multibody;
 pub use nalgebra;

@@ -1,7 +1,7 @@
 //! What a method works on: a [`Problem`], and one [`Step`] of it.
 
 use super::slope::{SlopeOf, displaced, rate_of_displacement, slope};
-use crate::{Differentiable, Jacobian, Real, System};
+use crate::{Canonical, Differentiable, Jacobian, Real, System, VelocityOf};
 use core::cell::Cell;
 
 /// A system with the input that is held, counting its evaluations.
@@ -60,6 +60,15 @@ impl<S: Differentiable> Problem<'_, S> {
     pub fn jacobian(&self, t: S::Scalar, state: &S::State) -> Jacobian<S::Matrix> {
         self.jacobians.set(self.jacobians.get().saturating_add(1));
         self.system.jacobian(t, state, self.input)
+    }
+}
+
+impl<S: Canonical> Problem<'_, S> {
+    /// The rate of the momenta, which counts as an evaluation.
+    #[inline]
+    pub fn momentum_rate(&self, t: S::Scalar, state: &S::State) -> VelocityOf<S> {
+        self.evaluations.set(self.evaluations.get().saturating_add(1));
+        self.system.momentum_rate(t, state, self.input)
     }
 }
 

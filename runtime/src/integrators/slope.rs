@@ -33,6 +33,17 @@ impl<T: Real, V: Tangent<T>, X: Tangent<T>> Tangent<T> for Slope<V, X> {
     }
 }
 
+/// Coefficients in the scalar's own precision. Inlined always: of constants this is one, and no number of double
+/// precision is left in code of single precision.
+#[inline(always)]
+pub(super) fn literals<T: Real, const N: usize>(values: &[f64; N]) -> [T; N] {
+    let mut result = [T::lit(0.0); N];
+    for (result, value) in result.iter_mut().zip(values) {
+        *result = T::lit(*value);
+    }
+    result
+}
+
 /// The slope at a state.
 #[inline]
 pub(super) fn slope<S: System>(system: &S, t: S::Scalar, state: &S::State, input: &S::Input) -> SlopeOf<S> {
