@@ -27,12 +27,14 @@ use crate::{
     VelocityOf,
 };
 
+/// Derivatives are renewed where a change is more than this share of the one before.
+const SLOW: f64 = 0.1;
 /// Greatest number of iterations of a step.
 const ITERATIONS: u32 = 50;
 /// Iterations end where velocities change by fewer roundings than this..
 const ROUNDINGS: f64 = 4.0;
 /// ..or, where rounding is greater, by no less than before and by less than this share.
-const STALLED: f64 = 1e-9;
+const STALLED: f64 = 1e-10;
 
 /// The generalised-alpha method: second order, implicit, damping high frequencies as much as asked for and low ones as
 /// little as possible.
@@ -168,10 +170,16 @@ impl<S: Constrained + Impulsive<Rates = <S as Constrained>::Residual>> Closing<S
 
 /// How steps find their solution: [`Newton`], [`Functional`].
 pub trait Iterating<S: System>: Copy {
-    /// What is prepared once in a step.
+    /// What is prepared once in a step, and again where iterations are slow.
     type Operator: Copy;
-    /// The operator `own - position * df/dq - rate * df/dv` at the start of a step.
-    fn prepare(&self, problem: &Problem<'_, S>, step: &Step<'_, S>, factors: [S::Scalar; 3]) -> Self::Operator;
+    /// The operator `own - position * df/dq - rate * df/dv` at a state.
+    fn prepare(
+        &self,
+        problem: &Problem<'_, S>,
+        t: S::Scalar,
+        state: &S::State,
+        factors: [S::Scalar; 3],
+    ) -> Self::Operator;
     /// The solution for a right side.
     fn solve(&self, operator: &Self::Operator, right: &RatesOf<S>) -> RatesOf<S>;
 }
@@ -179,7 +187,7 @@ pub trait Iterating<S: System>: Copy {
 impl<S: System> Iterating<S> for Functional {
     type Operator = S::Scalar;
     #[inline]
-    fn prepare(&self, _: &Problem<'_, S>, _: &Step<'_, S>, [own, ..]: [S::Scalar; 3]) -> S::Scalar {
+    fn prepare(&self, _: &Problem<'_, S>, _: S::Scalar, _: &S::State, [own, ..]: [S::Scalar; 3]) -> S::Scalar {
         S::Scalar::lit(1.0) / own
     }
     #[inline]
@@ -193,10 +201,11 @@ impl<S: Differentiable> Iterating<S> for Newton {
     fn prepare(
         &self,
         problem: &Problem<'_, S>,
-        step: &Step<'_, S>,
+        t: S::Scalar,
+        state: &S::State,
         [own, position, rate]: [S::Scalar; 3],
     ) -> S::Matrix {
-        let Jacobian { position: by_position, rates } = problem.jacobian(step.t, step.state);
+        let Jacobian { position: by_position, rates } = problem.jacobian(t, state);
         S::Matrix::from_fn(|i, j| {
             let diagonal = if i == j { own } else { S::Scalar::lit(0.0) };
             diagonal - position * by_position.get(i, j) - rate * rates.get(i, j)
@@ -275,10 +284,12 @@ impl<S: System, C: Closing<S>, I: Iterating<S>> Method<S> for GeneralisedAlpha<C
         };
 
         let factors = [lit(1.0 - mass), lit((1.0 - force) * beta) * dt * dt, lit((1.0 - force) * gamma) * dt];
-        let operator = self.iteration.prepare(problem, step, factors);
         let known = first.scale(lit(force)).add_scaled(lit(-mass), &lagging);
-        let mut last = first.add_scaled(lit(-mass), &lagging).scale(lit(1.0 / (1.0 - mass)));
+        let mut last = lagging;
         let (mut closing, mut push) = (VelocityOf::<S>::zero(), VelocityOf::<S>::zero());
+        // Derivatives belong to the end: directions that constraints leave free may have turned, and stiff ones must not.
+        let guess = displaced(step.state, &over(&last, &closing));
+        let mut operator = self.iteration.prepare(problem, step.end, &guess, factors);
         let mut rates = first;
         let (mut before, mut converged) = (f64::INFINITY, false);
         for _ in 0..ITERATIONS {
@@ -304,14 +315,21 @@ impl<S: System, C: Closing<S>, I: Iterating<S>> Method<S> for GeneralisedAlpha<C
             if converged || !size.is_finite() || size > 1e6 * before {
                 break;
             }
-            before = Real::min(before, size);
+            if size > SLOW * before {
+                operator = self.iteration.prepare(problem, step.end, &moved, factors);
+            }
+            before = size;
         }
-        // Once more, since the position has moved with the last change.
-        let d = over(&last, &closing);
-        let (q, _, _) = displaced(step.state, &d).split();
+        // Both once more, since the state has moved with the last change.
+        let (q, _, _) = displaced(step.state, &over(&last, &closing)).split();
         let closing = closing.add(&self.closing.position(system, step.end, &q));
-        let attempt = Attempt::new(over(&last, &closing), Lag { rates, lagging: last });
-        Attempt { converged, ..attempt }
+        let state = displaced(step.state, &over(&last, &closing));
+        let closed = self.closing.velocity(system, step.end, &state).scale(lit(1.0) / (lit(gamma) * dt));
+        rates.0 = rates.0.add_scaled(lit((1.0 - mass) / (1.0 - force)), &closed);
+        let mut d = over(&last, &closing);
+        d.v = d.v.add_scaled(lit(gamma) * dt, &closed);
+        last.0 = last.0.add(&closed);
+        Attempt { converged, ..Attempt::new(d, Lag { rates, lagging: last }) }
     }
 
     fn proceed(
