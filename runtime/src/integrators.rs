@@ -16,6 +16,7 @@ mod error;
 mod euler;
 mod gauss;
 mod hermite;
+pub mod generalised_alpha;
 mod integrator;
 mod method;
 mod problem;
@@ -33,6 +34,7 @@ pub use euler::Euler;
 pub use gauss::{
     GaussLegendre4, GaussLegendre6, ImplicitMidpoint, SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint,
 };
+pub use generalised_alpha::GeneralisedAlpha;
 pub use integrator::{Integrator, Interval, Statistics, Steps};
 pub use method::{Attempt, Method};
 pub use problem::{Problem, Step};

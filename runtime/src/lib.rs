@@ -40,6 +40,7 @@
 //! - [`rotation`]: unit quaternions that stay of unit length.
 //! - [`Constrained`]: a model whose coordinates obey equations; [`assemble`] closes its loops, and [`projection`] keeps
 //!   them closed.
+//! - [`impact`]: impulses, and impacts with Newton's law, at joints and frames.
 //! - [`linear`]: small linear systems, with their rank and without a branch.
 //!
 //! # Conventions
@@ -71,6 +72,7 @@ mod cost;
 mod differentiable;
 #[doc = include_str!("../docs/generated.md")]
 pub mod generated {}
+pub mod impact;
 mod impulsive;
 mod inertia;
 pub mod integrators;
@@ -94,14 +96,16 @@ pub use inertia::{ParamError, inertia_violation};
 pub use integrators::{Composition4, Composition6, Verlet};
 pub use integrators::{
     Dop853, DormandPrince, Euler, IntegrationError, Integrator, Method, Rk4, SemiImplicitEuler, Statistics, Steps,
-    Tolerance,
+    Tolerance, GeneralisedAlpha,
 };
 pub use integrators::{
     GaussLegendre4, GaussLegendre6, ImplicitMidpoint, SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint,
 };
 pub use multibody_macros::multibody;
 pub use nalgebra;
-pub use projection::{Assembled, AssemblyError, Projected, Projection, ProjectionError, WithProjection, assemble};
+pub use projection::{
+    Assembled, AssemblyError, Projected, Projection, ProjectionError, WithBaumgarte, WithProjection, WithRank, assemble,
+};
 pub use scalar::{Real, all, any};
 pub use simba;
 pub use system::{ExtraOf, PositionOf, StateSpace, System, VelocityOf};
