@@ -20,8 +20,10 @@ pub(crate) struct Effort {
     pub(crate) budget: f64,
     /// How often all runs are timed; the least time counts.
     pub(crate) passes: u32,
-    /// A timing takes at least that long.
+    /// A timing takes at least that long..
     pub(crate) timing: Duration,
+    /// ..in batches of at least that; the quickest counts.
+    pub(crate) batch: Duration,
 }
 
 impl Effort {
@@ -31,13 +33,15 @@ impl Effort {
         budget: 400_000.0,
         passes: 7,
         timing: Duration::from_millis(2),
+        batch: Duration::from_micros(100),
     };
     pub(crate) const QUICK: Self = Self {
         step_factor: 4.0,
         tolerance_factor: 100.0,
         budget: 12_000.0,
         passes: 1,
-        timing: Duration::from_micros(200),
+        timing: Duration::from_micros(100),
+        batch: Duration::from_micros(20),
     };
 }
 
@@ -100,6 +104,8 @@ pub(crate) struct Point {
     pub(crate) drift: f64,
     /// Time per simulated second.
     pub(crate) seconds: f64,
+    /// What can be relied on: the greatest of `own` with this or any finer setting.
+    pub(crate) bound: f64,
 }
 
 type Timed = Box<dyn Fn()>;
@@ -136,15 +142,20 @@ impl Bench {
         }
     }
 
+    /// `[s]` lengths of steps, from long to short ones.
+    pub(crate) fn steps(&self) -> impl Iterator<Item = f64> + 'static {
+        let (first, factor, end) = (self.scene.coarse, self.effort.step_factor, self.truth.end);
+        (0..).map(move |k| end / (end / first * factor.powi(k)).round())
+    }
+
     /// Steps of one length, from long to short ones.
     pub(crate) fn fixed<S, M>(&mut self, series: Series, subject: &Rc<Subject<S>>, method: M)
     where
         S: System<Input = ()> + 'static,
         M: Method<S> + 'static,
     {
-        let (first, factor, end) = (self.scene.coarse, self.effort.step_factor, self.truth.end);
-        let settings = (0..).map(move |k| end / (end / first * factor.powi(k)).round());
-        self.sweep(Series { steps: Steps::Fixed, order: M::ORDER, ..series }, settings, subject, move |step| {
+        let steps = self.steps();
+        self.sweep(Series { steps: Steps::Fixed, order: M::ORDER, ..series }, steps, subject, move |step| {
             Integrator::fixed(method, step)
         });
     }
@@ -228,7 +239,12 @@ impl Bench {
                 gap: worst.gap,
                 drift: drift / scale,
                 seconds: f64::INFINITY,
+                bound: error / self.growth,
             });
+            // Coarser runs that were better by luck.
+            for earlier in self.points.iter_mut().rev().skip(1).take_while(|earlier| earlier.series == series) {
+                earlier.bound = greater(earlier.bound, error / self.growth);
+            }
             let subject = Rc::clone(subject);
             self.timed.push(Box::new(move || {
                 let _ = black_box(run(black_box(&subject), &mut |_, _| ()));
@@ -251,12 +267,15 @@ impl Bench {
             print!("\r  {}: {} runs, timing {} of {} ", self.scene.name, self.points.len(), pass + 1, self.effort.passes);
             let _ = std::io::stdout().flush();
             for (point, run) in self.points.iter_mut().zip(&self.timed) {
-                let (start, mut count) = (Instant::now(), 0);
-                while count == 0 || start.elapsed() < self.effort.timing {
-                    run();
-                    count += 1;
+                let start = Instant::now();
+                while start.elapsed() < self.effort.timing || point.seconds.is_infinite() {
+                    let (batch, mut count) = (Instant::now(), 0);
+                    while count == 0 || batch.elapsed() < self.effort.batch {
+                        run();
+                        count += 1;
+                    }
+                    point.seconds = point.seconds.min(batch.elapsed().as_secs_f64() / f64::from(count) / end);
                 }
-                point.seconds = point.seconds.min(start.elapsed().as_secs_f64() / f64::from(count) / end);
             }
         }
         println!();

@@ -8,7 +8,7 @@ multibody! {
         world { gravity: -9.81 * Y }
         body bob { mass: 1.0, com: -Y }
         joint hinge: Revolute { parent: ground, child: bob, axis: Z }
-        emit forward_dynamics, energy;
+        emit forward_dynamics, energy, momentum;
     }
 }
 
@@ -20,7 +20,7 @@ multibody! {
         body lower { mass: 1.0, com: -Y }
         joint shoulder: Revolute { parent: ground, child: upper, axis: Z }
         joint elbow: Revolute { parent: upper.at(-Y), child: lower, axis: Z }
-        emit forward_dynamics, energy;
+        emit forward_dynamics, energy, momentum;
     }
 }
 
@@ -153,7 +153,7 @@ four_bar! {
     /// Its loop kept as equations.
     four_bar_loop {
         formulation { constraints: Multipliers }
-        emit forward_dynamics, energy;
+        emit forward_dynamics, energy, impulse;
     }
 }
 
@@ -213,7 +213,7 @@ andrews! {
     /// Its three loops kept as equations.
     andrews_loops {
         formulation { constraints: Multipliers }
-        emit forward_dynamics, energy;
+        emit forward_dynamics, energy, impulse;
     }
 }
 
@@ -275,7 +275,7 @@ stewart! {
         leg: {}
         platform: {
             formulation { constraints: Multipliers }
-            emit forward_dynamics, energy;
+            emit forward_dynamics, energy, impulse;
         }
     }
 }

@@ -2,7 +2,11 @@
 
 use std::rc::Rc;
 
-use multibody::{Constrained, DormandPrince, Euler, Integrator, Rk4, SemiImplicitEuler, System};
+use multibody::{
+    Canonical, Composition4, Composition6, Constrained, Dop853, DormandPrince, Euler, GaussLegendre4, GaussLegendre6,
+    GeneralisedAlpha, ImplicitMidpoint, Impulsive, Integrator, Rk4, SemiImplicitEuler, Separable, SymplecticGauss4,
+    SymplecticGauss6, SymplecticMidpoint, System, Verlet, WithBaumgarte, simulate,
+};
 
 use crate::bench::{Bench, Effort, Kind, Scene, Series, Steps};
 use crate::growth::growth;
@@ -20,23 +24,26 @@ pub(crate) const NAMES: [&str; 9] =
 /// Runs one scene, timings included.
 pub(crate) fn run(name: &'static str, effort: Effort) -> Bench {
     let mut bench = match name {
-        "pendulum" => plain(
-            scene("pendulum", "Pendulum from the horizontal, 10 s", Kind::Separable, 0.25, true),
-            effort,
-            &pendulum(),
-            &pendulum(),
-        ),
-        "mild" => plain(
+        "pendulum" => {
+            let scene = scene("pendulum", "Pendulum from the horizontal, 10 s", Kind::Separable, 0.25, true);
+            let (subject, single) = (pendulum::<f64>(), pendulum::<f32>());
+            let mut bench = start(scene, effort, &subject);
+            general(&mut bench, &subject, "", "f64");
+            canonical(&mut bench, &subject);
+            separable(&mut bench, &subject, "f64");
+            selected(&mut bench, &single, "", "f32");
+            separable(&mut bench, &single, "f32");
+            bench
+        }
+        "mild" => double(
             scene("mild", "Double pendulum, regular motion, 10 s", Kind::Open, 0.25, true),
             effort,
-            &double_pendulum([0.5, 0.8]),
-            &double_pendulum([0.5, 0.8]),
+            [0.5, 0.8],
         ),
-        "chaotic" => plain(
+        "chaotic" => double(
             scene("chaotic", "Double pendulum, chaotic motion, 5 s", Kind::Chaotic, 0.1, true),
             effort,
-            &double_pendulum([2.0, 2.5]),
-            &double_pendulum([2.0, 2.5]),
+            [2.0, 2.5],
         ),
         "free_body" => plain(
             scene("free_body", "Free body about its middle axis, 20 s", Kind::Rotation, 0.25, true),
@@ -79,6 +86,28 @@ pub(crate) fn run(name: &'static str, effort: Effort) -> Bench {
     bench
 }
 
+/// A mechanism without loops.
+fn plain<S, R>(scene: Scene, effort: Effort, subject: &Subject<S>, single: &Subject<R>) -> Bench
+where
+    S: System<Scalar = f64, Input = ()> + Clone + 'static,
+    R: System<Scalar = f32, Input = ()> + Clone + 'static,
+{
+    let mut bench = start(scene, effort, subject);
+    general(&mut bench, subject, "", "f64");
+    selected(&mut bench, single, "", "f32");
+    bench
+}
+
+/// A double pendulum from rest.
+fn double(scene: Scene, effort: Effort, angles: [f64; 2]) -> Bench {
+    let subject = double_pendulum(angles);
+    let mut bench = start(scene, effort, &subject);
+    general(&mut bench, &subject, "", "f64");
+    canonical(&mut bench, &subject);
+    selected(&mut bench, &double_pendulum::<f32>(angles), "", "f32");
+    bench
+}
+
 const fn scene(name: &'static str, title: &'static str, kind: Kind, coarse: f64, conservative: bool) -> Scene {
     Scene { name, title, kind, coarse, conservative }
 }
@@ -104,16 +133,75 @@ fn start<S: System<Scalar = f64, Input = ()>>(scene: Scene, effort: Effort, subj
     Bench::new(scene, truth, effort, growth, (energy, scale))
 }
 
-/// A mechanism without loops.
-fn plain<S, R>(scene: Scene, effort: Effort, double: &Subject<S>, single: &Subject<R>) -> Bench
-where
-    S: System<Scalar = f64, Input = ()> + Clone + 'static,
-    R: System<Scalar = f32, Input = ()> + Clone + 'static,
-{
-    let mut bench = start(scene, effort, double);
-    all(&mut bench, double, "", "f64");
-    some(&mut bench, single, "", "f32");
-    bench
+/// Methods for any system.
+fn general<S: System<Input = ()> + Clone + 'static>(
+    bench: &mut Bench,
+    subject: &Subject<S>,
+    handling: &'static str,
+    scalar: &'static str,
+) {
+    let subject = Rc::new(subject.clone());
+    bench.fixed(by("Euler", handling, scalar), &subject, Euler);
+    bench.fixed(by("SemiImplicitEuler", handling, scalar), &subject, SemiImplicitEuler);
+    bench.fixed(by("Rk4", handling, scalar), &subject, Rk4);
+    bench.fixed(by("DormandPrince", handling, scalar), &subject, DormandPrince);
+    bench.adaptive(by("DormandPrince", handling, scalar), &subject, DormandPrince);
+    bench.fixed(by("Dop853", handling, scalar), &subject, Dop853);
+    bench.adaptive(by("Dop853", handling, scalar), &subject, Dop853);
+    bench.fixed(by("ImplicitMidpoint", handling, scalar), &subject, ImplicitMidpoint);
+    bench.fixed(by("GaussLegendre4", handling, scalar), &subject, GaussLegendre4);
+    bench.fixed(by("GaussLegendre6", handling, scalar), &subject, GaussLegendre6);
+    chosen(bench, &subject, handling, scalar);
+}
+
+/// The method that is chosen by itself.
+fn chosen<S: System<Input = ()> + Clone + 'static>(
+    bench: &mut Bench,
+    subject: &Subject<S>,
+    handling: &'static str,
+    scalar: &'static str,
+) {
+    let (end, factor) = (bench.truth.end, bench.effort.tolerance_factor);
+    let accuracies = (0..).map(move |k| 1e-1 / factor.powi(k)).take_while(|accuracy| *accuracy > 1e-15);
+    let series = Series { steps: Steps::Adaptive, ..by("simulate", handling, scalar) };
+    bench.runs(series, accuracies, &Rc::new(subject.clone()), move |accuracy| {
+        move |subject: &Subject<S>, observe: &mut dyn FnMut(f64, &S::State)| {
+            simulate(&subject.system, 0.0, end, &subject.start, &(), accuracy, observe)
+        }
+    });
+}
+
+/// Methods in positions and momenta.
+fn canonical<S: Canonical<Input = ()> + Clone + 'static>(bench: &mut Bench, subject: &Subject<S>) {
+    let subject = Rc::new(subject.clone());
+    bench.fixed(by("SymplecticMidpoint", "", "f64"), &subject, SymplecticMidpoint);
+    bench.fixed(by("SymplecticGauss4", "", "f64"), &subject, SymplecticGauss4);
+    bench.fixed(by("SymplecticGauss6", "", "f64"), &subject, SymplecticGauss6);
+}
+
+/// Methods for accelerations that depend on positions alone.
+fn separable<S: Separable<Input = ()> + Clone + 'static>(
+    bench: &mut Bench,
+    subject: &Subject<S>,
+    scalar: &'static str,
+) {
+    let subject = Rc::new(subject.clone());
+    bench.fixed(by("Verlet", "", scalar), &subject, Verlet);
+    bench.fixed(by("Composition4", "", scalar), &subject, Composition4);
+    bench.fixed(by("Composition6", "", scalar), &subject, Composition6);
+}
+
+/// Methods that show what else makes a difference: precision, and how loops are kept closed.
+fn selected<S: System<Input = ()> + Clone + 'static>(
+    bench: &mut Bench,
+    subject: &Subject<S>,
+    handling: &'static str,
+    scalar: &'static str,
+) {
+    let subject = Rc::new(subject.clone());
+    bench.fixed(by("Rk4", handling, scalar), &subject, Rk4);
+    bench.adaptive(by("DormandPrince", handling, scalar), &subject, DormandPrince);
+    bench.adaptive(by("Dop853", handling, scalar), &subject, Dop853);
 }
 
 /// A mechanism with loops: in reduced coordinates, then with multipliers and what keeps them closed.
@@ -126,42 +214,40 @@ fn looped<S, R, C, D>(
 where
     S: System<Scalar = f64, Input = ()> + Clone + 'static,
     R: System<Scalar = f32, Input = ()> + Clone + 'static,
-    C: Constrained<Scalar = f64, Input = ()> + Clone + 'static,
+    C: Constrained<Scalar = f64, Input = ()> + Impulsive<Rates = <C as Constrained>::Residual> + Clone + 'static,
     D: Constrained<Scalar = f32, Input = ()> + Clone + 'static,
 {
     let mut bench = start(scene, effort, double);
-    all(&mut bench, double, "reduced", "f64");
-    some(&mut bench, single, "reduced", "f32");
-    some(&mut bench, double_loop, "none", "f64");
-    some(&mut bench, &double_loop.projected(), "projection", "f64");
-    some(&mut bench, &double_loop.corrected(), "one correction", "f64");
-    some(&mut bench, &single_loop.projected(), "projection", "f32");
+    general(&mut bench, double, "reduced", "f64");
+    selected(&mut bench, single, "reduced", "f32");
+    selected(&mut bench, double_loop, "none", "f64");
+    selected(&mut bench, &double_loop.projected(), "projection", "f64");
+    selected(&mut bench, &double_loop.projected_by_mass(), "projection by mass", "f64");
+    selected(&mut bench, &double_loop.corrected(), "one correction", "f64");
+    baumgarte(&mut bench, double_loop);
+    let alpha = GeneralisedAlpha::new(0.8).functional().constrained();
+    bench.fixed(by("GeneralisedAlpha", "in the method", "f64"), &Rc::new(double_loop.clone()), alpha);
+    selected(&mut bench, &single_loop.projected(), "projection", "f32");
     bench
 }
 
-/// All methods.
-fn all<S: System<Input = ()> + Clone + 'static>(
-    bench: &mut Bench,
-    subject: &Subject<S>,
-    handling: &'static str,
-    scalar: &'static str,
-) {
+/// Constraints that pull themselves closed: as fast as steps of one length allow, and at a rate of five in the longest
+/// step where steps are chosen by error.
+fn baumgarte<C>(bench: &mut Bench, subject: &Subject<C>)
+where
+    C: Constrained<Scalar = f64, Input = ()> + Impulsive<Rates = <C as Constrained>::Residual> + Clone + 'static,
+{
     let subject = Rc::new(subject.clone());
-    bench.fixed(by("Euler", handling, scalar), &subject, Euler);
-    bench.fixed(by("SemiImplicitEuler", handling, scalar), &subject, SemiImplicitEuler);
-    bench.fixed(by("Rk4", handling, scalar), &subject, Rk4);
-    bench.fixed(by("DormandPrince", handling, scalar), &subject, DormandPrince);
-    bench.adaptive(by("DormandPrince", handling, scalar), &subject, DormandPrince);
-}
-
-/// Those that show what else makes a difference: precision, and how loops are kept closed.
-fn some<S: System<Input = ()> + Clone + 'static>(
-    bench: &mut Bench,
-    subject: &Subject<S>,
-    handling: &'static str,
-    scalar: &'static str,
-) {
-    let subject = Rc::new(subject.clone());
-    bench.fixed(by("Rk4", handling, scalar), &subject, Rk4);
-    bench.adaptive(by("DormandPrince", handling, scalar), &subject, DormandPrince);
+    let (end, rate) = (bench.truth.end, 5.0 / bench.scene.coarse);
+    let steps = bench.steps();
+    let series = Series { order: 4, ..by("Rk4", "Baumgarte", "f64") };
+    bench.runs(series, steps, &subject, move |step| {
+        move |subject: &Subject<C>, observe: &mut dyn FnMut(f64, &C::State)| {
+            let system = WithBaumgarte::for_step(&subject.system, step);
+            Integrator::fixed(Rk4, step).integrate(&system, 0.0, end, &subject.start, &(), observe)
+        }
+    });
+    let stabilised = Rc::new(subject.with(|system| WithBaumgarte::new(system, rate)));
+    bench.adaptive(by("DormandPrince", "Baumgarte", "f64"), &stabilised, DormandPrince);
+    bench.adaptive(by("Dop853", "Baumgarte", "f64"), &stabilised, Dop853);
 }

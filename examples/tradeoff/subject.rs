@@ -1,7 +1,8 @@
 //! A mechanism in one formulation and one scalar, ready to be integrated and looked at.
 
 use multibody::nalgebra::SVector;
-use multibody::{Constrained, Projection, Real, StateSpace, System, Tangent, VelocityOf, WithProjection};
+use multibody::projection::ByMass;
+use multibody::{Constrained, Impulsive, Projection, Real, StateSpace, System, Tangent, VelocityOf, WithProjection};
 
 use crate::reference::Motion;
 
@@ -37,6 +38,14 @@ impl<S: Constrained + Clone> Subject<S> {
     /// Its loops closed after each step, as well as rounding allows.
     pub(crate) fn projected(&self) -> Subject<WithProjection<S>> {
         self.with(|system| WithProjection::new(system, Projection { tolerance: 0.0, ..Projection::default() }))
+    }
+
+    /// The same by the displacement that is least by the mass matrix.
+    pub(crate) fn projected_by_mass(&self) -> Subject<WithProjection<S, ByMass>>
+    where
+        S: Impulsive<Rates = <S as Constrained>::Residual>,
+    {
+        self.with(|system| WithProjection::by_mass(system, Projection { tolerance: 0.0, ..Projection::default() }))
     }
 
     /// The same by one correction after each step.

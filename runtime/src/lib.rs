@@ -82,6 +82,7 @@ pub mod linear;
 pub mod projection;
 pub mod rotation;
 mod scalar;
+mod simulate;
 mod system;
 mod tangent;
 
@@ -93,10 +94,11 @@ pub use cost::Cost;
 pub use differentiable::{Derivatives, Differentiable, Jacobian};
 pub use impulsive::Impulsive;
 pub use inertia::{ParamError, inertia_violation};
+pub use integrators::GeneralisedAlpha;
 pub use integrators::{Composition4, Composition6, Verlet};
 pub use integrators::{
     Dop853, DormandPrince, Euler, IntegrationError, Integrator, Method, Rk4, SemiImplicitEuler, Statistics, Steps,
-    Tolerance, GeneralisedAlpha,
+    Tolerance,
 };
 pub use integrators::{
     GaussLegendre4, GaussLegendre6, ImplicitMidpoint, SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint,
@@ -108,5 +110,6 @@ pub use projection::{
 };
 pub use scalar::{Real, all, any};
 pub use simba;
+pub use simulate::simulate;
 pub use system::{ExtraOf, PositionOf, StateSpace, System, VelocityOf};
 pub use tangent::Tangent;
