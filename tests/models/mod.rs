@@ -5,6 +5,7 @@ pub mod extremes;
 pub mod hundred_rods;
 pub mod impulses;
 pub mod laws;
+pub mod linearised;
 pub mod linkages;
 pub mod loops;
 pub mod mechanisms;

@@ -90,7 +90,7 @@ impl Deriving<'_> {
         };
         let mut candidates = Vec::new();
         for &(method, names) in methods {
-            candidates.extend(self.in_all_axes(names, method, &[], |e| Ok(e.jump()))?);
+            candidates.extend(self.in_all_axes(&names, method, &[], |e| Ok(e.jump()))?);
         }
         if floats(model) && freedoms(model) <= MOST_COMPOSITE {
             candidates.extend(self.candidate(FLOATING, self.floating(), &[], &mut |e| Ok(e.jump()))?);
@@ -108,7 +108,7 @@ impl Deriving<'_> {
             results.extend(solved.rank);
             Ok(results)
         };
-        let mut candidates = self.in_all_axes(METHODS[0].1, Method::Composite, &[], &mut all)?;
+        let mut candidates = self.in_all_axes(&METHODS[0].1, Method::Composite, &[], &mut all)?;
         if floats(self.model) {
             candidates.extend(self.candidate(FLOATING, self.floating(), &[], &mut all)?);
         }
