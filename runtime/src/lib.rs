@@ -92,7 +92,8 @@ pub use differentiable::{Derivatives, Differentiable, Jacobian};
 pub use impulsive::Impulsive;
 pub use inertia::{ParamError, inertia_violation};
 pub use integrators::{
-    DormandPrince, Euler, IntegrationError, Integrator, Method, Rk4, SemiImplicitEuler, Statistics, Steps, Tolerance,
+    DormandPrince, Euler, IntegrationError, Integrator, Method, Radau, Rk4, SemiImplicitEuler, Statistics, Steps,
+    Tolerance,
 };
 pub use multibody_macros::multibody;
 pub use nalgebra;

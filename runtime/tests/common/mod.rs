@@ -2,6 +2,7 @@
 #![allow(dead_code)] // every test file uses some of them
 
 pub(crate) mod loops;
+pub(crate) mod stiff;
 
 use core::cell::Cell;
 use multibody::nalgebra::{UnitQuaternion, Vector3};
