@@ -358,7 +358,7 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
                 return if error.is_finite() || !control.is_too_short(self.t, control.step()) {
                     Ok(())
                 } else {
-                    Err(stopped(attempt.converged, self.t))
+                    Err(stopped(attempt.converged || !is_finite(&magnitude(&next)), self.t))
                 };
             }
         } else if !attempt.converged {

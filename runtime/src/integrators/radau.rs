@@ -28,6 +28,9 @@ use tableau::{C, E, combination};
 const FAST: f64 = 0.01;
 /// With derivatives kept, steps that could grow by no more than this factor stay as they are.
 const HOLD: f64 = 1.2;
+/// Steps grow no further than to where the iteration would still reduce the error to this share. Its rate is taken to
+/// grow with the square of the step, as for a stiff direction that turns.
+const SLOW: f64 = 0.1;
 
 /// Radau IIA of order 5: three implicit stages, L-stable. The first choice for stiff systems, such as mechanisms with
 /// stiff bushings, contacts or fast controllers; for models with `emit derivatives`.
@@ -45,8 +48,10 @@ pub struct Memory<S: Differentiable> {
     derivatives: Option<Derivatives<S>>,
     matrices: Option<Matrices<S>>,
     last: Option<Last<S>>,
-    /// How fast the last iteration converged.
+    /// How fast the last iteration converged..
     eta: f64,
+    /// ..and at what rate; zero if it took one iteration.
+    rate: f64,
     /// Whether this is the first step, or one that repeats a rejected one.
     cautious: bool,
 }
@@ -128,7 +133,7 @@ impl<S: Differentiable> Method<S> for Radau {
     type Details = Details<S>;
 
     fn begin(&self, _problem: &Problem<'_, S>, _t: S::Scalar, _state: &S::State) -> Memory<S> {
-        Memory { slope: None, derivatives: None, matrices: None, last: None, eta: 1.0, cautious: true }
+        Memory { slope: None, derivatives: None, matrices: None, last: None, eta: 1.0, rate: 0.0, cautious: true }
     }
 
     fn attempt(&self, problem: &Problem<'_, S>, step: &Step<'_, S>, memory: &Memory<S>) -> Attempt<S, Details<S>> {
@@ -143,6 +148,9 @@ impl<S: Differentiable> Method<S> for Radau {
         }
         let Solution { stages, converged, theta, eta, shrink } = solution;
         memory.eta = eta;
+        if theta > 0.0 {
+            memory.rate = theta;
+        }
         let displacement = stages[2];
         let mut error = SlopeOf::<S>::zero();
         // Nobody asks for the error of steps of one length.
@@ -180,6 +188,7 @@ impl<S: Differentiable> Method<S> for Radau {
             matrices: memory.matrices.filter(|_| kept.is_some()),
             last: Some(Last { terms, dt: step.dt }),
             eta: memory.eta,
+            rate: theta,
             cautious: false,
         }
     }
@@ -190,14 +199,14 @@ impl<S: Differentiable> Method<S> for Radau {
     }
 
     fn next_step(&self, attempt: &Attempt<S, Details<S>>, length: f64, proposed: f64) -> f64 {
-        let growth = proposed / length;
+        let Details { theta, shrink, .. } = attempt.details;
         if !attempt.converged {
-            length * attempt.details.shrink
-        } else if attempt.details.theta <= FAST && (1.0..=HOLD).contains(&growth) {
-            length
-        } else {
-            proposed
+            return length * shrink;
         }
+        let growth = proposed / length;
+        let rate = attempt.details.memory.rate;
+        let growth = if rate > 0.0 { Real::min(growth, Real::max(1.0, Real::sqrt(SLOW / rate))) } else { growth };
+        if theta <= FAST && (1.0..=HOLD).contains(&growth) { length } else { length * growth }
     }
 
     /// The collocation polynomial, of third order.

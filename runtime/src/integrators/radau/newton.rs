@@ -91,10 +91,13 @@ pub(super) fn solve<S: Differentiable>(
         let (n1, n2, n3) = (norm(&d1), norm(&d2), norm(&d3));
         let change = Real::sqrt((n1 * n1 + n2 * n2 + n3 * n3) / 3.0);
         if !change.is_finite() {
+            if k == 0 {
+                stages = stages.map(|z| z.scale(lit(f64::NAN))); // the system itself is not finite here
+            }
             return Solution { stages, converged: false, theta: f64::INFINITY, eta, shrink: 0.1 };
         }
         if k > 0 {
-            let ratio = change / change_before;
+            let ratio = if change_before > 0.0 { change / change_before } else { 0.0 };
             theta = if k == 1 { ratio } else { Real::sqrt(ratio * ratio_before) };
             ratio_before = ratio;
             if ratio >= 0.99 && change <= aim.rounding {
