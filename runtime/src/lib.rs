@@ -40,6 +40,7 @@
 //! - [`rotation`]: unit quaternions that stay of unit length.
 //! - [`Constrained`]: a model whose coordinates obey equations; [`assemble`] closes its loops, and [`projection`] keeps
 //!   them closed.
+//! - [`mod@equilibrium`]: states of rest and steady motions.
 //! - [`linear`]: small linear systems, with their rank and without a branch.
 //!
 //! # Conventions
@@ -69,6 +70,7 @@ mod constrained;
 pub mod coordinates;
 mod cost;
 mod differentiable;
+pub mod equilibrium;
 #[doc = include_str!("../docs/generated.md")]
 pub mod generated {}
 mod impulsive;
@@ -89,6 +91,7 @@ pub use constrained::{Constrained, Kinematics};
 pub use coordinates::{Cylindrical, FreeRollPitchYaw, Planar, Pose, RollPitchYaw, Twist, Universal, Wrench};
 pub use cost::Cost;
 pub use differentiable::{Derivatives, Differentiable, Jacobian};
+pub use equilibrium::{Equilibrium, EquilibriumError, Free, constrained_equilibrium, equilibrium, trim};
 pub use impulsive::Impulsive;
 pub use inertia::{ParamError, inertia_violation};
 pub use integrators::{
