@@ -2,6 +2,7 @@
 
 pub mod arms;
 pub mod laws;
+pub mod linearised;
 pub mod linkages;
 pub mod loops;
 pub mod mechanisms;

@@ -33,8 +33,11 @@ impl Arguments {
         match kind {
             FunctionKind::MassMatrix | FunctionKind::PotentialEnergy => position,
             FunctionKind::KineticEnergy => state,
-            FunctionKind::ForwardDynamics | FunctionKind::Bias | FunctionKind::Outputs => all,
-            FunctionKind::InverseDynamics => Arguments { accel: true, ..all },
+            FunctionKind::ForwardDynamics
+            | FunctionKind::ForwardDerivatives
+            | FunctionKind::Bias
+            | FunctionKind::Outputs => all,
+            FunctionKind::InverseDynamics | FunctionKind::InverseDerivatives => Arguments { accel: true, ..all },
             FunctionKind::Constraints | FunctionKind::ConstraintJacobian | FunctionKind::DeadCentres => {
                 Arguments { time: true, ..position }
             }

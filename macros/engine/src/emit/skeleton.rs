@@ -65,6 +65,8 @@ fn build(of: &Module, krate: Option<Path>, all: &[Module]) -> TokenStream {
         FunctionKind::PotentialEnergy,
         FunctionKind::Outputs,
         FunctionKind::Residual,
+        FunctionKind::ForwardDerivatives,
+        FunctionKind::InverseDerivatives,
     ];
     if !structure.rows.is_empty() {
         kinds.extend([

@@ -396,6 +396,8 @@ pub enum Request {
     /// The equations as a residual for solvers of differential-algebraic equations.
     Residual,
     Kinematics,
+    /// Partial derivatives of forward and inverse dynamics.
+    Derivatives,
 }
 
 /// A typed expression; shared subtrees (`const`, `let`) are shared here too.

@@ -252,6 +252,11 @@ pub enum FunctionKind {
     Guess,
     /// Roots in closed forms of loops that vanish where two solutions meet.
     DeadCentres,
+    /// Partial derivatives of the accelerations and of the rates of own states, R of them: R x DOF by displacements of the
+    /// position, R x DOF by velocities, R x own states, R x scalars of inputs, each row by row.
+    ForwardDerivatives,
+    /// The same of the efforts, DOF of them.
+    InverseDerivatives,
     /// Output after output, flattened: `Vec3` 3, `Rotation` 9 row by row, `Pose` x, y, z, w, i, j, k, `Twist` and
     /// `Wrench` 6, `Jacobian` 6 x DOF row by row, arrays element by element.
     Outputs,

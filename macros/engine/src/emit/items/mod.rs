@@ -4,6 +4,7 @@ mod check;
 mod conversions;
 mod costs;
 mod defaults;
+mod differentiable;
 mod equations;
 mod model;
 mod parts;
@@ -29,6 +30,7 @@ pub(super) fn all(context: &Context<'_>) -> TokenStream {
         conversions::items(context),
         model::items(context),
         system::item(context),
+        differentiable::item(context),
         parts::items(context),
     ]
     .into_iter()
