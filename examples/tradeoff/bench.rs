@@ -10,6 +10,9 @@ use multibody::{IntegrationError, Integrator, Method, Statistics, System};
 use crate::reference::Truth;
 use crate::subject::{Laws, Subject};
 
+/// A run with a greater error is no solution, whatever the problem's growth of errors.
+const SOLUTION: f64 = 0.1;
+
 /// How much is run.
 #[derive(Clone, Copy)]
 pub(crate) struct Effort {
@@ -38,7 +41,7 @@ impl Effort {
     pub(crate) const QUICK: Self = Self {
         step_factor: 4.0,
         tolerance_factor: 100.0,
-        budget: 12_000.0,
+        budget: 5_000.0,
         passes: 1,
         timing: Duration::from_micros(100),
         batch: Duration::from_micros(20),
@@ -239,11 +242,12 @@ impl Bench {
                 gap: worst.gap,
                 drift: drift / scale,
                 seconds: f64::INFINITY,
-                bound: error / self.growth,
+                bound: if error <= SOLUTION { error / self.growth } else { f64::INFINITY },
             });
+            let bound = self.points.last().map_or(f64::INFINITY, |point| point.bound);
             // Coarser runs that were better by luck.
             for earlier in self.points.iter_mut().rev().skip(1).take_while(|earlier| earlier.series == series) {
-                earlier.bound = greater(earlier.bound, error / self.growth);
+                earlier.bound = greater(earlier.bound, bound);
             }
             let subject = Rc::clone(subject);
             self.timed.push(Box::new(move || {
@@ -269,17 +273,24 @@ impl Bench {
             for (point, run) in self.points.iter_mut().zip(&self.timed) {
                 let start = Instant::now();
                 while start.elapsed() < self.effort.timing || point.seconds.is_infinite() {
-                    let (batch, mut count) = (Instant::now(), 0);
+                    let (batch, waited, mut count) = (Instant::now(), waited(), 0);
                     while count == 0 || batch.elapsed() < self.effort.batch {
                         run();
                         count += 1;
                     }
-                    point.seconds = point.seconds.min(batch.elapsed().as_secs_f64() / f64::from(count) / end);
+                    let spent = batch.elapsed().saturating_sub(self::waited().saturating_sub(waited));
+                    point.seconds = point.seconds.min(spent.as_secs_f64() / f64::from(count) / end);
                 }
             }
         }
         println!();
     }
+}
+
+/// How long this thread has been ready to run and did not, where the system tells (Linux): time of others.
+fn waited() -> Duration {
+    let text = std::fs::read_to_string("/proc/self/schedstat").unwrap_or_default();
+    Duration::from_nanos(text.split_whitespace().nth(1).and_then(|word| word.parse().ok()).unwrap_or(0))
 }
 
 /// The greater of two, NaN if one is.

@@ -8,7 +8,7 @@ multibody! {
         world { gravity: -9.81 * Y }
         body bob { mass: 1.0, com: -Y }
         joint hinge: Revolute { parent: ground, child: bob, axis: Z }
-        emit forward_dynamics, energy, momentum;
+        emit forward_dynamics, derivatives, energy, momentum;
     }
 }
 
@@ -20,7 +20,7 @@ multibody! {
         body lower { mass: 1.0, com: -Y }
         joint shoulder: Revolute { parent: ground, child: upper, axis: Z }
         joint elbow: Revolute { parent: upper.at(-Y), child: lower, axis: Z }
-        emit forward_dynamics, energy, momentum;
+        emit forward_dynamics, derivatives, energy, momentum;
     }
 }
 
@@ -29,7 +29,7 @@ multibody! {
     pub(crate) mod free_body {
         body nut { mass: 1.0, inertia: diag(1.0, 2.0, 3.0) }
         joint free: Free { parent: ground, child: nut }
-        emit forward_dynamics, energy;
+        emit forward_dynamics, derivatives, energy;
     }
 }
 
@@ -89,7 +89,7 @@ multibody! {
         force friction5: Damper { joint: q5, damping: 0.4 }
         force friction6: Damper { joint: q6, damping: 0.4 }
         force friction7: Damper { joint: q7, damping: 0.2 }
-        emit forward_dynamics, energy;
+        emit forward_dynamics, derivatives, energy;
     }
 }
 
@@ -113,7 +113,7 @@ multibody! {
         joint slide: Prismatic { parent: spindle, child: sleeve, axis: Z }
         force link1: SpringDamper { between: [rod1.at(-0.5 * Z), sleeve], stiffness: K, damping: C, length: 0.5 }
         force link2: SpringDamper { between: [rod2.at(-0.5 * Z), sleeve], stiffness: K, damping: C, length: 0.5 }
-        emit forward_dynamics, energy;
+        emit forward_dynamics, derivatives, energy;
     }
 }
 
@@ -145,7 +145,7 @@ four_bar! {
         solve (knee, pivot) from pin { sin(pivot - shaft - knee) > 0.0 }
         output angles = [shaft.angle, shaft.angle + knee.angle, pivot.angle];
         output rates = [shaft.rate, shaft.rate + knee.rate, pivot.rate];
-        emit forward_dynamics, energy;
+        emit forward_dynamics, derivatives, energy;
     }
 }
 
@@ -153,7 +153,7 @@ four_bar! {
     /// Its loop kept as equations.
     four_bar_loop {
         formulation { constraints: Multipliers }
-        emit forward_dynamics, energy, impulse;
+        emit forward_dynamics, derivatives, energy, impulse;
     }
 }
 
@@ -205,7 +205,7 @@ andrews! {
         solve (omega, epsilon) from p6 { cos(omega.angle) > 0.0 }
         output angles = [[theta.angle, gamma.angle, phi.angle], [delta.angle, omega.angle, epsilon.angle]];
         output rates = [[theta.rate, gamma.rate, phi.rate], [delta.rate, omega.rate, epsilon.rate]];
-        emit forward_dynamics, energy;
+        emit forward_dynamics, derivatives, energy;
     }
 }
 
@@ -213,7 +213,7 @@ andrews! {
     /// Its three loops kept as equations.
     andrews_loops {
         formulation { constraints: Multipliers }
-        emit forward_dynamics, energy, impulse;
+        emit forward_dynamics, derivatives, energy, impulse;
     }
 }
 
@@ -264,7 +264,7 @@ stewart! {
         leg: { solve (gimbal, stroke) from ball { stroke > -1.0, cos(gimbal.second) > 0.0 } }
         platform: {
             formulation { constraints: Reduced }
-            emit forward_dynamics, energy, kinematics { given: platform.pose, find: [legs.gimbal, legs.stroke] };
+            emit forward_dynamics, derivatives, energy, kinematics { given: platform.pose, find: [legs.gimbal, legs.stroke] };
         }
     }
 }
@@ -275,7 +275,7 @@ stewart! {
         leg: {}
         platform: {
             formulation { constraints: Multipliers }
-            emit forward_dynamics, energy, impulse;
+            emit forward_dynamics, derivatives, energy, impulse;
         }
     }
 }

@@ -3,8 +3,8 @@
 use std::rc::Rc;
 
 use multibody::{
-    Canonical, Composition4, Composition6, Constrained, Dop853, DormandPrince, Euler, GaussLegendre4, GaussLegendre6,
-    GeneralisedAlpha, ImplicitMidpoint, Impulsive, Integrator, Rk4, SemiImplicitEuler, Separable, SymplecticGauss4,
+    Canonical, Composition4, Composition6, Constrained, Differentiable, Dop853, DormandPrince, Euler, GaussLegendre4, GaussLegendre6,
+    GeneralisedAlpha, ImplicitMidpoint, Impulsive, Integrator, Radau, Rk4, SemiImplicitEuler, Separable, SymplecticGauss4,
     SymplecticGauss6, SymplecticMidpoint, System, Verlet, WithBaumgarte, simulate,
 };
 
@@ -89,7 +89,7 @@ pub(crate) fn run(name: &'static str, effort: Effort) -> Bench {
 /// A mechanism without loops.
 fn plain<S, R>(scene: Scene, effort: Effort, subject: &Subject<S>, single: &Subject<R>) -> Bench
 where
-    S: System<Scalar = f64, Input = ()> + Clone + 'static,
+    S: Differentiable<Scalar = f64, Input = ()> + Clone + 'static,
     R: System<Scalar = f32, Input = ()> + Clone + 'static,
 {
     let mut bench = start(scene, effort, subject);
@@ -134,7 +134,7 @@ fn start<S: System<Scalar = f64, Input = ()>>(scene: Scene, effort: Effort, subj
 }
 
 /// Methods for any system.
-fn general<S: System<Input = ()> + Clone + 'static>(
+fn general<S: Differentiable<Input = ()> + Clone + 'static>(
     bench: &mut Bench,
     subject: &Subject<S>,
     handling: &'static str,
@@ -151,6 +151,8 @@ fn general<S: System<Input = ()> + Clone + 'static>(
     bench.fixed(by("ImplicitMidpoint", handling, scalar), &subject, ImplicitMidpoint);
     bench.fixed(by("GaussLegendre4", handling, scalar), &subject, GaussLegendre4);
     bench.fixed(by("GaussLegendre6", handling, scalar), &subject, GaussLegendre6);
+    bench.adaptive(by("Radau", handling, scalar), &subject, Radau);
+    bench.fixed(by("GeneralisedAlpha", handling, scalar), &subject, GeneralisedAlpha::new(0.8));
     chosen(bench, &subject, handling, scalar);
 }
 
@@ -212,7 +214,7 @@ fn looped<S, R, C, D>(
     (double_loop, single_loop): (&Subject<C>, &Subject<D>),
 ) -> Bench
 where
-    S: System<Scalar = f64, Input = ()> + Clone + 'static,
+    S: Differentiable<Scalar = f64, Input = ()> + Clone + 'static,
     R: System<Scalar = f32, Input = ()> + Clone + 'static,
     C: Constrained<Scalar = f64, Input = ()> + Impulsive<Rates = <C as Constrained>::Residual> + Clone + 'static,
     D: Constrained<Scalar = f32, Input = ()> + Clone + 'static,

@@ -200,12 +200,12 @@ impl Picture {
         );
     }
 
-    fn power(&mut self, (x, y): (f64, f64), anchor: &str, power: i32) {
-        let _ = writeln!(
-            self.out,
-            "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"10.5\" text-anchor=\"{anchor}\" fill=\"#444\" {TEXT}>10<tspan font-size=\"8\" dy=\"-4\">{}</tspan></text>",
-            if power < 0 { format!("\u{2212}{}", -power) } else { power.to_string() }
-        );
+    fn power(&mut self, at: (f64, f64), anchor: &str, power: i32) {
+        const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+        let digits = power.unsigned_abs().to_string();
+        let sign = if power < 0 { "⁻" } else { "" };
+        let raised: String = digits.bytes().map(|digit| DIGITS[usize::from(digit - b'0')]).collect();
+        self.text(at, 10.5, anchor, "#444", &format!("10{sign}{raised}"));
     }
 
     /// Each curve's name beside it, where it covers least.
@@ -241,11 +241,14 @@ impl Picture {
             if let Some((_, place)) = best {
                 taken.push(place);
                 let at = (place.left + 1.0, place.bottom - 2.5);
-                let _ = writeln!(
-                    self.out,
-                    "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"{SIZE}\" fill=\"{}\" stroke=\"white\" stroke-width=\"2.6\" paint-order=\"stroke\" {TEXT}>{}</text>",
-                    at.0, at.1, line.style.colour, line.name
-                );
+                // A white edge first, so that curves do not run into the letters.
+                for edge in [" stroke=\"white\" stroke-width=\"2.6\"", ""] {
+                    let _ = writeln!(
+                        self.out,
+                        "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"{SIZE}\" fill=\"{}\"{edge} {TEXT}>{}</text>",
+                        at.0, at.1, line.style.colour, line.name
+                    );
+                }
             }
         }
     }

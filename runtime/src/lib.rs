@@ -41,6 +41,7 @@
 //! - [`Constrained`]: a model whose coordinates obey equations; [`assemble`] closes its loops, and [`projection`] keeps
 //!   them closed.
 //! - [`impact`]: impulses, and impacts with Newton's law, at joints and frames.
+//! - [`mod@equilibrium`]: states of rest and steady motions.
 //! - [`linear`]: small linear systems, with their rank and without a branch.
 //!
 //! # Conventions
@@ -70,6 +71,7 @@ mod constrained;
 pub mod coordinates;
 mod cost;
 mod differentiable;
+pub mod equilibrium;
 #[doc = include_str!("../docs/generated.md")]
 pub mod generated {}
 pub mod impact;
@@ -92,12 +94,13 @@ pub use constrained::{Constrained, Kinematics};
 pub use coordinates::{Cylindrical, FreeRollPitchYaw, Planar, Pose, RollPitchYaw, Twist, Universal, Wrench};
 pub use cost::Cost;
 pub use differentiable::{Derivatives, Differentiable, Jacobian};
+pub use equilibrium::{Equilibrium, EquilibriumError, Free, constrained_equilibrium, equilibrium, trim};
 pub use impulsive::Impulsive;
 pub use inertia::{ParamError, inertia_violation};
 pub use integrators::GeneralisedAlpha;
 pub use integrators::{Composition4, Composition6, Verlet};
 pub use integrators::{
-    Dop853, DormandPrince, Euler, IntegrationError, Integrator, Method, Rk4, SemiImplicitEuler, Statistics, Steps,
+    Dop853, DormandPrince, Euler, IntegrationError, Integrator, Method, Radau, Rk4, SemiImplicitEuler, Statistics, Steps,
     Tolerance,
 };
 pub use integrators::{

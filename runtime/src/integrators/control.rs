@@ -151,6 +151,11 @@ impl Control {
         self.step
     }
 
+    /// Takes another length for the next step.
+    pub(super) const fn change_step(&mut self, step: f64) {
+        self.step = step;
+    }
+
     /// Whether a step is below the least one.
     pub(super) fn is_too_short(&self, t: f64, length: f64) -> bool {
         length.abs() <= Real::max(self.min_step, 10.0 * f64::EPSILON * t.abs())

@@ -4,6 +4,7 @@
 pub(crate) mod canonical;
 pub(crate) mod loops;
 pub(crate) mod separable;
+pub(crate) mod stiff;
 
 use core::cell::Cell;
 use multibody::nalgebra::{UnitQuaternion, Vector3};
