@@ -33,9 +33,9 @@ impl Effort {
     pub(crate) const FULL: Self = Self {
         step_factor: std::f64::consts::SQRT_2,
         tolerance_factor: 3.162_277_660_168_379_5,
-        budget: 400_000.0,
-        passes: 7,
-        timing: Duration::from_millis(2),
+        budget: 150_000.0,
+        passes: 5,
+        timing: Duration::from_millis(1),
         batch: Duration::from_micros(100),
     };
     pub(crate) const QUICK: Self = Self {

@@ -162,7 +162,7 @@ impl<S: Differentiable> Method<S> for Radau {
             error = filtered(&slope);
             if memory.cautious {
                 let size = magnitude(step.state);
-                if aim.tolerance.norm(&error, &size, &size) >= 1.0 {
+                if aim.tolerance.norm(&error, &size, &size).greatest() >= 1.0 {
                     error = filtered(&problem.stage(step.t, step.state, &error));
                 }
             }

@@ -87,7 +87,7 @@ pub(super) fn solve<S: Differentiable>(
         let d1 = matrices.solve_real(&r1);
         let (d2, d3) = matrices.solve_complex(&r2, &r3);
 
-        let norm = |d: &SlopeOf<S>| aim.tolerance.norm(d, &size, &size);
+        let norm = |d: &SlopeOf<S>| aim.tolerance.norm(d, &size, &size).greatest();
         let (n1, n2, n3) = (norm(&d1), norm(&d2), norm(&d3));
         let change = Real::sqrt((n1 * n1 + n2 * n2 + n3 * n3) / 3.0);
         if !change.is_finite() {
