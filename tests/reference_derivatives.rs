@@ -250,7 +250,8 @@ where
     let jacobian = model.jacobian(t, &state, &input);
     let (n, x) = (point.v.len(), point.x.len());
     assert_eq!(<M::Matrix as Square<f64>>::SIZE, n + x);
-    let column = |matrix: &M::Matrix, column: usize| -> Vec<f64> { (0..n + x).map(|row| matrix.get(row, column)).collect() };
+    let column =
+        |matrix: &M::Matrix, column: usize| -> Vec<f64> { (0..n + x).map(|row| matrix.get(row, column)).collect() };
     let (accel, twin_accel): (VelocityOf<M>, VelocityOf<D>) = (filled(&point.a), filled(&point.a));
     let slopes = model.slopes(t, &state, &input, &accel);
     let mut worst = [0.0; 2];

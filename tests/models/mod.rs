@@ -9,5 +9,5 @@ pub mod mechanisms;
 pub mod motion;
 pub mod random;
 pub mod small;
-pub mod stiff;
 pub mod stewart;
+pub mod stiff;

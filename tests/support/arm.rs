@@ -1,7 +1,7 @@
 //! The generated arms behind one trait, over slices, so that one test serves all of them and every scalar.
 
-use multibody::{Derivatives, Real};
 use multibody::nalgebra::{SMatrix, SVector};
+use multibody::{Derivatives, Real};
 
 use crate::models::arms;
 

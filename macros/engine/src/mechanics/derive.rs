@@ -134,10 +134,7 @@ fn kinds(model: &Model, structure: &Structure) -> Vec<FunctionKind> {
     }
     kinds.extend(wanted(Request::Residual, &[FunctionKind::Residual]));
     kinds.extend((0..model.kinematics.len()).map(FunctionKind::Kinematics));
-    kinds.extend(wanted(
-        Request::Derivatives,
-        &[FunctionKind::ForwardDerivatives, FunctionKind::InverseDerivatives],
-    ));
+    kinds.extend(wanted(Request::Derivatives, &[FunctionKind::ForwardDerivatives, FunctionKind::InverseDerivatives]));
     if !model.outputs.is_empty() {
         kinds.push(FunctionKind::Outputs);
     }
