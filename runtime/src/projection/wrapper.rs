@@ -1,7 +1,9 @@
 //! A projection after each step of any integrator: [`WithProjection`].
 
 use super::{Mask, Projection, finite, ones};
-use crate::{Constrained, ExtraOf, PositionOf, Real, StateSpace, System, Tangent, VelocityOf};
+use crate::{
+    Constrained, Differentiable, ExtraOf, Jacobian, PositionOf, Real, StateSpace, System, Tangent, VelocityOf,
+};
 
 /// A system whose states are projected at the end of every accepted step, whatever the integrator.
 ///
@@ -74,5 +76,25 @@ impl<S: Constrained> Constrained for WithProjection<S> {
         weights: &VelocityOf<S>,
     ) -> (VelocityOf<S>, S::Scalar) {
         self.system.correction(t, q, residual, weights)
+    }
+}
+
+/// A projection comes after a step and is no part of the equations.
+impl<S: Constrained + Differentiable> Differentiable for WithProjection<S> {
+    type Matrix = S::Matrix;
+
+    #[inline]
+    fn jacobian(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> Jacobian<S::Matrix> {
+        self.system.jacobian(t, state, input)
+    }
+    #[inline]
+    fn input_derivative(
+        &self,
+        t: S::Scalar,
+        state: &S::State,
+        input: &S::Input,
+        change: &S::Input,
+    ) -> (VelocityOf<S>, ExtraOf<S>) {
+        self.system.input_derivative(t, state, input, change)
     }
 }
