@@ -13,3 +13,4 @@ pub mod motion;
 pub mod random;
 pub mod small;
 pub mod stewart;
+pub mod stiff;
