@@ -40,7 +40,8 @@ pub(crate) fn advice(benches: &[Bench]) -> Vec<Advice> {
     let one = |kind: Kind| {
         let scenes: Vec<Vec<Curve<'_>>> =
             benches.iter().filter(|bench| bench.scene.kind == kind).map(|bench| curves(bench)).collect();
-        let conservative = benches.iter().filter(|bench| bench.scene.kind == kind).all(|bench| bench.scene.conservative);
+        let conservative =
+            benches.iter().filter(|bench| bench.scene.kind == kind).all(|bench| bench.scene.conservative);
         Advice {
             kind: words(kind),
             targets: TARGETS.map(|target| ranked(&scenes, |curve, cost| curve.cost(target, cost))),

@@ -68,7 +68,8 @@ impl Curve<'_> {
     pub(crate) fn cost(&self, target: f64, cost: Cost) -> Option<f64> {
         let first = self.points.iter().position(|point| point.bound <= target)?;
         let here = self.points[first];
-        let Some(before) = first.checked_sub(1).map(|k| self.points[k]).filter(|before| before.bound.is_finite()) else {
+        let Some(before) = first.checked_sub(1).map(|k| self.points[k]).filter(|before| before.bound.is_finite())
+        else {
             return Some(cost(here));
         };
         let share = (before.bound / target).ln() / (before.bound / here.bound).ln();

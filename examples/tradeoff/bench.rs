@@ -204,7 +204,8 @@ impl Bench {
         run: impl Fn(f64) -> R,
     ) where
         S: System<Input = ()> + 'static,
-        R: Fn(&Subject<S>, &mut dyn FnMut(f64, &S::State)) -> Result<(S::State, Statistics), IntegrationError> + 'static,
+        R: Fn(&Subject<S>, &mut dyn FnMut(f64, &S::State)) -> Result<(S::State, Statistics), IntegrationError>
+            + 'static,
     {
         let (mut best, mut stale, mut wild) = (f64::INFINITY, 0, 0);
         for setting in settings {
@@ -268,7 +269,13 @@ impl Bench {
     pub(crate) fn time(&mut self) {
         let end = self.truth.end;
         for pass in 0..self.effort.passes {
-            print!("\r  {}: {} runs, timing {} of {} ", self.scene.name, self.points.len(), pass + 1, self.effort.passes);
+            print!(
+                "\r  {}: {} runs, timing {} of {} ",
+                self.scene.name,
+                self.points.len(),
+                pass + 1,
+                self.effort.passes
+            );
             let _ = std::io::stdout().flush();
             for (point, run) in self.points.iter_mut().zip(&self.timed) {
                 let start = Instant::now();

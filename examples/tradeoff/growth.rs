@@ -1,6 +1,6 @@
 //! How much a problem itself magnifies an error: the norm of the derivative of the motion by its start.
 
-use multibody::{DormandPrince, Integrator, System, VelocityOf, Tangent};
+use multibody::{DormandPrince, Integrator, System, Tangent, VelocityOf};
 
 use crate::reference::Truth;
 use crate::subject::{Subject, displaced};
@@ -11,7 +11,8 @@ use crate::subject::{Subject, displaced};
 pub(crate) fn growth<S: System<Scalar = f64, Input = ()>>(subject: &Subject<S>, truth: &Truth) -> f64 {
     let accurate = Integrator::adaptive(DormandPrince, 1e-12, 1e-12);
     let differences = |state: &S::State| {
-        let (end, _) = accurate.integrate(&subject.system, 0.0, truth.end, state, &(), |_, _| ()).expect("smooth motion");
+        let (end, _) =
+            accurate.integrate(&subject.system, 0.0, truth.end, state, &(), |_, _| ()).expect("smooth motion");
         truth.differences(&(subject.motion)(&end))
     };
     let count = VelocityOf::<S>::zero().len();

@@ -14,7 +14,10 @@ fn motion(q: &[f64], v: &[f64]) -> Motion {
 /// The state of a model whose coordinates form a vector, in double precision.
 macro_rules! double {
     ($module:ident, $state:expr) => {
-        models::$module::State { q: doubled(SVector::from($state.q)).into(), v: doubled(SVector::from($state.v)).into() }
+        models::$module::State {
+            q: doubled(SVector::from($state.q)).into(),
+            v: doubled(SVector::from($state.v)).into(),
+        }
     };
 }
 
@@ -214,10 +217,7 @@ pub(crate) fn stewart_loops<T: Real>() -> Subject<models::stewart_loops::Model<T
     };
     Subject {
         system: Model::default(),
-        start: State {
-            q: all(pose, by_leg(legs.position)).into(),
-            v: all(rates, by_leg(legs.velocity)).into(),
-        },
+        start: State { q: all(pose, by_leg(legs.position)).into(), v: all(rates, by_leg(legs.velocity)).into() },
         motion: |x| {
             let State { q, v } = double!(stewart_loops, x);
             let (q, v): (SVector<f64, 24>, SVector<f64, 24>) = (q.into(), v.into());

@@ -176,9 +176,17 @@ fn handlings(picture: &mut Picture, all: &[Curve<'_>], place: impl Fn(f64, f64) 
         hull: Vec::new(),
         heights: (1e-17, 1.0),
     };
-    picture.panel(&panel("DormandPrince, adaptive, by how loops are closed", |point| point.own), place(2.0, 0.0), PANEL);
+    picture.panel(
+        &panel("DormandPrince, adaptive, by how loops are closed", |point| point.own),
+        place(2.0, 0.0),
+        PANEL,
+    );
     picture.panel(&panel("Greatest gap of a loop [m]", |point| point.gap), place(2.0, 1.0), PANEL);
-    keys(picture, 2.0, ways.iter().map(|curve| (handling(curve.series), curve.series.handling.to_owned(), said(curve))));
+    keys(
+        picture,
+        2.0,
+        ways.iter().map(|curve| (handling(curve.series), curve.series.handling.to_owned(), said(curve))),
+    );
 }
 
 /// What a curve says in words.

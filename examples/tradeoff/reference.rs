@@ -21,8 +21,10 @@ impl Truth {
     /// That of a scene.
     pub(crate) fn of(scene: &str) -> Self {
         let text = include_str!("data/references.txt");
-        let line = text.lines().find(|line| line.split(' ').next() == Some(scene)).expect("every scene has a reference");
-        let mut parts = line.split('|').map(|part| part.split_whitespace().filter_map(|word| word.parse().ok()).collect());
+        let line =
+            text.lines().find(|line| line.split(' ').next() == Some(scene)).expect("every scene has a reference");
+        let mut parts =
+            line.split('|').map(|part| part.split_whitespace().filter_map(|word| word.parse().ok()).collect());
         let mut next = || -> Vec<f64> { parts.next().unwrap_or_default() };
         let (end, q, v) = (next()[0], next(), next());
         let attitude = q.len() == 4 && v.len() == 3;

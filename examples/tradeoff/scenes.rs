@@ -3,9 +3,9 @@
 use std::rc::Rc;
 
 use multibody::{
-    Canonical, Composition4, Composition6, Constrained, Differentiable, Dop853, DormandPrince, Euler, GaussLegendre4, GaussLegendre6,
-    GeneralisedAlpha, ImplicitMidpoint, Impulsive, Integrator, Radau, Rk4, SemiImplicitEuler, Separable, SymplecticGauss4,
-    SymplecticGauss6, SymplecticMidpoint, System, Verlet, WithBaumgarte, simulate,
+    Canonical, Composition4, Composition6, Constrained, Differentiable, Dop853, DormandPrince, Euler, GaussLegendre4,
+    GaussLegendre6, GeneralisedAlpha, ImplicitMidpoint, Impulsive, Integrator, Radau, Rk4, SemiImplicitEuler,
+    Separable, SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint, System, Verlet, WithBaumgarte, simulate,
 };
 
 use crate::bench::{Bench, Effort, Kind, Scene, Series, Steps};
@@ -35,11 +35,9 @@ pub(crate) fn run(name: &'static str, effort: Effort) -> Bench {
             separable(&mut bench, &single, "f32");
             bench
         }
-        "mild" => double(
-            scene("mild", "Double pendulum, regular motion, 10 s", Kind::Open, 0.25, true),
-            effort,
-            [0.5, 0.8],
-        ),
+        "mild" => {
+            double(scene("mild", "Double pendulum, regular motion, 10 s", Kind::Open, 0.25, true), effort, [0.5, 0.8])
+        }
         "chaotic" => double(
             scene("chaotic", "Double pendulum, chaotic motion, 5 s", Kind::Chaotic, 0.1, true),
             effort,
@@ -127,7 +125,8 @@ fn start<S: System<Scalar = f64, Input = ()>>(scene: Scene, effort: Effort, subj
         (least, most) = (least.min(kinetic), most.max(kinetic));
     };
     let accurate = Integrator::adaptive(DormandPrince, 1e-13, 1e-13);
-    let (end, _) = accurate.integrate(&subject.system, 0.0, truth.end, &subject.start, &(), watch).expect("smooth motion");
+    let (end, _) =
+        accurate.integrate(&subject.system, 0.0, truth.end, &subject.start, &(), watch).expect("smooth motion");
     let energy = (subject.laws)(&end).energy;
     let scale = if scene.conservative { 1.0 + energy.abs() } else { 1.0 + (most - least) };
     Bench::new(scene, truth, effort, growth, (energy, scale))

@@ -125,7 +125,8 @@ impl Picture {
         let frame = Place { left, top, right: left + width, bottom: top + height };
         let (low, high) = panel.heights;
         let visible = |y: f64| y <= high && y > 0.0;
-        let widths = panel.lines.iter().flat_map(|line| &line.points).filter(|point| visible(point.1)).map(|point| point.0);
+        let widths =
+            panel.lines.iter().flat_map(|line| &line.points).filter(|point| visible(point.1)).map(|point| point.0);
         let (mut from, mut to) = (f64::INFINITY, 0.0_f64);
         for x in widths {
             (from, to) = (from.min(x), to.max(x));
@@ -217,7 +218,15 @@ impl Picture {
             let wide = line.name.chars().count() as f64 * SIZE * 0.6;
             let mut best: Option<(f64, Place)> = None;
             for (number, &(x, y)) in densely(points).iter().rev().enumerate() {
-                for (dx, dy) in [(7.0, 3.5), (7.0, 12.0), (-7.0 - wide, 3.5), (-7.0 - wide, 12.0), (4.0, -6.0), (-wide / 2.0, 16.0), (-wide / 2.0, -8.0)] {
+                for (dx, dy) in [
+                    (7.0, 3.5),
+                    (7.0, 12.0),
+                    (-7.0 - wide, 3.5),
+                    (-7.0 - wide, 12.0),
+                    (4.0, -6.0),
+                    (-wide / 2.0, 16.0),
+                    (-wide / 2.0, -8.0),
+                ] {
                     let place = Place {
                         left: x + dx - 1.0,
                         right: x + dx + wide + 1.0,

@@ -100,8 +100,8 @@ pub use inertia::{ParamError, inertia_violation};
 pub use integrators::GeneralisedAlpha;
 pub use integrators::{Composition4, Composition6, Verlet};
 pub use integrators::{
-    Dop853, DormandPrince, Euler, IntegrationError, Integrator, Method, Radau, Rk4, SemiImplicitEuler, Statistics, Steps,
-    Tolerance,
+    Dop853, DormandPrince, Euler, IntegrationError, Integrator, Method, Radau, Rk4, SemiImplicitEuler, Statistics,
+    Steps, Tolerance,
 };
 pub use integrators::{
     GaussLegendre4, GaussLegendre6, ImplicitMidpoint, SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint,

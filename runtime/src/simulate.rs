@@ -62,7 +62,8 @@ pub fn simulate<S: System>(
     let least = ROUNDINGS * S::Scalar::epsilon().greatest();
     if accuracy > LOOSE {
         let tolerance = Real::max(SHARE[1] * accuracy, least);
-        return Integrator::adaptive(DormandPrince, tolerance, tolerance).integrate(system, t0, t1, state, input, observe);
+        return Integrator::adaptive(DormandPrince, tolerance, tolerance)
+            .integrate(system, t0, t1, state, input, observe);
     }
     let tolerance = Real::max(SHARE[0] * accuracy, least);
     Integrator::adaptive(Dop853, tolerance, tolerance).integrate(system, t0, t1, state, input, observe)

@@ -95,6 +95,25 @@ pub(super) fn combination<T: Real, V: Tangent<T>, const N: usize>(dt: T, weights
     terms.fold(V::zero(), |sum, (weight, slope)| sum.add_scaled(T::lit(weight), slope)).scale(dt)
 }
 
+/// `dt * (first + weights[0] * (slopes[0] - first) + ..)`: a step, of which the weight of the first slope is what the others
+/// leave to one.
+///
+/// The rounding of the weights then falls on differences alone. As it is the same in every step, it would otherwise turn
+/// the time by a part of 1e-16: more than all else that compensated summation leaves.
+#[inline]
+pub(super) fn advance_by<T: Real, V: Tangent<T>, const N: usize>(
+    dt: T,
+    first: &V,
+    weights: [f64; N],
+    slopes: [&V; N],
+) -> V {
+    let minus = T::lit(-1.0);
+    let terms = weights.into_iter().zip(slopes);
+    let change =
+        terms.fold(V::zero(), |sum, (weight, slope)| sum.add_scaled(T::lit(weight), &slope.add_scaled(minus, first)));
+    first.add(&change).scale(dt)
+}
+
 /// Whether every component of a vector is finite, in every lane.
 #[inline]
 pub(super) fn is_finite<T: Real, V: Tangent<T>>(vector: &V) -> bool {
