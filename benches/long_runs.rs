@@ -1,16 +1,15 @@
 //! Energies of motions that are too long for tests: every figure that the documentation quotes.
 //!
-//! `cargo bench --bench long_runs`; about a minute. Bounds are asserted, so a run that ends has kept them.
+//! `cargo bench --bench long_runs`; some minutes. Bounds are asserted, so a run that ends has kept them.
 
-// Paths as in the tests' own package, whose files these are.
+// Files of the tests' package, under the paths that they have there.
+#[path = "../tests/models"]
 mod models {
-    #[path = "../../tests/models/energy.rs"]
     pub mod energy;
 }
+#[path = "../tests/support"]
 mod support {
-    #[path = "../../tests/support/energy.rs"]
     pub mod energy;
-    #[path = "../../tests/support/long_runs.rs"]
     pub mod long_runs;
 }
 

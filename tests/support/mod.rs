@@ -8,6 +8,5 @@ pub mod engine;
 pub mod jet;
 pub mod ledger;
 pub mod long_runs;
-pub mod long_runs;
 pub mod plain;
 pub mod random;
