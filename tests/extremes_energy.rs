@@ -91,7 +91,9 @@ fn periods() {
     let file = read("motion/a1_pendulum");
     let model = swing::Model::new(&swing::Params::default());
     for row in list(&file["period_table"]) {
-        let (amplitude, period) = (number(&row["theta0"]), number(&row["T_L1_g981"]));
+        let right_angle = row["theta0"] == "pi/2";
+        let amplitude = if right_angle { std::f64::consts::FRAC_PI_2 } else { number(&row["theta0"]) };
+        let period = number(&row["T_L1_g981"]);
         let mut start = swing::State::default();
         start.q.hinge = amplitude;
         let mut quarter = f64::NAN;
