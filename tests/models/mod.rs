@@ -1,6 +1,7 @@
 //! Mechanisms as users write them, compiled once for all tests.
 
 pub mod arms;
+pub mod energy;
 pub mod extremes;
 pub mod hundred_rods;
 pub mod impulses;

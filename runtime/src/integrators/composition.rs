@@ -6,8 +6,9 @@
 //! matrix is constant, and time-symmetric always. Time is a coordinate that drifts.
 //!
 //! Displacements are summed up from the start of a step. They are short beside the coordinates, so their rounding is
-//! too: compensating it within a step as well gains nothing that can be measured; compensating the sum of steps does
-//! ([`Integrator::compensated`](super::Integrator::compensated); Hairer, Lubich and Wanner, section VIII.5).
+//! too; that of the sum of steps is what [`Integrator::compensated`](super::Integrator::compensated) keeps (Hairer,
+//! Lubich and Wanner, section VIII.5). With it a pendulum's energy strays by 1e-14 in 1e7 steps of [`Composition6`],
+//! without by 2e-13 (`benches/long_runs.rs`).
 
 use super::dense::Dense;
 use super::method::{Attempt, Method, inherent};

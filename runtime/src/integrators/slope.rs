@@ -89,10 +89,10 @@ pub(super) fn magnitude<Z: StateSpace>(state: &Z) -> Slope<Z::Velocity, Z::Extra
 }
 
 /// `dt * (weights[0] * slopes[0] + ..)`.
-#[inline]
+#[inline(always)]
 pub(super) fn combination<T: Real, V: Tangent<T>, const N: usize>(dt: T, weights: [f64; N], slopes: [&V; N]) -> V {
-    let terms = weights.into_iter().zip(slopes);
-    terms.fold(V::zero(), |sum, (weight, slope)| sum.add_scaled(T::lit(weight), slope)).scale(dt)
+    let terms = literals(&weights).into_iter().zip(slopes);
+    terms.fold(V::zero(), |sum, (weight, slope)| sum.add_scaled(weight, slope)).scale(dt)
 }
 
 /// `dt * (first + weights[0] * (slopes[0] - first) + ..)`: a step, of which the weight of the first slope is what the others

@@ -6,8 +6,9 @@
 #![deny(warnings)]
 
 use multibody::{
-    Composition4, Composition6, DormandPrince, Euler, GaussLegendre4, GaussLegendre6, ImplicitMidpoint, Rk4,
-    SemiImplicitEuler, Verlet, multibody,
+    Composition4, Composition6, Dop853, DormandPrince, Euler, GaussLegendre4, GaussLegendre6, ImplicitMidpoint, Rk4,
+    SemiImplicitEuler, SymplecticGauss6,
+    SymplecticMidpoint, Verlet, multibody,
 };
 
 multibody! {
@@ -36,7 +37,7 @@ multibody! {
         joint shoulder: Revolute { parent: ground, child: upper, axis: Z }
         joint elbow: Revolute { parent: upper.at(-l1 * Y), child: lower, axis: Z }
         force motor: Effort { joint: elbow, value: torque - 0.013 * elbow.rate }
-        emit forward_dynamics, inverse_dynamics;
+        emit forward_dynamics, inverse_dynamics, momentum;
     }
 }
 
@@ -80,6 +81,9 @@ steps! {
     single_double_midpoint: ImplicitMidpoint of double_pendulum with double_pendulum::Input<f32>;
     single_double_gauss4: GaussLegendre4 of double_pendulum with double_pendulum::Input<f32>;
     single_double_gauss6: GaussLegendre6 of double_pendulum with double_pendulum::Input<f32>;
+    single_double_dop853: Dop853 of double_pendulum with double_pendulum::Input<f32>;
+    single_double_symplectic_midpoint: SymplecticMidpoint of double_pendulum with double_pendulum::Input<f32>;
+    single_double_symplectic_gauss6: SymplecticGauss6 of double_pendulum with double_pendulum::Input<f32>;
     single_satellite_rk4: Rk4 of satellite with satellite::Input<f32>;
     single_satellite_dormand_prince: DormandPrince of satellite with satellite::Input<f32>;
     single_satellite_midpoint: ImplicitMidpoint of satellite with satellite::Input<f32>;
