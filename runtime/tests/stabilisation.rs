@@ -122,7 +122,7 @@ fn drift_by_the_share_of_the_step() {
         let error = end_error(method, bars, &start, dt);
         println!("{name}, dt {dt}: none {:.1e} {:.1e}, error {error:.1e}", none[0], none[1]);
         let mut default = [0.0; 2];
-        for share in [0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6] {
+        for share in [0.02, 0.1, 0.4, 1.6] {
             let [position, rate] = drift(method, &WithBaumgarte::new(bars, share / dt), &start, dt, steps);
             let error = end_error(method, &WithBaumgarte::new(bars, share / dt), &start, dt);
             println!("{name}, dt {dt}: a dt {share}: {position:.1e} {rate:.1e}, error {error:.1e}");
@@ -180,7 +180,7 @@ fn methods_keep_their_order() {
     let rod = Rod::rigid();
     check(SemiImplicitEuler, &rod, 4000);
     check(Rk4, &rod, 400);
-    check(DormandPrince, &rod, 200);
+    check(DormandPrince, &rod, 600);
 }
 
 /// A parallelogram turns evenly through flat poses, with every handling; the rank that it had there is told.
