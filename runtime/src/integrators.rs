@@ -9,6 +9,7 @@
 
 mod control;
 mod dense;
+mod dop853;
 mod dormand_prince;
 mod error;
 mod euler;
@@ -22,6 +23,7 @@ mod slope;
 
 pub use control::Tolerance;
 pub use dense::Dense;
+pub use dop853::Dop853;
 pub use dormand_prince::DormandPrince;
 pub use error::IntegrationError;
 pub use euler::Euler;

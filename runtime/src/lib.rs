@@ -94,8 +94,8 @@ pub use differentiable::{Derivatives, Differentiable, Jacobian};
 pub use impulsive::Impulsive;
 pub use inertia::{ParamError, inertia_violation};
 pub use integrators::{
-    DormandPrince, Euler, GeneralisedAlpha, IntegrationError, Integrator, Method, Rk4, SemiImplicitEuler, Statistics,
-    Steps, Tolerance,
+    Dop853, DormandPrince, Euler, GeneralisedAlpha, IntegrationError, Integrator, Method, Rk4, SemiImplicitEuler,
+    Statistics, Steps, Tolerance,
 };
 pub use multibody_macros::multibody;
 pub use nalgebra;

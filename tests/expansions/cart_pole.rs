@@ -381,6 +381,20 @@ pub mod cart_pole {
                 hinge: ::multibody::Configuration::displace(&self.hinge, &d.hinge),
             }
         }
+        fn advance(&self, d: &Velocity<T>, rest: &Velocity<T>) -> (Self, Velocity<T>) {
+            let (mut end, mut left) = (*self, *rest);
+            (end.track, left.track) = ::multibody::Configuration::advance(
+                &self.track,
+                &d.track,
+                &rest.track,
+            );
+            (end.hinge, left.hinge) = ::multibody::Configuration::advance(
+                &self.hinge,
+                &d.hinge,
+                &rest.hinge,
+            );
+            (end, left)
+        }
         fn dexp_inv(_d: &Velocity<T>, v: &Velocity<T>) -> Velocity<T> {
             *v
         }

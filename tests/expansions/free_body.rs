@@ -311,6 +311,15 @@ pub mod free_body {
                 free: ::multibody::Configuration::displace(&self.free, &d.free),
             }
         }
+        fn advance(&self, d: &Velocity<T>, rest: &Velocity<T>) -> (Self, Velocity<T>) {
+            let (mut end, mut left) = (*self, *rest);
+            (end.free, left.free) = ::multibody::Configuration::advance(
+                &self.free,
+                &d.free,
+                &rest.free,
+            );
+            (end, left)
+        }
         fn dexp_inv(d: &Velocity<T>, v: &Velocity<T>) -> Velocity<T> {
             Velocity {
                 free: <::multibody::Pose<

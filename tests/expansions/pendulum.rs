@@ -31,6 +31,8 @@
 /// | `bias` | recursive Newton-Euler | 2 mul, 1 sincos | 4 mul, 1 sincos |
 /// | `kinetic_energy` | sum over links | 3 mul | 1 add, 9 mul |
 /// | `potential_energy` | first moment of mass, springs | 2 mul, 1 sincos | 4 mul, 1 sincos |
+///
+/// Accelerations do not depend on velocities: the model is `Separable`.
 pub mod pendulum {
     use ::multibody::Real;
     /// Number of degrees of freedom: components of a velocity.
@@ -290,6 +292,15 @@ pub mod pendulum {
                 hinge: ::multibody::Configuration::displace(&self.hinge, &d.hinge),
             }
         }
+        fn advance(&self, d: &Velocity<T>, rest: &Velocity<T>) -> (Self, Velocity<T>) {
+            let (mut end, mut left) = (*self, *rest);
+            (end.hinge, left.hinge) = ::multibody::Configuration::advance(
+                &self.hinge,
+                &d.hinge,
+                &rest.hinge,
+            );
+            (end, left)
+        }
         fn dexp_inv(_d: &Velocity<T>, v: &Velocity<T>) -> Velocity<T> {
             *v
         }
@@ -464,4 +475,5 @@ pub mod pendulum {
             (self.forward_dynamics(t, state, input), ())
         }
     }
+    impl<T: Real> ::multibody::Separable for Model<T> {}
 }

@@ -58,13 +58,13 @@ impl Tolerance {
         }
     }
 
-    /// The mean square of an error, divided by the tolerance at states of the given sizes; the worst of all lanes.
-    pub(super) fn norm<T: Real, V: Tangent<T>>(&self, error: &V, size: &V, other_size: &V) -> f64 {
+    /// The root of the mean square of an error, divided by the tolerance at states of the given sizes, in each lane.
+    pub(super) fn norm<T: Real, V: Tangent<T>>(&self, error: &V, size: &V, other_size: &V) -> T {
         let (relative, absolute) = (T::lit(self.relative), T::lit(self.absolute));
         let greater = size.zip(other_size, &mut |a, b| Real::max(Real::abs(a), Real::abs(b)));
         let weighted = error.zip(&greater, &mut |error, size| error / (absolute + relative * size));
         let (sum, count) = weighted.fold((T::lit(0.0), 0.0), &mut |(sum, count), e| (sum + e * e, count + 1.0));
-        Real::sqrt(Real::greatest(sum) / Real::max(count, 1.0))
+        Real::sqrt(sum / T::lit(Real::max(count, 1.0)))
     }
 
     /// A first step from the size of the slope and, by one Euler step, of its change.
@@ -78,7 +78,7 @@ impl Tolerance {
     ) -> f64 {
         let span = (t1 - t0).abs();
         let size = magnitude(state);
-        let norm = |vector: &SlopeOf<S>| self.norm(vector, &size, &size);
+        let norm = |vector: &SlopeOf<S>| Real::greatest(self.norm(vector, &size, &size));
         let (d0, d1) = (norm(&size), norm(slope));
         let guess = if d0 < 1e-5 || d1 < 1e-5 { 1e-6 } else { 0.01 * d0 / d1 };
         let euler = clamp(guess, span * 1e-12, Real::min(span, self.max_step));

@@ -35,6 +35,12 @@ impl<S: System> Dense<S> {
         Self::new(step.state, [*displacement, rise, fall])
     }
 
+    /// The coefficients.
+    #[inline]
+    pub(super) const fn into_terms(self) -> [SlopeOf<S>; TERMS] {
+        self.terms
+    }
+
     /// The displacement from the start to the share `c` of the step.
     #[inline]
     pub fn displacement(&self, c: S::Scalar) -> SlopeOf<S> {

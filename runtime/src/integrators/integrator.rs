@@ -341,7 +341,8 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
             (displaced(&state, &attempt.displacement), self.rest)
         };
         if let (Steps::Adaptive(tolerance), Some(control)) = (self.settings.steps, &mut self.control) {
-            let error = tolerance.norm(&attempt.error, &magnitude(&state), &magnitude(&next));
+            let (size, next_size) = (magnitude(&state), magnitude(&next));
+            let error = method.error(&step, &attempt, |vector| tolerance.norm(vector, &size, &next_size)).greatest();
             let error = if attempt.converged { error } else { f64::NAN };
             if !control.judge(error, length) {
                 self.rejected += 1;

@@ -49,6 +49,18 @@ pub trait Method<S: System>: Copy {
     fn attempt(&self, problem: &Problem<'_, S>, step: &Step<'_, S>, memory: &Self::Memory)
     -> Attempt<S, Self::Details>;
 
+    /// The size of a step's error, in each lane; a step is accepted at one or less. `norm` is the mean square of a vector,
+    /// each component divided by its tolerance. By default it is the norm of [`Attempt::error`].
+    #[inline]
+    fn error(
+        &self,
+        _step: &Step<'_, S>,
+        attempt: &Attempt<S, Self::Details>,
+        norm: impl Fn(&SlopeOf<S>) -> S::Scalar,
+    ) -> S::Scalar {
+        norm(&attempt.error)
+    }
+
     /// The memory for the step after an accepted one that led to `next`.
     #[inline]
     fn proceed(

@@ -77,6 +77,13 @@ pub(super) fn magnitude<Z: StateSpace>(state: &Z) -> Slope<Z::Velocity, Z::Extra
     Slope { q: q.magnitude(), v, x }
 }
 
+/// `dt * (weights[0] * slopes[0] + ..)`.
+#[inline]
+pub(super) fn combination<T: Real, V: Tangent<T>, const N: usize>(dt: T, weights: [f64; N], slopes: [&V; N]) -> V {
+    let terms = weights.into_iter().zip(slopes);
+    terms.fold(V::zero(), |sum, (weight, slope)| sum.add_scaled(T::lit(weight), slope)).scale(dt)
+}
+
 /// Whether every component of a vector is finite, in every lane.
 #[inline]
 pub(super) fn is_finite<T: Real, V: Tangent<T>>(vector: &V) -> bool {

@@ -11,6 +11,7 @@ use quote::quote;
 use super::layout::{Group, Layout};
 use super::names;
 use super::places::Root;
+use super::results::vector_type;
 use crate::optimize::program::FunctionKind;
 
 /// Arguments in the order in which they stand.
@@ -22,6 +23,9 @@ pub(super) struct Arguments {
     input: bool,
     accel: bool,
     multipliers: bool,
+    /// With the rates of the constraint equations, if there are any.
+    impulse: bool,
+    momentum: bool,
 }
 
 impl Arguments {
@@ -32,8 +36,12 @@ impl Arguments {
         let all = Arguments { time: true, input: true, ..state };
         match kind {
             FunctionKind::MassMatrix | FunctionKind::PotentialEnergy => position,
-            FunctionKind::KineticEnergy => state,
-            FunctionKind::ForwardDynamics | FunctionKind::Bias | FunctionKind::Outputs => all,
+            FunctionKind::KineticEnergy | FunctionKind::Momentum => state,
+            FunctionKind::ForwardDynamics | FunctionKind::Bias | FunctionKind::Outputs | FunctionKind::MomentumRate => {
+                all
+            }
+            FunctionKind::Impulse => Arguments { impulse: true, ..position },
+            FunctionKind::MomentumVelocity => Arguments { momentum: true, ..position },
             FunctionKind::InverseDynamics => Arguments { accel: true, ..all },
             FunctionKind::Constraints | FunctionKind::ConstraintJacobian | FunctionKind::DeadCentres => {
                 Arguments { time: true, ..position }
@@ -51,9 +59,10 @@ impl Arguments {
         let mut needed = Arguments::least(kind);
         for root in roots {
             match root {
-                Root::Params | Root::Position => {}
+                Root::Params | Root::Position | Root::Impulse | Root::Rates | Root::Momentum => {}
                 Root::Velocity | Root::States | Root::Guess => needed.state = true,
                 Root::Time if needed.time => {}
+                Root::Time if needed.impulse => needed.time = true,
                 Root::Acceleration if needed.accel => {}
                 Root::Multipliers => needed.multipliers = true,
                 Root::Time | Root::Input | Root::Acceleration => {
@@ -93,6 +102,19 @@ impl Arguments {
             let multipliers = named(roots.contains(&Root::Multipliers), "multipliers");
             let count = Literal::usize_unsuffixed(layout.structure.rows.len());
             list.push(quote!(#multipliers: &#krate::nalgebra::SVector<T, #count>));
+        }
+        if self.impulse {
+            let impulse = named(roots.contains(&Root::Impulse), "impulse");
+            list.push(quote!(#impulse: &Velocity<T>));
+            if layout.rows() > 0 {
+                let rates = named(roots.contains(&Root::Rates), "rates");
+                let ty = vector_type(layout, layout.rows());
+                list.push(quote!(#rates: &#ty));
+            }
+        }
+        if self.momentum {
+            let momentum = named(roots.contains(&Root::Momentum), "momentum");
+            list.push(quote!(#momentum: &Velocity<T>));
         }
         quote!(#(#list),*)
     }

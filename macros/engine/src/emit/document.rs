@@ -209,10 +209,21 @@ pub(super) fn function(layout: &Layout<'_>, function: &Function) -> Vec<String> 
         FunctionKind::Guess => {
             "Closes the loops by Newton's method: the state with the solution as its guess, and the greatest residual."
         }
+        FunctionKind::Impulse if layout.rows() > 0 => {
+            "The jump of the velocities under an impulse, with `rates` for the jump of `constraint_rate`: \
+             `M * v + G^T * multipliers = impulse`, `G * v = rates`."
+        }
+        FunctionKind::Impulse => "The jump `M^-1 * impulse` of the velocities under an impulse.",
+        FunctionKind::Momentum => "Momenta `M * v`.",
+        FunctionKind::MomentumRate => {
+            "Rates of the momenta: the gradient of the kinetic energy by the position at fixed velocities, and the \
+             efforts of gravity and of all declared forces."
+        }
+        FunctionKind::MomentumVelocity => "Velocities `M^-1 * momentum` that belong to momenta.",
         FunctionKind::DeadCentres => {
-            "Distances from dead centres, in the order of `DEAD_CENTRES`: the square roots in the solutions of the loops, \
-             products of lengths. Zero where two solutions meet, and rates of the solution grow without bound; NaN where \
-             the loop cannot be closed."
+            "Distances from dead centres, in the order of `DEAD_CENTRES`. Of a loop's solution: its square root, a product \
+             of lengths, zero where two solutions meet and NaN where the loop cannot be closed. Of roll, pitch and yaw: \
+             the cosine of the pitch, zero where roll and yaw turn about one axis. Rates grow without bound there."
         }
     };
     let mut lines = vec![text.to_string(), String::new()];

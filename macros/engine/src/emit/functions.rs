@@ -34,11 +34,15 @@ pub fn name(kind: FunctionKind) -> Cow<'static, str> {
         FunctionKind::Kinematics(number) => return Cow::Owned(format!("kinematics_{}", number + 1)),
         FunctionKind::Guess => "close",
         FunctionKind::DeadCentres => "dead_centres",
+        FunctionKind::Impulse => "impulse",
+        FunctionKind::Momentum => "momentum",
+        FunctionKind::MomentumRate => "momentum_rate",
+        FunctionKind::MomentumVelocity => "velocity",
     })
 }
 
 /// The variables that a program reads.
-fn roots(program: &Program) -> BTreeSet<Root> {
+pub(super) fn roots(program: &Program) -> BTreeSet<Root> {
     let mut roots = BTreeSet::new();
     each_leaf_of(program, &mut |leaf| {
         if let Expression::Symbol(symbol) = leaf {

@@ -21,6 +21,9 @@ pub(super) enum Root {
     Input,
     Acceleration,
     Multipliers,
+    Impulse,
+    Rates,
+    Momentum,
 }
 
 impl Root {
@@ -35,6 +38,9 @@ impl Root {
             Symbol::Velocity { .. } => Root::Velocity,
             Symbol::Acceleration { .. } => Root::Acceleration,
             Symbol::Multiplier { .. } => Root::Multipliers,
+            Symbol::Impulse { .. } => Root::Impulse,
+            Symbol::Rate { .. } => Root::Rates,
+            Symbol::Momentum { .. } => Root::Momentum,
             Symbol::Guess { .. } => Root::Guess,
             Symbol::Unknown { .. } => return None,
         })
@@ -51,13 +57,31 @@ impl Root {
             Root::Input => "input",
             Root::Acceleration => "accel",
             Root::Multipliers => "multipliers",
+            Root::Impulse => "impulse",
+            Root::Rates => "rates",
+            Root::Momentum => "momentum",
         }
     }
 }
 
 /// Names that locals of programs can't have.
-pub(super) const RESERVED: &[&str] =
-    &["t", "params", "q", "v", "x", "guess", "input", "accel", "multipliers", "state", "solved", "scalar"];
+pub(super) const RESERVED: &[&str] = &[
+    "t",
+    "params",
+    "q",
+    "v",
+    "x",
+    "guess",
+    "input",
+    "accel",
+    "multipliers",
+    "impulse",
+    "rates",
+    "momentum",
+    "state",
+    "solved",
+    "scalar",
+];
 
 impl Layout<'_> {
     /// Expands to the path of `symbol`.
@@ -71,7 +95,7 @@ impl Layout<'_> {
     pub(super) fn path_of(&self, symbol: Symbol) -> TokenStream {
         let place = match symbol {
             Symbol::Time | Symbol::Unknown { .. } => None,
-            Symbol::Multiplier { row: index } | Symbol::Guess { index } => {
+            Symbol::Multiplier { row: index } | Symbol::Rate { row: index } | Symbol::Guess { index } => {
                 let index = Literal::usize_unsuffixed(index);
                 return quote!([#index]);
             }
@@ -79,9 +103,10 @@ impl Layout<'_> {
             Symbol::Input { input, element } => self.entry(Group::Input, input.0, element),
             Symbol::State { state } => self.entry(Group::States, state.0, 0),
             Symbol::Position { joint, component } => self.joint(Group::Position, joint, component),
-            Symbol::Velocity { joint, component } | Symbol::Acceleration { joint, component } => {
-                self.joint(Group::Velocity, joint, component)
-            }
+            Symbol::Velocity { joint, component }
+            | Symbol::Acceleration { joint, component }
+            | Symbol::Impulse { joint, component }
+            | Symbol::Momentum { joint, component } => self.joint(Group::Velocity, joint, component),
         };
         let path = place.map(|(entry, component)| {
             let (path, access) = (self.leaf_path(entry), entry.leaf.access(component));

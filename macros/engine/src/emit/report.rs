@@ -5,6 +5,7 @@
 //! once.
 
 use super::document::{code, cost, kind, values};
+use super::items::separable::is_separable;
 use super::layout::Layout;
 use super::{Context, context, document, functions, joints, loops, names};
 use crate::mechanics::structure::Structure;
@@ -87,6 +88,10 @@ pub(super) fn lines(context: &Context<'_>) -> Vec<String> {
         });
         std::iter::once(plain_row("new", new)).chain(functions)
     });
+    if is_separable(context) {
+        let separable = "Accelerations do not depend on velocities: the model is `Separable`.";
+        lines.extend(["", separable].map(String::from));
+    }
     let defaults = defaults(layout);
     if !defaults.is_empty() {
         lines.extend(["", "## Defaults in force", ""].map(String::from));

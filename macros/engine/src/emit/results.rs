@@ -54,6 +54,11 @@ pub(super) fn ty(layout: &Layout<'_>, kind: FunctionKind) -> TokenStream {
             quote!(#krate::Kinematics<T, #count>)
         }
         FunctionKind::Guess => quote!(Closed<T>),
+        FunctionKind::Impulse if layout.rows() > 0 => quote!(Jump<T>),
+        FunctionKind::Impulse
+        | FunctionKind::Momentum
+        | FunctionKind::MomentumRate
+        | FunctionKind::MomentumVelocity => quote!(Velocity<T>),
         FunctionKind::DeadCentres => vector_type(layout, layout.structure.dead_centres.len()),
     }
 }
@@ -69,6 +74,11 @@ pub(super) fn value(layout: &Layout<'_>, kind: FunctionKind, results: Vec<TokenS
         FunctionKind::MassMatrix => leaf::matrix(krate, dof, dof, &mut results.into_iter()),
         FunctionKind::ConstraintJacobian => leaf::matrix(krate, layout.rows(), dof, &mut results.into_iter()),
         FunctionKind::KineticEnergy | FunctionKind::PotentialEnergy => quote!(#(#results)*),
+        FunctionKind::Impulse if layout.rows() > 0 => jump(layout, results),
+        FunctionKind::Impulse
+        | FunctionKind::Momentum
+        | FunctionKind::MomentumRate
+        | FunctionKind::MomentumVelocity => filled(layout, Group::Velocity, &results),
         FunctionKind::Outputs => filled(layout, Group::Output, &results),
         FunctionKind::Kinematics(number) => {
             let mut results = results.into_iter();
@@ -110,6 +120,16 @@ fn derivative(layout: &Layout<'_>, results: Vec<TokenStream>) -> TokenStream {
         quote!(residual: #(#residual)*,)
     });
     quote!(Derivative { v: #v, #x #rows #residual })
+}
+
+/// Expands to `Jump { v: .., multipliers: .., rank: .. }`.
+fn jump(layout: &Layout<'_>, results: Vec<TokenStream>) -> TokenStream {
+    let mut results = results.into_iter();
+    let mut next = |count: usize| -> Vec<TokenStream> { results.by_ref().take(count).collect() };
+    let v = filled(layout, Group::Velocity, &next(layout.dof()));
+    let multipliers = vector(layout, next(layout.rows()));
+    let rank = next(1);
+    quote!(Jump { v: #v, multipliers: #multipliers, rank: #(#rank)* })
 }
 
 /// Expands to `{ let mut solved = *input; solved.force = ..; Solved { input: solved, rank: .. } }`.

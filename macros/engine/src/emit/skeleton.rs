@@ -65,6 +65,10 @@ fn build(of: &Module, krate: Option<Path>, all: &[Module]) -> TokenStream {
         FunctionKind::PotentialEnergy,
         FunctionKind::Outputs,
         FunctionKind::Residual,
+        FunctionKind::Impulse,
+        FunctionKind::Momentum,
+        FunctionKind::MomentumRate,
+        FunctionKind::MomentumVelocity,
     ];
     if !structure.rows.is_empty() {
         kinds.extend([
@@ -118,6 +122,7 @@ fn empty(module: &Module, krate: Option<Path>) -> Model {
         outputs: Vec::new(),
         gravity: None,
         emit: Vec::new(),
+        asked: Vec::new(),
         solve_for: Vec::new(),
         kinematics: Vec::new(),
     }

@@ -179,15 +179,30 @@ impl Equations<'_> {
         let matrix = self.reduced_mass_matrix(reduction);
         let bias = self.reduced_efforts(reduction, false);
         let rhs: Vec<Scalar> = bias.iter().map(|&b| -b).collect();
+        let rows = (!self.structure.rows.is_empty()).then(|| self.rows(reduction));
+        self.solve_rows(matrix, rhs, rows)
+    }
+
+    /// The jump of velocities under an impulse: the same system with the impulse for the forces, and given rates of the
+    /// equations.
+    pub(super) fn constrained_jump(&mut self, reduction: &Reduction) -> Solved {
+        let matrix = self.reduced_mass_matrix(reduction);
+        let rows = (!self.structure.rows.is_empty()).then(|| {
+            let jacobian = self.rows(reduction).jacobian;
+            Rows { jacobian, bias: self.symbols.rates.iter().map(|&rate| -rate).collect() }
+        });
+        self.solve_rows(matrix, self.symbols.impulses.clone(), rows)
+    }
+
+    /// M a + G^T lambda = rhs, G a = -gamma.
+    fn solve_rows(&mut self, matrix: Vec<Vec<Scalar>>, rhs: Vec<Scalar>, rows: Option<Rows>) -> Solved {
         let order = self.state_elimination();
-        if self.structure.rows.is_empty() {
-            let g = &mut self.g;
+        let g = &mut self.g;
+        let Some(rows) = rows else {
             let factors = Factors::new(g, &matrix, &order);
             let accelerations = factors.solve(g, &rhs);
             return Solved { accelerations, multipliers: Vec::new(), rank: None };
-        }
-        let rows = self.rows(reduction);
-        let g = &mut self.g;
+        };
         let (factors, rhs) = augmented(g, matrix, rhs, &rows, &order);
         let forward = factors.forward(g, &rhs);
         let pushed: Vec<Vec<Scalar>> = rows.jacobian.iter().map(|row| factors.forward(g, row)).collect();

@@ -5,6 +5,8 @@
 //! value are one node, in the form that was made first, so a second way would come out as the first; and what one
 //! function costs must not depend on which others are asked for.
 
+mod impulses;
+
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -19,6 +21,7 @@ use super::constrained::Solved;
 use super::cycles::Branch;
 use super::equations::{Equations, Method, Style, Way};
 use super::gathered;
+use super::gimbals;
 use super::names;
 use super::needs::Needs;
 use super::parallel::Axes;
@@ -78,6 +81,7 @@ const MOST_COMPOSITE: usize = 32;
 pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Complaint>> {
     let mut graph = Graph::new();
     let symbols = Symbols::new(&mut graph, model).with_structure(&mut graph, structure);
+    let symbols = symbols.with_impulses(&mut graph, model, structure);
     let symbol_names = symbols.table.iter().map(|&symbol| names::symbol(model, symbol)).collect();
     let mut deriving = Deriving {
         model,
@@ -89,6 +93,7 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
         notes: Vec::new(),
         dead_centres: Vec::new(),
     };
+    deriving.check_impulses()?;
     deriving.check()?;
     deriving.choose_writing()?;
     let mut functions = Vec::new();
@@ -134,6 +139,7 @@ fn kinds(model: &Model, structure: &Structure) -> Vec<FunctionKind> {
     }
     kinds.extend(wanted(Request::Residual, &[FunctionKind::Residual]));
     kinds.extend((0..model.kinematics.len()).map(FunctionKind::Kinematics));
+    kinds.extend(impulses::kinds(model));
     if !model.outputs.is_empty() {
         kinds.push(FunctionKind::Outputs);
     }
@@ -153,7 +159,7 @@ struct Deriving<'m> {
     writing: Writing,
     /// Sentences for the report.
     notes: Vec<String>,
-    /// Unknowns whose closed forms have a root.
+    /// Unknowns whose closed forms have a root, and pitches.
     dead_centres: Vec<Coordinate>,
 }
 
@@ -190,8 +196,14 @@ impl<'m> Deriving<'m> {
                 | FunctionKind::ConstraintJacobian
                 | FunctionKind::ConstraintRate
                 | FunctionKind::ConstraintBias
-                | FunctionKind::Guess
-                | FunctionKind::DeadCentres => Ok(Vec::new()),
+                | FunctionKind::Guess => Ok(Vec::new()),
+                FunctionKind::DeadCentres => self.only("closed forms", |e| {
+                    let pitches = gimbals::pitches(e.model, &e.structure);
+                    Ok(gimbals::cosines(&mut e.g, &e.symbols, &pitches))
+                }),
+                FunctionKind::Impulse | FunctionKind::MomentumVelocity => self.jumps(),
+                FunctionKind::Momentum => self.momenta(),
+                FunctionKind::MomentumRate => self.momentum_rates(),
             };
         }
         match kind {
@@ -239,9 +251,14 @@ impl<'m> Deriving<'m> {
                 Ok(e.finish(reduction, &results))
             }),
             FunctionKind::DeadCentres => self.equations("closed forms", |e, reduction| {
-                let roots: Vec<Scalar> = reduction.dead_centres.iter().map(|centre| centre.1).collect();
+                let mut roots: Vec<Scalar> = reduction.dead_centres.iter().map(|centre| centre.1).collect();
+                let pitches = gimbals::pitches(e.model, &e.structure);
+                roots.extend(gimbals::cosines(&mut e.g, &e.symbols, &pitches));
                 Ok(e.finish(reduction, &roots))
             }),
+            FunctionKind::Impulse | FunctionKind::MomentumVelocity => self.constrained_jumps(),
+            FunctionKind::Momentum => self.reduced_momenta(),
+            FunctionKind::MomentumRate => self.reduced_momentum_rates(),
         }
     }
 
@@ -253,7 +270,9 @@ impl<'m> Deriving<'m> {
 
     /// Solutions are checked once, whatever is derived.
     fn check(&mut self) -> Result<(), Vec<Complaint>> {
+        let pitches = gimbals::pitches(self.model, &self.structure);
         if self.is_open() {
+            self.dead_centres = pitches;
             return Ok(());
         }
         let (mut notes, mut centres) = (Vec::new(), Vec::new());
@@ -267,6 +286,7 @@ impl<'m> Deriving<'m> {
             });
             Ok(Vec::new())
         })?;
+        centres.extend(pitches);
         (self.notes, self.dead_centres) = (notes, centres);
         outcome
     }

@@ -4,7 +4,9 @@
 //! velocities and accelerations, in this order, whatever is derived later: the same symbol has the same number, and the
 //! same print, in every graph of one model. Joints that close loops have no coordinates.
 
-use crate::model::types::{Coordinate, InputId, Joint, JointId, JointKind, Model, Orientation, ParamId, StateId};
+use crate::model::types::{
+    Coordinate, InputId, Joint, JointId, JointKind, Model, Orientation, ParamId, Request, StateId,
+};
 use crate::optimize::program::Symbol;
 use crate::symbolic::graph::{Graph, Scalar};
 
@@ -28,6 +30,10 @@ pub struct Symbols {
     pub freedoms: usize,
     /// By constraint equation with a multiplier.
     pub multipliers: Vec<Scalar>,
+    /// By coordinate of the state: impulses, or momenta, that velocities answer to.
+    pub impulses: Vec<Scalar>,
+    /// By constraint equation with a multiplier: its rate in a jump.
+    pub rates: Vec<Scalar>,
     guesses: Vec<Scalar>,
     unknowns: Vec<Scalar>,
 }
@@ -48,6 +54,25 @@ impl Symbols {
         self.guesses = several(g, table, guesses, |index| Symbol::Guess { index });
         let unknowns = if structure.steps.is_empty() { 0 } else { guesses + UNWANTED };
         self.unknowns = several(g, table, unknowns, |index| Symbol::Unknown { index });
+        self
+    }
+
+    /// The same with the arguments of the jump of velocities, where the model asks for it. They stand behind all others,
+    /// whose numbers stay.
+    pub fn with_impulses(mut self, g: &mut Graph, model: &Model, structure: &Structure) -> Symbols {
+        let jumps = model.emit.contains(&Request::Impulse);
+        if !jumps && !model.emit.contains(&Request::Momentum) {
+            return self;
+        }
+        let table = &mut self.table;
+        let state = structure.state.iter();
+        let impulses = state.map(|&Coordinate { joint, index: component }| {
+            let symbol =
+                if jumps { Symbol::Impulse { joint, component } } else { Symbol::Momentum { joint, component } };
+            one(g, table, symbol)
+        });
+        self.impulses = impulses.collect();
+        self.rates = several(g, table, structure.rows.len(), |row| Symbol::Rate { row });
         self
     }
 
@@ -154,6 +179,8 @@ impl Symbols {
             first,
             freedoms,
             multipliers: Vec::new(),
+            impulses: Vec::new(),
+            rates: Vec::new(),
             guesses: Vec::new(),
             unknowns: Vec::new(),
         }

@@ -117,6 +117,7 @@ impl<'a> Checker<'a, '_> {
             outputs: all(collected.outputs)?,
             gravity: collected.gravity,
             emit,
+            asked: collected.requested.asked,
         })
     }
 

@@ -47,7 +47,7 @@ pub(super) const CONSTRUCTORS: [&str; 4] = ["identity", "rotation", "roll_pitch_
 pub(super) const TYPES: [&str; 7] = ["Scalar", "Vec3", "Pose", "Rotation", "Twist", "Wrench", "Jacobian"];
 
 /// Structs and constants of a generated module.
-const GENERATED: [&str; 18] = [
+const GENERATED: [&str; 19] = [
     "Params",
     "Position",
     "Velocity",
@@ -56,6 +56,7 @@ const GENERATED: [&str; 18] = [
     "Derivative",
     "Closed",
     "Solved",
+    "Jump",
     "Input",
     "Output",
     "Model",

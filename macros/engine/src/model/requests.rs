@@ -18,7 +18,7 @@ use super::typed::MAX_SCALARS;
 use super::types::{Expr as Checked, ExprNode, InputId, Joint, JointId, Kinematics, Request, SolveFor};
 use crate::syntax::tree;
 
-const REQUESTS: [(&str, Request); 8] = [
+const REQUESTS: [(&str, Request); 10] = [
     ("forward_dynamics", Request::ForwardDynamics),
     ("inverse_dynamics", Request::InverseDynamics),
     ("mass_matrix", Request::MassMatrix),
@@ -27,6 +27,8 @@ const REQUESTS: [(&str, Request); 8] = [
     ("constraints", Request::Constraints),
     ("residual", Request::Residual),
     ("kinematics", Request::Kinematics),
+    ("impulse", Request::Impulse),
+    ("momentum", Request::Momentum),
 ];
 
 /// Named by the design, derived by later versions.
@@ -44,6 +46,8 @@ const INVERSE: Known<'static> = Known { required: &[], optional: &["solve_for"] 
 #[derive(Default)]
 pub(super) struct Requested<'a> {
     pub(super) list: Vec<Request>,
+    /// With the place of each.
+    pub(super) asked: Vec<(Request, Span)>,
     pub(super) solve_for: Vec<SolveFor>,
     /// Read when it is known what hangs on what.
     pub(super) kinematics: Vec<(&'a tree::Request, ScopeId)>,
@@ -75,6 +79,7 @@ impl<'a> Checker<'a, '_> {
                 }
                 if !into.list.contains(found) {
                     into.list.push(*found);
+                    into.asked.push((*found, span));
                 }
             } else if NOT_YET.contains(&name.as_str()) {
                 let message = format!("`{name}` is not available yet");

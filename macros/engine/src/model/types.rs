@@ -67,6 +67,8 @@ pub struct Model {
     /// `Vec3` in world axes, m/s^2; `None`: no gravity declared.
     pub gravity: Option<Expr>,
     pub emit: Vec<Request>,
+    /// Where `emit` says so, for complaints about what can't be derived.
+    pub asked: Vec<(Request, Span)>,
     /// Of `emit inverse_dynamics { solve_for: .. }`: the inputs that take the place of efforts, scalar by scalar.
     pub solve_for: Vec<SolveFor>,
     /// Of `emit kinematics { .. }`.
@@ -396,6 +398,10 @@ pub enum Request {
     /// The equations as a residual for solvers of differential-algebraic equations.
     Residual,
     Kinematics,
+    /// The jump of velocities under an impulse.
+    Impulse,
+    /// Momenta, their rates, velocities from momenta.
+    Momentum,
 }
 
 /// A typed expression; shared subtrees (`const`, `let`) are shared here too.

@@ -41,6 +41,19 @@ pub enum Symbol {
     Multiplier {
         row: usize,
     },
+    /// An argument of the jump of velocities, and of velocities from momenta.
+    Impulse {
+        joint: JointId,
+        component: usize,
+    },
+    Momentum {
+        joint: JointId,
+        component: usize,
+    },
+    /// Of a constraint equation: how fast it is to change in a jump.
+    Rate {
+        row: usize,
+    },
     /// Where Newton's method starts: a component of the guess in `State`.
     Guess {
         index: usize,
@@ -252,6 +265,14 @@ pub enum FunctionKind {
     Guess,
     /// Roots in closed forms of loops that vanish where two solutions meet.
     DeadCentres,
+    /// The jump of the velocities; with constraints the multipliers and the rank of their system.
+    Impulse,
+    /// Momenta, by velocity coordinate.
+    Momentum,
+    /// Their rates.
+    MomentumRate,
+    /// Velocities that belong to momenta.
+    MomentumVelocity,
     /// Output after output, flattened: `Vec3` 3, `Rotation` 9 row by row, `Pose` x, y, z, w, i, j, k, `Twist` and
     /// `Wrench` 6, `Jacobian` 6 x DOF row by row, arrays element by element.
     Outputs,

@@ -32,7 +32,8 @@ impl Stage {
                 Stage::Position
             }
             Symbol::Velocity { .. } => Stage::Velocity,
-            Symbol::Input { .. } | Symbol::Multiplier { .. } => Stage::Input,
+            Symbol::Input { .. } | Symbol::Multiplier { .. } | Symbol::Rate { .. } => Stage::Input,
+            Symbol::Impulse { .. } | Symbol::Momentum { .. } => Stage::Input,
             Symbol::Acceleration { .. } => Stage::Acceleration,
         }
     }

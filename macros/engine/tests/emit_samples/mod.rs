@@ -81,6 +81,7 @@ pub fn empty(module: &str) -> Model {
         outputs: Vec::new(),
         gravity: None,
         emit: vec![Request::ForwardDynamics],
+        asked: Vec::new(),
         solve_for: Vec::new(),
         kinematics: Vec::new(),
     }

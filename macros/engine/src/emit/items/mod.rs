@@ -5,8 +5,10 @@ mod conversions;
 mod costs;
 mod defaults;
 mod equations;
+mod impulses;
 mod model;
 mod parts;
+pub(super) mod separable;
 mod space;
 mod state;
 mod structs;
@@ -29,6 +31,8 @@ pub(super) fn all(context: &Context<'_>) -> TokenStream {
         conversions::items(context),
         model::items(context),
         system::item(context),
+        separable::item(context),
+        impulses::items(context),
         parts::items(context),
     ]
     .into_iter()

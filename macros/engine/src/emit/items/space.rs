@@ -100,6 +100,9 @@ pub(super) fn configuration(layout: &Layout<'_>, owner: Option<PartTypeId>) -> T
                 fn displace(&self, _d: &Velocity<T>) -> Self {
                     *self
                 }
+                fn advance(&self, _d: &Velocity<T>, rest: &Velocity<T>) -> (Self, Velocity<T>) {
+                    (*self, *rest)
+                }
                 fn dexp_inv(_d: &Velocity<T>, v: &Velocity<T>) -> Velocity<T> {
                     *v
                 }
@@ -133,6 +136,11 @@ pub(super) fn configuration(layout: &Layout<'_>, owner: Option<PartTypeId>) -> T
 
             fn displace(&self, d: &Velocity<T>) -> Self {
                 Self { #(#names: #krate::Configuration::displace(&self.#names, &d.#names)),* }
+            }
+            fn advance(&self, d: &Velocity<T>, rest: &Velocity<T>) -> (Self, Velocity<T>) {
+                let (mut end, mut left) = (*self, *rest);
+                #((end.#names, left.#names) = #krate::Configuration::advance(&self.#names, &d.#names, &rest.#names);)*
+                (end, left)
             }
             #dexp_inv
             fn magnitude(&self) -> Velocity<T> {

@@ -1,5 +1,5 @@
 //! Stage `emit`: `State`, and what functions give that is more than one of the other structs: `Derivative`, `Closed`,
-//! `Solved`.
+//! `Solved`, `Jump`.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -15,6 +15,7 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
     tokens.extend(derivative(context));
     tokens.extend(closed(context));
     tokens.extend(solved(context));
+    tokens.extend(jump(context));
     tokens
 }
 
@@ -111,6 +112,19 @@ fn solved(context: &Context<'_>) -> Option<TokenStream> {
     ];
     let by_hand = compares_by_hand(&context.layout, Group::Input);
     Some(declare("Solved", "What inverse dynamics gives: the inputs that produce the motion.", &fields, by_hand))
+}
+
+/// What an impulse does where equations keep multipliers.
+fn jump(context: &Context<'_>) -> Option<TokenStream> {
+    let rows = context.layout.rows();
+    context.function(FunctionKind::Impulse).filter(|_| rows > 0)?;
+    let text = "impulses of the constraint equations: `M * v + G^T * multipliers` is the impulse";
+    let fields = [
+        Field::of("v", "Velocity", "the jump of the velocities"),
+        Field::vector(context, "multipliers", rows, text),
+        Field::scalar("rank", "rank of the equations for the multipliers"),
+    ];
+    Some(declare("Jump", "What an impulse does: the jump of the velocities, and what holds the loops.", &fields, false))
 }
 
 /// Expands to a struct with its `Default` and, if need be, `PartialEq`.

@@ -1,0 +1,169 @@
+//! Stage `mechanics`, its whole: jumps of velocities, and momenta.
+//!
+//! In: what the model asks for. Out: candidates, or complaints about mechanisms whose equations these functions can't hold.
+
+use proc_macro2::Span;
+
+use crate::mechanics::analysis::Complaint;
+use crate::mechanics::closings::path;
+use crate::mechanics::equations::{Equations, Method, Style, Way};
+use crate::mechanics::reduction::Reduction;
+use crate::mechanics::symbols::has_quaternion;
+use crate::model::types::{Coordinate, Model, Request};
+use crate::optimize::program::FunctionKind;
+use crate::symbolic::graph::{Graph, Scalar};
+
+use super::{COMPOSITE, Candidate, Deriving, METHODS, MOST_COMPOSITE, Names, articulates, floats, freedoms};
+
+type Candidates = Result<Vec<Candidate>, Vec<Complaint>>;
+
+const MOMENTA: Names = [
+    "momenta of the links",
+    "momenta of the links, parallel hinges in the axes of their base",
+    "momenta of the links, parallel hinges in the axes of their tip",
+];
+
+const FLOATING: &str = "composite rigid body, LDL^T, translations first";
+
+/// What the model asks for. Velocities from momenta are the jump under an impulse: with both, one function serves.
+pub(super) fn kinds(model: &Model) -> Vec<FunctionKind> {
+    let (jumps, momenta) = (model.emit.contains(&Request::Impulse), model.emit.contains(&Request::Momentum));
+    let mut kinds = Vec::new();
+    kinds.extend(jumps.then_some(FunctionKind::Impulse));
+    kinds.extend(momenta.then_some([FunctionKind::Momentum, FunctionKind::MomentumRate]).into_iter().flatten());
+    kinds.extend((momenta && !jumps).then_some(FunctionKind::MomentumVelocity));
+    kinds
+}
+
+impl Deriving<'_> {
+    /// What these functions can't hold, each at the word that asks for it.
+    pub(super) fn check_impulses(&self) -> Result<(), Vec<Complaint>> {
+        let (model, structure) = (self.model, &self.structure);
+        let mut complaints = Vec::new();
+        if self.asked(Request::Impulse).is_some() && structure.guesses() > 0 {
+            let message = "`impulse` knows no guess, and a loop of this model is closed by Newton's method";
+            let help = "write a `solve` for the loop, or `constraints: Multipliers`";
+            complaints.push(self.complaint(Request::Impulse, message, help));
+        }
+        if self.asked(Request::Momentum).is_some() {
+            let mut refuse = |message: &str, help: &str| {
+                complaints.push(self.complaint(Request::Momentum, message, help));
+            };
+            if !model.states.is_empty() {
+                refuse("`momentum` has no place for states of your own", SYMMETRIC);
+            }
+            if !structure.rows.is_empty() {
+                let help = format!("write `constraints: Reduced`, or {SYMMETRIC}");
+                refuse("`momentum` has no place for multipliers", &help);
+            }
+            if structure.guesses() > 0 {
+                let message = "`momentum` knows no guess, and a loop of this model is closed by Newton's method";
+                refuse(message, "write a `solve` for the loop");
+            }
+            let quaternion = |at: &&Coordinate| model.joints.get(at.joint.0).is_some_and(has_quaternion);
+            if let Some(joint) = structure.state.iter().find(quaternion).and_then(|at| model.joints.get(at.joint.0)) {
+                let name = path(model, &joint.place);
+                let message =
+                    format!("the velocities of `{name}` are no rates of coordinates, so they have no momenta");
+                refuse(&message, &format!("write `coordinates: RollPitchYaw` there, or {SYMMETRIC}"));
+            }
+        }
+        if complaints.is_empty() { Ok(()) } else { Err(complaints) }
+    }
+
+    fn asked(&self, request: Request) -> Option<Span> {
+        self.model.asked.iter().find(|asked| asked.0 == request).map(|asked| asked.1)
+    }
+
+    fn complaint(&self, request: Request, message: &str, help: &str) -> Complaint {
+        let span = self.asked(request).unwrap_or_else(|| self.model.name.span());
+        Complaint { span, message: message.to_owned(), help: Some(help.to_owned()) }
+    }
+
+    /// M d = impulse.
+    pub(super) fn jumps(&mut self) -> Candidates {
+        let model = self.model;
+        let methods = match articulates(model, &[]) {
+            true if freedoms(model) > MOST_COMPOSITE => &METHODS[1..],
+            true => &METHODS[..],
+            false => &METHODS[..1],
+        };
+        let mut candidates = Vec::new();
+        for &(method, names) in methods {
+            candidates.extend(self.in_all_axes(names, method, &[], |e| Ok(e.jump()))?);
+        }
+        if floats(model) && freedoms(model) <= MOST_COMPOSITE {
+            candidates.extend(self.candidate(FLOATING, self.floating(), &[], &mut |e| Ok(e.jump()))?);
+        }
+        Ok(candidates)
+    }
+
+    /// The same with dependent or driven coordinates, or multipliers.
+    pub(super) fn constrained_jumps(&mut self) -> Candidates {
+        let mut all = |e: &mut Equations<'_>| {
+            let reduction = e.reduce()?;
+            let solved = e.constrained_jump(&reduction);
+            let mut results = solved.accelerations;
+            results.extend(solved.multipliers);
+            results.extend(solved.rank);
+            Ok(results)
+        };
+        let mut candidates = self.in_all_axes(METHODS[0].1, Method::Composite, &[], &mut all)?;
+        if floats(self.model) {
+            candidates.extend(self.candidate(FLOATING, self.floating(), &[], &mut all)?);
+        }
+        Ok(candidates)
+    }
+
+    fn floating(&self) -> Way {
+        Way { style: Style::Nested, method: Method::Floating, axes: None, writing: self.writing }
+    }
+
+    /// M v
+    pub(super) fn momenta(&mut self) -> Candidates {
+        let mut candidates = self.one(MOMENTA, |e| Ok(e.momenta()))?;
+        if freedoms(self.model) <= MOST_COMPOSITE {
+            candidates.extend(self.one(COMPOSITE, |e| Ok(e.momenta_by_matrix()))?);
+        }
+        Ok(candidates)
+    }
+
+    pub(super) fn reduced_momenta(&mut self) -> Candidates {
+        let still = Still { time: self.symbols.time, complaint: self.complaint(Request::Momentum, LATE, SYMMETRIC) };
+        let mut candidates = self.reduced(MOMENTA, |e, reduction| {
+            still.check(&e.g, reduction)?;
+            Ok(e.reduced_momenta(reduction))
+        })?;
+        candidates.extend(self.reduced(COMPOSITE, |e, reduction| Ok(e.reduced_momenta_by_matrix(reduction)))?);
+        Ok(candidates)
+    }
+
+    pub(super) fn momentum_rates(&mut self) -> Candidates {
+        let mut candidates = self.one(MOMENTA, |e| Ok(e.momentum_rates()))?;
+        candidates.extend(self.only("gradient of the kinetic energy", |e| Ok(e.momentum_rates_by_energy()))?);
+        Ok(candidates)
+    }
+
+    pub(super) fn reduced_momentum_rates(&mut self) -> Candidates {
+        self.reduced(MOMENTA, |e, reduction| Ok(e.reduced_momentum_rates(reduction)))
+    }
+}
+
+/// What is said of coordinates that follow the time.
+const LATE: &str = "`momentum` belongs to coordinates alone, and some of this model follow the time";
+
+/// What helps where there are no momenta.
+const SYMMETRIC: &str = "take a symmetric method, which integrates positions and velocities";
+
+/// Velocities must be linear in those of the state, with nothing that moves in time by itself.
+struct Still {
+    time: Scalar,
+    complaint: Complaint,
+}
+
+impl Still {
+    fn check(&self, g: &Graph, reduction: &Reduction) -> Result<(), Vec<Complaint>> {
+        let moves = reduction.map.values().any(|&value| g.depends_on(value, &[self.time]));
+        if moves { Err(vec![self.complaint.clone()]) } else { Ok(()) }
+    }
+}
