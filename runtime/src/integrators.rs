@@ -15,7 +15,6 @@ mod error;
 mod euler;
 mod events;
 pub mod generalised_alpha;
-
 mod integrator;
 mod interval;
 mod method;
@@ -34,7 +33,6 @@ pub use error::IntegrationError;
 pub use euler::Euler;
 pub use events::{Action, Direction, Event, Events};
 pub use generalised_alpha::GeneralisedAlpha;
-pub use integrator::{Integrator, Interval, Statistics, Steps};
 pub use integrator::{Integrator, Statistics, Steps};
 pub use interval::Interval;
 pub use method::{Attempt, Method};
