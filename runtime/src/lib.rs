@@ -97,14 +97,10 @@ pub use differentiable::{Derivatives, Differentiable, Jacobian};
 pub use equilibrium::{Equilibrium, EquilibriumError, Free, constrained_equilibrium, equilibrium, trim};
 pub use impulsive::Impulsive;
 pub use inertia::{ParamError, inertia_violation};
-pub use integrators::GeneralisedAlpha;
-pub use integrators::{Composition4, Composition6, Verlet};
 pub use integrators::{
-    Dop853, DormandPrince, Euler, IntegrationError, Integrator, Method, Radau, Rk4, SemiImplicitEuler, Statistics,
-    Steps, Tolerance,
-};
-pub use integrators::{
-    GaussLegendre4, GaussLegendre6, ImplicitMidpoint, SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint,
+    Composition4, Composition6, Dop853, DormandPrince, Euler, GaussLegendre4, GaussLegendre6, GeneralisedAlpha,
+    ImplicitMidpoint, IntegrationError, Integrator, Method, Radau, Rk4, SemiImplicitEuler, Statistics, Steps,
+    SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint, Tolerance, Verlet,
 };
 pub use multibody_macros::multibody;
 pub use nalgebra;
