@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release --example double_pendulum`
 
-use multibody::{Adaptive, IntegrationError, Rk4, multibody};
+use multibody::{DormandPrince, IntegrationError, Integrator, Rk4, multibody};
 
 multibody! {
     /// Planar double pendulum. Hinges turn about +z, gravity pulls along -y.
@@ -48,7 +48,7 @@ fn main() -> Result<(), IntegrationError> {
     let draw = |t, x: &State| path.mark(model.outputs(t, x, &()).tip.xy().into());
     let fixed = Rk4::integrate(&model, 0.0, &start, &(), 1e-3, 10_000, draw)?;
     // .. and steps chosen by their error.
-    let tolerance = Adaptive::new(1e-10, 1e-10);
+    let tolerance = Integrator::adaptive(DormandPrince, 1e-10, 1e-10);
     let (adaptive, statistics) = tolerance.integrate(&model, 0.0, seconds, &start, &(), |_, _| ())?;
 
     println!("Path of the tip in {seconds} s, darker where it is slow:\n\n{path}");

@@ -1,7 +1,7 @@
 //! Motions of loops against exact or 25-digit solutions (`data/motion`): N four-bars in a row through their flat pose, and
 //! Andrews' squeezer.
 
-use multibody::{Adaptive, DormandPrince, Projection, System};
+use multibody::{DormandPrince, Integrator, Projection, System};
 use multibody_tests::models::linkages::{
     four_bars_1, four_bars_2, four_bars_10, redundant_1, redundant_2, squeezer, squeezer_reduced,
 };
@@ -206,7 +206,8 @@ fn squeezer_by_an_adaptive_method() {
     let model = squeezer_reduced::Model::new(&squeezer_reduced::Params::default());
     let mut start = squeezer_reduced::State::default();
     start.q.beta = number(&file["points"][0]["q"][0]);
-    let (end, statistics) = Adaptive::new(1e-12, 1e-12).integrate(&model, 0.0, 0.03, &start, &(), |_, _| ()).unwrap();
+    let (end, statistics) =
+        Integrator::adaptive(DormandPrince, 1e-12, 1e-12).integrate(&model, 0.0, 0.03, &start, &(), |_, _| ()).unwrap();
     let point = list(&file["points"]).iter().find(|point| (number(&point["t"]) - 0.03).abs() < 1e-9).unwrap();
     let error = [mixed(&[end.q.beta], &flat(&point["q"])[..1]), mixed(&[end.v.beta], &flat(&point["v"])[..1])];
     println!("adaptive: {error:?} after {} evaluations", statistics.evaluations);

@@ -31,8 +31,8 @@
 //!
 //! - [`language`]: what a mechanism is declared with.
 //! - [`generated`]: what the macro makes of it, and how to use that.
-//! - [`integrators`]: [`Rk4`], [`SemiImplicitEuler`], [`Euler`], [`DormandPrince`] with a given step, [`Adaptive`] with
-//!   steps chosen by error.
+//! - [`integrators`]: [`Rk4`], [`SemiImplicitEuler`], [`Euler`], [`DormandPrince`] and others, with steps of one
+//!   length or chosen by error: [`Integrator`].
 //! - [`System`], [`StateSpace`], [`Configuration`], [`Tangent`]: what integrators see of a model, of its state, of its
 //!   position and of its velocity. Generated models implement them; so do wrappers written by hand.
 //! - [`Real`]: the scalar that generated code is generic over: `f32`, `f64`, lanes of them, dual numbers.
@@ -91,7 +91,10 @@ pub use cost::Cost;
 pub use differentiable::{Derivatives, Differentiable, Jacobian};
 pub use impulsive::Impulsive;
 pub use inertia::{ParamError, inertia_violation};
-pub use integrators::{Adaptive, DormandPrince, Euler, IntegrationError, Method, Rk4, SemiImplicitEuler, Statistics};
+pub use integrators::{
+    Dop853, DormandPrince, Euler, IntegrationError, Integrator, Method, Rk4, SemiImplicitEuler, Statistics, Steps,
+    Tolerance,
+};
 pub use multibody_macros::multibody;
 pub use nalgebra;
 pub use projection::{Assembled, AssemblyError, Projected, Projection, ProjectionError, WithProjection, assemble};

@@ -38,7 +38,7 @@
 //! # }
 //! # }
 //! use bead::{Model, State}; // a bead on a ring of radius one, see `Constrained`
-//! use multibody::{Adaptive, Projection, Rk4, WithProjection, assemble, nalgebra::Vector2};
+//! use multibody::{DormandPrince, Integrator, Projection, Rk4, WithProjection, assemble, nalgebra::Vector2};
 //!
 //! // From a rough guess; the height is held.
 //! let guess = State { q: Vector2::new(0.9, -0.6), v: Vector2::new(1.0, 0.0) };
@@ -57,7 +57,7 @@
 //!
 //! // The same within any integrator.
 //! let projected = WithProjection::new(&Model, projection);
-//! let (y, _) = Adaptive::new(1e-9, 1e-9).integrate(&projected, 0.0, 10.0, &assembled.state, &(), |_, _| ())?;
+//! let (y, _) = Integrator::adaptive(DormandPrince, 1e-9, 1e-9).integrate(&projected, 0.0, 10.0, &assembled.state, &(), |_, _| ())?;
 //! assert!((y.q.norm() - 1.0).abs() < 1e-12 && (y.q - x.q).norm() < 1e-3);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

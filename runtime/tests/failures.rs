@@ -4,16 +4,17 @@ mod common;
 
 use common::{Oscillator, Scalar, counted};
 use core::marker::PhantomData;
-use multibody::{Adaptive, IntegrationError, Rk4, System};
+use multibody::{DormandPrince, IntegrationError, Integrator, Rk4, System, Tolerance};
 
 const OSCILLATOR: Oscillator<f64> = Oscillator(PhantomData);
 const START: Scalar<f64> = Scalar { q: 1.0, v: 0.0 };
 
 #[test]
 fn bad_numbers_end_in_typed_errors() {
-    let adaptive = Adaptive::new(1e-6, 1e-6);
-    let run =
-        |adaptive: Adaptive, t0, t1, start, input| adaptive.integrate(&OSCILLATOR, t0, t1, &start, &input, |_, _| ());
+    let adaptive = Tolerance::new(1e-6, 1e-6);
+    let run = |tolerance, t0, t1, start, input| {
+        Integrator::within(DormandPrince, tolerance).integrate(&OSCILLATOR, t0, t1, &start, &input, |_, _| ())
+    };
     for bad in [f64::NAN, f64::INFINITY] {
         for (start, input) in [(Scalar { q: bad, v: 0.0 }, 0.0), (Scalar { q: 0.0, v: bad }, 0.0), (START, bad)] {
             assert_eq!(run(adaptive, 2.0, 3.0, start, input).unwrap_err(), IntegrationError::NonFinite { time: 2.0 });
@@ -23,13 +24,13 @@ fn bad_numbers_end_in_typed_errors() {
         let invalid = [
             run(adaptive, bad, 1.0, START, 0.0),
             run(adaptive, 0.0, bad, START, 0.0),
-            run(Adaptive { relative: bad, ..adaptive }, 0.0, 1.0, START, 0.0),
-            run(Adaptive { absolute: bad, ..adaptive }, 0.0, 1.0, START, 0.0),
-            run(Adaptive { first_step: bad, ..adaptive }, 0.0, 1.0, START, 0.0),
-            run(Adaptive { max_step: -bad, ..adaptive }, 0.0, 1.0, START, 0.0),
-            run(Adaptive { absolute: 0.0, ..adaptive }, 0.0, 1.0, START, 0.0),
-            run(Adaptive { relative: -1.0, ..adaptive }, 0.0, 1.0, START, 0.0),
-            run(Adaptive { min_step: f64::NAN, ..adaptive }, 0.0, 1.0, START, 0.0),
+            run(Tolerance { relative: bad, ..adaptive }, 0.0, 1.0, START, 0.0),
+            run(Tolerance { absolute: bad, ..adaptive }, 0.0, 1.0, START, 0.0),
+            run(Tolerance { first_step: bad, ..adaptive }, 0.0, 1.0, START, 0.0),
+            run(Tolerance { max_step: -bad, ..adaptive }, 0.0, 1.0, START, 0.0),
+            run(Tolerance { absolute: 0.0, ..adaptive }, 0.0, 1.0, START, 0.0),
+            run(Tolerance { relative: -1.0, ..adaptive }, 0.0, 1.0, START, 0.0),
+            run(Tolerance { min_step: f64::NAN, ..adaptive }, 0.0, 1.0, START, 0.0),
             run(adaptive, -1e308, 1e308, START, 0.0),
         ];
         for result in invalid {
@@ -37,7 +38,14 @@ fn bad_numbers_end_in_typed_errors() {
         }
     }
     let single = Oscillator(PhantomData);
-    let result = Adaptive::new(1e-6, 1e-60).integrate(&single, 0.0, 1.0, &Scalar { q: 1f32, v: 0.0 }, &0.0, |_, _| ());
+    let result = Integrator::adaptive(DormandPrince, 1e-6, 1e-60).integrate(
+        &single,
+        0.0,
+        1.0,
+        &Scalar { q: 1f32, v: 0.0 },
+        &0.0,
+        |_, _| (),
+    );
     assert!(matches!(result, Err(IntegrationError::InvalidArgument { .. })), "zero in f32: {result:?}");
 }
 
@@ -45,7 +53,8 @@ fn bad_numbers_end_in_typed_errors() {
 fn a_run_that_meets_nan_says_where() {
     let system = counted(OSCILLATOR, 1.5);
     let mut reached = 0.0;
-    let result = Adaptive::new(1e-6, 1e-6).integrate(&system, 0.0, 3.0, &START, &0.0, |t, _| reached = t);
+    let result =
+        Integrator::adaptive(DormandPrince, 1e-6, 1e-6).integrate(&system, 0.0, 3.0, &START, &0.0, |t, _| reached = t);
     let Err(IntegrationError::NonFinite { time }) = result else { panic!("{result:?}") };
     assert_eq!(time, reached);
     assert!((time - 1.5).abs() < 1e-6, "{time}");
@@ -67,7 +76,8 @@ impl System for Explosion {
 #[test]
 fn a_pole_ends_the_run() {
     let start = Scalar { q: 0.0, v: 1.0 }; // the pole is at one half
-    let result = Adaptive::new(1e-8, 1e-8).integrate(&Explosion, 0.0, 1.0, &start, &(), |_, _| ());
+    let result =
+        Integrator::adaptive(DormandPrince, 1e-8, 1e-8).integrate(&Explosion, 0.0, 1.0, &start, &(), |_, _| ());
     match result {
         Err(IntegrationError::StepTooSmall { time, .. } | IntegrationError::NonFinite { time }) => {
             assert!((time - 0.5).abs() < 1e-3, "{time}");
@@ -80,16 +90,16 @@ fn a_pole_ends_the_run() {
 
 #[test]
 fn bounds_are_kept() {
-    let few = Adaptive { max_steps: 7, ..Adaptive::new(1e-9, 1e-9) };
+    let few = Integrator::adaptive(DormandPrince, 1e-9, 1e-9).max_steps(7);
     let mut reached = 0.0;
     let result = few.integrate(&OSCILLATOR, 0.0, 100.0, &START, &0.0, |t, _| reached = t);
     assert_eq!(result.unwrap_err(), IntegrationError::TooManySteps { time: reached });
 
-    let coarse = Adaptive { min_step: 0.5, ..Adaptive::new(1e-12, 1e-12) };
+    let coarse = Integrator::within(DormandPrince, Tolerance { min_step: 0.5, ..Tolerance::new(1e-12, 1e-12) });
     let result = coarse.integrate(&OSCILLATOR, 0.0, 100.0, &START, &0.0, |_, _| ());
     assert!(matches!(result, Err(IntegrationError::StepTooSmall { step, .. }) if step <= 0.5), "{result:?}");
 
-    let short = Adaptive { max_step: 0.01, ..Adaptive::new(1e-3, 1e-3) };
+    let short = Integrator::within(DormandPrince, Tolerance { max_step: 0.01, ..Tolerance::new(1e-3, 1e-3) });
     let mut last = 0.0;
     let (_, statistics) = short
         .integrate(&OSCILLATOR, 0.0, 1.0, &START, &0.0, |t, _| {
@@ -100,9 +110,10 @@ fn bounds_are_kept() {
     assert!((99..=101).contains(&statistics.accepted));
 
     // A span that no bound on steps can cross, and one without any steps to take.
-    let result = Adaptive::new(1e-6, 1e-6).integrate(&OSCILLATOR, 0.0, 1e300, &START, &0.0, |_, _| ());
+    let result =
+        Integrator::adaptive(DormandPrince, 1e-6, 1e-6).integrate(&OSCILLATOR, 0.0, 1e300, &START, &0.0, |_, _| ());
     assert!(matches!(result, Err(IntegrationError::TooManySteps { .. })), "{result:?}");
-    let none = Adaptive { max_steps: 0, ..Adaptive::new(1e-6, 1e-6) };
+    let none = Integrator::adaptive(DormandPrince, 1e-6, 1e-6).max_steps(0);
     assert!(none.integrate(&OSCILLATOR, 0.0, 1.0, &START, &0.0, |_, _| ()).is_err());
 }
 

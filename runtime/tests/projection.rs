@@ -7,8 +7,8 @@ use common::{Pendulum, Scalar};
 use multibody::nalgebra::{SVector, Vector2};
 use multibody::simba::simd::{SimdValue, WideF64x4};
 use multibody::{
-    Adaptive, Constrained, DormandPrince, IntegrationError, Method, Projection, ProjectionError, Real, Rk4,
-    SemiImplicitEuler, System, Tangent, WithProjection,
+    Constrained, DormandPrince, IntegrationError, Integrator, Method, Projection, ProjectionError, Real, Rk4,
+    SemiImplicitEuler, System, Tangent, Tolerance, WithProjection,
 };
 
 /// A bob at an angle from the vertical, at rest.
@@ -21,28 +21,35 @@ fn worst<const N: usize>(v: &SVector<f64, N>) -> f64 {
     v.amax()
 }
 
+type Projecting = WithProjection<Rod<f64>>;
+
 /// The error of a bob on a rod after two seconds, against the pendulum in its angle.
-fn error<M: Method>(steps: u32) -> f64 {
+fn error<M: Method<Projecting>>(method: M, steps: u32) -> f64 {
     let reference = Pendulum { gravity: 9.81, shake: 0.0 };
     let start = Scalar { q: 2.0, v: 0.0 };
-    let (end, _) = Adaptive::new(1e-13, 1e-13).integrate(&reference, 0.0, 2.0, &start, &(), |_, _| ()).unwrap();
+    let (end, _) = Integrator::adaptive(DormandPrince, 1e-13, 1e-13)
+        .integrate(&reference, 0.0, 2.0, &start, &(), |_, _| ())
+        .unwrap();
     let rod = WithProjection::new(Rod::rigid(), Projection::default());
-    let x = M::integrate(&rod, 0.0, &at_rest(2.0), &(), 2.0 / f64::from(steps), steps, |_, x| {
-        assert!((x.q.norm() - 1.0).abs() < 2e-12 && x.q.dot(&x.v).abs() < 1e-11);
-    });
-    (x.unwrap().q - Vector2::new(end.q.sin(), -end.q.cos())).norm()
+    let fixed = Integrator::fixed(method, 2.0 / f64::from(steps));
+    let (x, _) = fixed
+        .integrate(&rod, 0.0, 2.0, &at_rest(2.0), &(), |_, x| {
+            assert!((x.q.norm() - 1.0).abs() < 2e-12 && x.q.dot(&x.v).abs() < 1e-11);
+        })
+        .unwrap();
+    (x.q - Vector2::new(end.q.sin(), -end.q.cos())).norm()
 }
 
 #[test]
 fn methods_keep_their_order() {
-    fn check<M: Method>(steps: u32) {
-        let (coarse, fine) = (error::<M>(steps), error::<M>(2 * steps));
+    fn check<M: Method<Projecting>>(method: M, steps: u32) {
+        let (coarse, fine) = (error(method, steps), error(method, 2 * steps));
         let order = (coarse / fine).log2();
         assert!((order - f64::from(M::ORDER)).abs() < 0.4, "{order} for {}: {coarse} {fine}", M::ORDER);
     }
-    check::<SemiImplicitEuler>(4000);
-    check::<Rk4>(200);
-    check::<DormandPrince>(100);
+    check(SemiImplicitEuler, 4000);
+    check(Rk4, 200);
+    check(DormandPrince, 100);
 }
 
 #[test]
@@ -76,9 +83,10 @@ fn constraints_that_move() {
     let end = end.unwrap();
     assert!((end.q.x * end.v.y - end.q.y * end.v.x - 2.0).abs() < 1e-8);
     // Steps chosen by error keep it as well.
-    let run = Adaptive::new(1e-10, 1e-10).integrate(&projected, 0.0, 10.0, &start, &(), |t, x| {
-        assert!((x.q.norm() - 1.0 - 0.3 * t.sin()).abs() < 1e-11);
-    });
+    let run =
+        Integrator::adaptive(DormandPrince, 1e-10, 1e-10).integrate(&projected, 0.0, 10.0, &start, &(), |t, x| {
+            assert!((x.q.norm() - 1.0 - 0.3 * t.sin()).abs() < 1e-11);
+        });
     assert!((run.unwrap().0.q - end.q).norm() < 1e-7);
 }
 
@@ -277,7 +285,7 @@ fn failures_have_types() {
     assert_eq!(stuck, ProjectionError::NoVelocity { rate: 1.0 });
     assert!(projection.project(&Fold, 0.5, &Scalar { q: 1.1, v: 0.0 }).unwrap().state.v == 1.0);
     // Within integrators: not a number, and an end.
-    let one_step = Adaptive { first_step: 1.0, ..Adaptive::new(1e-6, 1e-6) };
+    let one_step = Integrator::within(DormandPrince, Tolerance { first_step: 1.0, ..Tolerance::new(1e-6, 1e-6) });
     let run = one_step.integrate(
         &WithProjection::new(Fold, projection),
         0.0,

@@ -1,6 +1,8 @@
 //! Mechanisms as users write them, compiled once for all tests.
 
 pub mod arms;
+pub mod extremes;
+pub mod hundred_rods;
 pub mod impulses;
 pub mod laws;
 pub mod linkages;

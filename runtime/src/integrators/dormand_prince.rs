@@ -1,12 +1,14 @@
 //! The pair 5(4) of Dormand and Prince (1980), with the coefficients as in Hairer, Norsett and Wanner, Solving
 //! Ordinary Differential Equations I, table II.5.2; on manifolds after Munthe-Kaas (1998).
 
-use super::method::{Method, inherent};
-use super::slope::{SlopeOf, displaced, slope, stage};
-use crate::{Real, System, Tangent};
+use super::dense::Dense;
+use super::method::{Attempt, Method, inherent};
+use super::problem::{Problem, Step};
+use super::slope::{SlopeOf, combination, displaced, rate_of_displacement};
+use crate::{Real, StateSpace, System, Tangent};
 
-/// The fifth-order method of Dormand and Prince with a given step: six evaluations. [`Adaptive`](crate::Adaptive)
-/// chooses its steps by the embedded fourth-order method.
+/// The fifth-order method of Dormand and Prince: six evaluations. The first choice for steps chosen by error, down to
+/// errors of about 1e-6; its estimate is the difference to an embedded method of fourth order.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DormandPrince;
 
@@ -23,60 +25,92 @@ const B: [f64; 5] = [35.0 / 384.0, 500.0 / 1_113.0, 125.0 / 192.0, -2_187.0 / 6_
 const E: [f64; 6] =
     [71.0 / 57_600.0, -71.0 / 16_695.0, 71.0 / 1_920.0, -17_253.0 / 339_200.0, 22.0 / 525.0, -1.0 / 40.0];
 
-/// One step: the displacement, and the stages that the error estimate needs.
-pub(super) struct Stages<S: System> {
-    /// Displacement over the step.
-    pub(super) displacement: SlopeOf<S>,
-    /// Stages one and three to six.
-    slopes: [SlopeOf<S>; 5],
+/// Weights of the stages one and three to seven in the last term of dense output.
+const D: [f64; 6] = [
+    -12_715_105_075.0 / 11_282_082_432.0,
+    87_487_479_700.0 / 32_700_410_799.0,
+    -10_690_763_975.0 / 1_880_347_072.0,
+    701_980_252_875.0 / 199_316_789_632.0,
+    -1_453_857_185.0 / 822_651_844.0,
+    69_997_945.0 / 29_380_423.0,
+];
+
+/// The stages one and three to seven of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Stages<D> {
+    /// As rates of the displacement.
+    rates: [D; 6],
+    /// The last one as a slope.
+    last: D,
 }
 
-impl<S: System> Stages<S> {
-    /// The stages of a step of `dt` from `state`, where the slope is `first`; `time(c)` is the time at the node `c`.
-    #[inline]
-    pub(super) fn new(
-        system: &S,
-        time: impl Fn(f64) -> S::Scalar,
-        state: &S::State,
-        input: &S::Input,
-        dt: S::Scalar,
-        first: &SlopeOf<S>,
-    ) -> Self {
-        let at = |c: f64, d: &SlopeOf<S>| stage(system, time(c), state, input, d);
-        let k1 = *first;
-        let k2 = at(C[0], &combination(dt, A2, [&k1]));
-        let k3 = at(C[1], &combination(dt, A3, [&k1, &k2]));
-        let k4 = at(C[2], &combination(dt, A4, [&k1, &k2, &k3]));
-        let k5 = at(C[3], &combination(dt, A5, [&k1, &k2, &k3, &k4]));
-        let k6 = at(C[4], &combination(dt, A6, [&k1, &k2, &k3, &k4, &k5]));
-        Self { displacement: combination(dt, B, [&k1, &k3, &k4, &k5, &k6]), slopes: [k1, k3, k4, k5, k6] }
-    }
-
-    /// The difference of the fifth- and the fourth-order displacement; `last` is the rate of the displacement at the
-    /// end of the step.
-    #[inline]
-    pub(super) fn error(&self, dt: S::Scalar, last: &SlopeOf<S>) -> SlopeOf<S> {
-        let [k1, k3, k4, k5, k6] = &self.slopes;
-        combination(dt, E, [k1, k3, k4, k5, k6, last])
-    }
-}
-
-/// `dt * (weights[0] * slopes[0] + ..)`.
-#[inline]
-fn combination<T: Real, V: Tangent<T>, const N: usize>(dt: T, weights: [f64; N], slopes: [&V; N]) -> V {
-    let terms = weights.into_iter().zip(slopes);
-    terms.fold(V::zero(), |sum, (weight, slope)| sum.add_scaled(T::lit(weight), slope)).scale(dt)
-}
-
-impl Method for DormandPrince {
+impl<S: System> Method<S> for DormandPrince {
     const ORDER: u32 = 5;
-    const STAGES: u32 = 6;
+    const ESTIMATE: u32 = 5;
+    type Memory = SlopeOf<S>;
+    type Details = Stages<SlopeOf<S>>;
 
     #[inline]
-    fn step<S: System>(system: &S, t: S::Scalar, state: &S::State, input: &S::Input, dt: S::Scalar) -> S::State {
-        let first = slope(system, t, state, input);
-        let stages = Stages::new(system, |c| t + S::Scalar::lit(c) * dt, state, input, dt, &first);
-        system.accepted(t + dt, &displaced(state, &stages.displacement), input)
+    fn begin(&self, problem: &Problem<'_, S>, t: S::Scalar, state: &S::State) -> SlopeOf<S> {
+        problem.slope(t, state)
+    }
+
+    #[inline]
+    fn attempt(&self, problem: &Problem<'_, S>, step: &Step<'_, S>, k1: &SlopeOf<S>) -> Attempt<S, Stages<SlopeOf<S>>> {
+        let dt = step.dt;
+        let at = |c: f64, d: &SlopeOf<S>| problem.stage(step.time(c), step.state, d);
+        let k2 = at(C[0], &combination(dt, A2, [k1]));
+        let k3 = at(C[1], &combination(dt, A3, [k1, &k2]));
+        let k4 = at(C[2], &combination(dt, A4, [k1, &k2, &k3]));
+        let k5 = at(C[3], &combination(dt, A5, [k1, &k2, &k3, &k4]));
+        let k6 = at(C[4], &combination(dt, A6, [k1, &k2, &k3, &k4, &k5]));
+        let displacement = combination(dt, B, [k1, &k3, &k4, &k5, &k6]);
+        if !step.full {
+            let none = SlopeOf::<S>::zero();
+            return Attempt::new(displacement, Stages { rates: [none; 6], last: none });
+        }
+        let next = problem.slope(step.end, &displaced(step.state, &displacement));
+        let k7 = rate_of_displacement::<S>(&displacement, &next);
+        let error = combination(dt, E, [k1, &k3, &k4, &k5, &k6, &k7]);
+        Attempt {
+            displacement,
+            error,
+            converged: true,
+            details: Stages { rates: [*k1, k3, k4, k5, k6, k7], last: next },
+        }
+    }
+
+    /// The slope at the end is there already; a projection has changed the velocity alone.
+    #[inline]
+    fn proceed(
+        &self,
+        problem: &Problem<'_, S>,
+        step: &Step<'_, S>,
+        _memory: &SlopeOf<S>,
+        attempt: &Attempt<S, Stages<SlopeOf<S>>>,
+        next: &S::State,
+    ) -> SlopeOf<S> {
+        if !step.full {
+            return self.begin(problem, step.end, next);
+        }
+        let (_, q, _) = next.split();
+        SlopeOf::<S> { q, ..attempt.details.last }
+    }
+
+    /// Of fourth order, without further evaluations.
+    fn dense(
+        &self,
+        _problem: &Problem<'_, S>,
+        step: &Step<'_, S>,
+        _memory: &SlopeOf<S>,
+        attempt: &Attempt<S, Stages<SlopeOf<S>>>,
+    ) -> Dense<S> {
+        let minus = S::Scalar::lit(-1.0);
+        let [k1, k3, k4, k5, k6, k7] = &attempt.details.rates;
+        let d = &attempt.displacement;
+        let rise = k1.scale(step.dt).add_scaled(minus, d);
+        let fall = d.add_scaled(-step.dt, k7).add_scaled(minus, &rise);
+        Dense::new(step.state, [*d, rise, fall, combination(step.dt, D, [k1, k3, k4, k5, k6, k7])])
     }
 }
 

@@ -23,6 +23,11 @@ pub enum IntegrationError {
         /// `[s]` the step that would have been needed.
         step: f64,
     },
+    /// The equations of an implicit method found no solution with the given step.
+    NoConvergence {
+        /// `[s]` the time reached.
+        time: f64,
+    },
     /// The bound on the number of steps was reached.
     TooManySteps {
         /// `[s]` the time reached.
@@ -39,6 +44,9 @@ impl fmt::Display for IntegrationError {
             }
             Self::StepTooSmall { time, step } => {
                 write!(f, "at t = {time} s the tolerance asks for a step of {step} s, below the least one")
+            }
+            Self::NoConvergence { time } => {
+                write!(f, "at t = {time} s the equations of the step have no solution near its start: it is too long")
             }
             Self::TooManySteps { time } => write!(f, "the bound on the number of steps was reached at t = {time} s"),
         }

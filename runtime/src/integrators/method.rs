@@ -1,76 +1,170 @@
-//! Methods with steps of a given length: [`Method`], and the loop over such steps.
+//! What a method is: [`Method`], one attempt of a step at a time; and the loop over steps of one length.
 
+use super::dense::Dense;
 use super::error::IntegrationError;
-use super::slope::{is_finite, magnitude};
-use crate::{Real, System};
+use super::problem::{Problem, Step};
+use super::slope::{SlopeOf, displaced, is_finite, magnitude};
+use crate::{Real, System, Tangent};
 
-/// A one-step method with a given step.
-///
-/// `step` and `integrate` exist on every method itself, so that the trait is needed only to write code for any method.
-pub trait Method {
-    /// Order of convergence.
-    const ORDER: u32;
-    /// Evaluations of the system in each step.
-    const STAGES: u32;
+/// A step that was tried.
+pub struct Attempt<S: System, D> {
+    /// Displacement of the state over the step.
+    pub displacement: SlopeOf<S>,
+    /// Estimate of its error, if the step is a [full](Step::full) one; zero from methods without an estimate.
+    pub error: SlopeOf<S>,
+    /// False where an implicit method found no solution.
+    pub converged: bool,
+    /// What [`Method::proceed`] and [`Method::dense`] make use of.
+    pub details: D,
+}
 
-    /// The state after one step of `dt` `[s]` from the time `t` `[s]`, with the input held.
-    fn step<S: System>(system: &S, t: S::Scalar, state: &S::State, input: &S::Input, dt: S::Scalar) -> S::State;
-
-    /// The state after `steps` steps of `dt` `[s]`, with the input held throughout.
-    ///
-    /// `observe` is called after every step with the time and the state. Time is `t0 + k * dt` and does not drift.
-    ///
-    /// # Errors
-    /// [`IntegrationError::NonFinite`] as soon as the state is infinite or NaN (in any lane).
-    fn integrate<S: System>(
-        system: &S,
-        t0: S::Scalar,
-        state: &S::State,
-        input: &S::Input,
-        dt: S::Scalar,
-        steps: u32,
-        mut observe: impl FnMut(S::Scalar, &S::State),
-    ) -> Result<S::State, IntegrationError> {
-        let mut state = *state;
-        let mut t = t0;
-        for k in 1..=steps {
-            let next = Self::step(system, t, &state, input, dt);
-            if !is_finite(&magnitude(&next)) {
-                return Err(IntegrationError::NonFinite { time: t.greatest() });
-            }
-            state = next;
-            t = t0 + S::Scalar::lit(f64::from(k)) * dt;
-            observe(t, &state);
-        }
-        Ok(state)
+impl<S: System, D> Attempt<S, D> {
+    /// A step without an estimate.
+    #[inline]
+    pub fn new(displacement: SlopeOf<S>, details: D) -> Self {
+        Self { displacement, error: SlopeOf::<S>::zero(), converged: true, details }
     }
 }
 
-/// The functions of [`Method`] on the method itself, callable without importing the trait.
+/// A one-step method for the system `S`.
+///
+/// Methods are values, with their settings where they have any. `step` and `integrate` exist on the common ones
+/// themselves (`Rk4::step(..)`); [`Integrator`](super::Integrator) runs any of them with steps of one length or with
+/// steps chosen by error.
+pub trait Method<S: System>: Copy {
+    /// Order of convergence.
+    const ORDER: u32;
+    /// The estimate of the error shrinks with this power of the step; zero where there is none, and steps are given.
+    const ESTIMATE: u32 = 0;
+
+    /// What passes from one step to the next, such as the slope that one ends and the other starts with.
+    type Memory: Copy;
+    /// What a step leaves behind for the next one and for dense output.
+    type Details: Copy;
+
+    /// The memory at a first step, or at the first one after a jump.
+    fn begin(&self, problem: &Problem<'_, S>, t: S::Scalar, state: &S::State) -> Self::Memory;
+
+    /// Tries a step.
+    fn attempt(&self, problem: &Problem<'_, S>, step: &Step<'_, S>, memory: &Self::Memory)
+    -> Attempt<S, Self::Details>;
+
+    /// The size of a step's error, in each lane; a step is accepted at one or less. `norm` is the mean square of a vector,
+    /// each component divided by its tolerance. By default it is the norm of [`Attempt::error`].
+    #[inline]
+    fn error(
+        &self,
+        _step: &Step<'_, S>,
+        attempt: &Attempt<S, Self::Details>,
+        norm: impl Fn(&SlopeOf<S>) -> S::Scalar,
+    ) -> S::Scalar {
+        norm(&attempt.error)
+    }
+
+    /// The memory for the step after an accepted one that led to `next`.
+    #[inline]
+    fn proceed(
+        &self,
+        problem: &Problem<'_, S>,
+        step: &Step<'_, S>,
+        _memory: &Self::Memory,
+        _attempt: &Attempt<S, Self::Details>,
+        next: &S::State,
+    ) -> Self::Memory {
+        self.begin(problem, step.end, next)
+    }
+
+    /// The states within an accepted step. By default a cubic through the states and slopes at both ends.
+    fn dense(
+        &self,
+        problem: &Problem<'_, S>,
+        step: &Step<'_, S>,
+        _memory: &Self::Memory,
+        attempt: &Attempt<S, Self::Details>,
+    ) -> Dense<S> {
+        let first = problem.slope(step.t, step.state);
+        let last = problem.stage(step.end, step.state, &attempt.displacement);
+        Dense::cubic(step, &attempt.displacement, &first, &last)
+    }
+}
+
+/// One step of a method from its beginning.
+#[inline]
+pub(super) fn step<S: System, M: Method<S>>(
+    method: &M,
+    system: &S,
+    t: S::Scalar,
+    state: &S::State,
+    input: &S::Input,
+    dt: S::Scalar,
+) -> S::State {
+    let problem = Problem::new(system, input);
+    let memory = method.begin(&problem, t, state);
+    let step = Step { t, end: t + dt, dt, state, full: false };
+    let attempt = method.attempt(&problem, &step, &memory);
+    problem.accepted(step.end, &displaced(state, &attempt.displacement))
+}
+
+/// `steps` steps of one length, lane by lane.
+pub(super) fn integrate<S: System, M: Method<S>>(
+    method: &M,
+    system: &S,
+    (t0, dt, steps): (S::Scalar, S::Scalar, u32),
+    state: &S::State,
+    input: &S::Input,
+    mut observe: impl FnMut(S::Scalar, &S::State),
+) -> Result<S::State, IntegrationError> {
+    let problem = Problem::new(system, input);
+    let mut state = *state;
+    let mut t = t0;
+    let mut memory = None;
+    for k in 1..=steps {
+        let end = t0 + S::Scalar::lit(f64::from(k)) * dt;
+        let now = memory.unwrap_or_else(|| method.begin(&problem, t, &state));
+        let step = Step { t, end, dt, state: &state, full: false };
+        let attempt = method.attempt(&problem, &step, &now);
+        let next = problem.accepted(end, &displaced(&state, &attempt.displacement));
+        if !is_finite(&magnitude(&next)) {
+            return Err(IntegrationError::NonFinite { time: t.greatest() });
+        }
+        if !attempt.converged {
+            return Err(IntegrationError::NoConvergence { time: t.greatest() });
+        }
+        if k < steps {
+            memory = Some(method.proceed(&problem, &step, &now, &attempt, &next));
+        }
+        state = next;
+        t = end;
+        observe(t, &state);
+    }
+    Ok(state)
+}
+
+/// `step` and `integrate` on a method without settings, callable without a trait or a value.
 macro_rules! inherent {
-    ($method:ident) => {
+    ($method:ident $(: $bound:path)?) => {
         impl $method {
             /// The state after one step of `dt` `[s]` from the time `t` `[s]`, with the input held.
             #[inline]
-            pub fn step<S: $crate::System>(
+            pub fn step<S: $crate::System $(+ $bound)?>(
                 system: &S,
                 t: S::Scalar,
                 state: &S::State,
                 input: &S::Input,
                 dt: S::Scalar,
             ) -> S::State {
-                <Self as $crate::integrators::Method>::step(system, t, state, input, dt)
+                $crate::integrators::method::step(&Self, system, t, state, input, dt)
             }
 
             /// The state after `steps` steps of `dt` `[s]`, with the input held throughout.
             ///
             /// `observe` is called after every step with the time and the state. Time is `t0 + k * dt` and does not
-            /// drift.
+            /// drift. Lanes may have times of their own.
             ///
             /// # Errors
-            /// [`IntegrationError::NonFinite`](crate::IntegrationError) as soon as the state is infinite or NaN (in any
-            /// lane).
-            pub fn integrate<S: $crate::System>(
+            /// [`NonFinite`](crate::IntegrationError::NonFinite) as soon as the state is infinite or NaN (in any lane);
+            /// [`NoConvergence`](crate::IntegrationError::NoConvergence) where an implicit method finds no solution.
+            pub fn integrate<S: $crate::System $(+ $bound)?>(
                 system: &S,
                 t0: S::Scalar,
                 state: &S::State,
@@ -79,7 +173,7 @@ macro_rules! inherent {
                 steps: u32,
                 observe: impl FnMut(S::Scalar, &S::State),
             ) -> Result<S::State, $crate::IntegrationError> {
-                <Self as $crate::integrators::Method>::integrate(system, t0, state, input, dt, steps, observe)
+                $crate::integrators::method::integrate(&Self, system, (t0, dt, steps), state, input, observe)
             }
         }
     };

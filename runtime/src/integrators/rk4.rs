@@ -1,26 +1,45 @@
 //! The classical Runge-Kutta method (Kutta 1901), on manifolds after Munthe-Kaas (1998).
 
-use super::method::{Method, inherent};
-use super::slope::{displaced, slope, stage};
+use super::dense::Dense;
+use super::method::{Attempt, Method, inherent};
+use super::problem::{Problem, Step};
+use super::slope::SlopeOf;
 use crate::{Real, System, Tangent};
 
 /// The classical Runge-Kutta method: fourth order, four evaluations. The first choice for a fixed step.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Rk4;
 
-impl Method for Rk4 {
+impl<S: System> Method<S> for Rk4 {
     const ORDER: u32 = 4;
-    const STAGES: u32 = 4;
+    type Memory = SlopeOf<S>;
+    type Details = ();
 
     #[inline]
-    fn step<S: System>(system: &S, t: S::Scalar, state: &S::State, input: &S::Input, dt: S::Scalar) -> S::State {
+    fn begin(&self, problem: &Problem<'_, S>, t: S::Scalar, state: &S::State) -> SlopeOf<S> {
+        problem.slope(t, state)
+    }
+
+    #[inline]
+    fn attempt(&self, problem: &Problem<'_, S>, step: &Step<'_, S>, k1: &SlopeOf<S>) -> Attempt<S, ()> {
+        let Step { dt, state, .. } = *step;
         let half = S::Scalar::lit(0.5) * dt;
-        let k1 = slope(system, t, state, input);
-        let k2 = stage(system, t + half, state, input, &k1.scale(half));
-        let k3 = stage(system, t + half, state, input, &k2.scale(half));
-        let k4 = stage(system, t + dt, state, input, &k3.scale(dt));
+        let k2 = problem.stage(step.time(0.5), state, &k1.scale(half));
+        let k3 = problem.stage(step.time(0.5), state, &k2.scale(half));
+        let k4 = problem.stage(step.end, state, &k3.scale(dt));
         let d = k1.add(&k4).add_scaled(S::Scalar::lit(2.0), &k2.add(&k3)).scale(S::Scalar::lit(1.0 / 6.0) * dt);
-        system.accepted(t + dt, &displaced(state, &d), input)
+        Attempt::new(d, ())
+    }
+
+    fn dense(
+        &self,
+        problem: &Problem<'_, S>,
+        step: &Step<'_, S>,
+        first: &SlopeOf<S>,
+        attempt: &Attempt<S, ()>,
+    ) -> Dense<S> {
+        let last = problem.stage(step.end, step.state, &attempt.displacement);
+        Dense::cubic(step, &attempt.displacement, first, &last)
     }
 }
 

@@ -1,7 +1,8 @@
 //! The semi-implicit (symplectic) Euler method (Hairer, Lubich and Wanner, section I.1.2).
 
-use super::method::{Method, inherent};
-use super::slope::{displaced, slope};
+use super::method::{Attempt, Method, inherent};
+use super::problem::{Problem, Step};
+use super::slope::SlopeOf;
 use crate::{System, Tangent};
 
 /// The semi-implicit Euler method: first order, one evaluation. New velocities move the position, so that the energy
@@ -9,15 +10,21 @@ use crate::{System, Tangent};
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SemiImplicitEuler;
 
-impl Method for SemiImplicitEuler {
+impl<S: System> Method<S> for SemiImplicitEuler {
     const ORDER: u32 = 1;
-    const STAGES: u32 = 1;
+    type Memory = SlopeOf<S>;
+    type Details = ();
 
     #[inline]
-    fn step<S: System>(system: &S, t: S::Scalar, state: &S::State, input: &S::Input, dt: S::Scalar) -> S::State {
-        let mut slope = slope(system, t, state, input);
-        slope.q = slope.q.add_scaled(dt, &slope.v);
-        system.accepted(t + dt, &displaced(state, &slope.scale(dt)), input)
+    fn begin(&self, problem: &Problem<'_, S>, t: S::Scalar, state: &S::State) -> SlopeOf<S> {
+        problem.slope(t, state)
+    }
+
+    #[inline]
+    fn attempt(&self, _problem: &Problem<'_, S>, step: &Step<'_, S>, first: &SlopeOf<S>) -> Attempt<S, ()> {
+        let mut slope = *first;
+        slope.q = slope.q.add_scaled(step.dt, &slope.v);
+        Attempt::new(slope.scale(step.dt), ())
     }
 }
 

@@ -1,17 +1,20 @@
-//! The rate of a whole state: what Runge-Kutta methods combine.
+//! The rate of a whole state: what methods combine.
 
 use crate::{Configuration, ExtraOf, Real, StateSpace, System, Tangent, VelocityOf, all};
 
 /// Rates of position, velocity and own states, or a displacement of all three.
-#[derive(Clone, Copy)]
-pub(super) struct Slope<V, X> {
-    pub(super) q: V,
-    pub(super) v: V,
-    pub(super) x: X,
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slope<V, X> {
+    /// Of the position.
+    pub q: V,
+    /// Of the velocity.
+    pub v: V,
+    /// Of own states.
+    pub x: X,
 }
 
 /// The slope of a system.
-pub(super) type SlopeOf<S> = Slope<VelocityOf<S>, ExtraOf<S>>;
+pub type SlopeOf<S> = Slope<VelocityOf<S>, ExtraOf<S>>;
 
 impl<T: Real, V: Tangent<T>, X: Tangent<T>> Tangent<T> for Slope<V, X> {
     #[inline]
@@ -38,18 +41,6 @@ pub(super) fn slope<S: System>(system: &S, t: S::Scalar, state: &S::State, input
     Slope { q: velocity, v, x }
 }
 
-/// The slope at the end of the displacement `d` from `state`, as the rate of that displacement.
-#[inline]
-pub(super) fn stage<S: System>(
-    system: &S,
-    t: S::Scalar,
-    state: &S::State,
-    input: &S::Input,
-    d: &SlopeOf<S>,
-) -> SlopeOf<S> {
-    rate_of_displacement::<S>(d, &slope(system, t, &displaced(state, d), input))
-}
-
 /// A slope at the end of the displacement `d`, as the rate of that displacement.
 #[inline]
 pub(super) fn rate_of_displacement<S: System>(d: &SlopeOf<S>, slope: &SlopeOf<S>) -> SlopeOf<S> {
@@ -64,11 +55,33 @@ pub(super) fn displaced<Z: StateSpace>(state: &Z, d: &Slope<Z::Velocity, Z::Extr
     state.join(q.displace(&d.q), v.add(&d.v), x.add(&d.x))
 }
 
+/// The state after a displacement and what was left over from the one before, with what is left over now.
+#[inline]
+pub(super) fn advanced<Z: StateSpace>(
+    state: &Z,
+    d: &Slope<Z::Velocity, Z::Extra>,
+    rest: &Slope<Z::Velocity, Z::Extra>,
+) -> (Z, Slope<Z::Velocity, Z::Extra>) {
+    use crate::configuration::advanced;
+    let (q, v, x) = state.split();
+    let (q, rest_q) = q.advance(&d.q, &rest.q);
+    let (v, rest_v) = advanced(&v, &d.v, &rest.v);
+    let (x, rest_x) = advanced(&x, &d.x, &rest.x);
+    (state.join(q, v, x), Slope { q: rest_q, v: rest_v, x: rest_x })
+}
+
 /// The sizes of a state's coordinates.
 #[inline]
 pub(super) fn magnitude<Z: StateSpace>(state: &Z) -> Slope<Z::Velocity, Z::Extra> {
     let (q, v, x) = state.split();
     Slope { q: q.magnitude(), v, x }
+}
+
+/// `dt * (weights[0] * slopes[0] + ..)`.
+#[inline]
+pub(super) fn combination<T: Real, V: Tangent<T>, const N: usize>(dt: T, weights: [f64; N], slopes: [&V; N]) -> V {
+    let terms = weights.into_iter().zip(slopes);
+    terms.fold(V::zero(), |sum, (weight, slope)| sum.add_scaled(T::lit(weight), slope)).scale(dt)
 }
 
 /// Whether every component of a vector is finite, in every lane.

@@ -221,9 +221,9 @@ pub(super) fn function(layout: &Layout<'_>, function: &Function) -> Vec<String> 
         }
         FunctionKind::MomentumVelocity => "Velocities `M^-1 * momentum` that belong to momenta.",
         FunctionKind::DeadCentres => {
-            "Distances from dead centres, in the order of `DEAD_CENTRES`: the square roots in the solutions of the loops, \
-             products of lengths. Zero where two solutions meet, and rates of the solution grow without bound; NaN where \
-             the loop cannot be closed."
+            "Distances from dead centres, in the order of `DEAD_CENTRES`. Of a loop's solution: its square root, a product \
+             of lengths, zero where two solutions meet and NaN where the loop cannot be closed. Of roll, pitch and yaw: \
+             the cosine of the pitch, zero where roll and yaw turn about one axis. Rates grow without bound there."
         }
     };
     let mut lines = vec![text.to_string(), String::new()];

@@ -21,6 +21,7 @@ use super::constrained::Solved;
 use super::cycles::Branch;
 use super::equations::{Equations, Method, Style, Way};
 use super::gathered;
+use super::gimbals;
 use super::names;
 use super::needs::Needs;
 use super::parallel::Axes;
@@ -158,7 +159,7 @@ struct Deriving<'m> {
     writing: Writing,
     /// Sentences for the report.
     notes: Vec<String>,
-    /// Unknowns whose closed forms have a root.
+    /// Unknowns whose closed forms have a root, and pitches.
     dead_centres: Vec<Coordinate>,
 }
 
@@ -195,8 +196,11 @@ impl<'m> Deriving<'m> {
                 | FunctionKind::ConstraintJacobian
                 | FunctionKind::ConstraintRate
                 | FunctionKind::ConstraintBias
-                | FunctionKind::Guess
-                | FunctionKind::DeadCentres => Ok(Vec::new()),
+                | FunctionKind::Guess => Ok(Vec::new()),
+                FunctionKind::DeadCentres => self.only("closed forms", |e| {
+                    let pitches = gimbals::pitches(e.model, &e.structure);
+                    Ok(gimbals::cosines(&mut e.g, &e.symbols, &pitches))
+                }),
                 FunctionKind::Impulse | FunctionKind::MomentumVelocity => self.jumps(),
                 FunctionKind::Momentum => self.momenta(),
                 FunctionKind::MomentumRate => self.momentum_rates(),
@@ -247,7 +251,9 @@ impl<'m> Deriving<'m> {
                 Ok(e.finish(reduction, &results))
             }),
             FunctionKind::DeadCentres => self.equations("closed forms", |e, reduction| {
-                let roots: Vec<Scalar> = reduction.dead_centres.iter().map(|centre| centre.1).collect();
+                let mut roots: Vec<Scalar> = reduction.dead_centres.iter().map(|centre| centre.1).collect();
+                let pitches = gimbals::pitches(e.model, &e.structure);
+                roots.extend(gimbals::cosines(&mut e.g, &e.symbols, &pitches));
                 Ok(e.finish(reduction, &roots))
             }),
             FunctionKind::Impulse | FunctionKind::MomentumVelocity => self.constrained_jumps(),
@@ -264,7 +270,9 @@ impl<'m> Deriving<'m> {
 
     /// Solutions are checked once, whatever is derived.
     fn check(&mut self) -> Result<(), Vec<Complaint>> {
+        let pitches = gimbals::pitches(self.model, &self.structure);
         if self.is_open() {
+            self.dead_centres = pitches;
             return Ok(());
         }
         let (mut notes, mut centres) = (Vec::new(), Vec::new());
@@ -278,6 +286,7 @@ impl<'m> Deriving<'m> {
             });
             Ok(Vec::new())
         })?;
+        centres.extend(pitches);
         (self.notes, self.dead_centres) = (notes, centres);
         outcome
     }

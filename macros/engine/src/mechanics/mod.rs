@@ -26,6 +26,7 @@ mod forces;
 mod frames;
 mod functions;
 mod gathered;
+mod gimbals;
 pub mod groups;
 mod holding;
 pub mod inertia;

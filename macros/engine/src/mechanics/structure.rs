@@ -25,7 +25,7 @@ pub struct Structure {
     pub steps: Vec<Step>,
     /// What is there several times.
     pub groups: Vec<Group>,
-    /// Unknowns whose closed forms have a root, known once they are derived.
+    /// Unknowns whose closed forms have a root, and pitches; known once they are derived.
     pub dead_centres: Vec<Coordinate>,
     /// Sentences for the report: choices that were made for the user.
     pub notes: Vec<String>,

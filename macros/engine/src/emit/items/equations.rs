@@ -32,7 +32,7 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
     let centres = layout.structure.dead_centres.iter().map(|centre| layout.coordinate(*centre));
     let centres = context.function(FunctionKind::DeadCentres).map(|_| {
         quote! {
-            /// The coordinates whose solutions have the dead centres that `dead_centres` tells of, in order.
+            /// The coordinates whose dead centres `dead_centres` tells of, in order.
             pub const DEAD_CENTRES: &[&str] = &[#(#centres),*];
         }
     });

@@ -1,0 +1,88 @@
+//! What a method works on: a [`Problem`], and one [`Step`] of it.
+
+use super::slope::{SlopeOf, displaced, rate_of_displacement, slope};
+use crate::{Differentiable, Jacobian, Real, System};
+use core::cell::Cell;
+
+/// A system with the input that is held, counting its evaluations.
+#[derive(Debug)]
+pub struct Problem<'a, S: System> {
+    /// The system.
+    pub system: &'a S,
+    /// The input.
+    pub input: &'a S::Input,
+    evaluations: Cell<u32>,
+    jacobians: Cell<u32>,
+}
+
+impl<'a, S: System> Problem<'a, S> {
+    /// Nothing is evaluated yet.
+    #[inline]
+    pub const fn new(system: &'a S, input: &'a S::Input) -> Self {
+        Self { system, input, evaluations: Cell::new(0), jacobians: Cell::new(0) }
+    }
+
+    /// The slope at a state.
+    #[inline]
+    pub fn slope(&self, t: S::Scalar, state: &S::State) -> SlopeOf<S> {
+        self.evaluations.set(self.evaluations.get().saturating_add(1));
+        slope(self.system, t, state, self.input)
+    }
+
+    /// The slope at the end of the displacement `d` from `state`, as the rate of that displacement.
+    #[inline]
+    pub fn stage(&self, t: S::Scalar, state: &S::State, d: &SlopeOf<S>) -> SlopeOf<S> {
+        rate_of_displacement::<S>(d, &self.slope(t, &displaced(state, d)))
+    }
+
+    /// What an integration goes on from after a step to `state`: see [`System::accepted`].
+    #[inline]
+    pub fn accepted(&self, t: S::Scalar, state: &S::State) -> S::State {
+        self.system.accepted(t, state, self.input)
+    }
+
+    /// Evaluations of the system so far.
+    #[inline]
+    pub const fn evaluations(&self) -> u32 {
+        self.evaluations.get()
+    }
+
+    /// Evaluations of its derivatives so far.
+    #[inline]
+    pub const fn jacobians(&self) -> u32 {
+        self.jacobians.get()
+    }
+}
+
+impl<S: Differentiable> Problem<'_, S> {
+    /// Derivatives of the rates of velocities and own states.
+    #[inline]
+    pub fn jacobian(&self, t: S::Scalar, state: &S::State) -> Jacobian<S::Matrix> {
+        self.jacobians.set(self.jacobians.get().saturating_add(1));
+        self.system.jacobian(t, state, self.input)
+    }
+}
+
+/// A step that is to be taken.
+#[derive(Debug)]
+pub struct Step<'a, S: System> {
+    /// `[s]` time at its start.
+    pub t: S::Scalar,
+    /// `[s]` time at its end.
+    pub end: S::Scalar,
+    /// `[s]` its length; negative backwards in time.
+    pub dt: S::Scalar,
+    /// State at its start.
+    pub state: &'a S::State,
+    /// Whether the estimate of the error and dense output may be asked for. Without, a step costs no more than its
+    /// stages.
+    pub full: bool,
+}
+
+impl<S: System> Step<'_, S> {
+    /// The time at the node `c`, from zero at the start to one at the end.
+    #[inline]
+    pub fn time(&self, c: f64) -> S::Scalar {
+        if c == 1.0 { self.end } else { self.t + S::Scalar::lit(c) * self.dt }
+    }
+}
