@@ -69,6 +69,9 @@ pub fn all() -> Vec<Row> {
             models(call).iter().for_each(|model| rows.extend(count(model, true)));
         }
     }
+    for model in calls("models/required.rs").into_iter().flat_map(models) {
+        rows.extend(count(&model, false));
+    }
     // The platform in several coordinates: everything literal.
     for model in calls("models/stewart.rs").into_iter().flat_map(|call| models(literal(call))) {
         let mut counted = count(&model, false);

@@ -8,3 +8,4 @@ pub mod jet;
 pub mod ledger;
 pub mod plain;
 pub mod random;
+pub mod required;
