@@ -151,7 +151,7 @@ impl Equations<'_> {
         let path = motion::path(&platform.tree, platform.link);
         let moves = |at: &usize| self.state().contains(&platform.tree.links[*at].freedom);
         let (translations, turns) = path.split_at_checked(3)?;
-        if held && !(translations.iter().all(moves) && !turns.iter().any(moves)) {
+        if held && (!translations.iter().all(moves) || turns.iter().any(moves)) {
             return None;
         }
         let carrier = &platform.carrier;
