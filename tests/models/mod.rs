@@ -12,6 +12,7 @@ pub mod loops;
 pub mod mechanisms;
 pub mod motion;
 pub mod random;
+pub mod required;
 pub mod small;
 pub mod stewart;
 pub mod stiff;

@@ -80,6 +80,9 @@ pub fn all() -> Vec<Row> {
         counted.iter_mut().for_each(|row| row.model = format!("momenta, {}", row.model));
         rows.extend(counted);
     }
+    for model in calls("models/required.rs").into_iter().flat_map(models) {
+        rows.extend(count(&model, false));
+    }
     // The platform in several coordinates: everything literal.
     for model in calls("models/stewart.rs").into_iter().flat_map(|call| models(literal(call))) {
         let mut counted = count(&model, false);

@@ -10,3 +10,4 @@ pub mod ledger;
 pub mod long_runs;
 pub mod plain;
 pub mod random;
+pub mod required;
