@@ -29,6 +29,7 @@
 //! The common methods have `step` and `integrate` of their own (`Rk4::step(..)`), for loops of one's own and for
 //! microcontrollers: such steps cost no more than their stages.
 
+mod composition;
 mod control;
 mod dense;
 mod dop853;
@@ -36,16 +37,21 @@ mod dormand_prince;
 mod error;
 mod euler;
 mod events;
+mod gauss;
+pub mod generalised_alpha;
+mod hermite;
 mod integrator;
 mod interval;
 mod method;
 mod problem;
+mod radau;
 mod rk4;
 mod run;
 mod sampling;
 mod semi_implicit_euler;
 mod slope;
 
+pub use composition::{Composition4, Composition6, Verlet};
 pub use control::Tolerance;
 pub use dense::Dense;
 pub use dop853::Dop853;
@@ -53,10 +59,15 @@ pub use dormand_prince::DormandPrince;
 pub use error::IntegrationError;
 pub use euler::Euler;
 pub use events::{Action, Direction, Event, Events};
+pub use gauss::{
+    GaussLegendre4, GaussLegendre6, ImplicitMidpoint, SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint,
+};
+pub use generalised_alpha::GeneralisedAlpha;
 pub use integrator::{Integrator, Statistics, Steps};
 pub use interval::Interval;
 pub use method::{Attempt, Method};
 pub use problem::{Problem, Step};
+pub use radau::Radau;
 pub use rk4::Rk4;
 pub use sampling::Samples;
 pub use semi_implicit_euler::SemiImplicitEuler;
