@@ -5,7 +5,7 @@
 //! else by the coordinate itself.
 
 use crate::linear::Square;
-use crate::{ExtraOf, System, VelocityOf};
+use crate::{ExtraOf, Real, System, VelocityOf};
 use nalgebra::SMatrix;
 
 /// Partial derivatives of the `R` results of a function: by the `N` components of a displacement of the position, by the
@@ -21,6 +21,46 @@ pub struct Derivatives<T, const R: usize, const N: usize, const X: usize, const 
     pub states: SMatrix<T, R, X>,
     /// By inputs.
     pub input: SMatrix<T, R, U>,
+}
+
+impl<T: Real, const R: usize, const N: usize, const X: usize, const U: usize> Derivatives<T, R, N, X, U> {
+    /// Derivatives of forward dynamics in the form of [`Differentiable::jacobian`].
+    #[inline]
+    #[must_use]
+    pub fn jacobian(&self) -> Jacobian<[[T; R]; R]> {
+        self.jacobian_at(&core::array::from_fn(|place| place))
+    }
+
+    /// The same with rows and columns in another order: of each, its place among the velocities and own states. Where the
+    /// place is none of these, the row and the column are zero.
+    #[must_use]
+    pub fn jacobian_at<const W: usize>(&self, places: &[usize; W]) -> Jacobian<[[T; W]; W]> {
+        let entry = |matrix: &[T], row: usize, column: usize| {
+            let place = column.checked_mul(R).and_then(|start| start.checked_add(row));
+            let found = place.filter(|_| row < R).and_then(|place| matrix.get(place));
+            found.copied().unwrap_or_else(|| T::lit(0.0))
+        };
+        let rate = |row: usize, column: usize| match column.checked_sub(N) {
+            Some(state) => entry(self.states.as_slice(), row, state),
+            None => entry(self.velocity.as_slice(), row, column),
+        };
+        Jacobian {
+            position: places.map(|row| places.map(|column| entry(self.position.as_slice(), row, column))),
+            rates: places.map(|row| places.map(|column| rate(row, column))),
+        }
+    }
+
+    /// The derivative by the inputs, times a change of them.
+    #[must_use]
+    pub fn along_input(&self, change: &[T; U]) -> [T; R] {
+        let mut sum = [T::lit(0.0); R];
+        for (column, &change) in self.input.as_slice().chunks_exact(R.max(1)).zip(change) {
+            for (sum, &slope) in sum.iter_mut().zip(column) {
+                *sum = *sum + slope * change;
+            }
+        }
+        sum
+    }
 }
 
 /// How the rates of velocities and own states change with the state: what [`Differentiable::jacobian`] gives.

@@ -41,6 +41,7 @@
 //! - [`Constrained`]: a model whose coordinates obey equations; [`assemble`] closes its loops, and [`projection`] keeps
 //!   them closed.
 //! - [`impact`]: impulses, and impacts with Newton's law, at joints and frames.
+//! - [`mod@equilibrium`]: states of rest and steady motions.
 //! - [`linear`]: small linear systems, with their rank and without a branch.
 //!
 //! # Conventions
@@ -70,6 +71,7 @@ mod constrained;
 pub mod coordinates;
 mod cost;
 mod differentiable;
+pub mod equilibrium;
 #[doc = include_str!("../docs/generated.md")]
 pub mod generated {}
 pub mod impact;
@@ -82,6 +84,7 @@ pub mod linear;
 pub mod projection;
 pub mod rotation;
 mod scalar;
+mod simulate;
 mod system;
 mod tangent;
 
@@ -91,11 +94,13 @@ pub use constrained::{Constrained, Kinematics};
 pub use coordinates::{Cylindrical, FreeRollPitchYaw, Planar, Pose, RollPitchYaw, Twist, Universal, Wrench};
 pub use cost::Cost;
 pub use differentiable::{Derivatives, Differentiable, Jacobian};
+pub use equilibrium::{Equilibrium, EquilibriumError, Free, constrained_equilibrium, equilibrium, trim};
 pub use impulsive::Impulsive;
 pub use inertia::{ParamError, inertia_violation};
 pub use integrators::{
-    Dop853, DormandPrince, Euler, GeneralisedAlpha, IntegrationError, Integrator, Method, Rk4, SemiImplicitEuler,
-    Statistics, Steps, Tolerance,
+    Composition4, Composition6, Dop853, DormandPrince, Euler, GaussLegendre4, GaussLegendre6, GeneralisedAlpha,
+    ImplicitMidpoint, IntegrationError, Integrator, Method, Radau, Rk4, SemiImplicitEuler, Statistics, Steps,
+    SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint, Tolerance, Verlet,
 };
 pub use multibody_macros::multibody;
 pub use nalgebra;
@@ -104,5 +109,6 @@ pub use projection::{
 };
 pub use scalar::{Real, all, any};
 pub use simba;
+pub use simulate::simulate;
 pub use system::{ExtraOf, PositionOf, StateSpace, System, VelocityOf};
 pub use tangent::Tangent;

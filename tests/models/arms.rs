@@ -36,7 +36,7 @@ multibody! {
         /// effort of `joint2`
         input tau2;
         force drive2: Effort { joint: joint2, value: tau2 }
-        emit forward_dynamics;
+        emit forward_dynamics, derivatives;
     }
 }
 
@@ -110,7 +110,7 @@ multibody! {
         /// effort of `joint2`
         input tau2;
         force drive2: Effort { joint: joint2, value: tau2 }
-        emit forward_dynamics;
+        emit forward_dynamics, derivatives;
     }
 }
 
@@ -176,7 +176,7 @@ multibody! {
         /// effort of `joint6`
         input tau6;
         force drive6: Effort { joint: joint6, value: tau6 }
-        emit forward_dynamics;
+        emit forward_dynamics, derivatives;
     }
 }
 
@@ -336,7 +336,7 @@ multibody! {
         /// effort of `joint6`
         input tau6;
         force drive6: Effort { joint: joint6, value: tau6 }
-        emit forward_dynamics;
+        emit forward_dynamics, derivatives;
     }
 }
 
@@ -406,7 +406,7 @@ multibody! {
         /// effort of `joint6`
         input tau6;
         force drive6: Effort { joint: joint6, value: tau6 }
-        emit forward_dynamics;
+        emit forward_dynamics, derivatives;
     }
 }
 
@@ -568,7 +568,7 @@ multibody! {
         /// effort of `joint6`
         input tau6;
         force drive6: Effort { joint: joint6, value: tau6 }
-        emit forward_dynamics;
+        emit forward_dynamics, derivatives;
     }
 }
 
@@ -641,7 +641,7 @@ multibody! {
         /// effort of `joint7`
         input tau7;
         force drive7: Effort { joint: joint7, value: tau7 }
-        emit forward_dynamics;
+        emit forward_dynamics, derivatives;
     }
 }
 
@@ -824,6 +824,6 @@ multibody! {
         /// effort of `joint7`
         input tau7;
         force drive7: Effort { joint: joint7, value: tau7 }
-        emit forward_dynamics;
+        emit forward_dynamics, derivatives;
     }
 }

@@ -88,7 +88,7 @@ class Writer:
             for k in range(1, len(joints) + 1):
                 items += [f"/// effort of `joint{k}`", f"input tau{k};"]
                 items.append(f"force drive{k}: Effort {{ joint: joint{k}, value: tau{k} }}")
-            items.append("emit forward_dynamics;")
+            items.append("emit forward_dynamics, derivatives;")
         else:
             ee = self.arm["ee"]
             frame = self.frame(f"link{ee['parent'] + 1}", "tool", ee)

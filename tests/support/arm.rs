@@ -1,7 +1,7 @@
 //! The generated arms behind one trait, over slices, so that one test serves all of them and every scalar.
 
-use multibody::Real;
 use multibody::nalgebra::{SMatrix, SVector};
+use multibody::{Derivatives, Real};
 
 use crate::models::arms;
 
@@ -21,12 +21,36 @@ pub trait Arm<T: Real> {
     fn free_dynamics(&self, q: &[T], v: &[T]) -> Vec<T>;
     /// Accelerations under these efforts.
     fn forward_dynamics(&self, q: &[T], v: &[T], tau: &[T]) -> Vec<T>;
+    /// Derivatives of the accelerations under these efforts.
+    fn forward_derivatives(&self, q: &[T], v: &[T], tau: &[T]) -> Slopes<T>;
+    /// Derivatives of the efforts for these accelerations.
+    fn inverse_derivatives(&self, q: &[T], v: &[T], a: &[T]) -> Slopes<T>;
     /// `[J]`
     fn kinetic_energy(&self, q: &[T], v: &[T]) -> T;
     /// `[J]`
     fn potential_energy(&self, q: &[T]) -> T;
     /// Of the tool frame.
     fn tool(&self, q: &[T], v: &[T]) -> Tool<T>;
+}
+
+/// Partial derivatives, row by row.
+pub struct Slopes<T> {
+    /// By positions.
+    pub position: Vec<T>,
+    /// By velocities.
+    pub velocity: Vec<T>,
+    /// By efforts.
+    pub input: Vec<T>,
+}
+
+impl<T: Real> Slopes<T> {
+    fn of<const R: usize, const N: usize, const U: usize>(derivatives: &Derivatives<T, R, N, 0, U>) -> Self {
+        Self {
+            position: rows(&derivatives.position),
+            velocity: rows(&derivatives.velocity),
+            input: rows(&derivatives.input),
+        }
+    }
 }
 
 /// What the outputs say about the tool frame.
@@ -107,6 +131,18 @@ macro_rules! arm {
                 let state = arms::$driven::State { q: vector::<T, { arms::$module::DOF }>(q).into(), v: vector::<T, { arms::$module::DOF }>(v).into() };
                 let [$($tau),*] = *tau else { panic!("not one effort per joint") };
                 list(self.1.forward_dynamics(T::lit(0.0), &state, &arms::$driven::Input { $($tau),* }))
+            }
+
+            fn forward_derivatives(&self, q: &[T], v: &[T], tau: &[T]) -> Slopes<T> {
+                let state = arms::$driven::State { q: vector::<T, { arms::$module::DOF }>(q).into(), v: vector::<T, { arms::$module::DOF }>(v).into() };
+                let [$($tau),*] = *tau else { panic!("not one effort per joint") };
+                Slopes::of(&self.1.forward_derivatives(T::lit(0.0), &state, &arms::$driven::Input { $($tau),* }))
+            }
+
+            fn inverse_derivatives(&self, q: &[T], v: &[T], a: &[T]) -> Slopes<T> {
+                let state = arms::$driven::State { q: vector::<T, { arms::$module::DOF }>(q).into(), v: vector::<T, { arms::$module::DOF }>(v).into() };
+                let accel = vector::<T, { arms::$module::DOF }>(a).into();
+                Slopes::of(&self.1.inverse_derivatives(T::lit(0.0), &state, &arms::$driven::Input::default(), &accel))
             }
 
             fn kinetic_energy(&self, q: &[T], v: &[T]) -> T {

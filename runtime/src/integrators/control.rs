@@ -151,6 +151,11 @@ impl Control {
         self.step
     }
 
+    /// Takes another length for the next step.
+    pub(super) const fn change_step(&mut self, step: f64) {
+        self.step = step;
+    }
+
     /// After a jump that followed a step of this length: what was learnt from errors is void, the scale remains.
     pub(super) fn restart(&mut self, length: f64) {
         self.step = Real::min(self.step.abs(), length.abs()).copysign(length);

@@ -12,7 +12,6 @@ use super::error::IntegrationError;
 use super::integrator::{Integrator, Statistics};
 use super::interval::Interval;
 use super::method::Method;
-use super::problem::Problem;
 use super::run::{Run, Verdict};
 use crate::System;
 use watch::Watch;
@@ -162,7 +161,7 @@ impl<M> Integrator<M> {
     where
         M: Method<S>,
     {
-        let problem = Problem::new(system, input);
+        let problem = self.problem(system, input);
         let mut run = Run::new(self, &problem, t0, t1, state)?;
         let mut watch = Watch::new(events, t0, state)?;
         while !run.arrived() {

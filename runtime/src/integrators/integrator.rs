@@ -80,6 +80,8 @@ pub struct Statistics {
     pub evaluations: u32,
     /// Evaluations of its derivatives, by implicit methods that use them.
     pub jacobians: u32,
+    /// Factorisations by implicit methods.
+    pub factorisations: u32,
     /// Accepted steps.
     pub accepted: u32,
     /// Rejected steps.
@@ -113,6 +115,15 @@ impl<M> Integrator<M> {
     #[must_use]
     pub fn max_steps(self, max_steps: u32) -> Self {
         Self { max_steps, ..self }
+    }
+
+    /// A system with these steps' tolerance, which implicit methods look at.
+    pub(super) fn problem<'a, S: System>(&self, system: &'a S, input: &'a S::Input) -> Problem<'a, S> {
+        let tolerance = match self.steps {
+            Steps::Fixed(_) => None,
+            Steps::Adaptive(tolerance) => Some(tolerance),
+        };
+        Problem::new(system, input).within(tolerance)
     }
 
     /// The state at `t1` `[s]`, from `state` at `t0` `[s]`, which may be later than `t1`, with the input held throughout.
@@ -152,7 +163,7 @@ impl<M> Integrator<M> {
     where
         M: Method<S>,
     {
-        let problem = Problem::new(system, input);
+        let problem = self.problem(system, input);
         let mut run = Run::new(self, &problem, t0, t1, state)?;
         while !run.arrived() {
             run.advance(|interval| {

@@ -111,6 +111,7 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
         Statistics {
             evaluations: self.problem.evaluations(),
             jacobians: self.problem.jacobians(),
+            factorisations: self.problem.factorisations(),
             accepted: self.accepted,
             rejected: self.rejected,
         }
@@ -168,12 +169,15 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
             let (size, next_size) = (magnitude(&state), magnitude(&next));
             let error = method.error(&step, &attempt, |vector| tolerance.norm(vector, &size, &next_size)).greatest();
             let error = if attempt.converged { error } else { f64::NAN };
-            if !control.judge(error, length) {
+            let accepted = control.judge(error, length);
+            control.change_step(method.next_step(&attempt, length, control.step()));
+            if !accepted {
                 self.rejected += 1;
+                self.memory = method.repeat(&self.memory, &attempt);
                 return if error.is_finite() || !control.is_too_short(self.t, control.step()) {
                     Ok(())
                 } else {
-                    Err(stopped(attempt.converged, self.t))
+                    Err(stopped(attempt.converged || !is_finite(&magnitude(&next)), self.t))
                 };
             }
         } else if !attempt.converged {

@@ -37,12 +37,14 @@ impl Arguments {
         match kind {
             FunctionKind::MassMatrix | FunctionKind::PotentialEnergy => position,
             FunctionKind::KineticEnergy | FunctionKind::Momentum => state,
-            FunctionKind::ForwardDynamics | FunctionKind::Bias | FunctionKind::Outputs | FunctionKind::MomentumRate => {
-                all
-            }
+            FunctionKind::ForwardDynamics
+            | FunctionKind::ForwardDerivatives
+            | FunctionKind::Bias
+            | FunctionKind::Outputs
+            | FunctionKind::MomentumRate => all,
             FunctionKind::Impulse => Arguments { impulse: true, ..position },
             FunctionKind::MomentumVelocity => Arguments { momentum: true, ..position },
-            FunctionKind::InverseDynamics => Arguments { accel: true, ..all },
+            FunctionKind::InverseDynamics | FunctionKind::InverseDerivatives => Arguments { accel: true, ..all },
             FunctionKind::Constraints | FunctionKind::ConstraintJacobian | FunctionKind::DeadCentres => {
                 Arguments { time: true, ..position }
             }

@@ -206,6 +206,17 @@ pub(super) fn function(layout: &Layout<'_>, function: &Function) -> Vec<String> 
             let found: Vec<String> = found.iter().map(|c| format!("`{}`", code(&layout.coordinate(*c)))).collect();
             &format!("Positions, rates and accelerations, in this order: {}.", found.join(", "))
         }
+        FunctionKind::ForwardDerivatives if layout.has_states() => {
+            "Partial derivatives of the accelerations, then of the rates of the model's own states, by displacements of \
+             the position, velocities, own states and inputs."
+        }
+        FunctionKind::ForwardDerivatives => {
+            "Partial derivatives of the accelerations by displacements of the position, velocities and inputs."
+        }
+        FunctionKind::InverseDerivatives => {
+            "Partial derivatives of the efforts that the accelerations `accel` need beside all declared forces, by \
+             displacements of the position, velocities, own states and inputs, at fixed `accel`."
+        }
         FunctionKind::Guess => {
             "Closes the loops by Newton's method: the state with the solution as its guess, and the greatest residual."
         }

@@ -30,6 +30,8 @@ pub fn name(kind: FunctionKind) -> Cow<'static, str> {
         FunctionKind::ConstraintRate => "constraint_rate",
         FunctionKind::ConstraintBias => "constraint_bias",
         FunctionKind::Residual => "residual",
+        FunctionKind::ForwardDerivatives => "forward_derivatives",
+        FunctionKind::InverseDerivatives => "inverse_derivatives",
         FunctionKind::Kinematics(0) => "kinematics",
         FunctionKind::Kinematics(number) => return Cow::Owned(format!("kinematics_{}", number + 1)),
         FunctionKind::Guess => "close",

@@ -53,6 +53,14 @@ pub(super) fn ty(layout: &Layout<'_>, kind: FunctionKind) -> TokenStream {
             let (krate, count) = (layout.krate(), Literal::usize_unsuffixed(found(layout, number)));
             quote!(#krate::Kinematics<T, #count>)
         }
+        FunctionKind::ForwardDerivatives | FunctionKind::InverseDerivatives => {
+            let krate = layout.krate();
+            let [results, states, inputs] =
+                [differentiated(layout, kind), layout.table(Group::States).size, layout.table(Group::Input).size]
+                    .map(Literal::usize_unsuffixed);
+            let dof = Literal::usize_unsuffixed(dof);
+            quote!(#krate::Derivatives<T, #results, #dof, #states, #inputs>)
+        }
         FunctionKind::Guess => quote!(Closed<T>),
         FunctionKind::Impulse if layout.rows() > 0 => quote!(Jump<T>),
         FunctionKind::Impulse
@@ -85,6 +93,19 @@ pub(super) fn value(layout: &Layout<'_>, kind: FunctionKind, results: Vec<TokenS
             let mut next = || vector(layout, results.by_ref().take(found(layout, number)).collect());
             let (position, velocity, acceleration) = (next(), next(), next());
             quote!(#krate::Kinematics { position: #position, velocity: #velocity, acceleration: #acceleration })
+        }
+        FunctionKind::ForwardDerivatives | FunctionKind::InverseDerivatives => {
+            let rows = differentiated(layout, kind);
+            let mut results = results.into_iter();
+            let mut next = |group| {
+                let columns = layout.table(group).size;
+                leaf::matrix(krate, rows, columns, &mut results.by_ref().take(rows * columns))
+            };
+            let [position, velocity] = [next(Group::Velocity), next(Group::Velocity)];
+            let [states, input] = [next(Group::States), next(Group::Input)];
+            quote! {
+                #krate::Derivatives { position: #position, velocity: #velocity, states: #states, input: #input }
+            }
         }
         FunctionKind::Guess => {
             let (mut results, state) = (results, names::ident("state"));
@@ -146,6 +167,12 @@ fn solved(layout: &Layout<'_>, results: Vec<TokenStream>) -> TokenStream {
         #(#set)*
         Solved { input: #solved, rank: #(#rank)* }
     }
+}
+
+/// Number of results that have derivatives: accelerations and rates of own states, or efforts.
+fn differentiated(layout: &Layout<'_>, kind: FunctionKind) -> usize {
+    let states = layout.table(Group::States).size;
+    layout.dof() + if kind == FunctionKind::ForwardDerivatives { states } else { 0 }
 }
 
 /// Number of scalars that these kinematics find.

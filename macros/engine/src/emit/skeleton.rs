@@ -65,6 +65,8 @@ fn build(of: &Module, krate: Option<Path>, all: &[Module]) -> TokenStream {
         FunctionKind::PotentialEnergy,
         FunctionKind::Outputs,
         FunctionKind::Residual,
+        FunctionKind::ForwardDerivatives,
+        FunctionKind::InverseDerivatives,
         FunctionKind::Impulse,
         FunctionKind::Momentum,
         FunctionKind::MomentumRate,

@@ -3,19 +3,18 @@
 //! In: the tree's inverse dynamics and mass matrix, definitions of dependent coordinates, equations that keep multipliers.
 //! Out: accelerations of the state, multipliers, efforts. Velocities of the tree are v = S u + s(t), so efforts project by
 //! S^T and the mass matrix is S^T M S (the projection of Kane and Maggi). What is left of the equations, G u' = -gamma,
-//! gives multipliers by the Schur complement G M^-1 G^T on the sparse factorisation of M; the complement is solved with
-//! pivots, and its rank comes with the result.
+//! gives multipliers ([`super::saddle`]).
 
 use std::collections::HashSet;
 use std::rc::Rc;
 
 use crate::model::types::{Closing, Coordinate, Handling};
 use crate::symbolic::differentiate::Differentiator;
-use crate::symbolic::graph::{BlockKind, Call, Graph, Scalar};
-use crate::symbolic::linear_algebra::Factors;
+use crate::symbolic::graph::{Call, Scalar};
 
 use super::equations::Equations;
 use super::reduction::{Map, Reduction};
+use super::saddle::{Saddle, Solution};
 use super::structure::{Role, Row};
 
 /// Accelerations with what comes beside them.
@@ -27,11 +26,11 @@ pub(super) struct Solved {
 }
 
 /// Constraint equations as the multipliers see them, by row.
-struct Rows {
+pub(super) struct Rows {
     /// Coefficients of the velocities of the state.
-    jacobian: Vec<Vec<Scalar>>,
+    pub jacobian: Vec<Vec<Scalar>>,
     /// What is left of the second derivative by time where the accelerations of the state are zero.
-    bias: Vec<Scalar>,
+    pub bias: Vec<Scalar>,
 }
 
 impl Equations<'_> {
@@ -118,7 +117,7 @@ impl Equations<'_> {
     }
 
     /// S, a row per coordinate of the tree.
-    fn velocity_map(&mut self, reduction: &Reduction, state: &[usize]) -> Vec<Vec<Scalar>> {
+    pub(super) fn velocity_map(&mut self, reduction: &Reduction, state: &[usize]) -> Vec<Vec<Scalar>> {
         let n = self.symbols.freedoms;
         let mut map = vec![vec![Scalar::ZERO; state.len()]; n];
         let velocities: Vec<Scalar> = self.symbols.velocities.concat();
@@ -176,68 +175,44 @@ impl Equations<'_> {
 
     /// Forward dynamics.
     pub(super) fn solve_constrained(&mut self, reduction: &Reduction) -> Solved {
+        self.system(reduction).2
+    }
+
+    /// The system that accelerations and multipliers solve, its rows, and its solution.
+    pub(super) fn system(&mut self, reduction: &Reduction) -> (Saddle, Rows, Solved) {
         let matrix = self.reduced_mass_matrix(reduction);
         let bias = self.reduced_efforts(reduction, false);
         let rhs: Vec<Scalar> = bias.iter().map(|&b| -b).collect();
-        let rows = (!self.structure.rows.is_empty()).then(|| self.rows(reduction));
-        self.solve_rows(matrix, rhs, rows)
+        let rows = self.rows(reduction);
+        let held: Vec<Scalar> = rows.bias.iter().map(|&gamma| -gamma).collect();
+        let (saddle, solved) = self.solve_rows(matrix, &rhs, rows.jacobian.clone(), &held);
+        (saddle, rows, solved)
     }
 
     /// The jump of velocities under an impulse: the same system with the impulse for the forces, and given rates of the
     /// equations.
     pub(super) fn constrained_jump(&mut self, reduction: &Reduction) -> Solved {
         let matrix = self.reduced_mass_matrix(reduction);
-        let rows = (!self.structure.rows.is_empty()).then(|| {
-            let jacobian = self.rows(reduction).jacobian;
-            Rows { jacobian, bias: self.symbols.rates.iter().map(|&rate| -rate).collect() }
-        });
-        self.solve_rows(matrix, self.symbols.impulses.clone(), rows)
+        let jacobian = self.rows(reduction).jacobian;
+        let (impulses, rates) = (self.symbols.impulses.clone(), self.symbols.rates.clone());
+        self.solve_rows(matrix, &impulses, jacobian, &rates).1
     }
 
-    /// M a + G^T lambda = rhs, G a = -gamma.
-    fn solve_rows(&mut self, matrix: Vec<Vec<Scalar>>, rhs: Vec<Scalar>, rows: Option<Rows>) -> Solved {
+    /// M a + G^T lambda = rhs, G a = held.
+    fn solve_rows(
+        &mut self,
+        matrix: Vec<Vec<Scalar>>,
+        rhs: &[Scalar],
+        jacobian: Vec<Vec<Scalar>>,
+        held: &[Scalar],
+    ) -> (Saddle, Solved) {
         let order = self.state_elimination();
-        let g = &mut self.g;
-        let Some(rows) = rows else {
-            let factors = Factors::new(g, &matrix, &order);
-            let accelerations = factors.solve(g, &rhs);
-            return Solved { accelerations, multipliers: Vec::new(), rank: None };
-        };
-        let (factors, rhs) = augmented(g, matrix, rhs, &rows, &order);
-        let forward = factors.forward(g, &rhs);
-        let pushed: Vec<Vec<Scalar>> = rows.jacobian.iter().map(|row| factors.forward(g, row)).collect();
-        let scaled: Vec<Vec<Scalar>> = pushed.iter().map(|row| factors.scale(g, row)).collect();
-        let size = rows.bias.len();
-        let dot = |g: &mut Graph, a: &[Scalar], b: &[Scalar]| {
-            let terms: Vec<Scalar> = a.iter().zip(b).map(|(&x, &y)| g.mul(x, y)).collect();
-            g.sum(&terms)
-        };
-        let mut operands = vec![Scalar::ZERO; size * size];
-        for i in 0..size {
-            for j in i..size {
-                let entry = dot(g, &pushed[i], &scaled[j]);
-                operands[i * size + j] = entry;
-                operands[j * size + i] = entry;
-            }
-        }
-        for (row, &gamma) in scaled.iter().zip(&rows.bias) {
-            let driven = dot(g, row, &forward);
-            operands.push(g.add(driven, gamma));
-        }
-        let mut multipliers = g.block_outputs(BlockKind::Solve { size, symmetric: true }, &operands);
-        let rank = multipliers.pop();
+        let saddle = Saddle::new(&mut self.g, matrix, jacobian, &order);
+        let Solution { unknowns: accelerations, multipliers, rank } = saddle.solve(&mut self.g, rhs, held);
         for (k, &multiplier) in multipliers.iter().enumerate() {
-            g.name(multiplier, || format!("multiplier_{}", k + 1));
+            self.g.name(multiplier, || format!("multiplier_{}", k + 1));
         }
-        let rest: Vec<Scalar> = (0..rhs.len())
-            .map(|k| {
-                let mut terms = vec![forward[k]];
-                terms.extend(pushed.iter().zip(&multipliers).map(|(row, &l)| -g.mul(row[k], l)));
-                g.sum(&terms)
-            })
-            .collect();
-        let accelerations = factors.backward(g, &rest);
-        Solved { accelerations, multipliers, rank }
+        (saddle, Solved { accelerations, multipliers, rank })
     }
 
     /// Elimination of the state's coordinates from the leaves inwards; by place in the state.
@@ -334,36 +309,5 @@ impl Equations<'_> {
         !self.structure.steps.is_empty()
             || !self.structure.rows.is_empty()
             || self.structure.roles.iter().flatten().any(|role| matches!(role, Role::Driven(_)))
-    }
-}
-
-/// Factors of the mass matrix. Where it is singular by structure, as that of a free rod that has no inertia about its own
-/// line, equations that hold the idle coordinate are added to it: with G a = -gamma the systems M a = f - G^T lambda and
-/// (M + g g^T) a = f - g gamma - G^T lambda have the same solution, multipliers included.
-fn augmented(
-    g: &mut Graph,
-    mut matrix: Vec<Vec<Scalar>>,
-    mut rhs: Vec<Scalar>,
-    rows: &Rows,
-    order: &[usize],
-) -> (Factors, Vec<Scalar>) {
-    let mut added = vec![false; rows.bias.len()];
-    loop {
-        let factors = Factors::new(g, &matrix, order);
-        let Some(idle) = factors.singular() else { return (factors, rhs) };
-        // The shortest of the equations fills in least.
-        let length = |row: usize| rows.jacobian[row].iter().filter(|&&entry| entry != Scalar::ZERO).count();
-        let holding = (0..added.len()).filter(|&row| !added[row] && rows.jacobian[row][idle] != Scalar::ZERO);
-        let Some(row) = holding.min_by_key(|&row| length(row)) else { return (factors, rhs) };
-        added[row] = true;
-        let line = &rows.jacobian[row];
-        for i in 0..line.len() {
-            for j in 0..line.len() {
-                let both = g.mul(line[i], line[j]);
-                matrix[i][j] = g.add(matrix[i][j], both);
-            }
-            let moved = g.mul(line[i], rows.bias[row]);
-            rhs[i] = g.sub(rhs[i], moved);
-        }
     }
 }

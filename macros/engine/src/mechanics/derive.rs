@@ -5,6 +5,7 @@
 //! value are one node, in the form that was made first, so a second way would come out as the first; and what one
 //! function costs must not depend on which others are asked for.
 
+mod derivatives;
 mod impulses;
 
 use std::collections::HashMap;
@@ -139,6 +140,7 @@ fn kinds(model: &Model, structure: &Structure) -> Vec<FunctionKind> {
     }
     kinds.extend(wanted(Request::Residual, &[FunctionKind::Residual]));
     kinds.extend((0..model.kinematics.len()).map(FunctionKind::Kinematics));
+    kinds.extend(wanted(Request::Derivatives, &[FunctionKind::ForwardDerivatives, FunctionKind::InverseDerivatives]));
     kinds.extend(impulses::kinds(model));
     if !model.outputs.is_empty() {
         kinds.push(FunctionKind::Outputs);
@@ -192,6 +194,8 @@ impl<'m> Deriving<'m> {
                 }
                 FunctionKind::Residual => self.one(NEWTON_EULER, |e| Ok(e.inverse_dynamics())),
                 FunctionKind::Kinematics(k) => self.kinematics(k),
+                FunctionKind::ForwardDerivatives => self.forward_derivatives(),
+                FunctionKind::InverseDerivatives => self.inverse_derivatives(),
                 FunctionKind::Constraints
                 | FunctionKind::ConstraintJacobian
                 | FunctionKind::ConstraintRate
@@ -245,6 +249,8 @@ impl<'m> Deriving<'m> {
                 Ok(candidates)
             }
             FunctionKind::Kinematics(k) => self.kinematics(k),
+            FunctionKind::ForwardDerivatives => self.forward_derivatives(),
+            FunctionKind::InverseDerivatives => self.inverse_derivatives(),
             FunctionKind::Guess => self.equations("Newton's method", |e, reduction| {
                 let mut results = reduction.guesses.clone();
                 results.push(e.worst_residual(reduction));
@@ -297,7 +303,7 @@ impl<'m> Deriving<'m> {
         names: Names,
         f: impl FnMut(&mut Equations<'m>) -> Found,
     ) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        self.in_all_axes(names, Method::Composite, &[], f)
+        self.in_all_axes(&names, Method::Composite, &[], f)
     }
 
     /// The recursion over groups of links, where it is another way.
@@ -328,7 +334,7 @@ impl<'m> Deriving<'m> {
 
     fn in_all_axes(
         &mut self,
-        names: Names,
+        names: &[&'static str],
         method: Method,
         kept: &[JointId],
         mut f: impl FnMut(&mut Equations<'m>) -> Found,
@@ -336,7 +342,7 @@ impl<'m> Deriving<'m> {
         // Common axes pay where a matrix is factored or passed on; beyond that size each way costs too much time.
         let ways = if freedoms(self.model) > MOST_COMPOSITE { 1 } else { AXES.len() };
         let mut candidates = Vec::new();
-        for (axes, name) in AXES.into_iter().zip(names).take(ways) {
+        for (axes, &name) in AXES.into_iter().zip(names).take(ways) {
             candidates.extend(self.candidate(
                 name,
                 Way { style: Style::Nested, method, axes, writing: self.writing },
@@ -417,15 +423,20 @@ impl<'m> Deriving<'m> {
                 all
             })?;
             let Some((_, results)) = found.into_iter().next() else { continue };
-            let mut lowering = Lowering::new(&self.graph);
-            let roots = lowering.run(&results);
-            let weight = lowering.to.cost(&roots).weight();
+            let weight = self.weight(&results);
             if least.is_none_or(|(known, _)| weight < known) {
                 least = Some((weight, writing));
             }
         }
         self.writing = least.map_or(Writing::PLAIN, |(_, writing)| writing);
         Ok(())
+    }
+
+    /// Of expressions as they are derived.
+    fn weight(&self, results: &[Scalar]) -> u32 {
+        let mut lowering = Lowering::new(&self.graph);
+        let roots = lowering.run(results);
+        lowering.to.cost(&roots).weight()
     }
 
     /// The same, with the definitions at hand.
@@ -491,7 +502,7 @@ impl<'m> Deriving<'m> {
         };
         let mut candidates = Vec::new();
         for &(method, names) in methods {
-            candidates.extend(self.in_all_axes(names, method, &kept, all)?);
+            candidates.extend(self.in_all_axes(&names, method, &kept, all)?);
         }
         if floats(model) && freedoms(model) <= MOST_COMPOSITE {
             let name = "composite rigid body, LDL^T, translations first";
@@ -519,7 +530,7 @@ impl<'m> Deriving<'m> {
             }
             Ok(results)
         };
-        let mut candidates = self.in_all_axes(METHODS[0].1, Method::Composite, &kept, all)?;
+        let mut candidates = self.in_all_axes(&METHODS[0].1, Method::Composite, &kept, all)?;
         for at in 0..MOST_STRUT_WAYS {
             let found = self.maybe(|e| {
                 let reduction = e.reduce()?;

@@ -398,6 +398,8 @@ pub enum Request {
     /// The equations as a residual for solvers of differential-algebraic equations.
     Residual,
     Kinematics,
+    /// Partial derivatives of forward and inverse dynamics.
+    Derivatives,
     /// The jump of velocities under an impulse.
     Impulse,
     /// Momenta, their rates, velocities from momenta.

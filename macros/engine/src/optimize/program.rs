@@ -265,6 +265,11 @@ pub enum FunctionKind {
     Guess,
     /// Roots in closed forms of loops that vanish where two solutions meet.
     DeadCentres,
+    /// Partial derivatives of the accelerations and of the rates of own states, R of them: R x DOF by displacements of the
+    /// position, R x DOF by velocities, R x own states, R x scalars of inputs, each row by row.
+    ForwardDerivatives,
+    /// The same of the efforts, DOF of them.
+    InverseDerivatives,
     /// The jump of the velocities; with constraints the multipliers and the rank of their system.
     Impulse,
     /// Momenta, by velocity coordinate.

@@ -4,6 +4,7 @@ mod check;
 mod conversions;
 mod costs;
 mod defaults;
+mod differentiable;
 mod equations;
 mod impulses;
 mod model;
@@ -31,6 +32,7 @@ pub(super) fn all(context: &Context<'_>) -> TokenStream {
         conversions::items(context),
         model::items(context),
         system::item(context),
+        differentiable::item(context),
         separable::item(context),
         impulses::items(context),
         parts::items(context),

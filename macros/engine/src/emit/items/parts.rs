@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::{defaults, space, structs};
+use super::{defaults, differentiable, space, structs};
 use crate::emit::layout::Group;
 use crate::emit::{Context, document, names};
 use crate::model::types::PartTypeId;
@@ -25,6 +25,7 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
             items.extend(defaults::implement(layout, group, owner));
             items.extend(match group {
                 Group::Velocity | Group::States => space::tangent(layout, group, owner),
+                Group::Input if differentiable::is_derived(context) => space::tangent(layout, group, owner),
                 Group::Position => space::configuration(layout, owner),
                 _ => TokenStream::new(),
             });

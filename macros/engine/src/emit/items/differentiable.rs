@@ -1,0 +1,152 @@
+//! Stage `emit`: `Differentiable`, by which implicit methods and equilibria take the exact derivatives of the model, and
+//! `Tangent` for its inputs.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use super::space;
+use crate::emit::arguments::input_type;
+use crate::emit::layout::{FieldKind, Group, Layout};
+use crate::emit::{Context, names, results};
+use crate::model::types::{InstanceId, PartTypeId};
+use crate::optimize::program::FunctionKind;
+
+/// Expands to `impl<T: Real> Differentiable for Model<T> { .. }` where forward dynamics and its derivatives have been
+/// derived.
+pub(super) fn item(context: &Context<'_>) -> TokenStream {
+    if !is_derived(context) {
+        return TokenStream::new();
+    }
+    let layout = &context.layout;
+    let mut tokens = if layout.is_empty(Group::Input, None) {
+        TokenStream::new()
+    } else {
+        space::tangent(layout, Group::Input, None)
+    };
+    if context.function(FunctionKind::ForwardDynamics).is_some() {
+        tokens.extend(differentiable(layout));
+    }
+    tokens
+}
+
+/// Whether there are derivatives.
+pub(super) fn is_derived(context: &Context<'_>) -> bool {
+    context.function(FunctionKind::ForwardDerivatives).is_some()
+}
+
+fn differentiable(layout: &Layout<'_>) -> TokenStream {
+    let krate = layout.krate();
+    let input = input_type(layout);
+    let places = places(layout);
+    let size = Literal::usize_unsuffixed(places.len());
+    let derivatives = quote!(self.forward_derivatives(t, state, input));
+    let is_plain = places.iter().enumerate().all(|(place, of)| *of == Some(place));
+    let jacobian = if is_plain {
+        quote!(#derivatives.jacobian())
+    } else {
+        let places = places.iter().map(|place| match place {
+            Some(place) => {
+                let place = Literal::usize_unsuffixed(*place);
+                quote!(#place)
+            }
+            None => quote!(usize::MAX),
+        });
+        quote!(#derivatives.jacobian_at(&[#(#places),*]))
+    };
+    let along = input_derivative(layout, &derivatives);
+    quote! {
+        impl<T: Real> #krate::Differentiable for Model<T> {
+            type Matrix = [[T; #size]; #size];
+
+            fn jacobian(&self, t: T, state: &State<T>, input: &#input) -> #krate::Jacobian<[[T; #size]; #size]> {
+                #jacobian
+            }
+            #along
+        }
+    }
+}
+
+/// Expands to `fn input_derivative(..) -> (Velocity<T>, ()) { .. }`.
+fn input_derivative(layout: &Layout<'_>, derivatives: &TokenStream) -> TokenStream {
+    let krate = layout.krate();
+    let input = input_type(layout);
+    let has_states = layout.has_states();
+    let extra = if has_states { quote!(States<T>) } else { quote!(()) };
+    if layout.is_empty(Group::Input, None) {
+        let rest = if has_states { quote!(#krate::Tangent::<T>::zero()) } else { quote!(()) };
+        return quote! {
+            fn input_derivative(&self, _t: T, _state: &State<T>, _input: &(), _change: &()) -> (Velocity<T>, #extra) {
+                (#krate::Tangent::<T>::zero(), #rest)
+            }
+        };
+    }
+    let changes = layout.table(Group::Input).entries.iter().flat_map(|entry| {
+        let path = layout.leaf_path(entry);
+        (0..entry.leaf.size()).map(move |component| {
+            let access = entry.leaf.access(component);
+            quote!(change #path #access)
+        })
+    });
+    let count = layout.dof() + layout.table(Group::States).size;
+    let rates = names::ident(if count == 0 { "_rates" } else { "rates" });
+    let list: Vec<TokenStream> = (0..count)
+        .map(|at| {
+            let at = Literal::usize_unsuffixed(at);
+            quote!(#rates[#at])
+        })
+        .collect();
+    let (velocities, states) = list.split_at(layout.dof());
+    let velocities = results::filled(layout, Group::Velocity, velocities);
+    let states = if has_states { results::filled(layout, Group::States, states) } else { quote!(()) };
+    quote! {
+        fn input_derivative(
+            &self,
+            t: T,
+            state: &State<T>,
+            input: &#input,
+            change: &#input,
+        ) -> (Velocity<T>, #extra) {
+            let #rates = #derivatives.along_input(&[#(#changes),*]);
+            (#velocities, #states)
+        }
+    }
+}
+
+/// Where integrators find the velocities and own states: the place of each component among all, or nothing for the
+/// components of a part's struct that this instance of the part does not have.
+fn places(layout: &Layout<'_>) -> Vec<Option<usize>> {
+    let mut places = Vec::new();
+    walk(layout, Group::Velocity, None, InstanceId(0), &mut places);
+    let velocities = places.len();
+    walk(layout, Group::States, None, InstanceId(0), &mut places);
+    for place in places.iter_mut().skip(velocities).flatten() {
+        *place += layout.dof();
+    }
+    places
+}
+
+/// In the order of the fields.
+fn walk(
+    layout: &Layout<'_>,
+    group: Group,
+    owner: Option<PartTypeId>,
+    instance: InstanceId,
+    places: &mut Vec<Option<usize>>,
+) {
+    for field in layout.fields(group, owner) {
+        match &field.kind {
+            FieldKind::Leaf(leaf) => {
+                let entry = layout.find(group, instance, &field.name);
+                places.extend((0..leaf.size()).map(|k| entry.map(|entry| entry.offset + k)));
+            }
+            FieldKind::Part(part, count) => {
+                // A struct of the part that this instance has not is full of zeros.
+                let mut children = layout.children(instance, &field.name).into_iter();
+                for _ in 0..count.unwrap_or(1) {
+                    let child = children.next().unwrap_or(InstanceId(usize::MAX));
+                    walk(layout, group, Some(*part), child, places);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! Stage `mechanics`, its whole: partial derivatives.
+//!
+//! In: what the model asks for. Out: candidates for the derivatives of forward and inverse dynamics.
+
+use crate::mechanics::analysis::Complaint;
+use crate::mechanics::equations::{Equations, Method};
+use crate::mechanics::linearisation::Accumulation;
+use crate::mechanics::reduction::Reduction;
+use crate::symbolic::graph::Scalar;
+
+use super::{Candidate, Deriving};
+
+/// Ways to derivatives. From the results' side common axes cost more than they save.
+const SIDES: [(Accumulation, &[&str]); 3] = [
+    (
+        Accumulation::Forward,
+        &[
+            "differentiated recursion, by columns",
+            "differentiated recursion, by columns, parallel hinges in the axes of their base",
+            "differentiated recursion, by columns, parallel hinges in the axes of their tip",
+        ],
+    ),
+    (Accumulation::Reverse, &["differentiated recursion, by rows"]),
+    (Accumulation::Weighted, &["differentiated recursion, by rows of the inverse mass matrix"]),
+];
+
+impl<'m> Deriving<'m> {
+    /// Derivatives of forward dynamics.
+    pub(super) fn forward_derivatives(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        self.linearised(&SIDES, |e, reduction, side| e.forward_derivatives(reduction, side))
+    }
+
+    /// Derivatives of inverse dynamics.
+    pub(super) fn inverse_derivatives(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        self.linearised(&SIDES[..2], |e, reduction, side| e.inverse_derivatives(reduction, side))
+    }
+
+    fn linearised(
+        &mut self,
+        sides: &[(Accumulation, &[&'static str])],
+        f: impl Fn(&mut Equations<'m>, &Reduction, Accumulation) -> Vec<Scalar>,
+    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        let mut candidates = Vec::new();
+        for &(side, names) in sides {
+            candidates.extend(self.in_all_axes(names, Method::Composite, &[], |e| {
+                let reduction = e.reduce()?;
+                Ok(f(e, &reduction, side))
+            })?);
+        }
+        // The functions are long: only ways that may come out as the cheapest are worth optimising.
+        let weights: Vec<u32> = candidates.iter().map(|candidate| self.weight(&candidate.1)).collect();
+        let least = weights.iter().copied().min().unwrap_or(0);
+        let mut kept = weights.into_iter().map(|weight| 10 * weight <= 11 * least);
+        candidates.retain(|_| kept.next() == Some(true));
+        Ok(candidates)
+    }
+}
