@@ -56,7 +56,7 @@ impl<T: Real, const R: usize, const N: usize, const X: usize, const U: usize> De
         let mut sum = [T::lit(0.0); R];
         for (column, &change) in self.input.as_slice().chunks_exact(R.max(1)).zip(change) {
             for (sum, &slope) in sum.iter_mut().zip(column) {
-                *sum = *sum + slope * change;
+                *sum += slope * change;
             }
         }
         sum
