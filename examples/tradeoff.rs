@@ -71,9 +71,11 @@ fn summary(benches: &[Bench]) -> String {
     let scenes: Vec<String> = benches.iter().map(table::scene).collect();
     format!(
         "{}\n## The choice of `simulate`\n\n{}\n## Recommendation\n\n\
-         In brackets: cost over that of the best in each scene, the mean over evaluations and time.\n\n{}",
+         In brackets: cost over that of the best in each scene, the mean over evaluations and time.\n\n{}\n\
+         ## Single precision\n\n{}",
         scenes.join("\n"),
         table::chosen(benches),
         table::advice(&advice::advice(benches)),
+        table::single(&advice::single(benches)),
     )
 }

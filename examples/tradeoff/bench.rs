@@ -40,7 +40,7 @@ impl Effort {
     };
     pub(crate) const QUICK: Self = Self {
         step_factor: 4.0,
-        tolerance_factor: 100.0,
+        tolerance_factor: 10.0,
         budget: 5_000.0,
         passes: 1,
         timing: Duration::from_micros(100),
@@ -151,6 +151,12 @@ impl Bench {
         (0..).map(move |k| end / (end / first * factor.powi(k)).round())
     }
 
+    /// Accuracies to ask for.
+    pub(crate) fn accuracies(&self) -> impl Iterator<Item = f64> + 'static {
+        let factor = self.effort.tolerance_factor;
+        (0..).map(move |k| 1e-1 / factor.powi(k)).take_while(|accuracy| *accuracy > 1e-15)
+    }
+
     /// Steps of one length, from long to short ones.
     pub(crate) fn fixed<S, M>(&mut self, series: Series, subject: &Rc<Subject<S>>, method: M)
     where
@@ -186,9 +192,9 @@ impl Bench {
         S: System<Input = ()> + 'static,
         M: Method<S> + 'static,
     {
-        let end = self.truth.end;
+        let (end, most) = (self.truth.end, (2.0 * self.effort.budget) as u32);
         self.runs(series, settings, subject, |setting| {
-            let integrator = integrator(setting).max_steps(2_000_000);
+            let integrator = integrator(setting).max_steps(most);
             move |subject: &Subject<S>, observe: &mut dyn FnMut(f64, &S::State)| {
                 integrator.integrate(&subject.system, 0.0, end, &subject.start, &(), observe)
             }
@@ -261,7 +267,7 @@ impl Bench {
                 break;
             }
         }
-        print!("\r  {}: {} runs", self.scene.name, self.points.len());
+        print!("\r  {}: {} runs, {:<20}", self.scene.name, self.points.len(), series.method);
         let _ = std::io::stdout().flush();
     }
 

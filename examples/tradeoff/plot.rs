@@ -24,7 +24,7 @@ fn method(series: Series) -> Style {
         "Dop853" => "#0072b2",
         "Radau" => "#d55e00",
         "GeneralisedAlpha" => "#8c5a2b",
-        _ => "#000000",
+        _ => "#000000", // simulate
     };
     let mark = match series.order {
         0..=2 => Mark::Circle,
@@ -33,8 +33,8 @@ fn method(series: Series) -> Style {
         _ => Mark::Triangle,
     };
     let fixed_too = matches!(series.method, "DormandPrince" | "Dop853") && series.steps == Steps::Fixed;
-    let width = if series.method == "simulate" { 2.4 } else { 1.5 };
-    Style { colour, mark, dashed: fixed_too || series.method == "Euler", width }
+    let width = if series.method.starts_with("simulate") { 2.4 } else { 1.5 };
+    Style { colour, mark, dashed: fixed_too || matches!(series.method, "Euler" | "simulate_stiff"), width }
 }
 
 /// A way to keep loops closed.
@@ -76,7 +76,7 @@ fn short(series: Series) -> String {
 /// The method's name and its steps.
 pub(crate) fn long(series: Series) -> String {
     match (series.method, series.steps) {
-        ("simulate", _) => "simulate".to_owned(),
+        (name @ ("simulate" | "simulate_stiff"), _) => name.to_owned(),
         (name, Steps::Adaptive) => format!("{name}, adaptive"),
         (name, Steps::Fixed) => format!("{name}, fixed"),
     }

@@ -3,13 +3,15 @@
 use std::rc::Rc;
 
 use multibody::{
-    Canonical, Composition4, Composition6, Constrained, Differentiable, Dop853, DormandPrince, Euler, GaussLegendre4,
-    GaussLegendre6, GeneralisedAlpha, ImplicitMidpoint, Impulsive, Integrator, Radau, Rk4, SemiImplicitEuler,
-    Separable, SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint, System, Verlet, WithBaumgarte, simulate,
+    Canonical, Composition4, Composition6, Constrained, Differentiable, Dop853, DormandPrince, Euler, GaussLegendre4, GaussLegendre6,
+    GeneralisedAlpha, ImplicitMidpoint, Impulsive, Integrator, Radau, Rk4, SemiImplicitEuler, Separable, SymplecticGauss4,
+    SymplecticGauss6, SymplecticMidpoint, System, Verlet, WithBaumgarte, simulate,
+    simulate_stiff,
 };
 
 use crate::bench::{Bench, Effort, Kind, Scene, Series, Steps};
 use crate::growth::growth;
+use crate::models;
 use crate::mechanisms::{
     andrews, andrews_loops, double_pendulum, four_bar, four_bar_loop, free_body, governor, panda, pendulum, stewart,
     stewart_loops,
@@ -35,9 +37,11 @@ pub(crate) fn run(name: &'static str, effort: Effort) -> Bench {
             separable(&mut bench, &single, "f32");
             bench
         }
-        "mild" => {
-            double(scene("mild", "Double pendulum, regular motion, 10 s", Kind::Open, 0.25, true), effort, [0.5, 0.8])
-        }
+        "mild" => double(
+            scene("mild", "Double pendulum, regular motion, 10 s", Kind::Open, 0.25, true),
+            effort,
+            [0.5, 0.8],
+        ),
         "chaotic" => double(
             scene("chaotic", "Double pendulum, chaotic motion, 5 s", Kind::Chaotic, 0.1, true),
             effort,
@@ -125,11 +129,32 @@ fn start<S: System<Scalar = f64, Input = ()>>(scene: Scene, effort: Effort, subj
         (least, most) = (least.min(kinetic), most.max(kinetic));
     };
     let accurate = Integrator::adaptive(DormandPrince, 1e-13, 1e-13);
-    let (end, _) =
-        accurate.integrate(&subject.system, 0.0, truth.end, &subject.start, &(), watch).expect("smooth motion");
+    let (end, _) = accurate.integrate(&subject.system, 0.0, truth.end, &subject.start, &(), watch).expect("smooth motion");
     let energy = (subject.laws)(&end).energy;
     let scale = if scene.conservative { 1.0 + energy.abs() } else { 1.0 + (most - least) };
-    Bench::new(scene, truth, effort, growth, (energy, scale))
+    let jacobian = derivatives(scene.name);
+    let mut bench = Bench::new(scene, truth, effort, growth, (energy, scale));
+    bench.jacobian = jacobian;
+    bench
+}
+
+/// What an evaluation of derivatives costs, in evaluations: by operations.
+fn derivatives(scene: &str) -> f64 {
+    let costs = match scene {
+        "pendulum" => models::pendulum::COSTS,
+        "mild" | "chaotic" => models::double_pendulum::COSTS,
+        "free_body" => models::free_body::COSTS,
+        "panda" => models::panda::COSTS,
+        "four_bar" => models::four_bar::COSTS,
+        "andrews" => models::andrews::COSTS,
+        "stewart" => models::stewart::COSTS,
+        _ => models::governor::COSTS,
+    };
+    let operations = |function: &str| {
+        let of = costs.iter().find(|cost| cost.function == function);
+        of.map_or(1.0, |c| f64::from(c.add + c.mul + c.other) + 8.0 * f64::from(c.div + c.sqrt) + 20.0 * f64::from(c.sincos))
+    };
+    operations("forward_derivatives") / operations("forward_dynamics")
 }
 
 /// Methods for any system.
@@ -153,6 +178,9 @@ fn general<S: Differentiable<Input = ()> + Clone + 'static>(
     bench.adaptive(by("Radau", handling, scalar), &subject, Radau);
     bench.fixed(by("GeneralisedAlpha", handling, scalar), &subject, GeneralisedAlpha::new(0.8));
     chosen(bench, &subject, handling, scalar);
+    if bench.scene.kind == Kind::Stiff {
+        chosen_for_stiff(bench, &subject, scalar);
+    }
 }
 
 /// The method that is chosen by itself.
@@ -162,12 +190,26 @@ fn chosen<S: System<Input = ()> + Clone + 'static>(
     handling: &'static str,
     scalar: &'static str,
 ) {
-    let (end, factor) = (bench.truth.end, bench.effort.tolerance_factor);
-    let accuracies = (0..).map(move |k| 1e-1 / factor.powi(k)).take_while(|accuracy| *accuracy > 1e-15);
+    let (end, accuracies) = (bench.truth.end, bench.accuracies());
     let series = Series { steps: Steps::Adaptive, ..by("simulate", handling, scalar) };
     bench.runs(series, accuracies, &Rc::new(subject.clone()), move |accuracy| {
         move |subject: &Subject<S>, observe: &mut dyn FnMut(f64, &S::State)| {
             simulate(&subject.system, 0.0, end, &subject.start, &(), accuracy, observe)
+        }
+    });
+}
+
+/// The one that is chosen for stiff systems.
+fn chosen_for_stiff<S: Differentiable<Input = ()> + Clone + 'static>(
+    bench: &mut Bench,
+    subject: &Subject<S>,
+    scalar: &'static str,
+) {
+    let (end, accuracies) = (bench.truth.end, bench.accuracies());
+    let series = Series { steps: Steps::Adaptive, ..by("simulate_stiff", "", scalar) };
+    bench.runs(series, accuracies, &Rc::new(subject.clone()), move |accuracy| {
+        move |subject: &Subject<S>, observe: &mut dyn FnMut(f64, &S::State)| {
+            simulate_stiff(&subject.system, 0.0, end, &subject.start, &(), accuracy, observe)
         }
     });
 }

@@ -109,6 +109,6 @@ pub use projection::{
 };
 pub use scalar::{Real, all, any};
 pub use simba;
-pub use simulate::simulate;
+pub use simulate::{simulate, simulate_stiff};
 pub use system::{ExtraOf, PositionOf, StateSpace, System, VelocityOf};
 pub use tangent::Tangent;
