@@ -51,9 +51,8 @@ fn solved(series: Series) -> bool {
 
 fn one(benches: &[Bench], kind: Kind, name: &'static str, admitted: fn(Series) -> bool) -> Advice {
     let of_kind = || benches.iter().filter(|bench| bench.scene.kind == kind);
-    let candidate = |series: Series| {
-        series.scalar == "f64" && !series.method.starts_with("simulate") && admitted(series)
-    };
+    let candidate =
+        |series: Series| series.scalar == "f64" && !series.method.starts_with("simulate") && admitted(series);
     let of = |conservative: bool| -> Vec<Vec<Curve<'_>>> {
         let scenes = of_kind().filter(|bench| bench.scene.conservative || !conservative);
         scenes.map(|bench| curves(bench).into_iter().filter(|curve| candidate(curve.series)).collect()).collect()

@@ -3,19 +3,19 @@
 use std::rc::Rc;
 
 use multibody::{
-    Canonical, Composition4, Composition6, Constrained, Differentiable, Dop853, DormandPrince, Euler, GaussLegendre4, GaussLegendre6,
-    GeneralisedAlpha, ImplicitMidpoint, Impulsive, Integrator, Radau, Rk4, SemiImplicitEuler, Separable, SymplecticGauss4,
-    SymplecticGauss6, SymplecticMidpoint, System, Verlet, WithBaumgarte, simulate,
+    Canonical, Composition4, Composition6, Constrained, Differentiable, Dop853, DormandPrince, Euler, GaussLegendre4,
+    GaussLegendre6, GeneralisedAlpha, ImplicitMidpoint, Impulsive, Integrator, Radau, Rk4, SemiImplicitEuler,
+    Separable, SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint, System, Verlet, WithBaumgarte, simulate,
     simulate_stiff,
 };
 
 use crate::bench::{Bench, Effort, Kind, Scene, Series, Steps};
 use crate::growth::growth;
-use crate::models;
 use crate::mechanisms::{
     andrews, andrews_loops, double_pendulum, four_bar, four_bar_loop, free_body, governor, panda, pendulum, stewart,
     stewart_loops,
 };
+use crate::models;
 use crate::reference::Truth;
 use crate::subject::Subject;
 
@@ -37,11 +37,9 @@ pub(crate) fn run(name: &'static str, effort: Effort) -> Bench {
             separable(&mut bench, &single, "f32");
             bench
         }
-        "mild" => double(
-            scene("mild", "Double pendulum, regular motion, 10 s", Kind::Open, 0.25, true),
-            effort,
-            [0.5, 0.8],
-        ),
+        "mild" => {
+            double(scene("mild", "Double pendulum, regular motion, 10 s", Kind::Open, 0.25, true), effort, [0.5, 0.8])
+        }
         "chaotic" => double(
             scene("chaotic", "Double pendulum, chaotic motion, 5 s", Kind::Chaotic, 0.1, true),
             effort,
@@ -129,7 +127,8 @@ fn start<S: System<Scalar = f64, Input = ()>>(scene: Scene, effort: Effort, subj
         (least, most) = (least.min(kinetic), most.max(kinetic));
     };
     let accurate = Integrator::adaptive(DormandPrince, 1e-13, 1e-13);
-    let (end, _) = accurate.integrate(&subject.system, 0.0, truth.end, &subject.start, &(), watch).expect("smooth motion");
+    let (end, _) =
+        accurate.integrate(&subject.system, 0.0, truth.end, &subject.start, &(), watch).expect("smooth motion");
     let energy = (subject.laws)(&end).energy;
     let scale = if scene.conservative { 1.0 + energy.abs() } else { 1.0 + (most - least) };
     let jacobian = derivatives(scene.name);
@@ -152,7 +151,9 @@ fn derivatives(scene: &str) -> f64 {
     };
     let operations = |function: &str| {
         let of = costs.iter().find(|cost| cost.function == function);
-        of.map_or(1.0, |c| f64::from(c.add + c.mul + c.other) + 8.0 * f64::from(c.div + c.sqrt) + 20.0 * f64::from(c.sincos))
+        of.map_or(1.0, |c| {
+            f64::from(c.add + c.mul + c.other) + 8.0 * f64::from(c.div + c.sqrt) + 20.0 * f64::from(c.sincos)
+        })
     };
     operations("forward_derivatives") / operations("forward_dynamics")
 }

@@ -138,7 +138,9 @@ pub(crate) struct Ratio {
 /// At all accuracies that were run. Precision and the handling of loops are those of `simulate`.
 pub(crate) fn ratios(bench: &Bench) -> Vec<Ratio> {
     let all = curves(bench);
-    let Some(chosen) = all.iter().rev().find(|curve| curve.series.method.starts_with("simulate")) else { return Vec::new() };
+    let Some(chosen) = all.iter().rev().find(|curve| curve.series.method.starts_with("simulate")) else {
+        return Vec::new();
+    };
     let same = |curve: &&Curve<'_>| {
         let (one, other) = (curve.series, chosen.series);
         one.scalar == other.scalar && one.handling == other.handling && !one.method.starts_with("simulate")

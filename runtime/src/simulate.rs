@@ -59,7 +59,8 @@ pub fn simulate<S: System>(
     let [eight, five, _] = SHARES;
     if accuracy > LOOSE {
         let tolerance = tolerance::<S>(five * accuracy, accuracy)?;
-        return Integrator::adaptive(DormandPrince, tolerance, tolerance).integrate(system, t0, t1, state, input, observe);
+        return Integrator::adaptive(DormandPrince, tolerance, tolerance)
+            .integrate(system, t0, t1, state, input, observe);
     }
     let tolerance = tolerance::<S>(eight * accuracy, accuracy)?;
     Integrator::adaptive(Dop853, tolerance, tolerance).integrate(system, t0, t1, state, input, observe)
