@@ -9,6 +9,7 @@ use multibody_engine::optimize::program::Cost;
 use multibody_tests::models::{arms, motion, small};
 use multibody_tests::support::data::path;
 use multibody_tests::support::ledger::{Row, Written, all, flops};
+use multibody_tests::support::required::{CASES, Case};
 
 /// Additions, products, quotients that others need, for arms whose every number is a literal.
 struct Bar {
@@ -86,6 +87,17 @@ fn written() -> String {
         let (hand, prototype, goal) = (column(hand), column(prototype), column(goal));
         let (after, sum) = (Written(cost), flops(cost));
         writeln!(text, "| {model} | {function} | {after} | {sum} | {hand} | {prototype} | {goal} |").unwrap();
+    }
+    text += "\n## Only what a scene requires\n\n\
+             Mechanisms with things left out, beside what a person reduces them to by hand. Sums of additions, products,\n\
+             quotients and roots; sines with their cosines.\n\n\
+             | model | function | emitted | by hand | what is left by hand |\n\
+             |---|---|---|---|---|\n";
+    for case in CASES {
+        let cost = literals(case.model, case.function);
+        let Case { model, function, form, .. } = case;
+        let (flops, sincos, hand, sines) = (flops(cost), cost.sincos, case.flops(), case.sincos());
+        writeln!(text, "| {model} | {function} | {flops}, {sincos} | {hand}, {sines} | {form} |").unwrap();
     }
     text
 }

@@ -95,6 +95,51 @@ fn a_loop_that_cannot_close() {
 }
 
 #[test]
+fn jumps_and_momenta_that_cannot_be() {
+    let body = "body b { mass: 1.0, inertia: diag(1.0, 1.0, 2.0) }";
+    let help = "take a symmetric method, which integrates positions and velocities";
+    let ball = "joint eye: Ball { parent: ground, child: b }";
+    assert_said(
+        &format!("{body} {ball} emit forward_dynamics, momentum;"),
+        &format!(
+            "momentum | the velocities of `eye` are no rates of coordinates, so they have no momenta \
+             | write `coordinates: RollPitchYaw` there, or {help}"
+        ),
+    );
+    let angles = ball.replace("child: b", "child: b, coordinates: RollPitchYaw");
+    assert_eq!(said(&format!("{body} {angles} emit momentum, impulse;")), Vec::<String>::new());
+    assert_eq!(said(&format!("{body} {ball} emit impulse;")), Vec::<String>::new());
+    let hinge = "joint hinge: Revolute { parent: ground, child: b, axis: X }";
+    let state = "state current: rate = -current, start: 1.0;";
+    assert_eq!(said(&format!("{body} {hinge} {state} emit impulse;")), Vec::<String>::new());
+    assert_said(
+        &format!("{body} {hinge} {state} emit impulse, momentum;"),
+        &format!("momentum | `momentum` has no place for states of your own | {help}"),
+    );
+    assert_said(
+        &format!("{FOUR_BAR} emit momentum, impulse;"),
+        &format!("momentum | `momentum` has no place for multipliers | write `constraints: Reduced`, or {help}"),
+    );
+    assert_eq!(said(&format!("{FOUR_BAR} {REDUCED} {SOLVED} emit momentum, impulse;")), Vec::<String>::new());
+    let newton = "knows no guess, and a loop of this model is closed by Newton's method | write a `solve` for the loop";
+    assert_said(&format!("{FOUR_BAR} {REDUCED} emit momentum;"), &format!("momentum | `momentum` {newton}"));
+    assert_said(
+        &format!("{FOUR_BAR} {REDUCED} emit impulse;"),
+        &format!("impulse | `impulse` {newton}, or `constraints: Multipliers`"),
+    );
+    // What moves by itself has a momentum of its own.
+    let carried = "body arm { mass: 1.0, com: X } joint crank: Revolute { parent: ground, child: arm, axis: Z }
+        joint hang: Revolute { parent: arm.at(X), child: b, axis: Z } emit impulse, momentum;";
+    assert_said(
+        &format!("{body} {carried} drive crank = 2.0 * t;"),
+        &format!("momentum | `momentum` belongs to coordinates alone, and some of this model follow the time | {help}"),
+    );
+    assert_eq!(said(&format!("{body} {carried} drive crank = 0.3;")), Vec::<String>::new());
+    assert_said(&format!("{body} {hinge} emit impulse {{ of: hinge }};"), "of | `impulse` has no options");
+    assert_said(&format!("{body} {hinge} emit momentum, momentum;"), "momentum | `momentum` is asked for twice");
+}
+
+#[test]
 fn a_loop_with_too_many_equations() {
     let triangle = "
         body a { mass: 1.0, inertia: diag(1.0, 1.0, 1.0) }

@@ -32,6 +32,15 @@ pub trait Configuration<T: Real>: Copy {
     /// Runge-Kutta method falls to second order.
     fn dexp_inv(d: &Self::Velocity, v: &Self::Velocity) -> Self::Velocity;
 
+    /// The displacement that does the work of two, `first` and then `second`: their sum, or `log(exp(first) exp(second))`
+    /// for rotations.
+    ///
+    /// Written by default as a sum.
+    #[inline]
+    fn compose(first: &Self::Velocity, second: &Self::Velocity) -> Self::Velocity {
+        first.add(second)
+    }
+
     /// The size of every coordinate, for relative tolerances: the coordinate itself (its sign does not matter), or
     /// one (radian) for rotations, which have no size.
     fn magnitude(&self) -> Self::Velocity;
@@ -114,6 +123,14 @@ impl<T: Real, Q: Configuration<T>, const N: usize> Configuration<T> for [Q; N] {
         let mut result = *v;
         for (v, d) in result.iter_mut().zip(d) {
             *v = Q::dexp_inv(d, v);
+        }
+        result
+    }
+    #[inline]
+    fn compose(first: &Self::Velocity, second: &Self::Velocity) -> Self::Velocity {
+        let mut result = *second;
+        for (second, first) in result.iter_mut().zip(first) {
+            *second = Q::compose(first, second);
         }
         result
     }

@@ -40,6 +40,8 @@
 //! - [`rotation`]: unit quaternions that stay of unit length.
 //! - [`Constrained`]: a model whose coordinates obey equations; [`assemble`] closes its loops, and [`projection`] keeps
 //!   them closed.
+//! - [`impact`]: impulses, and impacts with Newton's law, at joints and frames.
+//! - [`mod@equilibrium`]: states of rest and steady motions.
 //! - [`linear`]: small linear systems, with their rank and without a branch.
 //!
 //! # Conventions
@@ -69,8 +71,10 @@ mod constrained;
 pub mod coordinates;
 mod cost;
 mod differentiable;
+pub mod equilibrium;
 #[doc = include_str!("../docs/generated.md")]
 pub mod generated {}
+pub mod impact;
 mod impulsive;
 mod inertia;
 pub mod integrators;
@@ -80,6 +84,7 @@ pub mod linear;
 pub mod projection;
 pub mod rotation;
 mod scalar;
+mod simulate;
 mod system;
 mod tangent;
 
@@ -89,16 +94,21 @@ pub use constrained::{Constrained, Kinematics};
 pub use coordinates::{Cylindrical, FreeRollPitchYaw, Planar, Pose, RollPitchYaw, Twist, Universal, Wrench};
 pub use cost::Cost;
 pub use differentiable::{Derivatives, Differentiable, Jacobian};
+pub use equilibrium::{Equilibrium, EquilibriumError, Free, constrained_equilibrium, equilibrium, trim};
 pub use impulsive::Impulsive;
 pub use inertia::{ParamError, inertia_violation};
 pub use integrators::{
-    Dop853, DormandPrince, Euler, IntegrationError, Integrator, Method, Rk4, SemiImplicitEuler, Statistics, Steps,
-    Tolerance,
+    Composition4, Composition6, Dop853, DormandPrince, Euler, GaussLegendre4, GaussLegendre6, GeneralisedAlpha,
+    ImplicitMidpoint, IntegrationError, Integrator, Method, Radau, Rk4, SemiImplicitEuler, Statistics, Steps,
+    SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint, Tolerance, Verlet,
 };
 pub use multibody_macros::multibody;
 pub use nalgebra;
-pub use projection::{Assembled, AssemblyError, Projected, Projection, ProjectionError, WithProjection, assemble};
+pub use projection::{
+    Assembled, AssemblyError, Projected, Projection, ProjectionError, WithBaumgarte, WithProjection, WithRank, assemble,
+};
 pub use scalar::{Real, all, any};
 pub use simba;
+pub use simulate::{simulate, simulate_stiff};
 pub use system::{ExtraOf, PositionOf, StateSpace, System, VelocityOf};
 pub use tangent::Tangent;

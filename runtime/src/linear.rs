@@ -17,8 +17,10 @@
 // A pivot's neighbours are found by index in rows and in columns.
 #![allow(clippy::needless_range_loop)]
 
+mod factors;
 mod square;
 
+pub use factors::{ComplexFactors, Factors, Solve};
 pub use square::Square;
 
 use crate::Real;

@@ -73,14 +73,23 @@
 //! error is given if any lane fails; [`Projection::project_fixed`] has no errors and reports lane by lane.
 
 mod assembly;
+mod baumgarte;
 mod error;
+mod handed_on;
+mod rank;
+mod weighting;
 mod wrapper;
 
 pub use assembly::{Assembled, assemble};
+pub use baumgarte::WithBaumgarte;
 pub use error::{AssemblyError, ProjectionError};
+pub use rank::{WithRank, rank};
+pub use weighting::{ByMass, Plain, Weighting, Weights};
 pub use wrapper::WithProjection;
 
-use crate::{Configuration, Constrained, PositionOf, Real, StateSpace, System, Tangent, VelocityOf, all, any};
+use crate::{
+    Configuration, Constrained, Impulsive, PositionOf, Real, StateSpace, System, Tangent, VelocityOf, all, any,
+};
 
 /// Tolerances are at least this many roundings.
 const ROUNDINGS: f64 = 16.0;
@@ -88,7 +97,7 @@ const ROUNDINGS: f64 = 16.0;
 /// Brings states back to where the constraints are satisfied, after each step of an integrator.
 ///
 /// Of all displacements that do so the least is taken: that of the least sum of squares, of metres and radians alike,
-/// or weighted coordinate by coordinate. See the [module](self) for an example.
+/// or weighted coordinate by coordinate, or by the mass matrix. See the [module](self) for an example.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection {
     /// `[m]` or `[rad]`: greatest residual of a position. That of velocities, per second, is this times one plus the
@@ -137,7 +146,7 @@ impl Projection {
         t: S::Scalar,
         state: &S::State,
     ) -> Result<Projected<S::State, S::Scalar>, ProjectionError> {
-        self.project_weighted(system, t, state, &ones())
+        self.project_by(&Plain, system, t, state)
     }
 
     /// The same for other weights: the sum of `d^2 / weight` is least, and a coordinate of weight zero is held.
@@ -153,7 +162,34 @@ impl Projection {
         state: &S::State,
         weights: &VelocityOf<S>,
     ) -> Result<Projected<S::State, S::Scalar>, ProjectionError> {
-        self.run(system, t, state, weights).check()
+        self.project_by(&Weights(*weights), system, t, state)
+    }
+
+    /// The same weighted by the mass matrix: see [`ByMass`]. For models with `emit impulse`.
+    ///
+    /// # Errors
+    /// See [`ProjectionError`].
+    pub fn project_by_mass<S: Constrained + Impulsive<Rates = <S as Constrained>::Residual>>(
+        &self,
+        system: &S,
+        t: S::Scalar,
+        state: &S::State,
+    ) -> Result<Projected<S::State, S::Scalar>, ProjectionError> {
+        self.project_by(&ByMass, system, t, state)
+    }
+
+    /// The same for any weighting.
+    ///
+    /// # Errors
+    /// See [`ProjectionError`].
+    pub fn project_by<S: Constrained>(
+        &self,
+        weighting: &impl Weighting<S>,
+        system: &S,
+        t: S::Scalar,
+        state: &S::State,
+    ) -> Result<Projected<S::State, S::Scalar>, ProjectionError> {
+        self.run(weighting, system, t, state).check()
     }
 
     /// Exactly [`Projection::iterations`] corrections of the position and one of the velocities, whatever the numbers:
@@ -174,19 +210,29 @@ impl Projection {
         t: S::Scalar,
         state: &S::State,
     ) -> Projected<S::State, S::Scalar> {
-        let weights = ones();
+        self.project_fixed_by(&Plain, system, t, state)
+    }
+
+    /// The same for any weighting.
+    pub fn project_fixed_by<S: Constrained>(
+        &self,
+        weighting: &impl Weighting<S>,
+        system: &S,
+        t: S::Scalar,
+        state: &S::State,
+    ) -> Projected<S::State, S::Scalar> {
         let (mut q, mut v, x) = state.split();
         let mut rank = S::Scalar::lit(f64::NAN);
         let iterations = if self.position { self.iterations } else { 0 };
         for _ in 0..iterations {
             let residual = negative(&system.constraints(t, &q));
-            let (d, now) = system.correction(t, &q, &residual, &weights);
+            let (d, now) = weighting.correction(system, t, &q, &residual);
             q = q.displace(&d);
             rank = now;
         }
         if self.velocity {
             let rate = negative(&system.constraint_rate(t, &state.join(q, v, x)));
-            let (d, now) = system.correction(t, &q, &rate, &weights);
+            let (d, now) = weighting.correction(system, t, &q, &rate);
             v = v.add(&d);
             rank = now;
         }
@@ -195,7 +241,7 @@ impl Projection {
     }
 
     /// Newton's method on the position, one correction of the velocities, and how each lane fared.
-    fn run<S: Constrained>(&self, system: &S, t: S::Scalar, state: &S::State, weights: &VelocityOf<S>) -> Run<S> {
+    fn run<S: Constrained>(&self, weighting: &impl Weighting<S>, system: &S, t: S::Scalar, state: &S::State) -> Run<S> {
         let (mut q, v, x) = state.split();
         let mut residual = system.constraints(t, &q);
         let mut closed = if self.position { never::<S>() } else { !never::<S>() };
@@ -208,7 +254,7 @@ impl Projection {
             if all(settled) {
                 break;
             }
-            let (d, now) = system.correction(t, &q, &negative(&residual), weights);
+            let (d, now) = weighting.correction(system, t, &q, &negative(&residual));
             rank = Some(now);
             closed = closed | (!settled & at_rounding(system, t, &state.join(q, v, x), &d, &residual));
             q = q.displace(&d.map(&mut |d| Real::select(settled, S::Scalar::lit(0.0), d)));
@@ -220,9 +266,9 @@ impl Projection {
 
         let state = state.join(q, v, x);
         let motion = if self.velocity {
-            Motion::of(system, t, &state, weights, self.tolerance)
+            Motion::of(weighting, system, t, &state, self.tolerance)
         } else {
-            let rank = rank.unwrap_or_else(|| system.correction(t, &q, &S::Residual::zero(), weights).1);
+            let rank = rank.unwrap_or_else(|| weighting.correction(system, t, &q, &S::Residual::zero()).1);
             Motion { state, rank, rate: S::Scalar::lit(0.0), consistent: !never::<S>() }
         };
         Run { motion, residual: size, closed, iterations }
@@ -265,14 +311,14 @@ struct Motion<S: System> {
 impl<S: Constrained> Motion<S> {
     /// The equations are linear in the velocities, so one correction does it; a second one is for what rounding left
     /// near a singular configuration.
-    fn of(system: &S, t: S::Scalar, state: &S::State, weights: &VelocityOf<S>, tolerance: f64) -> Self {
+    fn of(weighting: &impl Weighting<S>, system: &S, t: S::Scalar, state: &S::State, tolerance: f64) -> Self {
         let (q, mut v, x) = state.split();
         let position = closeness::<S>(tolerance, &q);
         let mut rate = system.constraint_rate(t, state);
         let mut rank = S::Scalar::lit(0.0);
         let mut consistent = never::<S>();
         for _ in 0..2 {
-            let (d, now) = system.correction(t, &q, &negative(&rate), weights);
+            let (d, now) = weighting.correction(system, t, &q, &negative(&rate));
             let at_rounding = at_rounding(system, t, &state.join(q, v, x), &d, &rate);
             v = v.zip(&d, &mut |v, d| Real::select(consistent, v, v + d));
             rate = system.constraint_rate(t, &state.join(q, v, x));

@@ -15,6 +15,8 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 /// [rad^2] below this square of an angle, series are used: all terms kept, they are exact to rounding in `f64`.
 const SMALL: f64 = 0.25;
+/// Below this square of a sine, three terms of the arcsine's series are exact to rounding in `f64`.
+const TINY: f64 = 1e-6;
 
 /// `q * exp(d)`: the rotation `q` followed by one about the axis `d`, in child axes, by the angle `|d|`.
 ///
@@ -116,6 +118,34 @@ pub fn dexp_inv<T: Real>(d: &Vector3<T>, v: &Vector3<T>) -> Vector3<T> {
 
     let dv = d.cross(v);
     v + dv * T::lit(0.5) + d.cross(&dv) * c
+}
+
+/// `log(exp(first) * exp(second))`: the displacement that does the work of two, its angle below a whole turn.
+///
+/// ```
+/// use multibody::{nalgebra::Vector3, rotation};
+///
+/// let both = rotation::compose(&Vector3::new(0.0, 0.0, 0.5), &Vector3::new(0.0, 0.0, 0.75));
+/// assert!((both.z - 1.25_f64).abs() < 1e-15);
+/// ```
+#[inline]
+pub fn compose<T: Real>(first: &Vector3<T>, second: &Vector3<T>) -> Vector3<T> {
+    let (aw, [ax, ay, az]) = exponential(first);
+    let (bw, [bx, by, bz]) = exponential(second);
+    let w = aw * bw - ax * bx - ay * by - az * bz;
+    let u = Vector3::new(
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+    );
+    // 2 asin(s) / s = 2 + s^2/3 + 3 s^4/20 + ..
+    let sine2 = square(&u);
+    let small = Real::lt(sine2, T::lit(TINY)) & Real::gt(w, T::lit(0.0));
+    let series = horner(sine2, [2.0, 1.0 / 3.0, 3.0 / 20.0]);
+    let sine = Real::sqrt(Real::select(small, T::lit(1.0), sine2));
+    let closed = T::lit(2.0) * Real::atan2(sine, w) / sine;
+    let scale = Real::select(small, series, closed);
+    Vector3::new(scale * u.x, scale * u.y, scale * u.z)
 }
 
 /// The rotation by the angle `|d|` about the axis `d`.

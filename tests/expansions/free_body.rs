@@ -327,6 +327,13 @@ pub mod free_body {
                 > as ::multibody::Configuration<T>>::dexp_inv(&d.free, &v.free),
             }
         }
+        fn compose(first: &Velocity<T>, second: &Velocity<T>) -> Velocity<T> {
+            Velocity {
+                free: <::multibody::Pose<
+                    T,
+                > as ::multibody::Configuration<T>>::compose(&first.free, &second.free),
+            }
+        }
         fn magnitude(&self) -> Velocity<T> {
             Velocity {
                 free: ::multibody::Configuration::magnitude(&self.free),

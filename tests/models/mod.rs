@@ -1,6 +1,7 @@
 //! Mechanisms as users write them, compiled once for all tests.
 
 pub mod arms;
+pub mod energy;
 pub mod extremes;
 pub mod hundred_rods;
 pub mod impulses;
@@ -11,5 +12,7 @@ pub mod loops;
 pub mod mechanisms;
 pub mod motion;
 pub mod random;
+pub mod required;
 pub mod small;
 pub mod stewart;
+pub mod stiff;

@@ -57,6 +57,10 @@ pub fn count(model: &Model, params: bool) -> Vec<Row> {
     rows.collect()
 }
 
+/// Models of `models/impulses.rs`, and functions of them.
+const IMPULSES: [&str; 4] = ["rods", "crane", "four_bar", "stretched"];
+const MOMENTA: [&str; 5] = ["forward_dynamics", "impulse", "momentum", "momentum_rate", "velocity"];
+
 /// All models that the ledger keeps. The arms stand in their file in both forms, the others with params.
 pub fn all() -> Vec<Row> {
     let mut rows = Vec::new();
@@ -68,6 +72,16 @@ pub fn all() -> Vec<Row> {
             models(literal(call.clone())).iter().for_each(|model| rows.extend(count(model, false)));
             models(call).iter().for_each(|model| rows.extend(count(model, true)));
         }
+    }
+    // What answers to impulses, and what has momenta.
+    for model in calls("models/impulses.rs").into_iter().flat_map(|call| models(literal(call))) {
+        let mut counted = count(&model, false);
+        counted.retain(|row| IMPULSES.contains(&&*row.model) && MOMENTA.contains(&&*row.function));
+        counted.iter_mut().for_each(|row| row.model = format!("momenta, {}", row.model));
+        rows.extend(counted);
+    }
+    for model in calls("models/required.rs").into_iter().flat_map(models) {
+        rows.extend(count(&model, false));
     }
     // The platform in several coordinates: everything literal.
     for model in calls("models/stewart.rs").into_iter().flat_map(|call| models(literal(call))) {

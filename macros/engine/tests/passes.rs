@@ -24,7 +24,7 @@ use multibody_engine::model::types::{InputId, JointId, ParamId};
 use multibody_engine::optimize::dag::{Dag, Kind};
 use multibody_engine::optimize::program::{FunctionKind, Symbol};
 use multibody_engine::optimize::{
-    angles, balance, common, compile, factor, fields, flatten, multiples, simplify, stage,
+    angles, balance, common, compile, factor, fields, flatten, linear, multiples, simplify, stage,
 };
 use multibody_engine::symbolic::graph::{Graph, Scalar, ScalarNode};
 use multibody_engine::symbolic::identity::{Verdict, close, identical};
@@ -39,7 +39,8 @@ const TOLERANCE: f64 = 1e-7;
 
 type Pass = (&'static str, fn(&mut Dag));
 
-const FIRST: [Pass; 3] = [("flatten", flatten::flatten), ("angles", angles::angles), ("split", stage::split)];
+const FIRST: [Pass; 4] =
+    [("flatten", flatten::flatten), ("angles", angles::angles), ("split", stage::split), ("combine", linear::combine)];
 const ROUND: [Pass; 6] = [
     ("factor", factor::factor),
     ("flatten", flatten::flatten),

@@ -73,6 +73,10 @@ impl<T: Real> Configuration<T> for UnitQuaternion<T> {
     fn dexp_inv(d: &Vector3<T>, v: &Vector3<T>) -> Vector3<T> {
         rotation::dexp_inv(d, v)
     }
+    #[inline]
+    fn compose(first: &Vector3<T>, second: &Vector3<T>) -> Vector3<T> {
+        rotation::compose(first, second)
+    }
     /// The square of the quaternion's length: one, or NaN where the quaternion is no longer a number.
     #[inline]
     fn magnitude(&self) -> Vector3<T> {
@@ -101,6 +105,13 @@ impl<T: Real> Configuration<T> for Pose<T> {
     #[inline]
     fn dexp_inv(d: &Twist<T>, v: &Twist<T>) -> Twist<T> {
         Twist { linear: v.linear, angular: rotation::dexp_inv(&d.angular, &v.angular) }
+    }
+    #[inline]
+    fn compose(first: &Twist<T>, second: &Twist<T>) -> Twist<T> {
+        Twist {
+            linear: Tangent::add(&first.linear, &second.linear),
+            angular: rotation::compose(&first.angular, &second.angular),
+        }
     }
     #[inline]
     fn magnitude(&self) -> Twist<T> {

@@ -151,6 +151,18 @@ impl Control {
         self.step
     }
 
+    /// Takes another length for the next step.
+    pub(super) const fn change_step(&mut self, step: f64) {
+        self.step = step;
+    }
+
+    /// After a jump that followed a step of this length: what was learnt from errors is void, the scale remains.
+    pub(super) fn restart(&mut self, length: f64) {
+        self.step = Real::min(self.step.abs(), length.abs()).copysign(length);
+        self.memory = 1e-4;
+        self.after_rejection = false;
+    }
+
     /// Whether a step is below the least one.
     pub(super) fn is_too_short(&self, t: f64, length: f64) -> bool {
         length.abs() <= Real::max(self.min_step, 10.0 * f64::EPSILON * t.abs())

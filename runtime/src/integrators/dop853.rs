@@ -8,7 +8,7 @@ mod tableau;
 use super::dense::Dense;
 use super::method::{Attempt, Method, inherent};
 use super::problem::{Problem, Step};
-use super::slope::{SlopeOf, combination, displaced, rate_of_displacement};
+use super::slope::{SlopeOf, advance_by, combination, displaced, rate_of_displacement};
 use crate::{Real, StateSpace, System, Tangent};
 use tableau as tab;
 
@@ -57,7 +57,8 @@ impl<S: System> Method<S> for Dop853 {
         let k11 = at(c11, &combination(dt, tab::A11, [k1, &k4, &k5, &k6, &k7, &k8, &k9, &k10]));
         let k12 = at(c12, &combination(dt, tab::A12, [k1, &k4, &k5, &k6, &k7, &k8, &k9, &k10, &k11]));
         let stages = [k1, &k6, &k7, &k8, &k9, &k10, &k11, &k12];
-        let displacement = combination(dt, tab::B, stages);
+        let [_, ref rest @ ..] = tab::B;
+        let displacement = advance_by(dt, k1, *rest, [&k6, &k7, &k8, &k9, &k10, &k11, &k12]);
         if !step.full {
             let none = SlopeOf::<S>::zero();
             return Attempt::new(displacement, EighthOrderStages { rates: [none; 9], last: none });

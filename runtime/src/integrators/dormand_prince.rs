@@ -4,7 +4,7 @@
 use super::dense::Dense;
 use super::method::{Attempt, Method, inherent};
 use super::problem::{Problem, Step};
-use super::slope::{SlopeOf, combination, displaced, rate_of_displacement};
+use super::slope::{SlopeOf, advance_by, combination, displaced, rate_of_displacement};
 use crate::{Real, StateSpace, System, Tangent};
 
 /// The fifth-order method of Dormand and Prince: six evaluations. The first choice for steps chosen by error, down to
@@ -19,8 +19,9 @@ const A3: [f64; 2] = [3.0 / 40.0, 9.0 / 40.0];
 const A4: [f64; 3] = [44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0];
 const A5: [f64; 4] = [19_372.0 / 6_561.0, -25_360.0 / 2_187.0, 64_448.0 / 6_561.0, -212.0 / 729.0];
 const A6: [f64; 5] = [9_017.0 / 3_168.0, -355.0 / 33.0, 46_732.0 / 5_247.0, 49.0 / 176.0, -5_103.0 / 18_656.0];
-/// Weights of the stages one and three to six; they are the seventh row of the tableau too.
-const B: [f64; 5] = [35.0 / 384.0, 500.0 / 1_113.0, 125.0 / 192.0, -2_187.0 / 6_784.0, 11.0 / 84.0];
+/// Weights of the stages three to six; that of the first, 35/384, is what they leave to one. With it they are the seventh
+/// row of the tableau too.
+const B: [f64; 4] = [500.0 / 1_113.0, 125.0 / 192.0, -2_187.0 / 6_784.0, 11.0 / 84.0];
 /// Fifth-order weights minus fourth-order ones, of the stages one and three to seven.
 const E: [f64; 6] =
     [71.0 / 57_600.0, -71.0 / 16_695.0, 71.0 / 1_920.0, -17_253.0 / 339_200.0, 22.0 / 525.0, -1.0 / 40.0];
@@ -64,7 +65,7 @@ impl<S: System> Method<S> for DormandPrince {
         let k4 = at(C[2], &combination(dt, A4, [k1, &k2, &k3]));
         let k5 = at(C[3], &combination(dt, A5, [k1, &k2, &k3, &k4]));
         let k6 = at(C[4], &combination(dt, A6, [k1, &k2, &k3, &k4, &k5]));
-        let displacement = combination(dt, B, [k1, &k3, &k4, &k5, &k6]);
+        let displacement = advance_by(dt, k1, B, [&k3, &k4, &k5, &k6]);
         if !step.full {
             let none = SlopeOf::<S>::zero();
             return Attempt::new(displacement, Stages { rates: [none; 6], last: none });

@@ -28,6 +28,11 @@ pub enum IntegrationError {
         /// `[s]` the time reached.
         time: f64,
     },
+    /// Events of one function, each with a jump, follow each other ever faster: a ball that comes to rest.
+    EventsAccumulate {
+        /// `[s]` the time of the last one.
+        time: f64,
+    },
     /// The bound on the number of steps was reached.
     TooManySteps {
         /// `[s]` the time reached.
@@ -47,6 +52,9 @@ impl fmt::Display for IntegrationError {
             }
             Self::NoConvergence { time } => {
                 write!(f, "at t = {time} s the equations of the step have no solution near its start: it is too long")
+            }
+            Self::EventsAccumulate { time } => {
+                write!(f, "events follow each other ever faster and accumulate at t = {time} s")
             }
             Self::TooManySteps { time } => write!(f, "the bound on the number of steps was reached at t = {time} s"),
         }

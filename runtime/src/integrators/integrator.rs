@@ -1,13 +1,13 @@
 //! A method with its steps: [`Integrator`].
 
-use super::control::{Control, Tolerance};
-use super::dense::Dense;
+use super::control::Tolerance;
 use super::error::IntegrationError;
-use super::method::{Attempt, Method};
-use super::problem::{Problem, Step};
-use super::slope::{SlopeOf, advanced, displaced, is_finite, magnitude};
-use crate::{Real, System, Tangent};
-use core::cell::OnceCell;
+use super::interval::Interval;
+use super::method::Method;
+use super::problem::Problem;
+use super::run::{Run, Verdict};
+use super::sampling::Samples;
+use crate::System;
 
 /// How long steps are.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,58 +80,12 @@ pub struct Statistics {
     pub evaluations: u32,
     /// Evaluations of its derivatives, by implicit methods that use them.
     pub jacobians: u32,
+    /// Factorisations by implicit methods.
+    pub factorisations: u32,
     /// Accepted steps.
     pub accepted: u32,
     /// Rejected steps.
     pub rejected: u32,
-}
-
-/// An accepted step, with all states within it.
-pub struct Interval<'a, S: System, M: Method<S>> {
-    method: &'a M,
-    problem: &'a Problem<'a, S>,
-    step: Step<'a, S>,
-    times: (f64, f64),
-    memory: &'a M::Memory,
-    attempt: &'a Attempt<S, M::Details>,
-    next: &'a S::State,
-    dense: OnceCell<Dense<S>>,
-}
-
-impl<S: System, M: Method<S>> Interval<'_, S, M> {
-    /// `[s]` time at its start.
-    pub const fn start(&self) -> f64 {
-        self.times.0
-    }
-
-    /// `[s]` time at its end.
-    pub const fn end(&self) -> f64 {
-        self.times.1
-    }
-
-    /// The state at its start.
-    pub const fn first(&self) -> &S::State {
-        self.step.state
-    }
-
-    /// The state at its end.
-    pub const fn last(&self) -> &S::State {
-        self.next
-    }
-
-    /// The state at a time within it, by the dense output of the method. Times outside are extrapolated.
-    ///
-    /// States within are not projected and hold no renewed guess, as [`System::accepted`] gives at the end.
-    pub fn at(&self, t: f64) -> S::State {
-        let (start, end) = self.times;
-        self.share(if t == end { 1.0 } else { (t - start) / (end - start) })
-    }
-
-    /// The state at a share of it, from zero at the start to one at the end.
-    pub fn share(&self, c: f64) -> S::State {
-        let dense = self.dense.get_or_init(|| self.method.dense(self.problem, &self.step, self.memory, self.attempt));
-        dense.state(S::Scalar::lit(c))
-    }
 }
 
 impl<M> Integrator<M> {
@@ -161,6 +115,15 @@ impl<M> Integrator<M> {
     #[must_use]
     pub fn max_steps(self, max_steps: u32) -> Self {
         Self { max_steps, ..self }
+    }
+
+    /// A system with these steps' tolerance, which implicit methods look at.
+    pub(super) fn problem<'a, S: System>(&self, system: &'a S, input: &'a S::Input) -> Problem<'a, S> {
+        let tolerance = match self.steps {
+            Steps::Fixed(_) => None,
+            Steps::Adaptive(tolerance) => Some(tolerance),
+        };
+        Problem::new(system, input).within(tolerance)
     }
 
     /// The state at `t1` `[s]`, from `state` at `t0` `[s]`, which may be later than `t1`, with the input held throughout.
@@ -200,188 +163,54 @@ impl<M> Integrator<M> {
     where
         M: Method<S>,
     {
-        let problem = Problem::new(system, input);
+        let problem = self.problem(system, input);
         let mut run = Run::new(self, &problem, t0, t1, state)?;
         while !run.arrived() {
-            run.advance(&mut observe)?;
+            run.advance(|interval| {
+                observe(interval);
+                Ok(Verdict::Continue)
+            })?;
         }
-        Ok((run.state, run.statistics()))
+        Ok((*run.state(), run.statistics()))
     }
-}
 
-/// Where an integration stands.
-struct Run<'a, S: System, M: Method<S>> {
-    settings: &'a Integrator<M>,
-    problem: &'a Problem<'a, S>,
-    t0: f64,
-    t: f64,
-    end: f64,
-    state: S::State,
-    /// What compensated summation still owes the state.
-    rest: SlopeOf<S>,
-    memory: M::Memory,
-    /// None for steps of one length.
-    control: Option<Control>,
-    /// Steps since `t0`, for steps of one length.
-    count: u32,
-    accepted: u32,
-    rejected: u32,
-}
-
-impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
-    fn new(
-        settings: &'a Integrator<M>,
-        problem: &'a Problem<'a, S>,
+    /// The same; `observe` is called at the given times, which follow each other from `t0` to `t1`, with states from
+    /// dense output. Steps are not changed by it. Times outside are left out; at `t0` it is the first state.
+    ///
+    /// ```
+    /// # use multibody::{DormandPrince, Integrator, multibody};
+    /// # multibody! { mod ball { world { gravity: -9.81 * Y } body ball { mass: 1.0 }
+    /// #     joint height: Prismatic { parent: ground, child: ball, axis: Y } } }
+    /// let tolerant = Integrator::adaptive(DormandPrince, 1e-6, 1e-6);
+    /// let (mut k, start) = (0, ball::State::<f64>::default());
+    /// let tenths = (0..=10).map(|k| 0.1 * f64::from(k));
+    /// tolerant.sampled(&ball::Model::default(), 0.0, 1.0, &start, &(), tenths, |t, x| {
+    ///     let fallen: f64 = x.q.height + 0.5 * 9.81 * t * t;
+    ///     assert!(fallen.abs() < 1e-12);
+    ///     k += 1;
+    /// })?;
+    /// assert_eq!(k, 11);
+    /// # Ok::<(), multibody::IntegrationError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// See [`IntegrationError`].
+    #[expect(clippy::too_many_arguments, reason = "what an integration takes, and the times")]
+    pub fn sampled<S: System>(
+        &self,
+        system: &S,
         t0: f64,
         t1: f64,
         state: &S::State,
-    ) -> Result<Self, IntegrationError> {
-        let what = if !(t1 - t0).is_finite() {
-            Some("the times of an integration must be finite, and so must their difference")
-        } else {
-            match settings.steps {
-                Steps::Fixed(step) if step > 0.0 && step.is_finite() => {
-                    if (t1 - t0).abs() / step > f64::from(settings.max_steps) + 0.5 {
-                        return Err(IntegrationError::TooManySteps { time: t0 });
-                    }
-                    None
-                }
-                Steps::Fixed(_) => Some("a step must be finite and positive"),
-                Steps::Adaptive(_) if M::ESTIMATE == 0 => {
-                    Some("this method does not estimate its error: its steps have to be given")
-                }
-                Steps::Adaptive(tolerance) => tolerance.complaint::<S::Scalar>(),
-            }
-        };
-        if let Some(what) = what {
-            return Err(IntegrationError::InvalidArgument { what });
-        }
-        let memory = settings.method.begin(problem, S::Scalar::lit(t0), state);
-        if !is_finite(&magnitude(state)) {
-            return Err(IntegrationError::NonFinite { time: t0 });
-        }
-        let control = match settings.steps {
-            Steps::Fixed(_) => None,
-            Steps::Adaptive(tolerance) => Some(Control::start(tolerance, M::ESTIMATE, problem, t0, t1, state)?),
-        };
-        Ok(Self {
-            settings,
-            problem,
-            t0,
-            t: t0,
-            end: t1,
-            state: *state,
-            rest: SlopeOf::<S>::zero(),
-            memory,
-            control,
-            count: 0,
-            accepted: 0,
-            rejected: 0,
-        })
+        input: &S::Input,
+        times: impl IntoIterator<Item = f64>,
+        mut observe: impl FnMut(f64, &S::State),
+    ) -> Result<(S::State, Statistics), IntegrationError>
+    where
+        M: Method<S>,
+    {
+        let mut samples = Samples::new(times);
+        samples.first(t0, state, &mut observe);
+        self.intervals(system, t0, t1, state, input, |interval| samples.within(interval, &mut observe))
     }
-
-    fn arrived(&self) -> bool {
-        self.t == self.end
-    }
-
-    fn statistics(&self) -> Statistics {
-        Statistics {
-            evaluations: self.problem.evaluations(),
-            jacobians: self.problem.jacobians(),
-            accepted: self.accepted,
-            rejected: self.rejected,
-        }
-    }
-
-    /// The time at which the next step ends, and its signed length.
-    fn target(&self) -> Result<(f64, f64), IntegrationError> {
-        let remaining = self.end - self.t;
-        if let Steps::Fixed(step) = self.settings.steps {
-            // A remainder of less than a millionth of a step is rounding.
-            let target = self.t0 + (f64::from(self.count) + 1.0) * step.copysign(remaining);
-            let last = (self.end - target).abs() <= 1e-6 * step || (self.end - target) * remaining < 0.0;
-            let rounding = 4.0 * f64::EPSILON * (self.t.abs() + self.end.abs());
-            let whole = !last || (remaining.abs() - step).abs() <= rounding;
-            return Ok((
-                if last { self.end } else { target },
-                if whole { step.copysign(remaining) } else { remaining },
-            ));
-        }
-        let Some(control) = &self.control else {
-            return Ok((self.end, remaining)); // never: steps that are not of one length have a controller
-        };
-        let target = control.target(self.t, self.end);
-        let length = target - self.t; // with the rounding of the time, so that steps add up to it
-        if target != self.end && control.is_too_short(self.t, length) {
-            return Err(IntegrationError::StepTooSmall { time: self.t, step: length.abs() });
-        }
-        Ok((target, length))
-    }
-
-    /// One attempt of a step; if it is accepted, the run goes on from its end.
-    fn advance(&mut self, observe: &mut impl FnMut(&Interval<'_, S, M>)) -> Result<(), IntegrationError> {
-        if self.accepted.saturating_add(self.rejected) >= self.settings.max_steps {
-            return Err(IntegrationError::TooManySteps { time: self.t });
-        }
-        let (target, length) = self.target()?;
-        let state = self.state;
-        let step = Step {
-            t: S::Scalar::lit(self.t),
-            end: S::Scalar::lit(target),
-            dt: S::Scalar::lit(length),
-            state: &state,
-            full: true,
-        };
-        let method = &self.settings.method;
-        let attempt = method.attempt(self.problem, &step, &self.memory);
-
-        let (next, rest) = if self.settings.compensated {
-            advanced(&state, &attempt.displacement, &self.rest)
-        } else {
-            (displaced(&state, &attempt.displacement), self.rest)
-        };
-        if let (Steps::Adaptive(tolerance), Some(control)) = (self.settings.steps, &mut self.control) {
-            let (size, next_size) = (magnitude(&state), magnitude(&next));
-            let error = method.error(&step, &attempt, |vector| tolerance.norm(vector, &size, &next_size)).greatest();
-            let error = if attempt.converged { error } else { f64::NAN };
-            if !control.judge(error, length) {
-                self.rejected += 1;
-                return if error.is_finite() || !control.is_too_short(self.t, control.step()) {
-                    Ok(())
-                } else {
-                    Err(stopped(attempt.converged, self.t))
-                };
-            }
-        } else if !attempt.converged {
-            return Err(stopped(!is_finite(&magnitude(&next)), self.t));
-        }
-        let next = self.problem.accepted(step.end, &next);
-        if !is_finite(&magnitude(&next)) {
-            return Err(IntegrationError::NonFinite { time: self.t });
-        }
-        observe(&Interval {
-            method,
-            problem: self.problem,
-            step: Step { ..step },
-            times: (self.t, target),
-            memory: &self.memory,
-            attempt: &attempt,
-            next: &next,
-            dense: OnceCell::new(),
-        });
-        if target != self.end {
-            self.memory = method.proceed(self.problem, &step, &self.memory, &attempt, &next);
-        }
-        self.state = next;
-        self.rest = rest;
-        self.t = target;
-        self.count = self.count.saturating_add(1);
-        self.accepted += 1;
-        Ok(())
-    }
-}
-
-/// Why a step gave no state.
-const fn stopped(converged: bool, time: f64) -> IntegrationError {
-    if converged { IntegrationError::NonFinite { time } } else { IntegrationError::NoConvergence { time } }
 }

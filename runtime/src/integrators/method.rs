@@ -74,6 +74,19 @@ pub trait Method<S: System>: Copy {
         self.begin(problem, step.end, next)
     }
 
+    /// The memory for the attempt after a rejected one, at the same time and state.
+    #[inline]
+    fn repeat(&self, memory: &Self::Memory, _attempt: &Attempt<S, Self::Details>) -> Self::Memory {
+        *memory
+    }
+
+    /// The length of the next step `[s]`, after an attempt of the signed length `length`: what the control of steps
+    /// proposes, or what suits the method better. After an attempt that found no solution, a tenth is proposed.
+    #[inline]
+    fn next_step(&self, _attempt: &Attempt<S, Self::Details>, _length: f64, proposed: f64) -> f64 {
+        proposed
+    }
+
     /// The states within an accepted step. By default a cubic through the states and slopes at both ends.
     fn dense(
         &self,
@@ -101,7 +114,10 @@ pub(super) fn step<S: System, M: Method<S>>(
     let problem = Problem::new(system, input);
     let memory = method.begin(&problem, t, state);
     let step = Step { t, end: t + dt, dt, state, full: false };
-    let attempt = method.attempt(&problem, &step, &memory);
+    let mut attempt = method.attempt(&problem, &step, &memory);
+    if !attempt.converged {
+        attempt.displacement = attempt.displacement.scale(S::Scalar::lit(f64::NAN)); // no state rather than a wrong one
+    }
     problem.accepted(step.end, &displaced(state, &attempt.displacement))
 }
 
@@ -144,7 +160,8 @@ pub(super) fn integrate<S: System, M: Method<S>>(
 macro_rules! inherent {
     ($method:ident $(: $bound:path)?) => {
         impl $method {
-            /// The state after one step of `dt` `[s]` from the time `t` `[s]`, with the input held.
+            /// The state after one step of `dt` `[s]` from the time `t` `[s]`, with the input held; NaN where an implicit
+            /// method finds no solution.
             #[inline]
             pub fn step<S: $crate::System $(+ $bound)?>(
                 system: &S,

@@ -1,7 +1,8 @@
 //! What a method works on: a [`Problem`], and one [`Step`] of it.
 
+use super::control::Tolerance;
 use super::slope::{SlopeOf, displaced, rate_of_displacement, slope};
-use crate::{Differentiable, Jacobian, Real, System};
+use crate::{Canonical, Differentiable, Jacobian, Real, System, VelocityOf};
 use core::cell::Cell;
 
 /// A system with the input that is held, counting its evaluations.
@@ -13,13 +14,36 @@ pub struct Problem<'a, S: System> {
     pub input: &'a S::Input,
     evaluations: Cell<u32>,
     jacobians: Cell<u32>,
+    factorisations: Cell<u32>,
+    tolerance: Option<Tolerance>,
 }
 
 impl<'a, S: System> Problem<'a, S> {
     /// Nothing is evaluated yet.
     #[inline]
     pub const fn new(system: &'a S, input: &'a S::Input) -> Self {
-        Self { system, input, evaluations: Cell::new(0), jacobians: Cell::new(0) }
+        Self {
+            system,
+            input,
+            evaluations: Cell::new(0),
+            jacobians: Cell::new(0),
+            factorisations: Cell::new(0),
+            tolerance: None,
+        }
+    }
+
+    /// The same, to be solved within a tolerance.
+    #[inline]
+    #[must_use]
+    pub fn within(self, tolerance: Option<Tolerance>) -> Self {
+        Self { tolerance, ..self }
+    }
+
+    /// The tolerance that steps are chosen by; none for steps of one length, whose equations implicit methods solve to
+    /// rounding.
+    #[inline]
+    pub const fn tolerance(&self) -> Option<Tolerance> {
+        self.tolerance
     }
 
     /// The slope at a state.
@@ -52,6 +76,18 @@ impl<'a, S: System> Problem<'a, S> {
     pub const fn jacobians(&self) -> u32 {
         self.jacobians.get()
     }
+
+    /// To be called where an implicit method factors its matrices.
+    #[inline]
+    pub fn count_factorisation(&self) {
+        self.factorisations.set(self.factorisations.get().saturating_add(1));
+    }
+
+    /// Factorisations of an implicit method's matrices so far.
+    #[inline]
+    pub const fn factorisations(&self) -> u32 {
+        self.factorisations.get()
+    }
 }
 
 impl<S: Differentiable> Problem<'_, S> {
@@ -60,6 +96,15 @@ impl<S: Differentiable> Problem<'_, S> {
     pub fn jacobian(&self, t: S::Scalar, state: &S::State) -> Jacobian<S::Matrix> {
         self.jacobians.set(self.jacobians.get().saturating_add(1));
         self.system.jacobian(t, state, self.input)
+    }
+}
+
+impl<S: Canonical> Problem<'_, S> {
+    /// The rate of the momenta, which counts as an evaluation.
+    #[inline]
+    pub fn momentum_rate(&self, t: S::Scalar, state: &S::State) -> VelocityOf<S> {
+        self.evaluations.set(self.evaluations.get().saturating_add(1));
+        self.system.momentum_rate(t, state, self.input)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::dense::Dense;
 use super::method::{Attempt, Method, inherent};
 use super::problem::{Problem, Step};
-use super::slope::SlopeOf;
+use super::slope::{SlopeOf, advance_by};
 use crate::{Real, System, Tangent};
 
 /// The classical Runge-Kutta method: fourth order, four evaluations. The first choice for a fixed step.
@@ -27,7 +27,7 @@ impl<S: System> Method<S> for Rk4 {
         let k2 = problem.stage(step.time(0.5), state, &k1.scale(half));
         let k3 = problem.stage(step.time(0.5), state, &k2.scale(half));
         let k4 = problem.stage(step.end, state, &k3.scale(dt));
-        let d = k1.add(&k4).add_scaled(S::Scalar::lit(2.0), &k2.add(&k3)).scale(S::Scalar::lit(1.0 / 6.0) * dt);
+        let d = advance_by(dt, k1, [1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0], [&k2, &k3, &k4]);
         Attempt::new(d, ())
     }
 

@@ -33,6 +33,17 @@ impl<T: Real, V: Tangent<T>, X: Tangent<T>> Tangent<T> for Slope<V, X> {
     }
 }
 
+/// Coefficients in the scalar's own precision. Inlined always: of constants this is one, and no number of double
+/// precision is left in code of single precision.
+#[inline(always)]
+pub(super) fn literals<T: Real, const N: usize>(values: &[f64; N]) -> [T; N] {
+    let mut result = [T::lit(0.0); N];
+    for (result, value) in result.iter_mut().zip(values) {
+        *result = T::lit(*value);
+    }
+    result
+}
+
 /// The slope at a state.
 #[inline]
 pub(super) fn slope<S: System>(system: &S, t: S::Scalar, state: &S::State, input: &S::Input) -> SlopeOf<S> {
@@ -78,10 +89,29 @@ pub(super) fn magnitude<Z: StateSpace>(state: &Z) -> Slope<Z::Velocity, Z::Extra
 }
 
 /// `dt * (weights[0] * slopes[0] + ..)`.
-#[inline]
+#[inline(always)]
 pub(super) fn combination<T: Real, V: Tangent<T>, const N: usize>(dt: T, weights: [f64; N], slopes: [&V; N]) -> V {
+    let terms = literals(&weights).into_iter().zip(slopes);
+    terms.fold(V::zero(), |sum, (weight, slope)| sum.add_scaled(weight, slope)).scale(dt)
+}
+
+/// `dt * (first + weights[0] * (slopes[0] - first) + ..)`: a step, of which the weight of the first slope is what the others
+/// leave to one.
+///
+/// The rounding of the weights then falls on differences alone. As it is the same in every step, it would otherwise turn
+/// the time by a part of 1e-16: more than all else that compensated summation leaves.
+#[inline]
+pub(super) fn advance_by<T: Real, V: Tangent<T>, const N: usize>(
+    dt: T,
+    first: &V,
+    weights: [f64; N],
+    slopes: [&V; N],
+) -> V {
+    let minus = T::lit(-1.0);
     let terms = weights.into_iter().zip(slopes);
-    terms.fold(V::zero(), |sum, (weight, slope)| sum.add_scaled(T::lit(weight), slope)).scale(dt)
+    let change =
+        terms.fold(V::zero(), |sum, (weight, slope)| sum.add_scaled(T::lit(weight), &slope.add_scaled(minus, first)));
+    first.add(&change).scale(dt)
 }
 
 /// Whether every component of a vector is finite, in every lane.

@@ -6,7 +6,7 @@
 //! many start from); which of the two it is shows when the coordinates are shaken a little, by numbers that are the
 //! same in every run. All counts are bounded, and lanes go on alone.
 
-use super::{AssemblyError, Mask, Motion, at_rounding, closeness, finite, greatest, negative, never};
+use super::{AssemblyError, Mask, Motion, Weights, at_rounding, closeness, finite, greatest, negative, never};
 use crate::{Configuration, Constrained, Real, StateSpace, System, Tangent, VelocityOf, all, any};
 
 /// Residual at which a loop is closed, unless rounding is greater.
@@ -56,7 +56,7 @@ pub fn assemble<S: Constrained>(
     while search.iterations < ITERATIONS && search.advance() {}
     search.check()?;
 
-    let motion = Motion::of(system, t, &search.state, free, TOLERANCE);
+    let motion = Motion::of(&Weights(*free), system, t, &search.state, TOLERANCE);
     if !all(finite::<S>(&motion.state)) {
         return Err(AssemblyError::NotFinite);
     }

@@ -1,38 +1,63 @@
 //! A projection after each step of any integrator: [`WithProjection`].
 
-use super::{Mask, Projection, finite, ones};
-use crate::{Constrained, ExtraOf, PositionOf, Real, StateSpace, System, Tangent, VelocityOf};
+use super::handed_on::handed_on;
+use super::{ByMass, Mask, Plain, Projection, Weighting, finite};
+use crate::{
+    Canonical, Constrained, Differentiable, ExtraOf, Impulsive, Jacobian, PositionOf, Real, Separable, StateSpace,
+    System, Tangent, VelocityOf,
+};
 
 /// A system whose states are projected at the end of every accepted step, whatever the integrator.
 ///
 /// It is a [`System`] with the state and the input of the one it holds:
 /// `Rk4::integrate(&WithProjection::new(&model, Projection::default()), ..)`. The start is not projected; see
-/// [`assemble`](super::assemble).
+/// [`assemble`](super::assemble). What else the system offers (its derivatives, its momenta, jumps of its velocities) is
+/// handed on, so every method takes it.
 ///
 /// A step has no place for an error, so where a projection fails, in one lane or in all, the velocities become NaN
 /// there, and `integrate` ends in [`IntegrationError::NonFinite`](crate::IntegrationError). Loops over
-/// [`Projection::project`] say why.
+/// [`Projection::project`] say why. [`WithRank`](super::WithRank) around it tells of singular poses.
 #[derive(Clone, Copy, Debug)]
-pub struct WithProjection<S> {
+pub struct WithProjection<S, W = Plain> {
     /// The system.
     pub system: S,
     projection: Projection,
+    weighting: W,
     fixed: bool,
 }
 
 impl<S: Constrained> WithProjection<S> {
     /// Projects as [`Projection::project`] does, to a tolerance.
     pub const fn new(system: S, projection: Projection) -> Self {
-        Self { system, projection, fixed: false }
+        Self { system, projection, weighting: Plain, fixed: false }
     }
 
     /// Projects as [`Projection::project_fixed`] does, by a fixed number of corrections: every step costs the same.
     pub const fn fixed(system: S, projection: Projection) -> Self {
-        Self { system, projection, fixed: true }
+        Self { system, projection, weighting: Plain, fixed: true }
     }
 }
 
-impl<S: Constrained> System for WithProjection<S> {
+impl<S: Constrained + Impulsive<Rates = <S as Constrained>::Residual>> WithProjection<S, ByMass> {
+    /// Projects as [`Projection::project_by_mass`] does, to a tolerance.
+    pub const fn by_mass(system: S, projection: Projection) -> Self {
+        Self { system, projection, weighting: ByMass, fixed: false }
+    }
+}
+
+impl<S: Constrained, W: Weighting<S>> WithProjection<S, W> {
+    /// Projects as [`Projection::project_by`] does, to a tolerance.
+    pub const fn weighted(system: S, projection: Projection, weighting: W) -> Self {
+        Self { system, projection, weighting, fixed: false }
+    }
+
+    /// Projects as [`Projection::project_fixed_by`] does, by a fixed number of corrections.
+    pub const fn fixed_weighted(system: S, projection: Projection, weighting: W) -> Self {
+        Self { system, projection, weighting, fixed: true }
+    }
+}
+
+impl<S: Constrained, W: Weighting<S>> System for WithProjection<S, W> {
     type Scalar = S::Scalar;
     type State = S::State;
     type Input = S::Input;
@@ -43,36 +68,16 @@ impl<S: Constrained> System for WithProjection<S> {
     }
 
     fn accepted(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> S::State {
-        if self.fixed {
-            return self.system.accepted(t, &self.projection.project_fixed(&self.system, t, state).state, input);
+        let Self { system, projection, weighting, fixed } = self;
+        if *fixed {
+            return system.accepted(t, &projection.project_fixed_by(weighting, system, t, state).state, input);
         }
-        let run = self.projection.run(&self.system, t, state, &ones());
+        let run = projection.run(weighting, system, t, state);
         let good: Mask<S> = run.closed & run.motion.consistent & finite::<S>(&run.motion.state);
         let (q, v, x) = run.motion.state.split();
         let v = v.map(&mut |v| Real::select(good, v, S::Scalar::lit(f64::NAN)));
-        self.system.accepted(t, &state.join(q, v, x), input)
+        system.accepted(t, &state.join(q, v, x), input)
     }
 }
 
-impl<S: Constrained> Constrained for WithProjection<S> {
-    type Residual = S::Residual;
-
-    #[inline]
-    fn constraints(&self, t: S::Scalar, q: &PositionOf<S>) -> S::Residual {
-        self.system.constraints(t, q)
-    }
-    #[inline]
-    fn constraint_rate(&self, t: S::Scalar, state: &S::State) -> S::Residual {
-        self.system.constraint_rate(t, state)
-    }
-    #[inline]
-    fn correction(
-        &self,
-        t: S::Scalar,
-        q: &PositionOf<S>,
-        residual: &S::Residual,
-        weights: &VelocityOf<S>,
-    ) -> (VelocityOf<S>, S::Scalar) {
-        self.system.correction(t, q, residual, weights)
-    }
-}
+handed_on!(WithProjection<S, W>, [W: Weighting<S>], Constrained, Impulsive, Differentiable, Canonical, Separable);

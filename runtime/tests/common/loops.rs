@@ -5,7 +5,7 @@
 use core::cell::Cell;
 use multibody::linear::{least_norm, solve_symmetric};
 use multibody::nalgebra::{SMatrix, SVector, Vector2};
-use multibody::{Constrained, ExtraOf, PositionOf, Real, StateSpace, System, Tangent, VelocityOf};
+use multibody::{Constrained, ExtraOf, Impulsive, PositionOf, Real, StateSpace, System, Tangent, VelocityOf};
 
 /// Positions and velocities in one vector each.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,6 +73,15 @@ impl<T: Real> Constrained for Rod<T> {
     }
     fn correction(&self, _t: T, q: &Vector2<T>, residual: &T, weights: &Vector2<T>) -> (Vector2<T>, T) {
         least_norm(&SMatrix::<T, 1, 2>::from([[q[0]], [q[1]]]), &SVector::from([*residual]), weights)
+    }
+}
+
+impl<T: Real> Impulsive for Rod<T> {
+    type Rates = T;
+    fn jump(&self, _t: T, q: &Vector2<T>, impulse: &Vector2<T>, rates: &T) -> (Vector2<T>, T) {
+        let square = dot(q, q);
+        let pull = (dot(q, impulse) - *rates) / square;
+        (impulse.add_scaled(-pull, q), T::lit(1.0))
     }
 }
 
@@ -222,6 +231,25 @@ impl<T: Real, const M: usize> Constrained for FourBar<T, M> {
         weights: &SVector<T, 9>,
     ) -> (SVector<T, 9>, T) {
         least_norm(&self.jacobian(q), residual, weights)
+    }
+}
+
+impl<T: Real, const M: usize> Impulsive for FourBar<T, M> {
+    type Rates = SVector<T, M>;
+    fn jump(&self, _t: T, q: &SVector<T, 9>, impulse: &SVector<T, 9>, rates: &SVector<T, M>) -> (SVector<T, 9>, T) {
+        let (g, masses) = (self.jacobian(q), self.masses());
+        let mut schur = [[T::lit(0.0); M]; M];
+        let mut right = [T::lit(0.0); M];
+        for m in 0..M {
+            for n in 0..M {
+                schur[m][n] = (0..9).fold(T::lit(0.0), |sum, i| sum + g[(m, i)] * g[(n, i)] / masses[i]);
+            }
+            right[m] = (0..9).fold(-rates[m], |sum, i| sum + g[(m, i)] * impulse[i] / masses[i]);
+        }
+        let (multipliers, rank) = solve_symmetric(schur, right);
+        let jump =
+            core::array::from_fn(|i| (0..M).fold(impulse[i], |sum, m| sum - g[(m, i)] * multipliers[m]) / masses[i]);
+        (SVector::from(jump), rank)
     }
 }
 

@@ -1,7 +1,10 @@
 //! Systems written by hand, as generated code would be: an oscillator, a pendulum, a free rigid body, a motor.
 #![allow(dead_code)] // every test file uses some of them
 
+pub(crate) mod canonical;
 pub(crate) mod loops;
+pub(crate) mod separable;
+pub(crate) mod stiff;
 
 use core::cell::Cell;
 use multibody::nalgebra::{UnitQuaternion, Vector3};

@@ -30,16 +30,18 @@ impl Equations<'_> {
         g.mul(half, sum)
     }
 
+    /// J, parts of the potential energy of gravity.
+    pub(super) fn weight(&mut self) -> Vec<Scalar> {
+        let Some(gravity) = self.mechanism.tree.gravity else { return Vec::new() };
+        let tree = self.regrouped();
+        let gravity = self.g.vector(gravity);
+        let moments = first_moment(&mut self.g, &tree);
+        moments.into_iter().map(|moment| -self.g.dot(gravity, moment)).collect()
+    }
+
     /// J, zero at the world's origin and with relaxed springs.
     pub(super) fn potential(&mut self) -> Scalar {
-        let mut terms = Vec::new();
-        if let Some(gravity) = self.mechanism.tree.gravity {
-            let tree = self.regrouped();
-            let gravity = self.g.vector(gravity);
-            for moment in first_moment(&mut self.g, &tree) {
-                terms.push(-self.g.dot(gravity, moment));
-            }
-        }
+        let mut terms = self.weight();
         let model = self.model;
         for force in &model.forces {
             match &force.kind {

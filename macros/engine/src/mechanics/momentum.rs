@@ -23,6 +23,15 @@ use super::reduction::Reduction;
 use super::tree::Tree;
 use super::velocities::velocities;
 
+/// How efforts of gravity are found.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Weight {
+    /// From the links inwards, as forces.
+    Force,
+    /// As the gradient of the potential energy, where there is no quaternion among the tree's coordinates.
+    Gradient,
+}
+
 impl Equations<'_> {
     /// p = M v of the tree, in the user's coordinates.
     pub(super) fn momenta(&mut self) -> Vec<Scalar> {
@@ -42,25 +51,15 @@ impl Equations<'_> {
     }
 
     /// p' on the tree, in the user's coordinates.
-    pub(super) fn momentum_rates(&mut self) -> Vec<Scalar> {
+    pub(super) fn momentum_rates(&mut self, weight: Weight) -> Vec<Scalar> {
         let shared = self.shared();
         let tree = &shared.tree;
         let moving = velocities(&mut self.g, tree);
         let wrenches = carried(&mut self.g, tree, &moving);
         let swept = swept(&mut self.g, tree, &moving, &wrenches);
-        let given = self.given_efforts();
-        let list: Vec<Scalar> = swept.iter().zip(&given).map(|(&swept, &given)| self.g.add(swept, given)).collect();
-        self.of_user(&list)
-    }
-
-    /// The same, from the gradient of the kinetic energy.
-    pub(super) fn momentum_rates_by_energy(&mut self) -> Vec<Scalar> {
-        let kinetic = self.kinetic();
-        let positions: Vec<Scalar> = self.symbols.positions.concat();
-        let gradient = self.g.transpose_linear(&[(kinetic, Scalar::ONE)], &positions);
-        let given = self.given_efforts();
-        let given = self.of_user(&given);
-        gradient.iter().zip(&given).map(|(&slope, &given)| self.g.add(slope, given)).collect()
+        let swept = self.of_user(&swept);
+        let given = self.given_efforts(weight);
+        swept.iter().zip(&given).map(|(&swept, &given)| self.g.add(swept, given)).collect()
     }
 
     /// Momenta of the state.
@@ -80,8 +79,8 @@ impl Equations<'_> {
     }
 
     /// Rates of the state's momenta.
-    pub(super) fn reduced_momentum_rates(&mut self, reduction: &Reduction) -> Vec<Scalar> {
-        let rates = self.momentum_rates();
+    pub(super) fn reduced_momentum_rates(&mut self, reduction: &Reduction, weight: Weight) -> Vec<Scalar> {
+        let rates = self.momentum_rates(weight);
         let projected = self.project(reduction, &rates);
         let turned = self.turned_momenta(reduction);
         let of_state: Vec<Scalar> = self.state().into_iter().map(|k| self.g.add(projected[k], turned[k])).collect();
@@ -103,19 +102,30 @@ impl Equations<'_> {
         self.g.substitute(&turned, &map)
     }
 
-    /// Efforts of gravity and of the declared forces, in the tree's coordinates.
-    fn given_efforts(&mut self) -> Vec<Scalar> {
+    /// Efforts of gravity and of the declared forces, in the user's coordinates.
+    fn given_efforts(&mut self, weight: Weight) -> Vec<Scalar> {
+        let base = match weight {
+            Weight::Force => self.base(),
+            Weight::Gradient => Vector::ZERO,
+        };
         let shared = self.shared();
         let tree = &shared.tree;
         let loads = self.loads();
-        let base = self.base();
         let g = &mut self.g;
         let rest = vec![Scalar::ZERO; tree.freedoms()];
         let motions = motions(g, tree, &rest, &rest, base);
         let applied = shared.turn(g, &loads.applied);
         let wrenches = transmitted(g, tree, &motions, &applied);
         let needed = efforts(g, tree, &wrenches, &rest);
-        needed.iter().zip(&loads.efforts).map(|(&needed, &given)| g.sub(given, needed)).collect()
+        let given: Vec<Scalar> = needed.iter().zip(&loads.efforts).map(|(&n, &given)| g.sub(given, n)).collect();
+        let given = self.of_user(&given);
+        if weight == Weight::Force {
+            return given;
+        }
+        let positions: Vec<Scalar> = self.symbols.positions.concat();
+        let parts: Vec<(Scalar, Scalar)> = self.weight().into_iter().map(|part| (part, -Scalar::ONE)).collect();
+        let pull = self.g.transpose_linear(&parts, &positions);
+        given.iter().zip(&pull).map(|(&given, &pull)| self.g.add(given, pull)).collect()
     }
 
     fn of_user(&self, list: &[Scalar]) -> Vec<Scalar> {

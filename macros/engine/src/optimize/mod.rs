@@ -11,6 +11,7 @@ pub mod factor;
 pub mod fields;
 pub mod flatten;
 mod import;
+pub mod linear;
 pub mod multiples;
 pub mod names;
 pub mod program;
@@ -96,6 +97,7 @@ pub fn simplify(dag: &mut Dag) -> bool {
     let expected = dag.root_prints();
     angles::angles(dag);
     stage::split(dag);
+    linear::combine(dag);
     for _ in 0..3 {
         factor::factor(dag);
         flatten::flatten(dag);

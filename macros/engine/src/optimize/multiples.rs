@@ -4,6 +4,7 @@
 //! c x z + .. share the product c x. Coefficients float freely before this pass; what it makes, stays.
 
 use std::collections::BTreeMap;
+use std::ops::Mul;
 
 use crate::symbolic::number::Number;
 
@@ -20,6 +21,7 @@ enum Place {
 }
 
 pub fn multiples(dag: &mut Dag) {
+    settle(dag);
     for _ in 0..16 {
         let mut changed = false;
         for (factor, c, list) in candidates(dag) {
@@ -31,6 +33,24 @@ pub fn multiples(dag: &mut Dag) {
         if !changed {
             return;
         }
+    }
+}
+
+/// Results c (x + d y) become c x + c d y: as many products, and multiples of x and y that other places may have.
+fn settle(dag: &mut Dag) {
+    let uses = dag.uses(&dag.order());
+    for k in 0..dag.roots.len() {
+        let (c, id) = dag.roots[k];
+        let Kind::Sum(terms) = &dag.nodes[id].kind else { continue };
+        let plain = terms.iter().filter(|(d, term)| *term != ONE && d.is_unit()).count();
+        if c.is_unit() || uses[id] != 1 || plain != 1 || dag.nodes[id].stage <= Stage::Parameter {
+            continue;
+        }
+        let terms = terms.iter().map(|&(d, term)| (c.mul(d), term)).collect();
+        let print = dag.nodes[id].print.mul(c.print());
+        dag.replace(id, Kind::Sum(terms), print);
+        dag.nodes[id].name = None;
+        dag.roots[k].0 = Number::ONE;
     }
 }
 
@@ -60,7 +80,16 @@ fn candidates(dag: &Dag) -> Vec<(Id, Number, Vec<Place>)> {
     }
     for (k, &(c, id)) in dag.roots.iter().enumerate() {
         if !c.is_unit() && id != ONE && dag.nodes[id].stage > Stage::Parameter {
-            places.entry((id, c.abs().residue)).or_insert_with(|| (c.abs(), Vec::new())).1.push(Place::Root(k));
+            let mut add = |factor: Id| {
+                let entry = places.entry((factor, c.abs().residue)).or_insert_with(|| (c.abs(), Vec::new()));
+                if entry.1.last() != Some(&Place::Root(k)) {
+                    entry.1.push(Place::Root(k));
+                }
+            };
+            add(id);
+            if let (Kind::Product(factors), 1) = (&dag.nodes[id].kind, uses[id]) {
+                factors.iter().for_each(|&f| add(f));
+            }
         }
     }
     let mut list: Vec<(Id, Number, Vec<Place>)> = places
@@ -76,7 +105,11 @@ fn candidates(dag: &Dag) -> Vec<(Id, Number, Vec<Place>)> {
 /// Whether a place still has this multiple: an earlier sharing may have taken it.
 fn stands(dag: &Dag, place: Place, factor: Id, c: Number) -> bool {
     match place {
-        Place::Root(k) => dag.roots[k].1 == factor && dag.roots[k].0.abs() == c,
+        Place::Root(k) => {
+            let (d, id) = dag.roots[k];
+            d.abs() == c
+                && (id == factor || matches!(&dag.nodes[id].kind, Kind::Product(list) if list.contains(&factor)))
+        }
         Place::Term(sum, term) => {
             let Kind::Sum(terms) = &dag.nodes[sum].kind else { return false };
             terms.iter().any(|t| t.1 == term && t.0.abs() == c)
@@ -92,7 +125,17 @@ fn share(dag: &mut Dag, factor: Id, c: Number, list: &[Place]) -> bool {
     for &place in list {
         match place {
             Place::Root(k) => {
-                dag.roots[k] = (unit(dag.roots[k].0), multiple);
+                let (d, id) = dag.roots[k];
+                let sign = unit(d);
+                dag.roots[k] = if id == factor {
+                    (sign, multiple)
+                } else {
+                    let Kind::Product(mut factors) = dag.nodes[id].kind.clone() else { continue };
+                    let Some(position) = factors.iter().position(|&f| f == factor) else { continue };
+                    factors[position] = multiple;
+                    let (other, product) = dag.product(factors);
+                    (sign * other, product)
+                };
                 changed = true;
             }
             Place::Term(sum, term) if sum != multiple => {

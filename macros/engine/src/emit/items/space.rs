@@ -114,12 +114,18 @@ pub(super) fn configuration(layout: &Layout<'_>, owner: Option<PartTypeId>) -> T
     }
     let names: Vec<_> = fields.iter().map(|field| &field.name).collect();
     let types = fields.iter().map(|field| layout.field_type(Group::Position, &field.kind, owner.is_some()));
+    let types: Vec<_> = types.collect();
     let mut entries = layout.table(Group::Position).entries.iter();
-    let dexp_inv = if entries.any(|entry| entry.leaf.has_quaternion()) {
+    let rotations = if entries.any(|entry| entry.leaf.has_quaternion()) {
         quote! {
             fn dexp_inv(d: &Velocity<T>, v: &Velocity<T>) -> Velocity<T> {
                 Velocity {
                     #(#names: <#types as #krate::Configuration<T>>::dexp_inv(&d.#names, &v.#names)),*
+                }
+            }
+            fn compose(first: &Velocity<T>, second: &Velocity<T>) -> Velocity<T> {
+                Velocity {
+                    #(#names: <#types as #krate::Configuration<T>>::compose(&first.#names, &second.#names)),*
                 }
             }
         }
@@ -142,7 +148,7 @@ pub(super) fn configuration(layout: &Layout<'_>, owner: Option<PartTypeId>) -> T
                 #((end.#names, left.#names) = #krate::Configuration::advance(&self.#names, &d.#names, &rest.#names);)*
                 (end, left)
             }
-            #dexp_inv
+            #rotations
             fn magnitude(&self) -> Velocity<T> {
                 Velocity { #(#names: #krate::Configuration::magnitude(&self.#names)),* }
             }

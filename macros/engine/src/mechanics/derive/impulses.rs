@@ -7,6 +7,7 @@ use proc_macro2::Span;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::closings::path;
 use crate::mechanics::equations::{Equations, Method, Style, Way};
+use crate::mechanics::momentum::Weight;
 use crate::mechanics::reduction::Reduction;
 use crate::mechanics::symbols::has_quaternion;
 use crate::model::types::{Coordinate, Model, Request};
@@ -21,6 +22,12 @@ const MOMENTA: Names = [
     "momenta of the links",
     "momenta of the links, parallel hinges in the axes of their base",
     "momenta of the links, parallel hinges in the axes of their tip",
+];
+
+const POTENTIAL: Names = [
+    "momenta of the links, gradient of the weight's energy",
+    "momenta of the links, parallel hinges in the axes of their base, gradient of the weight's energy",
+    "momenta of the links, parallel hinges in the axes of their tip, gradient of the weight's energy",
 ];
 
 const FLOATING: &str = "composite rigid body, LDL^T, translations first";
@@ -138,14 +145,28 @@ impl Deriving<'_> {
         Ok(candidates)
     }
 
+    /// p'
     pub(super) fn momentum_rates(&mut self) -> Candidates {
-        let mut candidates = self.one(MOMENTA, |e| Ok(e.momentum_rates()))?;
-        candidates.extend(self.only("gradient of the kinetic energy", |e| Ok(e.momentum_rates_by_energy()))?);
+        let mut candidates = self.one(MOMENTA, |e| Ok(e.momentum_rates(Weight::Force)))?;
+        if self.is_straight() {
+            candidates.extend(self.one(POTENTIAL, |e| Ok(e.momentum_rates(Weight::Gradient)))?);
+        }
         Ok(candidates)
     }
 
     pub(super) fn reduced_momentum_rates(&mut self) -> Candidates {
-        self.reduced(MOMENTA, |e, reduction| Ok(e.reduced_momentum_rates(reduction)))
+        let rates = |weight| move |e: &mut Equations<'_>, r: &Reduction| Ok(e.reduced_momentum_rates(r, weight));
+        let mut candidates = self.reduced(MOMENTA, rates(Weight::Force))?;
+        if self.is_straight() {
+            candidates.extend(self.reduced(POTENTIAL, rates(Weight::Gradient))?);
+        }
+        Ok(candidates)
+    }
+
+    /// Whether gravity pulls, and every coordinate of the tree changes at the rate of a velocity.
+    fn is_straight(&self) -> bool {
+        let lists = self.symbols.positions.iter().zip(&self.symbols.velocities);
+        self.model.gravity.is_some() && lists.into_iter().all(|(q, v)| q.len() == v.len())
     }
 }
 

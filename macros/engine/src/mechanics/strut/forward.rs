@@ -42,15 +42,14 @@ pub fn ways(carrier: &Carrier) -> Vec<(&'static str, Gather, Triple)> {
     list
 }
 
-/// Accelerations from forces.
+/// Accelerations from forces. Where the rotation is `held`, the carrier's own is taken and translations alone are found.
 pub fn accelerations(
     g: &mut Graph,
     carrier: &Carrier,
     forces: &[Scalar],
-    reference: &Triple,
-    gather: Gather,
+    (reference, gather): (&Triple, Gather),
+    held: bool,
 ) -> (Triple, Triple) {
-    let order = &ORDER;
     let still = Carrier { acceleration: ZERO, d_omega: ZERO, ..carrier.clone() };
     let view = still.view(g, Axes::Body, reference);
     let mut inertia = view.inertia;
@@ -119,8 +118,21 @@ pub fn accelerations(
     let gyroscopic = axial(g, &spin, &inertia);
     let moment = total(g, &[moment, tilt, minus(&gyroscopic), view.load.1]);
     let side: Vec<Scalar> = force.into_iter().chain(moment).collect();
-    let x = solve_symmetric(g, &matrix, order, &side);
-    let (at, d_omega) = ([x[0], x[1], x[2]], [x[3], x[4], x[5]]);
+    let (at, d_omega) = if held {
+        let d_omega = carrier.d_omega;
+        let rest: Vec<Scalar> = (0..3)
+            .map(|i| {
+                let turned = dot(g, &[matrix[i][3], matrix[i][4], matrix[i][5]], &d_omega);
+                g.sub(side[i], turned)
+            })
+            .collect();
+        let block: Vec<Vec<Scalar>> = matrix[..3].iter().map(|row| row[..3].to_vec()).collect();
+        let x = solve_symmetric(g, &block, &[0, 1, 2], &rest);
+        ([x[0], x[1], x[2]], d_omega)
+    } else {
+        let x = solve_symmetric(g, &matrix, &ORDER, &side);
+        ([x[0], x[1], x[2]], [x[3], x[4], x[5]])
+    };
     // Back to the body's origin and to the world.
     let turning = spin_matrix(g, &view.omega, &d_omega);
     let offset = apply(g, &turning, reference);

@@ -146,7 +146,12 @@ impl Equations<'_> {
         reduction: &Reduction,
         at: usize,
     ) -> Option<Vec<Scalar>> {
-        if self.structure.roles.iter().flatten().any(|role| matches!(role, Role::Driven(_))) {
+        // A drive may hold all of the rotation, and nothing else.
+        let held = self.structure.roles.iter().flatten().any(|role| matches!(role, Role::Driven(_)));
+        let path = motion::path(&platform.tree, platform.link);
+        let moves = |at: &usize| self.state().contains(&platform.tree.links[*at].freedom);
+        let (translations, turns) = path.split_at_checked(3)?;
+        if held && (!translations.iter().all(moves) || turns.iter().any(moves)) {
             return None;
         }
         let carrier = &platform.carrier;
@@ -169,7 +174,7 @@ impl Equations<'_> {
         let efforts = self.g.substitute(&platform.efforts, &travels);
         let efforts = self.finish(reduction, &efforts);
         let g = &mut self.g;
-        let (a, dw) = forward::accelerations(g, carrier, &efforts, &reference, gather);
+        let (a, dw) = forward::accelerations(g, carrier, &efforts, (&reference, gather), held);
         let found = motion::coordinates(g, &platform.tree, platform.link, &a, &dw)?;
         let mut of_tree = vec![None; self.symbols.freedoms];
         for (freedom, value) in found {

@@ -1,0 +1,42 @@
+//! Length of a quaternion over ten million steps of a tumbling body, by the classical Runge-Kutta method, plain and
+//! compensated: `cargo bench --bench rotation_length`. Fails where a length is off by more than 4e-16.
+
+use multibody::nalgebra::{UnitQuaternion, Vector3};
+use multibody::{Integrator, Rk4};
+
+multibody::multibody! {
+    mod body {
+        body nut { mass: 1.0, inertia: diag(1.0, 2.0, 3.0) }
+        joint free: Free { parent: ground, child: nut }
+    }
+}
+
+/// By how much the length differs from one: squares are summed with their roundings.
+fn length_gap(q: &UnitQuaternion<f64>) -> f64 {
+    let (mut sum, mut rest) = (-1.0, 0.0);
+    for x in q.as_ref().coords.iter() {
+        let square = x * x;
+        let next: f64 = sum + square;
+        let part = next - sum;
+        rest += x.mul_add(*x, -square) + (sum - (next - part)) + (square - part);
+        sum = next;
+    }
+    0.5 * (sum + rest).abs()
+}
+
+fn main() {
+    let mut start = body::State::default();
+    start.v.free.angular = Vector3::new(1.0, 5.0, -3.0);
+    let model = body::Model::default();
+    for (name, fixed) in
+        [("plain", Integrator::fixed(Rk4, 1e-3)), ("compensated", Integrator::fixed(Rk4, 1e-3).compensated())]
+    {
+        let mut most = 0.0;
+        let look = |_: f64, x: &body::State| most = f64::max(most, length_gap(&x.q.free.orientation));
+        match fixed.integrate(&model, 0.0, 1e4, &start, &(), look) {
+            Ok((_, statistics)) => println!("{name}: {} steps, length within {most:.2e} of one", statistics.accepted),
+            Err(error) => println!("{name}: {error}"),
+        }
+        assert!(most <= 4e-16);
+    }
+}

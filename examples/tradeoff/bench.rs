@@ -1,0 +1,312 @@
+//! Sweeps: one method on one subject over many steps or tolerances, each run checked and timed.
+
+use std::hint::black_box;
+use std::io::Write;
+use std::rc::Rc;
+use std::time::{Duration, Instant};
+
+use multibody::{IntegrationError, Integrator, Method, Statistics, System};
+
+use crate::reference::Truth;
+use crate::subject::{Laws, Subject};
+
+/// A run with a greater error is no solution, whatever the problem's growth of errors.
+const SOLUTION: f64 = 0.1;
+
+/// How much is run.
+#[derive(Clone, Copy)]
+pub(crate) struct Effort {
+    /// Factor between one step or tolerance and the next.
+    pub(crate) step_factor: f64,
+    pub(crate) tolerance_factor: f64,
+    /// Greatest number of evaluations of one run.
+    pub(crate) budget: f64,
+    /// How often all runs are timed; the least time counts.
+    pub(crate) passes: u32,
+    /// A timing takes at least that long..
+    pub(crate) timing: Duration,
+    /// ..in batches of at least that; the quickest counts.
+    pub(crate) batch: Duration,
+}
+
+impl Effort {
+    pub(crate) const FULL: Self = Self {
+        step_factor: std::f64::consts::SQRT_2,
+        tolerance_factor: 3.162_277_660_168_379_5,
+        budget: 150_000.0,
+        passes: 5,
+        timing: Duration::from_millis(1),
+        batch: Duration::from_micros(100),
+    };
+    pub(crate) const QUICK: Self = Self {
+        step_factor: 4.0,
+        tolerance_factor: 10.0,
+        budget: 5_000.0,
+        passes: 1,
+        timing: Duration::from_micros(100),
+        batch: Duration::from_micros(20),
+    };
+}
+
+/// A mechanism in motion, with the truth about its end.
+pub(crate) struct Scene {
+    pub(crate) name: &'static str,
+    pub(crate) title: &'static str,
+    pub(crate) kind: Kind,
+    /// `[s]` the longest step of a sweep
+    pub(crate) coarse: f64,
+    /// Whether the energy is kept.
+    pub(crate) conservative: bool,
+}
+
+/// Kinds of scenes for which methods are recommended.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(crate) enum Kind {
+    Separable,
+    Open,
+    Chaotic,
+    Rotation,
+    Loops,
+    Stiff,
+}
+
+/// Who chose the steps.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Steps {
+    Fixed,
+    Adaptive,
+}
+
+/// One curve: a method with all that is held over its sweep.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Series {
+    pub(crate) method: &'static str,
+    pub(crate) steps: Steps,
+    /// How loops are kept closed.
+    pub(crate) handling: &'static str,
+    pub(crate) scalar: &'static str,
+    pub(crate) order: u32,
+}
+
+/// One point of a curve.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Point {
+    pub(crate) series: Series,
+    /// `[s]` step, or tolerance, or accuracy
+    pub(crate) setting: f64,
+    pub(crate) statistics: Statistics,
+    /// Evaluations, with those of derivatives at what they cost.
+    pub(crate) evaluations: f64,
+    /// As [`Truth::error`] says.
+    pub(crate) error: f64,
+    /// The same divided by the growth of errors.
+    pub(crate) own: f64,
+    /// `[m]` the greatest gap of a loop over the whole motion
+    pub(crate) gap: f64,
+    /// Change of energy over the motion, relative: the greatest where energy is kept, else the last against the truth.
+    pub(crate) drift: f64,
+    /// Time per simulated second.
+    pub(crate) seconds: f64,
+    /// What can be relied on: the greatest of `own` with this or any finer setting.
+    pub(crate) bound: f64,
+}
+
+type Timed = Box<dyn Fn()>;
+
+/// All runs of a scene.
+pub(crate) struct Bench {
+    pub(crate) scene: Scene,
+    pub(crate) truth: Truth,
+    pub(crate) effort: Effort,
+    /// Growth of errors, at least one.
+    pub(crate) growth: f64,
+    /// `[J]` at the true end, where energy is not kept, and what energies are relative to
+    energy: (f64, f64),
+    /// What an evaluation of derivatives costs, in evaluations.
+    pub(crate) jacobian: f64,
+    pub(crate) points: Vec<Point>,
+    /// Runs that did not reach the end.
+    pub(crate) failures: Vec<(Series, f64, IntegrationError)>,
+    timed: Vec<Timed>,
+}
+
+impl Bench {
+    pub(crate) fn new(scene: Scene, truth: Truth, effort: Effort, growth: f64, energy: (f64, f64)) -> Self {
+        Self {
+            scene,
+            truth,
+            effort,
+            growth,
+            energy,
+            jacobian: 1.0,
+            points: Vec::new(),
+            failures: Vec::new(),
+            timed: Vec::new(),
+        }
+    }
+
+    /// `[s]` lengths of steps, from long to short ones.
+    pub(crate) fn steps(&self) -> impl Iterator<Item = f64> + 'static {
+        let (first, factor, end) = (self.scene.coarse, self.effort.step_factor, self.truth.end);
+        (0..).map(move |k| end / (end / first * factor.powi(k)).round())
+    }
+
+    /// Accuracies to ask for.
+    pub(crate) fn accuracies(&self) -> impl Iterator<Item = f64> + 'static {
+        let factor = self.effort.tolerance_factor;
+        (0..).map(move |k| 1e-1 / factor.powi(k)).take_while(|accuracy| *accuracy > 1e-15)
+    }
+
+    /// Steps of one length, from long to short ones.
+    pub(crate) fn fixed<S, M>(&mut self, series: Series, subject: &Rc<Subject<S>>, method: M)
+    where
+        S: System<Input = ()> + 'static,
+        M: Method<S> + 'static,
+    {
+        let steps = self.steps();
+        self.sweep(Series { steps: Steps::Fixed, order: M::ORDER, ..series }, steps, subject, move |step| {
+            Integrator::fixed(method, step)
+        });
+    }
+
+    /// Steps by tolerance, from loose to tight ones.
+    pub(crate) fn adaptive<S, M>(&mut self, series: Series, subject: &Rc<Subject<S>>, method: M)
+    where
+        S: System<Input = ()> + 'static,
+        M: Method<S> + 'static,
+    {
+        let factor = self.effort.tolerance_factor;
+        let settings = (0..).map(move |k| 1e-1 / factor.powi(k)).take_while(|tolerance| *tolerance > 2e-16);
+        self.sweep(Series { steps: Steps::Adaptive, order: M::ORDER, ..series }, settings, subject, move |tolerance| {
+            Integrator::adaptive(method, tolerance, tolerance)
+        });
+    }
+
+    fn sweep<S, M>(
+        &mut self,
+        series: Series,
+        settings: impl Iterator<Item = f64>,
+        subject: &Rc<Subject<S>>,
+        integrator: impl Fn(f64) -> Integrator<M>,
+    ) where
+        S: System<Input = ()> + 'static,
+        M: Method<S> + 'static,
+    {
+        let (end, most) = (self.truth.end, (2.0 * self.effort.budget) as u32);
+        self.runs(series, settings, subject, |setting| {
+            let integrator = integrator(setting).max_steps(most);
+            move |subject: &Subject<S>, observe: &mut dyn FnMut(f64, &S::State)| {
+                integrator.integrate(&subject.system, 0.0, end, &subject.start, &(), observe)
+            }
+        });
+    }
+
+    /// Runs of any kind: until a budget is spent, or errors no longer fall.
+    pub(crate) fn runs<S, R>(
+        &mut self,
+        series: Series,
+        settings: impl Iterator<Item = f64>,
+        subject: &Rc<Subject<S>>,
+        run: impl Fn(f64) -> R,
+    ) where
+        S: System<Input = ()> + 'static,
+        R: Fn(&Subject<S>, &mut dyn FnMut(f64, &S::State)) -> Result<(S::State, Statistics), IntegrationError>
+            + 'static,
+    {
+        let (mut best, mut stale, mut wild) = (f64::INFINITY, 0, 0);
+        for setting in settings {
+            let run = run(setting);
+            let first = (subject.laws)(&subject.start);
+            let mut worst = Laws { energy: 0.0, gap: first.gap };
+            let mut observe = |_: f64, state: &S::State| {
+                let now = (subject.laws)(state);
+                worst.energy = greater(worst.energy, (now.energy - first.energy).abs());
+                worst.gap = greater(worst.gap, now.gap);
+            };
+            let (state, statistics) = match run(subject, &mut observe) {
+                Ok(end) => end,
+                Err(error) => {
+                    self.failures.push((series, setting, error));
+                    wild += 1;
+                    if wild > 12 || matches!(error, IntegrationError::TooManySteps { .. }) {
+                        break;
+                    }
+                    continue;
+                }
+            };
+            let error = self.truth.error(&(subject.motion)(&state));
+            let evaluations = f64::from(statistics.evaluations) + self.jacobian * f64::from(statistics.jacobians);
+            let (at_end, scale) = self.energy;
+            let drift =
+                if self.scene.conservative { worst.energy } else { ((subject.laws)(&state).energy - at_end).abs() };
+            self.points.push(Point {
+                series,
+                setting,
+                statistics,
+                evaluations,
+                error,
+                own: error / self.growth,
+                gap: worst.gap,
+                drift: drift / scale,
+                seconds: f64::INFINITY,
+                bound: if error <= SOLUTION { error / self.growth } else { f64::INFINITY },
+            });
+            let bound = self.points.last().map_or(f64::INFINITY, |point| point.bound);
+            // Coarser runs that were better by luck.
+            for earlier in self.points.iter_mut().rev().skip(1).take_while(|earlier| earlier.series == series) {
+                earlier.bound = greater(earlier.bound, bound);
+            }
+            let subject = Rc::clone(subject);
+            self.timed.push(Box::new(move || {
+                let _ = black_box(run(black_box(&subject), &mut |_, _| ()));
+            }));
+            stale = if error > 0.6 * best { stale + 1 } else { 0 };
+            best = error.min(best);
+            let settled = stale >= 2 && best / self.growth < if series.scalar == "f32" { 1e-4 } else { 1e-10 };
+            if evaluations > self.effort.budget || settled {
+                break;
+            }
+        }
+        print!("\r  {}: {} runs, {:<20}", self.scene.name, self.points.len(), series.method);
+        let _ = std::io::stdout().flush();
+    }
+
+    /// Times all runs, round after round, so that a slow moment of the machine strikes no method alone.
+    pub(crate) fn time(&mut self) {
+        let end = self.truth.end;
+        for pass in 0..self.effort.passes {
+            print!(
+                "\r  {}: {} runs, timing {} of {} ",
+                self.scene.name,
+                self.points.len(),
+                pass + 1,
+                self.effort.passes
+            );
+            let _ = std::io::stdout().flush();
+            for (point, run) in self.points.iter_mut().zip(&self.timed) {
+                let start = Instant::now();
+                while start.elapsed() < self.effort.timing || point.seconds.is_infinite() {
+                    let (batch, waited, mut count) = (Instant::now(), waited(), 0);
+                    while count == 0 || batch.elapsed() < self.effort.batch {
+                        run();
+                        count += 1;
+                    }
+                    let spent = batch.elapsed().saturating_sub(self::waited().saturating_sub(waited));
+                    point.seconds = point.seconds.min(spent.as_secs_f64() / f64::from(count) / end);
+                }
+            }
+        }
+        println!();
+    }
+}
+
+/// How long this thread has been ready to run and did not, where the system tells (Linux): time of others.
+fn waited() -> Duration {
+    let text = std::fs::read_to_string("/proc/self/schedstat").unwrap_or_default();
+    Duration::from_nanos(text.split_whitespace().nth(1).and_then(|word| word.parse().ok()).unwrap_or(0))
+}
+
+/// The greater of two, NaN if one is.
+fn greater(a: f64, b: f64) -> f64 {
+    if b <= a { a } else { b }
+}

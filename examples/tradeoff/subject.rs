@@ -1,0 +1,79 @@
+//! A mechanism in one formulation and one scalar, ready to be integrated and looked at.
+
+use multibody::nalgebra::SVector;
+use multibody::projection::ByMass;
+use multibody::{Constrained, Impulsive, Projection, Real, StateSpace, System, Tangent, VelocityOf, WithProjection};
+
+use crate::reference::Motion;
+
+/// What a motion should keep.
+#[derive(Clone, Copy)]
+pub(crate) struct Laws {
+    /// `[J]`
+    pub(crate) energy: f64,
+    /// `[m]` the greatest gap of a loop; zero where loops are solved or there are none
+    pub(crate) gap: f64,
+}
+
+/// A system, where it starts, and how to look at it: in double precision, whatever its scalar.
+#[derive(Clone)]
+pub(crate) struct Subject<S: System> {
+    pub(crate) system: S,
+    pub(crate) start: S::State,
+    pub(crate) motion: fn(&S::State) -> Motion,
+    pub(crate) laws: fn(&S::State) -> Laws,
+}
+
+impl<S: System> Subject<S> {
+    /// The same motion by another system.
+    pub(crate) fn with<W: System<State = S::State>>(&self, wrap: impl FnOnce(S) -> W) -> Subject<W>
+    where
+        S: Clone,
+    {
+        Subject { system: wrap(self.system.clone()), start: self.start, motion: self.motion, laws: self.laws }
+    }
+}
+
+impl<S: Constrained + Clone> Subject<S> {
+    /// Its loops closed after each step, as well as rounding allows.
+    pub(crate) fn projected(&self) -> Subject<WithProjection<S>> {
+        self.with(|system| WithProjection::new(system, Projection { tolerance: 0.0, ..Projection::default() }))
+    }
+
+    /// The same by the displacement that is least by the mass matrix.
+    pub(crate) fn projected_by_mass(&self) -> Subject<WithProjection<S, ByMass>>
+    where
+        S: Impulsive<Rates = <S as Constrained>::Residual>,
+    {
+        self.with(|system| WithProjection::by_mass(system, Projection { tolerance: 0.0, ..Projection::default() }))
+    }
+
+    /// The same by one correction after each step.
+    pub(crate) fn corrected(&self) -> Subject<WithProjection<S>> {
+        self.with(|system| WithProjection::fixed(system, Projection { iterations: 1, ..Projection::default() }))
+    }
+}
+
+/// A vector in the scalar of a model.
+pub(crate) fn lit<T: Real, const N: usize>(values: [f64; N]) -> SVector<T, N> {
+    SVector::from(values.map(T::lit))
+}
+
+/// A vector in double precision.
+pub(crate) fn doubled<T: Real, const N: usize>(vector: SVector<T, N>) -> SVector<f64, N> {
+    vector.map(Real::greatest)
+}
+
+/// The state with one of its coordinates (or velocities, behind them) displaced.
+pub(crate) fn displaced<S: System<Scalar = f64>>(state: &S::State, number: usize, by: f64) -> S::State {
+    let (q, v, x) = state.split();
+    let mut count = 0;
+    let mut unit = || {
+        VelocityOf::<S>::zero().map(&mut |_| {
+            count += 1;
+            if count == number + 1 { by } else { 0.0 }
+        })
+    };
+    let (dq, dv) = (unit(), unit());
+    state.join(multibody::Configuration::displace(&q, &dq), v.add(&dv), x)
+}

@@ -1,0 +1,46 @@
+//! How the search for an equilibrium can fail: [`EquilibriumError`].
+
+use core::fmt;
+
+/// Why no equilibrium was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum EquilibriumError {
+    /// The state, its rates or their derivatives are infinite or NaN.
+    NotFinite,
+    /// What is free cannot make the accelerations zero: the equations depend on each other where they are smallest.
+    Singular {
+        /// Greatest acceleration or rate that is left.
+        residual: f64,
+        /// How many of the equations are independent there.
+        rank: usize,
+        /// How many there are.
+        equations: usize,
+    },
+    /// None was found near the guess: accelerations have a least value there that is not zero, or the bound on
+    /// iterations was reached.
+    NotFound {
+        /// Greatest acceleration or rate that is left.
+        residual: f64,
+        /// Steps made.
+        iterations: u32,
+    },
+}
+
+impl fmt::Display for EquilibriumError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite => f.write_str("the state, its rates or their derivatives are not finite"),
+            Self::Singular { residual, rank, equations } => write!(
+                f,
+                "what is free cannot make the accelerations zero: {residual:e} is left where {rank} of {equations} \
+                 equations are independent"
+            ),
+            Self::NotFound { residual, iterations } => {
+                write!(f, "no equilibrium near the guess: {residual:e} is left after {iterations} steps")
+            }
+        }
+    }
+}
+
+impl core::error::Error for EquilibriumError {}

@@ -1,0 +1,497 @@
+//! The damped Gauss-Newton method behind equilibria and trims: [`Search`].
+
+use super::error::EquilibriumError;
+use super::least::{Row, least};
+use super::{Equilibrium, Free};
+use crate::linear::Square;
+use crate::{
+    Configuration, Constrained, Differentiable, ExtraOf, Real, StateSpace, System, Tangent, VelocityOf, all, any,
+};
+
+/// An equation holds up to this share of what it could be, unless rounding is greater.
+const TOLERANCE: f64 = 1e-13;
+/// ..or this many roundings.
+const ROUNDINGS: f64 = 64.0;
+/// Greatest number of steps, those by shaking among them.
+const ITERATIONS: u32 = 100;
+/// Greatest number of halvings of one step.
+const HALVINGS: u32 = 24;
+/// A step has to gain this share of what it promises.
+const GAIN: f64 = 0.1;
+/// Where less than this share of a step gains anything, full steps are tried..
+const SMALL: f64 = 0.1;
+/// ..this many, before it is taken after all.
+const EXCURSION: u32 = 6;
+/// Steps after all equations hold, as long as they make them better.
+const POLISH: u32 = 3;
+/// Greatest number of shakings..
+const SHAKES: u32 = 4;
+/// ..the first by up to this much (m or rad), the others by four times the one before.
+const SHAKE: f64 = 0.02;
+
+/// Where the input comes from.
+pub(super) trait Source<S: Differentiable> {
+    type Value: Tangent<S::Scalar>;
+    fn input<'a>(&'a self, value: &'a Self::Value) -> &'a S::Input;
+    /// Rates along a change of the value.
+    fn derivative(
+        &self,
+        system: &S,
+        t: S::Scalar,
+        state: &S::State,
+        value: &Self::Value,
+        change: &Self::Value,
+    ) -> (VelocityOf<S>, ExtraOf<S>);
+}
+
+/// The input is given.
+pub(super) struct Held<'a, U>(pub(super) &'a U);
+
+impl<S: Differentiable> Source<S> for Held<'_, S::Input> {
+    type Value = ();
+    fn input<'a>(&'a self, (): &'a ()) -> &'a S::Input {
+        self.0
+    }
+    fn derivative(&self, _: &S, _: S::Scalar, _: &S::State, (): &(), (): &()) -> (VelocityOf<S>, ExtraOf<S>) {
+        (Tangent::zero(), Tangent::zero())
+    }
+}
+
+/// The input is among the unknowns.
+pub(super) struct Turned;
+
+impl<S: Differentiable> Source<S> for Turned
+where
+    S::Input: Tangent<S::Scalar>,
+{
+    type Value = S::Input;
+    fn input<'a>(&'a self, value: &'a S::Input) -> &'a S::Input {
+        value
+    }
+    fn derivative(
+        &self,
+        system: &S,
+        t: S::Scalar,
+        state: &S::State,
+        value: &S::Input,
+        change: &S::Input,
+    ) -> (VelocityOf<S>, ExtraOf<S>) {
+        system.input_derivative(t, state, value, change)
+    }
+}
+
+/// What closes loops.
+pub(super) trait Closing<S: System> {
+    /// Whether there are any loops.
+    const LOOPS: bool;
+    /// The greatest residual of a position.
+    fn gap(&self, t: S::Scalar, state: &S::State) -> S::Scalar;
+    /// The displacement that closes the loops.
+    fn correction(&self, t: S::Scalar, state: &S::State, weights: &VelocityOf<S>) -> VelocityOf<S>;
+    /// The part of a displacement that opens them.
+    fn across(&self, t: S::Scalar, state: &S::State, d: &VelocityOf<S>, weights: &VelocityOf<S>) -> VelocityOf<S>;
+}
+
+/// There are no loops.
+pub(super) struct Open;
+
+impl<S: System> Closing<S> for Open {
+    const LOOPS: bool = false;
+    fn gap(&self, _: S::Scalar, _: &S::State) -> S::Scalar {
+        S::Scalar::lit(0.0)
+    }
+    fn correction(&self, _: S::Scalar, _: &S::State, _: &VelocityOf<S>) -> VelocityOf<S> {
+        Tangent::zero()
+    }
+    fn across(&self, _: S::Scalar, _: &S::State, _: &VelocityOf<S>, _: &VelocityOf<S>) -> VelocityOf<S> {
+        Tangent::zero()
+    }
+}
+
+/// The loops of a constrained system.
+pub(super) struct Loops<'a, S>(pub(super) &'a S);
+
+impl<S: Constrained> Closing<S> for Loops<'_, S> {
+    const LOOPS: bool = true;
+    fn gap(&self, t: S::Scalar, state: &S::State) -> S::Scalar {
+        greatest(&self.0.constraints(t, &state.split().0))
+    }
+    fn correction(&self, t: S::Scalar, state: &S::State, weights: &VelocityOf<S>) -> VelocityOf<S> {
+        let (q, _, _) = state.split();
+        let minus = self.0.constraints(t, &q).scale(S::Scalar::lit(-1.0));
+        self.0.correction(t, &q, &minus, weights).0
+    }
+    fn across(&self, t: S::Scalar, state: &S::State, d: &VelocityOf<S>, weights: &VelocityOf<S>) -> VelocityOf<S> {
+        let (q, _, x) = state.split();
+        let rate = |v: VelocityOf<S>| self.0.constraint_rate(t, &state.join(q, v, x));
+        let opened = rate(*d).add_scaled(S::Scalar::lit(-1.0), &rate(Tangent::zero()));
+        self.0.correction(t, &q, &opened, weights).0
+    }
+}
+
+type Mask<S> = <<S as System>::Scalar as Real>::Mask;
+type Unknowns<S, U> = Free<VelocityOf<S>, ExtraOf<S>, U>;
+type Rates<S> = (VelocityOf<S>, ExtraOf<S>);
+type Rows<S, U> =
+    <<S as Differentiable>::Matrix as Square<<S as System>::Scalar>>::Array<Row<<S as System>::Scalar, Unknowns<S, U>>>;
+type Vector<S> = <<S as Differentiable>::Matrix as Square<<S as System>::Scalar>>::Vector;
+
+/// Where the search stands.
+pub(super) struct Search<'a, S: Differentiable, I: Source<S>, C> {
+    system: &'a S,
+    source: &'a I,
+    closing: &'a C,
+    t: S::Scalar,
+    free: &'a Unknowns<S, I::Value>,
+}
+
+/// A step, and what it was made from.
+struct Proposal<S: Differentiable, U: Tangent<S::Scalar>> {
+    rows: Rows<S, U>,
+    step: Unknowns<S, U>,
+    rank: S::Scalar,
+    /// What each equation could be.
+    scale: Vector<S>,
+    /// Whether everything is finite, and the greatest derivative.
+    finite: Mask<S>,
+}
+
+/// Full steps that need not gain anything at first (the watchdog technique; Nocedal and Wright, section 15.5).
+struct Excursion<S: System, U> {
+    /// Where to go if they lead nowhere.
+    fallback: (S::State, U),
+    /// The square of the length of Newton's step where they began.
+    length: S::Scalar,
+    steps: u32,
+}
+
+impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
+    /// Searches for a state and values of the inputs.
+    pub(super) fn run(
+        system: &'a S,
+        source: &'a I,
+        closing: &'a C,
+        t: S::Scalar,
+        guess: &S::State,
+        value: I::Value,
+        free: &'a Unknowns<S, I::Value>,
+    ) -> Result<Equilibrium<S::State, I::Value, S::Scalar>, EquilibriumError> {
+        let lit = S::Scalar::lit;
+        let zero = lit(0.0);
+        let search = Self { system, source, closing, t, free };
+        let never = Real::lt(zero, zero);
+        let (mut state, mut value) = (*guess, value);
+        let mut residual = search.rates(&state, &value);
+        let sizes = search.sizes(&state, &value);
+        if !all(Real::is_finite(greatest(&residual))
+            & Real::is_finite(greatest(&sizes))
+            & Real::is_finite(greatest(free)))
+        {
+            return Err(EquilibriumError::NotFinite);
+        }
+
+        let (mut shakes, mut shake, mut polish, mut iterations) = (0, SHAKE, 0, 0);
+        let mut excursion: Option<Excursion<S, I::Value>> = None;
+        let mut random = 1_u32;
+        // The best that was seen of each lane, for errors.
+        let (mut best, mut best_rank) = (lit(f64::INFINITY), zero);
+        let closed = loop {
+            let proposal = search.propose(&state, &value, &residual);
+            let closed = search.holds(&state, &residual, &proposal.scale);
+            let size = greatest(&residual);
+            let better = Real::lt(size, best);
+            best = Real::select(better, size, best);
+            best_rank = Real::select(better, proposal.rank, best_rank);
+            if all(closed) && polish == POLISH {
+                break Ok((closed, proposal.rank));
+            }
+            if !all(proposal.finite) {
+                break Err(EquilibriumError::NotFinite);
+            }
+            if iterations == ITERATIONS {
+                break Ok((closed, proposal.rank));
+            }
+
+            // On the way through a bent valley: full steps until Newton's step is shorter than where it began.
+            let length = search.length(&proposal.step, &state, &value);
+            if let Some(left) = excursion.as_mut() {
+                if all(closed | Real::lt(length, left.length * lit(1.0 - GAIN))) {
+                    excursion = None;
+                } else if left.steps < EXCURSION && all(Real::gt(length, zero)) {
+                    left.steps += 1;
+                    (state, value) = search.moved(&state, &value, &search.limited(&proposal.step, &state, &value));
+                    residual = search.rates(&state, &value);
+                    iterations += 1;
+                    continue;
+                } else {
+                    (state, value) = left.fallback;
+                    residual = search.rates(&state, &value);
+                    excursion = None;
+                    iterations += 1;
+                    continue;
+                }
+            }
+
+            let step = search.limited(&proposal.step, &state, &value);
+            let (factor, stalled) = search.damping(&state, &value, &proposal, &step);
+            if all(closed) {
+                if all(Real::eq(factor, zero)) {
+                    break Ok((closed, proposal.rank)); // nothing makes it better
+                }
+                polish += 1;
+            }
+            let shaken = stalled & !closed;
+            let moved = if any(shaken) {
+                if shakes == SHAKES {
+                    break Ok((closed, proposal.rank));
+                }
+                shakes += 1;
+                let shaking = shaking(free, &mut random, lit(shake));
+                shake *= 4.0;
+                step.zip(&shaking, &mut |d, s| Real::select(shaken, s, chosen(factor, d)))
+            } else {
+                step.map(&mut |d| chosen(factor, d))
+            };
+            let next = search.moved(&state, &value, &moved);
+            if all(Real::gt(length, zero) | closed) && any(Real::lt(factor, lit(SMALL)) & !closed) {
+                excursion = Some(Excursion { fallback: next, length, steps: 1 });
+                (state, value) = search.moved(&state, &value, &step);
+            } else {
+                (state, value) = next;
+            }
+            residual = search.rates(&state, &value);
+            iterations += 1;
+        };
+        let (closed, rank) = closed?;
+        if all(closed) {
+            return Ok(Equilibrium { state, input: value, rank, residual: greatest(&residual), iterations });
+        }
+        let equations = S::Matrix::SIZE;
+        let residual = Real::select(closed | !Real::is_finite(best), zero, best).greatest();
+        let rank = Real::select(closed | never, lit(f64::from(u32::MAX)), best_rank);
+        let rank = -(-rank).greatest() as usize;
+        Err(if rank < equations {
+            EquilibriumError::Singular { residual, rank, equations }
+        } else {
+            EquilibriumError::NotFound { residual, iterations }
+        })
+    }
+
+    /// Accelerations and rates of own states.
+    fn rates(&self, state: &S::State, value: &I::Value) -> Rates<S> {
+        self.system.derivative(self.t, state, self.source.input(value))
+    }
+
+    /// The sizes of all unknowns.
+    fn sizes(&self, state: &S::State, value: &I::Value) -> Unknowns<S, I::Value> {
+        let (q, v, x) = state.split();
+        Free { position: q.magnitude(), velocity: v, states: x, input: *value }
+    }
+
+    fn moved(&self, state: &S::State, value: &I::Value, step: &Unknowns<S, I::Value>) -> (S::State, I::Value) {
+        let (q, v, x) = state.split();
+        let state = state.join(q.displace(&step.position), v.add(&step.velocity), x.add(&step.states));
+        (self.system.accepted(self.t, &state, self.source.input(value)), value.add(&step.input))
+    }
+
+    /// Whether all equations hold, and all loops are closed.
+    fn holds(&self, state: &S::State, residual: &Rates<S>, scale: &Vector<S>) -> Mask<S> {
+        let lit = S::Scalar::lit;
+        let tolerance = Real::max(lit(TOLERANCE), lit(ROUNDINGS) * S::Scalar::epsilon());
+        let worst = scaled::<S>(residual, scale).fold(lit(0.0), &mut |worst, r| Real::max(worst, Real::abs(r)));
+        let (q, _, _) = state.split();
+        let gap = self.closing.gap(self.t, state) / (lit(1.0) + greatest(&q.magnitude()));
+        Real::le(worst, tolerance) & Real::le(gap, tolerance)
+    }
+
+    /// The step of Newton's method that is the least one.
+    fn propose(&self, state: &S::State, value: &I::Value, residual: &Rates<S>) -> Proposal<S, I::Value> {
+        let lit = S::Scalar::lit;
+        let (zero, one) = (lit(0.0), lit(1.0));
+        let mut rows = self.rows(state, value);
+        let sizes = self.sizes(state, value);
+        let mut scale = S::Matrix::vector(|_| one);
+        let mut poison = zero;
+        for (row, scale) in rows.as_mut().iter_mut().zip(scale.as_mut()) {
+            let reach = row.entries.zip(&sizes, &mut |a, z| Real::abs(a) * (one + Real::abs(z)));
+            *scale = one + reach.fold(zero, &mut |sum, a| sum + a);
+            poison += *scale - *scale;
+            row.square = square(&row.entries, self.free);
+        }
+        if C::LOOPS {
+            self.project(state, &mut rows);
+        }
+        for row in rows.as_mut() {
+            row.square = Real::select(Real::gt(row.square, zero), row.square, one) + poison;
+        }
+        let (step, rank) = self.correction(&rows, state, residual);
+        let finite = Real::is_finite(greatest(&step)) & Real::is_finite(poison);
+        Proposal { rows, step, rank, scale, finite }
+    }
+
+    /// The least step for the rates at a state, by equations that were linearised there or nearby, and their rank.
+    fn correction(
+        &self,
+        rows: &Rows<S, I::Value>,
+        state: &S::State,
+        residual: &Rates<S>,
+    ) -> (Unknowns<S, I::Value>, S::Scalar) {
+        let zero = S::Scalar::lit(0.0);
+        let mut rows = *rows;
+        let closing = self.closing.correction(self.t, state, &self.free.position);
+        for (row, &rate) in rows.as_mut().iter_mut().zip(packed::<S>(residual).as_ref()) {
+            // Less what closing the loops does to the equation.
+            let closed = row.entries.position.zip(&closing, &mut |a, d| a * d).fold(zero, &mut |sum, a| sum + a);
+            row.right = -rate - closed;
+        }
+        let threshold = S::Scalar::lit(16.0 * S::Matrix::SIZE as f64) * S::Scalar::epsilon();
+        let (mut step, rank) = least(rows.as_mut(), self.free, threshold);
+        step.position = step.position.add(&closing);
+        (step, rank)
+    }
+
+    /// Leaves of the equations what lies along the loops. Accelerations do so, and what their change has across comes from
+    /// the curvature of the constraints alone: with the projection `P` of least squares, `P J P` in place of `J`, the right
+    /// one in the weights of the displacements.
+    fn project(&self, state: &S::State, rows: &mut Rows<S, I::Value>) {
+        let (zero, one) = (S::Scalar::lit(0.0), S::Scalar::lit(1.0));
+        let weights = &self.free.position;
+        let none = VelocityOf::<S>::zero();
+        let ones = none.map(&mut |_| one);
+        let all = *rows;
+        for (i, row) in rows.as_mut().iter_mut().enumerate().take(none.len()) {
+            let mut place = 0;
+            let unit = none.map(&mut |_| next(&mut place, |j| S::Scalar::lit(f64::from(u8::from(j == i)))));
+            let across = self.closing.across(self.t, state, &unit, &ones);
+            let mut others = all.as_ref().iter();
+            row.entries =
+                unit.zip(&across, &mut |u, a| u - a).fold(Unknowns::<S, I::Value>::zero(), &mut |sum, share| {
+                    others.next().map_or(sum, |other| sum.add_scaled(share, &other.entries))
+                });
+        }
+        for row in rows.as_mut() {
+            let along = row.entries.position.zip(weights, &mut |a, w| a * w);
+            let across = self.closing.across(self.t, state, &along, weights);
+            let across = across.zip(weights, &mut |d, w| d / Real::select(Real::gt(w, zero), w, one));
+            row.entries.position = row.entries.position.zip(&across, &mut |a, d| a - d);
+        }
+    }
+
+    /// The linearised equations, one in each row.
+    fn rows(&self, state: &S::State, value: &I::Value) -> Rows<S, I::Value> {
+        let zero = S::Scalar::lit(0.0);
+        let jacobian = self.system.jacobian(self.t, state, self.source.input(value));
+        let none = Unknowns::<S, I::Value>::zero();
+        let mut rows = S::Matrix::array(|i| {
+            let mut column = 0;
+            let position = none.position.map(&mut |_| next(&mut column, |j| jacobian.position.get(i, j)));
+            column = 0;
+            let velocity = none.velocity.map(&mut |_| next(&mut column, |j| jacobian.rates.get(i, j)));
+            let states = none.states.map(&mut |_| next(&mut column, |j| jacobian.rates.get(i, j)));
+            Row { entries: Free { position, velocity, states, input: none.input }, right: zero, square: zero }
+        });
+        for k in 0..none.input.len() {
+            let mut place = 0;
+            let unit = none.input.map(&mut |_| next(&mut place, |j| S::Scalar::lit(f64::from(u8::from(j == k)))));
+            let change = packed::<S>(&self.source.derivative(self.system, self.t, state, value, &unit));
+            for (row, &change) in rows.as_mut().iter_mut().zip(change.as_ref()) {
+                row.entries.input = row.entries.input.add_scaled(change, &unit);
+            }
+        }
+        rows
+    }
+
+    /// The share of the step to take in each lane, and the lanes in which there is none.
+    ///
+    /// What has to fall is the step that the same linearised equations would ask for at the new state (the natural
+    /// monotonicity test; Deuflhard, Newton Methods for Nonlinear Problems, section 3.3): unlike the accelerations, it is
+    /// not ruled by what is stiff.
+    fn damping(
+        &self,
+        state: &S::State,
+        value: &I::Value,
+        proposal: &Proposal<S, I::Value>,
+        step: &Unknowns<S, I::Value>,
+    ) -> (S::Scalar, Mask<S>) {
+        let lit = S::Scalar::lit;
+        let (zero, one) = (lit(0.0), lit(1.0));
+        let now = self.length(&proposal.step, state, value);
+        let (mut taken, mut factor, mut open) = (zero, one, !Real::lt(zero, zero));
+        for _ in 0..=HALVINGS {
+            let (next, next_value) = self.moved(state, value, &step.scale(factor));
+            let (left, _) = self.correction(&proposal.rows, &next, &self.rates(&next, &next_value));
+            let good = open & Real::lt(self.length(&left, state, value), now * (one - lit(GAIN) * factor));
+            taken = Real::select(good, factor, taken);
+            open = open & !good;
+            if !any(open) {
+                break;
+            }
+            factor *= lit(0.5);
+        }
+        (taken, open)
+    }
+
+    /// The square of a step's length, relative to what moves.
+    fn length(&self, step: &Unknowns<S, I::Value>, state: &S::State, value: &I::Value) -> S::Scalar {
+        let (zero, one) = (S::Scalar::lit(0.0), S::Scalar::lit(1.0));
+        let relative = step.zip(&self.sizes(state, value), &mut |d, z| d / (one + Real::abs(z)));
+        relative.fold(zero, &mut |sum, d| sum + d * d)
+    }
+
+    /// A step not farther than a radian or, for what is longer, than it is long.
+    fn limited(&self, step: &Unknowns<S, I::Value>, state: &S::State, value: &I::Value) -> Unknowns<S, I::Value> {
+        let one = S::Scalar::lit(1.0);
+        let reach = greatest(&step.zip(&self.sizes(state, value), &mut |d, z| d / (one + Real::abs(z))));
+        step.scale(one / Real::max(one, reach))
+    }
+}
+
+/// A share of a component; nothing where the share is zero, whatever the component.
+fn chosen<T: Real>(factor: T, d: T) -> T {
+    Real::select(Real::eq(factor, T::lit(0.0)), T::lit(0.0), factor * d)
+}
+
+/// The value at the next place.
+fn next<T>(place: &mut usize, value: impl FnOnce(usize) -> T) -> T {
+    let here = *place;
+    *place += 1;
+    value(here)
+}
+
+/// Numbers between plus and minus `size` for all positions, velocities and states that are free.
+fn shaking<T: Real, V: Tangent<T>>(free: &V, random: &mut u32, size: T) -> V {
+    free.map(&mut |weight| {
+        // Knuth's linear congruence; its upper bits are good enough for a direction.
+        *random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        let number = f64::from(*random >> 8) / f64::from(1 << 23) - 1.0;
+        Real::select(Real::gt(weight, T::lit(0.0)), size * T::lit(number), T::lit(0.0))
+    })
+}
+
+/// Accelerations and rates as a vector.
+fn packed<S: Differentiable>(rates: &Rates<S>) -> Vector<S> {
+    let mut vector = S::Matrix::vector(|_| S::Scalar::lit(0.0));
+    let mut places = vector.as_mut().iter_mut();
+    rates.fold((), &mut |(), component| {
+        if let Some(place) = places.next() {
+            *place = component;
+        }
+    });
+    vector
+}
+
+/// Accelerations and rates, each divided by what it could be.
+fn scaled<S: Differentiable>(rates: &Rates<S>, scale: &Vector<S>) -> Rates<S> {
+    let mut scales = scale.as_ref().iter();
+    rates.map(&mut |rate| scales.next().map_or(rate, |&scale| rate / scale))
+}
+
+/// The square of a row's length.
+fn square<T: Real, V: Tangent<T>>(row: &V, weights: &V) -> T {
+    row.zip(weights, &mut |a, w| a * a * w).fold(T::lit(0.0), &mut |sum, a| sum + a)
+}
+
+/// The greatest size of a component in each lane; NaN if one is.
+fn greatest<T: Real, V: Tangent<T>>(v: &V) -> T {
+    v.fold(T::lit(0.0), &mut |greatest, x| Real::max(greatest, Real::abs(x)))
+}

@@ -1,0 +1,55 @@
+//! What a Gauss method integrates beside positions: velocities or momenta.
+
+use crate::integrators::problem::Problem;
+use crate::{Canonical, ExtraOf, PositionOf, System, Tangent, VelocityOf};
+
+/// The second half of the variables, `w`.
+pub(super) trait Variables<S: System> {
+    /// Those of a state.
+    fn of(system: &S, state: &S::State) -> VelocityOf<S>;
+
+    /// The velocities that belong to them at a position.
+    fn velocity(system: &S, q: &PositionOf<S>, w: &VelocityOf<S>) -> VelocityOf<S>;
+
+    /// Their rates and those of own states.
+    fn rates(problem: &Problem<'_, S>, t: S::Scalar, state: &S::State) -> (VelocityOf<S>, ExtraOf<S>);
+}
+
+/// Velocities themselves.
+pub(super) struct Velocities;
+
+impl<S: System> Variables<S> for Velocities {
+    #[inline]
+    fn of(_system: &S, state: &S::State) -> VelocityOf<S> {
+        use crate::StateSpace;
+        state.split().1
+    }
+    #[inline]
+    fn velocity(_system: &S, _q: &PositionOf<S>, w: &VelocityOf<S>) -> VelocityOf<S> {
+        *w
+    }
+    #[inline]
+    fn rates(problem: &Problem<'_, S>, t: S::Scalar, state: &S::State) -> (VelocityOf<S>, ExtraOf<S>) {
+        let slope = problem.slope(t, state);
+        (slope.v, slope.x)
+    }
+}
+
+/// Momenta `M(q) v`.
+pub(super) struct Momenta;
+
+impl<S: Canonical> Variables<S> for Momenta {
+    #[inline]
+    fn of(system: &S, state: &S::State) -> VelocityOf<S> {
+        system.momentum(state)
+    }
+    #[inline]
+    fn velocity(system: &S, q: &PositionOf<S>, w: &VelocityOf<S>) -> VelocityOf<S> {
+        system.velocity(q, w)
+    }
+    #[inline]
+    fn rates(problem: &Problem<'_, S>, t: S::Scalar, state: &S::State) -> (VelocityOf<S>, ExtraOf<S>) {
+        let own = if ExtraOf::<S>::zero().is_empty() { ExtraOf::<S>::zero() } else { problem.slope(t, state).x };
+        (problem.momentum_rate(t, state), own)
+    }
+}

@@ -1,0 +1,240 @@
+//! The loop over steps: [`Run`], one attempt at a time.
+
+use super::control::Control;
+use super::error::IntegrationError;
+use super::integrator::{Integrator, Statistics, Steps};
+use super::interval::Interval;
+use super::method::Method;
+use super::problem::{Problem, Step};
+use super::slope::{SlopeOf, advanced, displaced, is_finite, magnitude};
+use crate::{Real, System, Tangent};
+
+/// What an observer makes of an accepted step.
+pub(super) enum Verdict<Z> {
+    /// The integration goes on from its end.
+    Continue,
+    /// It goes on from another state, at a time within the step.
+    Restart { time: f64, state: Z },
+    /// It ends there.
+    Stop { time: f64, state: Z },
+}
+
+/// Where an integration stands.
+pub(super) struct Run<'a, S: System, M: Method<S>> {
+    settings: &'a Integrator<M>,
+    problem: &'a Problem<'a, S>,
+    t0: f64,
+    t: f64,
+    end: f64,
+    state: S::State,
+    /// What compensated summation still owes the state.
+    rest: SlopeOf<S>,
+    memory: M::Memory,
+    /// None for steps of one length.
+    control: Option<Control>,
+    /// Steps since `t0`, for steps of one length.
+    count: u32,
+    /// Whether `t` is the end of so many steps, and not a time between at which the run was restarted.
+    on_grid: bool,
+    accepted: u32,
+    rejected: u32,
+}
+
+impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
+    pub(super) fn new(
+        settings: &'a Integrator<M>,
+        problem: &'a Problem<'a, S>,
+        t0: f64,
+        t1: f64,
+        state: &S::State,
+    ) -> Result<Self, IntegrationError> {
+        let what = if !(t1 - t0).is_finite() {
+            Some("the times of an integration must be finite, and so must their difference")
+        } else {
+            match settings.steps {
+                Steps::Fixed(step) if step > 0.0 && step.is_finite() => {
+                    if (t1 - t0).abs() / step > f64::from(settings.max_steps) + 0.5 {
+                        return Err(IntegrationError::TooManySteps { time: t0 });
+                    }
+                    None
+                }
+                Steps::Fixed(_) => Some("a step must be finite and positive"),
+                Steps::Adaptive(_) if M::ESTIMATE == 0 => {
+                    Some("this method does not estimate its error: its steps have to be given")
+                }
+                Steps::Adaptive(tolerance) => tolerance.complaint::<S::Scalar>(),
+            }
+        };
+        if let Some(what) = what {
+            return Err(IntegrationError::InvalidArgument { what });
+        }
+        let memory = settings.method.begin(problem, S::Scalar::lit(t0), state);
+        if !is_finite(&magnitude(state)) {
+            return Err(IntegrationError::NonFinite { time: t0 });
+        }
+        let control = match settings.steps {
+            Steps::Fixed(_) => None,
+            Steps::Adaptive(tolerance) => Some(Control::start(tolerance, M::ESTIMATE, problem, t0, t1, state)?),
+        };
+        Ok(Self {
+            settings,
+            problem,
+            t0,
+            t: t0,
+            end: t1,
+            state: *state,
+            rest: SlopeOf::<S>::zero(),
+            memory,
+            control,
+            count: 0,
+            on_grid: true,
+            accepted: 0,
+            rejected: 0,
+        })
+    }
+
+    pub(super) fn arrived(&self) -> bool {
+        self.t == self.end
+    }
+
+    /// `[s]` the time reached.
+    pub(super) const fn time(&self) -> f64 {
+        self.t
+    }
+
+    /// The state reached.
+    pub(super) const fn state(&self) -> &S::State {
+        &self.state
+    }
+
+    pub(super) fn statistics(&self) -> Statistics {
+        Statistics {
+            evaluations: self.problem.evaluations(),
+            jacobians: self.problem.jacobians(),
+            factorisations: self.problem.factorisations(),
+            accepted: self.accepted,
+            rejected: self.rejected,
+        }
+    }
+
+    /// The time at which the next step ends, and its signed length.
+    fn target(&self) -> Result<(f64, f64), IntegrationError> {
+        let remaining = self.end - self.t;
+        if let Steps::Fixed(step) = self.settings.steps {
+            // A remainder of less than a millionth of a step is rounding.
+            let target = self.t0 + (f64::from(self.count) + 1.0) * step.copysign(remaining);
+            let last = (self.end - target).abs() <= 1e-6 * step || (self.end - target) * remaining < 0.0;
+            let rounding = 4.0 * f64::EPSILON * (self.t.abs() + self.end.abs());
+            let whole = self.on_grid && (!last || (remaining.abs() - step).abs() <= rounding);
+            let target = if last { self.end } else { target };
+            return Ok((target, if whole { step.copysign(remaining) } else { target - self.t }));
+        }
+        let Some(control) = &self.control else {
+            return Ok((self.end, remaining)); // never: steps that are not of one length have a controller
+        };
+        let target = control.target(self.t, self.end);
+        let length = target - self.t; // with the rounding of the time, so that steps add up to it
+        if target != self.end && control.is_too_short(self.t, length) {
+            return Err(IntegrationError::StepTooSmall { time: self.t, step: length.abs() });
+        }
+        Ok((target, length))
+    }
+
+    /// One attempt of a step; if it is accepted, the run goes on as `observe` says.
+    pub(super) fn advance(
+        &mut self,
+        observe: impl FnOnce(&Interval<'_, S, M>) -> Result<Verdict<S::State>, IntegrationError>,
+    ) -> Result<(), IntegrationError> {
+        if self.accepted.saturating_add(self.rejected) >= self.settings.max_steps {
+            return Err(IntegrationError::TooManySteps { time: self.t });
+        }
+        let (target, length) = self.target()?;
+        let state = self.state;
+        let step = Step {
+            t: S::Scalar::lit(self.t),
+            end: S::Scalar::lit(target),
+            dt: S::Scalar::lit(length),
+            state: &state,
+            full: true,
+        };
+        let method = &self.settings.method;
+        let attempt = method.attempt(self.problem, &step, &self.memory);
+
+        let (next, rest) = if self.settings.compensated {
+            advanced(&state, &attempt.displacement, &self.rest)
+        } else {
+            (displaced(&state, &attempt.displacement), self.rest)
+        };
+        if let (Steps::Adaptive(tolerance), Some(control)) = (self.settings.steps, &mut self.control) {
+            let (size, next_size) = (magnitude(&state), magnitude(&next));
+            let error = method.error(&step, &attempt, |vector| tolerance.norm(vector, &size, &next_size)).greatest();
+            let error = if attempt.converged { error } else { f64::NAN };
+            let accepted = control.judge(error, length);
+            control.change_step(method.next_step(&attempt, length, control.step()));
+            if !accepted {
+                self.rejected += 1;
+                self.memory = method.repeat(&self.memory, &attempt);
+                return if error.is_finite() || !control.is_too_short(self.t, control.step()) {
+                    Ok(())
+                } else {
+                    Err(stopped(attempt.converged || !is_finite(&magnitude(&next)), self.t))
+                };
+            }
+        } else if !attempt.converged {
+            return Err(stopped(!is_finite(&magnitude(&next)), self.t));
+        }
+        let next = self.problem.accepted(step.end, &next);
+        if !is_finite(&magnitude(&next)) {
+            return Err(IntegrationError::NonFinite { time: self.t });
+        }
+        let verdict = observe(&Interval::new(
+            (method, self.problem, &self.memory),
+            Step { ..step },
+            (self.t, target, length),
+            &attempt,
+            &next,
+            self.settings.compensated.then_some(&self.rest),
+        ))?;
+        self.accepted += 1;
+        match verdict {
+            Verdict::Continue => {
+                if target != self.end {
+                    self.memory = method.proceed(self.problem, &step, &self.memory, &attempt, &next);
+                }
+                self.state = next;
+                self.rest = rest;
+                self.t = target;
+                self.count = self.count.saturating_add(1);
+                self.on_grid = true;
+            }
+            Verdict::Restart { time, state } => {
+                if time != self.end {
+                    self.memory = method.begin(self.problem, S::Scalar::lit(time), &state);
+                }
+                if let Some(control) = &mut self.control {
+                    control.restart(length);
+                }
+                self.on_grid = time == target;
+                self.count = self.count.saturating_add(self.on_grid.into());
+                self.jump(time, state);
+            }
+            Verdict::Stop { time, state } => {
+                self.end = time;
+                self.jump(time, state);
+            }
+        }
+        Ok(())
+    }
+
+    /// A state that no step led to.
+    fn jump(&mut self, time: f64, state: S::State) {
+        self.t = time;
+        self.state = state;
+        self.rest = SlopeOf::<S>::zero();
+    }
+}
+
+/// Why a step gave no state.
+const fn stopped(converged: bool, time: f64) -> IntegrationError {
+    if converged { IntegrationError::NonFinite { time } } else { IntegrationError::NoConvergence { time } }
+}

@@ -1,0 +1,89 @@
+//! What a wrapper leaves as it is: traits handed on to the system that it holds.
+
+/// Implements traits for a wrapper of a constrained system by those of its field `system`.
+macro_rules! handed_on {
+    ($type:ty, $parameters:tt, $($trait:ident),*) => {
+        $(handed_on!(@$trait $type, $parameters);)*
+    };
+    (@Constrained $type:ty, [$($parameter:tt)*]) => {
+        impl<S: Constrained, $($parameter)*> Constrained for $type {
+            type Residual = S::Residual;
+
+            #[inline]
+            fn constraints(&self, t: S::Scalar, q: &PositionOf<S>) -> S::Residual {
+                self.system.constraints(t, q)
+            }
+            #[inline]
+            fn constraint_rate(&self, t: S::Scalar, state: &S::State) -> S::Residual {
+                self.system.constraint_rate(t, state)
+            }
+            #[inline]
+            fn correction(
+                &self,
+                t: S::Scalar,
+                q: &PositionOf<S>,
+                residual: &S::Residual,
+                weights: &VelocityOf<S>,
+            ) -> (VelocityOf<S>, S::Scalar) {
+                self.system.correction(t, q, residual, weights)
+            }
+        }
+    };
+    (@Impulsive $type:ty, [$($parameter:tt)*]) => {
+        impl<S: Constrained + Impulsive, $($parameter)*> Impulsive for $type {
+            type Rates = S::Rates;
+
+            #[inline]
+            fn jump(
+                &self,
+                t: S::Scalar,
+                q: &PositionOf<S>,
+                impulse: &VelocityOf<S>,
+                rates: &S::Rates,
+            ) -> (VelocityOf<S>, S::Scalar) {
+                self.system.jump(t, q, impulse, rates)
+            }
+        }
+    };
+    (@Differentiable $type:ty, [$($parameter:tt)*]) => {
+        impl<S: Constrained + Differentiable, $($parameter)*> Differentiable for $type {
+            type Matrix = S::Matrix;
+
+            #[inline]
+            fn jacobian(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> Jacobian<S::Matrix> {
+                self.system.jacobian(t, state, input)
+            }
+            #[inline]
+            fn input_derivative(
+                &self,
+                t: S::Scalar,
+                state: &S::State,
+                input: &S::Input,
+                change: &S::Input,
+            ) -> (VelocityOf<S>, ExtraOf<S>) {
+                self.system.input_derivative(t, state, input, change)
+            }
+        }
+    };
+    (@Canonical $type:ty, [$($parameter:tt)*]) => {
+        impl<S: Constrained + Canonical, $($parameter)*> Canonical for $type {
+            #[inline]
+            fn momentum(&self, state: &S::State) -> VelocityOf<S> {
+                self.system.momentum(state)
+            }
+            #[inline]
+            fn velocity(&self, q: &PositionOf<S>, momentum: &VelocityOf<S>) -> VelocityOf<S> {
+                self.system.velocity(q, momentum)
+            }
+            #[inline]
+            fn momentum_rate(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> VelocityOf<S> {
+                self.system.momentum_rate(t, state, input)
+            }
+        }
+    };
+    (@Separable $type:ty, [$($parameter:tt)*]) => {
+        impl<S: Constrained + Separable, $($parameter)*> Separable for $type {}
+    };
+}
+
+pub(super) use handed_on;

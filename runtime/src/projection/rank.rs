@@ -1,0 +1,62 @@
+//! How many equations are independent: [`rank`] at one state, [`WithRank`] over an integration.
+
+use super::handed_on::handed_on;
+use super::{Plain, Weighting};
+use crate::{
+    Canonical, Constrained, Differentiable, ExtraOf, Impulsive, Jacobian, PositionOf, Real, Separable, StateSpace,
+    System, Tangent, VelocityOf,
+};
+use core::cell::Cell;
+
+/// How many of the constraints are independent at a position, in each lane: fewer than there are where some repeat
+/// others, fewer still in a singular pose.
+pub fn rank<S: Constrained>(system: &S, t: S::Scalar, state: &S::State) -> S::Scalar {
+    let (q, _, _) = state.split();
+    Plain.correction(system, t, &q, &S::Residual::zero()).1
+}
+
+/// A system that remembers the least rank of its constraints at the end of any accepted step, and when that was.
+///
+/// It is a wrapper like [`WithProjection`](super::WithProjection), and goes around it:
+/// `WithRank::new(WithProjection::new(&model, projection))`. The motion is not changed. Steps seldom end exactly in a
+/// singular pose; an event that locates it brings the rank there to light.
+#[derive(Clone, Debug)]
+pub struct WithRank<S: System> {
+    /// The system.
+    pub system: S,
+    least: Cell<Option<(S::Scalar, S::Scalar)>>,
+}
+
+impl<S: Constrained> WithRank<S> {
+    /// No step is taken yet.
+    pub const fn new(system: S) -> Self {
+        Self { system, least: Cell::new(None) }
+    }
+
+    /// The least rank so far and the time `[s]` at which it was met first, in each lane; `None` before the first step.
+    pub fn least(&self) -> Option<(S::Scalar, S::Scalar)> {
+        self.least.get()
+    }
+}
+
+impl<S: Constrained> System for WithRank<S> {
+    type Scalar = S::Scalar;
+    type State = S::State;
+    type Input = S::Input;
+
+    #[inline]
+    fn derivative(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> (VelocityOf<S>, ExtraOf<S>) {
+        self.system.derivative(t, state, input)
+    }
+
+    fn accepted(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> S::State {
+        let next = self.system.accepted(t, state, input);
+        let now = rank(&self.system, t, &next);
+        let (least, when) = self.least.get().unwrap_or((now, t));
+        let lower = Real::lt(now, least);
+        self.least.set(Some((Real::select(lower, now, least), Real::select(lower, t, when))));
+        next
+    }
+}
+
+handed_on!(WithRank<S>, [], Constrained, Impulsive, Differentiable, Canonical, Separable);

@@ -1,0 +1,97 @@
+//! A motion to an accuracy, without a choice of method: [`simulate`], and [`simulate_stiff`] for stiff systems.
+//!
+//! Which method and which tolerances is what `examples/tradeoff` measured: over its scenes, the method of order eight
+//! costs least from 1e-3 on, and what is lost to the best choice in hindsight is less than a factor of two.
+
+use crate::{Differentiable, Dop853, DormandPrince, IntegrationError, Integrator, Radau, Real, Statistics, System};
+
+/// Looser than that, the method of order five costs less.
+const LOOSE: f64 = 3e-3;
+/// Tolerances of steps in units of the accuracy: for the methods of order eight and five, and for the implicit one.
+const SHARES: [f64; 3] = [0.5, 0.1, 0.1];
+/// No tolerance is below that many roundings.
+const ROUNDINGS: f64 = 2.0;
+
+/// The state at `t1` `[s]`, from `state` at `t0` `[s]`, to the given accuracy: method and steps are chosen.
+///
+/// `accuracy` is the error to aim at, of positions and of velocities, relative to one more than their size. It is that of
+/// the whole motion, not of a step, as far as the motion itself doesn't magnify errors: where neighbouring motions part
+/// by a factor of a thousand, as in chaos, so does the error. It is an aim and no bound; halve its logarithm's distance
+/// by a second run with a tenth of it where you need to know. `f32` ends at about 1e-5.
+///
+/// ```
+/// use multibody::{multibody, simulate};
+///
+/// multibody! {
+///     pub mod pendulum {
+///         world { gravity: -9.81 * Y }
+///         body bob { mass: 1.0, com: -Y }
+///         joint hinge: Revolute { parent: ground, child: bob, axis: Z }
+///     }
+/// }
+/// use pendulum::{Model, State};
+///
+/// let mut start = State::default();
+/// start.q.hinge = 1e-3; // rad: a small swing
+/// let model = Model::<f64>::default();
+/// let (end, statistics) = simulate(&model, 0.0, 10.0, &start, &(), 1e-9, |_, _| ())?;
+/// let frequency = 9.81_f64.sqrt() * (1.0 - 1e-6 / 16.0);
+/// assert!((end.q.hinge - 1e-3 * (10.0 * frequency).cos()).abs() < 1e-9);
+/// assert!(statistics.evaluations < 1000);
+/// # Ok::<(), multibody::IntegrationError>(())
+/// ```
+///
+/// For stiff systems (springs, dampers or contacts that are fast beside the motion) every explicit method needs steps as
+/// short as their fastest part: see [`simulate_stiff`].
+///
+/// # Errors
+/// [`InvalidArgument`](IntegrationError::InvalidArgument) if the accuracy is not positive and finite, and what
+/// [`Integrator::integrate`] gives.
+pub fn simulate<S: System>(
+    system: &S,
+    t0: f64,
+    t1: f64,
+    state: &S::State,
+    input: &S::Input,
+    accuracy: f64,
+    observe: impl FnMut(f64, &S::State),
+) -> Result<(S::State, Statistics), IntegrationError> {
+    let [eight, five, _] = SHARES;
+    if accuracy > LOOSE {
+        let tolerance = tolerance::<S>(five * accuracy, accuracy)?;
+        return Integrator::adaptive(DormandPrince, tolerance, tolerance)
+            .integrate(system, t0, t1, state, input, observe);
+    }
+    let tolerance = tolerance::<S>(eight * accuracy, accuracy)?;
+    Integrator::adaptive(Dop853, tolerance, tolerance).integrate(system, t0, t1, state, input, observe)
+}
+
+/// The same for stiff systems, by the implicit method [`Radau`] with the exact derivatives of `emit derivatives`.
+///
+/// Its steps follow the motion, however fast what is damped in it may be. Where nothing is fast it costs two to four times
+/// as much as [`simulate`].
+///
+/// # Errors
+/// As those of [`simulate`].
+pub fn simulate_stiff<S: Differentiable>(
+    system: &S,
+    t0: f64,
+    t1: f64,
+    state: &S::State,
+    input: &S::Input,
+    accuracy: f64,
+    observe: impl FnMut(f64, &S::State),
+) -> Result<(S::State, Statistics), IntegrationError> {
+    let [.., implicit] = SHARES;
+    let tolerance = tolerance::<S>(implicit * accuracy, accuracy)?;
+    Integrator::adaptive(Radau, tolerance, tolerance).integrate(system, t0, t1, state, input, observe)
+}
+
+/// A tolerance of steps, if the accuracy is one.
+fn tolerance<S: System>(tolerance: f64, accuracy: f64) -> Result<f64, IntegrationError> {
+    if accuracy > 0.0 && accuracy.is_finite() {
+        Ok(Real::max(tolerance, ROUNDINGS * S::Scalar::epsilon().greatest()))
+    } else {
+        Err(IntegrationError::InvalidArgument { what: "an accuracy must be positive and finite" })
+    }
+}

@@ -1,0 +1,497 @@
+//! Loops at the edges: Andrews' squeezer at all its points, rows of four-bars through their flat pose, and mechanisms that
+//! lock up. Reference data in `data/motion`.
+
+#[path = "models/rows.rs"]
+mod rows;
+
+use multibody::impact::impact;
+use multibody::integrators::{Action, Direction, Event, Events};
+use multibody::nalgebra::SVector;
+use multibody::projection::rank;
+use multibody::{
+    Constrained, Dop853, DormandPrince, IntegrationError, Integrator, Projection, ProjectionError, System,
+    WithBaumgarte, WithProjection, WithRank, multibody,
+};
+use multibody_tests::models::linkages::{four_bars_2, four_bars_10, redundant_2};
+use multibody_tests::support::compare::{mixed, worse};
+use multibody_tests::support::data::{array, flat, list, number, read};
+use rows::{four_bars_40, redundant_10};
+use serde_json::Value;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::time::Instant;
+
+/// Declares the squeezer; what a call adds is its formulation.
+macro_rules! squeezer {
+    ($name:ident { $($items:tt)* }) => {
+        multibody! {
+            mod $name {
+                const A = [-0.06934, -0.00227, 0.0];
+                const B = [-0.03635, 0.03273, 0.0];
+                const C = [0.014, 0.072, 0.0];
+                body one { mass: 0.04325, com: 92e-5 * X, inertia: diag(0.0, 2.194e-6, 2.194e-6) }
+                body two { mass: 0.00365, com: -0.0115 * X, inertia: diag(0.0, 4.410e-7, 4.410e-7) }
+                body three { mass: 0.02373, com: [0.01043, -0.01874, 0.0], inertia: diag(0.0, 5.255e-6, 5.255e-6) }
+                body four { mass: 0.00706, com: -0.00579 * Y, inertia: diag(5.667e-7, 0.0, 5.667e-7) }
+                body five { mass: 0.07050, com: [0.02308, 0.00916, 0.0], inertia: diag(0.0, 1.169e-5, 1.169e-5) }
+                body six { mass: 0.00706, com: 0.00579 * X, inertia: diag(0.0, 5.667e-7, 5.667e-7) }
+                body seven { mass: 0.05498, com: [-0.00449, -0.01228, 0.0], inertia: diag(0.0, 1.912e-5, 1.912e-5) }
+                joint beta: Revolute { parent: ground, child: one, axis: Z }
+                joint theta: Revolute { parent: one.at(0.007 * X), child: two, axis: Z }
+                joint gamma: Revolute { parent: ground.at(B), child: three, axis: Z }
+                joint delta: Revolute { parent: ground.at(A), child: five, axis: Z }
+                joint phi: Revolute { parent: five.at(0.04 * X), child: four, axis: Z }
+                joint epsilon: Revolute { parent: ground.at(A), child: seven, axis: Z }
+                joint omega: Revolute { parent: seven.at(-0.04 * Y), child: six, axis: Z }
+                #[cut]
+                joint first: Revolute { parent: two.at(-0.028 * X), child: three.at(-0.035 * Y), axis: Z }
+                #[cut]
+                joint second: Revolute { parent: two.at(-0.028 * X), child: four.at(-0.02 * Y), axis: Z }
+                #[cut]
+                joint third: Revolute { parent: two.at(-0.028 * X), child: six.at(0.02 * X), axis: Z }
+                force motor: Effort { joint: beta, value: 0.033 }
+                force spring: Spring {
+                    between: [three.at([0.02, -0.018, 0.0]), ground.at(C)], stiffness: 4530.0, length: 0.07785,
+                }
+                /// [J] without the motor's work
+                output energy = kinetic() + potential() - 0.033 * beta.angle;
+                output angles = [beta.angle, theta.angle, gamma.angle, phi.angle, delta.angle, omega.angle, epsilon.angle];
+                output rates = [beta.rate, theta.rate, gamma.rate, phi.rate, delta.rate, omega.rate, epsilon.rate];
+                $($items)*
+            }
+        }
+    };
+}
+
+squeezer! {
+    kept {
+        formulation { constraints: Multipliers }
+        emit forward_dynamics, impulse;
+    }
+}
+
+squeezer! {
+    solved {
+        formulation { constraints: Reduced }
+        solve (theta, gamma) from first { cos(beta.angle + theta.angle - gamma.angle) > 0.0 }
+        solve (phi, delta) from second { cos(phi.angle) > 0.0 }
+        solve (omega, epsilon) from third { cos(omega.angle) > 0.0 }
+        emit forward_dynamics;
+    }
+}
+
+/// Errors of angles (up to whole turns) and of rates.
+fn squeezer_error(point: &Value, q: &[f64], v: &[f64]) -> [f64; 2] {
+    let (want, rates) = (flat(&point["q"]), flat(&point["v"]));
+    let unturned: Vec<f64> = q.iter().zip(&want).map(|(a, b)| a - TAU * ((a - b) / TAU).round()).collect();
+    [mixed(&unturned, &want), mixed(v, &rates)]
+}
+
+fn both(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [worse(a[0], b[0]), worse(a[1], b[1])]
+}
+
+/// From point to point; the last number is that of evaluations.
+fn follow<S, M>(
+    integrator: &Integrator<M>,
+    system: &S,
+    start: S::State,
+    points: &[Value],
+    mut check: impl FnMut(&Value, &S::State),
+) -> u32
+where
+    S: System<Scalar = f64, Input = ()>,
+    M: multibody::Method<S>,
+{
+    let (mut state, mut t, mut evaluations) = (start, number(&points[0]["t"]), 0);
+    for point in points {
+        let end = number(&point["t"]);
+        if end > t {
+            let (next, statistics) = integrator.integrate(system, t, end, &state, &(), |_, _| ()).unwrap();
+            (state, evaluations) = (next, evaluations + statistics.evaluations);
+        }
+        t = end;
+        check(point, &state);
+    }
+    evaluations
+}
+
+fn kept_state(point: &Value) -> kept::State {
+    let [beta, theta, gamma, phi, delta, omega, epsilon] = array(&point["q"]);
+    let q = kept::Position { beta, theta, gamma, phi, delta, omega, epsilon };
+    let [beta, theta, gamma, phi, delta, omega, epsilon] = array(&point["v"]);
+    kept::State { q, v: kept::Velocity { beta, theta, gamma, phi, delta, omega, epsilon } }
+}
+
+#[test]
+fn squeezer_at_all_points_reduced() {
+    let file = read("motion/andrews");
+    let points = list(&file["points"]);
+    assert_eq!(points.len(), 51);
+    let model = solved::Model::default();
+    let mut start = solved::State::default();
+    start.q.beta = number(&points[0]["q"][0]);
+    let run = |integrator: Integrator<Dop853>| {
+        let mut most = [0.0; 2];
+        let evaluations = follow(&integrator, &model, start, points, |point, x| {
+            let output = model.outputs(0.0, x, &());
+            most = both(most, squeezer_error(point, output.angles.as_slice(), output.rates.as_slice()));
+        });
+        println!("squeezer, reduced: q {:.1e}, v {:.1e}, {evaluations} evaluations", most[0], most[1]);
+        (most, evaluations)
+    };
+    let (fine, evaluations) = run(Integrator::fixed(Dop853, 1e-3 / 13.0).compensated());
+    assert!(fine[0] <= 1e-12 && fine[1] <= 2e-10 && evaluations <= 8000, "{fine:?}, {evaluations}");
+    let (rough, evaluations) = run(Integrator::fixed(Dop853, 1e-3 / 4.0));
+    assert!(worse(rough[0], rough[1]) <= 1e-7 && evaluations <= 2600, "{rough:?}, {evaluations}");
+}
+
+#[test]
+fn squeezer_at_all_points_with_multipliers() {
+    let file = read("motion/andrews");
+    let points = list(&file["points"]);
+    let model = kept::Model::default();
+    let once = Projection { iterations: 1, ..Projection::default() };
+    let start =
+        WithProjection::fixed(&model, Projection { iterations: 3, ..once }).accepted(0.0, &kept_state(&points[0]), &());
+    fn run<S: System<Scalar = f64, Input = (), State = kept::State>>(
+        name: &str,
+        system: &S,
+        (start, points): (kept::State, &[Value]),
+        steps: f64,
+    ) -> ([f64; 2], f64, u32) {
+        let model = kept::Model::<f64>::default();
+        let (mut most, mut residual) = ([0.0; 2], 0.0);
+        let integrator = Integrator::fixed(Dop853, 1e-3 / steps).compensated();
+        let evaluations = follow(&integrator, system, start, points, |point, x| {
+            let output = model.outputs(0.0, x, &());
+            most = both(most, squeezer_error(point, output.angles.as_slice(), output.rates.as_slice()));
+            residual = worse(residual, model.constraints(0.0, &x.q).amax());
+        });
+        println!("{name}: q {:.1e}, v {:.1e}, residual {residual:.1e} m, {evaluations} evaluations", most[0], most[1]);
+        (most, residual, evaluations)
+    }
+    let scene = (start, points.as_slice());
+    let (fine, residual, evaluations) = run("plain projection", &WithProjection::fixed(&model, once), scene, 13.0);
+    assert!(fine[0] <= 1e-12 && fine[1] <= 2e-10 && evaluations <= 8000, "{fine:?}, {evaluations}");
+    assert!(residual <= 2e-16, "{residual:e}");
+    let by_mass = WithProjection::fixed_weighted(&model, once, multibody::projection::ByMass);
+    let (fine, residual, evaluations) = run("projection by mass", &by_mass, scene, 13.0);
+    assert!(fine[0] <= 1e-12 && fine[1] <= 2e-10 && evaluations <= 8000 && residual <= 2e-16, "{fine:?} {residual:e}");
+    let (rough, residual, evaluations) = run("plain projection", &WithProjection::fixed(&model, once), scene, 4.0);
+    assert!(worse(rough[0], rough[1]) <= 1e-7 && evaluations <= 2600 && residual <= 2e-16, "{rough:?}, {evaluations}");
+    let (free, ..) = run("none", &model, scene, 13.0);
+    let (closing, ..) = run("Baumgarte", &WithBaumgarte::for_step(&model, 1e-3 / 13.0), scene, 13.0);
+    assert!(free[0] < 1e-8 && closing[0] < 1e-8, "{free:?} {closing:?}");
+}
+
+/// Energies and times: printed here; the bar of 3 ms is for an optimised build.
+#[test]
+fn squeezer_by_energy() {
+    let file = read("motion/andrews");
+    let start = list(&file["points"])[0].clone();
+    let model = solved::Model::default();
+    let mut state = solved::State::default();
+    state.q.beta = number(&start["q"][0]);
+    let energy = |x: &solved::State| model.outputs(0.0, x, &()).energy;
+    let at_start = energy(&state);
+    let mut best = f64::INFINITY;
+    for tolerance in [1e-7, 1e-8, 1e-9, 1e-10] {
+        let integrator = Integrator::adaptive(Dop853, tolerance, tolerance);
+        let mut drift = 0.0_f64;
+        let began = Instant::now();
+        let mut states = Vec::with_capacity(1000);
+        let (_, statistics) = integrator.integrate(&model, 0.0, 0.05, &state, &(), |_, x| states.push(*x)).unwrap();
+        let time = began.elapsed().as_secs_f64();
+        for x in &states {
+            drift = drift.max((energy(x) - at_start).abs());
+        }
+        println!(
+            "tolerance {tolerance:e}: {drift:.1e} J, {:.2} ms, {} evaluations",
+            1e3 * time,
+            statistics.evaluations
+        );
+        if drift <= 1e-8 {
+            best = best.min(time);
+        }
+    }
+    assert!(best < 0.3, "{best} s");
+}
+
+/// Error of the first tip and of the rate of the cranks.
+fn point_error(point: &Value, tip: &[f64], omega: f64) -> f64 {
+    let place = mixed(&tip[..2], &[number(&point["x"]), number(&point["y"])]);
+    worse(place, mixed(&[omega], &[number(&point["omega"])]))
+}
+
+#[test]
+fn rows_of_four_bars_reduced() {
+    let file = read("motion/a2_nfourbar");
+    macro_rules! check {
+        ($model:ident, $n:expr) => {{
+            let model = $model::Model::default();
+            let mut start = $model::State::default();
+            (start.q.crank, start.v.crank) = (FRAC_PI_2, -1.0);
+            let points = list(&file["data"][stringify!($n)]["points"]);
+            // Whole turns change nothing, and small angles are rounded less.
+            struct Unwound($model::Model);
+            impl System for Unwound {
+                type Scalar = f64;
+                type State = $model::State;
+                type Input = ();
+                fn derivative(&self, t: f64, x: &$model::State, (): &()) -> ($model::Velocity, ()) {
+                    self.0.derivative(t, x, &())
+                }
+                fn accepted(&self, _t: f64, x: &$model::State, (): &()) -> $model::State {
+                    let mut x = *x;
+                    x.q.crank -= TAU * (x.q.crank / TAU).round();
+                    x
+                }
+            }
+            let mut most = 0.0;
+            let integrator = Integrator::fixed(Dop853, 4e-3).compensated();
+            let evaluations = follow(&integrator, &Unwound(model), start, points, |point, x| {
+                let tip = model.outputs(0.0, x, &()).tip;
+                most = worse(most, point_error(point, tip.as_slice(), x.v.crank));
+            });
+            println!("{} four-bars, reduced: {most:.1e}, {evaluations} evaluations", $n);
+            assert!(most <= 1e-12, "{most:e}");
+        }};
+    }
+    check!(four_bars_2, 2);
+    check!(four_bars_10, 10);
+    check!(four_bars_40, 40);
+}
+
+/// The rank of the equations where the cranks lie flat, by an event there.
+struct Flat<C, R> {
+    height: C,
+    rank: R,
+    least: f64,
+    times: u32,
+}
+
+impl<S: System, C: Fn(&S::State) -> f64, R: Fn(&S::State) -> f64> Events<S, 1> for Flat<C, R> {
+    fn values(&self, _t: f64, x: &S::State) -> [f64; 1] {
+        [(self.height)(x)]
+    }
+    fn direction(&self, _index: usize) -> Direction {
+        Direction::Both
+    }
+    fn happened(&mut self, _event: &Event, x: &S::State) -> Action<S::State> {
+        self.least = self.least.min((self.rank)(x));
+        self.times += 1;
+        Action::Continue
+    }
+}
+
+#[test]
+fn rows_of_four_bars_with_redundant_joints() {
+    let file = read("motion/a2_nfourbar");
+    macro_rules! check {
+        ($model:ident, $n:expr, $dt:expr) => {{
+            let model = $model::Model::default();
+            let rows = $model::CONSTRAINTS as f64;
+            let points = list(&file["data"][stringify!($n)]["points"]);
+            let vertical = |angle: f64, rate: f64| {
+                // crank, then couplers and followers in the order of their names
+                let names = $model::COORDINATES;
+                let of = |name: &str, crank: f64| if name.starts_with("coupler") { -crank } else { crank };
+                let q = SVector::<f64, { $model::DOF }>::from_fn(|i, _| of(names[i], angle));
+                let v = SVector::<f64, { $model::DOF }>::from_fn(|i, _| of(names[i], rate));
+                $model::State { q: q.into(), v: v.into() }
+            };
+            let projected = WithRank::new(WithProjection::new(&model, Projection::default()));
+            let mut told = Flat {
+                height: |x: &$model::State| x.q.crank.sin(),
+                rank: |x: &$model::State| model.forward_dynamics(0.0, x, &()).rank.min(rank(&model, 0.0, x)),
+                least: rows,
+                times: 0,
+            };
+            let (mut before, mut through, mut lean) = (0.0, 0.0, 0.0_f64);
+            let (mut state, mut t) = (vertical(FRAC_PI_2, -1.0), 0.0);
+            for point in points {
+                let end = number(&point["t"]);
+                if end > t {
+                    let integrator = Integrator::fixed(DormandPrince, $dt);
+                    let run = integrator.with_events(&projected, t, end, &state, &(), &mut told, |interval| {
+                        let names = $model::COORDINATES;
+                        let q = SVector::<f64, { $model::DOF }>::from(interval.last().q);
+                        // Couplers keep their direction: the sums of angles from the crank on.
+                        for i in 0..$model::DOF {
+                            let of = |name: String| names.iter().position(|n| **n == name).map(|i| q[i]);
+                            if let Some(number) = names[i].strip_prefix("coupler") {
+                                let k: usize = number.parse().unwrap();
+                                let parent = if k == 1 { "crank".into() } else { format!("follower{}", k - 1) };
+                                lean = lean.max((q[i] + of(parent).unwrap()).sin().abs());
+                            }
+                        }
+                    });
+                    state = run.unwrap().0;
+                }
+                t = end;
+                let tip = model.outputs(0.0, &state, &()).tip;
+                let error = point_error(point, tip.as_slice(), state.v.crank);
+                if told.times == 0 { before = worse(before, error) } else { through = worse(through, error) }
+            }
+            println!(
+                "{} four-bars, redundant, dt {:e}: {before:.1e} before the flat pose, {through:.1e} through it; couplers \
+                 lean {lean:.1e}; rank {} of {rows} in {} flat poses, {:?} at the ends of steps",
+                $n, $dt, told.least, told.times, projected.least(),
+            );
+            assert!(lean < 0.1, "the branch of parallel bars was left: {lean}");
+            assert!(told.times >= 5 && told.least < rows, "{} of {rows}", told.least);
+            assert_eq!(rank(&model, 0.0, &vertical(0.0, -1.0)), rows - f64::from($n));
+        }};
+    }
+    check!(redundant_2, 2, 1e-3);
+    check!(redundant_2, 2, 1e-2);
+    check!(redundant_10, 10, 1e-2);
+}
+
+/// Declares a slider-crank, crank 1 m and rod 3 m; what a call adds is its formulation.
+macro_rules! slider_crank {
+    ($name:ident { $($items:tt)* }) => {
+        multibody! {
+            mod $name {
+                body arm { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
+                body link { mass: 3.0, com: 1.5 * X, inertia: rod(3.0, 3.0, X) }
+                body block { mass: 2.0 }
+                joint slider: Prismatic { parent: ground, child: block, axis: X }
+                joint crank: Revolute { parent: ground, child: arm, axis: Z }
+                joint rod: Revolute { parent: arm.at(X), child: link, axis: Z }
+                #[cut]
+                joint pin: Revolute { parent: link.at(3.0 * X), child: block, axis: Z }
+                output energy = kinetic() + potential();
+                $($items)*
+            }
+        }
+    };
+}
+slider_crank! { pushed { formulation { constraints: Reduced } solve (crank, rod) from pin { sin(rod.angle) < 0.0 } emit forward_dynamics; } }
+slider_crank! { sliding { formulation { constraints: Multipliers } emit forward_dynamics, impulse; } }
+slider_crank! { pulled { formulation { constraints: Multipliers } drive slider.travel = 3.5 + 0.5 * t; emit forward_dynamics; } }
+
+multibody! {
+    /// A crank-rocker that its rocker drives.
+    mod rocked {
+        formulation { constraints: Reduced }
+        body arm { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
+        body link { mass: 3.5, com: 1.75 * X, inertia: rod(3.5, 3.5, X) }
+        body lever { mass: 3.0, com: 1.5 * X, inertia: rod(3.0, 3.0, X) }
+        joint rocker: Revolute { parent: ground.at(4.0 * X), child: lever, axis: Z }
+        joint crank: Revolute { parent: ground, child: arm, axis: Z }
+        joint coupler: Revolute { parent: arm.at(X), child: link, axis: Z }
+        #[cut]
+        joint pin: Revolute { parent: link.at(3.5 * X), child: lever.at(3.0 * X), axis: Z }
+        solve (crank, coupler) from pin { sin(coupler.angle) < 0.0 }
+        emit forward_dynamics;
+    }
+    /// The same, its rocker driven, with its equations.
+    mod rocked_kept {
+        formulation { constraints: Multipliers }
+        body arm { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
+        body link { mass: 3.5, com: 1.75 * X, inertia: rod(3.5, 3.5, X) }
+        body lever { mass: 3.0, com: 1.5 * X, inertia: rod(3.0, 3.0, X) }
+        joint rocker: Revolute { parent: ground.at(4.0 * X), child: lever, axis: Z }
+        joint crank: Revolute { parent: ground, child: arm, axis: Z }
+        joint coupler: Revolute { parent: arm.at(X), child: link, axis: Z }
+        #[cut]
+        joint pin: Revolute { parent: link.at(3.5 * X), child: lever.at(3.0 * X), axis: Z }
+        drive rocker.angle = 2.0 - t;
+        emit forward_dynamics;
+    }
+}
+
+#[test]
+fn a_slider_crank_locks_up() {
+    // The slider as coordinate: with crank and rod in one line (at 4 m) it can't go on.
+    let model = pushed::Model::default();
+    println!("dead centres of {:?}", pushed::DEAD_CENTRES);
+    let at = |travel: f64| {
+        let mut x = pushed::State::default();
+        (x.q.slider, x.v.slider) = (travel, 0.5);
+        x
+    };
+    for (travel, wide) in [(3.0, 0.1), (3.9, 0.01), (4.0 - 1e-6, 0.0)] {
+        let far = model.dead_centres(0.0, &at(travel).q).amin().abs();
+        println!("slider at {travel}: {far:.2e} from a dead centre");
+        assert!(far > wide);
+    }
+    assert!(model.dead_centres(0.0, &at(4.0).q).amin().abs() < 1e-7);
+    let mut nearest = f64::INFINITY;
+    let run = Integrator::adaptive(DormandPrince, 1e-9, 1e-9).integrate(&model, 0.0, 10.0, &at(3.9), &(), |_, x| {
+        nearest = nearest.min(model.dead_centres(0.0, &x.q).amin().abs());
+    });
+    println!("pushed over it: {:?}, nearest {nearest:.1e}", run.map(|x| x.1));
+    assert!(nearest < 0.3);
+    if let Err(error) = run {
+        assert!(!matches!(error, IntegrationError::InvalidArgument { .. }));
+    }
+
+    // With its equations the crank turns through both dead centres.
+    let model = sliding::Model::default();
+    let mut start = sliding::State::default();
+    (start.q.slider, start.v.crank, start.v.rod) = (4.0, 6.0, -8.0);
+    assert!(model.constraint_rate(0.0, &start).amax() < 1e-15);
+    let system = WithRank::new(WithProjection::by_mass(&model, Projection::default()));
+    let energy = model.outputs(0.0, &start, &()).energy;
+    let integrator = Integrator::fixed(Dop853, 1e-2);
+    let (end, _) = integrator.integrate(&system, 0.0, 10.0, &start, &(), |_, _| ()).unwrap();
+    let drift = (model.outputs(0.0, &end, &()).energy - energy).abs();
+    println!("turned {:.2} times; energy {drift:.1e} J, least rank {:?}", end.q.crank / TAU, system.least());
+    assert!(end.q.crank > 3.0 * TAU && drift < 1e-9 && system.least().unwrap().0 == sliding::CONSTRAINTS as f64);
+
+    // The slider driven: at 4 m an equation is lost, beyond it there is no position.
+    let model = pulled::Model::default();
+    let full = pulled::CONSTRAINTS as f64;
+    let line = pulled::State::default();
+    assert_eq!((rank(&model, 1.0, &line), model.forward_dynamics(1.0, &line, &()).rank), (full - 1.0, full - 1.0));
+    let stuck = Projection::default().project(&model, 1.0, &line);
+    println!("driven to its dead centre: {}", stuck.unwrap_err());
+    assert!(matches!(stuck, Err(ProjectionError::NoVelocity { .. })));
+    let beyond = Projection::default().project(&model, 1.2, &line);
+    println!("driven beyond it: {}", beyond.unwrap_err());
+    assert!(matches!(beyond, Err(ProjectionError::NoConvergence { .. })));
+
+    // It runs into a stop at full speed.
+    let model = sliding::Model::default();
+    let mut stop = sliding::Velocity::default();
+    stop.crank = -1.0;
+    let hit = impact(&model, 0.0, &start, &stop, 0.5);
+    assert!((hit.state.v.crank + 3.0).abs() < 1e-13 && (hit.state.v.rod - 4.0).abs() < 1e-13);
+}
+
+#[test]
+fn a_four_bar_locks_up() {
+    // Crank and coupler in one line where the rocker's end is 4.5 m away from the ground pin: 16 + 9 + 24 cos = 20.25.
+    let lock = PI - ((16.0 + 9.0 - 20.25) / 24.0_f64).acos();
+    let model = rocked::Model::default();
+    println!("dead centres of {:?}", rocked::DEAD_CENTRES);
+    let at = |angle: f64| {
+        let mut x = rocked::State::default();
+        (x.q.rocker, x.v.rocker) = (angle, -1.0);
+        x
+    };
+    let far = |x: &rocked::State| model.dead_centres(0.0, &x.q).amin().abs();
+    println!("from its dead centre: {:.2e} at 2 rad, {:.2e} at the lock", far(&at(2.0)), far(&at(lock)));
+    assert!(far(&at(2.0)) > 0.1 && far(&at(lock)) < 1e-6);
+    let mut nearest = f64::INFINITY;
+    let run = Integrator::adaptive(DormandPrince, 1e-9, 1e-9)
+        .integrate(&model, 0.0, 10.0, &at(2.0), &(), |_, x| nearest = nearest.min(far(x)));
+    println!("swung over it: {:?}, nearest {nearest:.1e}", run.map(|x| x.1));
+    assert!(nearest < 0.3);
+
+    let model = rocked_kept::Model::default();
+    let full = rocked_kept::CONSTRAINTS as f64;
+    let end = [4.0 + 3.0 * lock.cos(), 3.0 * lock.sin()];
+    let mut line = rocked_kept::State::default();
+    line.q.crank = end[1].atan2(end[0]);
+    let t = 2.0 - lock;
+    assert!(model.constraints(t, &line.q).amax() < 1e-14, "{}", model.constraints(t, &line.q));
+    let ranks = (rank(&model, t, &line), model.forward_dynamics(t, &line, &()).rank);
+    let stuck = Projection::default().project(&model, t, &line).unwrap_err();
+    println!("four-bar, driven to its lock: rank {ranks:?} of {full}; {stuck}");
+    assert!(ranks.0 == full - 1.0 && ranks.1 == full - 1.0 && matches!(stuck, ProjectionError::NoVelocity { .. }));
+    let beyond = Projection::default().project(&model, t + 0.2, &line).unwrap_err();
+    println!("driven beyond it: {beyond}");
+}

@@ -1,0 +1,79 @@
+//! Code in single precision holds no instruction of double precision: the optimised assembly of `tests/single`.
+
+use std::path::Path;
+use std::process::Command;
+
+/// Arithmetic, comparison and conversion of doubles on x86-64, scalar or packed, with or without the `v` of AVX and FMA.
+/// Moves, shuffles and logic do not count: compilers move pairs of floats as one double.
+fn is_double(mnemonic: &str) -> bool {
+    let name = mnemonic.strip_prefix('v').unwrap_or(mnemonic);
+    if name.starts_with("cvt") {
+        return name.contains("sd") || name.contains("pd");
+    }
+    let double = name.ends_with("sd") || name.ends_with("pd");
+    let computes =
+        ["add", "sub", "mul", "div", "sqrt", "min", "max", "cmp", "comi", "ucomi", "round", "h", "dp", "fm", "fnm"];
+    double && computes.iter().any(|start| name.starts_with(start))
+}
+
+/// Functions by their label, with the mnemonics in them that are of double precision.
+fn doubles(assembly: &str) -> (usize, Vec<(String, String)>) {
+    let (mut function, mut instructions, mut found) = (String::new(), 0, Vec::new());
+    for line in assembly.lines() {
+        if let Some(label) = line.strip_suffix(':').filter(|label| !label.starts_with([' ', '\t', '.'])) {
+            function = label.to_owned();
+        } else if let Some(text) = line.strip_prefix('\t').filter(|text| !text.starts_with(['.', '#'])) {
+            instructions += 1;
+            let mnemonic = text.split_whitespace().next().unwrap_or_default();
+            if is_double(mnemonic) {
+                found.push((function.clone(), text.to_owned()));
+            }
+        }
+    }
+    (instructions, found)
+}
+
+#[test]
+fn doubles_are_found_where_there_are_some() {
+    let assembly = "one:\n\tmovsd\t(%rdi), %xmm0\n\taddss\t%xmm0, %xmm1\ntwo:\n\tcvtss2sd\t%xmm0, %xmm0\n\tvfmadd231sd\t%xmm1, \
+                    %xmm2, %xmm0\n\tunpcklpd\t%xmm0, %xmm0\n\tucomisd\t%xmm0, %xmm1\n";
+    let (instructions, found) = doubles(assembly);
+    assert_eq!(instructions, 6);
+    let names: Vec<_> = found.iter().map(|(function, text)| format!("{function} {}", &text[..8])).collect();
+    assert_eq!(names, ["two cvtss2sd", "two vfmadd23", "two ucomisd\t"]);
+}
+
+#[test]
+fn steps_in_single_precision_hold_no_double() {
+    if !cfg!(all(target_arch = "x86_64", unix)) {
+        println!("skipped: the assembly of another machine than x86-64");
+        return;
+    }
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("single");
+    let output = Command::new(env!("CARGO"))
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/single"))
+        .env("CARGO_TARGET_DIR", &target)
+        .env_remove("RUSTFLAGS")
+        .args(["rustc", "--release", "--lib", "--", "--emit", "asm"])
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+
+    // The newest one: older builds leave theirs.
+    let files = std::fs::read_dir(target.join("release/deps")).unwrap().map(|entry| entry.unwrap());
+    let ours = files.filter(|file| {
+        let name = file.file_name().into_string().unwrap();
+        name.starts_with("multibody_single-") && name.ends_with(".s")
+    });
+    let newest = ours.max_by_key(|file| file.metadata().unwrap().modified().unwrap()).unwrap();
+    let assembly = std::fs::read_to_string(newest.path()).unwrap();
+
+    let steps = assembly.lines().filter(|line| line.ends_with(':') && line.contains("single_")).count();
+    let (instructions, found) = doubles(&assembly);
+    println!("{steps} functions, {instructions} instructions, {} of double precision", found.len());
+    assert!(steps >= 20 && instructions > 10_000, "the assembly is not what it should be");
+    for (function, text) in found.iter().take(20) {
+        println!("{function}: {text}");
+    }
+    assert!(found.is_empty(), "{} instructions of double precision", found.len());
+}
