@@ -95,7 +95,7 @@ fn loops_are_guessed() {
     assert!(!text.contains("pubmultipliers"));
     let solved = "solve (one) from two {}";
     let text = skeletons_of(&format!("mod broken {{ formulation {{ constraints: Reduced }} {items} {solved} }}"));
-    assert!(!text.contains("guess") && !text.contains("Derivative"));
+    assert!(!text.contains("guess") && !text.contains("structDerivative"));
 }
 
 #[test]
