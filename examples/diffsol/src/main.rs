@@ -10,7 +10,7 @@
 
 mod models;
 
-use diffsol::{NalgebraLU, NalgebraMat, OdeBuilder, OdeSolverMethod};
+use diffsol::{NalgebraLU, NalgebraMat, OdeBuilder, OdeSolverMethod, VectorCommon};
 use multibody::nalgebra::{SVector, SVectorView};
 use multibody::{Dop853, Integrator, Radau};
 

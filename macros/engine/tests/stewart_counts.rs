@@ -186,7 +186,7 @@ fn forward(m: &mut Machine, at: usize) -> (&'static str, Vec<Scalar>) {
     let carrier = m.carrier();
     let g = &mut m.g;
     let (name, gather, reference) = strut::forward::ways(&carrier)[at];
-    let (a, dw) = strut::forward::accelerations(g, &carrier, &m.force, &reference, gather);
+    let (a, dw) = strut::forward::accelerations(g, &carrier, &m.force, (&reference, gather), false);
     let mut found = motion::coordinates(g, &m.tree, m.platform, &a, &dw).expect("coordinates");
     found.sort_by_key(|f| f.0);
     (name, found.into_iter().map(|f| f.1).collect())
