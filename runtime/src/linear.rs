@@ -329,7 +329,7 @@ fn reciprocal<T: Real>(x: T) -> T {
 /// Zero, or NaN where `x` is not finite.
 #[inline]
 #[allow(clippy::eq_op)]
-fn residue<T: Real>(x: T) -> T {
+pub(crate) fn residue<T: Real>(x: T) -> T {
     x - x
 }
 
