@@ -86,12 +86,14 @@ mod multibody {
     pub trait Configuration<T>: Copy {
         type Velocity: Copy;
         fn displace(&self, d: &Self::Velocity) -> Self;
+        fn advance(&self, d: &Self::Velocity, rest: &Self::Velocity) -> (Self, Self::Velocity);
         fn dexp_inv(d: &Self::Velocity, v: &Self::Velocity) -> Self::Velocity;
         fn magnitude(&self) -> Self::Velocity;
     }
     impl<T: Real> Configuration<T> for T {
         type Velocity = T;
         fn displace(&self, d: &T) -> T { *self + *d }
+        fn advance(&self, d: &T, rest: &T) -> (T, T) { (*self + *d + *rest, *rest) }
         fn dexp_inv(_: &T, v: &T) -> T { *v }
         fn magnitude(&self) -> T { *self }
     }
