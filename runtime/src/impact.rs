@@ -178,7 +178,13 @@ pub fn impact_at_rate<S: Impulsive>(
 /// flat, a ball in a corner.
 ///
 /// Newton's law in the form of Moreau: `P >= 0`, `after + e before >= 0`, and one of the two is zero. Where directions
-/// are dependent (a table with four legs), the impulses are one choice of many and the motion is the same. All subsets
+/// are dependent (a table with four legs), the impulses are one choice of many and the motion is the same.
+///
+/// A direction that parts before (`before > 0`) may approach afterwards, at up to `e` times that rate, where the others
+/// throw it back: to ask for `after >= 0` there would gain energy. It strikes next, at the same time: call this again
+/// until no rate in `after` is negative.
+///
+/// All subsets
 /// of the directions are tried, of which there may be eight at most, so that lanes need no branch.
 pub fn impacts<S: Impulsive, const N: usize>(
     system: &S,

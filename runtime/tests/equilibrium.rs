@@ -235,7 +235,7 @@ impl Constrained for Bead {
 /// At rest where the force points along the radius: towards the point (2, -9.81/k), for weights of any kind.
 #[test]
 fn closed_loop() {
-    for stiffness in [5.0, 1e2] {
+    for stiffness in [5.0, 1e2, 1e4, 1e6, 1e8] {
         for weights in [Vector2::new(1.0, 1.0), Vector2::new(1.0, 0.01)] {
             let guess = Plane { q: Vector2::new(0.9, 0.1), v: Vector2::new(1.0, 1.0) };
             let found = constrained_equilibrium(&Bead { stiffness }, 0.0, &guess, &(), &weights).unwrap();
@@ -244,4 +244,48 @@ fn closed_loop() {
             assert!((found.state.q - expected).norm() < 1e-14 && found.rank == 1.0 && found.iterations < 20);
         }
     }
+}
+
+/// A force that turns with the bead, and so holds it nowhere: what is missing is a zero, not an equation.
+#[test]
+fn closed_loop_without_equilibrium() {
+    struct Pushed;
+    impl System for Pushed {
+        type Scalar = f64;
+        type State = Plane<f64>;
+        type Input = ();
+        fn derivative(&self, _t: f64, s: &Plane<f64>, (): &()) -> (Vector2<f64>, ()) {
+            let along = Vector2::new(-s.q.y, s.q.x);
+            (along * (2.0 + s.q.x) - s.q * (s.v.norm_squared() / s.q.norm_squared()), ())
+        }
+    }
+    impl Differentiable for Pushed {
+        type Matrix = [[f64; 2]; 2];
+        fn jacobian(&self, _t: f64, s: &Plane<f64>, (): &()) -> Jacobian<[[f64; 2]; 2]> {
+            let (x, y) = (s.q.x, s.q.y);
+            Jacobian { position: [[-y, -(2.0 + x)], [2.0 + 2.0 * x, 0.0]], rates: [[0.0; 2]; 2] }
+        }
+        fn input_derivative(&self, _: f64, _: &Plane<f64>, (): &(), (): &()) -> (Vector2<f64>, ()) {
+            (Tangent::zero(), ())
+        }
+    }
+    impl Constrained for Pushed {
+        type Residual = f64;
+        fn constraints(&self, t: f64, q: &Vector2<f64>) -> f64 {
+            Bead { stiffness: 0.0 }.constraints(t, q)
+        }
+        fn constraint_rate(&self, t: f64, s: &Plane<f64>) -> f64 {
+            Bead { stiffness: 0.0 }.constraint_rate(t, s)
+        }
+        fn correction(&self, t: f64, q: &Vector2<f64>, r: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
+            Bead { stiffness: 0.0 }.correction(t, q, r, weights)
+        }
+    }
+    let guess = Plane { q: Vector2::new(0.6, 0.8), v: Vector2::zeros() };
+    let moving = constrained_equilibrium(&Pushed, 0.0, &guess, &(), &Vector2::new(1.0, 1.0));
+    println!("{moving:?}");
+    assert!(matches!(moving, Err(EquilibriumError::NotFound { .. })));
+    let held = constrained_equilibrium(&Pushed, 0.0, &guess, &(), &Vector2::zeros());
+    println!("{held:?}");
+    assert!(matches!(held, Err(EquilibriumError::Singular { rank: 0, equations: 1, .. })));
 }

@@ -249,3 +249,18 @@ fn lanes_and_what_is_no_number() {
     let infinite = impacts(&Masses([1.0]), 0.0, &moving([f64::NEG_INFINITY]), &[SVector::from([1.0])], 0.5);
     assert!(!infinite.state.v[0].is_finite());
 }
+
+/// A ball in a wedge strikes one side, and is thrown onto the other that it was leaving: a second impact, without any gain
+/// of energy.
+#[test]
+fn thrown_back_onto_what_it_leaves() {
+    let ball = Masses([1.0, 1.0]);
+    let sides = [Vector2::new(1.0, 0.0), Vector2::new(-0.8, 0.6)];
+    let first = impacts(&ball, 0.0, &moving([1.0, 0.0]), &sides, 1.0);
+    assert!((first.state.v - Vector2::new(-0.28, 0.96)).amax() < 1e-15, "{first:?}");
+    assert!(first.impulses[0] == 0.0 && (first.after[0] + 0.28).abs() < 1e-15);
+    let second = impacts(&ball, 0.0, &first.state, &sides, 1.0);
+    assert!((second.state.v - Vector2::new(0.28, 0.96)).amax() < 1e-15, "{second:?}");
+    assert!(second.after.iter().all(|&rate| rate > 0.0));
+    assert!((ball.energy(&second.state.v) - 0.5).abs() < 1e-15);
+}

@@ -148,6 +148,8 @@ pub(super) struct Search<'a, S: Differentiable, I: Source<S>, C> {
 /// A step, and what it was made from.
 struct Proposal<S: Differentiable, U: Tangent<S::Scalar>> {
     rows: Rows<S, U>,
+    /// The rows for displacements that need not keep the loops closed.
+    open: Rows<S, U>,
     step: Unknowns<S, U>,
     rank: S::Scalar,
     /// What each equation could be.
@@ -266,7 +268,8 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
         if all(closed) {
             return Ok(Equilibrium { state, input: value, rank, residual: greatest(&residual), iterations });
         }
-        let equations = S::Matrix::SIZE;
+        // As many as loops close hold by themselves.
+        let equations = S::Matrix::SIZE.saturating_sub(search.loops(&state));
         let residual = Real::select(closed | !Real::is_finite(best), zero, best).greatest();
         let rank = Real::select(closed | never, lit(f64::from(u32::MAX)), best_rank);
         let rank = -(-rank).greatest() as usize;
@@ -294,11 +297,40 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
         (self.system.accepted(self.t, &state, self.source.input(value)), value.add(&step.input))
     }
 
+    /// The number of independent constraints: the trace of the projection across the loops.
+    fn loops(&self, state: &S::State) -> usize {
+        if !C::LOOPS {
+            return 0;
+        }
+        let (zero, one) = (S::Scalar::lit(0.0), S::Scalar::lit(1.0));
+        let none = VelocityOf::<S>::zero();
+        let ones = none.map(&mut |_| one);
+        let mut trace = zero;
+        for i in 0..none.len() {
+            let mut places = 0..;
+            let unit = none.map(&mut |_| if places.next() == Some(i) { one } else { zero });
+            let across = self.closing.across(self.t, state, &unit, &ones);
+            trace += across.zip(&unit, &mut |a, u| a * u).fold(zero, &mut |sum, a| sum + a);
+        }
+        (trace.greatest() + 0.5) as usize
+    }
+
+    /// The part of rates along the loops: across them there is only rounding.
+    fn along(&self, state: &S::State, rates: &Rates<S>) -> Rates<S> {
+        if !C::LOOPS {
+            return *rates;
+        }
+        let ones = VelocityOf::<S>::zero().map(&mut |_| S::Scalar::lit(1.0));
+        let across = self.closing.across(self.t, state, &rates.0, &ones);
+        (rates.0.add_scaled(S::Scalar::lit(-1.0), &across), rates.1)
+    }
+
     /// Whether all equations hold, and all loops are closed.
     fn holds(&self, state: &S::State, residual: &Rates<S>, scale: &Vector<S>) -> Mask<S> {
         let lit = S::Scalar::lit;
         let tolerance = Real::max(lit(TOLERANCE), lit(ROUNDINGS) * S::Scalar::epsilon());
-        let worst = scaled::<S>(residual, scale).fold(lit(0.0), &mut |worst, r| Real::max(worst, Real::abs(r)));
+        let worst = scaled::<S>(&self.along(state, residual), scale)
+            .fold(lit(0.0), &mut |worst, r| Real::max(worst, Real::abs(r)));
         let (q, _, _) = state.split();
         let gap = self.closing.gap(self.t, state) / (lit(1.0) + greatest(&q.magnitude()));
         Real::le(worst, tolerance) & Real::le(gap, tolerance)
@@ -318,30 +350,34 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
             poison += residue(*scale);
             row.square = square(&row.entries, self.free);
         }
+        let mut open = rows;
         if C::LOOPS {
-            self.project(state, &mut rows);
+            self.project(state, &mut rows, &mut open);
         }
         for row in rows.as_mut() {
             row.square = Real::select(Real::gt(row.square, zero), row.square, one) + poison;
         }
-        let (step, rank) = self.correction(&rows, state, residual);
+        let (step, rank) = self.correction(&rows, &open, state, residual);
         let finite = Real::is_finite(greatest(&step)) & Real::is_finite(poison);
-        Proposal { rows, step, rank, scale, finite }
+        Proposal { rows, open, step, rank, scale, finite }
     }
 
     /// The least step for the rates at a state, by equations that were linearised there or nearby, and their rank.
     fn correction(
         &self,
         rows: &Rows<S, I::Value>,
+        open: &Rows<S, I::Value>,
         state: &S::State,
         residual: &Rates<S>,
     ) -> (Unknowns<S, I::Value>, S::Scalar) {
         let zero = S::Scalar::lit(0.0);
         let mut rows = *rows;
         let closing = self.closing.correction(self.t, state, &self.free.position);
-        for (row, &rate) in rows.as_mut().iter_mut().zip(packed::<S>(residual).as_ref()) {
+        for ((row, open), &rate) in
+            rows.as_mut().iter_mut().zip(open.as_ref()).zip(packed::<S>(&self.along(state, residual)).as_ref())
+        {
             // Less what closing the loops does to the equation.
-            let closed = row.entries.position.zip(&closing, &mut |a, d| a * d).fold(zero, &mut |sum, a| sum + a);
+            let closed = open.entries.position.zip(&closing, &mut |a, d| a * d).fold(zero, &mut |sum, a| sum + a);
             row.right = -rate - closed;
         }
         let threshold = S::Scalar::lit(16.0 * S::Matrix::SIZE as f64) * S::Scalar::epsilon();
@@ -352,8 +388,8 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
 
     /// Leaves of the equations what lies along the loops. Accelerations do so, and what their change has across comes from
     /// the curvature of the constraints alone: with the projection `P` of least squares, `P J P` in place of `J`, the right
-    /// one in the weights of the displacements.
-    fn project(&self, state: &S::State, rows: &mut Rows<S, I::Value>) {
+    /// one in the weights of the displacements. `open` becomes `P J`.
+    fn project(&self, state: &S::State, rows: &mut Rows<S, I::Value>, open: &mut Rows<S, I::Value>) {
         let (zero, one) = (S::Scalar::lit(0.0), S::Scalar::lit(1.0));
         let weights = &self.free.position;
         let none = VelocityOf::<S>::zero();
@@ -369,6 +405,7 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
                     others.next().map_or(sum, |other| sum.add_scaled(share, &other.entries))
                 });
         }
+        *open = *rows;
         for row in rows.as_mut() {
             let along = row.entries.position.zip(weights, &mut |a, w| a * w);
             let across = self.closing.across(self.t, state, &along, weights);
@@ -419,7 +456,7 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
         let (mut taken, mut factor, mut open) = (zero, one, !Real::lt(zero, zero));
         for _ in 0..=HALVINGS {
             let (next, next_value) = self.moved(state, value, &step.scale(factor));
-            let (left, _) = self.correction(&proposal.rows, &next, &self.rates(&next, &next_value));
+            let (left, _) = self.correction(&proposal.rows, &proposal.open, &next, &self.rates(&next, &next_value));
             let good = open & Real::lt(self.length(&left, state, value), now * (one - lit(GAIN) * factor));
             taken = Real::select(good, factor, taken);
             open = open & !good;

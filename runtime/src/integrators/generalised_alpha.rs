@@ -33,8 +33,8 @@ const SLOW: f64 = 0.1;
 const ITERATIONS: u32 = 50;
 /// Iterations end where velocities change by fewer roundings than this..
 const ROUNDINGS: f64 = 4.0;
-/// ..or, where rounding is greater, by no less than before and by less than this share.
-const STALLED: f64 = 1e-10;
+/// ..or, where rounding is greater, by no less than before and by fewer than this, up to the root of one.
+const STALLED: f64 = 4e5;
 
 /// The generalised-alpha method: second order, implicit, damping high frequencies as much as asked for and low ones as
 /// little as possible.
@@ -291,6 +291,7 @@ impl<S: System, C: Closing<S>, I: Iterating<S>> Method<S> for GeneralisedAlpha<C
         let guess = displaced(step.state, &over(&last, &closing));
         let mut operator = self.iteration.prepare(problem, step.end, &guess, factors);
         let mut rates = first;
+        let epsilon = S::Scalar::epsilon().greatest();
         let (mut before, mut converged) = (f64::INFINITY, false);
         for _ in 0..ITERATIONS {
             let state = displaced(step.state, &over(&last, &closing));
@@ -310,8 +311,8 @@ impl<S: System, C: Closing<S>, I: Iterating<S>> Method<S> for GeneralisedAlpha<C
             let (_, now, own) = moved.split();
             let scale = greatest(&(now, own)) + lit(1.0);
             let size = (greatest(&change) * Real::abs(dt) / scale).greatest();
-            let stalled = size >= 0.5 * before && size <= STALLED * (S::Scalar::epsilon().greatest() / f64::EPSILON);
-            converged = size <= ROUNDINGS * S::Scalar::epsilon().greatest() || stalled;
+            let stalled = size >= 0.5 * before && size <= Real::min(STALLED * epsilon, Real::sqrt(epsilon));
+            converged = size <= ROUNDINGS * epsilon || stalled;
             if converged || !size.is_finite() || size > 1e6 * before {
                 break;
             }
