@@ -16,8 +16,8 @@ const ROUNDINGS: f64 = 2.0;
 ///
 /// `accuracy` is the error to aim at, of positions and of velocities, relative to one more than their size. It is that of
 /// the whole motion, not of a step, as far as the motion itself doesn't magnify errors: where neighbouring motions part
-/// by a factor of a thousand, as in chaos, so does the error. It is an aim and no bound; halve its logarithm's distance
-/// by a second run with a tenth of it where you need to know. `f32` ends at about 1e-5.
+/// by a factor of a thousand, as in chaos, so does the error. It is an aim and no bound. Where you need to know, run again
+/// with a tenth of it: the difference is the error of the first run. `f32` ends at about 1e-5.
 ///
 /// ```
 /// use multibody::{multibody, simulate};
@@ -41,8 +41,9 @@ const ROUNDINGS: f64 = 2.0;
 /// # Ok::<(), multibody::IntegrationError>(())
 /// ```
 ///
-/// For stiff systems (springs, dampers or contacts that are fast beside the motion) every explicit method needs steps as
-/// short as their fastest part: see [`simulate_stiff`].
+/// The method is always an explicit one, and nothing is projected. For stiff systems (springs, dampers or contacts that are
+/// fast beside the motion) every explicit method needs steps as short as their fastest part: take [`simulate_stiff`]. Loops
+/// kept as equations drift apart slowly: hand over [`WithProjection`](crate::WithProjection) around the model.
 ///
 /// # Errors
 /// [`InvalidArgument`](IntegrationError::InvalidArgument) if the accuracy is not positive and finite, and what

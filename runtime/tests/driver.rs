@@ -179,3 +179,45 @@ fn eighth_order_with_chosen_steps() {
         assert!((q - amplitude * 20f64.cos()).abs() < 1e-8);
     }
 }
+
+/// An oscillator whose position is moved at the end of every step, its velocity is not.
+struct Moved(f64);
+
+impl System for Moved {
+    type Scalar = f64;
+    type State = Scalar<f64>;
+    type Input = f64;
+    fn derivative(&self, t: f64, state: &Scalar<f64>, force: &f64) -> (f64, ()) {
+        OSCILLATOR.derivative(t, state, force)
+    }
+    fn accepted(&self, _t: f64, state: &Scalar<f64>, _force: &f64) -> Scalar<f64> {
+        Scalar { q: state.q + self.0, v: state.v }
+    }
+}
+
+/// The slope at the end of a step starts the next one if the state stays what it was, or changes by its rounding.
+#[test]
+fn slopes_are_those_of_accepted_states() {
+    fn check<M: Method<Moved>>(method: M, stages: u32) {
+        let start = Scalar { q: 1.0, v: 0.0 };
+        let (dt, steps) = (0.125, 40);
+        let run = |moved: f64, compensated: bool| {
+            let integrator = Integrator { compensated, ..Integrator::fixed(method, dt) };
+            let end = f64::from(steps) * dt;
+            let (state, statistics) = integrator.integrate(&Moved(moved), 0.0, end, &start, &0.0, |_, _| ()).unwrap();
+            (state, statistics.evaluations)
+        };
+        assert_eq!(run(0.0, false).1, 1 + stages * steps);
+        assert_eq!(run(0.0, true).1, 1 + stages * steps);
+        for moved in [1e-12, 1e-3] {
+            let one = Integrator::fixed(method, dt);
+            let mut state = start;
+            for _ in 0..steps {
+                state = one.integrate(&Moved(moved), 0.0, dt, &state, &0.0, |_, _| ()).unwrap().0;
+            }
+            assert_eq!(run(moved, false), (state, 1 + (stages + 1) * steps - 1));
+        }
+    }
+    check(DormandPrince, 6);
+    check(Dop853, 12);
+}

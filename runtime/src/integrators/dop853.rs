@@ -8,8 +8,8 @@ mod tableau;
 use super::dense::Dense;
 use super::method::{Attempt, Method, inherent};
 use super::problem::{Problem, Step};
-use super::slope::{SlopeOf, advance_by, combination, displaced, rate_of_displacement};
-use crate::{Real, StateSpace, System, Tangent};
+use super::slope::{SlopeOf, advance_by, combination, displaced, first_same_as_last, rate_of_displacement};
+use crate::{Real, System, Tangent};
 use tableau as tab;
 
 /// The eighth-order method of Dormand and Prince: twelve evaluations. The first choice for smooth motions from errors
@@ -92,7 +92,7 @@ impl<S: System> Method<S> for Dop853 {
         Real::select(Real::eq(size, S::Scalar::lit(0.0)), size, e5 * (e5 / size))
     }
 
-    /// The slope at the end is there already; a projection has changed the velocity alone.
+    /// The slope at the end is there already, unless [`System::accepted`] has changed the state.
     #[inline]
     fn proceed(
         &self,
@@ -102,11 +102,7 @@ impl<S: System> Method<S> for Dop853 {
         attempt: &Attempt<S, Self::Details>,
         next: &S::State,
     ) -> SlopeOf<S> {
-        if !step.full {
-            return self.begin(problem, step.end, next);
-        }
-        let (_, q, _) = next.split();
-        SlopeOf::<S> { q, ..attempt.details.last }
+        first_same_as_last(problem, step, &attempt.displacement, &attempt.details.last, next)
     }
 
     /// Of seventh order, by three further evaluations.

@@ -4,8 +4,8 @@
 use super::dense::Dense;
 use super::method::{Attempt, Method, inherent};
 use super::problem::{Problem, Step};
-use super::slope::{SlopeOf, advance_by, combination, displaced, rate_of_displacement};
-use crate::{Real, StateSpace, System, Tangent};
+use super::slope::{SlopeOf, advance_by, combination, displaced, first_same_as_last, rate_of_displacement};
+use crate::{Real, System, Tangent};
 
 /// The fifth-order method of Dormand and Prince: six evaluations. The first choice for steps chosen by error, down to
 /// errors of about 1e-6; its estimate is the difference to an embedded method of fourth order.
@@ -81,7 +81,7 @@ impl<S: System> Method<S> for DormandPrince {
         }
     }
 
-    /// The slope at the end is there already; a projection has changed the velocity alone.
+    /// The slope at the end is there already, unless [`System::accepted`] has changed the state.
     #[inline]
     fn proceed(
         &self,
@@ -91,11 +91,7 @@ impl<S: System> Method<S> for DormandPrince {
         attempt: &Attempt<S, Stages<SlopeOf<S>>>,
         next: &S::State,
     ) -> SlopeOf<S> {
-        if !step.full {
-            return self.begin(problem, step.end, next);
-        }
-        let (_, q, _) = next.split();
-        SlopeOf::<S> { q, ..attempt.details.last }
+        first_same_as_last(problem, step, &attempt.displacement, &attempt.details.last, next)
     }
 
     /// Of fourth order, without further evaluations.

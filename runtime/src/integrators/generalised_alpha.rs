@@ -42,6 +42,9 @@ const STALLED: f64 = 4e5;
 /// The spectral radius at infinite frequency is what is left of a fast vibration after each step: 1 damps nothing, 0.8 is
 /// a common choice, 0 removes it at once. Steps are given; there is no estimate of the error.
 ///
+/// Steps should be of one length: by how much `a` lags behind the accelerations depends on it, so a shorter last step, or
+/// the start anew after an event, costs an order there. A projection after a step does not renew that lag.
+///
 /// - [`GeneralisedAlpha::new`]: systems without constraints, or with loops solved, by Newton's method with the exact
 ///   derivatives ([`Differentiable`], `emit derivatives`).
 /// - [`GeneralisedAlpha::constrained`]: systems with constraints ([`Constrained`] and [`Impulsive`], `emit impulse`).

@@ -105,7 +105,8 @@ impl<M> Integrator<M> {
         Self { method, steps: Steps::Adaptive(tolerance), max_steps: 100_000, compensated: false }
     }
 
-    /// The same with compensated summation.
+    /// The same with compensated summation. The `Symplectic` Gauss methods keep the rounding of positions and own states
+    /// alone.
     #[must_use]
     pub fn compensated(self) -> Self {
         Self { compensated: true, ..self }

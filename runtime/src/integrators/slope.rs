@@ -1,5 +1,6 @@
 //! The rate of a whole state: what methods combine.
 
+use super::problem::{Problem, Step};
 use crate::{Configuration, ExtraOf, Real, StateSpace, System, Tangent, VelocityOf, all};
 
 /// Rates of position, velocity and own states, or a displacement of all three.
@@ -86,6 +87,33 @@ pub(super) fn advanced<Z: StateSpace>(
 pub(super) fn magnitude<Z: StateSpace>(state: &Z) -> Slope<Z::Velocity, Z::Extra> {
     let (q, v, x) = state.split();
     Slope { q: q.magnitude(), v, x }
+}
+
+/// The slope that the next step starts with: `last`, the one after the displacement of the step, where the accepted state
+/// is the displaced one; else it is evaluated at the state that [`System::accepted`] made of it.
+#[inline]
+pub(super) fn first_same_as_last<S: System>(
+    problem: &Problem<'_, S>,
+    step: &Step<'_, S>,
+    displacement: &SlopeOf<S>,
+    last: &SlopeOf<S>,
+    next: &S::State,
+) -> SlopeOf<S> {
+    if !step.full || !agree(step.state, &displaced(step.state, displacement), next) {
+        return problem.slope(step.end, next);
+    }
+    let (_, q, _) = next.split();
+    Slope { q, ..*last }
+}
+
+/// Whether two ends of a step from `start` differ by no more than compensated summation changes. Orientations, which have
+/// no size, are taken to differ with their velocities.
+fn agree<Z: StateSpace>(start: &Z, end: &Z, other: &Z) -> bool {
+    let roundings = Z::Scalar::lit(2.0) * Z::Scalar::epsilon();
+    let (start, end, other) = (magnitude(start), magnitude(end), magnitude(other));
+    let bound = start.zip(&other, &mut |start, other| roundings * (Real::abs(start) + Real::abs(other)));
+    let excess = end.zip(&other, &mut |end, other| Real::abs(end - other)).add_scaled(Z::Scalar::lit(-1.0), &bound);
+    excess.fold(true, &mut |agree, excess| agree & all(Real::le(excess, Z::Scalar::lit(0.0))))
 }
 
 /// `dt * (weights[0] * slopes[0] + ..)`.

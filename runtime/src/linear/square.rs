@@ -25,7 +25,8 @@ pub trait Square<T: Real>: Copy {
     /// A complex matrix of this size, factored.
     type ComplexFactors: Copy + Solve<(Self::Vector, Self::Vector)>;
 
-    /// The matrix with the entry `entry(row, column)` everywhere.
+    /// The matrix with the entry `entry(row, column)` everywhere. Entries are asked for once each, row by row and from the
+    /// first column to the last.
     fn from_fn(entry: impl FnMut(usize, usize) -> T) -> Self;
 
     /// The vector with the component `entry(row)` everywhere.

@@ -76,8 +76,7 @@ impl<const STAGES: usize, const HISTORY: usize> Tableau<f64, STAGES, HISTORY> {
 
         let mut displacement: SlopeOf<S> = tableau.sum(&slopes).scale(step.dt);
         let second = start.w.add(&displacement.v);
-        let end = V::velocity(problem.system, &q.displace(&displacement.q), &second);
-        displacement.v = end.add_scaled(S::Scalar::lit(-1.0), &v);
+        displacement.v = V::change(problem.system, &v, &q.displace(&displacement.q), &second, &displacement.v);
 
         let mut history = memory.slopes;
         history.rotate_right(1);

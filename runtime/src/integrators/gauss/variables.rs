@@ -1,7 +1,7 @@
 //! What a Gauss method integrates beside positions: velocities or momenta.
 
 use crate::integrators::problem::Problem;
-use crate::{Canonical, ExtraOf, PositionOf, System, Tangent, VelocityOf};
+use crate::{Canonical, ExtraOf, PositionOf, Real, System, Tangent, VelocityOf};
 
 /// The second half of the variables, `w`.
 pub(super) trait Variables<S: System> {
@@ -10,6 +10,16 @@ pub(super) trait Variables<S: System> {
 
     /// The velocities that belong to them at a position.
     fn velocity(system: &S, q: &PositionOf<S>, w: &VelocityOf<S>) -> VelocityOf<S>;
+
+    /// The change of velocities from `v`, where `w` at the end, at the position `q`, differs from that at the start by
+    /// `change`.
+    fn change(
+        system: &S,
+        v: &VelocityOf<S>,
+        q: &PositionOf<S>,
+        w: &VelocityOf<S>,
+        change: &VelocityOf<S>,
+    ) -> VelocityOf<S>;
 
     /// Their rates and those of own states.
     fn rates(problem: &Problem<'_, S>, t: S::Scalar, state: &S::State) -> (VelocityOf<S>, ExtraOf<S>);
@@ -27,6 +37,17 @@ impl<S: System> Variables<S> for Velocities {
     #[inline]
     fn velocity(_system: &S, _q: &PositionOf<S>, w: &VelocityOf<S>) -> VelocityOf<S> {
         *w
+    }
+    /// With the digits that the sum has no place for.
+    #[inline]
+    fn change(
+        _system: &S,
+        _v: &VelocityOf<S>,
+        _q: &PositionOf<S>,
+        _w: &VelocityOf<S>,
+        change: &VelocityOf<S>,
+    ) -> VelocityOf<S> {
+        *change
     }
     #[inline]
     fn rates(problem: &Problem<'_, S>, t: S::Scalar, state: &S::State) -> (VelocityOf<S>, ExtraOf<S>) {
@@ -46,6 +67,16 @@ impl<S: Canonical> Variables<S> for Momenta {
     #[inline]
     fn velocity(system: &S, q: &PositionOf<S>, w: &VelocityOf<S>) -> VelocityOf<S> {
         system.velocity(q, w)
+    }
+    #[inline]
+    fn change(
+        system: &S,
+        v: &VelocityOf<S>,
+        q: &PositionOf<S>,
+        w: &VelocityOf<S>,
+        _change: &VelocityOf<S>,
+    ) -> VelocityOf<S> {
+        system.velocity(q, w).add_scaled(S::Scalar::lit(-1.0), v)
     }
     #[inline]
     fn rates(problem: &Problem<'_, S>, t: S::Scalar, state: &S::State) -> (VelocityOf<S>, ExtraOf<S>) {
