@@ -4,7 +4,7 @@
 #![forbid(unsafe_code)]
 #![deny(warnings, missing_docs, clippy::all)]
 
-use multibody::{DormandPrince, Integrator, IntegrationError, Rk4, SemiImplicitEuler, Statistics, multibody};
+use multibody::{DormandPrince, IntegrationError, Integrator, Rk4, SemiImplicitEuler, Statistics, multibody};
 
 multibody! {
     /// Planar double pendulum with adjustable lengths.
@@ -89,5 +89,12 @@ pub fn orbit(state: &satellite::State) -> Result<satellite::State, IntegrationEr
 /// The same with steps chosen by error.
 pub fn adaptive(state: &satellite::State) -> Result<(satellite::State, Statistics), IntegrationError> {
     let model = satellite::Model::new(&satellite::Params::default());
-    Integrator::adaptive(DormandPrince, 1e-6, 1e-9).integrate(&model, 0.0, 1.0, state, &satellite::Input::default(), |_, _| ())
+    Integrator::adaptive(DormandPrince, 1e-6, 1e-9).integrate(
+        &model,
+        0.0,
+        1.0,
+        state,
+        &satellite::Input::default(),
+        |_, _| (),
+    )
 }
