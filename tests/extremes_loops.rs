@@ -184,7 +184,7 @@ fn squeezer_at_all_points_with_multipliers() {
     assert!(free[0] < 1e-8 && closing[0] < 1e-8, "{free:?} {closing:?}");
 }
 
-/// Energies and times: printed here; the bar of 3 ms is for an optimised build.
+/// Energies and evaluations; times are printed only.
 #[test]
 fn squeezer_by_energy() {
     let file = read("motion/andrews");
@@ -194,7 +194,7 @@ fn squeezer_by_energy() {
     state.q.beta = number(&start["q"][0]);
     let energy = |x: &solved::State| model.outputs(0.0, x, &()).energy;
     let at_start = energy(&state);
-    let mut best = f64::INFINITY;
+    let mut fewest = u32::MAX;
     for tolerance in [1e-7, 1e-8, 1e-9, 1e-10] {
         let integrator = Integrator::adaptive(Dop853, tolerance, tolerance);
         let mut drift = 0.0_f64;
@@ -211,10 +211,11 @@ fn squeezer_by_energy() {
             statistics.evaluations
         );
         if drift <= 1e-8 {
-            best = best.min(time);
+            fewest = fewest.min(statistics.evaluations);
         }
     }
-    assert!(best < 0.3, "{best} s");
+    println!("{fewest} evaluations for 1e-8 J");
+    assert!(fewest <= 3000, "{fewest} evaluations");
 }
 
 /// Error of the first tip and of the rate of the cranks.

@@ -54,7 +54,9 @@ fn steps_in_single_precision_hold_no_double() {
         .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/single"))
         .env("CARGO_TARGET_DIR", &target)
         .env_remove("RUSTFLAGS")
-        .args(["rustc", "--release", "--lib", "--", "--emit", "asm"])
+        .env_remove("CARGO_ENCODED_RUSTFLAGS")
+        .env_remove("CARGO_BUILD_RUSTFLAGS")
+        .args(["rustc", "--locked", "--release", "--lib", "--", "--emit", "asm"])
         .output()
         .unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

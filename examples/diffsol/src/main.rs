@@ -78,7 +78,10 @@ fn pendulum() -> Result<(), Box<dyn std::error::Error>> {
     let model = double_pendulum::Model::<f64>::default();
     let (end, statistics) = own.integrate(&model, 0.0, 10.0, &start, &(), |_, _| ())?;
     let difference = apart(&q, &end.q.into()).max(apart(&v, &end.v.into()));
-    println!("  double pendulum, 10 s: {difference:.1e} between tsit45 and Dop853 ({} evaluations)", statistics.evaluations);
+    println!(
+        "  double pendulum, 10 s: {difference:.1e} between tsit45 and Dop853 ({} evaluations)",
+        statistics.evaluations
+    );
     assert!(difference < 1e-6);
     Ok(())
 }
@@ -107,7 +110,10 @@ fn stiff() -> Result<(), Box<dyn std::error::Error>> {
     let own = Integrator::adaptive(Radau, TOLERANCE, TOLERANCE);
     let (end, statistics) = own.integrate(&governor::Model::<f64>::default(), 0.0, 2.0, &start, &(), |_, _| ())?;
     let difference = apart(&q, &end.q.into()).max(apart(&v, &end.v.into()));
-    println!("  stiff governor, 2 s:   {difference:.1e} between bdf and Radau ({} evaluations)", statistics.evaluations);
+    println!(
+        "  stiff governor, 2 s:   {difference:.1e} between bdf and Radau ({} evaluations)",
+        statistics.evaluations
+    );
     assert!(difference < 1e-6);
     Ok(())
 }

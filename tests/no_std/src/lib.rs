@@ -4,7 +4,12 @@
 #![forbid(unsafe_code)]
 #![deny(warnings, missing_docs, clippy::all)]
 
-use multibody::{DormandPrince, Integrator, IntegrationError, Rk4, SemiImplicitEuler, Statistics, multibody};
+use multibody::impact::{Impact, impact};
+use multibody::integrators::{Action, Direction, Event, Events};
+use multibody::{
+    DormandPrince, Equilibrium, EquilibriumError, GaussLegendre4, IntegrationError, Integrator, Radau, Rk4,
+    SemiImplicitEuler, Statistics, equilibrium, multibody,
+};
 
 multibody! {
     /// Planar double pendulum with adjustable lengths.
@@ -89,5 +94,72 @@ pub fn orbit(state: &satellite::State) -> Result<satellite::State, IntegrationEr
 /// The same with steps chosen by error.
 pub fn adaptive(state: &satellite::State) -> Result<(satellite::State, Statistics), IntegrationError> {
     let model = satellite::Model::new(&satellite::Params::default());
-    Integrator::adaptive(DormandPrince, 1e-6, 1e-9).integrate(&model, 0.0, 1.0, state, &satellite::Input::default(), |_, _| ())
+    Integrator::adaptive(DormandPrince, 1e-6, 1e-9).integrate(
+        &model,
+        0.0,
+        1.0,
+        state,
+        &satellite::Input::default(),
+        |_, _| (),
+    )
+}
+
+multibody! {
+    /// A pendulum with a damped spring and a motor at its hinge.
+    pub mod flap {
+        /// [N m] of the motor
+        input torque;
+        world { gravity: -9.81 * Y }
+        body rod { mass: 2.0, com: -0.5 * Y, inertia: rod(2.0, 1.0, Y) }
+        joint hinge: Revolute { parent: ground, child: rod, axis: Z }
+        force motor: Effort { joint: hinge, value: torque - 40.0 * hinge - 3.0 * hinge.rate }
+        emit forward_dynamics, derivatives, impulse;
+    }
+}
+
+/// A flap over one second, by an implicit method with steps chosen by error.
+pub fn stiff(state: &flap::State<f32>, torque: f32) -> Result<(flap::State<f32>, Statistics), IntegrationError> {
+    let model = flap::Model::<f32>::default();
+    Integrator::adaptive(Radau, 1e-4, 1e-4).integrate(&model, 0.0, 1.0, state, &flap::Input { torque }, |_, _| ())
+}
+
+/// The same with a method of Gauss in equal steps.
+pub fn gauss(state: &flap::State, torque: f64) -> Result<(flap::State, Statistics), IntegrationError> {
+    let model = flap::Model::<f64>::default();
+    let integrator = Integrator::fixed(GaussLegendre4, 0.01).compensated();
+    integrator.integrate(&model, 0.0, 1.0, state, &flap::Input { torque }, |_, _| ())
+}
+
+/// Where a flap rests.
+pub fn rest(state: &flap::State, torque: f64) -> Result<Equilibrium<flap::State>, EquilibriumError> {
+    let model = flap::Model::<f64>::default();
+    equilibrium(&model, 0.0, state, &flap::Input { torque }, &flap::Velocity { hinge: 1.0 })
+}
+
+/// What happens where a flap meets a stop.
+pub fn struck(state: &flap::State) -> Impact<flap::State> {
+    impact(&flap::Model::<f64>::default(), 0.0, state, &flap::Velocity { hinge: 1.0 }, 0.5)
+}
+
+/// A stop that a flap meets where it hangs.
+#[derive(Debug)]
+pub struct Stop;
+
+impl Events<flap::Model, 1> for Stop {
+    fn values(&self, _t: f64, state: &flap::State) -> [f64; 1] {
+        [state.q.hinge]
+    }
+    fn direction(&self, _index: usize) -> Direction {
+        Direction::Falling
+    }
+    fn happened(&mut self, _event: &Event, state: &flap::State) -> Action<flap::State> {
+        Action::Jump(struck(state).state)
+    }
+}
+
+/// A flap that falls against the stop.
+pub fn bounces(state: &flap::State) -> Result<(flap::State, Statistics, f64), IntegrationError> {
+    let model = flap::Model::<f64>::default();
+    let integrator = Integrator::adaptive(DormandPrince, 1e-8, 1e-8);
+    integrator.with_events(&model, 0.0, 1.0, state, &flap::Input { torque: 0.0 }, &mut Stop, |_| ())
 }

@@ -7,8 +7,7 @@
 
 use multibody::{
     Composition4, Composition6, Dop853, DormandPrince, Euler, GaussLegendre4, GaussLegendre6, ImplicitMidpoint, Rk4,
-    SemiImplicitEuler, SymplecticGauss6,
-    SymplecticMidpoint, Verlet, multibody,
+    SemiImplicitEuler, SymplecticGauss6, SymplecticMidpoint, Verlet, multibody,
 };
 
 multibody! {
