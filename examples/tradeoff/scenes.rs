@@ -76,7 +76,7 @@ pub(crate) fn run(name: &'static str, effort: Effort) -> Bench {
             (&stewart_loops(), &stewart_loops()),
         ),
         _ => plain(
-            scene("governor", "Governor with stiff links, 4 s", Kind::Stiff, 0.1, false),
+            scene("governor", "Governor with stiff links, 2 s", Kind::Stiff, 0.1, false),
             effort,
             &governor(),
             &governor(),

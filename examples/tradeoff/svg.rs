@@ -124,9 +124,9 @@ impl Picture {
     pub(crate) fn panel(&mut self, panel: &Panel, (left, top): (f64, f64), (width, height): (f64, f64)) {
         let frame = Place { left, top, right: left + width, bottom: top + height };
         let (low, high) = panel.heights;
-        let visible = |y: f64| y <= high && y > 0.0;
+        let visible = |(x, y): (f64, f64)| x > 0.0 && x.is_finite() && y <= high && y > 0.0;
         let widths =
-            panel.lines.iter().flat_map(|line| &line.points).filter(|point| visible(point.1)).map(|point| point.0);
+            panel.lines.iter().flat_map(|line| &line.points).filter(|point| visible(**point)).map(|point| point.0);
         let (mut from, mut to) = (f64::INFINITY, 0.0_f64);
         for x in widths {
             (from, to) = (from.min(x), to.max(x));
@@ -148,7 +148,7 @@ impl Picture {
         self.text(((left + frame.right) / 2.0, frame.bottom + 32.0), 11.0, "middle", "#444", panel.across);
 
         if panel.hull.len() > 1 {
-            let hull: Vec<(f64, f64)> = panel.hull.iter().filter(|point| visible(point.1)).map(|p| place(*p)).collect();
+            let hull: Vec<(f64, f64)> = panel.hull.iter().filter(|point| visible(**point)).map(|p| place(*p)).collect();
             let list: Vec<String> = hull.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
             let _ = writeln!(
                 self.out,
@@ -159,7 +159,7 @@ impl Picture {
         let drawn: Vec<Vec<(f64, f64)>> = panel
             .lines
             .iter()
-            .map(|line| line.points.iter().filter(|point| visible(point.1)).map(|point| place(*point)).collect())
+            .map(|line| line.points.iter().filter(|point| visible(**point)).map(|point| place(*point)).collect())
             .collect();
         for (line, points) in panel.lines.iter().zip(&drawn) {
             self.stroke(points, line.style);
