@@ -92,6 +92,9 @@ pub struct Equilibrium<Z, U = (), T = f64> {
     pub iterations: u32,
 }
 
+/// What a search for an equilibrium of `S` gives, with inputs of the type `U`.
+pub type Found<S, U> = Result<Equilibrium<<S as System>::State, U, <S as System>::Scalar>, EquilibriumError>;
+
 /// A state of rest near `guess`, under the given input, at the time `t` `[s]`: no velocities, no accelerations, no rates of
 /// own states.
 ///
@@ -107,7 +110,7 @@ pub fn equilibrium<S: Differentiable>(
     guess: &S::State,
     input: &S::Input,
     free: &VelocityOf<S>,
-) -> Result<Equilibrium<S::State, (), S::Scalar>, EquilibriumError> {
+) -> Found<S, ()> {
     Search::run(system, &Held(input), &Open, t, &resting::<S>(guess), (), &at_rest::<S>(free))
 }
 
@@ -125,7 +128,7 @@ pub fn trim<S: Differentiable>(
     guess: &S::State,
     input: &S::Input,
     free: &Free<VelocityOf<S>, ExtraOf<S>, S::Input>,
-) -> Result<Equilibrium<S::State, S::Input, S::Scalar>, EquilibriumError>
+) -> Found<S, S::Input>
 where
     S::Input: Tangent<S::Scalar>,
 {
@@ -145,7 +148,7 @@ pub fn constrained_equilibrium<S: Differentiable + Constrained>(
     guess: &S::State,
     input: &S::Input,
     free: &VelocityOf<S>,
-) -> Result<Equilibrium<S::State, (), S::Scalar>, EquilibriumError> {
+) -> Found<S, ()> {
     Search::run(system, &Held(input), &Loops(system), t, &resting::<S>(guess), (), &at_rest::<S>(free))
 }
 

@@ -197,7 +197,8 @@ pub fn solve_symmetric<T: Real, const N: usize>(mut a: [[T; N]; N], mut b: [T; N
 /// The displacement `d = W G^T (G W G^T)^+ r`: of all that satisfy `G d = r` the one for which the sum of
 /// `d_j^2 / weights_j` is least. Gives `d` and the rank of `G W`.
 ///
-/// A coordinate of weight zero stays where it is; weights are never negative. Beyond the rank, equations that repeat
+/// A coordinate of weight zero stays where it is; weights are never negative. Rows count as independent whatever their
+/// units, but one that is smaller than the greatest by the threshold is rounding and counts as zero. Beyond the rank, equations that repeat
 /// others are met with them, and equations that contradict others are not met.
 ///
 /// The rows of `G` are made orthogonal one after the other, the one that is least dependent on the ones before first
@@ -236,8 +237,15 @@ pub fn least_norm<T: Real, const M: usize, const N: usize>(
             rows[i][j] = columns[j][i];
         }
         let square = dot(&rows[i], &rows[i]);
-        scale[i] = reciprocal(square);
+        scale[i] = square;
         poison += residue(square);
+    }
+    // A row that is rounding beside the others is none: in a flat pose an equation may vanish as a whole.
+    let threshold = threshold::<T>(if M < N { N } else { M });
+    let threshold = threshold * threshold;
+    let least = threshold * scale.iter().fold(zero, |greatest, &square| Real::max(greatest, square));
+    for scale in &mut scale {
+        *scale = Real::select(Real::le(*scale, least), zero, reciprocal(*scale));
     }
     let mut rank = poison;
     for i in 0..M {
@@ -245,8 +253,6 @@ pub fn least_norm<T: Real, const M: usize, const N: usize>(
     }
 
     let most = if M < N { M } else { N };
-    let threshold = threshold::<T>(if M < N { N } else { M });
-    let threshold = threshold * threshold;
     let mut inverse = [zero; M];
     for k in 0..M {
         if k >= most {
@@ -323,7 +329,7 @@ fn reciprocal<T: Real>(x: T) -> T {
 /// Zero, or NaN where `x` is not finite.
 #[inline]
 #[allow(clippy::eq_op)]
-fn residue<T: Real>(x: T) -> T {
+pub(crate) fn residue<T: Real>(x: T) -> T {
     x - x
 }
 

@@ -149,9 +149,9 @@ fn crank_rocker<const M: usize>() -> (FourBar<f64, M>, Coordinates<f64, 9>) {
     (bars, start.state)
 }
 
-fn worst_kept<S: Constrained<Scalar = f64>>(method: impl Method<S>, system: &S, start: &S::State, dt: f64) -> [f64; 2]
+fn worst_kept<S>(method: impl Method<S>, system: &S, start: &S::State, dt: f64) -> [f64; 2]
 where
-    S: System<Input = ()>,
+    S: Constrained<Scalar = f64> + System<Input = ()>,
     S::Residual: Into<Residuals>,
 {
     let mut worst = [0.0_f64; 2];

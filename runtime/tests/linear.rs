@@ -261,3 +261,18 @@ fn roundings_of_every_scalar() {
     assert_eq!(<WideF64x4 as Real>::epsilon().greatest(), f64::EPSILON);
     assert_eq!(<WideF32x8 as Real>::epsilon().greatest(), f64::from(f32::EPSILON));
 }
+
+/// A row that is nothing but rounding beside the others has no say; rows of other units have.
+#[test]
+fn rows_of_rounding_are_no_equations() {
+    let weights = SVector::<f64, 3>::repeat(1.0);
+    for (size, rank) in [(1e-17, 1.0), (1e-15, 1.0), (1e-12, 2.0), (1e-6, 2.0)] {
+        let g = SMatrix::<f64, 2, 3>::new(1.0, 2.0, 3.0, size, -size, 0.0);
+        let (d, seen) = least_norm(&g, &SVector::<f64, 2>::new(14.0, 0.0), &weights);
+        assert_eq!(seen, rank, "{size:e}");
+        assert!(
+            ((g.row(0) * d)[0] - 14.0).abs() < 1e-12
+                && (rank == 2.0 || (d - SVector::<f64, 3>::new(1.0, 2.0, 3.0)).amax() < 1e-14)
+        );
+    }
+}

@@ -292,7 +292,7 @@ fn forwards_is_backwards() {
             assert!(first.iter().zip(&got).all(|(x, y)| (x - y).abs() < 1e-10 * size), "{way:?} {first:?} {got:?}");
             for gather in [forward::Gather::Sums, forward::Gather::Lines] {
                 b.g.forget();
-                let (a, dw) = accelerations(&mut b.g, &carrier, &found.forces, &reference, gather);
+                let (a, dw) = accelerations(&mut b.g, &carrier, &found.forces, (&reference, gather), false);
                 let back = coordinates(&mut b.g, &b.tree, platform, &a, &dw).unwrap();
                 let got = b.evaluate(&back.iter().map(|f| f.1).collect::<Vec<_>>());
                 let want: Vec<Scalar> = back.iter().map(|f| b.tree.acceleration[f.0]).collect();

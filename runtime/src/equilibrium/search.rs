@@ -2,8 +2,8 @@
 
 use super::error::EquilibriumError;
 use super::least::{Row, least};
-use super::{Equilibrium, Free};
-use crate::linear::Square;
+use super::{Equilibrium, Found, Free};
+use crate::linear::{Square, residue};
 use crate::{
     Configuration, Constrained, Differentiable, ExtraOf, Real, StateSpace, System, Tangent, VelocityOf, all, any,
 };
@@ -175,7 +175,7 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
         guess: &S::State,
         value: I::Value,
         free: &'a Unknowns<S, I::Value>,
-    ) -> Result<Equilibrium<S::State, I::Value, S::Scalar>, EquilibriumError> {
+    ) -> Found<S, I::Value> {
         let lit = S::Scalar::lit;
         let zero = lit(0.0);
         let search = Self { system, source, closing, t, free };
@@ -315,7 +315,7 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
         for (row, scale) in rows.as_mut().iter_mut().zip(scale.as_mut()) {
             let reach = row.entries.zip(&sizes, &mut |a, z| Real::abs(a) * (one + Real::abs(z)));
             *scale = one + reach.fold(zero, &mut |sum, a| sum + a);
-            poison += *scale - *scale;
+            poison += residue(*scale);
             row.square = square(&row.entries, self.free);
         }
         if C::LOOPS {

@@ -477,11 +477,18 @@ impl<'m> Deriving<'m> {
         equations.branches = std::mem::take(&mut self.branches);
         let exists = way.axes.is_none() || equations.shared().turns.iter().any(|&turn| turn != Rotation::IDENTITY);
         let results = if exists { f(&mut equations) } else { Ok(Vec::new()) };
+        let unfinished = |g: &Graph, results: &[Scalar]| results.iter().any(|&root| Symbols::is_unfinished(g, root));
+        // Nodes are found by value: what is made after definitions were put in may come out as an older node, in which a
+        // coordinate outside the state stands and cancels. Put in once more, it goes.
+        let results = results.map(|results| {
+            let (g, defined) = (&mut equations.g, &equations.defined);
+            if !defined.is_empty() && unfinished(g, &results) { g.substitute(&results, defined) } else { results }
+        });
         self.graph = equations.g;
         self.branches = equations.branches;
         let results = results?;
         // A net: what a way has left unreplaced has no place in the generated structs.
-        let finished = !results.iter().any(|&root| Symbols::is_unfinished(&self.graph, root));
+        let finished = !unfinished(&self.graph, &results);
         debug_assert!(finished, "{name} leaves a coordinate that is not in the state");
         Ok((exists && finished).then_some((name, results)))
     }

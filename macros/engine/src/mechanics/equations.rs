@@ -17,7 +17,7 @@ use super::cycles::Branch;
 use super::forces::Loads;
 use super::newton_euler::Wrench;
 use super::parallel::{Axes, Shared, share_axes};
-use super::reduction::Reduction;
+use super::reduction::{Map, Reduction};
 use super::regroup::regroup;
 use super::structure::{Row, Structure};
 use super::symbols::Symbols;
@@ -83,6 +83,8 @@ pub struct Equations<'m> {
     pub(super) accelerations: Option<Rc<[Scalar]>>,
     /// Definitions of the coordinates outside the state, where outputs are derived.
     pub(super) reduction: Option<Rc<Reduction>>,
+    /// Positions, rates and accelerations of coordinates outside the state, once they are found.
+    pub(super) defined: Rc<Map>,
     /// Constrained accelerations, where outputs have asked for them.
     pub(super) solved: Option<Rc<Solved>>,
     pub(super) transmitted: Option<Rc<[Wrench]>>,
@@ -121,6 +123,7 @@ impl<'m> Equations<'m> {
             loads: None,
             accelerations: None,
             reduction: None,
+            defined: Rc::default(),
             solved: None,
             transmitted: None,
             branches: HashMap::new(),

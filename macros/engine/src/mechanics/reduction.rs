@@ -70,6 +70,7 @@ impl Equations<'_> {
             self.define(&definitions, &mut reduction, &mut rates);
         }
         self.close(&mut reduction, &rates);
+        self.defined = std::rc::Rc::new(reduction.map.clone());
         Ok(reduction)
     }
 
