@@ -110,12 +110,12 @@ impl Picture {
 
     fn mark(&mut self, (x, y): (f64, f64), style: Style) {
         let (fill, colour) = (if style.dashed { "white" } else { style.colour }, style.colour);
-        let r = 2.6;
+        let r = 2.1;
         let shape = match style.mark {
             Mark::Circle => format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{r}\""),
-            Mark::Square => format!("<path d=\"M{:.1} {:.1}h4.8v4.8h-4.8z\"", x - 2.4, y - 2.4),
-            Mark::Triangle => format!("<path d=\"M{:.1} {:.1}l3.2 5.4h-6.4z\"", x, y - 3.4),
-            Mark::Diamond => format!("<path d=\"M{:.1} {:.1}l3.4 3.4l-3.4 3.4l-3.4 -3.4z\"", x, y - 3.4),
+            Mark::Square => format!("<path d=\"M{:.1} {:.1}h3.8v3.8h-3.8z\"", x - 1.9, y - 1.9),
+            Mark::Triangle => format!("<path d=\"M{:.1} {:.1}l2.7 4.6h-5.4z\"", x, y - 2.9),
+            Mark::Diamond => format!("<path d=\"M{:.1} {:.1}l2.8 2.8l-2.8 2.8l-2.8 -2.8z\"", x, y - 2.8),
         };
         let _ = writeln!(self.out, "{shape} fill=\"{fill}\" stroke=\"{colour}\" stroke-width=\"1\"/>");
     }
