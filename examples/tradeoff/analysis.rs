@@ -39,15 +39,18 @@ pub(crate) fn curves(bench: &Bench) -> Vec<Curve<'_>> {
     all
 }
 
-/// The slope of errors over evaluations, both as logarithms, by least squares over the finest points above the floor.
+/// The slope of errors over the number of steps (over evaluations, where steps were chosen by error), both as logarithms,
+/// by least squares over the finest points above the floor.
 fn order(curve: &Curve<'_>) -> Option<f64> {
     let rounding = if curve.series.scalar == "f32" { 1e-6 } else { 2e-14 };
     let low = (20.0 * curve.floor).max(50.0 * rounding);
     let high = if curve.series.order > 2 { 1e-4 } else { 1e-2 };
     // Steps of one length follow their order once they are short; the shortest of them are taken.
     let usable = curve.points.iter().filter(|point| point.bound < high && point.bound > low);
-    let mut list: Vec<(f64, f64)> = usable.map(|point| (point.evaluations.ln(), point.bound.ln())).collect();
-    if curve.series.order <= 2 || curve.series.steps == Steps::Fixed {
+    let fixed = curve.series.steps == Steps::Fixed;
+    let work = |point: &Point| if fixed { -point.setting.ln() } else { point.evaluations.ln() };
+    let mut list: Vec<(f64, f64)> = usable.map(|point| (work(point), point.bound.ln())).collect();
+    if fixed {
         list.drain(..list.len().saturating_sub(5));
     }
     if list.len() < 3 {

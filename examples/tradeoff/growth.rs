@@ -1,15 +1,36 @@
 //! How much a problem itself magnifies an error: the norm of the derivative of the motion by its start.
 
-use multibody::{DormandPrince, Integrator, System, Tangent, VelocityOf};
+use multibody::{Differentiable, Dop853, Integrator, Radau, System, Tangent, VelocityOf};
 
+use crate::bench::Kind;
 use crate::reference::Truth;
 use crate::subject::{Subject, displaced};
+
+/// The end of an accurate run, by the implicit method for stiff scenes.
+pub(crate) fn accurate<S: Differentiable<Scalar = f64, Input = ()>>(
+    subject: &Subject<S>,
+    kind: Kind,
+    end: f64,
+    state: &S::State,
+    observe: impl FnMut(f64, &S::State),
+) -> S::State {
+    let system = &subject.system;
+    let run = if kind == Kind::Stiff {
+        Integrator::adaptive(Radau, 1e-12, 1e-12).integrate(system, 0.0, end, state, &(), observe)
+    } else {
+        Integrator::adaptive(Dop853, 1e-13, 1e-13).integrate(system, 0.0, end, state, &(), observe)
+    };
+    run.expect("the scenes' motions are smooth").0
+}
 
 /// The greatest ratio of an error at the end to one at the start, both measured as in [`Truth::error`]; at least one.
 ///
 /// By central differences of accurate runs, one for each coordinate and velocity.
-pub(crate) fn growth<S: System<Scalar = f64, Input = ()>>(subject: &Subject<S>, truth: &Truth) -> f64 {
-    let accurate = Integrator::adaptive(DormandPrince, 1e-12, 1e-12);
+pub(crate) fn growth<S: Differentiable<Scalar = f64, Input = ()>>(
+    subject: &Subject<S>,
+    truth: &Truth,
+    kind: Kind,
+) -> f64 {
     let differences = |state: &S::State| {
         let (end, _) =
             accurate.integrate(&subject.system, 0.0, truth.end, state, &(), |_, _| ()).expect("smooth motion");

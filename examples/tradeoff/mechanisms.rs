@@ -95,9 +95,8 @@ pub(crate) fn panda<T: Real>() -> Subject<models::panda::Model<T>> {
 
 pub(crate) fn governor<T: Real>() -> Subject<models::governor::Model<T>> {
     use models::governor::{Model, State, Velocity};
-    // The springs are at their natural length.
-    let mut start = State { q: lit([0.0, 0.5, 0.5, -0.5_f64.cos()]).into(), v: Velocity::default() };
-    start.v.shaft = T::lit(8.0);
+    let mut start = State { q: lit([0.0, 0.3, 0.301, -0.382]).into(), v: Velocity::default() };
+    start.v.shaft = T::lit(6.0);
     Subject {
         system: Model::default(),
         start,

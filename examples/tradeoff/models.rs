@@ -94,25 +94,26 @@ multibody! {
 }
 
 multibody! {
-    /// A governor: a spindle with two arms that carry balls, and a sleeve that stiff, damped springs hang on the arms.
+    /// A governor: balls on two arms that a driven spindle carries along, and a sleeve that hangs on stiff, damped links.
     pub(crate) mod governor {
-        const K = 8e5;
-        const C = 4e4;
+        const K = 1e7;
+        const C = 5e4;
         world { gravity: -9.81 * Z }
-        body spindle { mass: 1.0, inertia: diag(0.25, 0.25, 0.5) }
-        body rod1 { mass: 0.3, com: -0.5 * Z, inertia: rod(0.3, 1.0, Z) }
-        body rod2 { mass: 0.3, com: -0.5 * Z, inertia: rod(0.3, 1.0, Z) }
-        body ball1 { mass: 5.0 }
-        body ball2 { mass: 5.0 }
-        body sleeve { mass: 10.0 }
+        body spindle { mass: 1.0, inertia: diag(0.05, 0.05, 0.05) }
+        body right { mass: 0.5, com: -0.3 * Z }
+        body left { mass: 0.5, com: -0.3 * Z }
+        body sleeve { mass: 1.0 }
         joint shaft: Revolute { parent: ground, child: spindle, axis: Z }
-        joint arm1: Revolute { parent: spindle, child: rod1, axis: -Y }
-        joint arm2: Revolute { parent: spindle, child: rod2, axis: Y }
-        joint weld1: Fixed { parent: rod1.at(-Z), child: ball1 }
-        joint weld2: Fixed { parent: rod2.at(-Z), child: ball2 }
+        joint right_arm: Revolute { parent: spindle.at(0.05 * X), child: right, axis: -Y }
+        joint left_arm: Revolute { parent: spindle.at(-0.05 * X), child: left, axis: Y }
         joint slide: Prismatic { parent: spindle, child: sleeve, axis: Z }
-        force link1: SpringDamper { between: [rod1.at(-0.5 * Z), sleeve], stiffness: K, damping: C, length: 0.5 }
-        force link2: SpringDamper { between: [rod2.at(-0.5 * Z), sleeve], stiffness: K, damping: C, length: 0.5 }
+        force drive: Effort { joint: shaft, value: 0.5 * (9.0 - shaft.rate) }
+        force right_link: SpringDamper {
+            between: [right.at(-0.2 * Z), sleeve.at(0.05 * X)], stiffness: K, damping: C, length: 0.2,
+        }
+        force left_link: SpringDamper {
+            between: [left.at(-0.2 * Z), sleeve.at(-0.05 * X)], stiffness: K, damping: C, length: 0.2,
+        }
         emit forward_dynamics, derivatives, energy;
     }
 }

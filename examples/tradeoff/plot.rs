@@ -4,6 +4,8 @@ use crate::analysis::{Cost, Curve, EVALUATIONS, TIME, curves, hull};
 use crate::bench::{Bench, Point, Series, Steps};
 use crate::svg::{Line, Mark, Panel, Picture, Style};
 
+/// The lower edge of all panels.
+const LOWEST: f64 = 1e-16;
 const PANEL: (f64, f64) = (430.0, 330.0);
 const LEFT: f64 = 62.0;
 const TOP: f64 = 92.0;
@@ -83,7 +85,10 @@ pub(crate) fn long(series: Series) -> String {
 }
 
 fn line(curve: &Curve<'_>, name: String, style: Style, cost: Cost, value: fn(&Point) -> f64) -> Line {
-    Line { name, style, points: curve.points.iter().map(|point| (cost(point), value(point))).collect() }
+    // What goes on below the frame would run along its edge: a curve ends where it first leaves.
+    let last = curve.points.iter().position(|point| value(point) < LOWEST).unwrap_or(curve.points.len());
+    let points = curve.points.iter().take(last + 1).map(|point| (cost(point), value(point))).collect();
+    Line { name, style, points }
 }
 
 /// The whole picture.
@@ -96,7 +101,7 @@ pub(crate) fn picture(bench: &Bench) -> String {
     let mut picture = Picture::new(WIDTH, TOP + rows * DOWN - 20.0);
     picture.text((LEFT, 32.0), 18.0, "start", "#111", bench.scene.title);
     let growth = format!(
-        "Errors at the end, relative, divided by the problem's own growth of errors, {:.3}. The yellow band is the hull.",
+        "Errors at the end, relative, divided by the problem's own growth of errors, {:.1}. The yellow band is the hull.",
         bench.growth
     );
     picture.text((LEFT, 54.0), 11.5, "start", "#666", &growth);
@@ -109,8 +114,9 @@ pub(crate) fn picture(bench: &Bench) -> String {
         hull: hull(methods.iter().flat_map(|curve| curve.points.iter().copied()), cost)
             .into_iter()
             .map(|point| (cost(point), point.bound))
+            .filter(|point| point.1 >= LOWEST)
             .collect(),
-        heights: (1e-15, 1.0),
+        heights: (LOWEST, 1.0),
     };
     let place = |row: f64, column: f64| (LEFT + column * ACROSS, TOP + row * DOWN);
     picture.panel(&work("Error against work", EVALUATED, EVALUATIONS), place(0.0, 0.0), PANEL);
@@ -129,7 +135,7 @@ pub(crate) fn picture(bench: &Bench) -> String {
             .map(|curve| line(curve, short(curve.series), method(curve.series), EVALUATIONS, |point| point.drift))
             .collect(),
         hull: Vec::new(),
-        heights: (1e-16, 1.0),
+        heights: (LOWEST, 1.0),
     };
     picture.panel(&drift, place(1.0, 0.0), PANEL);
     let precision = |curve: &&Curve<'_>| {
@@ -146,7 +152,7 @@ pub(crate) fn picture(bench: &Bench) -> String {
         across: TIMED,
         lines: all.iter().filter(precision).map(single).collect(),
         hull: Vec::new(),
-        heights: (1e-15, 1.0),
+        heights: (LOWEST, 1.0),
     };
     picture.panel(&precisions, place(1.0, 1.0), PANEL);
     if loops {
@@ -174,7 +180,7 @@ fn handlings(picture: &mut Picture, all: &[Curve<'_>], place: impl Fn(f64, f64) 
             .filter(|line| line.points.iter().any(|point| point.1 > 0.0))
             .collect(),
         hull: Vec::new(),
-        heights: (1e-17, 1.0),
+        heights: (LOWEST, 1.0),
     };
     picture.panel(
         &panel("DormandPrince, adaptive, by how loops are closed", |point| point.own),

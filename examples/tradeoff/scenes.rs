@@ -10,7 +10,7 @@ use multibody::{
 };
 
 use crate::bench::{Bench, Effort, Kind, Scene, Series, Steps};
-use crate::growth::growth;
+use crate::growth::{accurate, growth};
 use crate::mechanisms::{
     andrews, andrews_loops, double_pendulum, four_bar, four_bar_loop, free_body, governor, panda, pendulum, stewart,
     stewart_loops,
@@ -76,7 +76,7 @@ pub(crate) fn run(name: &'static str, effort: Effort) -> Bench {
             (&stewart_loops(), &stewart_loops()),
         ),
         _ => plain(
-            scene("governor", "Governor with stiff links, 4 s", Kind::Stiff, 0.1, false),
+            scene("governor", "Governor with stiff links, 2 s", Kind::Stiff, 0.1, false),
             effort,
             &governor(),
             &governor(),
@@ -118,17 +118,15 @@ const fn by(method: &'static str, handling: &'static str, scalar: &'static str) 
 }
 
 /// The scene's growth of errors and energies, from accurate runs.
-fn start<S: System<Scalar = f64, Input = ()>>(scene: Scene, effort: Effort, subject: &Subject<S>) -> Bench {
+fn start<S: Differentiable<Scalar = f64, Input = ()>>(scene: Scene, effort: Effort, subject: &Subject<S>) -> Bench {
     let truth = Truth::of(scene.name);
-    let growth = growth(subject, &truth);
+    let growth = growth(subject, &truth, scene.kind);
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
     let watch = |_: f64, state: &S::State| {
         let kinetic = (subject.laws)(state).energy;
         (least, most) = (least.min(kinetic), most.max(kinetic));
     };
-    let accurate = Integrator::adaptive(DormandPrince, 1e-13, 1e-13);
-    let (end, _) =
-        accurate.integrate(&subject.system, 0.0, truth.end, &subject.start, &(), watch).expect("smooth motion");
+    let end = accurate(subject, scene.kind, truth.end, &subject.start, watch);
     let energy = (subject.laws)(&end).energy;
     let scale = if scene.conservative { 1.0 + energy.abs() } else { 1.0 + (most - least) };
     let jacobian = derivatives(scene.name);

@@ -110,12 +110,12 @@ impl Picture {
 
     fn mark(&mut self, (x, y): (f64, f64), style: Style) {
         let (fill, colour) = (if style.dashed { "white" } else { style.colour }, style.colour);
-        let r = 2.6;
+        let r = 2.1;
         let shape = match style.mark {
             Mark::Circle => format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{r}\""),
-            Mark::Square => format!("<path d=\"M{:.1} {:.1}h4.8v4.8h-4.8z\"", x - 2.4, y - 2.4),
-            Mark::Triangle => format!("<path d=\"M{:.1} {:.1}l3.2 5.4h-6.4z\"", x, y - 3.4),
-            Mark::Diamond => format!("<path d=\"M{:.1} {:.1}l3.4 3.4l-3.4 3.4l-3.4 -3.4z\"", x, y - 3.4),
+            Mark::Square => format!("<path d=\"M{:.1} {:.1}h3.8v3.8h-3.8z\"", x - 1.9, y - 1.9),
+            Mark::Triangle => format!("<path d=\"M{:.1} {:.1}l2.7 4.6h-5.4z\"", x, y - 2.9),
+            Mark::Diamond => format!("<path d=\"M{:.1} {:.1}l2.8 2.8l-2.8 2.8l-2.8 -2.8z\"", x, y - 2.8),
         };
         let _ = writeln!(self.out, "{shape} fill=\"{fill}\" stroke=\"{colour}\" stroke-width=\"1\"/>");
     }
@@ -124,9 +124,9 @@ impl Picture {
     pub(crate) fn panel(&mut self, panel: &Panel, (left, top): (f64, f64), (width, height): (f64, f64)) {
         let frame = Place { left, top, right: left + width, bottom: top + height };
         let (low, high) = panel.heights;
-        let visible = |y: f64| y <= high && y > 0.0;
+        let visible = |(x, y): (f64, f64)| x > 0.0 && x.is_finite() && y <= high && y > 0.0;
         let widths =
-            panel.lines.iter().flat_map(|line| &line.points).filter(|point| visible(point.1)).map(|point| point.0);
+            panel.lines.iter().flat_map(|line| &line.points).filter(|point| visible(**point)).map(|point| point.0);
         let (mut from, mut to) = (f64::INFINITY, 0.0_f64);
         for x in widths {
             (from, to) = (from.min(x), to.max(x));
@@ -148,7 +148,7 @@ impl Picture {
         self.text(((left + frame.right) / 2.0, frame.bottom + 32.0), 11.0, "middle", "#444", panel.across);
 
         if panel.hull.len() > 1 {
-            let hull: Vec<(f64, f64)> = panel.hull.iter().filter(|point| visible(point.1)).map(|p| place(*p)).collect();
+            let hull: Vec<(f64, f64)> = panel.hull.iter().filter(|point| visible(**point)).map(|p| place(*p)).collect();
             let list: Vec<String> = hull.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
             let _ = writeln!(
                 self.out,
@@ -159,7 +159,7 @@ impl Picture {
         let drawn: Vec<Vec<(f64, f64)>> = panel
             .lines
             .iter()
-            .map(|line| line.points.iter().filter(|point| visible(point.1)).map(|point| place(*point)).collect())
+            .map(|line| line.points.iter().filter(|point| visible(**point)).map(|point| place(*point)).collect())
             .collect();
         for (line, points) in panel.lines.iter().zip(&drawn) {
             self.stroke(points, line.style);

@@ -7,8 +7,11 @@ use crate::{Differentiable, Dop853, DormandPrince, IntegrationError, Integrator,
 
 /// Looser than that, the method of order five costs less.
 const LOOSE: f64 = 3e-3;
-/// Tolerances of steps in units of the accuracy: for the methods of order eight and five, and for the implicit one.
-const SHARES: [f64; 3] = [0.5, 0.1, 0.1];
+/// Tighter than that, errors of the method of order eight come up to its tolerance; before, they stay below.
+const TIGHT: f64 = 1e-4;
+/// Tolerances of steps in units of the accuracy: of the method of order five, of that of order eight before and after
+/// [`TIGHT`], and of the implicit one.
+const SHARES: [f64; 4] = [0.1, 2.0, 0.8, 0.5];
 /// No tolerance is below that many roundings.
 const ROUNDINGS: f64 = 2.0;
 
@@ -57,13 +60,14 @@ pub fn simulate<S: System>(
     accuracy: f64,
     observe: impl FnMut(f64, &S::State),
 ) -> Result<(S::State, Statistics), IntegrationError> {
-    let [eight, five, _] = SHARES;
+    let [five, coarse, fine, _] = SHARES;
     if accuracy > LOOSE {
         let tolerance = tolerance::<S>(five * accuracy, accuracy)?;
         return Integrator::adaptive(DormandPrince, tolerance, tolerance)
             .integrate(system, t0, t1, state, input, observe);
     }
-    let tolerance = tolerance::<S>(eight * accuracy, accuracy)?;
+    let share = if accuracy > TIGHT { coarse } else { fine };
+    let tolerance = tolerance::<S>(share * accuracy, accuracy)?;
     Integrator::adaptive(Dop853, tolerance, tolerance).integrate(system, t0, t1, state, input, observe)
 }
 

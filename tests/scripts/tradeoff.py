@@ -3,7 +3,7 @@
 Computed here, from published equations and not from this project's code: the arm (recursive Newton-Euler and composite
 rigid body after Featherstone, Rigid Body Dynamics Algorithms, 2008) and the four-bar (Lagrange's equation in the crank's
 angle). Copied from `data`, each with its own verification: the pendulum, both double pendulums, the free body, Andrews'
-squeezer, the platform.
+squeezer, the platform, the governor.
 
 Integration: extrapolation of the modified midpoint rule (Gragg, Bulirsch, Stoer), 160 bits, in two runs of different steps
 that must agree to 25 digits.
@@ -325,46 +325,6 @@ def four_bar():
 
 
 
-# The governor: a spindle with two arms and a sleeve that stiff, damped springs hang on the arms; gravity along -z.
-
-class Governor:
-    """Lagrange's equations in the angle of the spindle, of both arms (from straight down), and the sleeve's height."""
-
-    LENGTH, HALF, NATURAL = mpfr(1), mpfr("0.5"), mpfr("0.5")
-    BALL, ROD, SLEEVE, SPINDLE = mpfr(5), mpfr("0.3"), mpfr(10), mpfr("0.5")
-    STIFFNESS, DAMPING, GRAVITY = mpfr(800000), mpfr(40000), mpfr("9.81")
-
-    def slope(self, y):
-        _, first, second, height, spin, rate1, rate2, climb = y
-        arm = (self.BALL + self.ROD / 3) * self.LENGTH**2
-        weight = (self.BALL + self.ROD / 2) * self.LENGTH * self.GRAVITY
-        inertia, braking, lift = self.SPINDLE, mpfr(0), -self.SLEEVE * self.GRAVITY
-        accels = []
-        for angle, rate in ((first, rate1), (second, rate2)):
-            s, c = gmpy2.sin_cos(angle)
-            # From the sleeve to the middle of the arm.
-            x, z = self.HALF * s, -self.HALF * c - height
-            length = gmpy2.sqrt(x * x + z * z)
-            by_angle = (x * self.HALF * c + z * self.HALF * s) / length
-            by_height = -z / length
-            stretching = by_angle * rate + by_height * climb
-            force = -self.STIFFNESS * (length - self.NATURAL) - self.DAMPING * stretching
-            accels.append((arm * s * c * spin * spin - weight * s + force * by_angle) / arm)
-            inertia += arm * s * s
-            braking += 2 * arm * s * c * rate * spin
-            lift += force * by_height
-        return [spin, rate1, rate2, climb, -braking / inertia, *accels, lift / self.SLEEVE]
-
-
-def governor():
-    # The springs are at their natural length.
-    height = -2 * Governor.HALF * gmpy2.cos(mpfr("0.5"))
-    start = [mpfr(0), mpfr("0.5"), mpfr("0.5"), height, mpfr(8), mpfr(0), mpfr(0), mpfr(0)]
-    times = [mpfr(k) / 2 for k in range(9)]
-    return times, verified("governor", Governor().slope, start, times, mpfr(1) / 1000, 14)
-
-
-
 # What there is already.
 
 def copied():
@@ -380,6 +340,8 @@ def copied():
     yield "free_body", point["t"], point["q"], point["omega"]
     point = at(read("motion/andrews")["points"], 0.05)
     yield "andrews", point["t"], point["q"], point["v"]
+    state = at(read("motion/governor")["points"], 2.0)["y"]
+    yield "governor", 2.0, state[:4], state[4:]
     case = next(case for case in read("stewart/forward")["trajectories"] if case["name"] == "spring_damper")
     yield "stewart", case["t"][-1], case["pose"][-1], case["vel"][-1]
 
@@ -393,7 +355,7 @@ def main():
     text = "# name, time [s] | positions | velocities, in the coordinates of `tests/scripts/tradeoff.py`, which wrote this\n"
     for point in copied():
         text += line(*point)
-    for name in ("panda", "four_bar", "governor"):
+    for name in ("panda", "four_bar"):
         times, states = globals()[name]()
         half = len(states[0]) // 2
         text += line(name, times[-1], states[-1][:half], states[-1][half:])

@@ -87,8 +87,8 @@ fn pendulum() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 fn stiff() -> Result<(), Box<dyn std::error::Error>> {
-    let mut start = governor::State { q: SVector::from([0.0, 0.5, 0.5, -0.5_f64.cos()]).into(), v: Default::default() };
-    start.v.shaft = 8.0;
+    let mut start = governor::State { q: SVector::from([0.0, 0.3, 0.301, -0.382]).into(), v: Default::default() };
+    start.v.shaft = 6.0;
     let [q, v]: [SVector<f64, 4>; 2] = [start.q.into(), start.v.into()];
     let (rates, product) = functions!(governor, 4);
     let problem = OdeBuilder::<NalgebraMat<f64>>::new()
