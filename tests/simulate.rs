@@ -242,6 +242,10 @@ fn arguments() {
     let (single, statistics) = simulate(&model, 0.0, 1.0, &start, &(), 1e-12, |_, _| ()).unwrap();
     let (frequency, rest) = (5.0_f64, -9.81 / 25.0);
     let exact = rest * (1.0 - frequency.cos()) + frequency.sin() / frequency;
-    println!("single precision: {} evaluations, error {:.0e}", statistics.evaluations, f64::from(single.q.rail) - exact);
+    println!(
+        "single precision: {} evaluations, error {:.0e}",
+        statistics.evaluations,
+        f64::from(single.q.rail) - exact
+    );
     assert!((f64::from(single.q.rail) - exact).abs() < 1e-5 && statistics.evaluations < 2000);
 }
