@@ -129,8 +129,7 @@ fn arm_with_seven_motors() {
 /// changes nothing, holds the positions and velocities on them.
 #[test]
 fn squeezer() {
-    let mut start = andrews::State::<f64>::default();
-    start.q = SVector::<f64, 7>::from(ANDREWS).into();
+    let start = andrews::State::<f64> { q: SVector::<f64, 7>::from(ANDREWS).into(), ..Default::default() };
     let model = andrews::Model::<f64>::default();
     let start = Projection::default().project(&model, 0.0, &start).unwrap().state;
     balance!(andrews, start, |_| (), 2e-6, 10_000, |model, t, state| {

@@ -17,6 +17,9 @@ use serde_json::Value;
 
 const ACCURACIES: [f64; 3] = [1e-3, 1e-6, 1e-9];
 
+/// Runs a curve: evaluations and errors.
+type Collect<'a> = dyn Fn(&mut Vec<(u32, f64)>) + 'a;
+
 /// A problem with its truth: how far a state at the end is from it.
 struct Problem<'a, S: System> {
     name: &'static str,
@@ -50,7 +53,7 @@ impl<S: System<Scalar = f64>> Problem<'_, S> {
         let steps = |first: f64| (0..18).map(move |k| first * 1.5_f64.powi(-k));
         let tolerances = || (0..24).map(|k| 1e-1 * 3.0_f64.powi(-k));
         let mut all = Vec::new();
-        let mut add = |collect: &dyn Fn(&mut Vec<(u32, f64)>)| {
+        let mut add = |collect: &Collect<'_>| {
             let mut curve = Vec::new();
             collect(&mut curve);
             let mut greatest = 0.0;

@@ -6,12 +6,12 @@ use multibody::multibody;
 macro_rules! somewhere {
     ($(#[$docs:meta])* $name:ident { $($origin:tt)* }) => {
         $(#[$docs])*
-        pub mod $name {
+        pub(crate) mod $name {
             use multibody::multibody;
 
             multibody! {
                 /// Three links in space, with a spring between two of them.
-                pub mod arm {
+                pub(crate) mod arm {
                     const ORIGIN: Vec3 = $($origin)*;
                     world { gravity: -9.81 * Z }
                     body a { mass: 2.1, com: [0.1, 0.02, 0.3], inertia: inertia(0.2, 0.3, 0.25, 0.01, -0.02, 0.03) }
@@ -26,7 +26,7 @@ macro_rules! somewhere {
             }
             multibody! {
                 /// A four-bar.
-                pub mod four_bar {
+                pub(crate) mod four_bar {
                     const ORIGIN: Vec3 = $($origin)*;
                     world { gravity: -9.81 * Y }
                     formulation { constraints: Reduced }
@@ -44,7 +44,7 @@ macro_rules! somewhere {
             }
             multibody! {
                 /// The same with its equations, and a spring to the ground.
-                pub mod four_bar_multipliers {
+                pub(crate) mod four_bar_multipliers {
                     const ORIGIN: Vec3 = $($origin)*;
                     world { gravity: -9.81 * Y }
                     formulation { constraints: Multipliers }
