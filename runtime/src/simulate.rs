@@ -11,7 +11,7 @@ const LOOSE: f64 = 3e-3;
 const TIGHT: f64 = 1e-4;
 /// Tolerances of steps in units of the accuracy: of the method of order five, of that of order eight before and after
 /// [`TIGHT`], and of the implicit one.
-const SHARES: [f64; 4] = [0.08, 2.0, 0.8, 0.5];
+const SHARES: [f64; 4] = [0.1, 1.5, 0.8, 0.5];
 /// No tolerance is below that many roundings.
 const ROUNDINGS: f64 = 2.0;
 
