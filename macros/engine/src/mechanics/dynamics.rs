@@ -11,6 +11,7 @@ use crate::symbolic::linear_algebra::solve_symmetric;
 use super::articulated;
 use super::composite;
 use super::equations::{Equations, Method};
+use super::floating::seats;
 use super::gathered;
 use super::kinematics::motions;
 use super::newton_euler::{efforts, transmitted};
@@ -50,7 +51,7 @@ impl Equations<'_> {
 
     /// The same over groups of links.
     fn gathered_efforts(&mut self, acceleration: &[Scalar]) -> Vec<Scalar> {
-        let tree = regroup_but(&mut self.g, &self.mechanism.tree, true);
+        let tree = regroup_but(&mut self.g, &self.mechanism.tree, true, &[]);
         let loads = self.loads();
         let base = self.base();
         let g = &mut self.g;
@@ -100,7 +101,8 @@ impl Equations<'_> {
                 let base = self.base();
                 let g = &mut self.g;
                 let applied = shared.turn(g, &loads.applied);
-                articulated::forward_dynamics(g, tree, &tree.velocity, base, &applied, &loads.efforts)
+                let seats = seats(&mechanism.tree);
+                articulated::forward_dynamics(g, tree, &seats, &tree.velocity, base, &applied, &loads.efforts)
             }
         };
         let accelerations: Rc<[Scalar]> = mechanism.sign(&list).into();

@@ -14,11 +14,12 @@ use super::closings::Writing;
 use super::columns::Columns;
 use super::constrained::Solved;
 use super::cycles::Branch;
+use super::floating::seats;
 use super::forces::Loads;
 use super::newton_euler::Wrench;
 use super::parallel::{Axes, Shared, share_axes};
 use super::reduction::{Map, Reduction};
-use super::regroup::regroup;
+use super::regroup::{regroup, regroup_but};
 use super::structure::{Row, Structure};
 use super::symbols::Symbols;
 use super::tree::Tree;
@@ -153,7 +154,14 @@ impl<'m> Equations<'m> {
         if let Some(shared) = &self.shared {
             return Rc::clone(shared);
         }
-        let tree = self.regrouped();
+        let tree = match self.method {
+            // What floats is best eliminated whole.
+            Method::Articulated => {
+                let keep: Vec<usize> = seats(&self.mechanism.tree).iter().map(|seat| seat.link).collect();
+                Rc::new(regroup_but(&mut self.g, &self.mechanism.tree, false, &keep))
+            }
+            Method::Composite | Method::Floating => self.regrouped(),
+        };
         let shared = self.axes.and_then(|axes| share_axes(&mut self.g, &tree, axes));
         let shared = Rc::new(shared.unwrap_or_else(|| Shared::own(&tree)));
         self.shared = Some(Rc::clone(&shared));

@@ -11,6 +11,7 @@ use crate::symbolic::linear_algebra::solve_symmetric;
 use super::articulated;
 use super::composite;
 use super::equations::{Equations, Method};
+use super::floating::seats;
 use super::newton_euler::Wrench;
 
 impl Equations<'_> {
@@ -30,7 +31,8 @@ impl Equations<'_> {
             Method::Articulated => {
                 let rest = vec![Scalar::ZERO; tree.freedoms()];
                 let nothing = vec![Wrench::ZERO; tree.links.len()];
-                articulated::forward_dynamics(g, tree, &rest, Vector::ZERO, &nothing, &impulses)
+                let seats = seats(&mechanism.tree);
+                articulated::forward_dynamics(g, tree, &seats, &rest, Vector::ZERO, &nothing, &impulses)
             }
         };
         mechanism.sign(&list)

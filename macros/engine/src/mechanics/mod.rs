@@ -22,6 +22,7 @@ mod dynamics;
 mod energy;
 pub mod equations;
 mod expressions;
+pub mod floating;
 mod forces;
 mod frames;
 mod functions;

@@ -16,13 +16,14 @@ use super::tree::{Motion, Tree};
 
 /// Regroups from the leaves to the ground.
 pub fn regroup(g: &mut Graph, tree: &Tree) -> Tree {
-    regroup_but(g, tree, false)
+    regroup_but(g, tree, false, &[])
 }
 
-/// The same; second moments that a hinge turns into themselves may stay whole where they stand.
-pub fn regroup_but(g: &mut Graph, tree: &Tree, whole: bool) -> Tree {
+/// The same; second moments that a hinge turns into themselves may stay whole where they stand, and links may keep all
+/// that they have.
+pub fn regroup_but(g: &mut Graph, tree: &Tree, whole: bool, keep: &[usize]) -> Tree {
     let mut tree = tree.clone();
-    for index in (0..tree.links.len()).rev() {
+    for index in (0..tree.links.len()).rev().filter(|index| !keep.contains(index)) {
         let link = tree.links[index].clone();
         let mut kept = unmoved(&link.inertia, link.motion);
         if let Motion::Revolute(axis) = link.motion

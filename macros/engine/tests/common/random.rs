@@ -58,9 +58,11 @@ impl Mechanism {
         }
         // Where branches may start.
         let mut ends: Vec<usize> = Vec::new();
-        if rng.chance(20) {
-            mechanism.float(rng);
-            ends.push(mechanism.bodies.len() - 1);
+        for chance in [20, 30] {
+            if rng.chance(chance) {
+                mechanism.float(rng);
+                ends.push(mechanism.bodies.len() - 1);
+            }
         }
         while ends.len() < bodies {
             let parent = match ends.last() {
@@ -76,15 +78,37 @@ impl Mechanism {
         mechanism
     }
 
-    /// A floating base: three prismatic motions and a ball, massless but for the last.
+    /// Something that floats: massless translations, two along the axes of a plane or three, and a body that turns on
+    /// them by a ball, by three hinges or in the plane. It starts from the ground or from the last body.
     pub(crate) fn float(&mut self, rng: &mut Rng) {
-        for axis in 0..3_usize {
-            let parent = axis.checked_sub(1);
-            self.bodies.push(Body::massless(parent, Kind::Prismatic(axis)));
+        let (axis, planar) = (rng.below(3), rng.chance(30));
+        let mut parent = self.bodies.len().checked_sub(1);
+        for k in 0..if planar { 2 } else { 3 } {
+            let mut slide = Body::massless(parent, Kind::Prismatic((axis + k) % 3));
+            if k == 0 {
+                (slide.placement, slide.offset) = (placement(rng), sparse(rng, 1.0));
+            }
+            self.bodies.push(slide);
+            parent = Some(self.bodies.len() - 1);
         }
-        self.body(rng, Some(2), Kind::Ball);
-        let base = self.bodies.len() - 1;
-        (self.bodies[base].placement, self.bodies[base].offset) = ([1, 0, 0, 0], [0.0; 3]);
+        let hinges = !planar && rng.chance(40);
+        if hinges {
+            for k in [2, 1] {
+                self.bodies.push(Body::massless(parent, Kind::Revolute(k)));
+                parent = Some(self.bodies.len() - 1);
+            }
+        }
+        let kind = match (planar, hinges) {
+            (true, _) => Kind::Revolute((axis + 2) % 3),
+            (_, true) => Kind::Revolute(0),
+            _ => Kind::Ball,
+        };
+        self.body(rng, parent, kind);
+        let body = self.bodies.len() - 1;
+        // A ball may sit anywhere; axes of hinges must not become parallel.
+        if kind != Kind::Ball {
+            (self.bodies[body].placement, self.bodies[body].offset) = ([1, 0, 0, 0], [0.0; 3]);
+        }
     }
 
     fn massless(&mut self, rng: &mut Rng, parent: Option<usize>) -> usize {
