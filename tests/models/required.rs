@@ -73,6 +73,18 @@ multibody! {
         joint free: Free { parent: ground, child: nut }
         emit forward_dynamics;
     }
+    /// A frame that stands beside the centre of mass, on a principal axis.
+    pub mod free_beside_its_centre {
+        body nut { mass: 1.3, com: 0.3 * Z, inertia: diag(1.0, 1.7, 2.3) }
+        joint free: Free { parent: ground, child: nut }
+        emit forward_dynamics;
+    }
+    /// Anywhere.
+    pub mod free_off_its_centre {
+        body nut { mass: 1.3, com: [0.1, 0.2, 0.3], inertia: diag(1.0, 1.7, 2.3) }
+        joint free: Free { parent: ground, child: nut }
+        emit forward_dynamics;
+    }
     /// Its position alone.
     pub mod free_seen {
         body nut { mass: 1.3, inertia: diag(1.0, 1.7, 2.3) }

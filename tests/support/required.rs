@@ -47,6 +47,8 @@ pub const CASES: &[Case] = &[
     case("free_symmetric", "forward_dynamics", [0, 3, 0, 0, 0], 3, "s = c wz; s wy, -s wx, 0"),
     case("free_sphere", "forward_dynamics", [0, 0, 0, 0, 0], 0, "nothing"),
     case("free_in_any_axes", "forward_dynamics", [15, 24, 0, 0, 0], 40, "I w, w x I w, and the inverse of I"),
+    case("free_beside_its_centre", "forward_dynamics", [18, 26, 0, 0, 0], 51, "Euler's equations, U c, and R times that by the two products with the quaternion's vector"),
+    case("free_off_its_centre", "forward_dynamics", [30, 33, 0, 0, 0], 77, "the same, with all nine entries of U"),
     case("free_seen", "outputs", [0, 0, 0, 0, 0], 0, "they are coordinates, or zero"),
     case("plate_in_a_plane", "forward_dynamics", [0, 0, 0, 0, 0], 0, "nothing"),
     case("plate_in_a_plane", "inverse_dynamics", [1, 3, 0, 0, 0], 4, "m ax, m (ay + g), J a"),

@@ -7,28 +7,26 @@
 
 mod derivatives;
 mod impulses;
+mod motion;
+mod ways;
 
 use std::collections::HashMap;
 use std::rc::Rc;
 
 use crate::model::types::{BodyRef, Coordinate, Joint, JointId, JointKind, Model, Request};
 use crate::optimize::program::FunctionKind;
-use crate::symbolic::graph::{Graph, Rotation, Scalar};
-use crate::symbolic::lower::Lowering;
+use crate::symbolic::graph::{Graph, Scalar};
 
 use super::analysis::Complaint;
-use super::closings::{self, Writing};
-use super::constrained::Solved;
+use super::closings::Writing;
 use super::cycles::Branch;
-use super::equations::{Equations, Method, Style, Way};
-use super::gathered;
+use super::equations::Method;
 use super::gimbals;
 use super::names;
-use super::needs::Needs;
 use super::parallel::Axes;
 use super::reduction::Reduction;
 use super::structure::{Role, Structure};
-use super::strut::{forward, inverse};
+use super::strut::inverse;
 use super::symbols::{Symbols, freedoms_of};
 use super::{Derivation, Derived};
 
@@ -297,112 +295,6 @@ impl<'m> Deriving<'m> {
         outcome
     }
 
-    /// One method, in the axes that [`AXES`] names.
-    fn one(
-        &mut self,
-        names: Names,
-        f: impl FnMut(&mut Equations<'m>) -> Found,
-    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        self.in_all_axes(&names, Method::Composite, &[], f)
-    }
-
-    /// The recursion over groups of links, where it is another way.
-    fn gathered(
-        &mut self,
-        mut f: impl FnMut(&mut Equations<'m>) -> Found,
-    ) -> Result<Option<Candidate>, Vec<Complaint>> {
-        self.maybe(|e| {
-            e.gathered = true;
-            if !gathered::differs(&e.mechanism.tree) {
-                return Ok(None);
-            }
-            Ok(Some((GATHERED, f(e)?)))
-        })
-    }
-
-    /// The same, with the definitions of dependent coordinates.
-    fn reduced(
-        &mut self,
-        names: Names,
-        f: impl Fn(&mut Equations<'m>, &Reduction) -> Found,
-    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        self.one(names, |e| {
-            let reduction = e.reduce()?;
-            f(e, &reduction)
-        })
-    }
-
-    fn in_all_axes(
-        &mut self,
-        names: &[&'static str],
-        method: Method,
-        kept: &[JointId],
-        mut f: impl FnMut(&mut Equations<'m>) -> Found,
-    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        // Common axes pay where a matrix is factored or passed on; beyond that size each way costs too much time.
-        let ways = if freedoms(self.model) > MOST_COMPOSITE { 1 } else { AXES.len() };
-        let mut candidates = Vec::new();
-        for (axes, &name) in AXES.into_iter().zip(names).take(ways) {
-            candidates.extend(self.candidate(
-                name,
-                Way { style: Style::Nested, method, axes, writing: self.writing },
-                kept,
-                &mut f,
-            )?);
-        }
-        Ok(candidates)
-    }
-
-    /// One that has no choice of axes.
-    fn only(
-        &mut self,
-        name: &'static str,
-        mut f: impl FnMut(&mut Equations<'m>) -> Found,
-    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        let way = Way { style: Style::Nested, method: Method::Composite, axes: None, writing: self.writing };
-        Ok(self.candidate(name, way, &[], &mut f)?.into_iter().collect())
-    }
-
-    /// A way that is there for some models only, with its name.
-    fn maybe(
-        &mut self,
-        mut f: impl FnMut(&mut Equations<'m>) -> Result<Option<Candidate>, Vec<Complaint>>,
-    ) -> Result<Option<Candidate>, Vec<Complaint>> {
-        let mut name = None;
-        let found = self.only("", |e| {
-            let candidate = f(e)?;
-            name = candidate.as_ref().map(|candidate| candidate.0);
-            Ok(candidate.map(|candidate| candidate.1).unwrap_or_default())
-        })?;
-        Ok(found.into_iter().next().and_then(|(_, results)| Some((name?, results))))
-    }
-
-    /// Equations of loops, as they are written in the whole model.
-    fn written(
-        &mut self,
-        axes: &[Option<Axes>],
-        f: impl Fn(&mut Equations<'m>, &Reduction) -> Vec<Scalar>,
-    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        let mut candidates = Vec::new();
-        for &axes in axes {
-            let name = match self.writing.axes {
-                closings::Axes::Parent => "loops in the axes of the parent's frame",
-                closings::Axes::Child => "loops in the axes of the child's frame",
-                closings::Axes::World => "loops in world axes",
-                closings::Axes::Common => "loops in the axes of what carries both sides",
-                closings::Axes::ParentBase => "loops in the axes in which the parent's side stands",
-                closings::Axes::ChildBase => "loops in the axes in which the child's side stands",
-            };
-            let way = Way { style: Style::Nested, method: Method::Composite, axes, writing: self.writing };
-            let found = self.candidate(name, way, &[], &mut |e: &mut Equations<'m>| {
-                let reduction = e.reduce()?;
-                Ok(f(e, &reduction))
-            })?;
-            candidates.extend(found);
-        }
-        Ok(candidates)
-    }
-
     /// In which axes loops are closed: one choice for all functions, since multipliers are components in them. The way is
     /// taken whose equations are cheapest as they are derived; that choice alone can halve their cost.
     fn choose_writing(&mut self) -> Result<(), Vec<Complaint>> {
@@ -432,198 +324,6 @@ impl<'m> Deriving<'m> {
         Ok(())
     }
 
-    /// Of expressions as they are derived.
-    fn weight(&self, results: &[Scalar]) -> u32 {
-        let mut lowering = Lowering::new(&self.graph);
-        let roots = lowering.run(results);
-        lowering.to.cost(&roots).weight()
-    }
-
-    /// The same, with the definitions at hand.
-    fn equations(
-        &mut self,
-        name: &'static str,
-        f: impl Fn(&mut Equations<'m>, &Reduction) -> Found,
-    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        self.only(name, |e| {
-            let reduction = e.reduce()?;
-            f(e, &reduction)
-        })
-    }
-
-    /// Results on the tree with the definitions put in.
-    fn put_in(
-        &mut self,
-        name: &'static str,
-        f: impl Fn(&mut Equations<'m>) -> Found,
-    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        self.equations(name, |e, reduction| {
-            let results = f(e)?;
-            Ok(e.finish(reduction, &results))
-        })
-    }
-
-    fn candidate(
-        &mut self,
-        name: &'static str,
-        way: Way,
-        kept: &[JointId],
-        f: &mut impl FnMut(&mut Equations<'m>) -> Found,
-    ) -> Result<Option<Candidate>, Vec<Complaint>> {
-        let mut graph = std::mem::take(&mut self.graph);
-        graph.forget();
-        let mut equations = Equations::new(self.model, graph, self.symbols.clone(), way, kept);
-        equations.structure = Rc::clone(&self.structure);
-        equations.branches = std::mem::take(&mut self.branches);
-        let exists = way.axes.is_none() || equations.shared().turns.iter().any(|&turn| turn != Rotation::IDENTITY);
-        let results = if exists { f(&mut equations) } else { Ok(Vec::new()) };
-        let unfinished = |g: &Graph, results: &[Scalar]| results.iter().any(|&root| Symbols::is_unfinished(g, root));
-        // Nodes are found by value: what is made after definitions were put in may come out as an older node, in which a
-        // coordinate outside the state stands and cancels. Put in once more, it goes.
-        let results = results.map(|results| {
-            let (g, defined) = (&mut equations.g, &equations.defined);
-            if !defined.is_empty() && unfinished(g, &results) { g.substitute(&results, defined) } else { results }
-        });
-        self.graph = equations.g;
-        self.branches = equations.branches;
-        let results = results?;
-        // A net: what a way has left unreplaced has no place in the generated structs.
-        let finished = !unfinished(&self.graph, &results);
-        debug_assert!(finished, "{name} leaves a coordinate that is not in the state");
-        Ok((exists && finished).then_some((name, results)))
-    }
-
-    fn forward_dynamics(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        let model = self.model;
-        let needs = Needs::of(model.states.iter().map(|state| &state.rate));
-        let kept = needs.kept(model);
-        let all = |equations: &mut Equations<'m>| {
-            let mut results = equations.accelerations().to_vec();
-            results.extend(model.states.iter().map(|state| equations.scalar(&state.rate)));
-            Ok(results)
-        };
-        let methods = match articulates(model, &kept) {
-            true if freedoms(model) > MOST_COMPOSITE => &METHODS[1..],
-            true => &METHODS[..],
-            false => &METHODS[..1],
-        };
-        let mut candidates = Vec::new();
-        for &(method, names) in methods {
-            candidates.extend(self.in_all_axes(&names, method, &kept, all)?);
-        }
-        if floats(model) && freedoms(model) <= MOST_COMPOSITE {
-            let name = "composite rigid body, LDL^T, translations first";
-            let way = Way { style: Style::Nested, method: Method::Floating, axes: None, writing: self.writing };
-            candidates.extend(self.candidate(name, way, &kept, &mut { all })?);
-        }
-        Ok(candidates)
-    }
-
-    /// With dependent or driven coordinates, or multipliers.
-    fn constrained_dynamics(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        let model = self.model;
-        let kept = Needs::of(model.states.iter().map(|state| &state.rate)).kept(model);
-        let all = |equations: &mut Equations<'m>| {
-            let reduction = equations.reduce()?;
-            let solved = equations.solve_constrained(&reduction);
-            let rates: Vec<Scalar> = model.states.iter().map(|state| equations.scalar(&state.rate)).collect();
-            let mut results = solved.accelerations.clone();
-            results.extend(equations.put_in_all(&reduction, &solved, &rates));
-            results.extend(&solved.multipliers);
-            results.extend(solved.rank);
-            if !reduction.residuals.is_empty() {
-                let residual = equations.worst_residual(&reduction);
-                results.extend(equations.finish(&reduction, &[residual]));
-            }
-            Ok(results)
-        };
-        let mut candidates = self.in_all_axes(&METHODS[0].1, Method::Composite, &kept, all)?;
-        for at in 0..MOST_STRUT_WAYS {
-            let found = self.maybe(|e| {
-                let reduction = e.reduce()?;
-                let Some(platform) = e.platform(&reduction) else { return Ok(None) };
-                let name = forward::ways(&platform.carrier).get(at).map(|way| way.0);
-                let Some(mut results) = e.platform_accelerations(&platform, &reduction, at) else { return Ok(None) };
-                let solved = Solved { accelerations: results.clone(), multipliers: Vec::new(), rank: None };
-                let rates: Vec<Scalar> = model.states.iter().map(|state| e.scalar(&state.rate)).collect();
-                results.extend(e.put_in_all(&reduction, &solved, &rates));
-                Ok(name.map(|name| (name, results)))
-            })?;
-            let Some(found) = found else { break };
-            candidates.push(found);
-        }
-        if floats(model) {
-            let name = "composite rigid body, LDL^T, translations first";
-            let way = Way { style: Style::Nested, method: Method::Floating, axes: None, writing: self.writing };
-            candidates.extend(self.candidate(name, way, &kept, &mut { all })?);
-        }
-        Ok(candidates)
-    }
-
-    /// Values, rates and accelerations of coordinates from those that are given.
-    fn kinematics(&mut self, number: usize) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        let Some(wanted) = self.model.kinematics.get(number) else { return Ok(Vec::new()) };
-        let structure = self.structure.solved(self.model);
-        let before = std::mem::replace(&mut self.structure, Rc::new(structure));
-        let found = self.only("closed form", |e| {
-            let mut reduction = e.reduce()?;
-            e.verify(&mut reduction)?;
-            e.kinematics(wanted, &reduction)
-        });
-        self.structure = before;
-        found
-    }
-
-    fn outputs(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        let model = self.model;
-        let needs = Needs::of(model.outputs.iter().map(|output| &output.value));
-        let kept = needs.kept(model);
-        let open = self.is_open();
-        let mut all = |equations: &mut Equations<'m>| {
-            let flat = |equations: &mut Equations<'m>| {
-                let mut results = Vec::new();
-                for output in &model.outputs {
-                    let value = equations.value(&output.value);
-                    value.flatten(&mut equations.g, &mut results);
-                }
-                results
-            };
-            if open {
-                return Ok(flat(equations));
-            }
-            let reduction = Rc::new(equations.reduce()?);
-            equations.reduction = Some(Rc::clone(&reduction));
-            let results = flat(equations);
-            match equations.solved.clone() {
-                Some(solved) => Ok(equations.put_in_all(&reduction, &solved, &results)),
-                None => Ok(equations.finish(&reduction, &results)),
-            }
-        };
-        let articulates = open && needs.accelerations && articulates(model, &kept);
-        let mut ways = Vec::new();
-        if !(articulates && freedoms(model) > MOST_COMPOSITE) {
-            ways.push((Style::World, Method::Composite, "world axes"));
-            if needs.frames {
-                ways.push((Style::Nested, Method::Composite, "link axes"));
-            }
-        }
-        if articulates {
-            ways.push((Style::World, Method::Articulated, "world axes, articulated body"));
-            if needs.frames {
-                ways.push((Style::Nested, Method::Articulated, "link axes, articulated body"));
-            }
-        }
-        let mut candidates = Vec::new();
-        for (style, method, name) in ways {
-            candidates.extend(self.candidate(
-                name,
-                Way { style, method, axes: None, writing: self.writing },
-                &kept,
-                &mut all,
-            )?);
-        }
-        Ok(candidates)
-    }
 }
 
 /// Whether the articulated-body algorithm is another way: with one coordinate it is the same one, and it would move the

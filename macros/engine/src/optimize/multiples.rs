@@ -1,7 +1,8 @@
 //! Stage `optimize`, pass: literal multiples that several places need.
 //!
 //! In: a DAG. Out: c x made a node of its own where several sums hold it, alone or as part of a product: c x y + .. and
-//! c x z + .. share the product c x. Coefficients float freely before this pass; what it makes, stays.
+//! c x z + .. share the product c x; the entries of a quaternion's matrix double its components, not their products.
+//! Coefficients float freely before this pass; what it makes, stays.
 
 use std::collections::BTreeMap;
 use std::ops::Mul;
@@ -148,6 +149,12 @@ fn share(dag: &mut Dag, factor: Id, c: Number, list: &[Place]) -> bool {
                     let Kind::Product(mut factors) = dag.nodes[term].kind.clone() else { continue };
                     let Some(position) = factors.iter().position(|&f| f == factor) else { continue };
                     factors[position] = multiple;
+                    // A multiple of a product that stands alone has this very value: it becomes the product.
+                    if terms.len() == 1 && unit.is_one() {
+                        factors.sort_unstable();
+                        changed |= dag.rewrite(sum, Kind::Product(factors));
+                        continue;
+                    }
                     let (sign, product) = dag.product(factors);
                     (unit * sign, product)
                 };
