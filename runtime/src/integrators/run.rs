@@ -13,7 +13,8 @@ use crate::{Real, System, Tangent};
 pub(super) enum Verdict<Z> {
     /// The integration goes on from its end.
     Continue,
-    /// It goes on from another state, at a time within the step.
+    /// It goes on from another state, at a time within the step. The end of the shorter step is told to the system by who
+    /// found it.
     Restart { time: f64, state: Z },
     /// It ends there.
     Stop { time: f64, state: Z },
@@ -198,6 +199,7 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
         self.accepted += 1;
         match verdict {
             Verdict::Continue => {
+                self.problem.reached(step.end, &next);
                 if target != self.end {
                     self.memory = method.proceed(self.problem, &step, &self.memory, &attempt, &next);
                 }

@@ -88,6 +88,11 @@ impl<S: Constrained, W: Weighting<S>> System for WithBaumgarte<S, W> {
     fn accepted(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> S::State {
         self.system.accepted(t, state, input)
     }
+
+    #[inline]
+    fn reached(&self, t: S::Scalar, state: &S::State) {
+        self.system.reached(t, state);
+    }
 }
 
 /// Of what is added only `-2 a C G` and `-a^2 C G` are differentiated, where `C` is the jump: exact to first order in
