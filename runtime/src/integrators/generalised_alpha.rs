@@ -45,6 +45,8 @@ const STALLED: f64 = 4e5;
 /// Steps should be of one length: by how much `a` lags behind the accelerations depends on it, so a shorter last step, or
 /// the start anew after an event, costs an order there. A projection after a step does not renew that lag.
 ///
+/// States within a step are those of a cubic through both ends and the slopes there: of second order, as its ends are.
+///
 /// - [`GeneralisedAlpha::new`]: systems without constraints, or with loops solved, by Newton's method with the exact
 ///   derivatives ([`Differentiable`], `emit derivatives`).
 /// - [`GeneralisedAlpha::constrained`]: systems with constraints ([`Constrained`] and [`Impulsive`], `emit impulse`).
