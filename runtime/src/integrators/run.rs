@@ -6,7 +6,7 @@ use super::integrator::{Integrator, Statistics, Steps};
 use super::interval::Interval;
 use super::method::Method;
 use super::problem::{Problem, Step};
-use super::slope::{SlopeOf, advanced, displaced, is_finite, magnitude};
+use super::slope::{SlopeOf, advanced, displaced, is_finite, magnitude, owed};
 use crate::{Real, System, Tangent};
 
 /// What an observer makes of an accepted step.
@@ -185,6 +185,7 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
             return Err(stopped(!is_finite(&magnitude(&next)), self.t));
         }
         let next = self.problem.accepted(step.end, &next);
+        let rest = if self.settings.compensated { owed(&next, &rest) } else { rest };
         if !is_finite(&magnitude(&next)) {
             return Err(IntegrationError::NonFinite { time: self.t });
         }
