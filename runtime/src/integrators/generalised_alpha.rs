@@ -22,6 +22,7 @@ use super::method::{Attempt, Method};
 use super::problem::{Problem, Step};
 use super::slope::{SlopeOf, displaced};
 use crate::linear::Square;
+use crate::tangent::unpack;
 use crate::{
     Constrained, Differentiable, ExtraOf, Impulsive, Jacobian, PositionOf, Real, StateSpace, System, Tangent,
     VelocityOf,
@@ -217,16 +218,7 @@ impl<S: Differentiable> Iterating<S> for Newton {
         })
     }
     fn solve(&self, operator: &S::Matrix, right: &RatesOf<S>) -> RatesOf<S> {
-        let mut vector = S::Matrix::vector(|_| S::Scalar::lit(0.0));
-        let mut components = vector.as_mut().iter_mut();
-        right.fold((), &mut |(), x| {
-            if let Some(component) = components.next() {
-                *component = x;
-            }
-        });
-        let (solution, _) = operator.solution(&vector);
-        let mut components = solution.as_ref().iter();
-        RatesOf::<S>::zero().map(&mut |zero| components.next().copied().unwrap_or(zero))
+        unpack(operator.solution(&S::Matrix::packed(right)).0.as_ref())
     }
 }
 

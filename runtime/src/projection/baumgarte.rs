@@ -7,6 +7,7 @@
 use super::handed_on::handed_on;
 use super::{ByMass, Plain, Weighting};
 use crate::linear::Square;
+use crate::tangent::unit;
 use crate::{
     Constrained, Differentiable, ExtraOf, Impulsive, Jacobian, PositionOf, Real, StateSpace, System, Tangent,
     VelocityOf,
@@ -116,8 +117,7 @@ impl<S: Constrained + Differentiable, W: Weighting<S>> Differentiable for WithBa
             let answer = match known {
                 Some((of, answer)) if of == column => answer,
                 _ => {
-                    let unit = component::<S::Scalar, VelocityOf<S>>(column);
-                    let change = at(unit).add_scaled(S::Scalar::lit(-1.0), &rest);
+                    let change = at(unit(column)).add_scaled(S::Scalar::lit(-1.0), &rest);
                     let answer = self.weighting.correction(&self.system, t, &q, &change).0;
                     known = Some((column, answer));
                     answer
@@ -142,15 +142,6 @@ impl<S: Constrained + Differentiable, W: Weighting<S>> Differentiable for WithBa
     ) -> (VelocityOf<S>, ExtraOf<S>) {
         self.system.input_derivative(t, state, input, change)
     }
-}
-
-/// One in one component, zero in the others.
-fn component<T: Real, V: Tangent<T>>(at: usize) -> V {
-    let mut count = 0;
-    V::zero().map(&mut |_| {
-        count += 1;
-        T::lit(if count == at + 1 { 1.0 } else { 0.0 })
-    })
 }
 
 /// One component of a vector.

@@ -6,6 +6,7 @@ use super::super::problem::{Problem, Step};
 use super::super::slope::{SlopeOf, magnitude};
 use super::linear::Matrices;
 use super::tableau::{ALPHA, BETA, C, GAMMA, from_stages, to_stages};
+use crate::tangent::unit;
 use crate::{Differentiable, Real, Tangent};
 
 /// How exactly the stages are solved for.
@@ -62,11 +63,7 @@ fn rounding<S: Differentiable>(matrices: &Matrices<S>, size: &SlopeOf<S>, norm: 
     let epsilon = S::Scalar::epsilon();
     let mut sum = 0.0;
     for k in 0..size.len() {
-        let mut place = 0..;
-        let d = size.map(&mut |size| {
-            let here = place.next() == Some(k);
-            if here { epsilon * (one + Real::abs(size)) } else { S::Scalar::lit(0.0) }
-        });
+        let d = unit::<S::Scalar, SlopeOf<S>>(k).zip(size, &mut |unit, size| unit * epsilon * (one + Real::abs(size)));
         let answer = norm(&matrices.solve_real(&d.scale(S::Scalar::lit(GAMMA))));
         sum += answer * answer;
     }
