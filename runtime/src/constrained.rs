@@ -63,7 +63,8 @@ pub trait Constrained: System {
     /// equations. A coordinate of weight zero is held.
     ///
     /// Equations that depend on others at this position are left out, so the displacement is always finite where `G`
-    /// is. [`least_norm`](crate::linear::least_norm) is all that it takes.
+    /// is. [`least_norm`](crate::linear::least_norm) is all that it takes; where an equation may vanish in some pose,
+    /// [`least_norm_in_groups`](crate::linear::least_norm_in_groups), as in generated models.
     fn correction(
         &self,
         t: Self::Scalar,

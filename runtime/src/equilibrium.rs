@@ -53,6 +53,7 @@
 //! Reduced models have none left. Of a model that keeps its loops, the accelerations are those along its constraints: see
 //! [`constrained_equilibrium`].
 
+mod closing;
 mod error;
 mod least;
 mod search;
@@ -60,7 +61,8 @@ mod search;
 pub use error::EquilibriumError;
 
 use crate::{Constrained, Differentiable, ExtraOf, Real, StateSpace, System, Tangent, VelocityOf};
-use search::{Held, Loops, Open, Search, Turned};
+use closing::{Loops, Open};
+use search::{Held, Search, Turned};
 
 /// What may change in the search for a [`trim`]: zero where a component is held, one where it is free, other positive
 /// numbers where it is to change more or less willingly. By default nothing is.

@@ -24,7 +24,8 @@
 //! | [`SymplecticGauss6`] | 6 | 3 for each iteration | [`Canonical`](crate::Canonical) | no | quintic | the same to rounding |
 //!
 //! The error within a step of dense output shrinks with the power of the step that is one above its order; a cubic is of
-//! order 3, a quintic of order 5.
+//! order 3, a quintic of order 5. States within a step are never better than its ends: with a cubic, those of methods of
+//! second order are of second order throughout.
 //!
 //! What an [`Integrator`] runs with any of them:
 //!

@@ -1,4 +1,5 @@
-//! Small dense linear systems: [`solve`], [`solve_symmetric`], [`least_norm`], for any scalar and free of branches.
+//! Small dense linear systems: [`solve`], [`solve_symmetric`], [`least_norm`], for any scalar and free of branches that
+//! depend on numbers.
 //!
 //! In: a matrix and a right side of fixed size. Out: a solution and the numerical rank, in each lane its own. Every
 //! input costs the same: loops are counted, pivots are found by comparisons and brought into place by selects.
@@ -127,13 +128,35 @@ pub fn solve<T: Real, const N: usize>(mut a: [[T; N]; N], mut b: [T; N]) -> ([T;
 /// assert!((x[0] + x[2] - 1.0).abs() < 1e-14 && x[1].abs() < 1e-14);
 /// ```
 #[inline]
-pub fn solve_symmetric<T: Real, const N: usize>(mut a: [[T; N]; N], mut b: [T; N]) -> ([T; N], T) {
+pub fn solve_symmetric<T: Real, const N: usize>(a: [[T; N]; N], b: [T; N]) -> ([T; N], T) {
+    solve_symmetric_in_groups(a, b, &each::<N>())
+}
+
+/// The same where equations belong together, and are compared: `groups` says which, by equal numbers.
+///
+/// Equations of one group have one unit, such as the three that hold two points together. One that is smaller than the
+/// greatest of its group by the threshold is what rounding has left of an equation that vanishes, and counts as none.
+///
+/// ```
+/// use multibody::linear::solve_symmetric_in_groups;
+///
+/// let a = [[1.0, 1e-17, 0.0], [1e-17, 1e-33, 0.0], [0.0, 0.0, 1e-33]];
+/// let (x, rank) = solve_symmetric_in_groups(a, [1.0_f64, 1e-17, 1e-33], &[0, 0, 1]);
+/// assert_eq!((x, rank), ([1.0, 0.0, 1.0], 2.0));
+/// ```
+#[inline]
+pub fn solve_symmetric_in_groups<T: Real, const N: usize>(
+    mut a: [[T; N]; N],
+    mut b: [T; N],
+    groups: &[usize; N],
+) -> ([T; N], T) {
     let (zero, one) = (T::lit(0.0), T::lit(1.0));
+    let threshold = threshold::<T>(N);
     let mut scale = [one; N];
     for k in 0..N {
-        scale[k] = reciprocal(a[k][k]);
+        scale[k] = a[k][k];
     }
-    let threshold = threshold::<T>(N);
+    let mut scale = inverses_in_groups(&scale, groups, threshold * threshold);
     let mut origin = [zero; N];
     let mut rank = zero;
 
@@ -198,8 +221,8 @@ pub fn solve_symmetric<T: Real, const N: usize>(mut a: [[T; N]; N], mut b: [T; N
 /// `d_j^2 / weights_j` is least. Gives `d` and the rank of `G W`.
 ///
 /// A coordinate of weight zero stays where it is; weights are never negative. Rows count as independent whatever their
-/// units, but one that is smaller than the greatest by the threshold is rounding and counts as zero. Beyond the rank, equations that repeat
-/// others are met with them, and equations that contradict others are not met.
+/// units, down to zero itself: where a row may vanish up to rounding, see [`least_norm_in_groups`]. Beyond the rank,
+/// equations that repeat others are met with them, and equations that contradict others are not met.
 ///
 /// The rows of `G` are made orthogonal one after the other, the one that is least dependent on the ones before first
 /// (modified Gram-Schmidt with pivots, in the form of Björck 1994 for solutions of least norm), so that no square of `G`
@@ -219,6 +242,29 @@ pub fn least_norm<T: Real, const M: usize, const N: usize>(
     g: &SMatrix<T, M, N>,
     r: &SVector<T, M>,
     weights: &SVector<T, N>,
+) -> (SVector<T, N>, T) {
+    least_norm_in_groups(g, r, weights, &each::<M>())
+}
+
+/// The same where rows belong together, and are compared: `groups` says which, by equal numbers.
+///
+/// Rows of one group have one unit, such as the three that hold two points together: in a flat pose one of these may
+/// vanish as a whole. One that is smaller than the greatest of its group by the threshold is what rounding has left of
+/// it, and counts as zero; rows of other groups don't matter for that, so neither do units.
+///
+/// ```
+/// use multibody::{linear::least_norm_in_groups, nalgebra::{Matrix3, Vector3}};
+///
+/// let g = Matrix3::new(2.0, 0.0, 0.0, 0.0, 1e-17, 0.0, 0.0, 0.0, 1e-17_f64);
+/// let (d, rank) = least_norm_in_groups(&g, &Vector3::new(2.0, 1.0, 1e-17), &Vector3::repeat(1.0), &[0, 0, 1]);
+/// assert_eq!((d, rank), (Vector3::new(1.0, 0.0, 1.0), 2.0));
+/// ```
+#[inline]
+pub fn least_norm_in_groups<T: Real, const M: usize, const N: usize>(
+    g: &SMatrix<T, M, N>,
+    r: &SVector<T, M>,
+    weights: &SVector<T, N>,
+    groups: &[usize; M],
 ) -> (SVector<T, N>, T) {
     let (zero, one) = (T::lit(0.0), T::lit(1.0));
     let columns = &g.data.0;
@@ -240,13 +286,9 @@ pub fn least_norm<T: Real, const M: usize, const N: usize>(
         scale[i] = square;
         poison += residue(square);
     }
-    // A row that is rounding beside the others is none: in a flat pose an equation may vanish as a whole.
     let threshold = threshold::<T>(if M < N { N } else { M });
     let threshold = threshold * threshold;
-    let least = threshold * scale.iter().fold(zero, |greatest, &square| Real::max(greatest, square));
-    for scale in &mut scale {
-        *scale = Real::select(Real::le(*scale, least), zero, reciprocal(*scale));
-    }
+    let mut scale = inverses_in_groups(&scale, groups, threshold);
     let mut rank = poison;
     for i in 0..M {
         poison += residue(r[i]);
@@ -311,6 +353,32 @@ pub fn least_norm<T: Real, const M: usize, const N: usize>(
 #[inline]
 fn threshold<T: Real>(n: usize) -> T {
     T::lit(16.0 * n as f64) * T::epsilon()
+}
+
+/// Every equation a group of its own.
+#[inline]
+const fn each<const N: usize>() -> [usize; N] {
+    let mut groups = [0; N];
+    let mut k = 0;
+    while k < N {
+        groups[k] = k;
+        k += 1;
+    }
+    groups
+}
+
+/// Inverses of squares; zero where a square is no more than the share `least` of the greatest in its group, and so
+/// rounding.
+#[inline]
+fn inverses_in_groups<T: Real, const N: usize>(squares: &[T; N], groups: &[usize; N], least: T) -> [T; N] {
+    let zero = T::lit(0.0);
+    let mut inverses = [zero; N];
+    for (inverse, (&square, group)) in inverses.iter_mut().zip(squares.iter().zip(groups)) {
+        let members = squares.iter().zip(groups).filter(|(_, other)| *other == group);
+        let greatest = members.fold(zero, |greatest, (&square, _)| Real::max(greatest, square));
+        *inverse = Real::select(Real::le(square, least * greatest), zero, reciprocal(square));
+    }
+    inverses
 }
 
 /// A position in a list as a scalar, to be compared in every lane.

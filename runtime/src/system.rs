@@ -102,12 +102,22 @@ pub trait System {
         input: &Self::Input,
     ) -> (VelocityOf<Self>, ExtraOf<Self>);
 
-    /// Called with the state at the end of every accepted step: renews what the state holds besides its coordinates.
-    /// Wrappers of a model that has such things hand the call on.
+    /// Called with the state at the end of every step before anyone sees it: renews what the state holds besides its
+    /// coordinates, and brings coordinates back to where they belong. Wrappers of a model that has such things hand the
+    /// call on.
+    ///
+    /// Not all of these states are kept: the search for an event tries many, and so does that for an equilibrium. What
+    /// counts steps does so in [`System::reached`].
     #[inline]
     fn accepted(&self, _t: Self::Scalar, state: &Self::State, _input: &Self::Input) -> Self::State {
         *state
     }
+
+    /// Called with the state at the end of every step that an integration keeps, the same ones and in the same order as an
+    /// observer sees; where an event ends a step, with the state before the event changes it. By default nothing happens.
+    /// Wrappers hand the call on.
+    #[inline]
+    fn reached(&self, _t: Self::Scalar, _state: &Self::State) {}
 }
 
 impl<S: System + ?Sized> System for &S {
@@ -122,5 +132,9 @@ impl<S: System + ?Sized> System for &S {
     #[inline]
     fn accepted(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> S::State {
         (**self).accepted(t, state, input)
+    }
+    #[inline]
+    fn reached(&self, t: S::Scalar, state: &S::State) {
+        (**self).reached(t, state);
     }
 }

@@ -158,3 +158,28 @@ impl<T: Real, V: Tangent<T>, W: Tangent<T>> Tangent<T> for (V, W) {
         self.1.fold(start, f)
     }
 }
+
+/// One in the component `k`, zero in the others.
+#[inline]
+pub(crate) fn unit<T: Real, V: Tangent<T>>(k: usize) -> V {
+    let mut places = 0..;
+    V::zero().map(&mut |zero| if places.next() == Some(k) { T::lit(1.0) } else { zero })
+}
+
+/// The components of a vector in their order, written into a list; what the list has more stays as it is.
+#[inline]
+pub(crate) fn pack<T: Real, V: Tangent<T>>(vector: &V, list: &mut [T]) {
+    let mut places = list.iter_mut();
+    vector.fold((), &mut |(), component| {
+        if let Some(place) = places.next() {
+            *place = component;
+        }
+    });
+}
+
+/// The vector with the components of a list in their order, zero where the list ends.
+#[inline]
+pub(crate) fn unpack<T: Real, V: Tangent<T>>(list: &[T]) -> V {
+    let mut components = list.iter().copied();
+    V::zero().map(&mut |zero| components.next().unwrap_or(zero))
+}

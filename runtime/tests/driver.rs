@@ -6,7 +6,8 @@ use common::{Body, Currents, Driven, Motor, Oscillator, Pendulum, Scalar, counte
 use core::marker::PhantomData;
 use multibody::simba::simd::WideF64x4;
 use multibody::{
-    Dop853, DormandPrince, IntegrationError, Integrator, Method, Real, Rk4, StateSpace, System, Tolerance,
+    Composition4, Composition6, Dop853, DormandPrince, IntegrationError, Integrator, Method, Real, Rk4, Separable,
+    StateSpace, System, Tolerance, Verlet,
 };
 
 const OSCILLATOR: Oscillator<f64> = Oscillator(PhantomData);
@@ -195,6 +196,8 @@ impl System for Moved {
     }
 }
 
+impl Separable for Moved {}
+
 /// The slope at the end of a step starts the next one if the state stays what it was, or changes by its rounding.
 #[test]
 fn slopes_are_those_of_accepted_states() {
@@ -220,4 +223,15 @@ fn slopes_are_those_of_accepted_states() {
     }
     check(DormandPrince, 6);
     check(Dop853, 12);
+    check(Verlet, 1);
+    check(Composition4, 6);
+    check(Composition6, 11);
+
+    // Nor are accelerations those of states that were left behind.
+    let start = Scalar { q: 1.0, v: 0.0 };
+    let mut state = start;
+    for _ in 0..40 {
+        state = Verlet::step(&Moved(1e-3), 0.0, &state, &0.0, 0.125);
+    }
+    assert_eq!(Verlet::integrate(&Moved(1e-3), 0.0, &start, &0.0, 0.125, 40, |_, _| ()).unwrap(), state);
 }

@@ -288,4 +288,20 @@ fn closed_loop_without_equilibrium() {
     let held = constrained_equilibrium(&Pushed, 0.0, &guess, &(), &Vector2::zeros());
     println!("{held:?}");
     assert!(matches!(held, Err(EquilibriumError::Singular { rank: 0, equations: 1, .. })));
+    // Off the ring accelerations are as small as one likes, on it their greatest component is never below 0.9.
+    for q in [Vector2::new(0.01, 0.02), Vector2::new(-1.2, 0.1), Vector2::new(0.6, 0.8)] {
+        let moving =
+            constrained_equilibrium(&Pushed, 0.0, &Plane { q, v: Vector2::zeros() }, &(), &Vector2::new(1.0, 1.0));
+        println!("{moving:?}");
+        assert!(
+            matches!(moving, Err(EquilibriumError::NotFound { residual, .. }) if residual > 0.9 && residual < 3.0),
+            "{q}: {moving:?}"
+        );
+    }
+    // Where the ring is never met, what is left says nothing: here nothing may move.
+    let off = Plane { q: Vector2::new(-1.9, 0.1), v: Vector2::zeros() };
+    let open = constrained_equilibrium(&Pushed, 0.0, &off, &(), &Vector2::zeros());
+    println!("{open:?}");
+    let gap = 0.5 * (1.9 * 1.9 + 0.1 * 0.1 - 1.0);
+    assert!(matches!(open, Err(EquilibriumError::Open { gap: left, .. }) if (left - gap).abs() < 1e-12), "{open:?}");
 }

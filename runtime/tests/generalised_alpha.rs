@@ -3,12 +3,13 @@
 mod common;
 
 use common::loops::{Coordinates, FourBar, Rod};
+use common::stiff::{Pair, Plane, Rubbing};
 use common::{Body, Driven, Motor, Pendulum, Scalar, distance};
 use multibody::linear::least_norm;
 use multibody::nalgebra::{SMatrix, SVector, Vector2};
 use multibody::{
     Constrained, Differentiable, DormandPrince, GeneralisedAlpha, Impulsive, IntegrationError, Integrator, Jacobian,
-    Method, Projection, StateSpace, System,
+    Method, Projection, Real, StateSpace, System,
 };
 
 /// `q'' = -w^2 q - 2 d w v`.
@@ -356,4 +357,111 @@ fn single_precision_and_what_is_no_number() {
         |_, _| (),
     );
     println!("steps of 1000 s: {:?}", far.map(|x| x.0));
+}
+
+/// The size of an iteration's change that goes round in a circle: taken for rounding up to 4e5 roundings in double
+/// precision, for which 9e-11 are still exact, and up to the root of one in single precision, 3e-4.
+#[test]
+fn what_stalls_above_rounding_has_not_converged() {
+    fn converges<T: Real>(method: impl Method<Rubbing<T>>, circle: f64) -> bool {
+        // The acceleration jumps by twice the friction, of which a step of 0.1 s makes about a tenth.
+        let friction = 5.0 * circle;
+        let start = Scalar { q: T::lit(0.3), v: T::lit(0.01 * friction) };
+        let run =
+            Integrator::fixed(method, 0.1).integrate(&Rubbing(T::lit(friction)), 0.0, 0.1, &start, &(), |_, _| ());
+        match run {
+            Ok(_) => true,
+            Err(IntegrationError::NoConvergence { .. }) => false,
+            Err(other) => panic!("{circle:e}: {other}"),
+        }
+    }
+    fn check<T: Real>(bound: f64) {
+        for radius in [0.5, 0.8] {
+            let newton = GeneralisedAlpha::new(radius);
+            for (share, expected) in [(1e3, false), (4.0, false), (0.25, true), (1e-2, true)] {
+                let circle = share * bound;
+                assert_eq!(converges::<T>(newton, circle), expected, "{radius}: {circle:e}");
+                assert_eq!(converges::<T>(newton.functional(), circle), expected, "{radius}, functional: {circle:e}");
+            }
+        }
+    }
+    check::<f64>(4e5 * f64::EPSILON);
+    check::<f32>(f64::from(f32::EPSILON).sqrt());
+}
+
+/// Velocities of masses between stiff springs round to what their places round to, over the step: there iterations
+/// stall.
+#[test]
+fn what_stalls_at_the_rounding_of_stiff_springs_has_converged() {
+    fn check<T: Real>(stiffness: f64, dt: f64) {
+        let start = Plane { q: [T::lit(1.1), T::lit(2.1)].into(), v: [T::lit(1.0); 2].into() };
+        let run = Integrator::fixed(GeneralisedAlpha::new(0.5), dt).integrate(
+            &Pair(T::lit(stiffness)),
+            0.0,
+            100.0 * dt,
+            &start,
+            &(),
+            |_, _| (),
+        );
+        let end = run.unwrap_or_else(|error| panic!("{stiffness:e} {dt:e}: {error}")).0;
+        let off = (end.q.x - T::lit(1.1 + 100.0 * dt)).greatest().abs();
+        assert!(off < 1e3 * T::epsilon().greatest() * (1.0 + 100.0 * dt), "{stiffness:e} {dt:e}: {off:e}");
+    }
+    for dt in [1e-1, 1e-2, 1e-3] {
+        for stiffness in [1e4, 1e8, 1e12] {
+            check::<f64>(stiffness, dt);
+            check::<f32>(stiffness.sqrt(), dt);
+        }
+    }
+}
+
+/// The cubic within a step is as good as its ends: what it adds has an order more than what they are off by.
+#[test]
+fn states_within_steps_are_of_second_order() {
+    fn worst<M: Method<S>, S: System<Scalar = f64, Input = ()>>(
+        method: M,
+        system: &S,
+        start: &S::State,
+        steps: u32,
+        position: impl Fn(&Position<S>, &Position<S>) -> f64,
+    ) -> f64 {
+        const FINE: usize = 4000;
+        let mut fine = vec![*start];
+        let dt = 2.0 / FINE as f64;
+        DormandPrince::integrate(system, 0.0, start, &(), dt, FINE as u32, |_, x| fine.push(*x)).unwrap();
+        let (mut worst, mut first, each) = (0.0_f64, 0, FINE / steps as usize);
+        let fixed = Integrator::fixed(method, 2.0 / f64::from(steps));
+        let run = fixed.intervals(system, 0.0, 2.0, start, &(), |interval| {
+            for k in [each / 5, each / 2, each * 4 / 5] {
+                let state = interval.share(k as f64 / each as f64);
+                worst = worst.max(distance(&state, &fine[first + k], &position));
+            }
+            first += each;
+        });
+        run.unwrap();
+        worst
+    }
+    let order = |coarse: f64, halved: f64| {
+        println!("errors within steps {coarse:.2e} {halved:.2e}, order {:.3}", (coarse / halved).log2());
+        (coarse / halved).log2()
+    };
+    for radius in [0.0, 0.5, 0.8, 1.0] {
+        let method = GeneralisedAlpha::new(radius);
+        let pendulum = Pendulum { gravity: 9.81, shake: 4.0 };
+        let swing = |n| {
+            let start = Scalar { q: 1.0, v: 0.5 };
+            worst(method.functional(), &pendulum, &start, n, |a, b| (a - b).abs())
+        };
+        let body = |n| {
+            worst(method.functional(), &Body::floating(), &Body::spinning(), n, |a, b| {
+                a.orientation.angle_to(&b.orientation)
+            })
+        };
+        let (rod, start) =
+            (Rod { gravity: 9.81, stretch: 0.3 }, Coordinates { q: Vector2::new(1.0, 0.0), v: Vector2::new(0.3, 2.0) });
+        let kept = |n| worst(method.constrained().functional(), &rod, &start, n, |a, b| (a - b).amax());
+        for seen in [order(swing(400), swing(800)), order(body(400), body(800)), order(kept(1000), kept(2000))] {
+            assert!((seen - 2.0).abs() < 0.1, "{radius}: {seen}");
+        }
+    }
 }

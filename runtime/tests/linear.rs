@@ -1,6 +1,6 @@
 //! Small linear systems against matrices with known solutions, against nalgebra, and at their edges.
 
-use multibody::linear::{least_norm, solve, solve_symmetric};
+use multibody::linear::{least_norm, least_norm_in_groups, solve, solve_symmetric, solve_symmetric_in_groups};
 use multibody::nalgebra::{SMatrix, SVector};
 use multibody::simba::simd::{SimdValue, WideF32x8, WideF64x4};
 use multibody::{Real, Tangent};
@@ -218,6 +218,75 @@ fn rows_that_are_nearly_one() {
     }
 }
 
+/// An equation in millimetres or in light years says what it says in metres.
+#[test]
+fn units_do_not_matter() {
+    let random = &mut Random(3);
+    for rank in 1..=5 {
+        let g = {
+            let mut g = SMatrix::<f64, 5, 7>::zeros();
+            for _ in 0..rank {
+                g += random.matrix::<5, 1>() * random.matrix::<1, 7>();
+            }
+            g
+        };
+        let r = g * random.matrix::<7, 1>();
+        let ones = SVector::from([1.0; 7]);
+        let (d, seen) = least_norm(&g, &r, &ones);
+        let (x, _) = solve_symmetric(rows(&(g * g.transpose())), r.into());
+        assert_eq!(seen, f64::from(rank));
+        for row in 0..5 {
+            for unit in [1e-9, 1e9] {
+                let mut units = SVector::<f64, 5>::from([1.0; 5]);
+                units[row] = unit;
+                let units = SMatrix::<f64, 5, 5>::from_diagonal(&units);
+                // Each for itself; and the row of another unit in a group of its own.
+                let groups = core::array::from_fn(|k| usize::from(k == row));
+                for (other, seen) in [
+                    least_norm(&(units * g), &(units * r), &ones),
+                    least_norm_in_groups(&(units * g), &(units * r), &ones, &groups),
+                ] {
+                    assert_eq!(seen, f64::from(rank), "row {row} in units of {unit:e}");
+                    assert!((other - d).amax() < 1e-11 * (1.0 + d.amax()), "row {row} in units of {unit:e}");
+                }
+                let square = rows(&(units * g * g.transpose() * units));
+                let right = (units * r).into();
+                for (other, seen) in [solve_symmetric(square, right), solve_symmetric_in_groups(square, right, &groups)]
+                {
+                    assert_eq!(seen, f64::from(rank), "row {row} in units of {unit:e}");
+                    let (pulled, expected) =
+                        (g.transpose() * units * SVector::from(other), g.transpose() * SVector::from(x));
+                    assert!((pulled - expected).amax() < 1e-9 * (1.0 + expected.amax()));
+                }
+            }
+        }
+    }
+}
+
+/// What rounding leaves of an equation that vanishes is told from an equation in another unit by those beside it.
+#[test]
+fn rounding_in_a_group_is_no_equation() {
+    let random = &mut Random(8);
+    for unit in [1.0, 1e-9, 1e9] {
+        let mut g = random.matrix::<4, 6>();
+        for j in 0..6 {
+            g[(1, j)] *= 1e-16; // beside row 0
+            g[(2, j)] *= unit;
+            g[(3, j)] *= 1e-16 * unit; // beside row 2
+        }
+        let groups = [0, 0, 1, 1];
+        let ones = SVector::from([1.0; 6]);
+        let r = SVector::from([1.0, 1.0, unit, unit]);
+        let (d, rank) = least_norm_in_groups(&g, &r, &ones, &groups);
+        assert_eq!(rank, 2.0, "{unit:e}");
+        assert!(d.amax() < 1e2, "{unit:e}: {d}");
+        let (x, rank) = solve_symmetric_in_groups(rows(&(g * g.transpose())), r.into(), &groups);
+        assert_eq!((rank, x[1], x[3]), (2.0, 0.0, 0.0), "{unit:e}");
+        // Each for itself, all are equations, down to the root of the least number of single precision.
+        assert_eq!(least_norm(&g, &r, &ones).1, if unit < 1.0 { 3.0 } else { 4.0 });
+    }
+}
+
 macro_rules! lanes_agree {
     ($test:ident, $lanes:ty, $element:ident) => {
         #[test]
@@ -262,13 +331,13 @@ fn roundings_of_every_scalar() {
     assert_eq!(<WideF32x8 as Real>::epsilon().greatest(), f64::from(f32::EPSILON));
 }
 
-/// A row that is nothing but rounding beside the others has no say; rows of other units have.
+/// A row that is nothing but rounding beside the others of its group has no say; above that it has.
 #[test]
 fn rows_of_rounding_are_no_equations() {
     let weights = SVector::<f64, 3>::repeat(1.0);
     for (size, rank) in [(1e-17, 1.0), (1e-15, 1.0), (1e-12, 2.0), (1e-6, 2.0)] {
         let g = SMatrix::<f64, 2, 3>::new(1.0, 2.0, 3.0, size, -size, 0.0);
-        let (d, seen) = least_norm(&g, &SVector::<f64, 2>::new(14.0, 0.0), &weights);
+        let (d, seen) = least_norm_in_groups(&g, &SVector::<f64, 2>::new(14.0, 0.0), &weights, &[7, 7]);
         assert_eq!(seen, rank, "{size:e}");
         assert!(
             ((g.row(0) * d)[0] - 14.0).abs() < 1e-12

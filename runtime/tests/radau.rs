@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::stiff::{Decay, Follower, Held, Linear, Plane, SpringPendulum, VanDerPol, Winding, turned};
+use common::stiff::{Decay, Follower, Held, Linear, Pair, Plane, Rubbing, SpringPendulum, VanDerPol, Winding, turned};
 use common::{Body, Currents, Driven, Flight, Scalar, distance};
 use multibody::linear::Square;
 use multibody::nalgebra::{Vector2, Vector3};
@@ -360,4 +360,50 @@ fn failures() {
     let tolerance = Tolerance { min_step: 1e-3, ..Tolerance::new(1e-6, 1e-6) };
     let result = Integrator::within(Radau, tolerance).integrate(&system, 0.0, 2.0, &start, &0.0, |_, _| ());
     assert!(matches!(result, Err(IntegrationError::StepTooSmall { .. } | IntegrationError::NoConvergence { .. })));
+}
+
+/// An iteration that goes round in a circle has not converged, however small the circle, unless it is one of roundings.
+#[test]
+fn what_stalls_above_rounding_has_not_converged() {
+    fn check<T: Real>(force: f64) {
+        let start = Scalar { q: T::lit(0.3), v: T::lit(0.01 * force) };
+        let run = Integrator::fixed(Radau, 0.1).integrate(&Rubbing(T::lit(force)), 0.0, 0.1, &start, &(), |_, _| ());
+        assert!(matches!(run, Err(IntegrationError::NoConvergence { .. })), "{force:e}: {:?}", run.map(|run| run.1));
+    }
+    for force in [1.0, 1e-3, 1e-6, 1e-9, 1e-12] {
+        check::<f64>(force);
+    }
+    for force in [1.0, 1e-2, 1e-4] {
+        check::<f32>(force);
+    }
+    // Circles that rounding hides.
+    let start = Scalar { q: 0.3, v: 1e-19 };
+    let (end, _) = Integrator::fixed(Radau, 0.1).integrate(&Rubbing(1e-17), 0.0, 0.1, &start, &(), |_, _| ()).unwrap();
+    assert!((end.q - 0.3).abs() < 1e-16);
+}
+
+/// Two masses between stiff springs, far from the origin: their places round to more than a spring's stretch, and so
+/// do velocities, by that over the step. There the iteration stalls, and has converged.
+#[test]
+fn what_stalls_at_the_rounding_of_stiff_springs_has_converged() {
+    fn check<T: Real>(stiffness: f64, place: f64, dt: f64) {
+        let lit = T::lit;
+        let start =
+            Plane { q: Vector2::new(lit(1.1 * place), lit(1.1 * place + 1.0)), v: Vector2::from([lit(1.0); 2]) };
+        let run =
+            Integrator::fixed(Radau, dt).integrate(&Pair(lit(stiffness)), 0.0, 100.0 * dt, &start, &(), |_, _| ());
+        let (end, statistics) = run.unwrap();
+        let off = (end.q.x - lit(1.1 * place + 100.0 * dt)).greatest().abs();
+        let bound = 100.0 * T::epsilon().greatest() * (1.0 + 1.1 * place + 100.0 * dt);
+        assert!(statistics.evaluations < 1000, "{stiffness:e} {place:e} {dt:e}: {}", statistics.evaluations);
+        assert!(off <= bound, "{stiffness:e} {place:e} {dt:e}: {off:e}");
+    }
+    for stiffness in [1e4, 1e8, 1e12] {
+        for place in [0.0, 1e3, 1e6] {
+            for dt in [1e-1, 1e-3] {
+                check::<f64>(stiffness, place, dt);
+                check::<f32>(stiffness.sqrt(), place.min(1e3), dt);
+            }
+        }
+    }
 }

@@ -5,6 +5,8 @@ mod common;
 
 use common::loops::{Coordinates, FourBar, Rod};
 use common::{Pendulum, Scalar};
+use core::cell::RefCell;
+use multibody::integrators::{Action, Event, Events};
 use multibody::nalgebra::{SVector, Vector2};
 use multibody::projection::{ByMass, Weights, rank};
 use multibody::{
@@ -225,7 +227,91 @@ fn singular_poses() {
         assert_eq!((rank(&bars, 0.0, &flat), rank(&redundant, 0.0, &flat)), (7.0, 7.0));
         let watched = WithRank::new(WithProjection::by_mass(&bars, projection));
         let next = watched.accepted(0.25, &flat, &());
+        assert_eq!(watched.least(), None, "not every such state is kept");
+        watched.reached(0.25, &next);
         assert_eq!(watched.least(), Some((7.0, 0.25)));
         assert!((next.v - flat.v).amax() < 1e-12);
     }
+}
+
+/// A point on a line, whose one equation is lost beyond a limit; it remembers where steps ended.
+struct Limited {
+    limit: f64,
+    ends: RefCell<Vec<(f64, Scalar<f64>)>>,
+}
+
+impl System for Limited {
+    type Scalar = f64;
+    type State = Scalar<f64>;
+    type Input = ();
+    fn derivative(&self, _t: f64, _state: &Scalar<f64>, (): &()) -> (f64, ()) {
+        (0.0, ())
+    }
+    fn reached(&self, t: f64, state: &Scalar<f64>) {
+        self.ends.borrow_mut().push((t, *state));
+    }
+}
+
+impl Constrained for Limited {
+    type Residual = f64;
+    fn constraints(&self, _t: f64, _q: &f64) -> f64 {
+        0.0
+    }
+    fn constraint_rate(&self, _t: f64, _state: &Scalar<f64>) -> f64 {
+        0.0
+    }
+    fn correction(&self, _t: f64, q: &f64, _residual: &f64, _weights: &f64) -> (f64, f64) {
+        (0.0, if *q > self.limit { 0.0 } else { 1.0 })
+    }
+}
+
+/// Turns back just before the limit, twice, and then stops there.
+struct Stop(f64, u32);
+
+impl<S: System<Scalar = f64, State = Scalar<f64>>> Events<S, 1> for Stop {
+    fn values(&self, _t: f64, x: &Scalar<f64>) -> [f64; 1] {
+        [x.q - self.0]
+    }
+    fn happened(&mut self, _event: &Event, x: &Scalar<f64>) -> Action<Scalar<f64>> {
+        self.1 += 1;
+        if self.1 == 3 { Action::Stop } else { Action::Jump(Scalar { q: x.q - 0.2, v: x.v }) }
+    }
+}
+
+/// A search for an event tries states that are never reached: they don't count.
+#[test]
+fn only_states_that_are_reached_count() {
+    fn check<M>(method: M)
+    where
+        M: for<'a> Method<WithRank<WithProjection<&'a Limited>>>,
+    {
+        let line = Limited { limit: 0.5, ends: RefCell::default() };
+        let watched = WithRank::new(WithProjection::new(&line, Projection::default()));
+        let start = Scalar { q: 0.0, v: 1.0 };
+        let mut seen = Vec::new();
+        let run = Integrator::fixed(method, 0.3).with_events(
+            &watched,
+            0.0,
+            10.0,
+            &start,
+            &(),
+            &mut Stop(0.48, 0),
+            |interval| seen.push((interval.end(), *interval.last())),
+        );
+        let (_, _, end) = run.unwrap();
+        assert!((end - 0.88).abs() < 1e-12, "{end}");
+        assert_eq!(watched.least(), Some((1.0, 0.3)), "no step ends beyond the limit");
+        assert_eq!(*line.ends.borrow(), seen, "a step is told when it is kept");
+        assert_eq!(seen.len(), 5);
+    }
+    check(Rk4);
+    check(DormandPrince);
+
+    // The loops of one's own, too.
+    let line = Limited { limit: 0.5, ends: RefCell::default() };
+    let mut seen = Vec::new();
+    Rk4::integrate(&&line, 0.0, &Scalar { q: 0.0, v: 1.0 }, &(), 0.1, 3, |t, x| seen.push((t, *x))).unwrap();
+    let last = seen.last().copied().unwrap();
+    seen.push((last.0 + 0.1, Rk4::step(&WithBaumgarte::plain(&line, 1.0), last.0, &last.1, &(), 0.1)));
+    assert_eq!(*line.ends.borrow(), seen);
 }

@@ -63,7 +63,7 @@ fn solve(g: &mut Graph, rng: &mut Rng, size: usize, symbols: &[Scalar; SYMBOLS])
             _ => entry,
         });
     }
-    let outputs = g.block_outputs(BlockKind::Solve { size, symmetric: false }, &operands);
+    let outputs = g.block_outputs(BlockKind::Solve { size, symmetric: false, groups: [].into() }, &operands);
     g.name(outputs[0], || "found".into());
     outputs
 }

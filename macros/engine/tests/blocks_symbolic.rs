@@ -159,7 +159,7 @@ fn newton(g: &mut Graph, [a, b, c]: [Scalar; 3], count: usize) -> Vec<Scalar> {
         system.extend(g.gradient(residual, &unknowns));
     }
     system.extend(residuals);
-    let step = g.block_outputs(BlockKind::Solve { size: 2, symmetric: false }, &system);
+    let step = g.block_outputs(BlockKind::Solve { size: 2, symmetric: false, groups: [].into() }, &system);
     let squares = residuals.map(|r| g.mul(r, r));
     let square = g.sum(&squares);
     let size = g.sqrt(square);
@@ -209,8 +209,10 @@ fn blocks_are_compared() {
 fn nothing_is_answered_by_nothing() {
     let mut g = Graph::new();
     let [a, b] = [g.symbol(), g.symbol()];
-    let solved =
-        g.block_outputs(BlockKind::Solve { size: 2, symmetric: true }, &[a, b, b, a, Scalar::ZERO, Scalar::ZERO]);
+    let solved = g.block_outputs(
+        BlockKind::Solve { size: 2, symmetric: true, groups: [].into() },
+        &[a, b, b, a, Scalar::ZERO, Scalar::ZERO],
+    );
     assert_eq!(solved[..2], [Scalar::ZERO; 2]);
     assert_eq!(values(&g, &[solved[2]], &[1.0, 1.0]), [1.0]);
 }

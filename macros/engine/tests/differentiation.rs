@@ -339,7 +339,7 @@ fn linear_systems() {
     let (square, sine) = (g.mul(x[0], x[0]), g.sin(x[1]));
     let diagonal = g.add(square, Scalar::ONE);
     let system = [diagonal, sine, x[2], -sine, x[0], x[1], Scalar::ONE, -x[2], diagonal, x[1], sine, x[0]];
-    let outputs = g.block_outputs(BlockKind::Solve { size: 3, symmetric: false }, &system);
+    let outputs = g.block_outputs(BlockKind::Solve { size: 3, symmetric: false, groups: [].into() }, &system);
     let product = g.mul(outputs[0], outputs[1]);
     let roots = [product, outputs[2], outputs[3]];
     let seeds: Vec<(Scalar, Scalar)> = x.iter().map(|&s| (s, g.symbol())).collect();

@@ -23,7 +23,7 @@ fn newton(g: &mut Graph, q: Scalar, v: Scalar, [x, y]: [Scalar; 2], count: usize
     let residuals = [g.sum(&[x, first, -v]), g.sum(&[y, -second, -half])];
     let mut system: Vec<Scalar> = residuals.iter().flat_map(|&r| g.gradient(r, &[x, y])).collect();
     system.extend(residuals);
-    let step = g.block_outputs(BlockKind::Solve { size: 2, symmetric: false }, &system);
+    let step = g.block_outputs(BlockKind::Solve { size: 2, symmetric: false, groups: [].into() }, &system);
     let next = [g.sub(x, step[0]), g.sub(y, step[1])];
     let squares = residuals.map(|r| g.mul(r, r));
     let size = g.sum(&squares);
@@ -50,11 +50,13 @@ fn result(k: usize, g: &mut Graph, q: Scalar, v: Scalar, unknowns: [Scalar; 2]) 
         4 => {
             let one = g.mul(v, v);
             let diagonal = g.add(one, Scalar::ONE);
-            let solved =
-                g.block_outputs(BlockKind::Solve { size: 2, symmetric: true }, &[diagonal, q, q, diagonal, v, sine]);
+            let solved = g.block_outputs(
+                BlockKind::Solve { size: 2, symmetric: true, groups: [].into() },
+                &[diagonal, q, q, diagonal, v, sine],
+            );
             g.sum(&[solved[1], solved[2]])
         }
-        5 => g.block_outputs(BlockKind::Solve { size: 1, symmetric: false }, &[q, v])[1],
+        5 => g.block_outputs(BlockKind::Solve { size: 1, symmetric: false, groups: [].into() }, &[q, v])[1],
         // A thousand values within a round.
         6 => {
             let mut value = unknowns[0];

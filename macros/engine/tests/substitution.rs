@@ -132,7 +132,7 @@ fn depth_and_blocks_are_no_matter() {
         let sum = g.add(value, y);
         value = g.mul(sum, x);
     }
-    let solved = g.block_outputs(BlockKind::Solve { size: 1, symmetric: true }, &[y, value]);
+    let solved = g.block_outputs(BlockKind::Solve { size: 1, symmetric: true, groups: [].into() }, &[y, value]);
     let map = HashMap::from([(g.symbol_id(x).unwrap(), Scalar::ONE)]);
     let made = g.substitute(&[solved[0]], &map);
     let symbols = |id: SymbolId| if id == SymbolId(1) { 0.5 } else { f64::NAN };

@@ -10,18 +10,29 @@ pub enum EquilibriumError {
     NotFinite,
     /// What is free cannot make the accelerations zero: the equations depend on each other where they are smallest.
     Singular {
-        /// Greatest acceleration or rate that is left.
+        /// Greatest acceleration or rate that is left, in the best of the states met. Of a model with loops, states count
+        /// where these are closed.
         residual: f64,
         /// How many of the equations are independent there.
         rank: usize,
-        /// How many there are.
+        /// How many there are: one for each velocity and each own state, less those that closed loops fulfil by
+        /// themselves, which are as many as there are independent constraints.
         equations: usize,
     },
     /// None was found near the guess: accelerations have a least value there that is not zero, or the bound on
     /// iterations was reached.
     NotFound {
-        /// Greatest acceleration or rate that is left.
+        /// Greatest acceleration or rate that is left, in the best of the states met. Of a model with loops, states count
+        /// where these are closed.
         residual: f64,
+        /// Steps made.
+        iterations: u32,
+    },
+    /// The loops could not be closed near the guess, so no state was met that could be at rest:
+    /// [`assemble`](crate::assemble) tells more.
+    Open {
+        /// `[m]` or `[rad]` greatest residual of a position that is left, in the best of the states met.
+        gap: f64,
         /// Steps made.
         iterations: u32,
     },
@@ -38,6 +49,9 @@ impl fmt::Display for EquilibriumError {
             ),
             Self::NotFound { residual, iterations } => {
                 write!(f, "no equilibrium near the guess: {residual:e} is left after {iterations} steps")
+            }
+            Self::Open { gap, iterations } => {
+                write!(f, "the loops do not close near the guess: {gap:e} is left after {iterations} steps")
             }
         }
     }

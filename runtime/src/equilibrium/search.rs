@@ -1,17 +1,21 @@
 //! The damped Gauss-Newton method behind equilibria and trims: [`Search`].
 
+use super::closing::Closing;
 use super::error::EquilibriumError;
 use super::least::{Row, least};
 use super::{Equilibrium, Found, Free};
 use crate::linear::{Square, residue};
-use crate::{
-    Configuration, Constrained, Differentiable, ExtraOf, Real, StateSpace, System, Tangent, VelocityOf, all, any,
-};
+use crate::tangent::{unit, unpack};
+use crate::{Configuration, Differentiable, ExtraOf, Real, StateSpace, System, Tangent, VelocityOf, all, any};
 
 /// An equation holds up to this share of what it could be, unless rounding is greater.
 const TOLERANCE: f64 = 1e-13;
 /// ..or this many roundings.
 const ROUNDINGS: f64 = 64.0;
+/// Loops that are open by less, beside one more than the greatest coordinate, count as closed where nothing is found.
+const NEARLY: f64 = 1e-4;
+/// ..and Newton's method has so many iterations to close them.
+const CLOSINGS: u32 = 20;
 /// Greatest number of steps, those by shaking among them.
 const ITERATIONS: u32 = 100;
 /// Greatest number of halvings of one step.
@@ -77,55 +81,6 @@ where
         change: &S::Input,
     ) -> (VelocityOf<S>, ExtraOf<S>) {
         system.input_derivative(t, state, value, change)
-    }
-}
-
-/// What closes loops.
-pub(super) trait Closing<S: System> {
-    /// Whether there are any loops.
-    const LOOPS: bool;
-    /// The greatest residual of a position.
-    fn gap(&self, t: S::Scalar, state: &S::State) -> S::Scalar;
-    /// The displacement that closes the loops.
-    fn correction(&self, t: S::Scalar, state: &S::State, weights: &VelocityOf<S>) -> VelocityOf<S>;
-    /// The part of a displacement that opens them.
-    fn across(&self, t: S::Scalar, state: &S::State, d: &VelocityOf<S>, weights: &VelocityOf<S>) -> VelocityOf<S>;
-}
-
-/// There are no loops.
-pub(super) struct Open;
-
-impl<S: System> Closing<S> for Open {
-    const LOOPS: bool = false;
-    fn gap(&self, _: S::Scalar, _: &S::State) -> S::Scalar {
-        S::Scalar::lit(0.0)
-    }
-    fn correction(&self, _: S::Scalar, _: &S::State, _: &VelocityOf<S>) -> VelocityOf<S> {
-        Tangent::zero()
-    }
-    fn across(&self, _: S::Scalar, _: &S::State, _: &VelocityOf<S>, _: &VelocityOf<S>) -> VelocityOf<S> {
-        Tangent::zero()
-    }
-}
-
-/// The loops of a constrained system.
-pub(super) struct Loops<'a, S>(pub(super) &'a S);
-
-impl<S: Constrained> Closing<S> for Loops<'_, S> {
-    const LOOPS: bool = true;
-    fn gap(&self, t: S::Scalar, state: &S::State) -> S::Scalar {
-        greatest(&self.0.constraints(t, &state.split().0))
-    }
-    fn correction(&self, t: S::Scalar, state: &S::State, weights: &VelocityOf<S>) -> VelocityOf<S> {
-        let (q, _, _) = state.split();
-        let minus = self.0.constraints(t, &q).scale(S::Scalar::lit(-1.0));
-        self.0.correction(t, &q, &minus, weights).0
-    }
-    fn across(&self, t: S::Scalar, state: &S::State, d: &VelocityOf<S>, weights: &VelocityOf<S>) -> VelocityOf<S> {
-        let (q, _, x) = state.split();
-        let rate = |v: VelocityOf<S>| self.0.constraint_rate(t, &state.join(q, v, x));
-        let opened = rate(*d).add_scaled(S::Scalar::lit(-1.0), &rate(Tangent::zero()));
-        self.0.correction(t, &q, &opened, weights).0
     }
 }
 
@@ -195,13 +150,14 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
         let (mut shakes, mut shake, mut polish, mut iterations) = (0, SHAKE, 0, 0);
         let mut excursion: Option<Excursion<S, I::Value>> = None;
         let mut random = 1_u32;
-        // The best that was seen of each lane, for errors.
-        let (mut best, mut best_rank) = (lit(f64::INFINITY), zero);
+        // The best that was seen of each lane, for errors: where its loops were closed, and how far they ever were.
+        let (mut best, mut best_rank, mut least_gap) = (lit(f64::INFINITY), zero, lit(f64::INFINITY));
         let closed = loop {
             let proposal = search.propose(&state, &value, &residual);
             let closed = search.holds(&state, &residual, &proposal.scale);
-            let size = greatest(&residual);
-            let better = Real::lt(size, best);
+            let (size, gap) = (greatest(&residual), search.closing.gap(t, &state));
+            least_gap = Real::min(least_gap, gap);
+            let better = Real::lt(size, best) & Real::le(search.relative(gap, &state), lit(NEARLY));
             best = Real::select(better, size, best);
             best_rank = Real::select(better, proposal.rank, best_rank);
             if all(closed) && polish == POLISH {
@@ -268,6 +224,22 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
         if all(closed) {
             return Ok(Equilibrium { state, input: value, rank, residual: greatest(&residual), iterations });
         }
+        let unmet = !closed & Real::gt(best, lit(f64::MAX)) & Real::is_finite(least_gap);
+        let mut open = unmet;
+        if any(unmet) {
+            // No closed state was met: what is left where the last one is closed.
+            state = search.closed(&state);
+            let gap = search.closing.gap(t, &state);
+            least_gap = Real::select(Real::lt(gap, least_gap), gap, least_gap);
+            let proposal = search.propose(&state, &value, &search.rates(&state, &value));
+            let found = unmet & Real::le(search.relative(gap, &state), lit(NEARLY));
+            best = Real::select(found, greatest(&search.rates(&state, &value)), best);
+            best_rank = Real::select(found, proposal.rank, best_rank);
+            open = open & !found;
+        }
+        if any(open) {
+            return Err(EquilibriumError::Open { gap: Real::select(open, least_gap, zero).greatest(), iterations });
+        }
         // As many as loops close hold by themselves.
         let equations = S::Matrix::SIZE.saturating_sub(search.loops(&state));
         let residual = Real::select(closed | !Real::is_finite(best), zero, best).greatest();
@@ -297,6 +269,17 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
         (self.system.accepted(self.t, &state, self.source.input(value)), value.add(&step.input))
     }
 
+    /// The state with its loops closed by Newton's method alone, as far as that leads.
+    fn closed(&self, state: &S::State) -> S::State {
+        let mut state = *state;
+        for _ in 0..CLOSINGS {
+            let d = self.closing.correction(self.t, &state, &self.free.position);
+            let (q, v, x) = state.split();
+            state = state.join(q.displace(&d), v, x);
+        }
+        state
+    }
+
     /// The number of independent constraints: the trace of the projection across the loops.
     fn loops(&self, state: &S::State) -> usize {
         if !C::LOOPS {
@@ -307,8 +290,7 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
         let ones = none.map(&mut |_| one);
         let mut trace = zero;
         for i in 0..none.len() {
-            let mut places = 0..;
-            let unit = none.map(&mut |_| if places.next() == Some(i) { one } else { zero });
+            let unit = unit(i);
             let across = self.closing.across(self.t, state, &unit, &ones);
             trace += across.zip(&unit, &mut |a, u| a * u).fold(zero, &mut |sum, a| sum + a);
         }
@@ -331,9 +313,14 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
         let tolerance = Real::max(lit(TOLERANCE), lit(ROUNDINGS) * S::Scalar::epsilon());
         let worst = scaled::<S>(&self.along(state, residual), scale)
             .fold(lit(0.0), &mut |worst, r| Real::max(worst, Real::abs(r)));
-        let (q, _, _) = state.split();
-        let gap = self.closing.gap(self.t, state) / (lit(1.0) + greatest(&q.magnitude()));
+        let gap = self.relative(self.closing.gap(self.t, state), state);
         Real::le(worst, tolerance) & Real::le(gap, tolerance)
+    }
+
+    /// A gap beside one more than the greatest coordinate.
+    fn relative(&self, gap: S::Scalar, state: &S::State) -> S::Scalar {
+        let (q, _, _) = state.split();
+        gap / (S::Scalar::lit(1.0) + greatest(&q.magnitude()))
     }
 
     /// The step of Newton's method that is the least one.
@@ -374,7 +361,7 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
         let mut rows = *rows;
         let closing = self.closing.correction(self.t, state, &self.free.position);
         for ((row, open), &rate) in
-            rows.as_mut().iter_mut().zip(open.as_ref()).zip(packed::<S>(&self.along(state, residual)).as_ref())
+            rows.as_mut().iter_mut().zip(open.as_ref()).zip(S::Matrix::packed(&self.along(state, residual)).as_ref())
         {
             // Less what closing the loops does to the equation.
             let closed = open.entries.position.zip(&closing, &mut |a, d| a * d).fold(zero, &mut |sum, a| sum + a);
@@ -396,8 +383,7 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
         let ones = none.map(&mut |_| one);
         let all = *rows;
         for (i, row) in rows.as_mut().iter_mut().enumerate().take(none.len()) {
-            let mut place = 0;
-            let unit = none.map(&mut |_| next(&mut place, |j| S::Scalar::lit(f64::from(u8::from(j == i)))));
+            let unit = unit(i);
             let across = self.closing.across(self.t, state, &unit, &ones);
             let mut others = all.as_ref().iter();
             row.entries =
@@ -428,9 +414,8 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
             Row { entries: Free { position, velocity, states, input: none.input }, right: zero, square: zero }
         });
         for k in 0..none.input.len() {
-            let mut place = 0;
-            let unit = none.input.map(&mut |_| next(&mut place, |j| S::Scalar::lit(f64::from(u8::from(j == k)))));
-            let change = packed::<S>(&self.source.derivative(self.system, self.t, state, value, &unit));
+            let unit = unit(k);
+            let change = S::Matrix::packed(&self.source.derivative(self.system, self.t, state, value, &unit));
             for (row, &change) in rows.as_mut().iter_mut().zip(change.as_ref()) {
                 row.entries.input = row.entries.input.add_scaled(change, &unit);
             }
@@ -505,22 +490,9 @@ fn shaking<T: Real, V: Tangent<T>>(free: &V, random: &mut u32, size: T) -> V {
     })
 }
 
-/// Accelerations and rates as a vector.
-fn packed<S: Differentiable>(rates: &Rates<S>) -> Vector<S> {
-    let mut vector = S::Matrix::vector(|_| S::Scalar::lit(0.0));
-    let mut places = vector.as_mut().iter_mut();
-    rates.fold((), &mut |(), component| {
-        if let Some(place) = places.next() {
-            *place = component;
-        }
-    });
-    vector
-}
-
 /// Accelerations and rates, each divided by what it could be.
 fn scaled<S: Differentiable>(rates: &Rates<S>, scale: &Vector<S>) -> Rates<S> {
-    let mut scales = scale.as_ref().iter();
-    rates.map(&mut |rate| scales.next().map_or(rate, |&scale| rate / scale))
+    rates.zip(&unpack(scale.as_ref()), &mut |rate, scale| rate / scale)
 }
 
 /// The square of a row's length.
@@ -529,6 +501,6 @@ fn square<T: Real, V: Tangent<T>>(row: &V, weights: &V) -> T {
 }
 
 /// The greatest size of a component in each lane; NaN if one is.
-fn greatest<T: Real, V: Tangent<T>>(v: &V) -> T {
+pub(super) fn greatest<T: Real, V: Tangent<T>>(v: &V) -> T {
     v.fold(T::lit(0.0), &mut |greatest, x| Real::max(greatest, Real::abs(x)))
 }

@@ -13,7 +13,7 @@
 use super::dense::Dense;
 use super::method::{Attempt, Method, inherent};
 use super::problem::{Problem, Step};
-use super::slope::{SlopeOf, literals};
+use super::slope::{SlopeOf, leads_to, literals};
 use crate::{Configuration, PositionOf, Real, Separable, StateSpace, Tangent, VelocityOf};
 
 /// The velocity form of Verlet's method (Stormer, Verlet 1967), also known as leapfrog: second order, one evaluation,
@@ -119,17 +119,21 @@ macro_rules! splitting {
                 $splitting.attempt(problem, step, accel)
             }
 
-            /// The acceleration at the end is there already.
+            /// The acceleration at the end is there already, where the accepted state is that end.
             #[inline]
             fn proceed(
                 &self,
-                _problem: &Problem<'_, S>,
-                _step: &Step<'_, S>,
+                problem: &Problem<'_, S>,
+                step: &Step<'_, S>,
                 _accel: &VelocityOf<S>,
                 attempt: &Attempt<S, VelocityOf<S>>,
-                _next: &S::State,
+                next: &S::State,
             ) -> VelocityOf<S> {
-                attempt.details
+                if leads_to::<S>(step, &attempt.displacement, next) {
+                    attempt.details
+                } else {
+                    problem.slope(step.end, next).v
+                }
             }
 
             $(

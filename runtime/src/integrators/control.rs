@@ -63,8 +63,9 @@ impl Tolerance {
         let (relative, absolute) = (T::lit(self.relative), T::lit(self.absolute));
         let greater = size.zip(other_size, &mut |a, b| Real::max(Real::abs(a), Real::abs(b)));
         let weighted = error.zip(&greater, &mut |error, size| error / (absolute + relative * size));
-        let (sum, count) = weighted.fold((T::lit(0.0), 0.0), &mut |(sum, count), e| (sum + e * e, count + 1.0));
-        Real::sqrt(sum / T::lit(Real::max(count, 1.0)))
+        let (zero, one) = (T::lit(0.0), T::lit(1.0));
+        let (sum, count) = weighted.fold((zero, zero), &mut |(sum, count), e| (sum + e * e, count + one));
+        Real::sqrt(sum / Real::max(count, one))
     }
 
     /// A first step from the size of the slope and, by one Euler step, of its change.

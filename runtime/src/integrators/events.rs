@@ -13,7 +13,7 @@ use super::integrator::{Integrator, Statistics};
 use super::interval::Interval;
 use super::method::Method;
 use super::run::{Run, Verdict};
-use crate::System;
+use crate::{Real, System};
 use watch::Watch;
 
 /// Which crossings of zero count, as time goes on in the direction of the integration.
@@ -171,6 +171,7 @@ impl<M> Integrator<M> {
                     return Ok(Verdict::Continue);
                 };
                 observe(&interval.cut(&cut.part));
+                problem.reached(S::Scalar::lit(cut.part.time), &cut.part.state);
                 let (time, state) = (cut.part.time, cut.state);
                 Ok(if cut.stop { Verdict::Stop { time, state } } else { Verdict::Restart { time, state } })
             })?;

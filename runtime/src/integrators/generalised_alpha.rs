@@ -22,6 +22,7 @@ use super::method::{Attempt, Method};
 use super::problem::{Problem, Step};
 use super::slope::{SlopeOf, displaced};
 use crate::linear::Square;
+use crate::tangent::unpack;
 use crate::{
     Constrained, Differentiable, ExtraOf, Impulsive, Jacobian, PositionOf, Real, StateSpace, System, Tangent,
     VelocityOf,
@@ -44,6 +45,8 @@ const STALLED: f64 = 4e5;
 ///
 /// Steps should be of one length: by how much `a` lags behind the accelerations depends on it, so a shorter last step, or
 /// the start anew after an event, costs an order there. A projection after a step does not renew that lag.
+///
+/// States within a step are those of a cubic through both ends and the slopes there: of second order, as its ends are.
 ///
 /// - [`GeneralisedAlpha::new`]: systems without constraints, or with loops solved, by Newton's method with the exact
 ///   derivatives ([`Differentiable`], `emit derivatives`).
@@ -215,16 +218,7 @@ impl<S: Differentiable> Iterating<S> for Newton {
         })
     }
     fn solve(&self, operator: &S::Matrix, right: &RatesOf<S>) -> RatesOf<S> {
-        let mut vector = S::Matrix::vector(|_| S::Scalar::lit(0.0));
-        let mut components = vector.as_mut().iter_mut();
-        right.fold((), &mut |(), x| {
-            if let Some(component) = components.next() {
-                *component = x;
-            }
-        });
-        let (solution, _) = operator.solution(&vector);
-        let mut components = solution.as_ref().iter();
-        RatesOf::<S>::zero().map(&mut |zero| components.next().copied().unwrap_or(zero))
+        unpack(operator.solution(&S::Matrix::packed(right)).0.as_ref())
     }
 }
 

@@ -118,7 +118,9 @@ pub(super) fn step<S: System, M: Method<S>>(
     if !attempt.converged {
         attempt.displacement = attempt.displacement.scale(S::Scalar::lit(f64::NAN)); // no state rather than a wrong one
     }
-    problem.accepted(step.end, &displaced(state, &attempt.displacement))
+    let next = problem.accepted(step.end, &displaced(state, &attempt.displacement));
+    problem.reached(step.end, &next);
+    next
 }
 
 /// `steps` steps of one length, lane by lane.
@@ -152,6 +154,7 @@ pub(super) fn integrate<S: System, M: Method<S>>(
         state = next;
         t = end;
         observe(t, &state);
+        problem.reached(t, &state);
     }
     Ok(state)
 }

@@ -65,6 +65,12 @@ impl<'a, S: System> Problem<'a, S> {
         self.system.accepted(t, state, self.input)
     }
 
+    /// To be called with the end of a step that is kept: see [`System::reached`].
+    #[inline]
+    pub fn reached(&self, t: S::Scalar, state: &S::State) {
+        self.system.reached(t, state);
+    }
+
     /// Evaluations of the system so far.
     #[inline]
     pub const fn evaluations(&self) -> u32 {

@@ -6,14 +6,15 @@ use super::integrator::{Integrator, Statistics, Steps};
 use super::interval::Interval;
 use super::method::Method;
 use super::problem::{Problem, Step};
-use super::slope::{SlopeOf, advanced, displaced, is_finite, magnitude};
+use super::slope::{SlopeOf, advanced, displaced, is_finite, magnitude, owed};
 use crate::{Real, System, Tangent};
 
 /// What an observer makes of an accepted step.
 pub(super) enum Verdict<Z> {
     /// The integration goes on from its end.
     Continue,
-    /// It goes on from another state, at a time within the step.
+    /// It goes on from another state, at a time within the step. The end of the shorter step is told to the system by who
+    /// found it.
     Restart { time: f64, state: Z },
     /// It ends there.
     Stop { time: f64, state: Z },
@@ -184,6 +185,7 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
             return Err(stopped(!is_finite(&magnitude(&next)), self.t));
         }
         let next = self.problem.accepted(step.end, &next);
+        let rest = if self.settings.compensated { owed(&next, &rest) } else { rest };
         if !is_finite(&magnitude(&next)) {
             return Err(IntegrationError::NonFinite { time: self.t });
         }
@@ -198,6 +200,7 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
         self.accepted += 1;
         match verdict {
             Verdict::Continue => {
+                self.problem.reached(step.end, &next);
                 if target != self.end {
                     self.memory = method.proceed(self.problem, &step, &self.memory, &attempt, &next);
                 }

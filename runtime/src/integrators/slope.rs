@@ -82,6 +82,17 @@ pub(super) fn advanced<Z: StateSpace>(
     (state.join(q, v, x), Slope { q: rest_q, v: rest_v, x: rest_x })
 }
 
+/// What is still owed to the state that [`System::accepted`] made of a step's end. A projection moves it by less than the
+/// step did, and the rest stays a displacement that is still to come; but where a component has become so small that
+/// the rest is no rounding of it any more, the state is another one, to which nothing is owed.
+#[inline]
+pub(super) fn owed<Z: StateSpace>(next: &Z, rest: &Slope<Z::Velocity, Z::Extra>) -> Slope<Z::Velocity, Z::Extra> {
+    let zero = Z::Scalar::lit(0.0);
+    rest.zip(&magnitude(next), &mut |rest, size| {
+        Real::select(Real::le(Real::abs(rest), Z::Scalar::epsilon() * Real::abs(size)), rest, zero)
+    })
+}
+
 /// The sizes of a state's coordinates.
 #[inline]
 pub(super) fn magnitude<Z: StateSpace>(state: &Z) -> Slope<Z::Velocity, Z::Extra> {
@@ -99,11 +110,17 @@ pub(super) fn first_same_as_last<S: System>(
     last: &SlopeOf<S>,
     next: &S::State,
 ) -> SlopeOf<S> {
-    if !step.full || !agree(step.state, &displaced(step.state, displacement), next) {
+    if !step.full || !leads_to::<S>(step, displacement, next) {
         return problem.slope(step.end, next);
     }
     let (_, q, _) = next.split();
     Slope { q, ..*last }
+}
+
+/// Whether the accepted state is the displaced one, so that what is known of the one holds for the other.
+#[inline]
+pub(super) fn leads_to<S: System>(step: &Step<'_, S>, displacement: &SlopeOf<S>, next: &S::State) -> bool {
+    agree(step.state, &displaced(step.state, displacement), next)
 }
 
 /// Whether two ends of a step from `start` differ by no more than compensated summation changes. Orientations, which have

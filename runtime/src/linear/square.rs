@@ -1,7 +1,8 @@
 //! Square matrices of a size that only their type knows: [`Square`].
 
 use super::{ComplexFactors, Factors, Solve, solve};
-use crate::Real;
+use crate::tangent::pack;
+use crate::{Real, Tangent};
 
 /// A square matrix with rows of fixed length, so that code can be generic over its size: `[[T; N]; N]`, by rows.
 ///
@@ -31,6 +32,14 @@ pub trait Square<T: Real>: Copy {
 
     /// The vector with the component `entry(row)` everywhere.
     fn vector(entry: impl FnMut(usize) -> T) -> Self::Vector;
+
+    /// The vector with the components of another one in their order, and zeros where that has fewer.
+    #[inline]
+    fn packed(vector: &impl Tangent<T>) -> Self::Vector {
+        let mut list = Self::vector(|_| T::lit(0.0));
+        pack(vector, list.as_mut());
+        list
+    }
 
     /// The array with the entry `entry(row)` everywhere.
     fn array<E: Copy>(entry: impl FnMut(usize) -> E) -> Self::Array<E>;

@@ -15,7 +15,7 @@ pub fn rank<S: Constrained>(system: &S, t: S::Scalar, state: &S::State) -> S::Sc
     Plain.correction(system, t, &q, &S::Residual::zero()).1
 }
 
-/// A system that remembers the least rank of its constraints at the end of any accepted step, and when that was.
+/// A system that remembers the least rank of its constraints at the end of any step that was kept, and when that was.
 ///
 /// It is a wrapper like [`WithProjection`](super::WithProjection), and goes around it:
 /// `WithRank::new(WithProjection::new(&model, projection))`. The motion is not changed. Steps seldom end exactly in a
@@ -49,13 +49,17 @@ impl<S: Constrained> System for WithRank<S> {
         self.system.derivative(t, state, input)
     }
 
+    #[inline]
     fn accepted(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> S::State {
-        let next = self.system.accepted(t, state, input);
-        let now = rank(&self.system, t, &next);
+        self.system.accepted(t, state, input)
+    }
+
+    fn reached(&self, t: S::Scalar, state: &S::State) {
+        self.system.reached(t, state);
+        let now = rank(&self.system, t, state);
         let (least, when) = self.least.get().unwrap_or((now, t));
         let lower = Real::lt(now, least);
         self.least.set(Some((Real::select(lower, now, least), Real::select(lower, t, when))));
-        next
     }
 }
 

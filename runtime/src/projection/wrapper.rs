@@ -78,6 +78,11 @@ impl<S: Constrained, W: Weighting<S>> System for WithProjection<S, W> {
         let v = v.map(&mut |v| Real::select(good, v, S::Scalar::lit(f64::NAN)));
         system.accepted(t, &state.join(q, v, x), input)
     }
+
+    #[inline]
+    fn reached(&self, t: S::Scalar, state: &S::State) {
+        self.system.reached(t, state);
+    }
 }
 
 handed_on!(WithProjection<S, W>, [W: Weighting<S>], Constrained, Impulsive, Differentiable, Canonical, Separable);

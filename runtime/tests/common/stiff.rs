@@ -239,3 +239,47 @@ impl Differentiable for Held {
 pub(crate) fn turned(d: [f64; 3]) -> Pose {
     Pose { orientation: multibody::rotation::from_scaled_axis(&Vector3::from(d)), ..Pose::default() }
 }
+
+/// Dry friction on a mass: an acceleration that jumps where the velocity changes its sign, and no derivatives.
+pub(crate) struct Rubbing<T>(pub(crate) T);
+
+impl<T: Real> System for Rubbing<T> {
+    type Scalar = T;
+    type State = Scalar<T>;
+    type Input = ();
+    fn derivative(&self, _t: T, state: &Scalar<T>, (): &()) -> (T, ()) {
+        (Real::select(Real::gt(state.v, T::lit(0.0)), -self.0, self.0), ())
+    }
+}
+
+impl<T: Real> Differentiable for Rubbing<T> {
+    type Matrix = [[T; 1]; 1];
+    fn jacobian(&self, _t: T, _: &Scalar<T>, (): &()) -> Jacobian<[[T; 1]; 1]> {
+        Jacobian { position: [[T::lit(0.0)]], rates: [[T::lit(0.0)]] }
+    }
+    fn input_derivative(&self, _t: T, _: &Scalar<T>, (): &(), (): &()) -> (T, ()) {
+        (T::lit(0.0), ())
+    }
+}
+
+/// Two masses on a line with a stiff and damped spring of length one between them.
+pub(crate) struct Pair<T>(pub(crate) T);
+impl<T: Real> System for Pair<T> {
+    type Scalar = T;
+    type State = Plane<T>;
+    type Input = ();
+    fn derivative(&self, _t: T, state: &Plane<T>, (): &()) -> (Vector2<T>, ()) {
+        let pull = self.0 * (state.q.y - state.q.x - T::lit(1.0)) + self.0 * T::lit(1e-3) * (state.v.y - state.v.x);
+        (Vector2::new(pull, -pull), ())
+    }
+}
+impl<T: Real> Differentiable for Pair<T> {
+    type Matrix = [[T; 2]; 2];
+    fn jacobian(&self, _t: T, _: &Plane<T>, (): &()) -> Jacobian<[[T; 2]; 2]> {
+        let matrix = |k: T| [[-k, k], [k, -k]];
+        Jacobian { position: matrix(self.0), rates: matrix(self.0 * T::lit(1e-3)) }
+    }
+    fn input_derivative(&self, _t: T, _: &Plane<T>, (): &(), (): &()) -> (Vector2<T>, ()) {
+        (Vector2::from([T::lit(0.0); 2]), ())
+    }
+}

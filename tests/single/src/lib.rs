@@ -6,8 +6,8 @@
 #![deny(warnings)]
 
 use multibody::{
-    Composition4, Composition6, Dop853, DormandPrince, Euler, GaussLegendre4, GaussLegendre6, ImplicitMidpoint, Rk4,
-    SemiImplicitEuler, SymplecticGauss6, SymplecticMidpoint, Verlet, multibody,
+    Composition4, Composition6, Dop853, DormandPrince, Euler, GaussLegendre4, GaussLegendre6, GeneralisedAlpha,
+    ImplicitMidpoint, IntegrationError, Integrator, Radau, Rk4, SemiImplicitEuler, SymplecticGauss6, SymplecticMidpoint, Verlet, multibody,
 };
 
 multibody! {
@@ -36,7 +36,7 @@ multibody! {
         joint shoulder: Revolute { parent: ground, child: upper, axis: Z }
         joint elbow: Revolute { parent: upper.at(-l1 * Y), child: lower, axis: Z }
         force motor: Effort { joint: elbow, value: torque - 0.013 * elbow.rate }
-        emit forward_dynamics, inverse_dynamics, momentum;
+        emit forward_dynamics, inverse_dynamics, momentum, derivatives;
     }
 }
 
@@ -87,6 +87,34 @@ steps! {
     single_satellite_dormand_prince: DormandPrince of satellite with satellite::Input<f32>;
     single_satellite_midpoint: ImplicitMidpoint of satellite with satellite::Input<f32>;
     single_satellite_gauss6: GaussLegendre6 of satellite with satellite::Input<f32>;
+}
+
+macro_rules! controlled {
+    ($($name:ident: $integrator:expr, of $model:ident with $input:ty;)+) => {$(
+        #[allow(missing_docs)]
+        #[inline(never)]
+        pub fn $name(
+            model: &$model::Model<f32>,
+            end: f64,
+            state: &$model::State<f32>,
+            input: &$input,
+        ) -> Result<$model::State<f32>, IntegrationError> {
+            Ok($integrator.integrate(model, 0.0, end, state, input, |_, _| ())?.0)
+        }
+    )+};
+}
+
+// Times, lengths of steps and when iterations end are in double precision, whatever the scalar: what is computed with
+// the state is not.
+controlled! {
+    controlled_double_radau: Integrator::fixed(Radau, 1e-2), of double_pendulum with double_pendulum::Input<f32>;
+    controlled_double_radau_adaptive:
+        Integrator::adaptive(Radau, 1e-4, 1e-4), of double_pendulum with double_pendulum::Input<f32>;
+    controlled_double_alpha:
+        Integrator::fixed(GeneralisedAlpha::new(0.8), 1e-2), of double_pendulum with double_pendulum::Input<f32>;
+    controlled_double_adaptive:
+        Integrator::adaptive(DormandPrince, 1e-4, 1e-4), of double_pendulum with double_pendulum::Input<f32>;
+    controlled_satellite_adaptive: Integrator::adaptive(Dop853, 1e-4, 1e-4), of satellite with satellite::Input<f32>;
 }
 
 /// The model alone.

@@ -41,6 +41,12 @@ pub(super) fn body(program: &Program, names: &Names<'_>) -> Body {
     Body { statements, results }
 }
 
+/// `, &[0, 0, 2]`, the last argument of a function that compares equations in groups; nothing where each stands for itself.
+pub(super) fn groups_argument(groups: &[usize]) -> Option<TokenStream> {
+    let numbers = groups.iter().map(|&group| Literal::usize_unsuffixed(group));
+    (!groups.is_empty()).then(|| quote!(, &[#(#numbers),*]))
+}
+
 /// Statements that something reads.
 fn live_statements(program: &Program) -> Vec<Live<'_>> {
     let mut read = vec![false; program.locals.len()];
@@ -209,8 +215,8 @@ impl<'a> Blocks<'a> {
                 let (sin, cos, angle) = (self.name(*sin), self.name(*cos), self.names.expression(angle));
                 quote!(let (#sin, #cos) = Real::sin_cos(#angle);)
             }
-            Statement::Solve { size, symmetric, matrix, rhs, results } => {
-                self.solve(*size, *symmetric, matrix, rhs, results)
+            Statement::Solve { size, symmetric, groups, matrix, rhs, results } => {
+                self.solve(*size, (*symmetric, groups), matrix, rhs, results)
             }
             Statement::Iterate { count, unknowns, start, next, residual, .. } => {
                 let locals: Vec<Local> = live.unknowns.iter().map(|&k| unknowns[k]).collect();
@@ -225,13 +231,18 @@ impl<'a> Blocks<'a> {
     fn solve(
         &self,
         size: usize,
-        symmetric: bool,
+        (symmetric, groups): (bool, &[usize]),
         matrix: &[Expression],
         rhs: &[Expression],
         results: &[Local],
     ) -> TokenStream {
         let krate = self.names.layout.krate();
-        let function = names::ident(if symmetric { "solve_symmetric" } else { "solve" });
+        let function = names::ident(match (symmetric, groups) {
+            (false, _) => "solve",
+            (true, []) => "solve_symmetric",
+            (true, _) => "solve_symmetric_in_groups",
+        });
+        let groups = groups_argument(groups);
         let list = |list: &[Expression]| {
             let list = list.iter().map(|e| leaf::element(self.names.expression(e)));
             quote!([#(#list),*])
@@ -240,7 +251,7 @@ impl<'a> Blocks<'a> {
         let rhs = list(rhs);
         let names: Vec<TokenStream> = results.iter().map(|&local| self.name(local)).collect();
         let (unknowns, rank) = names.split_at(size.min(names.len()));
-        quote!(let ([#(#unknowns),*], #(#rank)*) = #krate::linear::#function([#(#rows),*], #rhs);)
+        quote!(let ([#(#unknowns),*], #(#rank)*) = #krate::linear::#function([#(#rows),*], #rhs #groups);)
     }
 
     /// Expands to a counted loop; all unknowns change at once.

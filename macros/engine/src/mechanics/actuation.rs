@@ -69,7 +69,8 @@ impl Equations<'_> {
         let off = self.map(&off);
         let rest = self.g.substitute(&efforts, &off);
         let operands: Vec<Scalar> = matrix.into_iter().chain(rest.into_iter().map(|e| -e)).collect();
-        let mut outputs = self.g.block_outputs(BlockKind::Solve { size, symmetric: false }, &operands);
+        let mut outputs =
+            self.g.block_outputs(BlockKind::Solve { size, symmetric: false, groups: [].into() }, &operands);
         outputs.drain(wanted..size);
         for (&input, &output) in inputs.iter().zip(&outputs) {
             let name = self.g.name_of(input).map(str::to_owned);

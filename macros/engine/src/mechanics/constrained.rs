@@ -207,7 +207,8 @@ impl Equations<'_> {
         held: &[Scalar],
     ) -> (Saddle, Solved) {
         let order = self.state_elimination();
-        let saddle = Saddle::new(&mut self.g, matrix, jacobian, &order);
+        let groups = self.structure.row_groups(self.model);
+        let saddle = Saddle::new(&mut self.g, matrix, (jacobian, groups), &order);
         let Solution { unknowns: accelerations, multipliers, rank } = saddle.solve(&mut self.g, rhs, held);
         for (k, &multiplier) in multipliers.iter().enumerate() {
             self.g.name(multiplier, || format!("multiplier_{}", k + 1));

@@ -294,7 +294,8 @@ impl Equations<'_> {
     /// A pivoted solve; its rank is left aside.
     pub(super) fn solve_block(&mut self, size: usize, matrix: &[Scalar], rhs: &[Scalar]) -> Vec<Scalar> {
         let operands: Vec<Scalar> = matrix.iter().chain(rhs).copied().collect();
-        let mut outputs = self.g.block_outputs(BlockKind::Solve { size, symmetric: false }, &operands);
+        let mut outputs =
+            self.g.block_outputs(BlockKind::Solve { size, symmetric: false, groups: [].into() }, &operands);
         outputs.truncate(size);
         outputs
     }

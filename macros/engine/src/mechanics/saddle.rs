@@ -10,6 +10,8 @@ use crate::symbolic::linear_algebra::Factors;
 /// A system that is factorised once for several right-hand sides.
 pub(super) struct Saddle {
     jacobian: Vec<Vec<Scalar>>,
+    /// Rows of one unit, see [`BlockKind::Solve`].
+    groups: Box<[usize]>,
     /// Of M, with the equations of `added` in it.
     factors: Factors,
     added: Vec<usize>,
@@ -30,8 +32,13 @@ pub(super) struct Solution {
 }
 
 impl Saddle {
-    /// Eliminates rows of M in this order.
-    pub(super) fn new(g: &mut Graph, matrix: Vec<Vec<Scalar>>, jacobian: Vec<Vec<Scalar>>, order: &[usize]) -> Saddle {
+    /// Eliminates rows of M in this order. Rows of G with equal numbers in `groups` have one unit.
+    pub(super) fn new(
+        g: &mut Graph,
+        matrix: Vec<Vec<Scalar>>,
+        (jacobian, groups): (Vec<Vec<Scalar>>, Box<[usize]>),
+        order: &[usize],
+    ) -> Saddle {
         let (factors, added) = augmented(g, matrix, &jacobian, order);
         let pushed: Vec<Vec<Scalar>> = jacobian.iter().map(|row| factors.forward(g, row)).collect();
         let scaled: Vec<Vec<Scalar>> = pushed.iter().map(|row| factors.scale(g, row)).collect();
@@ -44,7 +51,7 @@ impl Saddle {
                 complement[j * size + i] = entry;
             }
         }
-        Saddle { jacobian, factors, added, pushed, scaled, complement, inverse: None }
+        Saddle { jacobian, groups, factors, added, pushed, scaled, complement, inverse: None }
     }
 
     /// Inverts the complement: for more right-hand sides than it has rows.
@@ -56,7 +63,8 @@ impl Saddle {
         let unit = |at: usize| (0..size).map(move |k| if k == at { Scalar::ONE } else { Scalar::ZERO });
         let columns = (0..size).map(|at| {
             let operands: Vec<Scalar> = self.complement.iter().copied().chain(unit(at)).collect();
-            let mut column = g.block_outputs(BlockKind::Solve { size, symmetric: true }, &operands);
+            let kind = BlockKind::Solve { size, symmetric: true, groups: self.groups.clone() };
+            let mut column = g.block_outputs(kind, &operands);
             column.truncate(size);
             column
         });
@@ -99,7 +107,8 @@ impl Saddle {
             return ((0..size).map(|k| dot(g, &row(k), &driven)).collect(), None);
         }
         let operands: Vec<Scalar> = self.complement.iter().copied().chain(driven).collect();
-        let mut multipliers = g.block_outputs(BlockKind::Solve { size, symmetric: true }, &operands);
+        let kind = BlockKind::Solve { size, symmetric: true, groups: self.groups.clone() };
+        let mut multipliers = g.block_outputs(kind, &operands);
         let rank = multipliers.pop();
         (multipliers, rank)
     }

@@ -6,6 +6,7 @@
 
 use crate::model::types::{Closing, ConstraintId, Coordinate, JointId, Model};
 
+use super::closings::is_length;
 use super::groups::Group;
 
 /// The split of one model's coordinates and equations.
@@ -104,6 +105,17 @@ impl Structure {
     pub fn with_notes(mut self, notes: Vec<String>) -> Structure {
         self.notes.extend(notes);
         self
+    }
+
+    /// Which of the equations with multipliers belong together: lengths, or cosines, of one closing, by equal numbers.
+    /// Where one of them vanishes in a singular pose, the others tell that what is left of it is rounding. Empty where
+    /// each stands for itself.
+    pub fn row_groups(&self, model: &Model) -> Box<[usize]> {
+        let group = |row: &Row| (row.closing, is_length(model, row.closing, row.index));
+        let first = |row: &Row| self.rows.iter().position(|other| group(other) == group(row)).unwrap_or(0);
+        let groups: Box<[usize]> = self.rows.iter().map(first).collect();
+        let alone = groups.iter().enumerate().all(|(k, &group)| k == group);
+        if alone { Box::default() } else { groups }
     }
 
     /// Number of coordinates in the state.

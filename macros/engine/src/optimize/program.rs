@@ -144,6 +144,8 @@ pub enum Statement {
     Solve {
         size: usize,
         symmetric: bool,
+        /// Equations of one unit, see [`BlockKind::Solve`](crate::symbolic::graph::BlockKind).
+        groups: Box<[usize]>,
         /// Row by row.
         matrix: Vec<Expression>,
         rhs: Vec<Expression>,

@@ -136,7 +136,8 @@ impl<'a> Scheduler<'a> {
         let dag: &'a Dag = self.dag;
         let Block { kind, operands } = &dag.blocks[block];
         match kind {
-            &BlockKind::Solve { size, symmetric } => {
+            BlockKind::Solve { size, symmetric, groups } => {
+                let (size, symmetric) = (*size, *symmetric);
                 let matrix: Vec<Expression> = operands.iter().map(|&id| self.signed(id).0).collect();
                 let (matrix, rhs) = matrix.split_at(size * size);
                 let named = |k| self.output(block, k).unwrap_or(if k == size { "rank" } else { "solution" }.to_owned());
@@ -145,6 +146,7 @@ impl<'a> Scheduler<'a> {
                 self.program.statements.push(Statement::Solve {
                     size,
                     symmetric,
+                    groups: groups.clone(),
                     matrix: matrix.to_vec(),
                     rhs: rhs.to_vec(),
                     results: results.clone(),

@@ -130,7 +130,7 @@ impl<'g, F: Field> Evaluator<'g, F> {
     fn block(&mut self, id: BlockId) -> Vec<F::Value> {
         let block = self.graph.block(id);
         match &block.kind {
-            &BlockKind::Solve { size, symmetric } => {
+            &BlockKind::Solve { size, symmetric, .. } => {
                 let values: Vec<F::Value> = block.operands.iter().map(|&s| self.scalar(s)).collect();
                 let (matrix, rhs) = values.split_at(size * size);
                 self.field.solve(symmetric, matrix, rhs)

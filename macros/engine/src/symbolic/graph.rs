@@ -134,8 +134,10 @@ pub struct Block {
 pub enum BlockKind {
     /// The solution of A x = b by a pivoted, branch-free factorisation in the runtime. Operands: A row by row (size^2),
     /// b (size). Results: x (size), then the numerical rank as a scalar. Rows and columns beyond the rank are left out:
-    /// then x is one solution with zeros there.
-    Solve { size: usize, symmetric: bool },
+    /// then x is one solution with zeros there. Of a symmetric system `groups` tells by equal numbers which equations have
+    /// one unit and are compared with each other, so that what rounding leaves of one is not taken for one; empty where
+    /// each stands for itself.
+    Solve { size: usize, symmetric: bool, groups: Box<[usize]> },
     /// x = next(x), a fixed number of times. Operands: starting values (one per unknown), then next values, which depend
     /// on the symbols `unknowns` and on other nodes, then the size of the residual, a scalar that depends on them too.
     /// Results: the unknowns after the last round, then the residual of the values with which that round began. The

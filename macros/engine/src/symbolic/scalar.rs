@@ -353,7 +353,11 @@ impl Graph {
             BlockKind::Iterate { unknowns, .. } => unknowns.len() + 1,
         };
         let tag = match &kind {
-            BlockKind::Solve { symmetric, .. } => 0xB10C_u64 + u64::from(*symmetric),
+            BlockKind::Solve { symmetric, groups, .. } => {
+                groups.iter().fold(0xB10C_u64 + u64::from(*symmetric), |tag, &group| {
+                    tag.wrapping_mul(0x0001_0000_01B3) ^ (group as u64 + 1)
+                })
+            }
             BlockKind::Iterate { count, .. } => 0xB10C_0000_u64 + *count as u64,
         };
         let prints: Vec<Print> = operands.iter().map(|&s| self.print(s)).collect();

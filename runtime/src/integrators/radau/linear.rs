@@ -15,6 +15,7 @@
 use super::super::slope::{Slope, SlopeOf};
 use super::tableau::{ALPHA, BETA, GAMMA};
 use crate::linear::{Solve, Square};
+use crate::tangent::unpack;
 use crate::{Differentiable, Jacobian, Real, Tangent, VelocityOf, all};
 
 type Vector<S> = <<S as Differentiable>::Matrix as Square<<S as crate::System>::Scalar>>::Vector;
@@ -67,8 +68,8 @@ impl<S: Differentiable> Matrices<S> {
     #[inline]
     pub(super) fn solve_real(&self, r: &SlopeOf<S>) -> SlopeOf<S> {
         let inverse = S::Scalar::lit(1.0 / GAMMA);
-        let pushed = self.position.times(&displacement::<S>(&r.q.scale(inverse * self.dt)));
-        let y = self.real.solve(&sum::<S>(&rates::<S>(r), &pushed));
+        let pushed = self.position.times(&S::Matrix::packed(&r.q.scale(inverse * self.dt)));
+        let y = self.real.solve(&sum::<S>(&S::Matrix::packed(&(r.v, r.x)), &pushed));
         let Slope { v, x, .. } = slope::<S>(&y);
         Slope { q: r.q.add_scaled(self.dt, &v).scale(inverse), v, x }
     }
@@ -81,8 +82,11 @@ impl<S: Differentiable> Matrices<S> {
             (a.scale(re).add_scaled(-im, b), b.scale(re).add_scaled(im, a)) //
         };
         let (q2, q3) = divided(&r2.q, &r3.q);
-        let pushed = |q: &VelocityOf<S>| self.position.times(&displacement::<S>(&q.scale(self.dt)));
-        let right = (sum::<S>(&rates::<S>(r2), &pushed(&q2)), sum::<S>(&rates::<S>(r3), &pushed(&q3)));
+        let pushed = |q: &VelocityOf<S>| self.position.times(&S::Matrix::packed(&q.scale(self.dt)));
+        let right = (
+            sum::<S>(&S::Matrix::packed(&(r2.v, r2.x)), &pushed(&q2)),
+            sum::<S>(&S::Matrix::packed(&(r3.v, r3.x)), &pushed(&q3)),
+        );
         let (y2, y3) = self.complex.solve(&right);
         let (mut y2, mut y3) = (slope::<S>(&y2), slope::<S>(&y3));
         (y2.q, y3.q) = divided(&r2.q.add_scaled(self.dt, &y2.v), &r3.q.add_scaled(self.dt, &y3.v));
@@ -90,39 +94,11 @@ impl<S: Differentiable> Matrices<S> {
     }
 }
 
-/// A displacement as a vector; zero where own states stand.
-#[inline]
-fn displacement<S: Differentiable>(q: &VelocityOf<S>) -> Vector<S> {
-    let mut vector = S::Matrix::vector(|_| S::Scalar::lit(0.0));
-    let mut places = vector.as_mut().iter_mut();
-    q.fold((), &mut |(), component| fill(&mut places, component));
-    vector
-}
-
-/// Velocities and own states as a vector.
-#[inline]
-fn rates<S: Differentiable>(slope: &SlopeOf<S>) -> Vector<S> {
-    let mut vector = S::Matrix::vector(|_| S::Scalar::lit(0.0));
-    let mut places = vector.as_mut().iter_mut();
-    slope.v.fold((), &mut |(), component| fill(&mut places, component));
-    slope.x.fold((), &mut |(), component| fill(&mut places, component));
-    vector
-}
-
-#[inline]
-fn fill<'a, T: 'a>(places: &mut impl Iterator<Item = &'a mut T>, component: T) {
-    if let Some(place) = places.next() {
-        *place = component;
-    }
-}
-
 /// A vector as velocities and own states.
 #[inline]
 fn slope<S: Differentiable>(vector: &Vector<S>) -> SlopeOf<S> {
-    let mut components = vector.as_ref().iter().copied();
-    let mut next = |_| components.next().unwrap_or_else(|| S::Scalar::lit(0.0));
-    let zero = SlopeOf::<S>::zero();
-    Slope { q: zero.q, v: zero.v.map(&mut next), x: zero.x.map(&mut next) }
+    let (v, x) = unpack(vector.as_ref());
+    Slope { q: Tangent::zero(), v, x }
 }
 
 #[inline]

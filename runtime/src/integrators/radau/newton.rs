@@ -6,6 +6,7 @@ use super::super::problem::{Problem, Step};
 use super::super::slope::{SlopeOf, magnitude};
 use super::linear::Matrices;
 use super::tableau::{ALPHA, BETA, C, GAMMA, from_stages, to_stages};
+use crate::tangent::unit;
 use crate::{Differentiable, Real, Tangent};
 
 /// How exactly the stages are solved for.
@@ -16,7 +17,7 @@ pub(super) struct Aim {
     pub(super) share: f64,
     /// The error of the stages may be this great, in terms of the tolerance.
     kappa: f64,
-    /// A change that is no longer reduced counts as rounding up to this size.
+    /// A change that is no longer reduced may be rounding up to this size.
     rounding: f64,
     /// Greatest number of iterations.
     limit: u32,
@@ -40,12 +41,33 @@ impl Aim {
     fn rounding<T: Real>() -> Self {
         let level = 16.0 * T::epsilon().greatest();
         let tolerance = Tolerance::new(level, level);
-        Self { tolerance, share: 1.0, kappa: 1.0, rounding: Real::sqrt(16.0 / level), limit: 20, hasty: false }
+        Self { tolerance, share: 1.0, kappa: 1.0, rounding: f64::INFINITY, limit: 20, hasty: false }
     }
 
     pub(super) fn of<T: Real>(tolerance: Option<Tolerance>) -> Self {
         tolerance.map_or_else(Self::rounding::<T>, Self::within::<T>)
     }
+}
+
+/// A change that is no longer reduced is rounding if it is no more than this many times what roundings of the state alone
+/// would make of it.
+const ROUNDINGS: f64 = 16.0;
+
+/// What the iteration makes of a rounding in each coordinate of a state, in the mean square.
+///
+/// A rounding `d` of the state changes slopes by `J d`, and an iteration answers by `h (gamma - h J)^-1 J d`, which is
+/// `gamma (gamma - h J)^-1 d` beside `d` itself. For a stiff spring that is a velocity of `d / h`, far more than a
+/// rounding of the velocity is; lengths round as those of one metre where coordinates are shorter.
+fn rounding<S: Differentiable>(matrices: &Matrices<S>, size: &SlopeOf<S>, norm: impl Fn(&SlopeOf<S>) -> f64) -> f64 {
+    let one = S::Scalar::lit(1.0);
+    let epsilon = S::Scalar::epsilon();
+    let mut sum = 0.0;
+    for k in 0..size.len() {
+        let d = unit::<S::Scalar, SlopeOf<S>>(k).zip(size, &mut |unit, size| unit * epsilon * (one + Real::abs(size)));
+        let answer = norm(&matrices.solve_real(&d.scale(S::Scalar::lit(GAMMA))));
+        sum += answer * answer;
+    }
+    Real::sqrt(sum)
 }
 
 /// The stages of a step as displacements from its start, if they were found.
@@ -100,7 +122,8 @@ pub(super) fn solve<S: Differentiable>(
             let ratio = if change_before > 0.0 { change / change_before } else { 0.0 };
             theta = if k == 1 { ratio } else { Real::sqrt(ratio * ratio_before) };
             ratio_before = ratio;
-            if ratio >= 0.99 && change <= aim.rounding {
+            let stalled = ratio >= 0.99 && change <= aim.rounding;
+            if stalled && change <= ROUNDINGS * rounding(matrices, &size, norm) {
                 return Solution { stages, converged: true, theta: 0.99, eta, shrink: 1.0 };
             }
             let diverges = if aim.hasty { theta >= 0.99 } else { ratio >= 2.0 };

@@ -4,6 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::emit::arguments::{Arguments, input_type};
+use crate::emit::blocks::groups_argument;
 use crate::emit::{Context, functions, names, results};
 use crate::optimize::program::FunctionKind;
 
@@ -75,6 +76,9 @@ fn constrained(context: &Context<'_>) -> Option<TokenStream> {
     let krate = layout.krate();
     let residual = results::vector_type(layout, layout.rows());
     let weights = results::vector_type(layout, layout.dof());
+    let groups = layout.structure.row_groups(layout.model);
+    let least_norm = names::ident(if groups.is_empty() { "least_norm" } else { "least_norm_in_groups" });
+    let groups = groups_argument(&groups);
     Some(quote! {
         impl<T: Real> #krate::Constrained for Model<T> {
             type Residual = #residual;
@@ -95,7 +99,8 @@ fn constrained(context: &Context<'_>) -> Option<TokenStream> {
                 weights: &Velocity<T>,
             ) -> (Velocity<T>, T) {
                 let weights: #weights = (*weights).into();
-                let (change, rank) = #krate::linear::least_norm(&self.constraint_jacobian(t, q), residual, &weights);
+                let jacobian = self.constraint_jacobian(t, q);
+                let (change, rank) = #krate::linear::#least_norm(&jacobian, residual, &weights #groups);
                 (change.into(), rank)
             }
         }

@@ -1,0 +1,53 @@
+//! What closes loops while an equilibrium is searched for: nothing ([`Open`]), or constraints ([`Loops`]).
+
+use super::search::greatest;
+use crate::{Constrained, Real, StateSpace, System, Tangent, VelocityOf};
+
+/// What closes loops.
+pub(super) trait Closing<S: System> {
+    /// Whether there are any loops.
+    const LOOPS: bool;
+    /// The greatest residual of a position.
+    fn gap(&self, t: S::Scalar, state: &S::State) -> S::Scalar;
+    /// The displacement that closes the loops.
+    fn correction(&self, t: S::Scalar, state: &S::State, weights: &VelocityOf<S>) -> VelocityOf<S>;
+    /// The part of a displacement that opens them.
+    fn across(&self, t: S::Scalar, state: &S::State, d: &VelocityOf<S>, weights: &VelocityOf<S>) -> VelocityOf<S>;
+}
+
+/// There are no loops.
+pub(super) struct Open;
+
+impl<S: System> Closing<S> for Open {
+    const LOOPS: bool = false;
+    fn gap(&self, _: S::Scalar, _: &S::State) -> S::Scalar {
+        S::Scalar::lit(0.0)
+    }
+    fn correction(&self, _: S::Scalar, _: &S::State, _: &VelocityOf<S>) -> VelocityOf<S> {
+        Tangent::zero()
+    }
+    fn across(&self, _: S::Scalar, _: &S::State, _: &VelocityOf<S>, _: &VelocityOf<S>) -> VelocityOf<S> {
+        Tangent::zero()
+    }
+}
+
+/// The loops of a constrained system.
+pub(super) struct Loops<'a, S>(pub(super) &'a S);
+
+impl<S: Constrained> Closing<S> for Loops<'_, S> {
+    const LOOPS: bool = true;
+    fn gap(&self, t: S::Scalar, state: &S::State) -> S::Scalar {
+        greatest(&self.0.constraints(t, &state.split().0))
+    }
+    fn correction(&self, t: S::Scalar, state: &S::State, weights: &VelocityOf<S>) -> VelocityOf<S> {
+        let (q, _, _) = state.split();
+        let minus = self.0.constraints(t, &q).scale(S::Scalar::lit(-1.0));
+        self.0.correction(t, &q, &minus, weights).0
+    }
+    fn across(&self, t: S::Scalar, state: &S::State, d: &VelocityOf<S>, weights: &VelocityOf<S>) -> VelocityOf<S> {
+        let (q, _, x) = state.split();
+        let rate = |v: VelocityOf<S>| self.0.constraint_rate(t, &state.join(q, v, x));
+        let opened = rate(*d).add_scaled(S::Scalar::lit(-1.0), &rate(Tangent::zero()));
+        self.0.correction(t, &q, &opened, weights).0
+    }
+}
