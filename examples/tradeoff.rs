@@ -31,6 +31,8 @@ mod subject;
 mod svg;
 #[path = "tradeoff/table.rs"]
 mod table;
+#[path = "tradeoff/timing.rs"]
+mod timing;
 
 use std::path::PathBuf;
 use std::time::Instant;
