@@ -15,6 +15,8 @@ mod analysis;
 mod bench;
 #[path = "tradeoff/growth.rs"]
 mod growth;
+#[path = "tradeoff/judge.rs"]
+mod judge;
 #[path = "tradeoff/mechanisms.rs"]
 mod mechanisms;
 #[path = "tradeoff/models.rs"]
@@ -76,7 +78,7 @@ fn summary(benches: &[Bench]) -> String {
          In brackets: cost over that of the best in each scene, the mean over evaluations and time.\n\n{}\n\
          ## Single precision\n\n{}",
         scenes.join("\n"),
-        table::chosen(benches),
+        judge::judged(benches),
         table::advice(&advice::advice(benches)),
         table::single(&advice::single(benches)),
     )

@@ -181,12 +181,7 @@ impl Bench {
         self.runs(Series { steps: Steps::Adaptive, order: M::ORDER, ..series }, &mut settings, solver);
     }
 
-    fn integrating<S, M>(
-        &self,
-        subject: &Rc<Subject<S>>,
-        method: M,
-        integrator: fn(M, f64) -> Integrator<M>,
-    ) -> Solver
+    fn integrating<S, M>(&self, subject: &Rc<Subject<S>>, method: M, integrator: fn(M, f64) -> Integrator<M>) -> Solver
     where
         S: System<Input = ()> + 'static,
         M: Method<S> + 'static,
@@ -239,7 +234,9 @@ impl Bench {
             }
             stale = if error > 0.6 * best { stale + 1 } else { 0 };
             best = error.min(best);
-            let settled = stale >= 2 && best / self.growth < if series.scalar == "f32" { 1e-4 } else { 1e-10 };
+            // Errors that no longer fall have met rounding; two that fell by luck, and early, have not.
+            let [floor, luck] = if series.scalar == "f32" { [1e-5, 1e-4] } else { [1e-13, 1e-10] };
+            let settled = (stale >= 2 && best / self.growth < floor) || (stale >= 4 && best / self.growth < luck);
             if evaluations > self.effort.budget || settled {
                 break;
             }

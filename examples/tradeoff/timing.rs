@@ -26,13 +26,15 @@ pub(crate) fn time(bench: &mut Bench) {
 fn least(run: impl Fn(), timing: Duration, batch: Duration) -> f64 {
     let (start, mut least) = (Instant::now(), f64::INFINITY);
     while start.elapsed() < timing || least.is_infinite() {
-        let (begin, waited, mut count) = (Instant::now(), waited(), 0);
+        // A wait between the readings of the two clocks must not count as lost if it doesn't count as spent.
+        let (begin, before, mut count) = (Instant::now(), waited(), 0);
         while count == 0 || begin.elapsed() < batch {
             run();
             count += 1;
         }
         // Others had their turn: a short batch is lost, unless all are; a long one is corrected.
-        let (all, lost) = (begin.elapsed(), self::waited().saturating_sub(waited));
+        let lost = waited().saturating_sub(before);
+        let all = begin.elapsed();
         if lost.is_zero() || all > timing || start.elapsed() > 20 * timing {
             least = least.min(all.saturating_sub(lost).as_secs_f64() / f64::from(count));
         }
