@@ -3,9 +3,9 @@
 //! `cargo run --release --example tradeoff [-- --quick] [scene ..] [directory]`
 //!
 //! Writes `tradeoff.csv`, `summary.md` and a plot of each scene into the directory, `target/tradeoff` unless another is
-//! given. Errors are those at the end against solutions of 25 digits (the platform's against 16), relative, and divided by
-//! the problem's own growth of errors; times are the least of several rounds through all runs of a scene, so that their
-//! ratios mean something.
+//! given. Errors are those at the end against solutions of 25 digits, relative, and divided by the problem's own growth of
+//! errors; times are the least of several rounds through all runs of a scene, so that their ratios mean something. `--quick`
+//! takes few points of each curve and shows that all of this works.
 
 #[path = "tradeoff/advice.rs"]
 mod advice;
