@@ -71,10 +71,21 @@ fn main() -> Result<(), std::io::Error> {
     Ok(())
 }
 
+/// What the summary starts with.
+const INTRODUCTION: &str = "\
+# What accuracy costs
+
+Written by `cargo run --release --example tradeoff`, with a picture of each scene and every run in `tradeoff.csv`. Errors are
+those at the end, relative, divided by the problem's own growth of errors. An accuracy is reached where no finer setting has
+a greater error; orders are those along the curve, over steps where steps are fixed and over evaluations where they are not.
+Times are those of one core, per simulated second.
+
+";
+
 fn summary(benches: &[Bench]) -> String {
     let scenes: Vec<String> = benches.iter().map(table::scene).collect();
     format!(
-        "{}\n## The choice of `simulate`\n\n{}\n## Recommendation\n\n\
+        "{INTRODUCTION}## Scenes\n\n{}\n## The choice of `simulate`\n\n{}\n## Recommendation\n\n\
          In brackets: cost over that of the best in each scene, the mean over evaluations and time.\n\n{}\n\
          ## Single precision\n\n{}",
         scenes.join("\n"),

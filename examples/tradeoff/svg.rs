@@ -133,7 +133,7 @@ impl Picture {
         };
         let _ = writeln!(
             self.out,
-            "<marker id=\"m{number}\" viewBox=\"-4 -4 8 8\" markerWidth=\"8\" markerHeight=\"8\" markerUnits=\"userSpaceOnUse\"><path d=\"M-2.1 0{shape}\" style=\"fill:{fill}\" stroke=\"{colour}\"/></marker>"
+            "<marker id=\"m{number}\" viewBox=\"-4 -4 8 8\" markerWidth=\"8\" markerHeight=\"8\" markerUnits=\"userSpaceOnUse\"><path d=\"M-2.1 0{shape}\" style=\"fill:{fill}\" stroke=\"{colour}\" stroke-dasharray=\"99\"/></marker>"
         );
         number
     }

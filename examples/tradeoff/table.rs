@@ -60,7 +60,8 @@ pub(crate) fn time(seconds: f64) -> String {
 /// One scene: a line for each curve.
 pub(crate) fn scene(bench: &Bench) -> String {
     let all = curves(bench);
-    let mut out = format!("### {}\n\n", bench.scene.title);
+    let (title, name) = (bench.scene.title, bench.scene.name);
+    let mut out = format!("### {title}\n\n![{title}]({name}.svg)\n\n");
     let _ = writeln!(
         out,
         "Growth of errors {:.3}. Columns at an accuracy: evaluations, and time per simulated second; the best in bold.\n",
