@@ -39,6 +39,9 @@ pub(crate) fn curves(bench: &Bench) -> Vec<Curve<'_>> {
     all
 }
 
+/// An order is told if the work differs by at least that factor.
+const WORK: f64 = 1.5;
+
 /// The slope of errors over the number of steps (over evaluations, where steps were chosen by error), both as logarithms,
 /// by least squares over the finest points above the floor.
 fn order(curve: &Curve<'_>) -> Option<f64> {
@@ -54,6 +57,11 @@ fn order(curve: &Curve<'_>) -> Option<f64> {
         list.drain(..list.len().saturating_sub(5));
     }
     if list.len() < 3 {
+        return None;
+    }
+    // Where steps are bound by stability, errors fall at no cost, which is no order.
+    let range = list.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), point| (a.min(point.0), b.max(point.0)));
+    if range.1 - range.0 < WORK.ln() {
         return None;
     }
     let count = list.len() as f64;

@@ -1,14 +1,13 @@
-//! Sweeps: one method on one subject over many steps or tolerances, each run checked and timed.
+//! Sweeps: one method on one subject over many steps or tolerances, each run checked.
 
-use std::hint::black_box;
 use std::io::Write;
 use std::rc::Rc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use multibody::{IntegrationError, Integrator, Method, Statistics, System};
 
 use crate::reference::Truth;
-use crate::subject::{Laws, Subject};
+use crate::subject::{Solver, Subject};
 
 /// A run with a greater error is no solution, whatever the problem's growth of errors.
 const SOLUTION: f64 = 0.1;
@@ -111,8 +110,6 @@ pub(crate) struct Point {
     pub(crate) bound: f64,
 }
 
-type Timed = Box<dyn Fn()>;
-
 /// All runs of a scene.
 pub(crate) struct Bench {
     pub(crate) scene: Scene,
@@ -127,7 +124,8 @@ pub(crate) struct Bench {
     pub(crate) points: Vec<Point>,
     /// Runs that did not reach the end.
     pub(crate) failures: Vec<(Series, f64, IntegrationError)>,
-    timed: Vec<Timed>,
+    /// What gave each point.
+    pub(crate) solvers: Vec<Rc<Solver>>,
 }
 
 impl Bench {
@@ -144,7 +142,7 @@ impl Bench {
             jacobian: 1.0,
             points: Vec::new(),
             failures: Vec::new(),
-            timed: Vec::new(),
+            solvers: Vec::new(),
         }
     }
 
@@ -166,10 +164,9 @@ impl Bench {
         S: System<Input = ()> + 'static,
         M: Method<S> + 'static,
     {
-        let steps = self.steps();
-        self.sweep(Series { steps: Steps::Fixed, order: M::ORDER, ..series }, steps, subject, move |step| {
-            Integrator::fixed(method, step)
-        });
+        let solver = self.integrating(subject, method, Integrator::fixed);
+        let mut steps = self.steps();
+        self.runs(Series { steps: Steps::Fixed, order: M::ORDER, ..series }, &mut steps, solver);
     }
 
     /// Steps by tolerance, from loose to tight ones.
@@ -178,56 +175,31 @@ impl Bench {
         S: System<Input = ()> + 'static,
         M: Method<S> + 'static,
     {
+        let solver = self.integrating(subject, method, |method, within| Integrator::adaptive(method, within, within));
         let factor = self.effort.tolerance_factor;
-        let settings = (0..).map(move |k| 1e-1 / factor.powi(k)).take_while(|tolerance| *tolerance > 2e-16);
-        self.sweep(Series { steps: Steps::Adaptive, order: M::ORDER, ..series }, settings, subject, move |tolerance| {
-            Integrator::adaptive(method, tolerance, tolerance)
-        });
+        let mut settings = (0..).map(move |k| 1e-1 / factor.powi(k)).take_while(|tolerance| *tolerance > 2e-16);
+        self.runs(Series { steps: Steps::Adaptive, order: M::ORDER, ..series }, &mut settings, solver);
     }
 
-    fn sweep<S, M>(
-        &mut self,
-        series: Series,
-        settings: impl Iterator<Item = f64>,
-        subject: &Rc<Subject<S>>,
-        integrator: impl Fn(f64) -> Integrator<M>,
-    ) where
+    fn integrating<S, M>(&self, subject: &Rc<Subject<S>>, method: M, integrator: fn(M, f64) -> Integrator<M>) -> Solver
+    where
         S: System<Input = ()> + 'static,
         M: Method<S> + 'static,
     {
         let (end, most) = (self.truth.end, (2.0 * self.effort.budget) as u32);
-        self.runs(series, settings, subject, |setting| {
-            let integrator = integrator(setting).max_steps(most);
-            move |subject: &Subject<S>, observe: &mut dyn FnMut(f64, &S::State)| {
-                integrator.integrate(&subject.system, 0.0, end, &subject.start, &(), observe)
-            }
-        });
+        Subject::solver(subject, move |subject, setting, observe| {
+            let integrator = integrator(method, setting).max_steps(most);
+            integrator.integrate(&subject.system, 0.0, end, &subject.start, &(), observe)
+        })
     }
 
     /// Runs of any kind: until a budget is spent, or errors no longer fall.
-    pub(crate) fn runs<S, R>(
-        &mut self,
-        series: Series,
-        settings: impl Iterator<Item = f64>,
-        subject: &Rc<Subject<S>>,
-        run: impl Fn(f64) -> R,
-    ) where
-        S: System<Input = ()> + 'static,
-        R: Fn(&Subject<S>, &mut dyn FnMut(f64, &S::State)) -> Result<(S::State, Statistics), IntegrationError>
-            + 'static,
-    {
+    pub(crate) fn runs(&mut self, series: Series, settings: &mut dyn Iterator<Item = f64>, solver: Solver) {
+        let solver = Rc::new(solver);
         let (mut best, mut stale, mut wild) = (f64::INFINITY, 0, 0);
         for setting in settings {
-            let run = run(setting);
-            let first = (subject.laws)(&subject.start);
-            let mut worst = Laws { energy: 0.0, gap: first.gap };
-            let mut observe = |_: f64, state: &S::State| {
-                let now = (subject.laws)(state);
-                worst.energy = greater(worst.energy, (now.energy - first.energy).abs());
-                worst.gap = greater(worst.gap, now.gap);
-            };
-            let (state, statistics) = match run(subject, &mut observe) {
-                Ok(end) => end,
+            let outcome = match (solver.observed)(setting) {
+                Ok(outcome) => outcome,
                 Err(error) => {
                     self.failures.push((series, setting, error));
                     wild += 1;
@@ -237,11 +209,12 @@ impl Bench {
                     continue;
                 }
             };
-            let error = self.truth.error(&(subject.motion)(&state));
+            let (error, statistics) = (self.truth.error(&outcome.motion), outcome.statistics);
             let evaluations = f64::from(statistics.evaluations) + self.jacobian * f64::from(statistics.jacobians);
             let (at_end, scale) = self.energy;
             let drift =
-                if self.scene.conservative { worst.energy } else { ((subject.laws)(&state).energy - at_end).abs() };
+                if self.scene.conservative { outcome.worst.energy } else { (outcome.last.energy - at_end).abs() };
+            let bound = if error <= SOLUTION { error / self.growth } else { f64::INFINITY };
             self.points.push(Point {
                 series,
                 setting,
@@ -249,73 +222,36 @@ impl Bench {
                 evaluations,
                 error,
                 own: error / self.growth,
-                gap: worst.gap,
+                gap: outcome.worst.gap,
                 drift: drift / scale,
                 seconds: f64::INFINITY,
-                bound: if error <= SOLUTION { error / self.growth } else { f64::INFINITY },
+                bound,
             });
-            let bound = self.points.last().map_or(f64::INFINITY, |point| point.bound);
+            self.solvers.push(Rc::clone(&solver));
             // Coarser runs that were better by luck.
             for earlier in self.points.iter_mut().rev().skip(1).take_while(|earlier| earlier.series == series) {
                 earlier.bound = greater(earlier.bound, bound);
             }
-            let subject = Rc::clone(subject);
-            self.timed.push(Box::new(move || {
-                let _ = black_box(run(black_box(&subject), &mut |_, _| ()));
-            }));
             stale = if error > 0.6 * best { stale + 1 } else { 0 };
             best = error.min(best);
-            let settled = stale >= 2 && best / self.growth < if series.scalar == "f32" { 1e-4 } else { 1e-10 };
+            // Errors that no longer fall have met rounding; two that fell by luck, and early, have not.
+            let [floor, luck] = if series.scalar == "f32" { [1e-5, 1e-4] } else { [1e-13, 1e-10] };
+            let settled = (stale >= 2 && best / self.growth < floor) || (stale >= 4 && best / self.growth < luck);
             if evaluations > self.effort.budget || settled {
                 break;
             }
         }
-        print!("\r  {}: {} runs, {:<20}", self.scene.name, self.points.len(), series.method);
+        self.progress(series.method);
+    }
+
+    /// What is being done, on one line of the terminal.
+    pub(crate) fn progress(&self, what: &str) {
+        print!("\r  {}: {} runs, {what:<20}", self.scene.name, self.points.len());
         let _ = std::io::stdout().flush();
     }
-
-    /// Times all runs, round after round, so that a slow moment of the machine strikes no method alone.
-    pub(crate) fn time(&mut self) {
-        let end = self.truth.end;
-        for pass in 0..self.effort.passes {
-            print!(
-                "\r  {}: {} runs, timing {} of {} ",
-                self.scene.name,
-                self.points.len(),
-                pass + 1,
-                self.effort.passes
-            );
-            let _ = std::io::stdout().flush();
-            for (point, run) in self.points.iter_mut().zip(&self.timed) {
-                let start = Instant::now();
-                while start.elapsed() < self.effort.timing || point.seconds.is_infinite() {
-                    let (batch, waited, mut count) = (Instant::now(), waited(), 0);
-                    while count == 0 || batch.elapsed() < self.effort.batch {
-                        run();
-                        count += 1;
-                    }
-                    // Others had their turn: a short batch is lost, a long one is corrected.
-                    let (all, lost) = (batch.elapsed(), self::waited().saturating_sub(waited));
-                    if lost.is_zero() || all > 4 * self.effort.timing.max(lost) {
-                        let spent = (all - lost).as_secs_f64();
-                        point.seconds = point.seconds.min(spent / f64::from(count) / end);
-                    } else if start.elapsed() > 20 * self.effort.timing.max(all) {
-                        point.seconds = point.seconds.min(all.as_secs_f64() / f64::from(count) / end);
-                    }
-                }
-            }
-        }
-        println!();
-    }
-}
-
-/// How long this thread has been ready to run and did not, where the system tells (Linux): time of others.
-fn waited() -> Duration {
-    let text = std::fs::read_to_string("/proc/self/schedstat").unwrap_or_default();
-    Duration::from_nanos(text.split_whitespace().nth(1).and_then(|word| word.parse().ok()).unwrap_or(0))
 }
 
 /// The greater of two, NaN if one is.
-fn greater(a: f64, b: f64) -> f64 {
+pub(crate) fn greater(a: f64, b: f64) -> f64 {
     if b <= a { a } else { b }
 }

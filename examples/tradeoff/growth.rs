@@ -4,7 +4,7 @@ use multibody::{Differentiable, Dop853, Integrator, Radau, Tangent, VelocityOf};
 
 use crate::bench::Kind;
 use crate::reference::Truth;
-use crate::subject::{Subject, displaced};
+use crate::subject::{Observer, Subject, displaced};
 
 /// The end of an accurate run, by the implicit method for stiff scenes.
 pub(crate) fn accurate<S: Differentiable<Scalar = f64, Input = ()>>(
@@ -12,7 +12,7 @@ pub(crate) fn accurate<S: Differentiable<Scalar = f64, Input = ()>>(
     kind: Kind,
     end: f64,
     state: &S::State,
-    observe: impl FnMut(f64, &S::State),
+    observe: Observer<'_, S>,
 ) -> S::State {
     let system = &subject.system;
     let run = if kind == Kind::Stiff {
@@ -32,7 +32,7 @@ pub(crate) fn growth<S: Differentiable<Scalar = f64, Input = ()>>(
     kind: Kind,
 ) -> f64 {
     let differences = |state: &S::State| {
-        let end = accurate(subject, kind, truth.end, state, |_, _| ());
+        let end = accurate(subject, kind, truth.end, state, &mut |_, _| ());
         truth.differences(&(subject.motion)(&end))
     };
     let count = VelocityOf::<S>::zero().len();

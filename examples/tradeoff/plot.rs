@@ -176,7 +176,7 @@ fn handlings(picture: &mut Picture, all: &[Curve<'_>], place: impl Fn(f64, f64) 
         across: TIMED,
         lines: ways
             .iter()
-            .map(|curve| line(curve, curve.series.handling.to_owned(), handling(curve.series), TIME, value))
+            .map(|curve| line(curve, way(curve.series), handling(curve.series), TIME, value))
             .filter(|line| line.points.iter().any(|point| point.1 > 0.0))
             .collect(),
         hull: Vec::new(),
@@ -188,11 +188,15 @@ fn handlings(picture: &mut Picture, all: &[Curve<'_>], place: impl Fn(f64, f64) 
         PANEL,
     );
     picture.panel(&panel("Greatest gap of a loop [m]", |point| point.gap), place(2.0, 1.0), PANEL);
-    keys(
-        picture,
-        2.0,
-        ways.iter().map(|curve| (handling(curve.series), curve.series.handling.to_owned(), said(curve))),
-    );
+    keys(picture, 2.0, ways.iter().map(|curve| (handling(curve.series), way(curve.series), said(curve))));
+}
+
+/// Its name.
+fn way(series: Series) -> String {
+    match series.method {
+        "GeneralisedAlpha" => format!("gen. alpha, {}", series.handling),
+        _ => series.handling.to_owned(),
+    }
 }
 
 /// What a curve says in words.

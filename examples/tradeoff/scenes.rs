@@ -18,6 +18,7 @@ use crate::mechanisms::{
 use crate::models;
 use crate::reference::Truth;
 use crate::subject::Subject;
+use crate::timing::time;
 
 /// Names of all scenes, in order.
 pub(crate) const NAMES: [&str; 9] =
@@ -82,7 +83,7 @@ pub(crate) fn run(name: &'static str, effort: Effort) -> Bench {
             &governor(),
         ),
     };
-    bench.time();
+    time(&mut bench);
     bench
 }
 
@@ -122,11 +123,11 @@ fn start<S: Differentiable<Scalar = f64, Input = ()>>(scene: Scene, effort: Effo
     let truth = Truth::of(scene.name);
     let growth = growth(subject, &truth, scene.kind);
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-    let watch = |_: f64, state: &S::State| {
+    let mut watch = |_: f64, state: &S::State| {
         let kinetic = (subject.laws)(state).energy;
         (least, most) = (least.min(kinetic), most.max(kinetic));
     };
-    let end = accurate(subject, scene.kind, truth.end, &subject.start, watch);
+    let end = accurate(subject, scene.kind, truth.end, &subject.start, &mut watch);
     let energy = (subject.laws)(&end).energy;
     let scale = if scene.conservative { 1.0 + energy.abs() } else { 1.0 + (most - least) };
     let jacobian = derivatives(scene.name);
@@ -183,34 +184,32 @@ fn general<S: Differentiable<Input = ()> + Clone + 'static>(
 }
 
 /// The method that is chosen by itself.
-fn chosen<S: System<Input = ()> + Clone + 'static>(
+fn chosen<S: System<Input = ()> + 'static>(
     bench: &mut Bench,
-    subject: &Subject<S>,
+    subject: &Rc<Subject<S>>,
     handling: &'static str,
     scalar: &'static str,
 ) {
-    let (end, accuracies) = (bench.truth.end, bench.accuracies());
-    let series = Series { steps: Steps::Adaptive, ..by("simulate", handling, scalar) };
-    bench.runs(series, accuracies, &Rc::new(subject.clone()), move |accuracy| {
-        move |subject: &Subject<S>, observe: &mut dyn FnMut(f64, &S::State)| {
-            simulate(&subject.system, 0.0, end, &subject.start, &(), accuracy, observe)
-        }
+    let end = bench.truth.end;
+    let solver = Subject::solver(subject, move |subject, accuracy, observe| {
+        simulate(&subject.system, 0.0, end, &subject.start, &(), accuracy, observe)
     });
+    let (series, mut accuracies) = (by("simulate", handling, scalar), bench.accuracies());
+    bench.runs(Series { steps: Steps::Adaptive, ..series }, &mut accuracies, solver);
 }
 
 /// The one that is chosen for stiff systems.
-fn chosen_for_stiff<S: Differentiable<Input = ()> + Clone + 'static>(
+fn chosen_for_stiff<S: Differentiable<Input = ()> + 'static>(
     bench: &mut Bench,
-    subject: &Subject<S>,
+    subject: &Rc<Subject<S>>,
     scalar: &'static str,
 ) {
-    let (end, accuracies) = (bench.truth.end, bench.accuracies());
-    let series = Series { steps: Steps::Adaptive, ..by("simulate_stiff", "", scalar) };
-    bench.runs(series, accuracies, &Rc::new(subject.clone()), move |accuracy| {
-        move |subject: &Subject<S>, observe: &mut dyn FnMut(f64, &S::State)| {
-            simulate_stiff(&subject.system, 0.0, end, &subject.start, &(), accuracy, observe)
-        }
+    let end = bench.truth.end;
+    let solver = Subject::solver(subject, move |subject, accuracy, observe| {
+        simulate_stiff(&subject.system, 0.0, end, &subject.start, &(), accuracy, observe)
     });
+    let (series, mut accuracies) = (by("simulate_stiff", "", scalar), bench.accuracies());
+    bench.runs(Series { steps: Steps::Adaptive, ..series }, &mut accuracies, solver);
 }
 
 /// Methods in positions and momenta.
@@ -244,6 +243,7 @@ fn selected<S: System<Input = ()> + Clone + 'static>(
     bench.fixed(by("Rk4", handling, scalar), &subject, Rk4);
     bench.adaptive(by("DormandPrince", handling, scalar), &subject, DormandPrince);
     bench.adaptive(by("Dop853", handling, scalar), &subject, Dop853);
+    chosen(bench, &subject, handling, scalar);
 }
 
 /// A mechanism with loops: in reduced coordinates, then with multipliers and what keeps them closed.
@@ -281,15 +281,15 @@ where
 {
     let subject = Rc::new(subject.clone());
     let (end, rate) = (bench.truth.end, 5.0 / bench.scene.coarse);
-    let steps = bench.steps();
+    let mut steps = bench.steps();
     let series = Series { order: 4, ..by("Rk4", "Baumgarte", "f64") };
-    bench.runs(series, steps, &subject, move |step| {
-        move |subject: &Subject<C>, observe: &mut dyn FnMut(f64, &C::State)| {
-            let system = WithBaumgarte::for_step(&subject.system, step);
-            Integrator::fixed(Rk4, step).integrate(&system, 0.0, end, &subject.start, &(), observe)
-        }
+    let solver = Subject::solver(&subject, move |subject, step, observe| {
+        let system = WithBaumgarte::for_step(&subject.system, step);
+        Integrator::fixed(Rk4, step).integrate(&system, 0.0, end, &subject.start, &(), observe)
     });
+    bench.runs(series, &mut steps, solver);
     let stabilised = Rc::new(subject.with(|system| WithBaumgarte::new(system, rate)));
     bench.adaptive(by("DormandPrince", "Baumgarte", "f64"), &stabilised, DormandPrince);
     bench.adaptive(by("Dop853", "Baumgarte", "f64"), &stabilised, Dop853);
+    chosen(bench, &stabilised, "Baumgarte", "f64");
 }

@@ -1,9 +1,16 @@
 //! A mechanism in one formulation and one scalar, ready to be integrated and looked at.
 
+use std::hint::black_box;
+use std::rc::Rc;
+
 use multibody::nalgebra::SVector;
 use multibody::projection::ByMass;
-use multibody::{Constrained, Impulsive, Projection, Real, StateSpace, System, Tangent, VelocityOf, WithProjection};
+use multibody::{
+    Constrained, Impulsive, IntegrationError, Projection, Real, StateSpace, Statistics, System, Tangent, VelocityOf,
+    WithProjection,
+};
 
+use crate::bench::greater;
 use crate::reference::Motion;
 
 /// What a motion should keep.
@@ -24,7 +31,65 @@ pub(crate) struct Subject<S: System> {
     pub(crate) laws: fn(&S::State) -> Laws,
 }
 
+type Integrate<S> =
+    Rc<dyn Fn(&Subject<S>, f64, Observer<'_, S>) -> Result<(<S as System>::State, Statistics), IntegrationError>>;
+
+/// Sees the states of a run.
+pub(crate) type Observer<'a, S> = &'a mut dyn FnMut(f64, &<S as System>::State);
+
+/// What a run came to.
+pub(crate) struct Outcome {
+    pub(crate) motion: Motion,
+    /// At the end.
+    pub(crate) last: Laws,
+    /// The greatest change of energy and the greatest gap.
+    pub(crate) worst: Laws,
+    pub(crate) statistics: Statistics,
+}
+
+/// A method on a subject, of which the setting (a step, a tolerance) is still open. Only what integrates knows their types:
+/// all else is compiled once.
+pub(crate) struct Solver {
+    /// Runs and looks at every state.
+    pub(crate) observed: Box<dyn Fn(f64) -> Result<Outcome, IntegrationError>>,
+    /// Runs, to be timed.
+    pub(crate) plain: Box<dyn Fn(f64)>,
+}
+
 impl<S: System> Subject<S> {
+    /// What runs by the given function.
+    pub(crate) fn solver(
+        this: &Rc<Self>,
+        integrate: impl Fn(&Self, f64, Observer<'_, S>) -> Result<(S::State, Statistics), IntegrationError> + 'static,
+    ) -> Solver
+    where
+        S: 'static,
+    {
+        Self::erased(this, Rc::new(integrate))
+    }
+
+    fn erased(this: &Rc<Self>, integrate: Integrate<S>) -> Solver
+    where
+        S: 'static,
+    {
+        let (subject, same) = (Rc::clone(this), Rc::clone(&integrate));
+        let plain = Box::new(move |setting| {
+            let _ = black_box(same(black_box(&subject), setting, &mut |_, _| ()));
+        });
+        let subject = Rc::clone(this);
+        let observed = Box::new(move |setting| {
+            let first = (subject.laws)(&subject.start);
+            let mut worst = Laws { energy: 0.0, gap: first.gap };
+            let (state, statistics) = integrate(&subject, setting, &mut |_, state| {
+                let now = (subject.laws)(state);
+                worst.energy = greater(worst.energy, (now.energy - first.energy).abs());
+                worst.gap = greater(worst.gap, now.gap);
+            })?;
+            Ok(Outcome { motion: (subject.motion)(&state), last: (subject.laws)(&state), worst, statistics })
+        });
+        Solver { observed, plain }
+    }
+
     /// The same motion by another system.
     pub(crate) fn with<W: System<State = S::State>>(&self, wrap: impl FnOnce(S) -> W) -> Subject<W>
     where

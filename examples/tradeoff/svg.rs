@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-const TEXT: &str = "font-family=\"DejaVu Sans, Verdana, sans-serif\"";
+const TEXT: &str = "text{font-family:DejaVu Sans,Verdana,sans-serif}polyline,path{fill:none}";
 /// Greatest number of digits between two lines of the grid.
 const LINES: i32 = 6;
 
@@ -45,6 +45,8 @@ pub(crate) struct Panel {
 /// A picture under construction.
 pub(crate) struct Picture {
     out: String,
+    /// Styles whose marks are defined: by number.
+    marks: Vec<Style>,
 }
 
 /// A rectangle: left, top, right, bottom.
@@ -70,9 +72,10 @@ impl Picture {
     pub(crate) fn new(width: f64, height: f64) -> Self {
         let out = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n\
+             <style>{TEXT}</style>\n\
              <rect width=\"{width}\" height=\"{height}\" fill=\"white\"/>\n"
         );
-        Self { out }
+        Self { out, marks: Vec::new() }
     }
 
     pub(crate) fn finish(mut self) -> String {
@@ -84,40 +87,55 @@ impl Picture {
         let words = words.replace('&', "&amp;").replace('<', "&lt;");
         let _ = writeln!(
             self.out,
-            "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" text-anchor=\"{anchor}\" fill=\"{colour}\" {TEXT}>{words}</text>"
+            "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" text-anchor=\"{anchor}\" fill=\"{colour}\">{words}</text>"
         );
     }
 
     /// A name with its style, a note under it.
     pub(crate) fn key(&mut self, (x, y): (f64, f64), style: Style, name: &str, note: &str) {
-        self.stroke(&[(x, y - 4.0), (x + 30.0, y - 4.0)], style);
-        self.mark((x + 15.0, y - 4.0), style);
+        self.stroke(&[(x, y - 4.0), (x + 15.0, y - 4.0), (x + 30.0, y - 4.0)], style, "mid");
         self.text((x + 38.0, y), 11.5, "start", "#222", name);
         self.text((x + 38.0, y + 12.5), 9.5, "start", "#777", note);
     }
 
-    fn stroke(&mut self, points: &[(f64, f64)], style: Style) {
+    /// A curve with its marks, at all points or at those between.
+    fn stroke(&mut self, points: &[(f64, f64)], style: Style, marked: &str) {
+        let number = self.defined(style);
         let list: Vec<String> = points.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
         let dash = if style.dashed { " stroke-dasharray=\"5 3\"" } else { "" };
+        let ends = if marked == "mid" {
+            String::new()
+        } else {
+            format!(" marker-start=\"url(#m{number})\" marker-end=\"url(#m{number})\"")
+        };
         let _ = writeln!(
             self.out,
-            "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"{dash}/>",
+            "<polyline points=\"{}\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"{dash} marker-mid=\"url(#m{number})\"{ends}/>",
             list.join(" "),
             style.colour,
             style.width
         );
     }
 
-    fn mark(&mut self, (x, y): (f64, f64), style: Style) {
+    /// The number of a style's mark, defined where it is first used.
+    fn defined(&mut self, style: Style) -> usize {
+        if let Some(number) = self.marks.iter().position(|other| *other == style) {
+            return number;
+        }
+        let number = self.marks.len();
+        self.marks.push(style);
         let (fill, colour) = (if style.dashed { "white" } else { style.colour }, style.colour);
-        let r = 2.1;
         let shape = match style.mark {
-            Mark::Circle => format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{r}\""),
-            Mark::Square => format!("<path d=\"M{:.1} {:.1}h3.8v3.8h-3.8z\"", x - 1.9, y - 1.9),
-            Mark::Triangle => format!("<path d=\"M{:.1} {:.1}l2.7 4.6h-5.4z\"", x, y - 2.9),
-            Mark::Diamond => format!("<path d=\"M{:.1} {:.1}l2.8 2.8l-2.8 2.8l-2.8 -2.8z\"", x, y - 2.8),
+            Mark::Circle => "a2.1 2.1 0 1 0 4.2 0a2.1 2.1 0 1 0-4.2 0z",
+            Mark::Square => "m.2-1.9h3.8v3.8h-3.8z",
+            Mark::Triangle => "m2.1-2.9l2.7 4.6h-5.4z",
+            Mark::Diamond => "m2.1-2.8l2.8 2.8l-2.8 2.8l-2.8-2.8z",
         };
-        let _ = writeln!(self.out, "{shape} fill=\"{fill}\" stroke=\"{colour}\" stroke-width=\"1\"/>");
+        let _ = writeln!(
+            self.out,
+            "<marker id=\"m{number}\" viewBox=\"-4 -4 8 8\" markerWidth=\"8\" markerHeight=\"8\" markerUnits=\"userSpaceOnUse\"><path d=\"M-2.1 0{shape}\" style=\"fill:{fill}\" stroke=\"{colour}\" stroke-dasharray=\"99\"/></marker>"
+        );
+        number
     }
 
     /// A panel whose frame has its left upper corner at the given point.
@@ -152,7 +170,7 @@ impl Picture {
             let list: Vec<String> = hull.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
             let _ = writeln!(
                 self.out,
-                "<polyline points=\"{}\" fill=\"none\" stroke=\"#f5d76e\" stroke-opacity=\"0.75\" stroke-width=\"11\" stroke-linejoin=\"round\" stroke-linecap=\"round\"/>",
+                "<polyline points=\"{}\" stroke=\"#f5d76e\" stroke-opacity=\"0.75\" stroke-width=\"11\" stroke-linejoin=\"round\" stroke-linecap=\"round\"/>",
                 list.join(" ")
             );
         }
@@ -162,10 +180,7 @@ impl Picture {
             .map(|line| line.points.iter().filter(|point| visible(**point)).map(|point| place(*point)).collect())
             .collect();
         for (line, points) in panel.lines.iter().zip(&drawn) {
-            self.stroke(points, line.style);
-        }
-        for (line, points) in panel.lines.iter().zip(&drawn) {
-            points.iter().for_each(|point| self.mark(*point, line.style));
+            self.stroke(points, line.style, "all");
         }
         self.names(panel, &drawn, &frame);
     }
@@ -173,25 +188,22 @@ impl Picture {
     fn grid(&mut self, frame: &Place, (from, to): (f64, f64), (bottom, up): (f64, f64)) {
         let Place { left, top, right, bottom: floor } = *frame;
         let every = ((up - bottom) / f64::from(LINES)).ceil().max(1.0) as i32;
+        let [mut strong, mut weak] = [String::new(), String::new()];
         for power in (bottom.ceil() as i32)..=(up.floor() as i32) {
             let y = floor - (floor - top) * (f64::from(power) - bottom) / (up - bottom);
             let named = power.rem_euclid(every) == 0;
-            let colour = if named { "#dcdcdc" } else { "#f1f1f1" };
-            let _ = writeln!(
-                self.out,
-                "<line x1=\"{left:.1}\" x2=\"{right:.1}\" y1=\"{y:.1}\" y2=\"{y:.1}\" stroke=\"{colour}\" stroke-width=\"0.7\"/>"
-            );
+            let _ = write!(if named { &mut strong } else { &mut weak }, "M{left:.1} {y:.1}H{right:.1}");
             if named {
                 self.power((left - 6.0, y + 4.0), "end", power);
             }
         }
         for power in (from.ceil() as i32)..=(to.floor() as i32) {
             let x = left + (right - left) * (f64::from(power) - from) / (to - from);
-            let _ = writeln!(
-                self.out,
-                "<line x1=\"{x:.1}\" x2=\"{x:.1}\" y1=\"{top:.1}\" y2=\"{floor:.1}\" stroke=\"#dcdcdc\" stroke-width=\"0.7\"/>"
-            );
+            let _ = write!(strong, "M{x:.1} {top:.1}V{floor:.1}");
             self.power((x, floor + 15.0), "middle", power);
+        }
+        for (lines, colour) in [(weak, "#f1f1f1"), (strong, "#dcdcdc")] {
+            let _ = writeln!(self.out, "<path d=\"{lines}\" stroke=\"{colour}\" stroke-width=\"0.7\"/>");
         }
         let _ = writeln!(
             self.out,
@@ -254,7 +266,7 @@ impl Picture {
                 for edge in [" stroke=\"white\" stroke-width=\"2.6\"", ""] {
                     let _ = writeln!(
                         self.out,
-                        "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"{SIZE}\" fill=\"{}\"{edge} {TEXT}>{}</text>",
+                        "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"{SIZE}\" fill=\"{}\"{edge}>{}</text>",
                         at.0, at.1, line.style.colour, line.name
                     );
                 }

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::advice::{Advice, Line, Single};
-use crate::analysis::{Curve, EVALUATIONS, TARGETS, TIME, best, curves, hull};
+use crate::analysis::{EVALUATIONS, TARGETS, TIME, best, curves, hull};
 use crate::bench::{Bench, Steps};
 use crate::plot::long;
 
@@ -47,7 +47,7 @@ pub(crate) fn csv(benches: &[Bench]) -> String {
 }
 
 /// A time with its unit.
-fn time(seconds: f64) -> String {
+pub(crate) fn time(seconds: f64) -> String {
     let (value, unit) = match seconds {
         s if s < 1e-6 => (s * 1e9, "ns"),
         s if s < 1e-3 => (s * 1e6, "us"),
@@ -60,7 +60,8 @@ fn time(seconds: f64) -> String {
 /// One scene: a line for each curve.
 pub(crate) fn scene(bench: &Bench) -> String {
     let all = curves(bench);
-    let mut out = format!("### {}\n\n", bench.scene.title);
+    let (title, name) = (bench.scene.title, bench.scene.name);
+    let mut out = format!("### {title}\n\n![{title}]({name}.svg)\n\n");
     let _ = writeln!(
         out,
         "Growth of errors {:.3}. Columns at an accuracy: evaluations, and time per simulated second; the best in bold.\n",
@@ -97,64 +98,6 @@ pub(crate) fn scene(bench: &Bench) -> String {
         out.push('\n');
     }
     out
-}
-
-/// How far the choice of `simulate` is from the hull.
-pub(crate) fn chosen(benches: &[Bench]) -> String {
-    let mut out = String::from(
-        "| scene | accuracy | error | evaluations | best | ratio | time | best | ratio |\n\
-         |---|---|---|---|---|---|---|---|---|\n",
-    );
-    for bench in benches {
-        for ratio in ratios(bench) {
-            let Ratio { method, target, own, evaluations, seconds } = ratio;
-            let _ = writeln!(
-                out,
-                "| {}, by `{method}` | {target:.0e} | {own:.0e} | {:.0} | {} {:.0} | {:.2} | {} | {} {} | {:.2} |",
-                bench.scene.name,
-                evaluations.0,
-                evaluations.2,
-                evaluations.1,
-                evaluations.0 / evaluations.1,
-                time(seconds.0),
-                seconds.2,
-                time(seconds.1),
-                seconds.0 / seconds.1,
-            );
-        }
-    }
-    out
-}
-
-/// The cost of `simulate` at an accuracy, and of the best method, with its name.
-pub(crate) struct Ratio {
-    pub(crate) method: &'static str,
-    pub(crate) target: f64,
-    pub(crate) own: f64,
-    pub(crate) evaluations: (f64, f64, String),
-    pub(crate) seconds: (f64, f64, String),
-}
-
-/// At all accuracies that were run. Precision and the handling of loops are those of `simulate`.
-pub(crate) fn ratios(bench: &Bench) -> Vec<Ratio> {
-    let all = curves(bench);
-    let Some(chosen) = all.iter().rev().find(|curve| curve.series.method.starts_with("simulate")) else {
-        return Vec::new();
-    };
-    let same = |curve: &&Curve<'_>| {
-        let (one, other) = (curve.series, chosen.series);
-        one.scalar == other.scalar && one.handling == other.handling && !one.method.starts_with("simulate")
-    };
-    let at = |target: f64| {
-        let point = chosen.points.iter().find(|point| (point.setting / target).ln().abs() < 0.01)?;
-        let compared = |cost| {
-            let (curve, least) = best(all.iter().filter(same), target, cost)?;
-            Some((cost(point), least, long(curve.series)))
-        };
-        let (evaluations, seconds) = (compared(EVALUATIONS)?, compared(TIME)?);
-        Some(Ratio { method: chosen.series.method, target, own: point.own, evaluations, seconds })
-    };
-    TARGETS.into_iter().filter_map(at).collect()
 }
 
 /// The recommendations.

@@ -1,9 +1,10 @@
 """Reference motions for `examples/tradeoff`: writes `../examples/tradeoff/data/references.txt`.
 
 Computed here, from published equations and not from this project's code: the arm (recursive Newton-Euler and composite
-rigid body after Featherstone, Rigid Body Dynamics Algorithms, 2008) and the four-bar (Lagrange's equation in the crank's
-angle). Copied from `data`, each with its own verification: the pendulum, both double pendulums, the free body, Andrews'
-squeezer, the platform, the governor.
+rigid body after Featherstone, Rigid Body Dynamics Algorithms, 2008), the four-bar (Lagrange's equation in the crank's
+angle), and the platform (Newton's and Euler's equations of the plate, Lagrange's of each leg in the vector along it).
+Copied from `data`, each with its own verification: the pendulum, both double pendulums, the free body, Andrews' squeezer,
+the governor.
 
 Integration: extrapolation of the modified midpoint rule (Gragg, Bulirsch, Stoer), 160 bits, in two runs of different steps
 that must agree to 25 digits.
@@ -324,6 +325,113 @@ def four_bar():
     return times, full
 
 
+# The Stewart-Gough platform on six springs with dampers.
+
+class Platform:
+    """A plate of isotropic inertia on straight legs without inertia about their axes, each a function of the vector d from
+    its foot to its pin alone: with L = |d|, u = d / L, w = u . d', the energy is a (d'^2 - w^2) / 2 + m w^2 / 2, where
+    a L^2 is the moment of inertia of cylinder and piston about the foot and m the piston's mass."""
+
+    MASS, INERTIA, GRAVITY = mpfr("1.5"), mpfr("0.08"), mpfr("9.80665")
+    PART, HALF, TURNING = mpfr("0.1"), mpfr("0.5"), mpfr("0.00625")
+    THRUST, STIFFNESS, DAMPING, REST = mpfr("7.2"), mpfr(200), mpfr(5), mpfr("0.262")
+    FEET = [
+        [mpfr(text) for text in foot.split()]
+        for foot in ("-2.12 1.374 0", "-2.38 1.224 0", "-2.38 -1.224 0", "-2.12 -1.374 0", "0 -0.15 0", "0 0.15 0")
+    ]
+    PINS = [
+        [mpfr(text) for text in pin.split()]
+        for pin in (
+            "0.17 0.595 -0.4", "-0.6 0.15 -0.4", "-0.6 -0.15 -0.4", "0.17 -0.595 -0.4", "0.43 -0.445 -0.4", "0.43 0.445 -0.4"
+        )
+    ]
+
+    def axes(self, angles):
+        """World axes of the rates of roll, pitch and yaw, and the rotation."""
+        (sr, cr), (sp, cp), (sy, cy) = map(gmpy2.sin_cos, angles)
+        zero, one = mpfr(0), mpfr(1)
+        rotation = [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr],
+        ]
+        return [[cy * cp, sy * cp, -sp], [-sy, cy, zero], [zero, zero, one]], rotation
+
+    def spin(self, angles, rates):
+        """The angular velocity."""
+        axes, _ = self.axes(angles)
+        return transposed_times(axes, rates)
+
+    def rates(self, angles, spin):
+        """Of the angles."""
+        axes, _ = self.axes(angles)
+        return solved([[axes[j][i] for j in range(3)] for i in range(3)], spin)
+
+    def slope(self, y):
+        """Of place, angles, velocity and angular velocity."""
+        place, angles, velocity, spin = (y[k : k + 3] for k in (0, 3, 6, 9))
+        _, rotation = self.axes(angles)
+        zero = mpfr(0)
+        matrix = [[self.MASS if i == j else zero for j in range(3)] + [zero] * 3 for i in range(3)]
+        matrix += [[zero] * 3 + [self.INERTIA if i == j else zero for j in range(3)] for i in range(3)]
+        right = [zero, zero, -self.MASS * self.GRAVITY, zero, zero, zero]
+        for foot, pin in zip(self.FEET, self.PINS):
+            arm = times_vector(rotation, pin)
+            d = [place[k] + arm[k] - foot[k] for k in range(3)]
+            turning = cross(spin, arm)
+            rate = add(velocity, turning)
+            length = gmpy2.sqrt(dot(d, d))
+            u = scaled(d, 1 / length)
+            w = dot(u, rate)
+            across = dot(rate, rate) - w * w
+            beyond = length - self.HALF
+            moment = 2 * self.TURNING + self.PART * (self.HALF**2 + beyond**2)
+            a = moment / length**2
+            slope = 2 * (self.PART * beyond - moment / length) / length**2
+            push = self.THRUST - self.STIFFNESS * (length - 1 - self.REST) - self.DAMPING * w
+            # Lagrange: a d'' + (m - a) u (u . d'') + rest = force at the pin.
+            along = (self.PART - a) * across / length - slope * (w * w + across / 2) - push
+            rest = [slope * w * rate[k] + along * u[k] for k in range(3)]
+            rest[2] += self.PART * self.GRAVITY
+            inertia = [
+                [(a if i == j else zero) + (self.PART - a) * u[i] * u[j] for j in range(3)] for i in range(3)
+            ]
+            rest = add(rest, times_vector(inertia, cross(spin, turning)))
+            for k, value in enumerate(rest + cross(arm, rest)):
+                right[k] -= value
+            # d'' = p'' + dw x arm: columns of the leg's inertia by both.
+            x, y_, z = arm
+            by = [[zero, z, -y_], [-z, zero, x], [y_, -x, zero]]
+            for i in range(3):
+                for j in range(3):
+                    matrix[i][j] += inertia[i][j]
+                    coupling = sum(inertia[i][k] * by[k][j] for k in range(3))
+                    matrix[i][3 + j] += coupling
+                    matrix[3 + j][i] += coupling
+                    matrix[3 + i][3 + j] += sum(
+                        by[k][i] * inertia[k][m] * by[m][j] for k in range(3) for m in range(3)
+                    )
+        return velocity + self.rates(angles, spin) + solved(matrix, right)
+
+
+def stewart():
+    platform = Platform()
+    pose = [mpfr(text) for text in "-1.45 0.05 1.05 0.1 -0.05 0.15".split()]
+    rates = [mpfr(text) for text in "0.3 -0.2 0.4 0.5 -0.4 0.3".split()]
+    start = pose + rates[:3] + platform.spin(pose[3:], rates[3:])
+    times = [mpfr(k) / 4 for k in range(5)]
+    states = verified("stewart", platform.slope, start, times, mpfr(1) / 128, 14)
+    full = [y[:9] + platform.rates(y[3:6], y[9:]) for y in states]
+    # Against the 16 digits of another derivation.
+    listed = json.loads((HERE / "data/stewart/forward.json").read_text())["trajectories"]
+    case = next(case for case in listed if case["name"] == "spring_damper")
+    other = case["pose"][-1] + case["vel"][-1]
+    apart = max(abs(float(a - b)) for a, b in zip(full[-1], other))
+    print(f"stewart: 16 digits of another derivation differ by {apart:.1e}")
+    if apart > 1e-13:
+        sys.exit("the equations differ")
+    return times, full
+
 
 # What there is already.
 
@@ -342,8 +450,6 @@ def copied():
     yield "andrews", point["t"], point["q"], point["v"]
     state = at(read("motion/governor")["points"], 2.0)["y"]
     yield "governor", 2.0, state[:4], state[4:]
-    case = next(case for case in read("stewart/forward")["trajectories"] if case["name"] == "spring_damper")
-    yield "stewart", case["t"][-1], case["pose"][-1], case["vel"][-1]
 
 
 def line(name, t, q, v):
@@ -355,7 +461,7 @@ def main():
     text = "# name, time [s] | positions | velocities, in the coordinates of `tests/scripts/tradeoff.py`, which wrote this\n"
     for point in copied():
         text += line(*point)
-    for name in ("panda", "four_bar"):
+    for name in ("stewart", "four_bar", "panda"):
         times, states = globals()[name]()
         half = len(states[0]) // 2
         text += line(name, times[-1], states[-1][:half], states[-1][half:])
