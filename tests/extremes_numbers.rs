@@ -173,12 +173,6 @@ fn methods_on_a_tree() {
 }
 
 #[test]
-fn crossings_without_end() {
-    let model = energy::swing::Model::default();
-    steps::opposed(&Bounded::new(&model, BOUND), (&Default::default(), &()));
-}
-
-#[test]
 fn methods_in_momenta() {
     fn two_pendulums<T: Drawn>(n: &Numbers) {
         let (model, state): (energy::double_swing::Model<T>, energy::double_swing::State<T>) =

@@ -313,10 +313,7 @@ fn sixty_four_kilobytes() {
     ends("wide fan", &fan(3000));
     ends("nest", &format!("mod m {{ output a = {}1.0{}; }}", "(".repeat(30_000), ")".repeat(30_000)));
     ends("minus", &filled("mod m { output a = ", |_| "-".to_owned(), "1.0; }"));
-    ends(
-        "lets",
-        &filled("mod m { let a0 = t;", |k| format!("let a{} = a{k} * a{k};", k + 1), "output o = a9; }"),
-    );
+    ends("lets", &filled("mod m { let a0 = t;", |k| format!("let a{} = a{k} * a{k};", k + 1), "output o = a9; }"));
     ends("braces", &filled("mod m {", |_| "{} ".to_owned(), "}"));
     ends("modules", &filled("", |k| format!("mod m{k} {{ body b {{ mass: 1.0 }} }}"), ""));
     ends("emit", &filled("mod m { emit energy", |_| ", energy".to_owned(), "; }"));

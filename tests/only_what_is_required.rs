@@ -204,7 +204,9 @@ fn what_is_not_asked_for_is_not_derived() {
     );
     let forward = with("emit forward_dynamics;");
     let inverse = with("emit inverse_dynamics { solve_for: legs.thrust };");
-    println!("platform, nodes, operations, characters: everything {all:?}, forward dynamics {forward:?}, inverse dynamics {inverse:?}");
+    println!(
+        "platform, nodes, operations, characters: everything {all:?}, forward dynamics {forward:?}, inverse dynamics {inverse:?}"
+    );
     for (what, ((all, forward), inverse)) in
         ["nodes", "operations", "characters"].iter().zip(all.iter().zip(forward).zip(inverse))
     {

@@ -51,9 +51,18 @@ lanes!(WideF64x4 WideF32x8);
 
 impl Numbers {
     pub(super) fn draw(&self) -> f64 {
+        self.next(&self.drawn)
+    }
+
+    /// Of a step, a tolerance, a time, an event: wild also where states are ordinary.
+    pub(super) fn setting(&self) -> f64 {
+        self.next(&self.settings)
+    }
+
+    fn next(&self, numbers: &[f64]) -> f64 {
         let k = self.next.get();
         self.next.set(k + 1);
-        self.drawn[k % self.drawn.len()]
+        numbers[k % numbers.len()]
     }
 
     pub(super) fn scalar<T: Drawn>(&self) -> T {

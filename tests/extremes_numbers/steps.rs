@@ -167,37 +167,15 @@ pub(super) fn separable<S: Separable<Scalar: Drawn>>(system: &Bounded<S>, start:
 }
 
 /// By accuracy alone; a hundred thousand steps are allowed, so few cases are drawn.
-pub(super) fn simulated<S: Differentiable<Scalar: Drawn>>(system: &Bounded<S>, (state, input): (&S::State, &S::Input), n: &Numbers) {
+pub(super) fn simulated<S: Differentiable<Scalar: Drawn>>(
+    system: &Bounded<S>,
+    (state, input): (&S::State, &S::Input),
+    n: &Numbers,
+) {
     for (t0, t1, accuracy) in [(n.setting(), n.setting(), n.setting()), (0.0, n.setting(), 1e-3), (0.0, 0.1, 1e-6)] {
         system.reset();
         ended(&simulate(system, t0, t1, state, input, accuracy, |_, _| ()));
         system.reset();
         ended(&simulate_stiff(system, t0, t1, state, input, accuracy, |_, _| ()));
     }
-}
-
-/// Two functions of which one is positive wherever the other is not, but for the places at which they are looked at.
-struct Opposed<'a, 'b, S>(&'a Bounded<'b, S>);
-
-impl<S: System> Events<Bounded<'_, S>, 2> for Opposed<'_, '_, S> {
-    fn values(&self, t: f64, _: &S::State) -> [f64; 2] {
-        self.0.count();
-        let quarters = 40.0 * t;
-        match (1e13 * t).sin() {
-            _ if t == 0.0 => [-1.0, -1.0],
-            _ if (quarters - quarters.round()).abs() < 1e-9 => [1.0, 1.0],
-            wave => [wave, -wave],
-        }
-    }
-    fn happened(&mut self, _: &Event, _: &S::State) -> Action<S::State> {
-        self.0.count();
-        Action::Continue
-    }
-}
-
-/// Functions whose crossings never end.
-pub(super) fn opposed<S: System<Scalar = f64>>(system: &Bounded<S>, (state, input): (&S::State, &S::Input)) {
-    system.reset();
-    let run = Integrator::fixed(Rk4, 0.1).with_events(system, 0.0, 1.0, state, input, &mut Opposed(system), |_| ());
-    assert!(matches!(run, Err(IntegrationError::EventsAccumulate { .. })), "{:?}", run.map(|run| run.1));
 }

@@ -15,8 +15,8 @@ pub struct Drift {
     pub tenths: [f64; 2],
     /// Slope of the line fitted to all of it, times its length.
     pub rise: f64,
-    /// Standard error of that, if what hundredths of the motion differ by from one to the next adds up as a random walk
-    /// does: rounding is one, chaos may be.
+    /// Standard error of that, by what the line leaves of means over hundredths of the motion, and by how much each of these
+    /// has to do with the one before: rounding adds up as a random walk does.
     pub error: f64,
     /// Evaluations of the system for each step.
     pub evaluations: f64,
@@ -76,14 +76,17 @@ where
     let places: [f64; PARTS] = std::array::from_fn(|k| (2 * k + 1) as f64 / PARTS as f64 - 1.0);
     let squares: f64 = places.iter().map(|x| x * x).sum();
     let slope = places.iter().zip(&means).map(|(x, e)| x * e).sum::<f64>() / squares;
-    let steps: Vec<f64> = means.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    let scatter = steps.iter().map(|step| (step - mean(&steps)).powi(2)).sum::<f64>();
+    let level = mean(&means);
+    let left: [f64; PARTS] = std::array::from_fn(|k| means[k] - level - slope * places[k]);
+    let variance: f64 = left.iter().map(|r| r * r).sum();
+    let correlation = left.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>() / variance;
+    // Of a line through numbers of which each remembers a share of the one before.
+    let inflation = (1.0 + correlation.max(0.0)) / (1.0 - correlation.max(0.0));
     Drift {
         worst,
         tenths: [mean(&means[..PARTS / 10]), mean(&means[PARTS - PARTS / 10..])],
         rise: 2.0 * slope,
-        // The variance of a line fitted to a random walk of unit length is 6/5 of the walk's.
-        error: (1.2 * scatter).sqrt(),
+        error: 2.0 * (variance * inflation / (PARTS - 2) as f64 / squares).sqrt(),
         evaluations: f64::from(statistics.evaluations) / n,
     }
 }
