@@ -1,7 +1,11 @@
 //! Length of a quaternion over ten million steps of a tumbling body, by the classical Runge-Kutta method, plain and
 //! compensated: `cargo bench --bench rotation_length`. Fails where a length is off by more than 4e-16.
 
-use multibody::nalgebra::{UnitQuaternion, Vector3};
+#[path = "../tests/support/length.rs"]
+mod length;
+
+use length::length_gap;
+use multibody::nalgebra::Vector3;
 use multibody::{Integrator, Rk4};
 
 multibody::multibody! {
@@ -9,19 +13,6 @@ multibody::multibody! {
         body nut { mass: 1.0, inertia: diag(1.0, 2.0, 3.0) }
         joint free: Free { parent: ground, child: nut }
     }
-}
-
-/// By how much the length differs from one: squares are summed with their roundings.
-fn length_gap(q: &UnitQuaternion<f64>) -> f64 {
-    let (mut sum, mut rest) = (-1.0, 0.0);
-    for x in q.as_ref().coords.iter() {
-        let square = x * x;
-        let next: f64 = sum + square;
-        let part = next - sum;
-        rest += x.mul_add(*x, -square) + (sum - (next - part)) + (square - part);
-        sum = next;
-    }
-    0.5 * (sum + rest).abs()
 }
 
 fn main() {

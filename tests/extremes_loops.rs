@@ -1,9 +1,10 @@
 //! Loops at the edges: Andrews' squeezer at all its points, rows of four-bars through their flat pose, and mechanisms that
 //! lock up. Reference data in `data/motion`.
 
-#[path = "models/rows.rs"]
-mod rows;
+#[path = "models/forty.rs"]
+mod forty;
 
+use forty::{four_bars_40, redundant_40};
 use multibody::impact::impact;
 use multibody::integrators::{Action, Direction, Event, Events};
 use multibody::nalgebra::SVector;
@@ -12,72 +13,12 @@ use multibody::{
     Constrained, Dop853, DormandPrince, IntegrationError, Integrator, Projection, ProjectionError, System,
     WithBaumgarte, WithProjection, WithRank, multibody,
 };
-use multibody_tests::models::linkages::{four_bars_2, four_bars_10, redundant_2};
+use multibody_tests::models::linkages::{squeezer as kept, squeezer_reduced as solved};
+use multibody_tests::models::rows::{four_bars_2, four_bars_10, redundant_2, redundant_10};
 use multibody_tests::support::compare::{mixed, worse};
 use multibody_tests::support::data::{array, flat, list, number, read};
-use rows::{four_bars_40, redundant_10};
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use std::time::Instant;
-
-/// Declares the squeezer; what a call adds is its formulation.
-macro_rules! squeezer {
-    ($name:ident { $($items:tt)* }) => {
-        multibody! {
-            mod $name {
-                const A = [-0.06934, -0.00227, 0.0];
-                const B = [-0.03635, 0.03273, 0.0];
-                const C = [0.014, 0.072, 0.0];
-                body one { mass: 0.04325, com: 92e-5 * X, inertia: diag(0.0, 2.194e-6, 2.194e-6) }
-                body two { mass: 0.00365, com: -0.0115 * X, inertia: diag(0.0, 4.410e-7, 4.410e-7) }
-                body three { mass: 0.02373, com: [0.01043, -0.01874, 0.0], inertia: diag(0.0, 5.255e-6, 5.255e-6) }
-                body four { mass: 0.00706, com: -0.00579 * Y, inertia: diag(5.667e-7, 0.0, 5.667e-7) }
-                body five { mass: 0.07050, com: [0.02308, 0.00916, 0.0], inertia: diag(0.0, 1.169e-5, 1.169e-5) }
-                body six { mass: 0.00706, com: 0.00579 * X, inertia: diag(0.0, 5.667e-7, 5.667e-7) }
-                body seven { mass: 0.05498, com: [-0.00449, -0.01228, 0.0], inertia: diag(0.0, 1.912e-5, 1.912e-5) }
-                joint beta: Revolute { parent: ground, child: one, axis: Z }
-                joint theta: Revolute { parent: one.at(0.007 * X), child: two, axis: Z }
-                joint gamma: Revolute { parent: ground.at(B), child: three, axis: Z }
-                joint delta: Revolute { parent: ground.at(A), child: five, axis: Z }
-                joint phi: Revolute { parent: five.at(0.04 * X), child: four, axis: Z }
-                joint epsilon: Revolute { parent: ground.at(A), child: seven, axis: Z }
-                joint omega: Revolute { parent: seven.at(-0.04 * Y), child: six, axis: Z }
-                #[cut]
-                joint first: Revolute { parent: two.at(-0.028 * X), child: three.at(-0.035 * Y), axis: Z }
-                #[cut]
-                joint second: Revolute { parent: two.at(-0.028 * X), child: four.at(-0.02 * Y), axis: Z }
-                #[cut]
-                joint third: Revolute { parent: two.at(-0.028 * X), child: six.at(0.02 * X), axis: Z }
-                force motor: Effort { joint: beta, value: 0.033 }
-                force spring: Spring {
-                    between: [three.at([0.02, -0.018, 0.0]), ground.at(C)], stiffness: 4530.0, length: 0.07785,
-                }
-                /// [J] without the motor's work
-                output energy = kinetic() + potential() - 0.033 * beta.angle;
-                output angles = [beta.angle, theta.angle, gamma.angle, phi.angle, delta.angle, omega.angle, epsilon.angle];
-                output rates = [beta.rate, theta.rate, gamma.rate, phi.rate, delta.rate, omega.rate, epsilon.rate];
-                $($items)*
-            }
-        }
-    };
-}
-
-squeezer! {
-    kept {
-        formulation { constraints: Multipliers }
-        emit forward_dynamics, impulse;
-    }
-}
-
-squeezer! {
-    solved {
-        formulation { constraints: Reduced }
-        solve (theta, gamma) from first { cos(beta.angle + theta.angle - gamma.angle) > 0.0 }
-        solve (phi, delta) from second { cos(phi.angle) > 0.0 }
-        solve (omega, epsilon) from third { cos(omega.angle) > 0.0 }
-        emit forward_dynamics;
-    }
-}
 
 /// Errors of angles (up to whole turns) and of rates.
 fn squeezer_error(point: &Value, q: &[f64], v: &[f64]) -> [f64; 2] {
@@ -184,7 +125,7 @@ fn squeezer_at_all_points_with_multipliers() {
     assert!(free[0] < 1e-8 && closing[0] < 1e-8, "{free:?} {closing:?}");
 }
 
-/// Energies and evaluations; times are printed only.
+/// Energies and evaluations; `benches/long_runs.rs` has the time.
 #[test]
 fn squeezer_by_energy() {
     let file = read("motion/andrews");
@@ -198,18 +139,9 @@ fn squeezer_by_energy() {
     for tolerance in [1e-7, 1e-8, 1e-9, 1e-10] {
         let integrator = Integrator::adaptive(Dop853, tolerance, tolerance);
         let mut drift = 0.0_f64;
-        let began = Instant::now();
-        let mut states = Vec::with_capacity(1000);
-        let (_, statistics) = integrator.integrate(&model, 0.0, 0.05, &state, &(), |_, x| states.push(*x)).unwrap();
-        let time = began.elapsed().as_secs_f64();
-        for x in &states {
-            drift = drift.max((energy(x) - at_start).abs());
-        }
-        println!(
-            "tolerance {tolerance:e}: {drift:.1e} J, {:.2} ms, {} evaluations",
-            1e3 * time,
-            statistics.evaluations
-        );
+        let look = |_: f64, x: &solved::State| drift = drift.max((energy(x) - at_start).abs());
+        let (_, statistics) = integrator.integrate(&model, 0.0, 0.05, &state, &(), look).unwrap();
+        println!("tolerance {tolerance:e}: {drift:.1e} J, {} evaluations", statistics.evaluations);
         if drift <= 1e-8 {
             fewest = fewest.min(statistics.evaluations);
         }
@@ -304,7 +236,7 @@ fn rows_of_four_bars_with_redundant_joints() {
             let projected = WithRank::new(WithProjection::new(&model, Projection::default()));
             let mut told = Flat {
                 height: |x: &$model::State| x.q.crank.sin(),
-                rank: |x: &$model::State| rank(&model, 0.0, x),
+                rank: |x: &$model::State| rank(&model, 0.0, x).min(model.forward_dynamics(0.0, x, &()).rank),
                 least: rows,
                 times: 0,
             };
@@ -341,12 +273,15 @@ fn rows_of_four_bars_with_redundant_joints() {
             );
             assert!(lean < 0.1, "the branch of parallel bars was left: {lean}");
             assert!(told.times >= 5 && told.least < rows, "{} of {rows}", told.least);
-            assert_eq!(rank(&model, 0.0, &vertical(0.0, -1.0)), rows - f64::from($n));
+            let flat = vertical(0.0, -1.0);
+            let ranks = (rank(&model, 0.0, &flat), model.forward_dynamics(0.0, &flat, &()).rank);
+            assert_eq!(ranks, (rows - f64::from($n), rows - f64::from($n)));
         }};
     }
     check!(redundant_2, 2, 1e-3);
     check!(redundant_2, 2, 1e-2);
     check!(redundant_10, 10, 1e-2);
+    check!(redundant_40, 40, 1e-2);
 }
 
 /// Declares a slider-crank, crank 1 m and rod 3 m; what a call adds is its formulation.
@@ -370,35 +305,78 @@ macro_rules! slider_crank {
 }
 slider_crank! { pushed { formulation { constraints: Reduced } solve (crank, rod) from pin { sin(rod.angle) < 0.0 } emit forward_dynamics; } }
 slider_crank! { sliding { formulation { constraints: Multipliers } emit forward_dynamics, impulse; } }
+slider_crank! { pulled { formulation { constraints: Multipliers } drive slider.travel = 3.5 + 0.5 * t; emit forward_dynamics; } }
 
-multibody! {
-    /// A crank-rocker that its rocker drives.
-    mod rocked {
-        formulation { constraints: Reduced }
-        body arm { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
-        body link { mass: 3.5, com: 1.75 * X, inertia: rod(3.5, 3.5, X) }
-        body lever { mass: 3.0, com: 1.5 * X, inertia: rod(3.0, 3.0, X) }
-        joint rocker: Revolute { parent: ground.at(4.0 * X), child: lever, axis: Z }
-        joint crank: Revolute { parent: ground, child: arm, axis: Z }
-        joint coupler: Revolute { parent: arm.at(X), child: link, axis: Z }
-        #[cut]
-        joint pin: Revolute { parent: link.at(3.5 * X), child: lever.at(3.0 * X), axis: Z }
-        solve (crank, coupler) from pin { sin(coupler.angle) < 0.0 }
-        emit forward_dynamics;
+/// Declares a crank-rocker, crank 1 m, coupler 3.5 m, rocker 3 m, ground 4 m; what a call adds is its formulation.
+macro_rules! crank_rocker {
+    ($name:ident { $($items:tt)* }) => {
+        multibody! {
+            mod $name {
+                body arm { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
+                body link { mass: 3.5, com: 1.75 * X, inertia: rod(3.5, 3.5, X) }
+                body lever { mass: 3.0, com: 1.5 * X, inertia: rod(3.0, 3.0, X) }
+                joint rocker: Revolute { parent: ground.at(4.0 * X), child: lever, axis: Z }
+                joint crank: Revolute { parent: ground, child: arm, axis: Z }
+                joint coupler: Revolute { parent: arm.at(X), child: link, axis: Z }
+                #[cut]
+                joint pin: Revolute { parent: link.at(3.5 * X), child: lever.at(3.0 * X), axis: Z }
+                output energy = kinetic() + potential();
+                $($items)*
+            }
+        }
+    };
+}
+crank_rocker! { rocked { formulation { constraints: Reduced } solve (crank, coupler) from pin { sin(coupler.angle) < 0.0 } emit forward_dynamics; } }
+crank_rocker! { rocked_kept { formulation { constraints: Multipliers } drive rocker.angle = 2.0 - t; emit forward_dynamics; } }
+
+/// How near a motion comes to a dead centre: where the coordinate that leads turns round, and at the ends of steps.
+struct DeadCentre<R, D> {
+    rate: R,
+    distance: D,
+    nearest: f64,
+    turned: bool,
+}
+
+impl<S: System, R: Fn(&S::State) -> f64, D: Fn(&S::State) -> f64> Events<S, 1> for DeadCentre<R, D> {
+    fn values(&self, _t: f64, x: &S::State) -> [f64; 1] {
+        [(self.rate)(x)]
     }
-    /// The same, its rocker driven, with its equations.
-    mod rocked_kept {
-        formulation { constraints: Multipliers }
-        body arm { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
-        body link { mass: 3.5, com: 1.75 * X, inertia: rod(3.5, 3.5, X) }
-        body lever { mass: 3.0, com: 1.5 * X, inertia: rod(3.0, 3.0, X) }
-        joint rocker: Revolute { parent: ground.at(4.0 * X), child: lever, axis: Z }
-        joint crank: Revolute { parent: ground, child: arm, axis: Z }
-        joint coupler: Revolute { parent: arm.at(X), child: link, axis: Z }
-        #[cut]
-        joint pin: Revolute { parent: link.at(3.5 * X), child: lever.at(3.0 * X), axis: Z }
-        drive rocker.angle = 2.0 - t;
-        emit forward_dynamics;
+    fn happened(&mut self, _event: &Event, x: &S::State) -> Action<S::State> {
+        self.nearest = self.nearest.min((self.distance)(x));
+        self.turned = true;
+        Action::Continue
+    }
+}
+
+/// Runs a motion that no position continues beyond its dead centre: it ends in a typed error, or the coordinate that leads
+/// turns round; either way the dead centre is told.
+fn locks<S: System<Scalar = f64, Input = ()>>(
+    name: &str,
+    system: &S,
+    start: &S::State,
+    (rate, distance): (impl Fn(&S::State) -> f64, impl Fn(&S::State) -> f64),
+) {
+    let mut told = DeadCentre { rate, distance: &distance, nearest: f64::INFINITY, turned: false };
+    let mut near_steps = f64::INFINITY;
+    let integrator = Integrator::adaptive(DormandPrince, 1e-9, 1e-9);
+    let run = integrator.with_events(system, 0.0, 10.0, start, &(), &mut told, |interval| {
+        near_steps = near_steps.min(distance(interval.last()));
+    });
+    let nearest = told.nearest.min(near_steps);
+    println!("{name}: {:?}, turned {}, nearest {nearest:.1e}", run.map(|run| run.1), told.turned);
+    assert!(nearest <= 1e-3, "{name}: the dead centre went unseen");
+    match run {
+        // It may stand there, as if it were at rest: nothing but the distance tells.
+        Ok((end, ..)) => assert!(told.turned || distance(&end) <= 1e-3, "{name}: it went on beyond its dead centre"),
+        Err(error) => {
+            let typed = matches!(
+                error,
+                IntegrationError::NonFinite { .. }
+                    | IntegrationError::StepTooSmall { .. }
+                    | IntegrationError::TooManySteps { .. }
+            );
+            assert!(typed, "{name}: {error}");
+        }
     }
 }
 
@@ -418,15 +396,8 @@ fn a_slider_crank_locks_up() {
         assert!(far > wide);
     }
     assert!(model.dead_centres(0.0, &at(4.0).q).amin().abs() < 1e-7);
-    let mut nearest = f64::INFINITY;
-    let run = Integrator::adaptive(DormandPrince, 1e-9, 1e-9).integrate(&model, 0.0, 10.0, &at(3.9), &(), |_, x| {
-        nearest = nearest.min(model.dead_centres(0.0, &x.q).amin().abs());
-    });
-    println!("pushed over it: {:?}, nearest {nearest:.1e}", run.map(|x| x.1));
-    assert!(nearest < 0.3);
-    if let Err(error) = run {
-        assert!(!matches!(error, IntegrationError::InvalidArgument { .. }));
-    }
+    let far = |x: &pushed::State| model.dead_centres(0.0, &x.q).amin().abs();
+    locks("pushed to its dead centre", &model, &at(3.9), (|x| x.v.slider, far));
 
     // With its equations the crank turns through both dead centres.
     let model = sliding::Model::default();
@@ -455,6 +426,19 @@ fn a_slider_crank_locks_up() {
     println!("led beyond it: {beyond}");
     assert!(matches!(beyond, ProjectionError::NoConvergence { .. }));
 
+    // The slider driven there, and beyond.
+    let driven = pulled::Model::default();
+    let line = pulled::State::default();
+    let full = pulled::CONSTRAINTS as f64;
+    assert!(driven.constraints(1.0, &line.q).amax() < 1e-15);
+    let ranks = (rank(&driven, 1.0, &line), driven.forward_dynamics(1.0, &line, &()).rank);
+    let stuck = Projection::default().project(&driven, 1.0, &line).unwrap_err();
+    let beyond = Projection::default().project(&driven, 1.2, &line).unwrap_err();
+    println!("driven to its dead centre: rank {ranks:?} of {full}; {stuck}; beyond it: {beyond}");
+    assert_eq!(ranks, (full - 1.0, full - 1.0));
+    assert!(matches!(stuck, ProjectionError::NoVelocity { .. }));
+    assert!(matches!(beyond, ProjectionError::NoConvergence { .. }));
+
     // It runs into a stop at full speed.
     let stop = sliding::Velocity { crank: -1.0, ..Default::default() };
     let hit = impact(&model, 0.0, &start, &stop, 0.5);
@@ -476,11 +460,7 @@ fn a_four_bar_locks_up() {
     println!("from its dead centre: {:.2e} at 2 rad, {:.2e} at 1e-12 rad", far(&at(2.0)), far(&at(lock + 1e-12)));
     assert!(far(&at(2.0)) > 0.1 && far(&at(lock + 1e-12)) < 1e-4);
     assert!(far(&at(lock - 1e-3)).is_nan(), "beyond it there is no position");
-    let mut nearest = f64::INFINITY;
-    let run = Integrator::adaptive(DormandPrince, 1e-9, 1e-9)
-        .integrate(&model, 0.0, 10.0, &at(2.0), &(), |_, x| nearest = nearest.min(far(x)));
-    println!("swung over it: {:?}, nearest {nearest:.1e}", run.map(|x| x.1));
-    assert!(nearest < 0.3);
+    locks("swung to its dead centre", &model, &at(2.0), (|x| x.v.rocker, far));
 
     let model = rocked_kept::Model::default();
     let full = rocked_kept::CONSTRAINTS as f64;
@@ -495,4 +475,5 @@ fn a_four_bar_locks_up() {
     assert!(ranks.0 == full - 1.0 && ranks.1 == full - 1.0 && matches!(stuck, ProjectionError::NoVelocity { .. }));
     let beyond = Projection::default().project(&model, t + 0.2, &line).unwrap_err();
     println!("driven beyond it: {beyond}");
+    assert!(matches!(beyond, ProjectionError::NoConvergence { .. }));
 }

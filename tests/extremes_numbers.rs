@@ -1,144 +1,57 @@
 //! NaN, infinity, denormals, zeros and the greatest numbers in times, states, parameters, inputs, steps and tolerances:
-//! every public function gives a typed error or passes NaN on. None panics, none hangs: whatever goes on is bounded.
+//! every public function gives a typed error or passes NaN on, and what ends without an error has a finite state. None
+//! panics, none hangs: systems count what is asked of them. `extremes_numbers/list.rs` holds the list of functions against
+//! what is called here.
 
-use multibody::nalgebra::{SVector, Vector3};
-use multibody::{
-    Configuration, Constrained, DormandPrince, Euler, Integrator, Method, Projection, Rk4, SemiImplicitEuler,
-    StateSpace, System, Tangent, Tolerance, WithProjection, assemble, linear, rotation,
-};
-use multibody_tests::models::{extremes, loops, mechanisms, motion, small};
-use proptest::prelude::*;
-use proptest::test_runner::{Config, TestRunner};
-use std::cell::Cell;
+#[path = "extremes_numbers/bounded.rs"]
+mod bounded;
+#[path = "extremes_numbers/drawn.rs"]
+mod drawn;
+#[path = "extremes_numbers/list.rs"]
+mod list;
+#[path = "models/numbers.rs"]
+mod models;
+#[path = "extremes_numbers/runtime.rs"]
+mod runtime;
+#[path = "extremes_numbers/searches.rs"]
+mod searches;
+#[path = "extremes_numbers/steps.rs"]
+mod steps;
+
+use bounded::Bounded;
+use drawn::{Drawn, Numbers, all};
+use models::{kept, tree};
+use multibody::nalgebra::SVector;
+use multibody::simba::simd::{WideF32x8, WideF64x4};
+use multibody::{Dop853, Radau, Rk4, System};
+use multibody_tests::models::{energy, extremes, impulses, linearised, loops, mechanisms, motion, small, stiff};
 use std::hint::black_box;
 
-/// Numbers drawn once, handed out again and again.
-#[derive(Debug)]
-struct Numbers {
-    drawn: Vec<f64>,
-    next: Cell<usize>,
-}
+/// What one integration may ask of a system: four steps, a thousand places in each where functions of events are looked at,
+/// and a crossing before each place, for which some hundred steps of the method are made.
+const BOUND: u32 = 4 * 1000 * 16 * 400;
 
-impl Numbers {
-    fn draw(&self) -> f64 {
-        let k = self.next.get();
-        self.next.set(k + 1);
-        self.drawn[k % self.drawn.len()]
-    }
-
-    fn vector<V: Tangent<f64>>(&self) -> V {
-        V::zero().map(&mut |_| self.draw())
-    }
-
-    fn state<Z: StateSpace<Scalar = f64> + Default>(&self) -> Z {
-        let start = Z::default();
-        let (q, _, _) = start.split();
-        start.join(q.displace(&self.vector()), self.vector(), self.vector())
-    }
-}
-
-fn number() -> impl Strategy<Value = f64> {
-    prop_oneof![
-        4 => -10.0..10.0_f64,
-        1 => Just(f64::NAN),
-        1 => prop_oneof![Just(f64::INFINITY), Just(f64::NEG_INFINITY)],
-        1 => prop_oneof![Just(f64::MAX), Just(-f64::MAX), Just(1e200), Just(-1e155)],
-        1 => prop_oneof![Just(0.0), Just(-0.0)],
-        1 => prop_oneof![Just(5e-324), Just(-1e-310), Just(f64::MIN_POSITIVE), Just(1e-200)],
-    ]
-}
-
-/// Draws many sets of numbers.
-fn all(cases: u32, check: impl Fn(&Numbers)) {
-    let mut runner = TestRunner::new(Config { failure_persistence: None, cases, ..Config::default() });
-    let sets = prop::collection::vec(number(), 67).prop_map(|drawn| Numbers { drawn, next: Cell::new(0) });
-    runner
-        .run(&sets, |numbers| {
-            check(&numbers);
-            Ok(())
-        })
-        .unwrap();
-}
-
-/// Any step, any tolerance, any time, with a bound on the steps.
-fn integrate<S: System<Scalar = f64>>(system: &S, state: &S::State, input: &S::Input, numbers: &Numbers) {
-    fn fixed<S: System<Scalar = f64>, M: Method<S>>(
-        method: M,
-        system: &S,
-        state: &S::State,
-        input: &S::Input,
-        n: &Numbers,
-    ) {
-        let integrator = Integrator::fixed(method, n.draw()).max_steps(20);
-        let outcome = integrator.integrate(system, n.draw(), n.draw(), state, input, |_, _| ());
-        let _ = black_box(outcome.is_ok());
-        let outcome = integrator.compensated().integrate(system, 0.0, 0.01, state, input, |_, _| ());
-        let _ = black_box(outcome.is_ok());
-    }
-    fn adaptive<S: System<Scalar = f64>, M: Method<S>>(
-        method: M,
-        system: &S,
-        state: &S::State,
-        input: &S::Input,
-        n: &Numbers,
-    ) {
-        let wild = Tolerance {
-            first_step: n.draw(),
-            min_step: n.draw(),
-            max_step: n.draw(),
-            ..Tolerance::new(n.draw(), n.draw())
-        };
-        for tolerance in [wild, Tolerance::new(1e-6, 1e-6)] {
-            let integrator = Integrator::within(method, tolerance).max_steps(50);
-            let outcome = integrator.intervals(system, n.draw(), n.draw(), state, input, |interval| {
-                black_box(interval.at(n.draw()));
-            });
-            let _ = black_box(outcome.is_ok());
-            let outcome = integrator.integrate(system, 0.0, 0.1, state, input, |_, _| ());
-            let _ = black_box(outcome.is_ok());
-        }
-    }
-    fixed(Euler, system, state, input, numbers);
-    fixed(SemiImplicitEuler, system, state, input, numbers);
-    fixed(Rk4, system, state, input, numbers);
-    fixed(DormandPrince, system, state, input, numbers);
-    adaptive(DormandPrince, system, state, input, numbers);
-    black_box(Rk4::step(system, numbers.draw(), state, input, numbers.draw()).split().0.magnitude().len());
-    let outcome = Rk4::integrate(system, numbers.draw(), state, input, numbers.draw(), 5, |_, _| ());
-    let _ = black_box(outcome.is_ok());
-}
-
-/// Projection and assembly from any state with any settings.
-fn close<S: Constrained<Scalar = f64>>(system: &S, state: &S::State, input: &S::Input, n: &Numbers) {
-    let (q, _, _) = state.split();
-    black_box(system.constraints(n.draw(), &q).len());
-    black_box(system.constraint_rate(n.draw(), state).len());
-    black_box(system.correction(n.draw(), &q, &n.vector(), &n.vector()).1);
-    let wild = Projection { tolerance: n.draw(), iterations: 30, ..Projection::default() };
-    for projection in [wild, Projection::default()] {
-        let _ = black_box(projection.project(system, n.draw(), state).is_ok());
-        let _ = black_box(projection.project_weighted(system, n.draw(), state, &n.vector()).is_ok());
-        black_box(projection.project_fixed(system, n.draw(), state).residual);
-        integrate(&WithProjection::new(system, projection), state, input, n);
-    }
-    let _ = black_box(assemble(system, n.draw(), state, &n.vector()).is_ok());
+/// The least of each kind: an explicit method with and one without an estimate.
+fn integrate<S: System<Scalar: Drawn>>(model: &S, state: &S::State, input: &S::Input, n: &Numbers) {
+    let system = Bounded::new(model, BOUND);
+    steps::method(Rk4, (&system, &system), (state, input), n);
+    steps::method(Dop853, (&system, &system), (state, input), n);
 }
 
 /// Functions that every model of the list has.
 macro_rules! torment {
-    ($($name:ident: $module:path, $input:expr, [$($function:ident),*] $(, $close:ident)?;)+) => {
+    ($($name:ident: $module:path, $input:expr, [$($function:ident),*];)+) => {
         $(
             #[test]
             fn $name() {
                 use $module as module;
-                all(64, |n| {
+                all(256, |n| {
                     let model = module::Model::<f64>::default();
                     let state: module::State = n.state();
                     let input = $input(n);
                     black_box(model.forward_dynamics(n.draw(), &state, &input));
                     $(torment!(@$function model, state, input, n);)*
                     integrate(&model, &state, &input, n);
-                    $($close(&model, &state, &input, n);)?
                 });
             }
         )+
@@ -162,7 +75,7 @@ macro_rules! torment {
         black_box($model.dead_centres($n.draw(), &$state.q))
     };
     (@residual $model:ident, $state:ident, $input:ident, $n:ident) => {
-        black_box($model.residual($n.draw(), &$state, &$input, &$n.vector(), &$n.vector::<SVector<f64, _>>()))
+        black_box($model.residual($n.draw(), &$state, &$input, &$n.vector(), &$n.vector::<f64, SVector<f64, _>>()))
     };
     (@kinematics $model:ident, $state:ident, $input:ident, $n:ident) => {
         black_box($model.kinematics($n.draw(), &$state, &$n.vector()))
@@ -182,9 +95,9 @@ torment! {
     newton: mechanisms::four_bar_newton, |n: &Numbers| mechanisms::four_bar_newton::Input { torque: n.draw() },
         [inverse_dynamics, bias];
     multipliers: mechanisms::four_bar_multipliers,
-        |n: &Numbers| mechanisms::four_bar_multipliers::Input { torque: n.draw() }, [inverse_dynamics, residual], close;
+        |n: &Numbers| mechanisms::four_bar_multipliers::Input { torque: n.draw() }, [inverse_dynamics, residual];
     spatial: mechanisms::spatial_multipliers,
-        |n: &Numbers| mechanisms::spatial_multipliers::Input { torque: n.draw() }, [inverse_dynamics, residual], close;
+        |n: &Numbers| mechanisms::spatial_multipliers::Input { torque: n.draw() }, [inverse_dynamics, residual];
     slider_crank: loops::rrp_right, |_| (), [inverse_dynamics, kinematics];
 }
 
@@ -206,17 +119,150 @@ fn parameters() {
     });
 }
 
+/// A tree with all of its functions and all methods, in any scalar.
+fn tree_in<T: Drawn>(n: &Numbers) {
+    let params = tree::Params { m: n.scalar(), stiffness: n.scalar() };
+    let _ = black_box(params.check().is_ok());
+    for model in [tree::Model::<T>::default(), tree::Model::new(&params)] {
+        let (state, t): (tree::State<T>, T) = (n.state(), n.scalar());
+        let input = tree::Input { torque: n.scalar() };
+        let asked = n.vector();
+        black_box(model.forward_dynamics(t, &state, &input));
+        black_box(model.inverse_dynamics(t, &state, &input, &asked));
+        black_box(model.mass_matrix(&state.q));
+        black_box(model.bias(t, &state, &input));
+        black_box(model.kinetic_energy(&state) + model.potential_energy(&state.q));
+        black_box(model.outputs(t, &state, &input));
+        black_box(model.impulse(&state.q, &asked));
+        let derivatives = model.forward_derivatives(t, &state, &input);
+        black_box(derivatives.jacobian().rates);
+        black_box(derivatives.jacobian_at(&[3, 99, 0]).position);
+        black_box(derivatives.along_input(&[n.scalar()]));
+        black_box(model.inverse_derivatives(t, &state, &input, &asked));
+        black_box(tree::Position::normalized(SVector::from_fn(|_, _| n.scalar::<T>())));
+
+        let system = Bounded::new(&model, BOUND);
+        let start = (&state, &input);
+        steps::method(Dop853, (&system, &system), start, n);
+        steps::method(Radau, (&system, &system), start, n);
+        searches::struck(&system, &state, n);
+        searches::at_rest(&system, start, n);
+    }
+}
+
 #[test]
-fn functions_of_the_runtime() {
-    all(512, |n| {
-        let row = || [n.draw(), n.draw(), n.draw()];
-        let matrix = [row(), row(), row()];
-        black_box(linear::solve(matrix, row()));
-        black_box(linear::solve_symmetric(matrix, row()));
-        let (d, v) = (Vector3::from(row()), Vector3::from(row()));
-        black_box(rotation::dexp_inv(&d, &v));
-        let q = rotation::displace(&rotation::normalized(n.draw(), n.draw(), n.draw(), n.draw()), &d);
-        black_box(rotation::advance(&q, &d, &v));
-        black_box(rotation::from_scaled_axis(&v));
+fn tree_in_every_scalar() {
+    all(128, tree_in::<f64>);
+    all(128, tree_in::<f32>);
+    all(64, tree_in::<WideF64x4>);
+    all(64, tree_in::<WideF32x8>);
+}
+
+/// All methods on an open tree with a state of its own, and what else asks for its functions.
+#[test]
+fn methods_on_a_tree() {
+    let most = std::cell::Cell::new(0);
+    all(256, |n| {
+        let (model, state) = (tree::Model::<f64>::default(), n.state());
+        let (system, input) = (Bounded::new(&model, BOUND), tree::Input { torque: n.draw() });
+        steps::any(&system, (&state, &input), n);
+        steps::differentiable(&system, (&state, &input), n);
+        most.set(system.most().max(most.get()));
+    });
+    println!("one integration asked at most {} times of {BOUND}", most.get());
+}
+
+#[test]
+fn methods_in_momenta() {
+    fn two_pendulums<T: Drawn>(n: &Numbers) {
+        let (model, state): (energy::double_swing::Model<T>, energy::double_swing::State<T>) =
+            (Default::default(), n.state());
+        black_box(model.momentum(&state));
+        black_box(model.momentum_rate(n.scalar(), &state, &()));
+        black_box(model.velocity(&state.q, &n.vector()));
+        steps::canonical(&Bounded::new(&model, BOUND), (&state, &()), n);
+    }
+    all(256, two_pendulums::<f64>);
+    all(128, two_pendulums::<f32>);
+    all(64, two_pendulums::<WideF64x4>);
+    all(256, |n| {
+        let (model, state) = (impulses::four_bar::Model::<f64>::default(), n.state());
+        let system = Bounded::new(&model, BOUND);
+        steps::canonical(&system, (&state, &Default::default()), n);
+        searches::struck(&system, &state, n);
+    });
+}
+
+#[test]
+fn methods_on_separable_systems() {
+    fn pendulum<T: Drawn>(n: &Numbers) {
+        let (model, state) = (energy::swing::Model::<T>::default(), n.state());
+        steps::separable(&Bounded::new(&model, BOUND), (&state, &()), n);
+    }
+    all(256, pendulum::<f64>);
+    all(128, pendulum::<f32>);
+    all(64, pendulum::<WideF64x4>);
+    all(256, |n| {
+        let (model, state) = (impulses::ball::Model::<f64>::default(), n.state());
+        steps::separable(&Bounded::new(&model, BOUND), (&state, &()), n);
+    });
+}
+
+#[test]
+fn stiff_systems_and_iterated_loops() {
+    all(256, |n| {
+        let (model, state) = (stiff::governor::Model::<f64>::default(), n.state());
+        let (system, input) = (Bounded::new(&model, BOUND), stiff::governor::Input { speed: n.draw() });
+        steps::differentiable(&system, (&state, &input), n);
+        searches::at_rest(&system, (&state, &input), n);
+    });
+    all(256, |n| {
+        let (model, state): (linearised::iterated::Model<f64>, linearised::iterated::State<f64>) =
+            (Default::default(), n.state());
+        let (system, input) = (Bounded::new(&model, BOUND), linearised::iterated::Input { torque: n.draw() });
+        black_box(model.close(n.draw(), &state).residual);
+        steps::differentiable(&system, (&state, &input), n);
+        searches::at_rest(&system, (&state, &input), n);
+    });
+}
+
+/// Loops that keep their equations: all that keeps them closed.
+#[test]
+fn loops_kept() {
+    all(256, |n| {
+        let (model, state): (kept::Model<f64>, kept::State<f64>) = (Default::default(), n.state());
+        let (t, input) = (n.draw(), kept::Input { torque: n.draw() });
+        let asked = n.vector();
+        black_box(model.forward_dynamics(t, &state, &input));
+        black_box(model.inverse_dynamics(t, &state, &input, &asked));
+        black_box(model.mass_matrix(&state.q));
+        black_box(model.constraints(t, &state.q));
+        black_box(model.constraint_jacobian(t, &state.q));
+        black_box(model.constraint_rate(t, &state));
+        black_box(model.constraint_bias(t, &state));
+        black_box(model.residual(t, &state, &input, &asked, &n.vector::<f64, SVector<f64, _>>()));
+        black_box(model.outputs(t, &state, &input));
+        let (system, start) = (Bounded::new(&model, BOUND), (&state, &input));
+        searches::closed(&system, start, n);
+        searches::closed_by_mass(&system, start, n);
+        searches::closed_implicitly(&system, start, n);
+        searches::struck(&system, &state, n);
+    });
+    fn lanes<T: Drawn>(n: &Numbers) {
+        let (model, state): (kept::Model<T>, kept::State<T>) = (Default::default(), n.state());
+        let (system, input) = (Bounded::new(&model, BOUND), kept::Input { torque: n.scalar() });
+        searches::closed(&system, (&state, &input), n);
+    }
+    all(32, lanes::<f32>);
+    all(16, lanes::<WideF64x4>);
+}
+
+/// A hundred thousand steps are allowed.
+#[test]
+fn simulations() {
+    all(12, |n| {
+        let (model, state) = (stiff::governor::Model::<f64>::default(), n.state());
+        let input = stiff::governor::Input { speed: n.draw() };
+        steps::simulated(&Bounded::new(&model, 30_000_000), (&state, &input), n);
     });
 }

@@ -7,6 +7,7 @@ use multibody::{Dop853, DormandPrince, Integrator, Method, Pose, Rk4, Twist};
 use multibody_tests::models::motion::free_body::{Model, Params, Position, State, Velocity};
 use multibody_tests::support::compare::{mixed, worse};
 use multibody_tests::support::data::{array, flat, list, number, read};
+use multibody_tests::support::length::length_gap;
 use serde_json::Value;
 
 /// The body of a file at its start.
@@ -111,19 +112,6 @@ fn a_thousand_radians_per_second() {
     assert!(plain <= 1e-10 && compensated <= 1e-12);
     let velocity = worst(&file, Integrator::fixed(Dop853, 2.5e-4).compensated(), error);
     assert!(velocity <= 1e-12, "{velocity:e}");
-}
-
-/// By how much the length of a quaternion differs from one: squares are summed with their roundings.
-fn length_gap(q: &UnitQuaternion<f64>) -> f64 {
-    let (mut sum, mut rest) = (-1.0, 0.0);
-    for x in q.as_ref().coords.iter() {
-        let square = x * x;
-        let next: f64 = sum + square;
-        let part = next - sum;
-        rest += x.mul_add(*x, -square) + (sum - (next - part)) + (square - part);
-        sum = next;
-    }
-    0.5 * (sum + rest).abs()
 }
 
 /// Half a million steps of a tumbling body (ten million in `benches/rotation_length.rs`).

@@ -202,13 +202,17 @@ fn parses(tokens: &TokenStream) -> bool {
     diagnostics.is_empty()
 }
 
-/// What the engine makes of the tokens, which must be Rust.
-fn survives(tokens: &TokenStream) -> Result<bool, String> {
+/// Characters that 64 KiB may become: modules of one body each come to 27 million.
+const MOST: usize = 40_000_000;
+
+/// What the engine makes of the tokens, which must be Rust: whether it is a model, and its size.
+fn survives(tokens: &TokenStream) -> Result<(bool, usize), String> {
     let output = catch_unwind(AssertUnwindSafe(|| expand(tokens.clone())));
     let output = output.map_err(|_| format!("panic at:\n{tokens}"))?;
-    let error = output.to_string().contains("compile_error");
+    let text = output.to_string();
+    let error = text.contains("compile_error");
     match syn::parse2::<syn::File>(output) {
-        Ok(_) => Ok(!error),
+        Ok(_) => Ok((!error, text.len())),
         Err(e) => Err(format!("no Rust ({e}) for:\n{tokens}")),
     }
 }
@@ -227,7 +231,7 @@ fn mutated_models() {
         parsed += usize::from(parses(&tokens));
         let start = Instant::now();
         match survives(&tokens) {
-            Ok(compiled) => valid += usize::from(compiled),
+            Ok((compiled, _)) => valid += usize::from(compiled),
             Err(text) => panic!("case {case}: {text}"),
         }
         slowest = slowest.max(start.elapsed());
@@ -240,7 +244,7 @@ fn mutated_models() {
 #[test]
 fn seeds_are_valid() {
     for seed in SEEDS {
-        assert_eq!(survives(&seed.parse().unwrap()), Ok(true), "{seed}");
+        assert!(survives(&seed.parse().unwrap()).is_ok_and(|(compiled, _)| compiled), "{seed}");
     }
 }
 
@@ -258,13 +262,14 @@ fn mutated_large_models() {
     }
 }
 
-fn within_a_minute(what: &str, text: &str) {
+/// It ends, and what comes out is no more than what comes of the greatest models that are accepted.
+fn ends(what: &str, text: &str) {
     assert!(text.len() <= 64 * 1024, "{what}: {} bytes", text.len());
     let Ok(tokens) = text.parse::<TokenStream>() else { panic!("{what}: no tokens") };
     let start = Instant::now();
-    survives(&tokens).unwrap_or_else(|text| panic!("{what}: {text:.200}"));
-    println!("{what}: {:?}", start.elapsed());
-    assert!(start.elapsed() < Duration::from_secs(60), "{what}: {:?}", start.elapsed());
+    let (compiled, size) = survives(&tokens).unwrap_or_else(|text| panic!("{what}: {text:.200}"));
+    println!("{what}: compiles {compiled}, {size} characters, {:?}", start.elapsed());
+    assert!(size <= MOST, "{what}: {size} characters");
 }
 
 /// As much of one thing as 64 KiB hold.
@@ -282,7 +287,7 @@ fn filled(head: &str, item: impl Fn(usize) -> String, tail: &str) -> String {
 
 #[test]
 fn sixty_four_kilobytes() {
-    within_a_minute("bodies", &filled("mod m {", |k| format!("body b{k} {{ mass: 1.0 }}"), "}"));
+    ends("bodies", &filled("mod m {", |k| format!("body b{k} {{ mass: 1.0 }}"), "}"));
     let chain = |k: usize| {
         let parent = if k == 0 { "ground".to_owned() } else { format!("b{}.at(X)", k - 1) };
         format!(
@@ -290,12 +295,12 @@ fn sixty_four_kilobytes() {
              joint j{k}: Revolute {{ parent: {parent}, child: b{k}, axis: [1.0, {k}.0, 2.0] }}"
         )
     };
-    within_a_minute("chain", &filled("mod m { world { gravity: -9.81 * Z }", chain, "}"));
-    within_a_minute("params", &filled("mod m {", |k| format!("param p{k} = 1.0;"), "}"));
-    within_a_minute("sum", &filled("mod m { output a = 0.0", |k| format!(" + sin({k}.0 * t)"), "; }"));
+    ends("chain", &filled("mod m { world { gravity: -9.81 * Z }", chain, "}"));
+    ends("params", &filled("mod m {", |k| format!("param p{k} = 1.0;"), "}"));
+    ends("sum", &filled("mod m { output a = 0.0", |k| format!(" + sin({k}.0 * t)"), "; }"));
     let hinge = "mod m { body b { mass: 1.0, com: X, inertia: diag(1.0, 1.0, 1.0) }
                   joint j: Revolute { parent: ground, child: b, axis: Z }";
-    within_a_minute("sines", &filled(hinge, |k| format!("output o{k} = sin(j.angle + {k}.5);"), "}"));
+    ends("sines", &filled(hinge, |k| format!("output o{k} = sin(j.angle + {k}.5);"), "}"));
     let fan = |count: usize| {
         format!(
             "mod arm {{ port base: Frame; body b {{ mass: 1.0, com: X, inertia: diag(1.0, 1.0, 1.0) }}
@@ -304,16 +309,13 @@ fn sixty_four_kilobytes() {
              emit forward_dynamics, inverse_dynamics, mass_matrix, bias, energy; }}"
         )
     };
-    within_a_minute("fan", &fan(200));
-    within_a_minute("wide fan", &fan(3000));
-    within_a_minute("nest", &format!("mod m {{ output a = {}1.0{}; }}", "(".repeat(30_000), ")".repeat(30_000)));
-    within_a_minute("minus", &filled("mod m { output a = ", |_| "-".to_owned(), "1.0; }"));
-    within_a_minute(
-        "lets",
-        &filled("mod m { let a0 = t;", |k| format!("let a{} = a{k} * a{k};", k + 1), "output o = a9; }"),
-    );
-    within_a_minute("braces", &filled("mod m {", |_| "{} ".to_owned(), "}"));
-    within_a_minute("modules", &filled("", |k| format!("mod m{k} {{ body b {{ mass: 1.0 }} }}"), ""));
-    within_a_minute("emit", &filled("mod m { emit energy", |_| ", energy".to_owned(), "; }"));
-    within_a_minute("frames", &filled("mod m { output a = ground", |_| ".at(X)".to_owned(), ".position; }"));
+    ends("fan", &fan(200));
+    ends("wide fan", &fan(3000));
+    ends("nest", &format!("mod m {{ output a = {}1.0{}; }}", "(".repeat(30_000), ")".repeat(30_000)));
+    ends("minus", &filled("mod m { output a = ", |_| "-".to_owned(), "1.0; }"));
+    ends("lets", &filled("mod m { let a0 = t;", |k| format!("let a{} = a{k} * a{k};", k + 1), "output o = a9; }"));
+    ends("braces", &filled("mod m {", |_| "{} ".to_owned(), "}"));
+    ends("modules", &filled("", |k| format!("mod m{k} {{ body b {{ mass: 1.0 }} }}"), ""));
+    ends("emit", &filled("mod m { emit energy", |_| ", energy".to_owned(), "; }"));
+    ends("frames", &filled("mod m { output a = ground", |_| ".at(X)".to_owned(), ".position; }"));
 }

@@ -3,7 +3,7 @@
 use multibody::nalgebra::SVector;
 use multibody::{Canonical, Separable, System};
 use multibody_tests::models::impulses::*;
-use multibody_tests::models::{arms, linkages, small};
+use multibody_tests::models::{arms, rows, small};
 use multibody_tests::support::compare::{mixed, worse};
 use multibody_tests::support::random::Random;
 use num_dual::Dual64;
@@ -143,7 +143,7 @@ fn separable_are_those_whose_accelerations_read_no_velocity() {
     assert!(is_separable!(small::pendulum::Model));
     assert!(is_separable!(small::oscillator::Model<f32>));
     assert!(is_separable!(ball::Model));
-    assert!(is_separable!(linkages::four_bars_2::Model));
+    assert!(is_separable!(rows::four_bars_2::Model));
     assert!(!is_separable!(small::two_rods::Model));
     assert!(!is_separable!(arms::double_pendulum::Model));
     assert!(!is_separable!(small::cart_pole::Model));

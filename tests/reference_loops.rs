@@ -2,9 +2,8 @@
 //! Andrews' squeezer.
 
 use multibody::{Dop853, DormandPrince, Integrator, Projection, System};
-use multibody_tests::models::linkages::{
-    four_bars_1, four_bars_2, four_bars_10, redundant_1, redundant_2, squeezer, squeezer_reduced,
-};
+use multibody_tests::models::linkages::{squeezer, squeezer_reduced};
+use multibody_tests::models::rows::{four_bars_1, four_bars_2, four_bars_10, redundant_1, redundant_2};
 use multibody_tests::support::compare::{mixed, worse};
 use multibody_tests::support::data::{array, flat, list, number, read};
 use serde_json::Value;

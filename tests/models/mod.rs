@@ -13,6 +13,7 @@ pub mod mechanisms;
 pub mod motion;
 pub mod random;
 pub mod required;
+pub mod rows;
 pub mod small;
 pub mod stewart;
 pub mod stiff;

@@ -7,6 +7,7 @@ pub mod energy;
 pub mod engine;
 pub mod jet;
 pub mod ledger;
+pub mod length;
 pub mod long_runs;
 pub mod plain;
 pub mod random;

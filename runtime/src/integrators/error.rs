@@ -28,7 +28,8 @@ pub enum IntegrationError {
         /// `[s]` the time reached.
         time: f64,
     },
-    /// Events of one function, each with a jump, follow each other ever faster: a ball that comes to rest.
+    /// Events of one function, each with a jump, follow each other ever faster: a ball that comes to rest. Or functions
+    /// cross zero more than a hundred times between two points at which they are looked at.
     EventsAccumulate {
         /// `[s]` the time of the last one.
         time: f64,

@@ -131,8 +131,8 @@ pub trait Events<S: System, const N: usize> {
         0.0
     }
 
-    /// Points between the ends of a step at which the functions are looked at, equally spaced. A function that crosses
-    /// twice between two of them goes unseen. With zero no dense output is made where nothing crosses.
+    /// Points between the ends of a step at which the functions are looked at, equally spaced, at most 1,000. A function
+    /// that crosses twice between two of them goes unseen. With zero no dense output is made where nothing crosses.
     fn samples(&self) -> u32 {
         3
     }

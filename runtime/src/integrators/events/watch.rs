@@ -8,6 +8,11 @@ use crate::integrators::method::Method;
 use crate::integrators::slope::{is_finite, magnitude};
 use crate::{Real, System};
 
+/// At most so many crossings are located between two neighbouring points: functions that cross more often there, or whose
+/// crossings by dense output and by steps of the method contradict each other, have no end of them.
+const CROSSINGS: u32 = 100;
+/// At most so many points between the ends of a step are looked at: whatever the user says, a step is bounded work.
+const SAMPLES: u32 = 1000;
 /// The first sample after a jump, as a share of the time since the restart before; the next ones are four times as far
 /// each, up to those of every step.
 const FIRST: f64 = 1e-3;
@@ -147,7 +152,7 @@ impl<const N: usize> Watch<N> {
         let width = resolution(interval, events.tolerance()) / length;
         let first =
             self.close.take().map(|time| if time.is_nan() { START } else { Real::max(time, 4.0 * sharpest) / length });
-        let inner = f64::from(events.samples()) + 1.0;
+        let inner = f64::from(events.samples().min(SAMPLES)) + 1.0;
         let (mut low, mut c) = (0.0, 0.0);
         while c < 1.0 {
             c = next_share(c, inner, first);
@@ -156,8 +161,12 @@ impl<const N: usize> Watch<N> {
             }
             let (time, state) = (interval.time(c), if c < 1.0 { interval.share(c) } else { *interval.last() });
             let seen = values::<S, _, N>(events, time, &state)?;
-            let mut refuted = [false; N];
+            let (mut refuted, mut located) = ([false; N], 0);
             while let Some((index, guess)) = self.earliest(interval, events, (low, c, width), &seen, &refuted) {
+                located += 1;
+                if located > CROSSINGS {
+                    return Err(IntegrationError::EventsAccumulate { time: interval.time(low) });
+                }
                 match self.locate(interval, events, index, (low, guess, c), width)? {
                     None => refuted.iter_mut().skip(index).take(1).for_each(|refuted| *refuted = true),
                     Some(part) => {
