@@ -1,0 +1,148 @@
+//! Stage `mechanics`, its whole: accelerations, kinematics and outputs.
+//!
+//! In: what the model asks for. Out: candidates by every formulation that fits.
+
+use std::rc::Rc;
+
+use crate::mechanics::analysis::Complaint;
+use crate::mechanics::constrained::Solved;
+use crate::mechanics::equations::{Equations, Method, Style, Way};
+use crate::mechanics::needs::Needs;
+use crate::mechanics::strut::forward;
+use crate::symbolic::graph::Scalar;
+
+use super::{Candidate, Deriving, METHODS, MOST_COMPOSITE, MOST_STRUT_WAYS, articulates, floats, freedoms};
+
+impl<'m> Deriving<'m> {
+    pub(super) fn forward_dynamics(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        let model = self.model;
+        let needs = Needs::of(model.states.iter().map(|state| &state.rate));
+        let kept = needs.kept(model);
+        let all = |equations: &mut Equations<'m>| {
+            let mut results = equations.accelerations().to_vec();
+            results.extend(model.states.iter().map(|state| equations.scalar(&state.rate)));
+            Ok(results)
+        };
+        let methods = match articulates(model, &kept) {
+            true if freedoms(model) > MOST_COMPOSITE => &METHODS[1..],
+            true => &METHODS[..],
+            false => &METHODS[..1],
+        };
+        let mut candidates = Vec::new();
+        for &(method, names) in methods {
+            candidates.extend(self.in_all_axes(&names, method, &kept, all)?);
+        }
+        if floats(model) && freedoms(model) <= MOST_COMPOSITE {
+            let name = "composite rigid body, LDL^T, translations first";
+            let way = Way { style: Style::Nested, method: Method::Floating, axes: None, writing: self.writing };
+            candidates.extend(self.candidate(name, way, &kept, &mut { all })?);
+        }
+        Ok(candidates)
+    }
+
+    /// With dependent or driven coordinates, or multipliers.
+    pub(super) fn constrained_dynamics(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        let model = self.model;
+        let kept = Needs::of(model.states.iter().map(|state| &state.rate)).kept(model);
+        let all = |equations: &mut Equations<'m>| {
+            let reduction = equations.reduce()?;
+            let solved = equations.solve_constrained(&reduction);
+            let rates: Vec<Scalar> = model.states.iter().map(|state| equations.scalar(&state.rate)).collect();
+            let mut results = solved.accelerations.clone();
+            results.extend(equations.put_in_all(&reduction, &solved, &rates));
+            results.extend(&solved.multipliers);
+            results.extend(solved.rank);
+            if !reduction.residuals.is_empty() {
+                let residual = equations.worst_residual(&reduction);
+                results.extend(equations.finish(&reduction, &[residual]));
+            }
+            Ok(results)
+        };
+        let mut candidates = self.in_all_axes(&METHODS[0].1, Method::Composite, &kept, all)?;
+        for at in 0..MOST_STRUT_WAYS {
+            let found = self.maybe(|e| {
+                let reduction = e.reduce()?;
+                let Some(platform) = e.platform(&reduction) else { return Ok(None) };
+                let name = forward::ways(&platform.carrier).get(at).map(|way| way.0);
+                let Some(mut results) = e.platform_accelerations(&platform, &reduction, at) else { return Ok(None) };
+                let solved = Solved { accelerations: results.clone(), multipliers: Vec::new(), rank: None };
+                let rates: Vec<Scalar> = model.states.iter().map(|state| e.scalar(&state.rate)).collect();
+                results.extend(e.put_in_all(&reduction, &solved, &rates));
+                Ok(name.map(|name| (name, results)))
+            })?;
+            let Some(found) = found else { break };
+            candidates.push(found);
+        }
+        if floats(model) {
+            let name = "composite rigid body, LDL^T, translations first";
+            let way = Way { style: Style::Nested, method: Method::Floating, axes: None, writing: self.writing };
+            candidates.extend(self.candidate(name, way, &kept, &mut { all })?);
+        }
+        Ok(candidates)
+    }
+
+    /// Values, rates and accelerations of coordinates from those that are given.
+    pub(super) fn kinematics(&mut self, number: usize) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        let Some(wanted) = self.model.kinematics.get(number) else { return Ok(Vec::new()) };
+        let structure = self.structure.solved(self.model);
+        let before = std::mem::replace(&mut self.structure, Rc::new(structure));
+        let found = self.only("closed form", |e| {
+            let mut reduction = e.reduce()?;
+            e.verify(&mut reduction)?;
+            e.kinematics(wanted, &reduction)
+        });
+        self.structure = before;
+        found
+    }
+
+    pub(super) fn outputs(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        let model = self.model;
+        let needs = Needs::of(model.outputs.iter().map(|output| &output.value));
+        let kept = needs.kept(model);
+        let open = self.is_open();
+        let mut all = |equations: &mut Equations<'m>| {
+            let flat = |equations: &mut Equations<'m>| {
+                let mut results = Vec::new();
+                for output in &model.outputs {
+                    let value = equations.value(&output.value);
+                    value.flatten(&mut equations.g, &mut results);
+                }
+                results
+            };
+            if open {
+                return Ok(flat(equations));
+            }
+            let reduction = Rc::new(equations.reduce()?);
+            equations.reduction = Some(Rc::clone(&reduction));
+            let results = flat(equations);
+            match equations.solved.clone() {
+                Some(solved) => Ok(equations.put_in_all(&reduction, &solved, &results)),
+                None => Ok(equations.finish(&reduction, &results)),
+            }
+        };
+        let articulates = open && needs.accelerations && articulates(model, &kept);
+        let mut ways = Vec::new();
+        if !(articulates && freedoms(model) > MOST_COMPOSITE) {
+            ways.push((Style::World, Method::Composite, "world axes"));
+            if needs.frames {
+                ways.push((Style::Nested, Method::Composite, "link axes"));
+            }
+        }
+        if articulates {
+            ways.push((Style::World, Method::Articulated, "world axes, articulated body"));
+            if needs.frames {
+                ways.push((Style::Nested, Method::Articulated, "link axes, articulated body"));
+            }
+        }
+        let mut candidates = Vec::new();
+        for (style, method, name) in ways {
+            candidates.extend(self.candidate(
+                name,
+                Way { style, method, axes: None, writing: self.writing },
+                &kept,
+                &mut all,
+            )?);
+        }
+        Ok(candidates)
+    }
+}

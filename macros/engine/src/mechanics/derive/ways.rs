@@ -1,0 +1,188 @@
+//! Stage `mechanics`, its whole: what a candidate is.
+//!
+//! In: a function of [`Equations`] in one formulation. Out: its results with the name of the method, in each of the axes,
+//! writings and groupings that may make a difference.
+
+use std::rc::Rc;
+
+use crate::mechanics::analysis::Complaint;
+use crate::mechanics::closings;
+use crate::mechanics::equations::{Equations, Method, Style, Way};
+use crate::mechanics::gathered;
+use crate::mechanics::parallel::Axes;
+use crate::mechanics::reduction::Reduction;
+use crate::mechanics::symbols::Symbols;
+use crate::model::types::JointId;
+use crate::symbolic::graph::{Graph, Rotation, Scalar};
+use crate::symbolic::lower::Lowering;
+
+use super::{AXES, Candidate, Deriving, Found, GATHERED, MOST_COMPOSITE, Names, freedoms};
+
+impl<'m> Deriving<'m> {
+    /// One method, in the axes that [`AXES`] names.
+    pub(super) fn one(
+        &mut self,
+        names: Names,
+        f: impl FnMut(&mut Equations<'m>) -> Found,
+    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        self.in_all_axes(&names, Method::Composite, &[], f)
+    }
+
+    /// The recursion over groups of links, where it is another way.
+    pub(super) fn gathered(
+        &mut self,
+        mut f: impl FnMut(&mut Equations<'m>) -> Found,
+    ) -> Result<Option<Candidate>, Vec<Complaint>> {
+        self.maybe(|e| {
+            e.gathered = true;
+            if !gathered::differs(&e.mechanism.tree) {
+                return Ok(None);
+            }
+            Ok(Some((GATHERED, f(e)?)))
+        })
+    }
+
+    /// The same, with the definitions of dependent coordinates.
+    pub(super) fn reduced(
+        &mut self,
+        names: Names,
+        f: impl Fn(&mut Equations<'m>, &Reduction) -> Found,
+    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        self.one(names, |e| {
+            let reduction = e.reduce()?;
+            f(e, &reduction)
+        })
+    }
+
+    pub(super) fn in_all_axes(
+        &mut self,
+        names: &[&'static str],
+        method: Method,
+        kept: &[JointId],
+        mut f: impl FnMut(&mut Equations<'m>) -> Found,
+    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        // Common axes pay where a matrix is factored or passed on; beyond that size each way costs too much time.
+        let ways = if freedoms(self.model) > MOST_COMPOSITE { 1 } else { AXES.len() };
+        let mut candidates = Vec::new();
+        for (axes, &name) in AXES.into_iter().zip(names).take(ways) {
+            candidates.extend(self.candidate(
+                name,
+                Way { style: Style::Nested, method, axes, writing: self.writing },
+                kept,
+                &mut f,
+            )?);
+        }
+        Ok(candidates)
+    }
+
+    /// One that has no choice of axes.
+    pub(super) fn only(
+        &mut self,
+        name: &'static str,
+        mut f: impl FnMut(&mut Equations<'m>) -> Found,
+    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        let way = Way { style: Style::Nested, method: Method::Composite, axes: None, writing: self.writing };
+        Ok(self.candidate(name, way, &[], &mut f)?.into_iter().collect())
+    }
+
+    /// A way that is there for some models only, with its name.
+    pub(super) fn maybe(
+        &mut self,
+        mut f: impl FnMut(&mut Equations<'m>) -> Result<Option<Candidate>, Vec<Complaint>>,
+    ) -> Result<Option<Candidate>, Vec<Complaint>> {
+        let mut name = None;
+        let found = self.only("", |e| {
+            let candidate = f(e)?;
+            name = candidate.as_ref().map(|candidate| candidate.0);
+            Ok(candidate.map(|candidate| candidate.1).unwrap_or_default())
+        })?;
+        Ok(found.into_iter().next().and_then(|(_, results)| Some((name?, results))))
+    }
+
+    /// Equations of loops, as they are written in the whole model.
+    pub(super) fn written(
+        &mut self,
+        axes: &[Option<Axes>],
+        f: impl Fn(&mut Equations<'m>, &Reduction) -> Vec<Scalar>,
+    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        let mut candidates = Vec::new();
+        for &axes in axes {
+            let name = match self.writing.axes {
+                closings::Axes::Parent => "loops in the axes of the parent's frame",
+                closings::Axes::Child => "loops in the axes of the child's frame",
+                closings::Axes::World => "loops in world axes",
+                closings::Axes::Common => "loops in the axes of what carries both sides",
+                closings::Axes::ParentBase => "loops in the axes in which the parent's side stands",
+                closings::Axes::ChildBase => "loops in the axes in which the child's side stands",
+            };
+            let way = Way { style: Style::Nested, method: Method::Composite, axes, writing: self.writing };
+            let found = self.candidate(name, way, &[], &mut |e: &mut Equations<'m>| {
+                let reduction = e.reduce()?;
+                Ok(f(e, &reduction))
+            })?;
+            candidates.extend(found);
+        }
+        Ok(candidates)
+    }
+
+    /// Of expressions as they are derived.
+    pub(super) fn weight(&self, results: &[Scalar]) -> u32 {
+        let mut lowering = Lowering::new(&self.graph);
+        let roots = lowering.run(results);
+        lowering.to.cost(&roots).weight()
+    }
+
+    /// The same, with the definitions at hand.
+    pub(super) fn equations(
+        &mut self,
+        name: &'static str,
+        f: impl Fn(&mut Equations<'m>, &Reduction) -> Found,
+    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        self.only(name, |e| {
+            let reduction = e.reduce()?;
+            f(e, &reduction)
+        })
+    }
+
+    /// Results on the tree with the definitions put in.
+    pub(super) fn put_in(
+        &mut self,
+        name: &'static str,
+        f: impl Fn(&mut Equations<'m>) -> Found,
+    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        self.equations(name, |e, reduction| {
+            let results = f(e)?;
+            Ok(e.finish(reduction, &results))
+        })
+    }
+
+    pub(super) fn candidate(
+        &mut self,
+        name: &'static str,
+        way: Way,
+        kept: &[JointId],
+        f: &mut impl FnMut(&mut Equations<'m>) -> Found,
+    ) -> Result<Option<Candidate>, Vec<Complaint>> {
+        let mut graph = std::mem::take(&mut self.graph);
+        graph.forget();
+        let mut equations = Equations::new(self.model, graph, self.symbols.clone(), way, kept);
+        equations.structure = Rc::clone(&self.structure);
+        equations.branches = std::mem::take(&mut self.branches);
+        let exists = way.axes.is_none() || equations.shared().turns.iter().any(|&turn| turn != Rotation::IDENTITY);
+        let results = if exists { f(&mut equations) } else { Ok(Vec::new()) };
+        let unfinished = |g: &Graph, results: &[Scalar]| results.iter().any(|&root| Symbols::is_unfinished(g, root));
+        // Nodes are found by value: what is made after definitions were put in may come out as an older node, in which a
+        // coordinate outside the state stands and cancels. Put in once more, it goes.
+        let results = results.map(|results| {
+            let (g, defined) = (&mut equations.g, &equations.defined);
+            if !defined.is_empty() && unfinished(g, &results) { g.substitute(&results, defined) } else { results }
+        });
+        self.graph = equations.g;
+        self.branches = equations.branches;
+        let results = results?;
+        // A net: what a way has left unreplaced has no place in the generated structs.
+        let finished = !unfinished(&self.graph, &results);
+        debug_assert!(finished, "{name} leaves a coordinate that is not in the state");
+        Ok((exists && finished).then_some((name, results)))
+    }
+}
