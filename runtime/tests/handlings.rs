@@ -202,7 +202,7 @@ type All = SVector<f64, 6>;
 
 fn of_reduced(state: &reduced::State) -> All {
     let output = reduced::Model::default().outputs(0.0, state, &());
-    let ([a, b, c], [d, e, f]) = (output.angles.into(), output.rates.into());
+    let ([a, b, c], [d, e, f]) = (output.angles, output.rates);
     All::from([a, b, c, d, e, f])
 }
 
