@@ -6,6 +6,9 @@ const TEXT: &str = "text{font-family:DejaVu Sans,Verdana,sans-serif}polyline,pat
 /// Greatest number of digits between two lines of the grid.
 const LINES: i32 = 6;
 
+/// Pixels between two names at least.
+const GAP: f64 = 4.0;
+
 /// How a curve is drawn.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Style {
@@ -61,6 +64,10 @@ struct Place {
 impl Place {
     fn meets(&self, other: &Self) -> bool {
         self.left < other.right && other.left < self.right && self.top < other.bottom && other.top < self.bottom
+    }
+
+    fn wider(&self, by: f64) -> Self {
+        Self { left: self.left - by, right: self.right + by, ..*self }
     }
 
     fn holds(&self, (x, y): (f64, f64)) -> bool {
@@ -249,7 +256,7 @@ impl Picture {
                         && place.right < frame.right - 2.0
                         && place.top > frame.top + 2.0
                         && place.bottom < frame.bottom - 2.0;
-                    if !inside || taken.iter().any(|other| other.meets(&place)) {
+                    if !inside || taken.iter().any(|other| other.meets(&place.wider(GAP))) {
                         continue;
                     }
                     let covered = dense.iter().filter(|&&point| place.holds(point)).count() as f64;
