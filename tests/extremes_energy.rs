@@ -21,6 +21,7 @@ fn bounded(name: &str, drift: Drift, bound: f64, rise: f64) {
 fn pendulum_by_verlet() {
     let run = pendulum::<f64, _>(Integrator::fixed(Verlet, 1e-2), 1e-2, 2_000_000);
     bounded("pendulum, Verlet, 2e6 steps of 1e-2", run, 2.5e-4, 1e-8);
+    assert!(run.is_flat());
 }
 
 #[test]
@@ -46,6 +47,7 @@ fn double_pendulum_by_midpoint() {
         let steps = 50_000;
         let run = double_pendulum(SymplecticMidpoint, start, steps);
         bounded(&format!("{name}, midpoint in momenta"), run, 4e-3, 5e-5);
+        assert!(run.is_flat());
         println!("{name}, midpoint in velocities: {}", double_pendulum(ImplicitMidpoint, start, steps));
     }
 }

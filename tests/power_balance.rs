@@ -162,3 +162,15 @@ fn platform_on_six_motors() {
     };
     balance!(stewart, start, push, 5e-4, 1000);
 }
+
+#[test]
+fn friction_and_a_bushing() {
+    let mut start = block::State::default();
+    start.v.slide = 2.0;
+    balance!(block, start, |_| (), 2.5e-5, 40_000);
+    let mut start = mount::State::default();
+    start.q.free.position = Vector3::new(0.01, -0.02, 0.015);
+    start.q.free.orientation = RollPitchYaw { roll: 0.2, pitch: -0.1, yaw: 0.3 };
+    start.v.free.position = Vector3::new(0.3, 0.1, -0.2);
+    balance!(mount, start, |_| (), 2.5e-4, 4000);
+}

@@ -273,3 +273,43 @@ multibody! {
         emit forward_dynamics;
     }
 }
+
+multibody! {
+    /// `examples/impacts.rs`: dry friction
+    pub mod block {
+        const MU = 0.3;
+        const SLOW = 0.01;
+        const MASS = 1.5;
+        body block { mass: MASS }
+        joint slide: Prismatic { parent: ground, child: block, axis: X }
+        force friction: Effort { joint: slide, value: -MU * MASS * 9.81 * tanh(slide.rate / SLOW) }
+        output power = friction.power;
+        output energy = kinetic() + potential();
+        emit forward_dynamics;
+    }
+    /// `examples/impacts.rs`: a bushing, whose springs are forces of the user's
+    pub mod mount {
+        const K = [4e4, 4e4, 9e4];
+        const C = [200.0, 200.0, 450.0];
+        const KT = [300.0, 250.0, 120.0];
+        const CT = [1.5, 1.0, 0.6];
+        body engine { mass: 40.0, inertia: diag(1.2, 1.0, 0.8) }
+        joint free: Free { parent: ground, child: engine, coordinates: RollPitchYaw }
+        force shift: Force {
+            at: engine, axes: ground,
+            value: [
+                -K[0] * free.x - C[0] * free.x.rate, -K[1] * free.y - C[1] * free.y.rate, -K[2] * free.z - C[2] * free.z.rate,
+            ],
+        }
+        force turn: Torque {
+            at: engine, axes: ground,
+            value: [
+                -KT[0] * free.roll - CT[0] * free.roll.rate, -KT[1] * free.pitch - CT[1] * free.pitch.rate,
+                -KT[2] * free.yaw - CT[2] * free.yaw.rate,
+            ],
+        }
+        output power = shift.power + turn.power;
+        output energy = kinetic() + potential();
+        emit forward_dynamics;
+    }
+}
