@@ -108,7 +108,8 @@ pub(super) fn all(cases: u32, check: impl Fn(&Numbers)) {
 pub(super) fn finite<Z: StateSpace>(state: &Z) -> bool {
     let (q, v, x) = state.split();
     let zero = Z::Scalar::lit(0.0);
-    let gap = &mut |sum, x| sum + (x - x); // zero, or NaN
+    // Zero times what is not finite is NaN.
+    let gap = &mut |sum, x| sum + zero * x;
     let gaps = q.magnitude().fold(zero, gap) + v.fold(zero, gap) + x.fold(zero, gap);
     gaps.greatest() == 0.0
 }
