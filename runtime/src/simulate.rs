@@ -1,15 +1,15 @@
 //! A motion to an accuracy, without a choice of method: [`simulate`], and [`simulate_stiff`] for stiff systems.
 //!
 //! Which method and which tolerances is what `examples/tradeoff` measured: over its scenes, the method of order eight
-//! costs least from 1e-3 on. Shares of the tolerance are the greatest with which every scene reaches what was asked; what is
-//! lost to the best choice in hindsight is then about a factor of two at most (`docs/tradeoff/summary.md` lists it), more only
-//! where forces depend on positions alone and a symplectic composition does the same with less.
+//! costs least from 1e-3 on. Tolerances are such that every scene reaches what was asked for, in all its formulations (f64).
+//! What is lost to the best choice in hindsight is then at most a factor of 2.2 (`docs/tradeoff/summary.md` lists it), but
+//! three where accelerations depend on positions alone and a symplectic composition takes less.
 
 use crate::{Differentiable, Dop853, DormandPrince, IntegrationError, Integrator, Radau, Real, Statistics, System};
 
 /// Looser than that, the method of order five costs less.
 const LOOSE: f64 = 3e-3;
-/// Tighter than that, errors of the method of order eight may exceed its tolerance twice.
+/// Tighter than that, errors of the method of order eight may exceed the tolerance of its steps.
 const TIGHT: f64 = 1e-4;
 /// Tolerances of steps in units of the accuracy: of the method of order five, of that of order eight before and after
 /// [`TIGHT`], and of the implicit one.
