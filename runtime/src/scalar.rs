@@ -13,8 +13,9 @@ mod dual;
 mod f32;
 mod f64;
 pub(crate) mod float;
-#[cfg(not(feature = "std"))]
-mod single_sine;
+#[cfg(any(not(feature = "std"), feature = "reproducible"))]
+mod software;
+#[cfg(feature = "wide")]
 mod wide;
 
 use nalgebra::{RealField, SimdRealField};
