@@ -1,0 +1,21 @@
+//! What differs between machines: where text goes, how instructions are counted, how a program ends.
+//!
+//! The only `unsafe` code of the firmware is here.
+
+#[cfg(target_os = "none")]
+mod bare;
+#[cfg(all(target_os = "none", target_arch = "arm"))]
+#[path = "machine/cortex_m.rs"]
+mod processor;
+#[cfg(not(target_os = "none"))]
+mod hosted;
+#[cfg(all(target_os = "none", target_arch = "riscv32"))]
+#[path = "machine/riscv.rs"]
+mod processor;
+
+#[cfg(target_os = "none")]
+pub use bare::{exit, put, stack};
+#[cfg(not(target_os = "none"))]
+pub use hosted::{instructions, put, stack};
+#[cfg(target_os = "none")]
+pub use processor::{entry, instructions};
