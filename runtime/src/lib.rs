@@ -58,11 +58,13 @@
 //! - `libm`: the same in plain Rust, for targets without std. Sine and cosine of `f32` hold no operation of `f64` there,
 //!   and take the same instructions for every angle up to 12,800 rad (`f64`: a million).
 //! - `reproducible`: these functions on targets with std too, so that results are equal bit for bit on all of them.
+//! - `hardware-root`, `hardware-root-double`: square roots of `f32`, and of `f64`, by the processor's instruction on Arm and
+//!   RISC-V without std, where libm's take 64 instructions. The one file of `unsafe` code of this crate.
 //! - `wide` (default): [`Real`] for simba's lanes.
 //! - `num-dual`: [`Real`] for the dual numbers of the crate `num-dual`, for derivatives.
 
 #![cfg_attr(not(feature = "std"), no_std)]
-#![forbid(unsafe_code)]
+#![cfg_attr(not(feature = "hardware-root"), forbid(unsafe_code))]
 #![deny(missing_docs)]
 
 // Generated code names this crate `::multibody`; with this line it can do so in this crate's own examples.

@@ -13,6 +13,12 @@ mod dual;
 mod f32;
 mod f64;
 pub(crate) mod float;
+#[cfg(all(
+    feature = "hardware-root",
+    not(feature = "std"),
+    any(target_arch = "arm", target_arch = "riscv32", target_arch = "riscv64")
+))]
+mod hardware_root;
 #[cfg(any(not(feature = "std"), feature = "reproducible"))]
 mod software;
 #[cfg(feature = "wide")]

@@ -43,18 +43,34 @@ macro_rules! elementary {
 }
 
 macro_rules! exact {
-    ($float:ident: $($name:ident = $libm:ident;)+) => {
-        $(
-            #[inline]
-            pub(crate) fn $name(x: $float) -> $float {
-                #[cfg(feature = "std")]
-                return x.$name();
-                #[cfg(all(not(feature = "std"), feature = "libm"))]
-                return libm::$libm(x);
-                #[cfg(not(any(feature = "std", feature = "libm")))]
-                return x;
-            }
-        )+
+    ($float:ident, $hardware:literal, $root:ident, $floor:ident) => {
+        #[inline]
+        pub(crate) fn sqrt(x: $float) -> $float {
+            #[cfg(feature = "std")]
+            return x.sqrt();
+            #[cfg(all(
+                not(feature = "std"),
+                feature = $hardware,
+                any(target_arch = "arm", target_arch = "riscv32", target_arch = "riscv64")
+            ))]
+            return super::super::hardware_root::$float(x);
+            #[cfg(not(any(
+                feature = "std",
+                all(
+                    feature = $hardware,
+                    any(target_arch = "arm", target_arch = "riscv32", target_arch = "riscv64")
+                )
+            )))]
+            return libm::$root(x);
+        }
+
+        #[inline]
+        pub(crate) fn floor(x: $float) -> $float {
+            #[cfg(feature = "std")]
+            return x.floor();
+            #[cfg(not(feature = "std"))]
+            return libm::$floor(x);
+        }
     };
 }
 
@@ -63,7 +79,7 @@ pub(crate) mod double {
         asin(x) = asin; acos(x) = acos; atan(x) = atan; atan2(y, x) = atan2; sinh(x) = sinh; cosh(x) = cosh;
         tanh(x) = tanh; exp(x) = exp; ln(x) = log; powf(x, y) = pow; hypot(x, y) = hypot;
     }
-    exact! { f64: sqrt = sqrt; floor = floor; }
+    exact! { f64, "hardware-root-double", sqrt, floor }
 }
 
 pub(crate) mod single {
@@ -71,5 +87,5 @@ pub(crate) mod single {
         asin(x) = asinf; acos(x) = acosf; atan(x) = atanf; atan2(y, x) = atan2f; sinh(x) = sinhf; cosh(x) = coshf;
         tanh(x) = tanhf; exp(x) = expf; ln(x) = logf; powf(x, y) = powf; hypot(x, y) = hypotf;
     }
-    exact! { f32: sqrt = sqrtf; floor = floorf; }
+    exact! { f32, "hardware-root", sqrtf, floorf }
 }
