@@ -7,15 +7,19 @@ mod bare;
 #[cfg(all(target_os = "none", target_arch = "arm"))]
 #[path = "machine/cortex_m.rs"]
 mod processor;
-#[cfg(not(target_os = "none"))]
+#[cfg(not(any(target_os = "none", target_family = "wasm")))]
 mod hosted;
 #[cfg(all(target_os = "none", target_arch = "riscv32"))]
 #[path = "machine/riscv.rs"]
 mod processor;
+#[cfg(target_family = "wasm")]
+mod wasm;
 
 #[cfg(target_os = "none")]
 pub use bare::{exit, put, stack};
-#[cfg(not(target_os = "none"))]
+#[cfg(not(any(target_os = "none", target_family = "wasm")))]
 pub use hosted::{instructions, put, stack};
 #[cfg(target_os = "none")]
 pub use processor::{entry, instructions};
+#[cfg(target_family = "wasm")]
+pub use wasm::{instructions, put, stack};

@@ -30,23 +30,26 @@ pub fn run<S: Scene>() {
     put(S::NAME);
     put(if size_of::<Scalar>() == 4 { ", f32\n" } else { ", f64\n" });
 
-    let mut input = scene.start();
     put("first result:");
-    S::numbers(&scene.call(&input), micro);
+    S::numbers(&scene.call(&scene.start()), micro);
     put("\n");
 
+    put("hash of 10000 results: ");
+    hexadecimal(digest(&scene).value());
+    put("\n");
+    cost(&scene);
+}
+
+/// The hash of the sequence.
+pub(crate) fn digest<S: Scene>(scene: &S) -> Digest {
     let mut digest = Digest::new();
+    let mut input = scene.start();
     for _ in 0..CALLS {
         let output = scene.call(&input);
         S::numbers(&output, |number| digest.add(number));
         input = scene.next(&input, &output);
     }
-    put("last result:");
-    S::numbers(&scene.call(&input), micro);
-    put("\nhash of 10000 results: ");
-    hexadecimal(digest.value());
-    put("\n");
-    cost(&scene);
+    digest
 }
 
 /// Instructions and stack of a call, where the machine can tell.
