@@ -52,11 +52,12 @@ macro_rules! sine {
                 let sin = r - (over - r * (z * polynomial(SINE, z)));
                 let cos = 1.0 + (z * (z * polynomial(COSINE, z) - 0.5) + over * r);
 
-                let (sin, cos) = if quadrant & 1 == 0 { (sin, cos) } else { (cos, sin) };
-                // Second bits say where a function is negative: sine in the quadrants two and three, cosine in one and two.
-                const TOP: u32 = <$bits>::BITS - 2;
-                let sign = |quadrant: $bits| (quadrant & 2) << TOP;
-                let (sin, cos) = (sin.to_bits() ^ sign(quadrant), cos.to_bits() ^ sign(quadrant.wrapping_add(1)));
+                // Bits change places under a mask, where a choice might become a jump. Second bits of the quadrant say where
+                // a function is negative: sine in the quadrants two and three, cosine in one and two.
+                let (sin, cos) = (sin.to_bits(), cos.to_bits());
+                let swap = (sin ^ cos) & (quadrant & 1).wrapping_neg();
+                let sign = |quadrant: $bits| (quadrant & 2) << (<$bits>::BITS - 2);
+                let (sin, cos) = (sin ^ swap ^ sign(quadrant), cos ^ swap ^ sign(quadrant.wrapping_add(1)));
                 ($float::from_bits(sin), $float::from_bits(cos))
             }
         }
