@@ -6,6 +6,7 @@
 
 #![no_std]
 
+pub mod bounded;
 mod digest;
 pub mod machine;
 mod models;

@@ -1,15 +1,29 @@
-//! The models. Arm and platform are those of the examples; the two small ones emit only what runs here.
+//! The models of all examples, and two small ones that emit only what the scenes call.
 
 use multibody::multibody;
 
 #[path = "../../models/panda.rs"]
-mod arm;
+pub(crate) mod arm;
+#[path = "../../models/cart_pole.rs"]
+pub(crate) mod cart;
+#[path = "../../models/slider_crank.rs"]
+pub(crate) mod crank;
+#[path = "../../models/four_bar.rs"]
+pub(crate) mod four_bar;
+#[path = "../../models/impacts.rs"]
+pub(crate) mod impacts;
+#[path = "../../models/n_four_bars.rs"]
+pub(crate) mod linkages;
+#[path = "../../models/double_pendulum.rs"]
+pub(crate) mod pendulum;
 #[allow(dead_code)] // several formulations of one platform
 #[path = "../../stewart/models.rs"]
 mod platform;
+#[path = "../../models/andrews.rs"]
+pub(crate) mod squeezer;
 
 pub(crate) use arm::panda;
-pub(crate) use platform::level;
+pub(crate) use platform::{hybrid, iterated, level, reduced};
 
 multibody! {
     /// Planar double pendulum.

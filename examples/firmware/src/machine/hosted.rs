@@ -16,3 +16,8 @@ pub fn instructions(_work: impl FnOnce()) -> Option<u32> {
 pub fn stack(_work: impl FnOnce()) -> u32 {
     0
 }
+
+/// Ends the program with success.
+pub fn exit() -> ! {
+    std::process::exit(0)
+}

@@ -29,8 +29,7 @@ macro_rules! reduction {
             let shift = first % WORD;
             let window = |k: u32| (word(k) << shift | word(k + 1) >> 1 >> (WORD - 1 - shift)) as $double;
             let m = mantissa as $double;
-            let product =
-                ((m * window(0)) << WORD).wrapping_add(m * window(1)).wrapping_add((m * window(2)) >> WORD);
+            let product = ((m * window(0)) << WORD).wrapping_add(m * window(1)).wrapping_add((m * window(2)) >> WORD);
 
             // Two bits of quadrant, then the fraction, which is rounded to the nearest quarter turn.
             let quadrant = (product >> (2 * WORD - 2)) as $word + ((product >> (2 * WORD - 3)) as $word & 1);

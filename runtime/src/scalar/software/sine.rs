@@ -10,7 +10,6 @@
 //! numbers here). The result is made of sums and products in a stated order, never fused, so it is the same on every
 //! machine; up to the limit the instructions are the same for every angle, NaN too.
 
-
 macro_rules! sine {
     ($float:ident, $bits:ty, $shifter:expr, $limit:expr, $parts:expr, $sine:expr, $cosine:expr) => {
         pub(crate) mod $float {
