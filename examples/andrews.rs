@@ -13,7 +13,7 @@ use multibody::{Constrained, DormandPrince, Projection};
 #[path = "models/andrews.rs"]
 mod model;
 
-use model::andrews::{CONSTRAINTS, COORDINATES, DOF, EQUATIONS, JACOBIAN, Model, Position, State, Velocity};
+use model::andrews::{CONSTRAINTS, COORDINATES, COSTS, DOF, EQUATIONS, JACOBIAN, Model, Position, State, Velocity};
 
 /// [rad] at the start, at rest: beta, theta, gamma, delta, phi, epsilon, omega
 const START: [f64; 7] = [
@@ -89,7 +89,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         );
     }
     println!("\nOperations of the generated functions:\n");
-    for cost in andrews::COSTS.iter().filter(|cost| cost.function != "new") {
+    for cost in COSTS.iter().filter(|cost| cost.function != "new") {
         println!("  {cost}");
     }
     Ok(())

@@ -11,7 +11,7 @@ use multibody::{IntegrationError, Rk4};
 #[path = "models/slider_crank.rs"]
 mod model;
 
-use model::engine::{Input, Model, Position, State, Velocity};
+use model::engine::{self, Input, Model, Position, State, Velocity};
 
 /// [m]
 const CRANK: f64 = 0.04;

@@ -3,7 +3,7 @@
 use multibody::multibody;
 
 multibody! {
-    pub mod andrews {
+    pub(crate) mod andrews {
         /// [m] the motor's pin is the origin
         const A = [-0.06934, -0.00227, 0.0];
         const B = [-0.03635, 0.03273, 0.0];

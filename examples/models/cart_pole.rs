@@ -4,7 +4,7 @@ use multibody::multibody;
 
 multibody! {
     /// A pole hinged to a cart. The cart slides along x, y points up, and the pole is upright at zero.
-    pub mod cart_pole {
+    pub(crate) mod cart_pole {
         /// [m/s^2]
         param g = 9.81;
         /// [kg]

@@ -4,7 +4,7 @@ use multibody::multibody;
 
 multibody! {
     /// Planar double pendulum. Hinges turn about +z, gravity pulls along -y.
-    pub mod double_pendulum {
+    pub(crate) mod double_pendulum {
         /// [m/s^2] a `const` becomes a literal
         const G = 9.81;
         /// [kg] a `param` stays a field of `Params`

@@ -7,7 +7,7 @@ macro_rules! linkage {
     ($(#[$docs:meta])* $name:ident { $($items:tt)* }) => {
         multibody! {
             $(#[$docs])*
-            pub mod $name {
+            pub(crate) mod $name {
                 /// [m]
                 const CRANK = 1.0;
                 const COUPLER = 3.5;

@@ -4,7 +4,7 @@ use multibody::multibody;
 
 multibody! {
     /// A rod that falls against a wall under its pivot.
-    pub mod pendulum {
+    pub(crate) mod pendulum {
         world { gravity: -9.81 * Y }
         body rod { mass: 2.0, com: -0.5 * Y, inertia: rod(2.0, 1.0, Y) }
         joint hinge: Revolute { parent: ground, child: rod, axis: Z }
@@ -12,7 +12,7 @@ multibody! {
         emit forward_dynamics, impulse;
     }
     /// A block on a table; below `SLOW` its friction fades.
-    pub mod block {
+    pub(crate) mod block {
         /// friction
         const MU = 0.3;
         /// [m/s]
@@ -25,7 +25,7 @@ multibody! {
         emit forward_dynamics;
     }
     /// An engine on its mount: six springs with their dampers, each of its own.
-    pub mod mount {
+    pub(crate) mod mount {
         /// [N/m]
         const K = [4e4, 4e4, 9e4];
         /// [N s/m]

@@ -7,7 +7,7 @@ macro_rules! linkage {
     ($(#[$docs:meta])* $name:ident { $($items:tt)* }) => {
         multibody! {
             $(#[$docs])*
-            pub mod $name {
+            pub(crate) mod $name {
                 world { gravity: -9.81 * Y }
                 body b0 { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
                 body b1 { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }

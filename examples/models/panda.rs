@@ -4,7 +4,7 @@ use multibody::multibody;
 
 multibody! {
     /// Franka Emika's arm with its hand. Joint axes are the bodies' z axes; `payload` hangs at the tool centre point.
-    pub mod panda {
+    pub(crate) mod panda {
         /// [kg] what the hand holds
         param payload = 0.0;
         /// [N m] of the seven motors

@@ -4,7 +4,7 @@ use multibody::multibody;
 
 multibody! {
     /// The crank turns about z, the piston slides along x.
-    pub mod engine {
+    pub(crate) mod engine {
         /// [m]
         const CRANK = 0.04;
         const ROD = 0.14;
