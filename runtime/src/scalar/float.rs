@@ -49,18 +49,18 @@ macro_rules! exact {
             #[cfg(feature = "std")]
             return x.sqrt();
             #[cfg(all(
-                        not(feature = "std"),
-                        feature = $hardware,
-                        any(target_arch = "arm", target_arch = "riscv32", target_arch = "riscv64")
-                    ))]
+                                not(feature = "std"),
+                                feature = $hardware,
+                                any(target_arch = "arm", target_arch = "riscv32", target_arch = "riscv64")
+                            ))]
             return super::super::hardware_root::$float(x);
             #[cfg(not(any(
-                        feature = "std",
-                        all(
-                            feature = $hardware,
-                            any(target_arch = "arm", target_arch = "riscv32", target_arch = "riscv64")
-                        )
-                    )))]
+                                feature = "std",
+                                all(
+                                    feature = $hardware,
+                                    any(target_arch = "arm", target_arch = "riscv32", target_arch = "riscv64")
+                                )
+                            )))]
             return libm::$root(x);
         }
 
