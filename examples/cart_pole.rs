@@ -7,36 +7,12 @@
 
 use std::f64::consts::{PI, TAU};
 
-use multibody::{ExtraOf, IntegrationError, Rk4, System, VelocityOf, multibody};
+use multibody::{ExtraOf, IntegrationError, Rk4, System, VelocityOf};
 
-multibody! {
-    /// A pole hinged to a cart. The cart slides along x, y points up, and the pole is upright at zero.
-    pub mod cart_pole {
-        /// [m/s^2]
-        param g = 9.81;
-        /// [kg]
-        param cart_mass = 1.0;
-        /// [kg]
-        param pole_mass = 0.2;
-        /// [m]
-        param length = 0.8;
-        /// [N] pushes the cart along +x
-        input push;
+#[path = "models/cart_pole.rs"]
+mod model;
 
-        world { gravity: -g * Y }
-        body cart { mass: cart_mass }
-        body pole { mass: pole_mass, com: 0.5 * length * Y, inertia: rod(pole_mass, length, Y) }
-        joint track: Prismatic { parent: ground, child: cart, axis: X }
-        joint hinge: Revolute { parent: cart, child: pole, axis: Z }
-        force motor: Effort { joint: track, value: push }
-
-        /// [J] zero when all is at rest with the pole upright
-        output energy = kinetic() + potential() - 0.5 * length * pole_mass * g;
-        emit forward_dynamics, mass_matrix, bias;
-    }
-}
-
-use cart_pole::{Input, Model, Params, State};
+use model::cart_pole::{Input, Model, Params, State};
 
 /// The cart-pole with its controller: energy shaping until the pole is nearly up, then state feedback.
 struct Controlled {

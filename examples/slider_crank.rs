@@ -6,40 +6,12 @@
 //! `emit kinematics` gives the piston's travel with rate and acceleration from the crank's, the closed form of the loop as a
 //! function of its own; beside it the formula from a textbook.
 
-use multibody::{IntegrationError, Rk4, multibody};
+use multibody::{IntegrationError, Rk4};
 
-multibody! {
-    /// The crank turns about z, the piston slides along x.
-    pub mod engine {
-        /// [m]
-        const CRANK = 0.04;
-        const ROD = 0.14;
-        /// [N] on the piston, towards the crank
-        input gas;
-        /// [N m] that the shaft gives away per rad/s
-        param load = 0.05;
+#[path = "models/slider_crank.rs"]
+mod model;
 
-        body crank { mass: 2.0, inertia: diag(0.005, 0.005, 0.01) }
-        body rod { mass: 0.3, com: 0.05 * X, inertia: rod(0.3, ROD, X) }
-        body piston { mass: 0.4 }
-        joint shaft: Revolute { parent: ground, child: crank, axis: Z }
-        joint big_end: Revolute { parent: crank.at(CRANK * X), child: rod, axis: Z }
-        joint cylinder: Prismatic { parent: ground, child: piston, axis: X }
-        #[cut]
-        joint small_end: Revolute { parent: rod.at(ROD * X), child: piston, axis: Z }
-        formulation { constraints: Reduced }
-        solve (big_end, cylinder) from small_end { cylinder > 0.0 }
-        force pressure: Effort { joint: cylinder, value: -gas }
-        force dynamometer: Damper { joint: shaft, damping: load }
-
-        /// [N] on the crank
-        output bearing: Vec3 = shaft.reaction.force;
-        output energy = kinetic();
-        emit forward_dynamics, inverse_dynamics, kinematics { given: shaft, find: cylinder };
-    }
-}
-
-use engine::{Input, Model, Position, State, Velocity};
+use model::engine::{self, Input, Model, Position, State, Velocity};
 
 /// [m]
 const CRANK: f64 = 0.04;

@@ -13,8 +13,15 @@ mod dual;
 mod f32;
 mod f64;
 pub(crate) mod float;
-#[cfg(not(feature = "std"))]
-mod single_sine;
+#[cfg(all(
+    feature = "hardware-root",
+    not(feature = "std"),
+    any(target_arch = "arm", target_arch = "riscv32", target_arch = "riscv64")
+))]
+mod hardware_root;
+#[cfg(any(not(feature = "std"), feature = "reproducible"))]
+mod software;
+#[cfg(feature = "wide")]
 mod wide;
 
 use nalgebra::{RealField, SimdRealField};

@@ -1,4 +1,4 @@
-//! [`Real`] for `f32`: the platform's functions. Without std, where the platform is libm, sine and cosine stay in `f32`.
+//! [`Real`] for `f32`: the functions of [`super::float`].
 
 use super::Real;
 use super::float::single;
@@ -12,11 +12,7 @@ impl Real for f32 {
     }
     #[inline]
     fn sin_cos(self) -> (Self, Self) {
-        // With std there is double precision in hardware, and the platform's function is twice as fast.
-        #[cfg(feature = "std")]
-        return single::sin_cos(self);
-        #[cfg(not(feature = "std"))]
-        return super::single_sine::sin_cos(self);
+        single::sin_cos(self)
     }
     #[inline]
     fn tan(self) -> Self {

@@ -1,4 +1,4 @@
-//! [`Real`] for `f64`: the platform's functions as they are.
+//! [`Real`] for `f64`: the functions of [`super::float`].
 
 use super::Real;
 use super::float::double;
@@ -13,14 +13,6 @@ impl Real for f64 {
     #[inline]
     fn sin_cos(self) -> (Self, Self) {
         double::sin_cos(self)
-    }
-    #[inline]
-    fn sin(self) -> Self {
-        double::sin(self)
-    }
-    #[inline]
-    fn cos(self) -> Self {
-        double::cos(self)
     }
     #[inline]
     fn tan(self) -> Self {

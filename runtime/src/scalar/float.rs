@@ -1,44 +1,91 @@
-//! Elementary functions of `f32` and `f64`, from std where it is there and from libm elsewhere.
+//! Elementary functions of `f32` and `f64`: the platform's, or plain ones that are the same everywhere.
 //!
-//! In: one float. Out: the platform's best value. This is the only place that asks which of the two is at hand.
+//! With std they are the platform's. Without it, or with the feature `reproducible`, sine, cosine and tangent are those of
+//! [`super::software`] and the others libm's. A root and `floor` are exact, so std and hardware give them wherever they
+//! can. This is the only place that asks which is at hand.
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
 compile_error!("multibody needs elementary functions: turn on the feature `std` or, without std, `libm`");
 
 macro_rules! elementary {
-    ($module:ident, $float:ident, $sincos:ident: $($name:ident($($arg:ident),+) = $libm:ident;)+) => {
-        #[allow(dead_code)] // the two modules hold the same set
-        pub(crate) mod $module {
-            $(
-                #[inline]
-                pub(crate) fn $name($($arg: $float),+) -> $float {
-                    #[cfg(feature = "std")]
-                    return $float::$name($($arg),+);
-                    #[cfg(all(not(feature = "std"), feature = "libm"))]
-                    return libm::$libm($($arg),+);
-                    #[cfg(not(any(feature = "std", feature = "libm")))]
-                    return [$($arg),+][0];
-                }
-            )+
-
+    ($float:ident: $($name:ident($($arg:ident),+) = $libm:ident;)+) => {
+        $(
             #[inline]
-            pub(crate) fn sin_cos(x: $float) -> ($float, $float) {
-                #[cfg(feature = "std")]
-                return x.sin_cos();
-                #[cfg(all(not(feature = "std"), feature = "libm"))]
-                return libm::$sincos(x);
+            pub(crate) fn $name($($arg: $float),+) -> $float {
+                #[cfg(all(feature = "std", not(feature = "reproducible")))]
+                return $float::$name($($arg),+);
+                #[cfg(all(feature = "libm", any(not(feature = "std"), feature = "reproducible")))]
+                return libm::$libm($($arg),+);
+                #[cfg(not(any(feature = "std", feature = "libm")))]
+                return [$($arg),+][0];
+            }
+        )+
+
+        #[inline]
+        pub(crate) fn sin_cos(x: $float) -> ($float, $float) {
+            #[cfg(all(feature = "std", not(feature = "reproducible")))]
+            return x.sin_cos();
+            #[cfg(any(not(feature = "std"), feature = "reproducible"))]
+            return super::super::software::sine::$float::sin_cos(x);
+        }
+
+        #[inline]
+        pub(crate) fn tan(x: $float) -> $float {
+            #[cfg(all(feature = "std", not(feature = "reproducible")))]
+            return x.tan();
+            #[cfg(any(not(feature = "std"), feature = "reproducible"))]
+            {
+                let (sin, cos) = sin_cos(x);
+                sin / cos
             }
         }
     };
 }
 
-elementary! { double, f64, sincos:
-    sin(x) = sin; cos(x) = cos; tan(x) = tan; asin(x) = asin; acos(x) = acos; atan(x) = atan; atan2(y, x) = atan2;
-    sinh(x) = sinh; cosh(x) = cosh; tanh(x) = tanh; exp(x) = exp; ln(x) = log; powf(x, y) = pow; sqrt(x) = sqrt;
-    hypot(x, y) = hypot; floor(x) = floor;
+macro_rules! exact {
+    ($float:ident, $hardware:literal, $root:ident, $floor:ident) => {
+        #[inline]
+        pub(crate) fn sqrt(x: $float) -> $float {
+            #[cfg(feature = "std")]
+            return x.sqrt();
+            #[cfg(all(
+                                not(feature = "std"),
+                                feature = $hardware,
+                                any(target_arch = "arm", target_arch = "riscv32", target_arch = "riscv64")
+                            ))]
+            return super::super::hardware_root::$float(x);
+            #[cfg(not(any(
+                                feature = "std",
+                                all(
+                                    feature = $hardware,
+                                    any(target_arch = "arm", target_arch = "riscv32", target_arch = "riscv64")
+                                )
+                            )))]
+            return libm::$root(x);
+        }
+
+        #[inline]
+        pub(crate) fn floor(x: $float) -> $float {
+            #[cfg(feature = "std")]
+            return x.floor();
+            #[cfg(not(feature = "std"))]
+            return libm::$floor(x);
+        }
+    };
 }
-elementary! { single, f32, sincosf:
-    sin(x) = sinf; cos(x) = cosf; tan(x) = tanf; asin(x) = asinf; acos(x) = acosf; atan(x) = atanf;
-    atan2(y, x) = atan2f; sinh(x) = sinhf; cosh(x) = coshf; tanh(x) = tanhf; exp(x) = expf; ln(x) = logf;
-    powf(x, y) = powf; sqrt(x) = sqrtf; hypot(x, y) = hypotf; floor(x) = floorf;
+
+pub(crate) mod double {
+    elementary! { f64:
+        asin(x) = asin; acos(x) = acos; atan(x) = atan; atan2(y, x) = atan2; sinh(x) = sinh; cosh(x) = cosh;
+        tanh(x) = tanh; exp(x) = exp; ln(x) = log; powf(x, y) = pow; hypot(x, y) = hypot;
+    }
+    exact! { f64, "hardware-root-double", sqrt, floor }
+}
+
+pub(crate) mod single {
+    elementary! { f32:
+        asin(x) = asinf; acos(x) = acosf; atan(x) = atanf; atan2(y, x) = atan2f; sinh(x) = sinhf; cosh(x) = coshf;
+        tanh(x) = tanhf; exp(x) = expf; ln(x) = logf; powf(x, y) = powf; hypot(x, y) = hypotf;
+    }
+    exact! { f32, "hardware-root", sqrtf, floorf }
 }

@@ -3,7 +3,8 @@
 //! Arithmetic, roots, comparisons and `sin_cos` run in lanes. Functions that models seldom call go lane by lane through
 //! the scalar ones, so that they agree with them to the last bit. The vector `sin_cos` reduces by Cody and Waite's
 //! three-part pi/2, which is exact only while the multiple of pi/2 is small; beyond [`DOUBLE_LIMIT`] and
-//! [`SINGLE_LIMIT`] all lanes take the scalar function, one branch that ordinary angles never enter.
+//! [`SINGLE_LIMIT`] all lanes take the scalar function, one branch that ordinary angles never enter. So do they
+//! with the feature `reproducible`.
 
 use super::Real;
 use simba::simd::{SimdPartialOrd, SimdValue, WideBoolF32x4, WideBoolF32x8, WideBoolF64x4};
@@ -36,7 +37,7 @@ macro_rules! lanes {
             }
             #[inline]
             fn sin_cos(self) -> (Self, Self) {
-                if self.0.abs().simd_gt(Self::splat($limit).0).any() {
+                if cfg!(feature = "reproducible") || self.0.abs().simd_gt(Self::splat($limit).0).any() {
                     return (self.map(Real::sin), self.map(Real::cos));
                 }
                 let (sin, cos) = self.0.sin_cos();

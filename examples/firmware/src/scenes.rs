@@ -1,0 +1,35 @@
+//! What a control loop calls, one function of a model each.
+
+mod cart_pole;
+mod double_pendulum;
+mod panda;
+mod stewart;
+
+pub use cart_pole::CartPole;
+pub use double_pendulum::DoublePendulum;
+pub use panda::Panda;
+pub use stewart::Stewart;
+
+use crate::Scalar;
+pub use crate::random::Random;
+
+/// A function of a model, and a sequence of inputs to it.
+pub trait Scene: Default {
+    /// What the function takes.
+    type Input: Copy;
+    /// What it gives.
+    type Output: Copy;
+    /// Its name in reports.
+    const NAME: &'static str;
+
+    /// The function.
+    fn call(&self, input: &Self::Input) -> Self::Output;
+    /// The first input of the sequence.
+    fn start(&self) -> Self::Input;
+    /// The next one.
+    fn next(&self, input: &Self::Input, output: &Self::Output) -> Self::Input;
+    /// An input with all angles and other coordinates within `span`.
+    fn random(&self, random: &mut Random, span: Scalar) -> Self::Input;
+    /// Hands on the numbers of a result.
+    fn numbers(output: &Self::Output, each: impl FnMut(Scalar));
+}
