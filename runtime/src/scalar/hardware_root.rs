@@ -2,8 +2,9 @@
 //!
 //! This is the one file of the crate that may hold `unsafe`, and it is compiled with the feature `hardware-root` alone;
 //! without it the crate forbids `unsafe`. Each block reads registers, writes registers that it declares, and touches
-//! neither memory nor stack; the result is IEEE 754's, correctly rounded, as libm's is. A target without the instruction
-//! is refused by the assembler, in `f64` (feature `hardware-root-double`) as in `f32`.
+//! neither memory nor stack. It may raise exception flags, so none promises to preserve them. The result is IEEE 754's,
+//! correctly rounded, as libm's is. A target without the instruction is refused by the assembler, in `f64` (feature
+//! `hardware-root-double`) as in `f32`.
 //!
 //! On Arm values pass through general registers: rustc gives floating-point ones to assembly only where the unit knows
 //! doubles, which that of a Cortex-M4F does not.
@@ -26,7 +27,7 @@ pub(super) fn f32(x: f32) -> f32 {
             x = in(reg) x.to_bits(),
             root = lateout(reg) root,
             out("s0") _,
-            options(pure, nomem, nostack, preserves_flags),
+            options(pure, nomem, nostack),
         );
     }
     f32::from_bits(root)
@@ -47,7 +48,7 @@ pub(super) fn f64(x: f64) -> f64 {
             low = inout(reg) bits as u32 => low,
             high = inout(reg) (bits >> 32) as u32 => high,
             out("d0") _,
-            options(pure, nomem, nostack, preserves_flags),
+            options(pure, nomem, nostack),
         );
     }
     f64::from_bits(u64::from(high) << 32 | u64::from(low))
@@ -58,8 +59,8 @@ pub(super) fn f64(x: f64) -> f64 {
 #[cfg(any(target_arch = "riscv32", target_arch = "riscv64"))]
 pub(super) fn f32(x: f32) -> f32 {
     let root;
-    // SAFETY: arithmetic on two registers; what it may add to the exception flags is read nowhere.
-    unsafe { asm!("fsqrt.s {}, {}", out(freg) root, in(freg) x, options(pure, nomem, nostack, preserves_flags)) };
+    // SAFETY: arithmetic on two registers.
+    unsafe { asm!("fsqrt.s {}, {}", out(freg) root, in(freg) x, options(pure, nomem, nostack)) };
     root
 }
 
@@ -68,7 +69,7 @@ pub(super) fn f32(x: f32) -> f32 {
 #[cfg(all(any(target_arch = "riscv32", target_arch = "riscv64"), feature = "hardware-root-double"))]
 pub(super) fn f64(x: f64) -> f64 {
     let root;
-    // SAFETY: arithmetic on two registers; what it may add to the exception flags is read nowhere.
-    unsafe { asm!("fsqrt.d {}, {}", out(freg) root, in(freg) x, options(pure, nomem, nostack, preserves_flags)) };
+    // SAFETY: arithmetic on two registers.
+    unsafe { asm!("fsqrt.d {}, {}", out(freg) root, in(freg) x, options(pure, nomem, nostack)) };
     root
 }
