@@ -21,7 +21,7 @@ fn main() {
             let x = f32::from_bits(bits);
             let (sin, cos) = Real::sin_cos(x);
             let (s, c) = f64::from(x).sin_cos();
-            for (worst, found, exact) in [(&mut worst[0], sin, s), (&mut worst[1], cos, c)] {
+            for (worst, (found, exact)) in worst.iter_mut().zip([(sin, s), (cos, c)]) {
                 let error = (f64::from(found) - exact).abs() / unit(exact);
                 if error > worst.0 {
                     *worst = (error, x);
