@@ -19,6 +19,7 @@ pub(crate) mod float;
     any(target_arch = "arm", target_arch = "riscv32", target_arch = "riscv64")
 ))]
 mod hardware_root;
+mod root;
 #[cfg(any(not(feature = "std"), feature = "reproducible"))]
 mod software;
 #[cfg(feature = "wide")]

@@ -43,25 +43,10 @@ macro_rules! elementary {
 }
 
 macro_rules! exact {
-    ($float:ident, $hardware:literal, $root:ident, $floor:ident) => {
+    ($float:ident, $floor:ident) => {
         #[inline]
         pub(crate) fn sqrt(x: $float) -> $float {
-            #[cfg(feature = "std")]
-            return x.sqrt();
-            #[cfg(all(
-                                not(feature = "std"),
-                                feature = $hardware,
-                                any(target_arch = "arm", target_arch = "riscv32", target_arch = "riscv64")
-                            ))]
-            return super::super::hardware_root::$float(x);
-            #[cfg(not(any(
-                                feature = "std",
-                                all(
-                                    feature = $hardware,
-                                    any(target_arch = "arm", target_arch = "riscv32", target_arch = "riscv64")
-                                )
-                            )))]
-            return libm::$root(x);
+            super::super::root::$float(x)
         }
 
         #[inline]
@@ -79,7 +64,7 @@ pub(crate) mod double {
         asin(x) = asin; acos(x) = acos; atan(x) = atan; atan2(y, x) = atan2; sinh(x) = sinh; cosh(x) = cosh;
         tanh(x) = tanh; exp(x) = exp; ln(x) = log; powf(x, y) = pow; hypot(x, y) = hypot;
     }
-    exact! { f64, "hardware-root-double", sqrt, floor }
+    exact! { f64, floor }
 }
 
 pub(crate) mod single {
@@ -87,5 +72,5 @@ pub(crate) mod single {
         asin(x) = asinf; acos(x) = acosf; atan(x) = atanf; atan2(y, x) = atan2f; sinh(x) = sinhf; cosh(x) = coshf;
         tanh(x) = tanhf; exp(x) = expf; ln(x) = logf; powf(x, y) = powf; hypot(x, y) = hypotf;
     }
-    exact! { f32, "hardware-root", sqrtf, floorf }
+    exact! { f32, floorf }
 }

@@ -7,7 +7,8 @@
 
 use multibody::{
     Composition4, Composition6, Dop853, DormandPrince, Euler, GaussLegendre4, GaussLegendre6, GeneralisedAlpha,
-    ImplicitMidpoint, IntegrationError, Integrator, Radau, Rk4, SemiImplicitEuler, SymplecticGauss6, SymplecticMidpoint, Verlet, multibody,
+    ImplicitMidpoint, IntegrationError, Integrator, Radau, Rk4, SemiImplicitEuler, SymplecticGauss6,
+    SymplecticMidpoint, Verlet, multibody,
 };
 
 multibody! {

@@ -120,13 +120,7 @@ fn translations(g: &mut Graph, tree: &Tree, seat: &Seat, efforts: &[Scalar]) -> 
 }
 
 /// From the leaves inwards.
-fn eliminate(
-    g: &mut Graph,
-    tree: &Tree,
-    seats: &[&Seat],
-    mut wrenches: Vec<Wrench>,
-    efforts: &[Scalar],
-) -> Vec<Pivot> {
+fn eliminate(g: &mut Graph, tree: &Tree, seats: &[&Seat], mut wrenches: Vec<Wrench>, efforts: &[Scalar]) -> Vec<Pivot> {
     let mut inertias: Vec<ArticulatedInertia> =
         tree.links.iter().map(|link| ArticulatedInertia::rigid(g, &link.inertia)).collect();
     let mut pivots = Vec::with_capacity(tree.freedoms());

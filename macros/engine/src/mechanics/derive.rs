@@ -323,7 +323,6 @@ impl<'m> Deriving<'m> {
         self.writing = least.map_or(Writing::PLAIN, |(_, writing)| writing);
         Ok(())
     }
-
 }
 
 /// Whether the articulated-body algorithm is another way: with one coordinate it is the same one, and it would move the

@@ -63,7 +63,8 @@ fn seat(tree: &Tree, first: usize) -> Option<Seat> {
                 link = only_child(tree, link)?;
             }
         }
-        (&[a, b], Motion::Revolute(axis)) if a + b + axis == 3 && axis != a && axis != b && is_aligned(&tree.links[link]) => {}
+        (&[a, b], Motion::Revolute(axis))
+            if a + b + axis == 3 && axis != a && axis != b && is_aligned(&tree.links[link]) => {}
         _ => return None,
     }
     matches!(tree.links[link].motion, Motion::Revolute(_) | Motion::Ball(_)).then_some(Seat { link, slides, turners })
