@@ -77,7 +77,7 @@ pub use gauss::{
 pub use generalised_alpha::GeneralisedAlpha;
 pub use integrator::{Integrator, Statistics, Steps};
 pub use interval::Interval;
-pub use method::{Attempt, Method};
+pub use method::{Accepted, Attempt, Method};
 pub use problem::{Problem, Step};
 pub use radau::Radau;
 pub use rk4::Rk4;

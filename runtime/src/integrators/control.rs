@@ -111,20 +111,20 @@ pub(super) struct Control {
 }
 
 impl Control {
-    /// Steps by error, the first one chosen if none is given.
+    /// Steps by error, the first one chosen by the slope at the start if none is given.
     pub(super) fn start<S: System>(
         tolerance: Tolerance,
         order: u32,
         problem: &Problem<'_, S>,
-        t0: f64,
-        t1: f64,
+        (t0, t1): (f64, f64),
         state: &S::State,
+        slope: impl FnOnce() -> SlopeOf<S>,
     ) -> Result<Self, IntegrationError> {
         let order = f64::from(order);
         let length = if tolerance.first_step > 0.0 {
             tolerance.first_step
         } else {
-            let slope = problem.slope(S::Scalar::lit(t0), state);
+            let slope = slope();
             if !is_finite(&slope) {
                 return Err(IntegrationError::NonFinite { time: t0 });
             }

@@ -16,7 +16,7 @@ mod tableau;
 mod variables;
 
 use super::dense::Dense;
-use super::method::{Attempt, Method, inherent};
+use super::method::{Accepted, Attempt, Method, inherent};
 use super::problem::{Problem, Step};
 use stages::Stages;
 use tableau::{ONE, THREE, TWO};
@@ -78,9 +78,9 @@ macro_rules! gauss {
                 step: &Step<'_, S>,
                 _memory: &Self::Memory,
                 attempt: &Attempt<S, Self::Details>,
-                next: &S::State,
+                next: &Accepted<S>,
             ) -> Self::Memory {
-                $tableau.proceed::<S, $variables>(problem, step, attempt, next)
+                $tableau.proceed::<S, $variables>(problem, step, attempt, &next.state)
             }
 
             $(

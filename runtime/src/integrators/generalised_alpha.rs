@@ -18,7 +18,7 @@
 //! their own, with `Phi(q1) = 0` and `G v1 + dPhi/dt = 0`. The index-3 form keeps positions alone and projects velocities
 //! afterwards, which can cost an order.
 
-use super::method::{Attempt, Method};
+use super::method::{Accepted, Attempt, Method};
 use super::problem::{Problem, Step};
 use super::slope::{SlopeOf, displaced};
 use crate::linear::Square;
@@ -336,7 +336,7 @@ impl<S: System, C: Closing<S>, I: Iterating<S>> Method<S> for GeneralisedAlpha<C
         _step: &Step<'_, S>,
         _memory: &Lag<RatesOf<S>>,
         attempt: &Attempt<S, Lag<RatesOf<S>>>,
-        _next: &S::State,
+        _next: &Accepted<S>,
     ) -> Lag<RatesOf<S>> {
         attempt.details
     }
