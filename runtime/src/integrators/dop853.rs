@@ -13,8 +13,8 @@ use crate::{Real, System, Tangent};
 use core::cell::OnceCell;
 use tableau as tab;
 
-/// The eighth-order method of Dormand and Prince: twelve evaluations. The first choice for smooth motions from errors
-/// of 1e-6 downwards.
+/// The eighth-order method of Dormand and Prince: twelve evaluations, eleven where the step is rejected. The first choice
+/// for smooth motions from errors of 1e-3 downwards.
 ///
 /// Its estimate of the error combines one of fifth and one of third order; dense output is of seventh order and takes
 /// three further evaluations for each step that is asked for it.

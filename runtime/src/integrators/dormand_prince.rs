@@ -7,8 +7,9 @@ use super::problem::{Problem, Step};
 use super::slope::{SlopeOf, advance_by, combination, displaced, literals, rate_of_displacement, slope_at_end};
 use crate::{Real, System, Tangent};
 
-/// The fifth-order method of Dormand and Prince: six evaluations. The first choice for steps chosen by error, down to
-/// errors of about 1e-6; its estimate is the difference to an embedded method of fourth order.
+/// The fifth-order method of Dormand and Prince: six evaluations. The first choice for steps chosen by error where errors
+/// above 1e-3 will do, and below where states within steps are asked for; its estimate is the difference to an embedded
+/// method of fourth order.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DormandPrince;
 

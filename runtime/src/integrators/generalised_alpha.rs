@@ -22,7 +22,7 @@ use super::method::{Accepted, Attempt, Method};
 use super::problem::{Problem, Step};
 use super::slope::{SlopeOf, displaced};
 use crate::linear::Square;
-use crate::tangent::unpack;
+use crate::tangent::{greatest, unpack};
 use crate::{
     Constrained, Differentiable, ExtraOf, Impulsive, Jacobian, PositionOf, Real, StateSpace, System, Tangent,
     VelocityOf,
@@ -340,9 +340,4 @@ impl<S: System, C: Closing<S>, I: Iterating<S>> Method<S> for GeneralisedAlpha<C
     ) -> Lag<RatesOf<S>> {
         attempt.details
     }
-}
-
-/// The greatest size of a component in each lane; NaN if one is.
-fn greatest<T: Real, V: Tangent<T>>(v: &V) -> T {
-    v.fold(T::lit(0.0), &mut |greatest, x| Real::max(greatest, Real::abs(x)))
 }
