@@ -43,7 +43,7 @@ impl<S: System> Accepted<S> {
     }
 }
 
-/// Whether two states have the same coordinates, bit by bit but for the signs of zeros.
+/// Whether two states have the same coordinates, exactly. Opposite quaternions are the same rotation.
 #[inline]
 fn same<Z: StateSpace>(a: &Z, b: &Z) -> bool {
     fn equal<T: Real, V: Tangent<T>>(a: &V, b: &V) -> bool {
