@@ -10,8 +10,8 @@ use nalgebra::SVector;
 /// A position: the coordinates of one joint, or of a whole model.
 ///
 /// Scalars and vectors are displaced by a sum, unit quaternions by the exponential of a rotation. Generated structs
-/// implement the trait field by field.
-pub trait Configuration<T: Real>: Copy {
+/// implement the trait field by field. Equality is that of all components.
+pub trait Configuration<T: Real>: Copy + PartialEq {
     /// The velocities that belong to these coordinates.
     type Velocity: Tangent<T>;
 

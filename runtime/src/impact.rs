@@ -6,8 +6,8 @@
 //! field of a joint, or for a frame [`along`] an axis by the frame's Jacobian. An impulse along it acts as `n^T P`.
 //!
 //! Newton's law of impact: where the rate is negative before, it is `-e` times that afterwards, with the coefficient of
-//! restitution `e`, by an impulse `P >= 0` that only pushes. Then `P (1 - e) / 2` times the rate before is the energy that
-//! is lost, so for `e` from zero to one none is gained. Friction is left to forces.
+//! restitution `e`, by an impulse `P >= 0` that only pushes. Then `P (1 - e) / 2` times the speed of approach before is the
+//! energy that is lost, so for `e` from zero to one none is gained. Friction is left to forces.
 //!
 //! ```
 //! # mod ball {
@@ -184,8 +184,7 @@ pub fn impact_at_rate<S: Impulsive>(
 /// throw it back: to ask for `after >= 0` there would gain energy. It strikes next, at the same time: call this again
 /// until no rate in `after` is negative.
 ///
-/// All subsets
-/// of the directions are tried, of which there may be eight at most, so that lanes need no branch.
+/// All subsets of the directions are tried, of which there may be eight at most, so that lanes need no branch.
 pub fn impacts<S: Impulsive, const N: usize>(
     system: &S,
     t: S::Scalar,

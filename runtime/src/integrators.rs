@@ -9,14 +9,14 @@
 //! | [`Euler`] | 1 | 1 | | no | cubic | comparisons |
 //! | [`SemiImplicitEuler`] | 1 | 1 | | no | cubic | rough motion in hard real time; its energy stays bounded |
 //! | [`Rk4`] | 4 | 4 | | no | cubic | steps of one length |
-//! | [`DormandPrince`] | 5 | 6 | | yes | order 4, at no cost | errors down to 1e-6 |
-//! | [`Dop853`] | 8 | 12 | | yes | order 7, by 3 evaluations | errors from 1e-6 down to rounding; fast rotations |
+//! | [`DormandPrince`] | 5 | 6 | | yes | order 4, at no cost | errors down to 1e-3; many states within steps |
+//! | [`Dop853`] | 8 | 12 | | yes | order 7, by 3 evaluations | errors from 1e-3 down to rounding; fast rotations |
 //! | [`Radau`] | 5 | 3 for each iteration | [`Differentiable`](crate::Differentiable) | yes | order 3 | stiff systems |
 //! | [`GeneralisedAlpha`] | 2 | 1 for each iteration | see there | no | cubic | vibrations to be damped; constraints |
 //! | [`Verlet`] | 2 | 1 | [`Separable`](crate::Separable) | no | cubic | bounded energy, cheaply |
 //! | [`Composition4`] | 4 | 6 | [`Separable`](crate::Separable) | no | quintic | bounded energy over very many steps |
 //! | [`Composition6`] | 6 | 11 | [`Separable`](crate::Separable) | no | quintic | the same to rounding |
-//! | [`ImplicitMidpoint`] | 2 | 1 for each iteration | | no | cubic | time-symmetric, any system |
+//! | [`ImplicitMidpoint`] | 2 | 1 for each iteration | | no | cubic | time-symmetric, any system that is not stiff |
 //! | [`GaussLegendre4`] | 4 | 2 for each iteration | | no | quintic | the same, more accurate |
 //! | [`GaussLegendre6`] | 6 | 3 for each iteration | | no | quintic | the same to rounding |
 //! | [`SymplecticMidpoint`] | 2 | 1 for each iteration | [`Canonical`](crate::Canonical) | no | cubic | bounded energy, in chaos too |
@@ -77,7 +77,7 @@ pub use gauss::{
 pub use generalised_alpha::GeneralisedAlpha;
 pub use integrator::{Integrator, Statistics, Steps};
 pub use interval::Interval;
-pub use method::{Attempt, Method};
+pub use method::{Accepted, Attempt, Method};
 pub use problem::{Problem, Step};
 pub use radau::Radau;
 pub use rk4::Rk4;

@@ -87,6 +87,7 @@ pub use rank::{WithRank, rank};
 pub use weighting::{ByMass, Plain, Weighting, Weights};
 pub use wrapper::WithProjection;
 
+use crate::tangent::greatest;
 use crate::{
     Configuration, Constrained, Impulsive, PositionOf, Real, StateSpace, System, Tangent, VelocityOf, all, any,
 };
@@ -198,11 +199,28 @@ impl Projection {
     /// Nothing is refused: the residual tells lane by lane how far it came, and what is not finite passes through.
     ///
     /// ```
-    /// use multibody::Projection;
+    /// use multibody::{Projection, Rk4, multibody};
     ///
-    /// let projection = Projection { iterations: 1, ..Projection::default() };
-    /// # let _ = projection;
-    /// // let x = projection.project_fixed(&model, t, &x).state;
+    /// multibody! {
+    ///     mod swing {
+    ///         world { gravity: -9.81 * Y }
+    ///         body carriage { mass: 0.1 }
+    ///         body bob { mass: 1.0 }
+    ///         joint x: Prismatic { parent: ground, child: carriage, axis: X }
+    ///         joint y: Prismatic { parent: carriage, child: bob, axis: Y }
+    ///         constraint rope: Rod { between: [ground, bob], length: 1.0 }
+    ///     }
+    /// }
+    /// let once = Projection { iterations: 1, ..Projection::default() };
+    /// let model = swing::Model::<f64>::default();
+    /// let mut state = swing::State::default();
+    /// state.q.x = 1.0;
+    /// for k in 0..1000 {
+    ///     let t = 1e-3 * f64::from(k);
+    ///     state = Rk4::step(&model, t, &state, &(), 1e-3);
+    ///     state = once.project_fixed(&model, t + 1e-3, &state).state;
+    /// }
+    /// assert!((state.q.x.hypot(state.q.y) - 1.0).abs() < 1e-15);
     /// ```
     pub fn project_fixed<S: Constrained>(
         &self,
@@ -355,11 +373,6 @@ fn ones<T: Real, V: Tangent<T>>() -> V {
 
 fn negative<T: Real, V: Tangent<T>>(v: &V) -> V {
     v.map(&mut |x| -x)
-}
-
-/// The greatest size of a component in each lane; NaN if one is.
-fn greatest<T: Real, V: Tangent<T>>(v: &V) -> T {
-    v.fold(T::lit(0.0), &mut |greatest, x| Real::max(greatest, Real::abs(x)))
 }
 
 /// Whether position and velocity are finite.

@@ -159,6 +159,11 @@ impl<T: Real, V: Tangent<T>, W: Tangent<T>> Tangent<T> for (V, W) {
     }
 }
 
+/// The greatest size of a component in each lane; NaN if one is.
+pub(crate) fn greatest<T: Real, V: Tangent<T>>(v: &V) -> T {
+    v.fold(T::lit(0.0), &mut |greatest, x| Real::max(greatest, Real::abs(x)))
+}
+
 /// One in the component `k`, zero in the others.
 #[inline]
 pub(crate) fn unit<T: Real, V: Tangent<T>>(k: usize) -> V {

@@ -31,6 +31,7 @@ fn bad_numbers_end_in_typed_errors() {
             run(Tolerance { absolute: 0.0, ..adaptive }, 0.0, 1.0, START, 0.0),
             run(Tolerance { relative: -1.0, ..adaptive }, 0.0, 1.0, START, 0.0),
             run(Tolerance { min_step: f64::NAN, ..adaptive }, 0.0, 1.0, START, 0.0),
+            run(Tolerance { min_step: 0.2, max_step: 0.1, ..adaptive }, 0.0, 1.0, START, 0.0),
             run(adaptive, -1e308, 1e308, START, 0.0),
         ];
         for result in invalid {
@@ -108,6 +109,17 @@ fn bounds_are_kept() {
         })
         .unwrap();
     assert!((99..=101).contains(&statistics.accepted));
+
+    // The least step is one that may be taken, whatever the rounding of times.
+    for (step, t0) in [(0.01, 0.0), (0.01, 0.3), (0.3, -0.1), (0.07, 1e3)] {
+        let one = Tolerance { min_step: step, max_step: step, ..Tolerance::new(1.0, 1.0) };
+        let end = t0 + 100.0 * step;
+        let result = Integrator::within(DormandPrince, one).integrate(&OSCILLATOR, t0, end, &START, &0.0, |_, _| ());
+        assert!(
+            matches!(result, Ok((_, statistics)) if (100..=101).contains(&statistics.accepted)),
+            "{step}: {result:?}"
+        );
+    }
 
     // A span that no bound on steps can cross, and one without any steps to take.
     let result =

@@ -159,7 +159,7 @@ mod naive {
     use super::common;
     use multibody::{Configuration, Pose, StateSpace, System, Twist};
 
-    #[derive(Clone, Copy)]
+    #[derive(Clone, Copy, PartialEq)]
     pub(crate) struct Naive(pub(crate) Pose);
 
     #[derive(Clone, Copy)]

@@ -1,6 +1,6 @@
 //! What closes loops while an equilibrium is searched for: nothing ([`Open`]), or constraints ([`Loops`]).
 
-use super::search::greatest;
+use crate::tangent::greatest;
 use crate::{Constrained, Real, StateSpace, System, Tangent, VelocityOf};
 
 /// What closes loops.

@@ -5,7 +5,7 @@ use super::error::EquilibriumError;
 use super::least::{Row, least};
 use super::{Equilibrium, Found, Free};
 use crate::linear::{Square, residue};
-use crate::tangent::{unit, unpack};
+use crate::tangent::{greatest, unit, unpack};
 use crate::{Configuration, Differentiable, ExtraOf, Real, StateSpace, System, Tangent, VelocityOf, all, any};
 
 /// An equation holds up to this share of what it could be, unless rounding is greater.
@@ -498,9 +498,4 @@ fn scaled<S: Differentiable>(rates: &Rates<S>, scale: &Vector<S>) -> Rates<S> {
 /// The square of a row's length.
 fn square<T: Real, V: Tangent<T>>(row: &V, weights: &V) -> T {
     row.zip(weights, &mut |a, w| a * a * w).fold(T::lit(0.0), &mut |sum, a| sum + a)
-}
-
-/// The greatest size of a component in each lane; NaN if one is.
-pub(super) fn greatest<T: Real, V: Tangent<T>>(v: &V) -> T {
-    v.fold(T::lit(0.0), &mut |greatest, x| Real::max(greatest, Real::abs(x)))
 }

@@ -11,9 +11,9 @@
 //! without by 2e-13 (`benches/long_runs.rs`).
 
 use super::dense::Dense;
-use super::method::{Attempt, Method, inherent};
+use super::method::{Accepted, Attempt, Method, inherent};
 use super::problem::{Problem, Step};
-use super::slope::{SlopeOf, leads_to, literals};
+use super::slope::{SlopeOf, literals};
 use crate::{Configuration, PositionOf, Real, Separable, StateSpace, Tangent, VelocityOf};
 
 /// The velocity form of Verlet's method (Stormer, Verlet 1967), also known as leapfrog: second order, one evaluation,
@@ -127,13 +127,9 @@ macro_rules! splitting {
                 step: &Step<'_, S>,
                 _accel: &VelocityOf<S>,
                 attempt: &Attempt<S, VelocityOf<S>>,
-                next: &S::State,
+                next: &Accepted<S>,
             ) -> VelocityOf<S> {
-                if leads_to::<S>(step, &attempt.displacement, next) {
-                    attempt.details
-                } else {
-                    problem.slope(step.end, next).v
-                }
+                if next.changed { problem.slope(step.end, &next.state).v } else { attempt.details }
             }
 
             $(

@@ -29,7 +29,8 @@ pub struct Tolerance {
     pub absolute: f64,
     /// `[s]` length of the first step; zero to have it chosen.
     pub first_step: f64,
-    /// `[s]` least length of a step (the last one may be shorter); never below ten roundings of the time.
+    /// `[s]` least length of a step (the last one may be shorter), not above the greatest; never below ten roundings of the
+    /// time.
     pub min_step: f64,
     /// `[s]` greatest length of a step.
     pub max_step: f64,
@@ -53,6 +54,8 @@ impl Tolerance {
             Some("a least step must not be negative")
         } else if self.max_step.is_nan() || self.max_step <= 0.0 {
             Some("a greatest step must be positive")
+        } else if self.min_step > self.max_step {
+            Some("a least step must not exceed the greatest one")
         } else {
             None
         }
@@ -111,20 +114,20 @@ pub(super) struct Control {
 }
 
 impl Control {
-    /// Steps by error, the first one chosen if none is given.
+    /// Steps by error, the first one chosen by the slope at the start if none is given.
     pub(super) fn start<S: System>(
         tolerance: Tolerance,
         order: u32,
         problem: &Problem<'_, S>,
-        t0: f64,
-        t1: f64,
+        (t0, t1): (f64, f64),
         state: &S::State,
+        slope: impl FnOnce() -> SlopeOf<S>,
     ) -> Result<Self, IntegrationError> {
         let order = f64::from(order);
         let length = if tolerance.first_step > 0.0 {
             tolerance.first_step
         } else {
-            let slope = problem.slope(S::Scalar::lit(t0), state);
+            let slope = slope();
             if !is_finite(&slope) {
                 return Err(IntegrationError::NonFinite { time: t0 });
             }
@@ -166,7 +169,9 @@ impl Control {
 
     /// Whether a step is below the least one.
     pub(super) fn is_too_short(&self, t: f64, length: f64) -> bool {
-        length.abs() <= Real::max(self.min_step, 10.0 * f64::EPSILON * t.abs())
+        let (t, length) = (t.abs(), length.abs());
+        // A step has the rounding of the times between which it lies.
+        length + f64::EPSILON * (t + length) < self.min_step || length <= 10.0 * f64::EPSILON * t
     }
 
     /// Whether a step with this error is accepted; chooses the next one.

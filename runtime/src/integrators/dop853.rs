@@ -6,27 +6,38 @@ mod conditions;
 mod tableau;
 
 use super::dense::Dense;
-use super::method::{Attempt, Method, inherent};
+use super::method::{Accepted, Attempt, Method, inherent};
 use super::problem::{Problem, Step};
-use super::slope::{SlopeOf, advance_by, combination, displaced, first_same_as_last, rate_of_displacement};
+use super::slope::{SlopeOf, advance_by, combination, displaced, literals, rate_of_displacement, slope_at_end};
 use crate::{Real, System, Tangent};
+use core::cell::OnceCell;
 use tableau as tab;
 
-/// The eighth-order method of Dormand and Prince: twelve evaluations. The first choice for smooth motions from errors
-/// of 1e-6 downwards.
+/// The eighth-order method of Dormand and Prince: twelve evaluations, eleven where the step is rejected. The first choice
+/// for smooth motions from errors of 1e-3 downwards.
 ///
 /// Its estimate of the error combines one of fifth and one of third order; dense output is of seventh order and takes
 /// three further evaluations for each step that is asked for it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Dop853;
 
-/// The stages 1 and 6 to 13 of a step.
-#[derive(Clone, Copy, Debug)]
+/// The stages 1 and 6 to 12 of a step, and the slope at its end where that was asked for: neither the step nor its
+/// estimate has a use for it, so steps that are rejected do without.
+#[derive(Clone, Debug)]
 pub struct EighthOrderStages<D> {
     /// As rates of the displacement.
-    rates: [D; 9],
-    /// The last one as a slope.
-    last: D,
+    rates: [D; 8],
+    last: OnceCell<D>,
+}
+
+/// The slope at the end of a step, evaluated once.
+fn last<S: System>(
+    problem: &Problem<'_, S>,
+    step: &Step<'_, S>,
+    attempt: &Attempt<S, EighthOrderStages<SlopeOf<S>>>,
+) -> SlopeOf<S> {
+    let evaluated = || problem.slope(step.end, &displaced(step.state, &attempt.displacement));
+    *attempt.details.last.get_or_init(evaluated)
 }
 
 impl<S: System> Method<S> for Dop853 {
@@ -38,6 +49,17 @@ impl<S: System> Method<S> for Dop853 {
     #[inline]
     fn begin(&self, problem: &Problem<'_, S>, t: S::Scalar, state: &S::State) -> SlopeOf<S> {
         problem.slope(t, state)
+    }
+
+    #[inline]
+    fn first_slope(
+        &self,
+        _problem: &Problem<'_, S>,
+        _t: S::Scalar,
+        _state: &S::State,
+        memory: &mut SlopeOf<S>,
+    ) -> SlopeOf<S> {
+        *memory
     }
 
     #[inline]
@@ -58,18 +80,16 @@ impl<S: System> Method<S> for Dop853 {
         let k12 = at(c12, &combination(dt, tab::A12, [k1, &k4, &k5, &k6, &k7, &k8, &k9, &k10, &k11]));
         let stages = [k1, &k6, &k7, &k8, &k9, &k10, &k11, &k12];
         let [_, ref rest @ ..] = tab::B;
-        let displacement = advance_by(dt, k1, *rest, [&k6, &k7, &k8, &k9, &k10, &k11, &k12]);
+        let displacement = advance_by(dt, k1, literals(rest), [&k6, &k7, &k8, &k9, &k10, &k11, &k12]);
         if !step.full {
-            let none = SlopeOf::<S>::zero();
-            return Attempt::new(displacement, EighthOrderStages { rates: [none; 9], last: none });
+            let rates = [SlopeOf::<S>::zero(); 8];
+            return Attempt::new(displacement, EighthOrderStages { rates, last: OnceCell::new() });
         }
-        let last = problem.slope(step.end, &displaced(step.state, &displacement));
-        let k13 = rate_of_displacement::<S>(&displacement, &last);
         Attempt {
             displacement,
             error: combination(dt, tab::E5, stages),
             converged: true,
-            details: EighthOrderStages { rates: [*k1, k6, k7, k8, k9, k10, k11, k12, k13], last },
+            details: EighthOrderStages { rates: [*k1, k6, k7, k8, k9, k10, k11, k12], last: OnceCell::new() },
         }
     }
 
@@ -82,7 +102,7 @@ impl<S: System> Method<S> for Dop853 {
         attempt: &Attempt<S, Self::Details>,
         norm: impl Fn(&SlopeOf<S>) -> S::Scalar,
     ) -> S::Scalar {
-        let [k1, _, _, _, k9, _, _, k12, _] = &attempt.details.rates;
+        let [k1, _, _, _, k9, _, _, k12] = &attempt.details.rates;
         let third = combination(step.dt, tab::E3, [k1, k9, k12]);
         let e5 = norm(&attempt.error);
         let e3 = norm(&attempt.displacement.add_scaled(S::Scalar::lit(-1.0), &third));
@@ -92,7 +112,7 @@ impl<S: System> Method<S> for Dop853 {
         Real::select(Real::eq(size, S::Scalar::lit(0.0)), size, e5 * (e5 / size))
     }
 
-    /// The slope at the end is there already, unless [`System::accepted`] has changed the state.
+    /// The slope at the end is there already if dense output asked for it and [`System::accepted`] has not changed the state.
     #[inline]
     fn proceed(
         &self,
@@ -100,9 +120,9 @@ impl<S: System> Method<S> for Dop853 {
         step: &Step<'_, S>,
         _memory: &SlopeOf<S>,
         attempt: &Attempt<S, Self::Details>,
-        next: &S::State,
+        next: &Accepted<S>,
     ) -> SlopeOf<S> {
-        first_same_as_last(problem, step, &attempt.displacement, &attempt.details.last, next)
+        slope_at_end(problem, step, next, || last(problem, step, attempt))
     }
 
     /// Of seventh order, by three further evaluations.
@@ -116,7 +136,8 @@ impl<S: System> Method<S> for Dop853 {
         let dt = step.dt;
         let [c14, c15, c16] = tab::C_DENSE;
         let at = |c: f64, d: &SlopeOf<S>| problem.stage(step.time(c), step.state, d);
-        let [k1, k6, k7, k8, k9, k10, k11, k12, k13] = &attempt.details.rates;
+        let [k1, k6, k7, k8, k9, k10, k11, k12] = &attempt.details.rates;
+        let k13 = &rate_of_displacement::<S>(&attempt.displacement, &last(problem, step, attempt));
         let k14 = &at(c14, &combination(dt, tab::A14, [k1, k7, k8, k9, k10, k11, k12, k13]));
         let k15 = &at(c15, &combination(dt, tab::A15, [k1, k6, k7, k8, k11, k12, k13, k14]));
         let k16 = &at(c16, &combination(dt, tab::A16, [k1, k6, k7, k8, k9, k13, k14, k15]));

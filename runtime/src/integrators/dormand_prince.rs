@@ -2,13 +2,14 @@
 //! Ordinary Differential Equations I, table II.5.2; on manifolds after Munthe-Kaas (1998).
 
 use super::dense::Dense;
-use super::method::{Attempt, Method, inherent};
+use super::method::{Accepted, Attempt, Method, inherent};
 use super::problem::{Problem, Step};
-use super::slope::{SlopeOf, advance_by, combination, displaced, first_same_as_last, rate_of_displacement};
+use super::slope::{SlopeOf, advance_by, combination, displaced, literals, rate_of_displacement, slope_at_end};
 use crate::{Real, System, Tangent};
 
-/// The fifth-order method of Dormand and Prince: six evaluations. The first choice for steps chosen by error, down to
-/// errors of about 1e-6; its estimate is the difference to an embedded method of fourth order.
+/// The fifth-order method of Dormand and Prince: six evaluations. The first choice for steps chosen by error where errors
+/// above 1e-3 will do, and below where states within steps are asked for; its estimate is the difference to an embedded
+/// method of fourth order.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DormandPrince;
 
@@ -57,6 +58,17 @@ impl<S: System> Method<S> for DormandPrince {
     }
 
     #[inline]
+    fn first_slope(
+        &self,
+        _problem: &Problem<'_, S>,
+        _t: S::Scalar,
+        _state: &S::State,
+        memory: &mut SlopeOf<S>,
+    ) -> SlopeOf<S> {
+        *memory
+    }
+
+    #[inline]
     fn attempt(&self, problem: &Problem<'_, S>, step: &Step<'_, S>, k1: &SlopeOf<S>) -> Attempt<S, Stages<SlopeOf<S>>> {
         let dt = step.dt;
         let at = |c: f64, d: &SlopeOf<S>| problem.stage(step.time(c), step.state, d);
@@ -65,7 +77,7 @@ impl<S: System> Method<S> for DormandPrince {
         let k4 = at(C[2], &combination(dt, A4, [k1, &k2, &k3]));
         let k5 = at(C[3], &combination(dt, A5, [k1, &k2, &k3, &k4]));
         let k6 = at(C[4], &combination(dt, A6, [k1, &k2, &k3, &k4, &k5]));
-        let displacement = advance_by(dt, k1, B, [&k3, &k4, &k5, &k6]);
+        let displacement = advance_by(dt, k1, literals(&B), [&k3, &k4, &k5, &k6]);
         if !step.full {
             let none = SlopeOf::<S>::zero();
             return Attempt::new(displacement, Stages { rates: [none; 6], last: none });
@@ -89,9 +101,12 @@ impl<S: System> Method<S> for DormandPrince {
         step: &Step<'_, S>,
         _memory: &SlopeOf<S>,
         attempt: &Attempt<S, Stages<SlopeOf<S>>>,
-        next: &S::State,
+        next: &Accepted<S>,
     ) -> SlopeOf<S> {
-        first_same_as_last(problem, step, &attempt.displacement, &attempt.details.last, next)
+        if !step.full {
+            return problem.slope(step.end, &next.state);
+        }
+        slope_at_end(problem, step, next, || attempt.details.last)
     }
 
     /// Of fourth order, without further evaluations.

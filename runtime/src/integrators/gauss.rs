@@ -7,6 +7,10 @@
 //! of a regular double pendulum rises by less than 1e-8 in both; in chaos by 2e-6 in momenta, by 6e-4 in velocities
 //! (`benches/long_runs.rs`). The cost of a step is nearly the same.
 //!
+//! Steps are solved by fixed-point iteration, which converges where the step is shorter than about the inverse of the
+//! fastest angular frequency or damping rate: not for stiff systems, where steps end in
+//! [`NoConvergence`](super::IntegrationError::NoConvergence). [`Radau`](super::Radau) is for those.
+//!
 //! [`Integrator::compensated`](super::Integrator::compensated) keeps the rounding of positions and velocities where these
 //! are integrated. In momenta it keeps that of positions and own states alone: momenta are taken anew from every accepted
 //! state.
@@ -16,21 +20,24 @@ mod tableau;
 mod variables;
 
 use super::dense::Dense;
-use super::method::{Attempt, Method, inherent};
+use super::method::{Accepted, Attempt, Method, inherent};
 use super::problem::{Problem, Step};
 use stages::Stages;
 use tableau::{ONE, THREE, TWO};
 use variables::{Momenta, Velocities};
 
-/// The implicit midpoint rule in position and velocity: second order, time-symmetric, for any system.
+/// The implicit midpoint rule in position and velocity: second order, time-symmetric, for any system that is
+/// not stiff.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ImplicitMidpoint;
 
-/// The Gauss method with two stages in position and velocity: fourth order, time-symmetric, for any system.
+/// The Gauss method with two stages in position and velocity: fourth order, time-symmetric, for any system that is
+/// not stiff.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct GaussLegendre4;
 
-/// The Gauss method with three stages in position and velocity: sixth order, time-symmetric, for any system.
+/// The Gauss method with three stages in position and velocity: sixth order, time-symmetric, for any system that is
+/// not stiff.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct GaussLegendre6;
 
@@ -78,9 +85,9 @@ macro_rules! gauss {
                 step: &Step<'_, S>,
                 _memory: &Self::Memory,
                 attempt: &Attempt<S, Self::Details>,
-                next: &S::State,
+                next: &Accepted<S>,
             ) -> Self::Memory {
-                $tableau.proceed::<S, $variables>(problem, step, attempt, next)
+                $tableau.proceed::<S, $variables>(problem, step, attempt, &next.state)
             }
 
             $(

@@ -18,11 +18,11 @@
 //! their own, with `Phi(q1) = 0` and `G v1 + dPhi/dt = 0`. The index-3 form keeps positions alone and projects velocities
 //! afterwards, which can cost an order.
 
-use super::method::{Attempt, Method};
+use super::method::{Accepted, Attempt, Method};
 use super::problem::{Problem, Step};
 use super::slope::{SlopeOf, displaced};
 use crate::linear::Square;
-use crate::tangent::unpack;
+use crate::tangent::{greatest, unpack};
 use crate::{
     Constrained, Differentiable, ExtraOf, Impulsive, Jacobian, PositionOf, Real, StateSpace, System, Tangent,
     VelocityOf,
@@ -336,13 +336,8 @@ impl<S: System, C: Closing<S>, I: Iterating<S>> Method<S> for GeneralisedAlpha<C
         _step: &Step<'_, S>,
         _memory: &Lag<RatesOf<S>>,
         attempt: &Attempt<S, Lag<RatesOf<S>>>,
-        _next: &S::State,
+        _next: &Accepted<S>,
     ) -> Lag<RatesOf<S>> {
         attempt.details
     }
-}
-
-/// The greatest size of a component in each lane; NaN if one is.
-fn greatest<T: Real, V: Tangent<T>>(v: &V) -> T {
-    v.fold(T::lit(0.0), &mut |greatest, x| Real::max(greatest, Real::abs(x)))
 }

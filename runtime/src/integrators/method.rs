@@ -4,7 +4,7 @@ use super::dense::Dense;
 use super::error::IntegrationError;
 use super::problem::{Problem, Step};
 use super::slope::{SlopeOf, displaced, is_finite, magnitude};
-use crate::{Real, System, Tangent};
+use crate::{Real, StateSpace, System, Tangent, all};
 
 /// A step that was tried.
 pub struct Attempt<S: System, D> {
@@ -26,6 +26,34 @@ impl<S: System, D> Attempt<S, D> {
     }
 }
 
+/// The end of an accepted step.
+pub struct Accepted<S: System> {
+    /// What the integration goes on from.
+    pub state: S::State,
+    /// Whether [`System::accepted`] changed coordinates, so that what is known of the step's end does not hold for `state`.
+    pub changed: bool,
+}
+
+impl<S: System> Accepted<S> {
+    /// What the system makes of the end of a step at the time `t` `[s]`.
+    #[inline]
+    pub(super) fn new(problem: &Problem<'_, S>, t: S::Scalar, end: &S::State) -> Self {
+        let state = problem.accepted(t, end);
+        Self { state, changed: !same(end, &state) }
+    }
+}
+
+/// Whether two states have the same coordinates, exactly. Opposite quaternions are the same rotation.
+#[inline]
+fn same<Z: StateSpace>(a: &Z, b: &Z) -> bool {
+    fn equal<T: Real, V: Tangent<T>>(a: &V, b: &V) -> bool {
+        // Infinite components differ, which does no harm.
+        a.add_scaled(T::lit(-1.0), b).fold(true, &mut |equal, d| equal & all(Real::eq(d, T::lit(0.0))))
+    }
+    let ((q, v, x), (other_q, other_v, other_x)) = (a.split(), b.split());
+    q == other_q && equal(&v, &other_v) && equal(&x, &other_x)
+}
+
 /// A one-step method for the system `S`.
 ///
 /// Methods are values, with their settings where they have any. `step` and `integrate` exist on the common ones
@@ -40,7 +68,7 @@ pub trait Method<S: System>: Copy {
     /// What passes from one step to the next, such as the slope that one ends and the other starts with.
     type Memory: Copy;
     /// What a step leaves behind for the next one and for dense output.
-    type Details: Copy;
+    type Details;
 
     /// The memory at a first step, or at the first one after a jump.
     fn begin(&self, problem: &Problem<'_, S>, t: S::Scalar, state: &S::State) -> Self::Memory;
@@ -61,7 +89,19 @@ pub trait Method<S: System>: Copy {
         norm(&attempt.error)
     }
 
-    /// The memory for the step after an accepted one that led to `next`.
+    /// The slope at a first state, by which a first step is chosen; what the memory holds is not evaluated again.
+    #[inline]
+    fn first_slope(
+        &self,
+        problem: &Problem<'_, S>,
+        t: S::Scalar,
+        state: &S::State,
+        _memory: &mut Self::Memory,
+    ) -> SlopeOf<S> {
+        problem.slope(t, state)
+    }
+
+    /// The memory for the step after an accepted one.
     #[inline]
     fn proceed(
         &self,
@@ -69,9 +109,9 @@ pub trait Method<S: System>: Copy {
         step: &Step<'_, S>,
         _memory: &Self::Memory,
         _attempt: &Attempt<S, Self::Details>,
-        next: &S::State,
+        next: &Accepted<S>,
     ) -> Self::Memory {
-        self.begin(problem, step.end, next)
+        self.begin(problem, step.end, &next.state)
     }
 
     /// The memory for the attempt after a rejected one, at the same time and state.
@@ -141,8 +181,8 @@ pub(super) fn integrate<S: System, M: Method<S>>(
         let now = memory.unwrap_or_else(|| method.begin(&problem, t, &state));
         let step = Step { t, end, dt, state: &state, full: false };
         let attempt = method.attempt(&problem, &step, &now);
-        let next = problem.accepted(end, &displaced(&state, &attempt.displacement));
-        if !is_finite(&magnitude(&next)) {
+        let next = Accepted::new(&problem, end, &displaced(&state, &attempt.displacement));
+        if !is_finite(&magnitude(&next.state)) {
             return Err(IntegrationError::NonFinite { time: t.greatest() });
         }
         if !attempt.converged {
@@ -151,7 +191,7 @@ pub(super) fn integrate<S: System, M: Method<S>>(
         if k < steps {
             memory = Some(method.proceed(&problem, &step, &now, &attempt, &next));
         }
-        state = next;
+        state = next.state;
         t = end;
         observe(t, &state);
         problem.reached(t, &state);

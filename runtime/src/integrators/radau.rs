@@ -16,7 +16,7 @@ mod newton;
 mod tableau;
 
 use super::dense::Dense;
-use super::method::{Attempt, Method, inherent};
+use super::method::{Accepted, Attempt, Method, inherent};
 use super::problem::{Problem, Step};
 use super::slope::{Slope, SlopeOf, magnitude};
 use crate::{Configuration, Differentiable, Jacobian, PositionOf, Real, Tangent};
@@ -136,6 +136,16 @@ impl<S: Differentiable> Method<S> for Radau {
         Memory { slope: None, derivatives: None, matrices: None, last: None, eta: 1.0, rate: 0.0, cautious: true }
     }
 
+    fn first_slope(
+        &self,
+        problem: &Problem<'_, S>,
+        t: S::Scalar,
+        state: &S::State,
+        memory: &mut Memory<S>,
+    ) -> SlopeOf<S> {
+        *memory.slope.get_or_insert_with(|| problem.slope(t, state))
+    }
+
     fn attempt(&self, problem: &Problem<'_, S>, step: &Step<'_, S>, memory: &Memory<S>) -> Attempt<S, Details<S>> {
         let mut memory = *memory;
         let aim = Aim::of::<S::Scalar>(problem.tolerance());
@@ -178,7 +188,7 @@ impl<S: Differentiable> Method<S> for Radau {
         step: &Step<'_, S>,
         _memory: &Memory<S>,
         attempt: &Attempt<S, Details<S>>,
-        _next: &S::State,
+        _next: &Accepted<S>,
     ) -> Memory<S> {
         let Details { memory, terms, theta, .. } = attempt.details;
         let kept = memory.derivatives.filter(|_| theta <= FAST);

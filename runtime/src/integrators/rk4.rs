@@ -27,7 +27,9 @@ impl<S: System> Method<S> for Rk4 {
         let k2 = problem.stage(step.time(0.5), state, &k1.scale(half));
         let k3 = problem.stage(step.time(0.5), state, &k2.scale(half));
         let k4 = problem.stage(step.end, state, &k3.scale(dt));
-        let d = advance_by(dt, k1, [1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0], [&k2, &k3, &k4]);
+        // Converted one by one: no loop over constants of double precision is left where size is optimised for.
+        let (third, sixth) = (S::Scalar::lit(1.0 / 3.0), S::Scalar::lit(1.0 / 6.0));
+        let d = advance_by(dt, k1, [third, third, sixth], [&k2, &k3, &k4]);
         Attempt::new(d, ())
     }
 

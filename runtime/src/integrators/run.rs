@@ -4,7 +4,7 @@ use super::control::Control;
 use super::error::IntegrationError;
 use super::integrator::{Integrator, Statistics, Steps};
 use super::interval::Interval;
-use super::method::Method;
+use super::method::{Accepted, Method};
 use super::problem::{Problem, Step};
 use super::slope::{SlopeOf, advanced, displaced, is_finite, magnitude, owed};
 use crate::{Real, System, Tangent};
@@ -69,13 +69,17 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
         if let Some(what) = what {
             return Err(IntegrationError::InvalidArgument { what });
         }
-        let memory = settings.method.begin(problem, S::Scalar::lit(t0), state);
+        let start = S::Scalar::lit(t0);
+        let mut memory = settings.method.begin(problem, start, state);
         if !is_finite(&magnitude(state)) {
             return Err(IntegrationError::NonFinite { time: t0 });
         }
         let control = match settings.steps {
             Steps::Fixed(_) => None,
-            Steps::Adaptive(tolerance) => Some(Control::start(tolerance, M::ESTIMATE, problem, t0, t1, state)?),
+            Steps::Adaptive(tolerance) => {
+                let slope = || settings.method.first_slope(problem, start, state, &mut memory);
+                Some(Control::start(tolerance, M::ESTIMATE, problem, (t0, t1), state, slope)?)
+            }
         };
         Ok(Self {
             settings,
@@ -184,9 +188,9 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
         } else if !attempt.converged {
             return Err(stopped(!is_finite(&magnitude(&next)), self.t));
         }
-        let next = self.problem.accepted(step.end, &next);
-        let rest = if self.settings.compensated { owed(&next, &rest) } else { rest };
-        if !is_finite(&magnitude(&next)) {
+        let next = Accepted::new(self.problem, step.end, &next);
+        let rest = if self.settings.compensated { owed(&next.state, &rest) } else { rest };
+        if !is_finite(&magnitude(&next.state)) {
             return Err(IntegrationError::NonFinite { time: self.t });
         }
         let verdict = observe(&Interval::new(
@@ -194,17 +198,17 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
             Step { ..step },
             (self.t, target, length),
             &attempt,
-            &next,
+            &next.state,
             self.settings.compensated.then_some(&self.rest),
         ))?;
         self.accepted += 1;
         match verdict {
             Verdict::Continue => {
-                self.problem.reached(step.end, &next);
+                self.problem.reached(step.end, &next.state);
                 if target != self.end {
                     self.memory = method.proceed(self.problem, &step, &self.memory, &attempt, &next);
                 }
-                self.state = next;
+                self.state = next.state;
                 self.rest = rest;
                 self.t = target;
                 self.count = self.count.saturating_add(1);

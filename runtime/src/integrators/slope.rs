@@ -1,5 +1,6 @@
 //! The rate of a whole state: what methods combine.
 
+use super::method::Accepted;
 use super::problem::{Problem, Step};
 use crate::{Configuration, ExtraOf, Real, StateSpace, System, Tangent, VelocityOf, all};
 
@@ -100,37 +101,20 @@ pub(super) fn magnitude<Z: StateSpace>(state: &Z) -> Slope<Z::Velocity, Z::Extra
     Slope { q: q.magnitude(), v, x }
 }
 
-/// The slope that the next step starts with: `last`, the one after the displacement of the step, where the accepted state
-/// is the displaced one; else it is evaluated at the state that [`System::accepted`] made of it.
+/// The slope that the next step starts with: `last`, the one after the displacement of the step, where
+/// [`System::accepted`] has left its end as it was; else it is evaluated at the state that this made of it.
 #[inline]
-pub(super) fn first_same_as_last<S: System>(
+pub(super) fn slope_at_end<S: System>(
     problem: &Problem<'_, S>,
     step: &Step<'_, S>,
-    displacement: &SlopeOf<S>,
-    last: &SlopeOf<S>,
-    next: &S::State,
+    next: &Accepted<S>,
+    last: impl FnOnce() -> SlopeOf<S>,
 ) -> SlopeOf<S> {
-    if !step.full || !leads_to::<S>(step, displacement, next) {
-        return problem.slope(step.end, next);
+    if next.changed {
+        return problem.slope(step.end, &next.state);
     }
-    let (_, q, _) = next.split();
-    Slope { q, ..*last }
-}
-
-/// Whether the accepted state is the displaced one, so that what is known of the one holds for the other.
-#[inline]
-pub(super) fn leads_to<S: System>(step: &Step<'_, S>, displacement: &SlopeOf<S>, next: &S::State) -> bool {
-    agree(step.state, &displaced(step.state, displacement), next)
-}
-
-/// Whether two ends of a step from `start` differ by no more than compensated summation changes. Orientations, which have
-/// no size, are taken to differ with their velocities.
-fn agree<Z: StateSpace>(start: &Z, end: &Z, other: &Z) -> bool {
-    let roundings = Z::Scalar::lit(2.0) * Z::Scalar::epsilon();
-    let (start, end, other) = (magnitude(start), magnitude(end), magnitude(other));
-    let bound = start.zip(&other, &mut |start, other| roundings * (Real::abs(start) + Real::abs(other)));
-    let excess = end.zip(&other, &mut |end, other| Real::abs(end - other)).add_scaled(Z::Scalar::lit(-1.0), &bound);
-    excess.fold(true, &mut |agree, excess| agree & all(Real::le(excess, Z::Scalar::lit(0.0))))
+    let (_, q, _) = next.state.split(); // compensated summation may have rounded it otherwise
+    Slope { q, ..last() }
 }
 
 /// `dt * (weights[0] * slopes[0] + ..)`.
@@ -149,13 +133,12 @@ pub(super) fn combination<T: Real, V: Tangent<T>, const N: usize>(dt: T, weights
 pub(super) fn advance_by<T: Real, V: Tangent<T>, const N: usize>(
     dt: T,
     first: &V,
-    weights: [f64; N],
+    weights: [T; N],
     slopes: [&V; N],
 ) -> V {
     let minus = T::lit(-1.0);
     let terms = weights.into_iter().zip(slopes);
-    let change =
-        terms.fold(V::zero(), |sum, (weight, slope)| sum.add_scaled(T::lit(weight), &slope.add_scaled(minus, first)));
+    let change = terms.fold(V::zero(), |sum, (weight, slope)| sum.add_scaled(weight, &slope.add_scaled(minus, first)));
     first.add(&change).scale(dt)
 }
 

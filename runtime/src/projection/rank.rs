@@ -18,8 +18,12 @@ pub fn rank<S: Constrained>(system: &S, t: S::Scalar, state: &S::State) -> S::Sc
 /// A system that remembers the least rank of its constraints at the end of any step that was kept, and when that was.
 ///
 /// It is a wrapper like [`WithProjection`](super::WithProjection), and goes around it:
-/// `WithRank::new(WithProjection::new(&model, projection))`. The motion is not changed. Steps seldom end exactly in a
-/// singular pose; an event that locates it brings the rank there to light.
+/// `WithRank::new(WithProjection::new(&model, projection))`. The motion is not changed.
+///
+/// Only ends of steps are looked at, and a rank drops in the singular pose itself, to rounding. A pose that is passed
+/// within a step goes unseen, however short the step, and steps seldom end in one by chance. Where such a pose can be
+/// told by a function that crosses zero there, an [event](crate::integrators::Event) on it makes a step end in it, which
+/// is then reported.
 #[derive(Clone, Debug)]
 pub struct WithRank<S: System> {
     /// The system.
