@@ -52,7 +52,7 @@ fn within_1_3_times_of_the_form_by_hand() {
             case.sincos()
         );
         println!("{text}");
-        if 10 * flops > 13 * hand || (got.sincos > case.sincos() && !case.model.starts_with("stewart")) {
+        if 10 * flops > 13 * hand || got.sincos > case.sincos() {
             missed.push(format!("{text}: more than 1.3 times"));
         }
         if flops > case.emitted {
