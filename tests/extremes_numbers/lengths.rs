@@ -50,7 +50,7 @@ where
     let outcome = Integrator::fixed(method, dt).integrate(&system, 0.0, end, &start, input, |_, _| ());
     ended(&outcome);
     let told = outcome.map_or_else(|error| error.to_string(), |_| "a finite state".into());
-    println!("{name}, steps of 1e3 s: {told}, asked {} times", system.most());
+    println!("{name}, steps of 1e3 s: {told}, asked at most {} times so far", system.most());
     system.reset();
     let first = Tolerance { first_step: dt, ..Tolerance::new(1e-6, 1e-6) };
     let within = Integrator::within(method, first).max_steps(STEPS);
