@@ -79,7 +79,7 @@ fn an_open_chain_knows_no_base() {
     }
 }
 
-/// Least axial inertia is approached in proportion to it, and from 1e-12 on nothing is left.
+/// No axial inertia is approached in proportion to it, and from 1e-15 on nothing but rounding is left.
 #[test]
 fn inertia_to_zero_is_continuous() {
     macro_rules! approach {
@@ -92,7 +92,6 @@ fn inertia_to_zero_is_continuous() {
                 let want: SVector<f64, 4> =
                     limit.forward_dynamics(0.0, &$limit::State { q: q.into(), v: v.into() }, &()).into();
                 let state = $model::State { q: q.into(), v: v.into() };
-                let mut last = f64::INFINITY;
                 for exponent in [3, 6, 9, 12, 15, 30, 100, 200, 300, 308, 320] {
                     let i = 10_f64.powi(-exponent);
                     let params = $model::Params { i };
@@ -100,10 +99,6 @@ fn inertia_to_zero_is_continuous() {
                     let got: SVector<f64, 4> = $model::Model::new(&params).forward_dynamics(0.0, &state, &()).into();
                     let error = worse(0.0, (got - want).amax() / (1.0 + want.amax()));
                     assert!(error <= (200.0 * i).max(1e-13), "{i:e}: {error:e}");
-                    if exponent >= 12 {
-                        last = last.min(error);
-                        assert!(error <= 1e-9, "{i:e}: {error:e}");
-                    }
                 }
             }
         }};
@@ -113,7 +108,9 @@ fn inertia_to_zero_is_continuous() {
 }
 
 /// A rod that spins ever more easily: finite down to the least positive number, as physics has it. At zero nothing resists
-/// the spin: NaN or infinity come out, and an integrator says so in its error. Declared so, it is an error of the compiler.
+/// the spin. As a literal that is an error of the compiler which names the joint. As a parameter it is allowed, since other
+/// joints would resist: NaN or infinity come out, and an integrator ends in `NonFinite` at the time where it began, which
+/// does not say why.
 #[test]
 fn a_singular_mass_matrix_is_a_typed_error() {
     let spun = |i: f64, torque: f64| {
@@ -133,8 +130,9 @@ fn a_singular_mass_matrix_is_a_typed_error() {
         let (accel, end) = spun(0.0, torque);
         println!("no inertia, torque {torque}: {}", accel.z);
         assert!(!accel.z.is_finite(), "{torque}");
-        assert!(matches!(end, Err(IntegrationError::NonFinite { .. })), "{torque}: {end:?}");
+        assert!(matches!(end, Err(IntegrationError::NonFinite { time: 0.0 })), "{torque}: {end:?}");
     }
+    assert!(spinning::Params { i: 0.0 }.check().is_ok());
     // What no body can have is refused by the parameters.
     for i in [-1e-3, f64::NAN, 1.0] {
         assert!(spinning::Params { i }.check().is_err(), "{i}");

@@ -273,9 +273,15 @@ fn rows_of_four_bars_with_redundant_joints() {
             );
             assert!(lean < 0.1, "the branch of parallel bars was left: {lean}");
             assert!(told.times >= 5 && told.least < rows, "{} of {rows}", told.least);
-            let flat = vertical(0.0, -1.0);
-            let ranks = (rank(&model, 0.0, &flat), model.forward_dynamics(0.0, &flat, &()).rank);
-            assert_eq!(ranks, (rows - f64::from($n), rows - f64::from($n)));
+            let at = |angle: f64| {
+                let pose = vertical(angle, -1.0);
+                (rank(&model, 0.0, &pose), model.forward_dynamics(0.0, &pose, &()).rank)
+            };
+            assert_eq!(at(0.0), (rows - f64::from($n), rows - f64::from($n)));
+            // Away from there all of them count.
+            for angle in [FRAC_PI_2, 1.0, 0.1, -0.1, 1e-3] {
+                assert_eq!(at(angle), (rows, rows), "{angle}");
+            }
         }};
     }
     check!(redundant_2, 2, 1e-3);

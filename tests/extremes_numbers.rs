@@ -7,6 +7,8 @@
 mod bounded;
 #[path = "extremes_numbers/drawn.rs"]
 mod drawn;
+#[path = "extremes_numbers/lengths.rs"]
+mod lengths;
 #[path = "extremes_numbers/list.rs"]
 mod list;
 #[path = "models/numbers.rs"]

@@ -45,6 +45,10 @@ impl<S: System> System for Bounded<'_, S> {
         self.count();
         self.system.accepted(t, state, input)
     }
+    fn reached(&self, t: S::Scalar, state: &S::State) {
+        self.count();
+        self.system.reached(t, state);
+    }
 }
 
 impl<S: Constrained> Constrained for Bounded<'_, S> {

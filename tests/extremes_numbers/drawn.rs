@@ -3,7 +3,7 @@
 use multibody::simba::simd::{SimdValue, WideF32x8, WideF64x4};
 use multibody::{Configuration, Real, StateSpace, Tangent};
 use proptest::prelude::*;
-use proptest::test_runner::{Config, TestRunner};
+use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use std::cell::Cell;
 
 /// Numbers drawn once, handed out again and again.
@@ -91,9 +91,12 @@ fn number() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Draws many sets of numbers: wild ones, and as many of ordinary size, with which motions go on.
+/// Draws many sets of numbers, the same in every run: wild ones, and as many of ordinary size, with which motions go on.
+/// The environment variable `TIMES` asks for so many times the cases.
 pub(super) fn all(cases: u32, check: impl Fn(&Numbers)) {
-    let mut runner = TestRunner::new(Config { failure_persistence: None, cases, ..Config::default() });
+    let times: u32 = std::env::var("TIMES").map_or(1, |times| times.parse().unwrap());
+    let config = Config { failure_persistence: None, cases: cases * times, ..Config::default() };
+    let mut runner = TestRunner::new_with_rng(config, TestRng::deterministic_rng(RngAlgorithm::ChaCha));
     let states = prop_oneof![prop::collection::vec(number(), 67), prop::collection::vec(-2.0..2.0_f64, 67)];
     let sets = (states, prop::collection::vec(number(), 61));
     runner

@@ -1,11 +1,20 @@
 //! Functions that take numbers and no system: linear systems, rotations, scalars, checks.
 
 use super::drawn::{Drawn, Numbers, all};
-use multibody::linear::{ComplexFactors, Factors, Solve, Square, least_norm, solve, solve_symmetric};
+use multibody::linear::{
+    ComplexFactors, Factors, Solve, Square, least_norm, least_norm_in_groups, solve, solve_symmetric,
+    solve_symmetric_in_groups,
+};
 use multibody::nalgebra::{Quaternion, SMatrix, SVector, UnitQuaternion, Vector3};
 use multibody::simba::simd::{WideF32x8, WideF64x4};
 use multibody::{Configuration, Pose, Real, Tangent, inertia_violation, rotation};
 use std::hint::black_box;
+
+/// A group for each equation, in no order and with gaps: any number is one.
+fn groups<const N: usize>(n: &Numbers) -> [usize; N] {
+    // Of NaN and negative numbers it is zero, of the greatest the greatest.
+    [(); N].map(|()| n.draw() as usize)
+}
 
 fn linear<T: Drawn>(n: &Numbers) {
     fn square<T: Drawn, const N: usize>(n: &Numbers) {
@@ -13,18 +22,22 @@ fn linear<T: Drawn>(n: &Numbers) {
         let (matrix, other, right) = ([(); N].map(|()| row()), [(); N].map(|()| row()), row());
         black_box(solve(matrix, right));
         black_box(solve_symmetric(matrix, right));
+        black_box(solve_symmetric_in_groups(matrix, right, &groups(n)));
         black_box(Factors::new(&matrix).solve(&right));
         black_box(ComplexFactors::new(&matrix, &other).solve(&(right, row())));
         let made: [[T; N]; N] = Square::from_fn(|i, j| matrix.get(j, i));
         black_box(made.solution(&right));
         black_box(made.times(&<[[T; N]; N]>::vector(|i| right[i])));
+        black_box(<[[T; N]; N]>::packed(&n.vector::<T, SVector<T, 3>>()));
         black_box(<[[T; N]; N]>::array(|i| i));
         black_box(made.factors().solve(&right));
         black_box(made.complex_factors(&other).solve(&(right, right)));
     }
     fn wide<T: Drawn, const M: usize, const N: usize>(n: &Numbers) {
         let g = SMatrix::<T, M, N>::from_fn(|_, _| n.scalar());
-        black_box(least_norm(&g, &SVector::from_fn(|_, _| n.scalar()), &SVector::from_fn(|_, _| n.scalar())));
+        let (right, weights) = (n.vector::<T, SVector<T, M>>(), n.vector::<T, SVector<T, N>>());
+        black_box(least_norm(&g, &right, &weights));
+        black_box(least_norm_in_groups(&g, &right, &weights, &groups(n)));
     }
     square::<T, 1>(n);
     square::<T, 3>(n);

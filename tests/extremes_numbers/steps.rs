@@ -58,7 +58,7 @@ impl<S: System<Scalar: Drawn>, R: System<Scalar = S::Scalar, State = S::State>> 
 }
 
 /// What an integration may give: a state that is finite, or an error.
-fn ended<Z: StateSpace, R>(outcome: &Result<(Z, R), IntegrationError>) {
+pub(super) fn ended<Z: StateSpace, R>(outcome: &Result<(Z, R), IntegrationError>) {
     assert!(outcome.as_ref().is_ok_and(|(state, _)| finite(state)) || outcome.is_err(), "a state that is not finite");
 }
 

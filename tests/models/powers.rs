@@ -1,4 +1,4 @@
-//! The models of `examples/`, each with the power of all its forces but springs.
+//! The models of `examples/`, each with the power of all its forces: springs too. Energy is that of motion and gravity.
 
 use multibody::multibody;
 
@@ -9,7 +9,7 @@ multibody! {
         param m1 = 1.0;
         param m2 = 1.0;
         param l1 = 1.0;
-        param l2 = 0.8;
+        param l2 = 1.0;
         world { gravity: -G * Y }
         body upper { mass: m1, com: -0.5 * l1 * Y, inertia: rod(m1, l1, Y) }
         body lower { mass: m2, com: -0.5 * l2 * Y, inertia: rod(m2, l2, Y) }
@@ -95,35 +95,10 @@ multibody! {
 }
 
 multibody! {
-    /// `examples/n_four_bars.rs`, as parallelograms
-    pub mod n_four_bars {
-        world { gravity: -9.81 * Y }
-        formulation { constraints: Reduced }
-        body b0 { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
-        body b1 { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
-        body b2 { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
-        body top1 { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
-        body top2 { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
-        joint crank: Revolute { parent: ground, child: b0, axis: Z }
-        joint middle: Revolute { parent: ground.at(X), child: b1, axis: Z }
-        joint last: Revolute { parent: ground.at(2.0 * X), child: b2, axis: Z }
-        joint coupler1: Revolute { parent: b0.at(X), child: top1, axis: Z }
-        joint coupler2: Revolute { parent: b1.at(X), child: top2, axis: Z }
-        #[cut]
-        joint pin1: Revolute { parent: top1.at(X), child: b1.at(X), axis: Z }
-        #[cut]
-        joint pin2: Revolute { parent: top2.at(X), child: b2.at(X), axis: Z }
-        solve (coupler1, middle) = (-crank, crank);
-        solve (coupler2, last) = (-crank, crank);
-        output power = 0.0;
-        output energy = kinetic() + potential();
-        emit forward_dynamics;
-    }
-}
-
-multibody! {
-    /// `examples/panda.rs`
+    /// `examples/panda.rs`, with the viscous friction that `examples/tradeoff` gives it
     pub mod panda {
+        /// as a share of what it is there
+        param friction = 1.0;
         /// [kg] what the hand holds
         param payload = 0.0;
         /// [N m] of the seven motors
@@ -189,7 +164,19 @@ multibody! {
         force motor6: Effort { joint: q6, value: torque[5] }
         force motor7: Effort { joint: q7, value: torque[6] }
 
-        output power = motor1.power + motor2.power + motor3.power + motor4.power + motor5.power + motor6.power + motor7.power;
+        force friction1: Damper { joint: q1, damping: 2.0 * friction }
+        force friction2: Damper { joint: q2, damping: 2.0 * friction }
+        force friction3: Damper { joint: q3, damping: friction }
+        force friction4: Damper { joint: q4, damping: friction }
+        force friction5: Damper { joint: q5, damping: 0.4 * friction }
+        force friction6: Damper { joint: q6, damping: 0.4 * friction }
+        force friction7: Damper { joint: q7, damping: 0.2 * friction }
+
+        let motors =
+            motor1.power + motor2.power + motor3.power + motor4.power + motor5.power + motor6.power + motor7.power;
+        let dampers = friction1.power + friction2.power + friction3.power + friction4.power + friction5.power
+            + friction6.power + friction7.power;
+        output power = motors + dampers;
         output energy = kinetic() + potential();
         emit forward_dynamics;
     }
@@ -231,8 +218,8 @@ multibody! {
         force spring: Spring { between: [k3.at([0.02, -0.018, 0.0]), ground.at(C)], stiffness: 4530.0, length: 0.07785 }
 
         formulation { constraints: Multipliers }
-        output power = motor.power;
-        output energy = kinetic() + potential();
+        output power = motor.power + spring.power;
+        output energy = kinetic();
         emit forward_dynamics;
     }
 }
@@ -251,9 +238,10 @@ multibody! {
         #[cut]
         joint ball: Ball { parent: piston, child: tip }
         force actuator: Effort { joint: stroke, value: thrust }
+        force spring: SpringDamper { joint: stroke, stiffness: 200.0, damping: 5.0, rest: 0.262 }
         solve (gimbal, stroke) from ball { stroke > -1.0, cos(gimbal.second) > 0.0 }
     }
-    /// `examples/stewart`, reduced
+    /// `examples/stewart`, reduced, on the springs of `examples/tradeoff`
     pub mod stewart {
         const FEET: [Vec3; 6] = [
             [-2.12, 1.374, 0.0], [-2.38, 1.224, 0.0], [-2.38, -1.224, 0.0], [-2.12, -1.374, 0.0], [0.0, -0.15, 0.0],
@@ -268,8 +256,15 @@ multibody! {
         formulation { constraints: Reduced }
         body platform { mass: 1.5, inertia: diag(0.08, 0.08, 0.08), coordinates: Absolute(RollPitchYaw) }
         part legs: [leg; 6] = |i| leg { base: ground.at(FEET[i]).rotated(Z, HEADING[i]), tip: platform.at(PINS[i]) };
-        output power = legs[0].actuator.power + legs[1].actuator.power + legs[2].actuator.power + legs[3].actuator.power + legs[4].actuator.power + legs[5].actuator.power;
-        output energy = kinetic() + potential();
+        let motors = legs[0].actuator.power + legs[1].actuator.power + legs[2].actuator.power + legs[3].actuator.power
+            + legs[4].actuator.power + legs[5].actuator.power;
+        let springs = legs[0].spring.power + legs[1].spring.power + legs[2].spring.power + legs[3].spring.power
+            + legs[4].spring.power + legs[5].spring.power;
+        let pins = platform.at(PINS[0]).position.z + platform.at(PINS[1]).position.z + platform.at(PINS[2]).position.z
+            + platform.at(PINS[3]).position.z + platform.at(PINS[4]).position.z + platform.at(PINS[5]).position.z;
+        output power = motors + springs;
+        // The two bodies of a leg weigh the same, and their centres are as far from its ends: as one at the pin.
+        output energy = kinetic() + 9.80665 * (1.5 * platform.position.z + 0.1 * pins);
         emit forward_dynamics;
     }
 }
@@ -310,6 +305,34 @@ multibody! {
         }
         output power = shift.power + turn.power;
         output energy = kinetic() + potential();
+        emit forward_dynamics;
+    }
+}
+
+multibody! {
+    /// The governor of `examples/tradeoff` and `examples/diffsol`.
+    pub mod governor {
+        const K = 1e7;
+        const C = 5e4;
+        world { gravity: -9.81 * Z }
+        body spindle { mass: 1.0, inertia: diag(0.05, 0.05, 0.05) }
+        body right { mass: 0.5, com: -0.3 * Z }
+        body left { mass: 0.5, com: -0.3 * Z }
+        body sleeve { mass: 1.0 }
+        joint shaft: Revolute { parent: ground, child: spindle, axis: Z }
+        joint right_arm: Revolute { parent: spindle.at(0.05 * X), child: right, axis: -Y }
+        joint left_arm: Revolute { parent: spindle.at(-0.05 * X), child: left, axis: Y }
+        joint slide: Prismatic { parent: spindle, child: sleeve, axis: Z }
+        force drive: Effort { joint: shaft, value: 0.5 * (9.0 - shaft.rate) }
+        force right_link: SpringDamper {
+            between: [right.at(-0.2 * Z), sleeve.at(0.05 * X)], stiffness: K, damping: C, length: 0.2,
+        }
+        force left_link: SpringDamper {
+            between: [left.at(-0.2 * Z), sleeve.at(-0.05 * X)], stiffness: K, damping: C, length: 0.2,
+        }
+        let balls = right.at(-0.3 * Z).position.z + left.at(-0.3 * Z).position.z;
+        output power = drive.power + right_link.power + left_link.power;
+        output energy = kinetic() + 9.81 * (0.5 * balls + slide.travel);
         emit forward_dynamics;
     }
 }
