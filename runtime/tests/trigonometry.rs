@@ -184,7 +184,11 @@ fn inverse_edges() {
                 for &x in &values {
                     let (found, exact): ($float, $float) = (Real::atan2(y, x), y.atan2(x));
                     // The platform's may be one off itself, but where the result is zero it is exact.
-                    let same = if exact.is_nan() { found.is_nan() } else { apart!(found, exact) <= u8::from(exact != 0.0).into() };
+                    let same = if exact.is_nan() {
+                        found.is_nan()
+                    } else {
+                        apart!(found, exact) <= u8::from(exact != 0.0).into()
+                    };
                     assert!(same, "{y:e} {x:e}: {found:e} {exact:e}");
                 }
             }
