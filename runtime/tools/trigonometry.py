@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""The numbers of runtime/src/scalar/software, and the reference data of runtime/tests/data/trigonometry.txt.
+"""The numbers of runtime/src/scalar/software, and the reference data of runtime/tests/data.
 
-    trigonometry.py             prints parts of pi/2, words of 2/pi, and polynomial coefficients
-    trigonometry.py reference   prints angles with sine and cosine, as bits: f32 or f64, angle, sine, cosine
+    trigonometry.py             prints parts of pi/2 and pi/4, words of 2/pi, and polynomial coefficients
+    trigonometry.py reference   prints trigonometry.txt, angles as bits: f32 or f64, angle, sine, cosine
+    trigonometry.py inverse     prints arctangent.txt, points as bits: f32 or f64, y, x, angle
 
 Needs mpmath. Coefficients are minimax in the relative error (Remez's exchange), rounded one after the other, the
 remaining ones fitted anew each time.
@@ -12,7 +13,7 @@ import random
 import struct
 import sys
 
-from mpmath import cos, floor, frexp, ldexp, log, lu_solve, matrix, mp, mpf, nint, nstr, pi, sin, sqrt
+from mpmath import atan, atan2, cos, floor, frexp, ldexp, log, lu_solve, matrix, mp, mpf, nint, nstr, pi, sin, sqrt
 
 mp.prec = 2000
 
@@ -76,10 +77,15 @@ def fit(f, weight, count, bits, low, high):
 def constants():
     print("f32 pi/2:", [nstr(rounded(p, 24), 9) for p in parts([11, 23, 35])])
     print("f64 pi/2:", [nstr(rounded(p, 53), 17) for p in parts([33, 53, 86])])
+    print("f32 pi/4:", [nstr(rounded(p / 2, 24), 9) for p in parts([22])])
+    print("f64 pi/4:", [nstr(rounded(p / 2, 53), 17) for p in parts([51])])
     print("f32 2/pi:", [f"{w:#010x}" for w in words(32, 7)])
     print("f64 2/pi:", [f"{w:#018x}" for w in words(64, 19)])
     mp.prec = 200
     low, high = mpf("1e-6"), (pi / 4 * mpf("1.0001")) ** 2
+    arctangent = lambda z: (atan(sqrt(z)) / sqrt(z) - 1) / z
+    for name, bits, count in (("f32", 24, 5), ("f64", 53, 13)):
+        show(name, "arctangent", bits, fit(arctangent, lambda z: z * sqrt(z) / atan(sqrt(z)), count, bits, low, mpf("0.2501")))
     for name, bits, count in (("f32", 24, 3), ("f64", 53, 6)):
         sine = lambda z: (sin(sqrt(z)) / sqrt(z) - 1) / z
         cosine = lambda z: (cos(sqrt(z)) - 1 + z / 2) / z**2
@@ -87,16 +93,27 @@ def constants():
             ("sine", sine, lambda z: z * sqrt(z) / sin(sqrt(z))),
             ("cosine", cosine, lambda z: z * z / cos(sqrt(z))),
         ):
-            coefficients, error = fit(f, weight, count, bits, low, high)
-            digits = 9 if bits == 24 else 17
-            print(name, title, [nstr(c, digits) for c in coefficients], f"error 2^{nstr(log(error, 2), 4)}")
+            show(name, title, bits, fit(f, weight, count, bits, low, high))
+
+
+def show(name, title, bits, fitted):
+    coefficients, error = fitted
+    print(name, title, [nstr(c, 9 if bits == 24 else 17) for c in coefficients], f"error 2^{nstr(log(error, 2), 4)}")
+
+
+FORMATS = ("f32", 32, 23, 255, "fI"), ("f64", 64, 52, 2047, "dQ")
+
+
+def conversions(pack):
+    bits_of = lambda x: struct.unpack("<" + pack[1], struct.pack("<" + pack[0], float(x)))[0]
+    value_of = lambda b: struct.unpack("<" + pack[0], struct.pack("<" + pack[1], b))[0]
+    return bits_of, value_of
 
 
 def reference():
     generator = random.Random(1)
-    for name, width, mantissa, top, pack in (("f32", 32, 23, 255, "fI"), ("f64", 64, 52, 2047, "dQ")):
-        bits_of = lambda x: struct.unpack("<" + pack[1], struct.pack("<" + pack[0], float(x)))[0]
-        value_of = lambda b: struct.unpack("<" + pack[0], struct.pack("<" + pack[1], b))[0]
+    for name, width, mantissa, top, pack in FORMATS:
+        bits_of, value_of = conversions(pack)
         # Every exponent, and what comes near multiples of pi/2 in every binade.
         angles = [e << mantissa | generator.getrandbits(mantissa) for e in range(0, top, max(1, top // 200))]
         for k in range(0, 100):
@@ -109,4 +126,32 @@ def reference():
             print(name, *(f"{b:x}" for b in (bits, bits_of(sin(x)), bits_of(cos(x)))))
 
 
-reference() if sys.argv[1:] == ["reference"] else constants()
+def nearest(x, mantissa, bias):
+    """The number next to x, as bits; where numbers are subnormal, float() alone would round a second time."""
+    exponent = max(frexp(x)[1] - 1, 1 - bias)
+    unit = mpf(2) ** (exponent - mantissa)
+    return nint(x / unit) * unit
+
+
+def inverse():
+    generator = random.Random(2)
+    for name, width, mantissa, top, pack in FORMATS:
+        bits_of, value_of = conversions(pack)
+        number = lambda exponent: exponent << mantissa | generator.getrandbits(mantissa)
+        sign = lambda bits: bits | generator.getrandbits(1) << (width - 1)
+        bias = top >> 1
+        points = []
+        for _ in range(300):  # of like size, in every octant
+            points.append((sign(number(bias + generator.randint(-2, 2))), sign(number(bias + generator.randint(-2, 2)))))
+        for _ in range(200):  # of every size, subnormal too
+            points.append((sign(number(generator.randrange(top))), sign(number(generator.randrange(top)))))
+        for _ in range(100):  # quotients next to where the reduction changes: one half, one, two
+            y = number(generator.randrange(2, top - 2))
+            x = y + (generator.randint(-1, 1) << mantissa) + generator.randint(-3, 3)
+            points.append((sign(y), sign(x)))
+        for y, x in points:
+            angle = nearest(atan2(abs(mpf(value_of(y))), mpf(value_of(x))), mantissa, bias)
+            print(name, *(f"{b:x}" for b in (y, x, bits_of(angle) | y >> (width - 1) << (width - 1))))
+
+
+{"reference": reference, "inverse": inverse}.get(" ".join(sys.argv[1:]), constants)()

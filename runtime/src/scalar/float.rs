@@ -1,7 +1,7 @@
 //! Elementary functions of `f32` and `f64`: the platform's, or plain ones that are the same everywhere.
 //!
-//! With std they are the platform's. Without it, or with the feature `reproducible`, sine, cosine and tangent are those of
-//! [`super::software`] and the others libm's. A root and `floor` are exact, so std and hardware give them wherever they
+//! With std they are the platform's. Without it, or with the feature `reproducible`, sine, cosine, tangent and their inverses are those
+//! of [`super::software`] and the others libm's. A root and `floor` are exact, so std and hardware give them wherever they
 //! can. This is the only place that asks which is at hand.
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
@@ -39,6 +39,38 @@ macro_rules! elementary {
                 sin / cos
             }
         }
+
+        #[inline]
+        pub(crate) fn atan2(y: $float, x: $float) -> $float {
+            #[cfg(all(feature = "std", not(feature = "reproducible")))]
+            return y.atan2(x);
+            #[cfg(any(not(feature = "std"), feature = "reproducible"))]
+            return super::super::software::arctangent::$float::atan2(y, x);
+        }
+
+        #[inline]
+        pub(crate) fn atan(x: $float) -> $float {
+            #[cfg(all(feature = "std", not(feature = "reproducible")))]
+            return x.atan();
+            #[cfg(any(not(feature = "std"), feature = "reproducible"))]
+            return atan2(x, 1.0);
+        }
+
+        #[inline]
+        pub(crate) fn asin(x: $float) -> $float {
+            #[cfg(all(feature = "std", not(feature = "reproducible")))]
+            return x.asin();
+            #[cfg(any(not(feature = "std"), feature = "reproducible"))]
+            return atan2(x, sqrt((1.0 - x) * (1.0 + x)));
+        }
+
+        #[inline]
+        pub(crate) fn acos(x: $float) -> $float {
+            #[cfg(all(feature = "std", not(feature = "reproducible")))]
+            return x.acos();
+            #[cfg(any(not(feature = "std"), feature = "reproducible"))]
+            return atan2(sqrt((1.0 - x) * (1.0 + x)), x);
+        }
     };
 }
 
@@ -61,16 +93,14 @@ macro_rules! exact {
 
 pub(crate) mod double {
     elementary! { f64:
-        asin(x) = asin; acos(x) = acos; atan(x) = atan; atan2(y, x) = atan2; sinh(x) = sinh; cosh(x) = cosh;
-        tanh(x) = tanh; exp(x) = exp; ln(x) = log; powf(x, y) = pow; hypot(x, y) = hypot;
+        sinh(x) = sinh; cosh(x) = cosh; tanh(x) = tanh; exp(x) = exp; ln(x) = log; powf(x, y) = pow; hypot(x, y) = hypot;
     }
     exact! { f64, floor }
 }
 
 pub(crate) mod single {
     elementary! { f32:
-        asin(x) = asinf; acos(x) = acosf; atan(x) = atanf; atan2(y, x) = atan2f; sinh(x) = sinhf; cosh(x) = coshf;
-        tanh(x) = tanhf; exp(x) = expf; ln(x) = logf; powf(x, y) = powf; hypot(x, y) = hypotf;
+        sinh(x) = sinhf; cosh(x) = coshf; tanh(x) = tanhf; exp(x) = expf; ln(x) = logf; powf(x, y) = powf; hypot(x, y) = hypotf;
     }
     exact! { f32, floorf }
 }

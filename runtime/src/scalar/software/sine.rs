@@ -13,6 +13,8 @@
 macro_rules! sine {
     ($float:ident, $bits:ty, $shifter:expr, $limit:expr, $parts:expr, $sine:expr, $cosine:expr) => {
         pub(crate) mod $float {
+            use super::super::polynomial::$float as polynomial;
+
             /// [rad] largest angle that is reduced by subtraction.
             const LIMIT: $float = $limit;
             /// Added and subtracted, it rounds to the nearest whole number; the lowest bits of the sum are that number's.
@@ -23,16 +25,6 @@ macro_rules! sine {
             const SINE: &[$float] = &$sine;
             /// (cos(r) - 1 + r^2 / 2) / r^4 by powers of r^2.
             const COSINE: &[$float] = &$cosine;
-
-            /// Horner's scheme; the number of coefficients is known, so nothing of the loop is left.
-            #[inline(always)]
-            fn polynomial(coefficients: &[$float], z: $float) -> $float {
-                let mut sum = 0.0;
-                for (k, c) in coefficients.iter().rev().enumerate() {
-                    sum = if k == 0 { *c } else { sum * z + *c };
-                }
-                sum
-            }
 
             /// Sine and cosine of `x` radians.
             #[inline]
