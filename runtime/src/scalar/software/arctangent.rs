@@ -22,7 +22,7 @@ macro_rules! arctangent {
             const BIAS: $bits = (1 << (BITS - 2 - MANTISSA)) - 1;
             const SIGN: $bits = 1 << (BITS - 1);
             const INFINITY: $bits = $float::INFINITY.to_bits();
-            /// pi/4 in parts.
+            /// pi/4 in parts; the last two bits of the first are zero.
             const QUARTER: [$float; 2] = $quarter;
             /// (atan(t) / t - 1) / t^2 by powers of t^2.
             const ARCTANGENT: &[$float] = &$arctangent;
@@ -98,14 +98,14 @@ arctangent!(
     f32,
     u32,
     23,
-    [0.785_398, 1.569_582_4e-7],
+    [f32::from_bits(0x3f49_0fd8), 1.569_582_4e-7],
     [-0.333_332_33, 0.199_941_68, -0.141_742_13, 0.101_558_35, -0.051_251_62]
 );
 arctangent!(
     f64,
     u64,
     52,
-    [0.785_398_163_397_448_3, 3.061_616_997_868_383e-17],
+    [core::f64::consts::FRAC_PI_4, 3.061_616_997_868_383e-17],
     [
         -0.333_333_333_333_333_15,
         0.199_999_999_999_937_64,
