@@ -56,7 +56,7 @@ macro_rules! arctangent {
 
                 // The greater becomes 2^(half of the greatest exponent), or the most that a number below that can.
                 const MOST: $bits = 2 * BIAS;
-                let wanted = MOST + (BIAS + 1) / 2 - (b >> MANTISSA);
+                let wanted = MOST + BIAS.div_ceil(2) - (b >> MANTISSA);
                 let scale = wanted ^ ((wanted ^ MOST) & less(MOST, wanted));
                 let scale = $float::from_bits(scale << MANTISSA);
                 let (a, b) = ($float::from_bits(a) * scale, $float::from_bits(b) * scale);
