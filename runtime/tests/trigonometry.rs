@@ -156,7 +156,7 @@ fn inverse_double() {
             state >> 1
         };
         let (range, from) = if k % 2 == 0 { (0x7ff << 52, 0) } else { (4 << 52, 1021 << 52) };
-        let [y, x] = [next(), next()].map(|bits| bits % range + from | bits << 63).map(f64::from_bits);
+        let [y, x] = [next(), next()].map(|bits| (bits % range + from) | (bits << 63)).map(f64::from_bits);
         let part = next() as f64 / (1_u64 << 62) as f64 - 1.0;
         // the platform's, which may be one off itself
         let all = [
