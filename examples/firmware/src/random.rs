@@ -2,6 +2,9 @@
 
 use crate::Scalar;
 
+/// How a coordinate is drawn.
+pub type Draw = fn(&mut Random) -> Scalar;
+
 /// A generator with a fixed seed.
 pub struct Random(u32);
 

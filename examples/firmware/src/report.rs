@@ -5,7 +5,7 @@ use core::num::NonZeroU64;
 
 use crate::digest::Digest;
 use crate::machine::{self, put};
-use crate::random::Random;
+use crate::random::{Draw, Random};
 use crate::{Scalar, Scene};
 
 /// Calls in the hashed sequence.
@@ -17,7 +17,7 @@ const TEN: NonZeroU64 = NonZeroU64::MIN.saturating_add(9);
 /// Inputs of each kind for which the stack is measured.
 const PAINTED: u32 = 16;
 /// Kinds of inputs: angles of up to 10,000 rad, which are reduced by subtraction, and all others there are.
-const KINDS: [(&str, fn(&mut Random) -> Scalar); 4] = [
+const KINDS: [(&str, Draw); 4] = [
     ("", |random| random.within(1e4)),
     (", angles beyond the limit", Random::beyond),
     (", infinity", |_| Scalar::INFINITY),

@@ -11,7 +11,7 @@ pub use panda::Panda;
 pub use stewart::Stewart;
 
 use crate::Scalar;
-pub use crate::random::Random;
+pub use crate::random::{Draw, Random};
 
 /// A function of a model, and a sequence of inputs to it.
 pub trait Scene: Default {
@@ -29,7 +29,7 @@ pub trait Scene: Default {
     /// The next one.
     fn next(&self, input: &Self::Input, output: &Self::Output) -> Self::Input;
     /// An input with all angles and other coordinates drawn by `coordinate`.
-    fn random(&self, random: &mut Random, coordinate: fn(&mut Random) -> Scalar) -> Self::Input;
+    fn random(&self, random: &mut Random, coordinate: Draw) -> Self::Input;
     /// Hands on the numbers of a result.
     fn numbers(output: &Self::Output, each: impl FnMut(Scalar));
 }

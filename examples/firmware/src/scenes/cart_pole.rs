@@ -1,6 +1,6 @@
 //! A pole balanced on a cart by a law that is sampled at 1 kHz.
 
-use super::{Random, Scene};
+use super::{Draw, Random, Scene};
 use crate::Scalar;
 use crate::models::cart_pole::{Input, Model, State};
 use multibody::{Real, Rk4};
@@ -42,7 +42,7 @@ impl Scene for CartPole {
     fn next(&self, _input: &State<Scalar>, output: &State<Scalar>) -> State<Scalar> {
         *output
     }
-    fn random(&self, random: &mut Random, coordinate: fn(&mut Random) -> Scalar) -> State<Scalar> {
+    fn random(&self, random: &mut Random, coordinate: Draw) -> State<Scalar> {
         let mut state = State::default();
         (state.q.track, state.q.hinge) = (coordinate(random), coordinate(random));
         (state.v.track, state.v.hinge) = (random.within(10.0), random.within(10.0));

@@ -1,6 +1,6 @@
 //! A double pendulum that swings over, by the classical Runge-Kutta method at 1 kHz.
 
-use super::{Random, Scene};
+use super::{Draw, Random, Scene};
 use crate::Scalar;
 use crate::models::double_pendulum::{Model, State};
 use multibody::Rk4;
@@ -26,7 +26,7 @@ impl Scene for DoublePendulum {
     fn next(&self, _input: &State<Scalar>, output: &State<Scalar>) -> State<Scalar> {
         *output
     }
-    fn random(&self, random: &mut Random, coordinate: fn(&mut Random) -> Scalar) -> State<Scalar> {
+    fn random(&self, random: &mut Random, coordinate: Draw) -> State<Scalar> {
         let mut state = State::default();
         (state.q.shoulder, state.q.elbow) = (coordinate(random), coordinate(random));
         (state.v.shoulder, state.v.elbow) = (random.within(10.0), random.within(10.0));

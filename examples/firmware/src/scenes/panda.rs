@@ -2,7 +2,7 @@
 
 use multibody::nalgebra::SVector;
 
-use super::{Random, Scene};
+use super::{Draw, Random, Scene};
 use crate::Scalar;
 use crate::models::panda::{Input, Model, State, Velocity};
 
@@ -44,7 +44,7 @@ impl Scene for Panda {
         let v = Joints::from(input.state.v) + Joints::from(input.accel) * 1e-3;
         Point::new(Joints::from(input.state.q) + v * 1e-3, v)
     }
-    fn random(&self, random: &mut Random, coordinate: fn(&mut Random) -> Scalar) -> Point {
+    fn random(&self, random: &mut Random, coordinate: Draw) -> Point {
         let q = Joints::from_fn(|_, _| coordinate(random));
         Point::new(q, Joints::from_fn(|_, _| random.within(5.0)))
     }

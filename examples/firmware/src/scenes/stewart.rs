@@ -2,7 +2,7 @@
 
 use multibody::nalgebra::Vector3;
 
-use super::{Random, Scene};
+use super::{Draw, Random, Scene};
 use crate::Scalar;
 use crate::models::level::{Input, Model, Position, State, Velocity};
 
@@ -47,7 +47,7 @@ impl Scene for Stewart {
         let v = input.state.v.platform + input.accel.platform * 1e-3;
         Point::new(input.state.q.platform + v * 1e-3, v)
     }
-    fn random(&self, random: &mut Random, coordinate: fn(&mut Random) -> Scalar) -> Point {
+    fn random(&self, random: &mut Random, coordinate: Draw) -> Point {
         let q = Vector3::from_fn(|_, _| coordinate(random));
         Point::new(q, Vector3::from_fn(|_, _| random.within(5.0)))
     }
