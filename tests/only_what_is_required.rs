@@ -157,7 +157,7 @@ fn level_platform_by_hand() {
     for _ in 0..20 {
         let mut vector = |size: f64| Vector3::from_fn(|_, _| size * random.unit());
         let (q, v) = (Vector3::new(-1.5, 0.0, 1.0) + vector(0.2), vector(0.5));
-        let thrust: [f64; 6] = [vector(5.0), vector(5.0)].map(|v| <[f64; 3]>::from(v)).concat().try_into().unwrap();
+        let thrust: [f64; 6] = [vector(5.0), vector(5.0)].map(<[f64; 3]>::from).concat().try_into().unwrap();
 
         let dz = q.z - 0.4; // 1 addition
         let (square, rise, speed) = (dz * dz, v.z * dz, v.norm_squared()); // 2, 5

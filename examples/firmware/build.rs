@@ -9,7 +9,7 @@ fn main() {
         return;
     }
     let arch = var("CARGO_CFG_TARGET_ARCH").unwrap_or_default();
-    println!("cargo:rerun-if-changed=memory/{arch}.x");
+    println!("cargo:rerun-if-changed=memory/{arch}/memory.x");
     println!("cargo:rustc-link-arg-bins=-L{directory}/memory/{arch}");
     if arch == "riscv32" {
         println!("cargo:rustc-link-arg-bins=-Tmemory.x");

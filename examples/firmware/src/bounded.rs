@@ -1,7 +1,8 @@
-//! The step functions of every example's models, called once each with states that the compiler does not know.
+//! A step of one model of each kind in the examples, called with a state that the compiler does not know.
 //!
-//! Linked without a reachable panic or an allocator they cannot fail on any input; what iterates does so within bounds
-//! that are constants.
+//! Linked without a reachable panic or an allocator these steps cannot fail on any input; what iterates does so within
+//! bounds: [`Projection::iterations`], and the model's own number of Newton's iterations. Other functions of a model, and
+//! the formulations that are not named here, are not covered.
 
 use core::hint::black_box;
 

@@ -1,4 +1,5 @@
-//! The models of all examples, and two small ones that emit only what the scenes call.
+//! The models of the examples, and two that emit only what the scenes call: leaner than the examples of their names (the
+//! pendulum here does not integrate the heat of its friction), so that what is counted is the mechanics.
 
 use multibody::multibody;
 

@@ -5,7 +5,7 @@ use core::num::NonZeroU64;
 
 use crate::digest::Digest;
 use crate::machine::{self, put};
-use crate::random::Random;
+use crate::random::{Draw, Random};
 use crate::{Scalar, Scene};
 
 /// Calls in the hashed sequence.
@@ -14,8 +14,15 @@ const CALLS: u32 = 10_000;
 const SAMPLES: u32 = 200;
 /// The base of printed numbers: with a divisor that is known not to be zero a division cannot panic.
 const TEN: NonZeroU64 = NonZeroU64::MIN.saturating_add(9);
-/// [rad] the greatest random angle
-const SPAN: Scalar = 1e4;
+/// Inputs of each kind for which the stack is measured.
+const PAINTED: u32 = 16;
+/// Kinds of inputs: angles of up to 10,000 rad, which are reduced by subtraction, and all others there are.
+const KINDS: [(&str, Draw); 4] = [
+    ("", |random| random.within(1e4)),
+    (", angles beyond the limit", Random::beyond),
+    (", infinity", |_| Scalar::INFINITY),
+    (", NaN", |_| Scalar::NAN),
+];
 
 /// The call by itself, so that it can be counted.
 #[inline(never)]
@@ -52,32 +59,35 @@ pub(crate) fn digest<S: Scene>(scene: &S) -> Digest {
     digest
 }
 
-/// Instructions and stack of a call, where the machine can tell.
+/// Instructions and stack of a call, where the machine can tell: least and most of each kind of inputs, and the deepest.
 fn cost<S: Scene>(scene: &S) {
     let mut random = Random::new();
     let mut output = None;
     let Some(nothing) = machine::instructions(|| ()) else { return };
-    let mut count = |input: &S::Input| {
-        let input = black_box(*input);
-        machine::instructions(|| call(scene, &input, black_box(&mut output))).unwrap_or(0) - nothing
-    };
-    let (mut least, mut most) = (u32::MAX, 0);
-    for _ in 0..SAMPLES {
-        let counted = count(&scene.random(&mut random, SPAN));
-        (least, most) = (least.min(counted), most.max(counted));
+    for (kind, coordinate) in KINDS {
+        let (mut least, mut most) = (u32::MAX, 0);
+        for _ in 0..SAMPLES {
+            let input = black_box(scene.random(&mut random, coordinate));
+            let counted = machine::instructions(|| call(scene, &input, black_box(&mut output))).unwrap_or(0) - nothing;
+            (least, most) = (least.min(counted), most.max(counted));
+        }
+        for (name, counted) in [("instructions, least", least), ("instructions, most", most)] {
+            put(name);
+            put(kind);
+            put(": ");
+            decimal(u64::from(counted));
+            put("\n");
+        }
     }
-    put("instructions, least: ");
-    decimal(u64::from(least));
-    put("\ninstructions, most: ");
-    decimal(u64::from(most));
-    put("\ninstructions, NaN: ");
-    decimal(u64::from(count(&scene.random(&mut random, Scalar::NAN))));
-    put("\ninstructions, angles beyond the limit: ");
-    decimal(u64::from(count(&scene.random(&mut random, 1e9))));
-    let input = scene.random(&mut random, 1.0);
-    let used = machine::stack(|| call(scene, &input, black_box(&mut output)));
-    put("\nstack bytes: ");
-    decimal(u64::from(used));
+    let mut deepest = 0;
+    for (_, coordinate) in KINDS {
+        for _ in 0..PAINTED {
+            let input = black_box(scene.random(&mut random, coordinate));
+            deepest = deepest.max(machine::stack(|| call(scene, &input, black_box(&mut output))));
+        }
+    }
+    put("stack bytes: ");
+    decimal(u64::from(deepest));
     put("\n");
 }
 

@@ -11,7 +11,7 @@ pub use panda::Panda;
 pub use stewart::Stewart;
 
 use crate::Scalar;
-pub use crate::random::Random;
+pub use crate::random::{Draw, Random};
 
 /// A function of a model, and a sequence of inputs to it.
 pub trait Scene: Default {
@@ -22,14 +22,14 @@ pub trait Scene: Default {
     /// Its name in reports.
     const NAME: &'static str;
 
-    /// The function.
+    /// The function; never inlined, so that its bytes are counted as its own.
     fn call(&self, input: &Self::Input) -> Self::Output;
     /// The first input of the sequence.
     fn start(&self) -> Self::Input;
     /// The next one.
     fn next(&self, input: &Self::Input, output: &Self::Output) -> Self::Input;
-    /// An input with all angles and other coordinates within `span`.
-    fn random(&self, random: &mut Random, span: Scalar) -> Self::Input;
+    /// An input with all angles and other coordinates drawn by `coordinate`.
+    fn random(&self, random: &mut Random, coordinate: Draw) -> Self::Input;
     /// Hands on the numbers of a result.
     fn numbers(output: &Self::Output, each: impl FnMut(Scalar));
 }

@@ -18,11 +18,12 @@ pub fn exit() -> ! {
     semihosting::process::exit(0)
 }
 
-/// Words that are painted.
-const DEPTH: usize = 4096;
+/// Words that are painted: 64 KiB.
+const DEPTH: usize = 16_384;
 const PAINT: u32 = 0xa5a5_5a5a;
 
-/// [B] how far below this function's frame `work` writes to the stack.
+/// [B] how far below this function's frame `work` writes to the stack; what it reserves there and never writes is not seen.
+/// Ends the program with failure where all that is painted was written.
 #[inline(never)]
 pub fn stack(work: impl FnOnce()) -> u32 {
     let top = stack_pointer();
@@ -35,6 +36,10 @@ pub fn stack(work: impl FnOnce()) -> u32 {
     // SAFETY: as above.
     while deepest > 0 && unsafe { read_volatile(top.wrapping_sub(deepest)) } == PAINT {
         deepest -= 1;
+    }
+    if deepest == DEPTH {
+        put("the stack is deeper than what is painted\n");
+        semihosting::process::exit(1)
     }
     4 * deepest as u32
 }

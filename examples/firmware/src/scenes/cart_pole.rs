@@ -1,6 +1,6 @@
 //! A pole balanced on a cart by a law that is sampled at 1 kHz.
 
-use super::{Random, Scene};
+use super::{Draw, Random, Scene};
 use crate::Scalar;
 use crate::models::cart_pole::{Input, Model, State};
 use multibody::{Real, Rk4};
@@ -30,6 +30,7 @@ impl Scene for CartPole {
     type Output = State<Scalar>;
     const NAME: &'static str = "cart-pole, control and RK4 step";
 
+    #[inline(never)]
     fn call(&self, input: &State<Scalar>) -> State<Scalar> {
         Rk4::step(&self.0, 0.0, input, &Input { push: Self::push(input) }, 1e-3)
     }
@@ -41,9 +42,9 @@ impl Scene for CartPole {
     fn next(&self, _input: &State<Scalar>, output: &State<Scalar>) -> State<Scalar> {
         *output
     }
-    fn random(&self, random: &mut Random, span: Scalar) -> State<Scalar> {
+    fn random(&self, random: &mut Random, coordinate: Draw) -> State<Scalar> {
         let mut state = State::default();
-        (state.q.track, state.q.hinge) = (random.within(span), random.within(span));
+        (state.q.track, state.q.hinge) = (coordinate(random), coordinate(random));
         (state.v.track, state.v.hinge) = (random.within(10.0), random.within(10.0));
         state
     }

@@ -1,6 +1,6 @@
 //! A double pendulum that swings over, by the classical Runge-Kutta method at 1 kHz.
 
-use super::{Random, Scene};
+use super::{Draw, Random, Scene};
 use crate::Scalar;
 use crate::models::double_pendulum::{Model, State};
 use multibody::Rk4;
@@ -14,6 +14,7 @@ impl Scene for DoublePendulum {
     type Output = State<Scalar>;
     const NAME: &'static str = "double pendulum, RK4 step";
 
+    #[inline(never)]
     fn call(&self, input: &State<Scalar>) -> State<Scalar> {
         Rk4::step(&self.0, 0.0, input, &(), 1e-3)
     }
@@ -25,9 +26,9 @@ impl Scene for DoublePendulum {
     fn next(&self, _input: &State<Scalar>, output: &State<Scalar>) -> State<Scalar> {
         *output
     }
-    fn random(&self, random: &mut Random, span: Scalar) -> State<Scalar> {
+    fn random(&self, random: &mut Random, coordinate: Draw) -> State<Scalar> {
         let mut state = State::default();
-        (state.q.shoulder, state.q.elbow) = (random.within(span), random.within(span));
+        (state.q.shoulder, state.q.elbow) = (coordinate(random), coordinate(random));
         (state.v.shoulder, state.v.elbow) = (random.within(10.0), random.within(10.0));
         state
     }

@@ -2,7 +2,7 @@
 
 use multibody::nalgebra::SVector;
 
-use super::{Random, Scene};
+use super::{Draw, Random, Scene};
 use crate::Scalar;
 use crate::models::panda::{Input, Model, State, Velocity};
 
@@ -33,6 +33,7 @@ impl Scene for Panda {
     type Output = Velocity<Scalar>;
     const NAME: &'static str = "panda, inverse dynamics";
 
+    #[inline(never)]
     fn call(&self, input: &Point) -> Velocity<Scalar> {
         self.0.inverse_dynamics(0.0, &input.state, &Input::default(), &input.accel)
     }
@@ -43,8 +44,8 @@ impl Scene for Panda {
         let v = Joints::from(input.state.v) + Joints::from(input.accel) * 1e-3;
         Point::new(Joints::from(input.state.q) + v * 1e-3, v)
     }
-    fn random(&self, random: &mut Random, span: Scalar) -> Point {
-        let q = Joints::from_fn(|_, _| random.within(span));
+    fn random(&self, random: &mut Random, coordinate: Draw) -> Point {
+        let q = Joints::from_fn(|_, _| coordinate(random));
         Point::new(q, Joints::from_fn(|_, _| random.within(5.0)))
     }
     fn numbers(output: &Velocity<Scalar>, each: impl FnMut(Scalar)) {

@@ -2,7 +2,7 @@
 
 use multibody::nalgebra::Vector3;
 
-use super::{Random, Scene};
+use super::{Draw, Random, Scene};
 use crate::Scalar;
 use crate::models::level::{Input, Model, Position, State, Velocity};
 
@@ -35,6 +35,7 @@ impl Scene for Stewart {
     type Output = [Scalar; 6];
     const NAME: &'static str = "Stewart platform, inverse dynamics, level";
 
+    #[inline(never)]
     fn call(&self, input: &Point) -> [Scalar; 6] {
         let solved = self.0.inverse_dynamics(0.0, &input.state, &Input::default(), &input.accel);
         solved.input.legs.map(|leg| leg.thrust)
@@ -46,8 +47,8 @@ impl Scene for Stewart {
         let v = input.state.v.platform + input.accel.platform * 1e-3;
         Point::new(input.state.q.platform + v * 1e-3, v)
     }
-    fn random(&self, random: &mut Random, span: Scalar) -> Point {
-        let q = Vector3::from_fn(|_, _| random.within(span));
+    fn random(&self, random: &mut Random, coordinate: Draw) -> Point {
+        let q = Vector3::from_fn(|_, _| coordinate(random));
         Point::new(q, Vector3::from_fn(|_, _| random.within(5.0)))
     }
     fn numbers(output: &[Scalar; 6], each: impl FnMut(Scalar)) {

@@ -1,8 +1,8 @@
 //! Reduction of large angles modulo pi/2 (Payne and Hanek 1983), in integers, with one fixed number of operations.
 //!
 //! With `x = m 2^e` the product of `m` and those bits of 2/pi that matter, three words from the one of weight 2^(1-e) on,
-//! is `x 2/pi` modulo four: what stands before them adds multiples of four, what follows is below 2^(p-2w) of a quarter
-//! turn for words of `w` bits. The fraction, normalised and multiplied by pi/2, is split in two floats.
+//! is `x 2/pi` modulo four: what stands before them adds multiples of four. Of a quarter turn, what follows is below
+//! 2^(p+2-3w) for words of `w` bits and `p` bits of `m`, and the product's own 2w bits cut off less than 2^(2-2w). The fraction, normalised and multiplied by pi/2, is split in two floats.
 
 macro_rules! reduction {
     ($float:ident, $word:ty, $double:ty, $signed:ty, $mantissa:expr, $half_pi:expr, $words:expr) => {
