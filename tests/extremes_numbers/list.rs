@@ -10,6 +10,7 @@ use std::path::Path;
 const REACHED: &[(&str, &str)] = &[
     ("attempt", "of a method: in every step"),
     ("begin", "of a method: before the first step"),
+    ("first_slope", "of a method: before the first step, where its length is chosen"),
     ("error", "of a method: in every step chosen by error"),
     ("proceed", "of a method: after every step"),
     ("repeat", "of a method: after every rejected step"),
