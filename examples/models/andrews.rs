@@ -1,4 +1,4 @@
-//! Andrews' squeezing mechanism, as `andrews.rs` and the firmware use it.
+//! Andrews' squeezing mechanism, as `andrews.rs` and the check of the firmware for panics use it.
 
 use multibody::multibody;
 

@@ -1,4 +1,4 @@
-//! A pole on a cart, as `cart_pole.rs` and the firmware use it.
+//! A pole on a cart, as `cart_pole.rs` and the check of the firmware for panics use it.
 
 use multibody::multibody;
 

@@ -1,4 +1,4 @@
-//! A planar double pendulum, as `double_pendulum.rs` and the firmware use it.
+//! A planar double pendulum, as `double_pendulum.rs` and the check of the firmware for panics use it.
 
 use multibody::multibody;
 

@@ -1,4 +1,4 @@
-//! A planar four-bar linkage, free and driven, as `four_bar.rs` and the firmware use it.
+//! A planar four-bar linkage, free and driven, as `four_bar.rs` and the check of the firmware for panics use it.
 
 use multibody::multibody;
 

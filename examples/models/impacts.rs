@@ -1,4 +1,4 @@
-//! What strikes, slides and shakes, as `impacts.rs` and the firmware use it.
+//! What strikes, slides and shakes, as `impacts.rs` and the check of the firmware for panics use it.
 
 use multibody::multibody;
 

@@ -1,4 +1,4 @@
-//! Two four-bars in a row, as `n_four_bars.rs` and the firmware use them.
+//! Two four-bars in a row, as `n_four_bars.rs` and the check of the firmware for panics use them.
 
 use multibody::multibody;
 

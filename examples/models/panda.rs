@@ -1,4 +1,4 @@
-//! Franka Emika's arm, as `panda.rs` and the firmware use it.
+//! Franka Emika's arm, as `panda.rs` and the check of the firmware for panics use it.
 
 use multibody::multibody;
 

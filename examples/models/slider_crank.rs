@@ -1,4 +1,4 @@
-//! An engine, as `slider_crank.rs` and the firmware use it.
+//! An engine, as `slider_crank.rs` and the check of the firmware for panics use it.
 
 use multibody::multibody;
 
