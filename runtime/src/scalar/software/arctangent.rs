@@ -51,8 +51,8 @@ macro_rules! arctangent {
                 // Infinite: one to one of two that are, else zero. Both zero: zero to one. NaN is the greater and stays.
                 let (endless, both) = (less(b ^ INFINITY, 1), less(a ^ INFINITY, 1));
                 let exponent = 1 << MANTISSA;
-                let a = (a & (!endless | both)) - (both & endless & exponent);
-                let b = b - (endless & exponent) - less(b, 1);
+                let a = (a & (!endless | both)).wrapping_sub(both & endless & exponent);
+                let b = b.wrapping_sub(endless & exponent).wrapping_sub(less(b, 1));
 
                 // The greater becomes 2^(half of the greatest exponent), or the most that a number below that can.
                 const MOST: $bits = 2 * BIAS;
