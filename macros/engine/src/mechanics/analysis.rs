@@ -8,6 +8,7 @@
 
 pub(super) mod blocks;
 mod checks;
+mod closed;
 mod configurations;
 mod linear;
 mod problem;
@@ -26,6 +27,7 @@ use super::closings::{closings, coordinate_name, row_count, row_name};
 use super::groups;
 use super::structure::{Means, Role, Row, Step, Structure};
 
+use closed::Sampled;
 use configurations::Effort;
 use linear::Elimination;
 use problem::{Problem, Source};
@@ -48,13 +50,21 @@ pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
     if model.cuts.is_empty() && model.constraints.is_empty() && model.drives.is_empty() {
         return Ok(structure);
     }
-    let mut analysis = Analysis { model, complaints: Vec::new(), driven: HashMap::new(), steps: Vec::new() };
+    let mut analysis =
+        Analysis { model, complaints: Vec::new(), driven: HashMap::new(), steps: Vec::new(), samples: Vec::new() };
     analysis.drive();
-    analysis.run(&mut structure);
+    let looped = !model.cuts.is_empty() || !model.constraints.is_empty();
+    let problem = looped.then(|| Problem::new(model));
+    if let Some(problem) = &problem {
+        analysis.run(problem, &mut structure);
+    }
     if !analysis.complaints.is_empty() {
         return Err(analysis.complaints);
     }
     analysis.assign(&mut structure);
+    if let Some(problem) = &problem {
+        structure.closed = closed::closed(problem, &analysis.samples, &structure);
+    }
     analysis.check_quaternions(&structure);
     if analysis.complaints.is_empty() { Ok(structure) } else { Err(analysis.complaints) }
 }
@@ -65,6 +75,8 @@ struct Analysis<'m> {
     /// Coordinates that follow a drive, with its number.
     driven: HashMap<Coordinate, usize>,
     steps: Vec<Step>,
+    /// What was found about each group.
+    samples: Vec<Sampled>,
 }
 
 /// Equations that share coordinates.
@@ -91,56 +103,52 @@ impl<'m> Analysis<'m> {
         }
     }
 
-    fn run(&mut self, structure: &mut Structure) {
+    fn run(&mut self, problem: &Problem, structure: &mut Structure) {
         let model = self.model;
-        if model.cuts.is_empty() && model.constraints.is_empty() {
-            return;
-        }
-        let problem = Problem::new(model);
         let reduced = matches!(model.handling, Handling::Reduced);
         let mut taken: HashSet<Coordinate> = self.driven.keys().copied().collect();
         if reduced {
             taken.extend(model.independent.iter().copied());
         }
         let eliminations = linear::eliminations(&linear::couplings(model), &taken);
-        self.constants(&problem, structure);
+        self.constants(problem, structure);
         let mut freedoms = problem.columns.len() - self.driven.len();
         let mut linear_steps = Vec::new();
-        for group in groups(&problem, &eliminations) {
-            let Some(found) = self.close(&problem, &group, structure) else { continue };
+        for group in groups(problem, &eliminations) {
+            let Some(found) = self.close(problem, &group, structure) else { continue };
             let jacobians: Vec<&[Vec<f64>]> = found.iter().map(|c| c.jacobian.as_slice()).collect();
             let all: Vec<usize> = (0..group.equations.len()).collect();
             let is_formula = |&k: &usize| matches!(problem.equations[group.equations[k]].source, Source::Formula(..));
             let (formulas, rows): (Vec<usize>, Vec<usize>) = all.iter().partition(|k| is_formula(k));
             // Without formulas: what follows from the rows before it. With them: what needs no step of its own.
             let independent = rank::kept(&jacobians, &rows);
-            let staying = self.with_other_parameters(&problem, &group, &rows, independent.clone(), structure);
+            let staying = self.with_other_parameters(problem, &group, &rows, independent.clone(), structure);
             let kept = if formulas.is_empty() { independent.clone() } else { rank::kept(&jacobians, &all) };
-            self.drop_redundant(&problem, &group, &rows, &staying, structure);
+            self.drop_redundant(problem, &group, &rows, &staying, structure);
             let rank = independent.len();
             if kept.len() > rank {
-                self.complain_formulas(&problem, &group);
+                self.complain_formulas(problem, &group);
                 continue;
             }
             let closed = found.iter().any(|configuration| configuration.closed);
             if rank >= group.columns.len() && (closed || reduced) {
-                self.complain_locked(&problem, &group, closed);
+                self.complain_locked(problem, &group, closed);
                 continue;
             }
-            if !self.check_drives(&problem, &group, &jacobians, &independent) {
+            if !self.check_drives(problem, &group, &jacobians, &independent) {
                 continue;
             }
             freedoms -= rank;
-            structure.independent.extend(independent.iter().filter_map(|&k| row_of(&problem, group.equations[k])));
+            structure.independent.extend(independent.iter().filter_map(|&k| row_of(problem, group.equations[k])));
             let of_group: Vec<&Elimination> =
-                eliminations.iter().filter(|one| has_row(&problem, &group, &independent, one)).collect();
+                eliminations.iter().filter(|one| has_row(problem, &group, &independent, one)).collect();
             linear_steps.extend(
                 of_group.iter().map(|one| Step { unknowns: vec![one.unknown], means: Means::Linear(one.constraint) }),
             );
             if reduced {
                 let reduction = reduction::Reduction {
                     model,
-                    problem: &problem,
+                    problem,
                     group: &group,
                     configurations: &found,
                     kept: &kept,
@@ -154,9 +162,10 @@ impl<'m> Analysis<'m> {
             } else {
                 let eliminated =
                     |row: &Row| of_group.iter().any(|one| row.closing == Closing::Constraint(one.constraint));
-                let rows = staying.iter().filter_map(|&k| row_of(&problem, group.equations[k]));
+                let rows = staying.iter().filter_map(|&k| row_of(problem, group.equations[k]));
                 structure.rows.extend(rows.filter(|row| !eliminated(row)));
             }
+            self.samples.push(Sampled { group, configurations: found, rank });
         }
         // Couplings stand in an order of their own, whatever the groups.
         let place = |step: &Step| eliminations.iter().position(|one| step.unknowns.contains(&one.unknown));

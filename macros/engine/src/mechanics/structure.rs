@@ -8,6 +8,7 @@ use crate::model::types::{Closing, ConstraintId, Coordinate, JointId, Model};
 
 use super::closings::is_length;
 use super::groups::Group;
+use super::symbols::has_quaternion;
 
 /// The split of one model's coordinates and equations.
 #[derive(Clone, Debug, Default)]
@@ -28,8 +29,33 @@ pub struct Structure {
     pub groups: Vec<Group>,
     /// Unknowns whose closed forms have a root, and pitches; known once they are derived.
     pub dead_centres: Vec<Coordinate>,
+    /// Configurations in which all loops are closed, parameters at their defaults. The first is the one nearest to where
+    /// coordinates stand by default; where they are reduced it has the state there if the loops close so. Empty where
+    /// there is no loop, and where none was found. What is in no loop is random in the others.
+    pub closed: Vec<Closed>,
     /// Sentences for the report: choices that were made for the user.
     pub notes: Vec<String>,
+}
+
+/// A configuration in which all loops are closed.
+#[derive(Clone, Debug)]
+pub struct Closed {
+    /// By joint the components of its position, those of a quaternion from its real part on; nothing for joints that close
+    /// loops.
+    pub positions: Vec<Vec<f64>>,
+    /// Greatest residual of any equation, in units of its gradient.
+    pub residual: f64,
+}
+
+impl Closed {
+    /// The value of a coordinate that is a number; nothing for a part of a quaternion.
+    pub fn value(&self, model: &Model, coordinate: Coordinate) -> Option<f64> {
+        let joint = model.joints.get(coordinate.joint.0)?;
+        if has_quaternion(joint) && coordinate.index + 3 >= joint.kind.freedoms() {
+            return None;
+        }
+        self.positions.get(coordinate.joint.0)?.get(coordinate.index).copied()
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 use multibody_engine::mechanics::analysis::{Complaint, analyse};
 use multibody_engine::mechanics::closings::{coordinate_name, row_name};
 use multibody_engine::mechanics::structure::{Means, Role, Row, Structure};
-use multibody_engine::model::types::{Coordinate, Model};
+use multibody_engine::model::types::{Coordinate, JointId, Model};
 
 use super::support::{Random, case, model_with};
 
@@ -482,4 +482,32 @@ fn random_loops_close() {
         }
     }
     assert!(full >= 35, "{full}");
+}
+
+#[test]
+fn closed_configurations_are_handed_on() {
+    // The residuals of the pin, by hand.
+    let open = |m: &Model, positions: &[Vec<f64>]| {
+        let q = |name: &str| {
+            let joint = m.joints.iter().position(|joint| joint.place.field == name).expect("a joint");
+            positions[joint][0]
+        };
+        let (one, two, three) = (q("crank"), q("crank") + q("coupler"), q("rocker"));
+        let x = one.cos() + 2.5 * two.cos() - 3.0 - 2.0 * three.cos();
+        let y = one.sin() + 2.5 * two.sin() - 2.0 * three.sin();
+        x.hypot(y)
+    };
+    let reduced = "formulation { constraints: Reduced }";
+    for (items, start) in [("", None), (reduced, Some(0.0)), (&format!("{reduced} drive crank = 0.4 + t;"), Some(0.4))]
+    {
+        let m = model(&four_bar(items));
+        let structure = sound(&m);
+        assert!(structure.closed.len() >= 3, "{}", structure.closed.len());
+        for closed in &structure.closed {
+            assert!(closed.residual < 1e-10 && open(&m, &closed.positions) < 1e-9, "{closed:?}");
+        }
+        let crank = m.joints.iter().position(|joint| joint.place.field == "crank").expect("a joint");
+        let crank = structure.closed[0].value(&m, Coordinate { joint: JointId(crank), index: 0 });
+        assert!(start.is_none_or(|start| crank == Some(start)), "{crank:?}");
+    }
 }

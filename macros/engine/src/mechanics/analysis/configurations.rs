@@ -23,6 +23,7 @@ const LONGEST: f64 = 0.7;
 
 /// A closed configuration, or the best that was found.
 pub(super) struct Configuration {
+    pub point: Point,
     /// Jacobian rows of unit length or zero, over the group's columns.
     pub jacobian: Vec<Vec<f64>>,
     pub closed: bool,
@@ -59,14 +60,7 @@ impl Effort {
 
 /// Looks for closed configurations. `columns` are those of the group, in order.
 pub(super) fn configurations(problem: &Problem, equations: &[usize], columns: &[usize], effort: Effort) -> Found {
-    let mut closings: Vec<Closing> = Vec::new();
-    for &k in equations {
-        if let Source::Row(row) = problem.equations[k].source {
-            closings.push(row.closing);
-        }
-    }
-    closings.dedup();
-    let search = Search { problem, equations, columns, alignments: problem.alignments_of(&closings) };
+    let search = Search::new(problem, equations, columns);
     let mut found = Found { configurations: Vec::new(), gap: Gap::default() };
     let (mut unclear, mut best) = (Vec::new(), None);
     let mut values = Values::default();
@@ -77,7 +71,7 @@ pub(super) fn configurations(problem: &Problem, equations: &[usize], columns: &[
         let closed = search.close(&mut point, &mut values);
         let at = problem.linearise(&point, equations, &mut values);
         let residual = dot(&at.residuals, &at.residuals);
-        let configuration = search.configuration(&at, closed);
+        let configuration = search.configuration(point, &at, closed);
         if !closed {
             if best.as_ref().is_none_or(|(least, _)| residual < *least) {
                 best = Some((residual, configuration));
@@ -103,16 +97,39 @@ pub(super) fn configurations(problem: &Problem, equations: &[usize], columns: &[
     found
 }
 
-struct Search<'p> {
+/// What makes points closed.
+pub(super) struct Search<'p> {
     problem: &'p Problem,
     equations: &'p [usize],
     columns: &'p [usize],
     alignments: Vec<usize>,
+    /// By column, where it stays as it is; none if empty.
+    held: &'p [bool],
+}
+
+impl<'p> Search<'p> {
+    /// `columns` are those of the equations, in order.
+    pub(super) fn new(problem: &'p Problem, equations: &'p [usize], columns: &'p [usize]) -> Self {
+        let mut closings: Vec<Closing> = Vec::new();
+        for &k in equations {
+            if let Source::Row(row) = problem.equations[k].source {
+                closings.push(row.closing);
+            }
+        }
+        closings.dedup();
+        Search { problem, equations, columns, alignments: problem.alignments_of(&closings), held: &[] }
+    }
+
+    /// The same where some columns stay as they are.
+    pub(super) fn holding(mut self, held: &'p [bool]) -> Self {
+        self.held = held;
+        self
+    }
 }
 
 impl Search<'_> {
-    /// Whether all equations vanish and all axes point as they should.
-    fn close(&self, point: &mut Point, values: &mut Values) -> bool {
+    /// Whether all equations vanish and all axes point as they should, which the point is moved to reach.
+    pub(super) fn close(&self, point: &mut Point, values: &mut Values) -> bool {
         let mut at = self.linearise(point, values);
         let mut square = dot(&at.residuals, &at.residuals);
         let mut damping = 0.1;
@@ -164,7 +181,17 @@ impl Search<'_> {
         let mut at = self.problem.linearise(point, self.equations, values);
         at.residuals.extend(self.problem.misalignments(&self.alignments, values));
         at.rows.extend(self.problem.alignment_rows(point, &self.alignments, values));
+        if !self.held.is_empty() {
+            at.rows.iter_mut().for_each(|row| row.retain(|entry| !self.held[entry.0]));
+        }
         at
+    }
+
+    /// The rank of the equations in the columns that are not held, if it is clear.
+    pub(super) fn rank_at(&self, point: &Point, values: &mut Values) -> Option<usize> {
+        let mut at = self.linearise(point, values);
+        at.rows.truncate(self.equations.len());
+        self.configuration(point.clone(), &at, true).rank
     }
 
     /// J J^T
@@ -207,7 +234,7 @@ impl Search<'_> {
         step
     }
 
-    fn configuration(&self, at: &Linearised, closed: bool) -> Configuration {
+    fn configuration(&self, point: Point, at: &Linearised, closed: bool) -> Configuration {
         let mut place = vec![usize::MAX; self.problem.columns.len()];
         for (k, &column) in self.columns.iter().enumerate() {
             place[column] = k;
@@ -227,7 +254,7 @@ impl Search<'_> {
         });
         let jacobian: Vec<Vec<f64>> = rows.collect();
         let rank = if closed { clear_rank(&singular_values(&jacobian)) } else { None };
-        Configuration { jacobian, closed, rank }
+        Configuration { point, jacobian, closed, rank }
     }
 }
 

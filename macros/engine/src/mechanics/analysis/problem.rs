@@ -4,6 +4,8 @@
 //! depends on, evaluated in double precision with parameters at their defaults and inputs at zero. Columns are velocity
 //! coordinates of the tree; travels count in units of the mechanism's size, so that they compare with angles.
 
+use std::ops::Range;
+
 use crate::model::types::{Closing, ConstraintKind, Coordinate, Handling, JointId, Model, SolveHow};
 use crate::optimize::program::Symbol;
 use crate::symbolic::graph::{Graph, Scalar};
@@ -11,6 +13,7 @@ use crate::symbolic::lower::Lowering;
 
 use super::super::closings::{Writing, closings, is_length};
 use super::super::equations::{Equations, Method, Style, Way};
+use super::super::reduction::Reduction;
 use super::super::structure::Row;
 use super::super::symbols::{Symbols, has_quaternion};
 use super::super::tree::Motion;
@@ -129,7 +132,11 @@ pub(super) struct Problem {
     alignments: Vec<Alignment>,
     movers: Vec<Mover>,
     quaternions: Vec<Quaternion>,
+    /// By joint the symbols of its position.
+    positions: Vec<Vec<usize>>,
     defaults: Vec<f64>,
+    /// Positions that drives give at time zero, with the tape's roots for them.
+    driven: Vec<(usize, usize)>,
     /// m
     pub size: f64,
 }
@@ -198,7 +205,19 @@ impl Problem {
         }
         roots.extend(rods);
         roots.extend(e.lengths());
+        let scaled = lengths..roots.len();
+        let driven = e.driven();
+        let driven: Vec<(usize, usize)> = driven
+            .into_iter()
+            .map(|(symbol, value)| {
+                roots.push(value);
+                (symbol, roots.len() - 1)
+            })
+            .collect();
         let (movers, quaternions, columns) = columns(model, &e);
+        let positions = e.symbols.positions.iter();
+        let positions =
+            positions.map(|list| list.iter().filter_map(|&s| Some(e.g.symbol_id(s)?.0)).collect()).collect();
         let mut lowering = Lowering::new(&e.g);
         let roots = lowering.run(&roots);
         let tape = Tape::new(&lowering.to, &roots);
@@ -225,8 +244,19 @@ impl Problem {
         let first = equations.len();
         let alignments = cosines.iter().enumerate();
         let alignments = alignments.map(|(k, &(closing, _))| Alignment { closing, root: first + k }).collect();
-        let mut problem = Problem { tape, equations, columns, alignments, movers, quaternions, defaults, size: 1.0 };
-        problem.measure(lengths, roots.len());
+        let mut problem = Problem {
+            tape,
+            equations,
+            columns,
+            alignments,
+            movers,
+            quaternions,
+            positions,
+            defaults,
+            driven,
+            size: 1.0,
+        };
+        problem.measure(scaled);
         problem
     }
 
@@ -249,10 +279,10 @@ impl Problem {
     }
 
     /// Size of the mechanism and scales of its equations.
-    fn measure(&mut self, first: usize, last: usize) {
+    fn measure(&mut self, scaled: Range<usize>) {
         let mut values = Values::default();
         self.tape.run(&mut values, &self.defaults);
-        let lengths = (first..last).map(|root| self.tape.value(&values, root).abs());
+        let lengths = scaled.map(|root| self.tape.value(&values, root).abs());
         let size = lengths.filter(|x| x.is_finite()).fold(0.0, f64::max);
         self.size = if size > 0.0 { size } else { 1.0 };
         for column in &mut self.columns {
@@ -278,14 +308,56 @@ impl Problem {
 
     /// Random coordinates; `amplitude` one fills the circle and twice the mechanism's size.
     pub(super) fn start(&self, random: &mut Random, amplitude: f64) -> Point {
-        let mut point = Point(self.defaults.clone());
-        let step: Vec<f64> = self
-            .columns
-            .iter()
-            .map(|column| amplitude * random.next() * if column.unit == 1.0 { 3.0 } else { 1.0 })
-            .collect();
+        self.shaken(&Point(self.defaults.clone()), random, amplitude, &[])
+    }
+
+    /// A point at random around another; columns that are held stay.
+    pub(super) fn shaken(&self, from: &Point, random: &mut Random, amplitude: f64, held: &[bool]) -> Point {
+        let mut point = from.clone();
+        let columns = self.columns.iter().enumerate();
+        let step = columns.map(|(k, column)| {
+            let way = amplitude * random.next() * if column.unit == 1.0 { 3.0 } else { 1.0 };
+            if held.get(k) == Some(&true) { 0.0 } else { way }
+        });
+        let step: Vec<f64> = step.collect();
         self.displace(&mut point, &step);
         point
+    }
+
+    /// Where coordinates stand by default: zero, orientations that turn nothing, drives at time zero.
+    pub(super) fn origin(&self) -> Point {
+        let mut point = Point(self.defaults.clone());
+        if !self.driven.is_empty() {
+            let mut values = Values::default();
+            self.tape.run(&mut values, &self.defaults);
+            for &(symbol, root) in &self.driven {
+                let value = self.tape.value(&values, root);
+                if let (Some(slot), true) = (point.0.get_mut(symbol), value.is_finite()) {
+                    *slot = value;
+                }
+            }
+        }
+        point
+    }
+
+    /// Takes over what some columns move.
+    pub(super) fn take(&self, point: &mut Point, from: &Point, columns: &[usize]) {
+        for (k, mover) in self.movers.iter().enumerate() {
+            let column = match *mover {
+                Mover::Rests => continue,
+                Mover::Straight(column) => column,
+                Mover::Turns(number, _) => self.quaternions.get(number).map_or(usize::MAX, |q| q.column),
+            };
+            if let (true, Some(slot), Some(&value)) = (columns.contains(&column), point.0.get_mut(k), from.0.get(k)) {
+                *slot = value;
+            }
+        }
+    }
+
+    /// By joint the components of its position.
+    pub(super) fn positions(&self, point: &Point) -> Vec<Vec<f64>> {
+        let value = |&symbol: &usize| point.0.get(symbol).copied().unwrap_or(0.0);
+        self.positions.iter().map(|symbols| symbols.iter().map(value).collect()).collect()
     }
 
     /// Moves along scaled columns.
@@ -400,6 +472,18 @@ impl Equations<'_> {
             ConstraintKind::Rod { length, .. } => Some(self.scalar(length)),
             ConstraintKind::Value(_) => None,
         }
+    }
+
+    /// Symbols of positions that drives give, with the values.
+    fn driven(&mut self) -> Vec<(usize, Scalar)> {
+        if self.model.drives.is_empty() {
+            return Vec::new();
+        }
+        let mut reduction = Reduction::default();
+        self.drive(&mut reduction);
+        let positions: Vec<Scalar> = self.symbols.positions.concat();
+        let ids = positions.iter().filter_map(|&s| self.g.symbol_id(s));
+        ids.filter_map(|id| reduction.map.get(&id).map(|&value| (id.0, value))).collect()
     }
 
     /// Constant lengths of the mechanism, component by component.
