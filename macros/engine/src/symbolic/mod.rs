@@ -6,6 +6,7 @@ pub mod adjoint;
 pub mod count;
 pub mod dependence;
 pub mod differentiate;
+pub mod doubled;
 mod echelon;
 pub mod evaluate;
 pub mod fingerprint;
