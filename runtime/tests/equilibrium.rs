@@ -111,6 +111,57 @@ fn own_states_and_inputs() {
     assert!((turning.state.v - 6.0 / 0.9).abs() < 1e-14 && (turning.state.x.current - 1.2 / 0.9).abs() < 1e-14);
 }
 
+/// A load on a vertical slide, `m a = force - m g`: the force that holds it, from none at all.
+struct Load<T> {
+    mass: T,
+}
+
+impl<T: Real> System for Load<T> {
+    type Scalar = T;
+    type State = Scalar<T>;
+    type Input = T;
+    fn derivative(&self, _t: T, _: &Scalar<T>, force: &T) -> (T, ()) {
+        (*force / self.mass - T::lit(9.81), ())
+    }
+}
+
+impl<T: Real> Differentiable for Load<T> {
+    type Matrix = [[T; 1]; 1];
+    fn jacobian(&self, _t: T, _: &Scalar<T>, _: &T) -> Jacobian<[[T; 1]; 1]> {
+        Jacobian { position: [[T::lit(0.0)]], rates: [[T::lit(0.0)]] }
+    }
+    fn input_derivative(&self, _t: T, _: &Scalar<T>, _: &T, change: &T) -> (T, ()) {
+        (*change / self.mass, ())
+    }
+}
+
+/// Unknowns that are far from the guess, in any unit: each step goes no farther than twice as far, and gains its share.
+#[test]
+fn far_from_the_guess() {
+    let free = Free { position: 0.0, velocity: 0.0, states: (), input: 1.0 };
+    for mass in [1e-3, 0.5, 100.0, 1e5, 1e9] {
+        let found = trim(&Load { mass }, 0.0, &at(0.0), &0.0, &free).unwrap();
+        println!("{mass:e} kg: {found:?}");
+        assert!((found.input / (9.81 * mass) - 1.0).abs() < 1e-14 && found.iterations < 50);
+    }
+    let found = trim(
+        &Load { mass: 100.0_f32 },
+        0.0,
+        &Scalar { q: 0.0, v: 0.0 },
+        &0.0,
+        &Free { position: 0.0, velocity: 0.0, states: (), input: 1.0 },
+    )
+    .unwrap();
+    assert!((found.input / 981.0 - 1.0).abs() < 1e-6);
+    let wide = WideF64x4::lit;
+    let load = Load { mass: WideF64x4::from([1e-2, 3.0, 100.0, 1e6]) };
+    let free = Free { position: wide(0.0), velocity: wide(0.0), states: (), input: wide(1.0) };
+    let found = trim(&load, wide(0.0), &Scalar { q: wide(0.0), v: wide(0.0) }, &wide(0.0), &free).unwrap();
+    for (force, mass) in found.input.into_arr().into_iter().zip([1e-2, 3.0, 100.0, 1e6]) {
+        assert!((force / (9.81 * mass) - 1.0).abs() < 1e-14, "{force} for {mass}");
+    }
+}
+
 /// Of all that is free the least changes: weights decide between position and input.
 #[test]
 fn least_change() {

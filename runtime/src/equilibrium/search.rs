@@ -177,7 +177,7 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
                     excursion = None;
                 } else if left.steps < EXCURSION && all(Real::gt(length, zero)) {
                     left.steps += 1;
-                    (state, value) = search.moved(&state, &value, &search.limited(&proposal.step, &state, &value));
+                    (state, value) = search.moved(&state, &value, &search.limited(&proposal.step, &state, &value).0);
                     residual = search.rates(&state, &value);
                     iterations += 1;
                     continue;
@@ -190,8 +190,8 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
                 }
             }
 
-            let step = search.limited(&proposal.step, &state, &value);
-            let (factor, stalled) = search.damping(&state, &value, &proposal, &step);
+            let (step, share) = search.limited(&proposal.step, &state, &value);
+            let (factor, stalled) = search.damping(&state, &value, &proposal, &step, share);
             if all(closed) {
                 if all(Real::eq(factor, zero)) {
                     break Ok((closed, proposal.rank)); // nothing makes it better
@@ -423,7 +423,8 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
         rows
     }
 
-    /// The share of the step to take in each lane, and the lanes in which there is none.
+    /// The share of the step to take in each lane, and the lanes in which there is none. `step` is `share` of Newton's step,
+    /// which cannot gain more than that share of what the whole step promises.
     ///
     /// What has to fall is the step that the same linearised equations would ask for at the new state (the natural
     /// monotonicity test; Deuflhard, Newton Methods for Nonlinear Problems, section 3.3): unlike the accelerations, it is
@@ -434,6 +435,7 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
         value: &I::Value,
         proposal: &Proposal<S, I::Value>,
         step: &Unknowns<S, I::Value>,
+        share: S::Scalar,
     ) -> (S::Scalar, Mask<S>) {
         let lit = S::Scalar::lit;
         let (zero, one) = (lit(0.0), lit(1.0));
@@ -442,7 +444,7 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
         for _ in 0..=HALVINGS {
             let (next, next_value) = self.moved(state, value, &step.scale(factor));
             let (left, _) = self.correction(&proposal.rows, &proposal.open, &next, &self.rates(&next, &next_value));
-            let good = open & Real::lt(self.length(&left, state, value), now * (one - lit(GAIN) * factor));
+            let good = open & Real::lt(self.length(&left, state, value), now * (one - lit(GAIN) * share * factor));
             taken = Real::select(good, factor, taken);
             open = open & !good;
             if !any(open) {
@@ -460,11 +462,17 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
         relative.fold(zero, &mut |sum, d| sum + d * d)
     }
 
-    /// A step not farther than a radian or, for what is longer, than it is long.
-    fn limited(&self, step: &Unknowns<S, I::Value>, state: &S::State, value: &I::Value) -> Unknowns<S, I::Value> {
+    /// A step not farther than a radian or, for what is longer, than it is long; and which share of the whole step it is.
+    fn limited(
+        &self,
+        step: &Unknowns<S, I::Value>,
+        state: &S::State,
+        value: &I::Value,
+    ) -> (Unknowns<S, I::Value>, S::Scalar) {
         let one = S::Scalar::lit(1.0);
         let reach = greatest(&step.zip(&self.sizes(state, value), &mut |d, z| d / (one + Real::abs(z))));
-        step.scale(one / Real::max(one, reach))
+        let share = one / Real::max(one, reach);
+        (step.scale(share), share)
     }
 }
 
