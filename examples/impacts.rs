@@ -35,7 +35,9 @@ impl Events<pendulum::Model, 1> for Stop {
 
     fn happened(&mut self, event: &Event, x: &pendulum::State) -> Action<pendulum::State> {
         // The stop pushes towards greater angles.
-        let hit = impact(&self.model, event.time, x, &pendulum::Velocity { hinge: 1.0 }, RESTITUTION);
+        let Ok(hit) = impact(&self.model, event.time, x, &pendulum::Velocity { hinge: 1.0 }, RESTITUTION) else {
+            return Action::Stop;
+        };
         self.hits.push([event.time, hit.after, hit.impulse]);
         if self.hits.len() == 6 { Action::Stop } else { Action::Jump(hit.state) }
     }

@@ -447,7 +447,7 @@ fn a_slider_crank_locks_up() {
 
     // It runs into a stop at full speed.
     let stop = sliding::Velocity { crank: -1.0, ..Default::default() };
-    let hit = impact(&model, 0.0, &start, &stop, 0.5);
+    let hit = impact(&model, 0.0, &start, &stop, 0.5).unwrap();
     assert!((hit.state.v.crank + 3.0).abs() < 1e-13 && (hit.state.v.rod - 4.0).abs() < 1e-13);
 }
 

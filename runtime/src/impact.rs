@@ -40,13 +40,18 @@
 //! use multibody::{impact::impact, nalgebra::Vector2};
 //!
 //! let falling = State { q: Vector2::new(0.0, 0.0), v: Vector2::new(1.0, -2.0) };
-//! let hit = impact(&Ball { mass: 0.5 }, 0.0, &falling, &Vector2::new(0.0, 1.0), 0.8); // the floor pushes along y
+//! let hit = impact(&Ball { mass: 0.5 }, 0.0, &falling, &Vector2::new(0.0, 1.0), 0.8)?; // the floor pushes along y
 //! assert_eq!(hit.state.v, Vector2::new(1.0, 1.6));
 //! assert_eq!(hit.impulse, 0.5 * 3.6);
+//! # Ok::<(), multibody::impact::ImpactError>(())
 //! ```
 
+mod error;
+
+pub use error::ImpactError;
+
 use crate::linear::solve_symmetric;
-use crate::{Impulsive, Real, StateSpace, Tangent, VelocityOf};
+use crate::{Configuration, Impulsive, Real, StateSpace, Tangent, VelocityOf, all};
 use nalgebra::{SMatrix, SVector};
 
 /// What an impulse did.
@@ -112,20 +117,26 @@ pub fn along<T: Real, V: Tangent<T>, const A: usize, const R: usize, const N: us
 
 /// The state after the generalised impulse `impulse`, `[N s]` or `[N m s]` for each coordinate: at a joint that is one
 /// field. For an impulse at a frame see [`impulse_at`].
+///
+/// # Errors
+/// See [`ImpactError`].
 #[inline]
 pub fn impulse<S: Impulsive>(
     system: &S,
     t: S::Scalar,
     state: &S::State,
     impulse: &VelocityOf<S>,
-) -> Impulse<S::State, S::Scalar> {
+) -> Result<Impulse<S::State, S::Scalar>, ImpactError> {
     let (q, v, x) = state.split();
     let (jump, rank) = system.jump(t, &q, impulse, &S::Rates::zero());
-    Impulse { state: state.join(q, v.add(&jump), x), rank }
+    Ok(Impulse { state: finite(state.join(q, v.add(&jump), x))?, rank })
 }
 
 /// The state after an impulse at a frame: `[N s]` in world axes, at the frame's origin, or six components with moments
 /// `[N m s]` behind. `jacobian` is the frame's, see [`along`].
+///
+/// # Errors
+/// See [`ImpactError`].
 #[inline]
 pub fn impulse_at<S: Impulsive, const A: usize, const R: usize, const N: usize>(
     system: &S,
@@ -133,7 +144,7 @@ pub fn impulse_at<S: Impulsive, const A: usize, const R: usize, const N: usize>(
     state: &S::State,
     jacobian: &SMatrix<S::Scalar, R, N>,
     at: &SVector<S::Scalar, A>,
-) -> Impulse<S::State, S::Scalar> {
+) -> Result<Impulse<S::State, S::Scalar>, ImpactError> {
     impulse(system, t, state, &along(jacobian, at))
 }
 
@@ -141,6 +152,9 @@ pub fn impulse_at<S: Impulsive, const A: usize, const R: usize, const N: usize>(
 ///
 /// Positive along the direction is where the impulse pushes, and away from what is struck. Nothing changes where the
 /// rate is not negative, or where the constraints let nothing move along the direction.
+///
+/// # Errors
+/// See [`ImpactError`].
 #[inline]
 pub fn impact<S: Impulsive>(
     system: &S,
@@ -148,13 +162,16 @@ pub fn impact<S: Impulsive>(
     state: &S::State,
     direction: &VelocityOf<S>,
     restitution: S::Scalar,
-) -> Impact<S::State, S::Scalar> {
+) -> Result<Impact<S::State, S::Scalar>, ImpactError> {
     let (_, v, _) = state.split();
     impact_at_rate(system, t, state, direction, dot(direction, &v), restitution)
 }
 
 /// The same where the rate is not that of the velocities alone: what is struck moves on its own, or a drive moves what
 /// strikes. `rate` is the rate along the direction before, `[m/s]` or `[rad/s]`.
+///
+/// # Errors
+/// See [`ImpactError`].
 #[inline]
 pub fn impact_at_rate<S: Impulsive>(
     system: &S,
@@ -163,15 +180,18 @@ pub fn impact_at_rate<S: Impulsive>(
     direction: &VelocityOf<S>,
     rate: S::Scalar,
     restitution: S::Scalar,
-) -> Impact<S::State, S::Scalar> {
+) -> Result<Impact<S::State, S::Scalar>, ImpactError> {
     let (zero, one) = (S::Scalar::lit(0.0), S::Scalar::lit(1.0));
     let (q, v, x) = state.split();
     let (jump, rank) = system.jump(t, &q, direction, &S::Rates::zero());
     let answer = dot(direction, &jump);
     let idle = Real::ge(rate, zero) | Real::le(answer, rounding(direction, &jump));
     let impulse = Real::select(idle, zero, -(one + restitution) * rate / Real::select(idle, one, answer));
+    // Where nothing strikes, what is not finite is not taken for rest.
+    let impulse = impulse + residue(rate) + residue(answer) + residue(restitution);
     let v = v.add_scaled(impulse, &jump);
-    Impact { state: state.join(q, v, x), impulse, before: rate, after: rate + impulse * answer, rank }
+    let state = finite(state.join(q, v, x))?;
+    Ok(Impact { state, impulse, before: rate, after: rate + impulse * answer, rank })
 }
 
 /// The state after impacts along several directions at one time, with one coefficient of restitution: a box that falls
@@ -185,13 +205,16 @@ pub fn impact_at_rate<S: Impulsive>(
 /// until no rate in `after` is negative.
 ///
 /// All subsets of the directions are tried, of which there may be eight at most, so that lanes need no branch.
+///
+/// # Errors
+/// See [`ImpactError`].
 pub fn impacts<S: Impulsive, const N: usize>(
     system: &S,
     t: S::Scalar,
     state: &S::State,
     directions: &[VelocityOf<S>; N],
     restitution: S::Scalar,
-) -> Impacts<S::State, S::Scalar, N> {
+) -> Result<Impacts<S::State, S::Scalar, N>, ImpactError> {
     const { assert!(N <= 8, "at most eight directions strike at one time") };
     let (zero, one) = (S::Scalar::lit(0.0), S::Scalar::lit(1.0));
     let (q, v, x) = state.split();
@@ -236,14 +259,23 @@ pub fn impacts<S: Impulsive, const N: usize>(
         }
     }
 
-    let poison = before
-        .iter()
-        .zip(&answers)
-        .fold(zero, |sum, (&rate, row)| row.iter().fold(sum + residue(rate), |sum, &w| sum + residue(w)));
+    let poison = before.iter().zip(&answers).fold(residue(restitution), |sum, (&rate, row)| {
+        row.iter().fold(sum + residue(rate), |sum, &w| sum + residue(w))
+    });
     let impulses = impulses.map(|p| p + poison);
     let v = impulses.iter().zip(&jumps).fold(v, |v, (&p, jump)| v.add_scaled(p, jump));
     let after = (*directions).map(|n| dot(&n, &v));
-    Impacts { state: state.join(q, v, x), impulses, before, after }
+    Ok(Impacts { state: finite(state.join(q, v, x))?, impulses, before, after })
+}
+
+/// The state, if all of it is finite.
+fn finite<Z: StateSpace>(state: Z) -> Result<Z, ImpactError> {
+    let (q, v, x) = state.split();
+    if is_finite(&q.magnitude()) & is_finite(&v) & is_finite(&x) { Ok(state) } else { Err(ImpactError::NotFinite) }
+}
+
+fn is_finite<T: Real, V: Tangent<T>>(vector: &V) -> bool {
+    vector.fold(true, &mut |finite, x| finite & all(Real::is_finite(x)))
 }
 
 /// `a b`.

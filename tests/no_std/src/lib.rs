@@ -4,7 +4,7 @@
 #![forbid(unsafe_code)]
 #![deny(warnings, missing_docs, clippy::all)]
 
-use multibody::impact::{Impact, impact};
+use multibody::impact::{Impact, ImpactError, impact};
 use multibody::integrators::{Action, Direction, Event, Events};
 use multibody::{
     DormandPrince, Equilibrium, EquilibriumError, GaussLegendre4, IntegrationError, Integrator, Radau, Rk4,
@@ -137,7 +137,7 @@ pub fn rest(state: &flap::State, torque: f64) -> Result<Equilibrium<flap::State>
 }
 
 /// What happens where a flap meets a stop.
-pub fn struck(state: &flap::State) -> Impact<flap::State> {
+pub fn struck(state: &flap::State) -> Result<Impact<flap::State>, ImpactError> {
     impact(&flap::Model::<f64>::default(), 0.0, state, &flap::Velocity { hinge: 1.0 }, 0.5)
 }
 
