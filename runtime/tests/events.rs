@@ -500,3 +500,20 @@ fn states_at_given_times() {
         .unwrap();
     assert_eq!(count, 30);
 }
+
+/// A function that crosses zero thirty million times a second, with a jump at each crossing: an error after a bounded number
+/// of them, by steps of one length too.
+#[test]
+fn crossings_without_end() {
+    for step in [1e-3, 1e-2, 1.0] {
+        for frequency in [1e8, 1e12] {
+            let mut events =
+                Watched::new(move |t, _: &Scalar<f64>| [(frequency * t).sin()], |_, x: &Scalar<f64>| Action::Jump(*x));
+            let start = Scalar { q: 1.0, v: 0.0 };
+            let run = Integrator::fixed(Rk4, step);
+            let result = run.with_events(&OSCILLATOR, 0.0, 10.0, &start, &0.0, &mut events, |_| ());
+            assert!(matches!(result, Err(IntegrationError::EventsAccumulate { .. })), "{result:?}");
+            assert!(events.seen.len() <= 10_001, "{}", events.seen.len());
+        }
+    }
+}

@@ -29,7 +29,8 @@ pub enum IntegrationError {
         time: f64,
     },
     /// Events of one function, each with a jump, follow each other ever faster: a ball that comes to rest. Or functions
-    /// cross zero more than a hundred times between two points at which they are looked at.
+    /// cross zero more than a hundred times between two points at which they are looked at, or jump more than ten thousand
+    /// times within one step of given length.
     EventsAccumulate {
         /// `[s]` the time of the last one.
         time: f64,
@@ -55,7 +56,7 @@ impl fmt::Display for IntegrationError {
                 write!(f, "at t = {time} s the equations of the step have no solution near its start: it is too long")
             }
             Self::EventsAccumulate { time } => {
-                write!(f, "events follow each other ever faster and accumulate at t = {time} s")
+                write!(f, "events follow each other too fast and accumulate at t = {time} s")
             }
             Self::TooManySteps { time } => write!(f, "the bound on the number of steps was reached at t = {time} s"),
         }

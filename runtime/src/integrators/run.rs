@@ -9,6 +9,10 @@ use super::problem::{Problem, Step};
 use super::slope::{SlopeOf, advanced, displaced, is_finite, magnitude, owed};
 use crate::{Real, System, Tangent};
 
+/// At most so many events with a jump interrupt one step of given length: whatever a function does, a step is bounded work.
+/// Steps chosen by error are bounded by their number.
+const INTERRUPTIONS: u32 = 10_000;
+
 /// What an observer makes of an accepted step.
 pub(super) enum Verdict<Z> {
     /// The integration goes on from its end.
@@ -37,6 +41,8 @@ pub(super) struct Run<'a, S: System, M: Method<S>> {
     count: u32,
     /// Whether `t` is the end of so many steps, and not a time between at which the run was restarted.
     on_grid: bool,
+    /// Restarts since such a time.
+    interruptions: u32,
     accepted: u32,
     rejected: u32,
 }
@@ -93,6 +99,7 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
             control,
             count: 0,
             on_grid: true,
+            interruptions: 0,
             accepted: 0,
             rejected: 0,
         })
@@ -213,6 +220,7 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
                 self.t = target;
                 self.count = self.count.saturating_add(1);
                 self.on_grid = true;
+                self.interruptions = 0;
             }
             Verdict::Restart { time, state } => {
                 if time != self.end {
@@ -222,6 +230,10 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
                     control.restart(length);
                 }
                 self.on_grid = time == target;
+                self.interruptions = if self.on_grid { 0 } else { self.interruptions + 1 };
+                if self.interruptions > INTERRUPTIONS && self.control.is_none() {
+                    return Err(IntegrationError::EventsAccumulate { time });
+                }
                 self.count = self.count.saturating_add(self.on_grid.into());
                 self.jump(time, state);
             }
