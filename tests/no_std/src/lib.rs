@@ -153,7 +153,7 @@ impl Events<flap::Model, 1> for Stop {
         Direction::Falling
     }
     fn happened(&mut self, _event: &Event, state: &flap::State) -> Action<flap::State> {
-        Action::Jump(struck(state).state)
+        struck(state).map_or(Action::Stop, |hit| Action::Jump(hit.state))
     }
 }
 
