@@ -72,6 +72,7 @@ impl<'a> Checker<'a, '_> {
         let loops = self.loops(&collected, tree);
         let (bodies, joints, topology) = found?;
         self.check_coordinate_uses(&topology, &joints);
+        self.check_armatures(&topology, &joints);
         let constraints: Vec<Constraint> = all(collected.constraints)?;
         if let Some(span) =
             collected.requested.constraints.filter(|_| constraints.is_empty() && topology.cuts.is_empty())

@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 
 use super::arborescence::{self, Edge};
 use super::checker::Checker;
-use super::types::{Body, BodyId, BodyRef, Joint, JointId, JointKind, Place};
+use super::types::{Body, BodyId, BodyRef, ExprNode, Joint, JointId, JointKind, Place};
 use crate::syntax::tree;
 
 /// What hangs on what.
@@ -38,10 +38,12 @@ impl Topology {
 }
 
 /// Weights of joints in the tree, so far apart that a sum over all joints keeps their order: `#[cut]`, then whether the
-/// parent is absolute, then freedoms, and source order last.
+/// joint has no armature (one that closes a loop can't carry any), then whether the parent is absolute, then freedoms, and
+/// source order last.
 const FREEDOM: i128 = 1 << 30;
 const AT_ABSOLUTE: i128 = 1 << 48;
-const CUT: i128 = 1 << 63;
+const NO_ARMATURE: i128 = 1 << 60;
+const CUT: i128 = 1 << 72;
 
 impl Checker<'_, '_> {
     /// The tree that costs least, and what is left over.
@@ -174,6 +176,7 @@ impl Checker<'_, '_> {
             };
             let mut weight = freedoms * FREEDOM + i128::try_from(index).ok()?;
             weight += i128::from(absolute) * AT_ABSOLUTE + i128::from(*cut) * CUT;
+            weight += i128::from(!has_armature(joint)) * NO_ARMATURE;
             origins.push(index);
             edges.push(Edge { from: node(joint.parent.body), to: node(joint.child.body), weight });
         }
@@ -196,6 +199,24 @@ impl Checker<'_, '_> {
             if topology.is_cut(id) {
                 self.refuse_cut_coordinate(id, span, joints);
             }
+        }
+    }
+
+    /// Refuses armatures of joints that have no coordinate to carry them.
+    pub(super) fn check_armatures(&mut self, topology: &Topology, joints: &[Joint]) {
+        for (index, joint) in joints.iter().enumerate() {
+            if !(topology.is_cut(JointId(index)) && has_armature(joint)) {
+                continue;
+            }
+            let help = if self.coordinates.is_some() {
+                "with the coordinates that `formulation` sets it has none: keep `coordinates: Joint`, or give the rotor a \
+                 body and a joint of its own"
+            } else {
+                "put `#[cut]` on another joint of the loop, or give the rotor a body and a joint of its own"
+            };
+            let message =
+                format!("the joint `{}` closes a loop and has no coordinate for its armature", joint.place.field);
+            self.report.help(joint.span, message, help);
         }
     }
 
@@ -249,6 +270,11 @@ impl Checker<'_, '_> {
             format!("write `joint ..: Free {{ parent: ground, child: {name} }}` if it is to move freely"),
         );
     }
+}
+
+/// Whether a joint has an armature that may differ from zero.
+fn has_armature(joint: &Joint) -> bool {
+    joint.armature.as_ref().is_some_and(|armature| !matches!(*armature.node, ExprNode::Number(0.0)))
 }
 
 /// A walk from the ground over joints.
