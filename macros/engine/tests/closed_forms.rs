@@ -48,7 +48,7 @@ fn run(name: &str, mut draw: impl FnMut(&mut Rng) -> Cycle) {
     for _ in 0..40 {
         let mut c = draw(&mut rng);
         match c.check() {
-            Ok(Outcome::Solved { branches, error: e }) => {
+            Ok(Outcome::Solved { branches, error: e, .. }) => {
                 solved += 1;
                 most = most.max(branches);
                 error = error.max(e);
@@ -261,7 +261,9 @@ fn random_loops() {
         for _ in 0..20 {
             match spatial(&mut rng, &kinds).check() {
                 Ok(Outcome::Poor) => {}
-                Ok(Outcome::Solved { error, branches }) => {
+                Ok(Outcome::Solved { error, branches, drawn }) => {
+                    // An unwanted universal joint doesn't reach every point at its distance: other branches may be open.
+                    let error = if kinds.contains('u') { drawn } else { error };
                     assert!(error < 1e-13, "{kinds}: {error:e}");
                     outcome = Some(Ok(branches));
                     break;

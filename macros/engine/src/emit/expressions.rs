@@ -111,6 +111,9 @@ impl Names<'_> {
         if call == Call::Epsilon {
             return quote!(<T as Real>::epsilon());
         }
+        if call == Call::Nan {
+            return quote!(T::lit(f64::NAN));
+        }
         if let Some(name) = function(call) {
             let (name, arguments) = (names::ident(name), each(Level::Or));
             return quote!(Real::#name(#(#arguments),*));
@@ -155,7 +158,7 @@ fn function(call: Call) -> Option<&'static str> {
         Call::LessEqual => "le",
         Call::Equal => "eq",
         Call::Select => "select",
-        Call::And | Call::Or | Call::Not | Call::Epsilon => return None,
+        Call::And | Call::Or | Call::Not | Call::Epsilon | Call::Nan => return None,
     })
 }
 

@@ -12,9 +12,14 @@
 //! | Revolute | d, child's axis . both parent's axes across it |
 //! | Prismatic | d . both parent's axes across the travel, three axes of the child . the next one of the parent |
 //! | Cylindrical | d . both axes across, child's axis . both axes across |
-//! | Screw | those of Cylindrical, pitch * sin(travel / pitch - angle) |
+//! | Screw | those of Cylindrical, travel - pitch * angle |
 //! | Planar | d . axis, child's axis . both axes across |
 //! | Fixed | d, three axes of the child . the next one of the parent |
+//!
+//! The angle of a screw counts its turns ([`winding`]), and so does the one that a Prismatic or Fixed joint holds where a
+//! screw stands in its loop. Where an orientation alone gives it, up to whole turns, the
+//! equation is pitch * sin(travel / pitch - angle): it holds on every turn of the thread, so a motion stays on its own,
+//! and nothing tells on which it began. Solved from a guess such an equation could skip a turn: *Reduced* refuses it.
 //!
 //! A rod is (d . d - length^2) / 2, an expression is itself. Cosines vanish on a further branch too, where axes point the
 //! other way: [`Equations::alignments`] tells the branches apart. The axes in which d and the cosines are worked out
@@ -23,12 +28,14 @@
 mod cut;
 mod names;
 mod view;
+mod winding;
 mod wrenches;
 
-use crate::model::types::{Closing, ConstraintId, ConstraintKind, JointKind, Model};
-use crate::symbolic::graph::Scalar;
+use crate::model::types::{Closing, ConstraintId, ConstraintKind, JointId, JointKind, Model};
+use crate::symbolic::graph::{Graph, Scalar};
 
-use super::equations::{Equations, Style};
+use super::equations::{Equations, Method, Style, Way};
+use super::symbols::Symbols;
 
 pub(super) use names::path;
 pub use names::{coordinate_name, row_name};
@@ -108,6 +115,17 @@ pub fn closings(model: &Model) -> Vec<Closing> {
     let cuts = model.cuts.iter().map(|&joint| Closing::Cut(joint));
     let constraints = (0..model.constraints.len()).map(|k| Closing::Constraint(ConstraintId(k)));
     cuts.chain(constraints).collect()
+}
+
+/// Whether a cut screw knows its angle up to whole turns only.
+pub(super) fn is_uncounted(model: &Model, joint: JointId) -> bool {
+    if !matches!(model.joints.get(joint.0).map(|joint| &joint.kind), Some(JointKind::Screw { .. })) {
+        return false;
+    }
+    let mut graph = Graph::new();
+    let symbols = Symbols::new(&mut graph, model);
+    let way = Way { style: Style::Nested, method: Method::Composite, axes: None, writing: Writing::PLAIN };
+    Equations::new(model, graph, symbols, way, &[]).turns_unknown(joint)
 }
 
 impl Equations<'_> {

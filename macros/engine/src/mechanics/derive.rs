@@ -18,8 +18,8 @@ use crate::optimize::program::FunctionKind;
 use crate::symbolic::graph::{Graph, Scalar};
 
 use super::analysis::Complaint;
+use super::branches::Branch;
 use super::closings::Writing;
-use super::cycles::Branch;
 use super::equations::Method;
 use super::gimbals;
 use super::names;

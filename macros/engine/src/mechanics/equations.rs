@@ -9,11 +9,11 @@ use std::rc::Rc;
 use crate::model::types::{Closing, ExprNode, JointId, Model};
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
+use super::branches::Branch;
 use super::build::Mechanism;
 use super::closings::Writing;
 use super::columns::Columns;
 use super::constrained::Solved;
-use super::cycles::Branch;
 use super::floating::seats;
 use super::forces::Loads;
 use super::newton_euler::Wrench;

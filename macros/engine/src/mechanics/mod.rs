@@ -7,6 +7,7 @@ mod actuation;
 pub mod analysis;
 pub mod articulated;
 pub mod articulated_inertia;
+mod branches;
 pub mod build;
 mod chain;
 mod climb;

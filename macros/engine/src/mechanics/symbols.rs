@@ -186,6 +186,11 @@ impl Symbols {
         }
     }
 
+    /// All parameters.
+    pub fn parameters(&self) -> Vec<Scalar> {
+        self.params.concat()
+    }
+
     /// The scalars of one joint's list, or nothing.
     pub fn of(lists: &[Vec<Scalar>], joint: JointId) -> &[Scalar] {
         lists.get(joint.0).map_or(&[], Vec::as_slice)

@@ -3,7 +3,8 @@
 //! In: definitions of all dependent coordinates. Out: complaints about formulas that a user wrote and that leave a gap.
 //! With the definitions put in, every equation that no iteration solves must vanish: exactly, by the normal form of the
 //! graph, or, for formulas over rounded decimals and for roots, to 1e-12 (relative to one plus the largest term) at random
-//! configurations in double precision.
+//! configurations in double precision. An equation is asked for once the last of its unknowns is found: what a user wrote
+//! may close a loop together with a closed form.
 
 use crate::model::types::{Closing, JointId, Kinematics, SolveHow};
 use crate::symbolic::graph::Scalar;
@@ -57,48 +58,54 @@ impl Equations<'_> {
     pub(super) fn verify(&mut self, reduction: &mut Reduction) -> Result<(), Vec<Complaint>> {
         let (model, structure) = (self.model, std::rc::Rc::clone(&self.structure));
         let mut complaints = Vec::new();
-        for (number, step) in structure.steps.iter().enumerate() {
-            let Means::Solve(item) = step.means else { continue };
-            let Some(item) = model.solves.get(item) else { continue };
-            let written = matches!(item.how, SolveHow::Formulas(_));
-            let unknowns: Vec<Scalar> = step.unknowns.iter().map(|&u| self.coordinate_symbols(u)[0]).collect();
-            let later: Vec<Scalar> = structure.steps[number + 1..]
-                .iter()
-                .flat_map(|step| step.unknowns.iter().map(|&u| self.coordinate_symbols(u)[0]))
-                .collect();
-            let mut closed = 0;
-            for closing in super::closings::closings(model) {
-                let residuals = self.equations_of(closing);
-                let concerns = |e: &Self, list: &[Scalar]| residuals.iter().any(|&r| e.g.depends_on(r, list));
-                if !concerns(self, &unknowns) || concerns(self, &later) {
-                    continue;
-                }
-                closed += 1;
-                let roots = self.finish(reduction, &residuals);
-                if roots.iter().all(|&root| root == Scalar::ZERO) {
-                    continue;
-                }
-                let worst = self.samples(&roots).into_iter().flatten().fold(0.0_f64, |worst, gap| worst.max(gap.abs()));
-                let name = self.closing_name(closing);
-                if worst > if written { TOLERANCE } else { 1e-8 } {
-                    complaints.push(Complaint {
-                        span: item.span,
-                        message: format!("this solution does not close its loop: `{name}` stays open by up to {worst:.1e}"),
-                        help: Some("the formulas must satisfy every equation of the loop, for all values of what they depend on".to_owned()),
-                    });
-                } else if written {
-                    reduction
-                        .notes
-                        .push(format!("`{name}` closes to {worst:.0e} at random configurations (numerical check)"));
-                }
+        let step_unknowns: Vec<Vec<Scalar>> = structure
+            .steps
+            .iter()
+            .map(|step| step.unknowns.iter().map(|&u| self.coordinate_symbols(u)[0]).collect())
+            .collect();
+        let item_of = |step: usize| match structure.steps.get(step)?.means {
+            Means::Solve(item) => model.solves.get(item),
+            _ => None,
+        };
+        let written = |step: usize| item_of(step).is_some_and(|item| matches!(item.how, SolveHow::Formulas(_)));
+        let mut concerned = vec![false; structure.steps.len()];
+        for closing in super::closings::closings(model) {
+            let residuals = self.equations_of(closing);
+            let speaks = |list: &Vec<Scalar>| residuals.iter().any(|&r| self.g.depends_on(r, list));
+            let steps: Vec<usize> = (0..step_unknowns.len()).filter(|&step| speaks(&step_unknowns[step])).collect();
+            steps.iter().for_each(|&step| concerned[step] = true);
+            // It must be closed once the last of its unknowns is found, by whichever of them were written by the user.
+            let Some(last) = steps.last().copied().filter(|&last| item_of(last).is_some()) else { continue };
+            let blamed = steps.iter().copied().rfind(|&step| written(step)).unwrap_or(last);
+            let Some(item) = item_of(blamed) else { continue };
+            let roots = self.finish(reduction, &residuals);
+            if roots.iter().all(|&root| root == Scalar::ZERO) {
+                continue;
             }
-            if closed == 0 && written {
+            let samples = self.samples(&roots, &reduction.map);
+            let worst = samples.into_iter().flatten().fold(0.0_f64, |worst, gap| worst.max(gap.abs()));
+            let name = self.closing_name(closing);
+            if worst > if written(last) { TOLERANCE } else { 1e-8 } {
                 complaints.push(Complaint {
                     span: item.span,
-                    message: "this solution closes no loop: no equation concerns what it solves for".to_owned(),
-                    help: Some("leave it out, or declare the joint or constraint that it satisfies".to_owned()),
+                    message: format!("this solution does not close its loop: `{name}` stays open by up to {worst:.1e}"),
+                    help: Some(
+                        "the formulas must satisfy every equation of the loop, for all values of what they depend on"
+                            .to_owned(),
+                    ),
                 });
+            } else if written(blamed) {
+                reduction
+                    .notes
+                    .push(format!("`{name}` closes to {worst:.0e} at random configurations (numerical check)"));
             }
+        }
+        for step in (0..structure.steps.len()).filter(|&step| written(step) && !concerned[step]) {
+            complaints.extend(item_of(step).map(|item| Complaint {
+                span: item.span,
+                message: "this solution closes no loop: no equation concerns what it solves for".to_owned(),
+                help: Some("leave it out, or declare the joint or constraint that it satisfies".to_owned()),
+            }));
         }
         if complaints.is_empty() { Ok(()) } else { Err(complaints) }
     }

@@ -415,6 +415,7 @@ impl Dag {
                         cost.sincos += 1;
                     }
                 }
+                Kind::Call(Call::Nan, _) => {}
                 Kind::Call(Call::Min | Call::Max | Call::Select, _) => cost.add += 1,
                 Kind::Call(call, _) if call.is_comparison() => cost.compare += 1,
                 Kind::Call(..) => cost.other += 1,

@@ -58,7 +58,7 @@ fn hint(dag: &Dag, id: Id, hints: &[Option<String>]) -> String {
 /// Early values that later ones or the results read.
 fn frontier(dag: &Dag) -> Vec<Id> {
     // A number that stands alone, as in `max(x, 0)`, is written where it is read.
-    let epsilon = |id: Id| matches!(&dag.nodes[id].kind, Kind::Call(Call::Epsilon, _));
+    let epsilon = |id: Id| matches!(&dag.nodes[id].kind, Kind::Call(Call::Epsilon | Call::Nan, _));
     let number = |id: Id| match &dag.nodes[id].kind {
         Kind::Sum(terms) => terms.iter().all(|&(_, t)| t == ONE || epsilon(t)),
         _ => epsilon(id),

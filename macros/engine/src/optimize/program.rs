@@ -102,6 +102,8 @@ pub enum Call {
     Select,
     /// The rounding unit of the scalar, of no arguments.
     Epsilon,
+    /// No number: the result of what has none, of no arguments.
+    Nan,
 }
 
 impl Call {

@@ -21,7 +21,7 @@ use crate::mechanics::tree::Motion;
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
 use chain::Link;
-use pairs::Opened;
+use pairs::{Opened, Winding};
 use plan::Step;
 use primitives::Known;
 
@@ -35,6 +35,15 @@ pub enum Segment {
     /// A motion about or along a coordinate axis of the present frame. `symbol` stands for its coordinate. Of a ball
     /// nothing can be found; it has no symbol that is used.
     Unknown { motion: Motion, symbol: Scalar, wanted: bool },
+}
+
+/// Once around a loop.
+#[derive(Clone, Debug, Default)]
+pub struct Cycle {
+    pub segments: Vec<Segment>,
+    /// Vanishes: a sum of the cycle's angles, each once, and of what is known, whole turns included. There where a screw
+    /// makes turns count and everything turns about one direction. Points and directions know angles up to whole turns.
+    pub winding: Option<Scalar>,
 }
 
 /// A coordinate that was found.
@@ -109,42 +118,48 @@ pub struct Plan {
 
 /// Solves for the wanted unknowns. `signs` are taken in order wherever there are two solutions, `true` for the positive
 /// root; those that are missing are positive.
-pub fn solve(g: &mut Graph, cycle: &[Segment], signs: &[bool]) -> Result<Solution, Failure> {
-    Plan::new(g, cycle)?.solve(g, cycle, signs)
+pub fn solve(g: &mut Graph, cycle: &Cycle, signs: &[bool]) -> Result<Solution, Failure> {
+    Plan::new(g, cycle)?.solve(g, cycle, &of_signs(signs))
+}
+
+/// Constant signs, as a solution takes them.
+pub fn of_signs(signs: &[bool]) -> Vec<Scalar> {
+    signs.iter().map(|&positive| if positive { Scalar::ONE } else { -Scalar::ONE }).collect()
 }
 
 impl Plan {
     /// Decides how a cycle is solved. It depends on the cycle alone, not on what else the graph holds.
-    pub fn new(g: &Graph, cycle: &[Segment]) -> Result<Plan, Failure> {
+    pub fn new(g: &Graph, cycle: &Cycle) -> Result<Plan, Failure> {
         let (links, unknowns) = opened(cycle);
         if unknowns.iter().any(|u| u.wanted && matches!(u.motion, Motion::Ball(_))) {
             return Err(Failure::Ball);
         }
-        let steps = plan::plan(&mut g.clone(), &links, &unknowns)?;
+        let steps = plan::plan(&mut g.clone(), &links, &unknowns, cycle.winding)?;
         Ok(Plan { steps })
     }
 
     /// The same plan for a cycle like the one that was planned, if every step of it finds an equation of the same form
     /// there. That costs a small part of the search.
-    pub fn adapted(&self, g: &Graph, cycle: &[Segment]) -> Option<Plan> {
+    pub fn adapted(&self, g: &Graph, cycle: &Cycle) -> Option<Plan> {
         let (links, unknowns) = opened(cycle);
-        let steps = plan::adapt(&mut g.clone(), &links, &unknowns, &self.steps)?;
+        let steps = plan::adapt(&mut g.clone(), &links, &unknowns, cycle.winding, &self.steps)?;
         Some(Plan { steps })
     }
 
-    /// Solves the cycle that was planned.
-    pub fn solve(&self, g: &mut Graph, cycle: &[Segment], signs: &[bool]) -> Result<Solution, Failure> {
+    /// Solves the cycle that was planned. `signs` are one or minus one, or what is so at run time.
+    pub fn solve(&self, g: &mut Graph, cycle: &Cycle, signs: &[Scalar]) -> Result<Solution, Failure> {
         let (mut links, unknowns) = opened(cycle);
         let (mut known, mut solved, mut choices) = (Known::default(), Vec::with_capacity(self.steps.len()), 0);
         for &Step { unknown: number, candidate, needed } in &self.steps {
             let Some(unknown) = unknowns.get(number) else { continue };
             if needed {
                 let rest = open(&links, number);
-                let opened = Opened { motion: unknown.motion, rest: &rest };
+                let winding = winding_of(g, cycle.winding, &unknowns, &links, number);
+                let opened = Opened { motion: unknown.motion, rest: &rest, winding };
                 let Some(primitive) = opened.derive(g, candidate.source) else {
                     return Err(Failure::NotFound { remaining: vec![unknown.symbol], solved: solved.len() });
                 };
-                let sign = signs.get(choices).copied().unwrap_or(true);
+                let sign = signs.get(choices).copied().unwrap_or(Scalar::ONE);
                 choices += primitive.signs();
                 solved.push(primitive.solve(g, unknown.symbol, sign, &mut known, candidate.describe()));
             }
@@ -155,9 +170,9 @@ impl Plan {
 }
 
 /// A cycle as the procedure sees it.
-fn opened(cycle: &[Segment]) -> (Vec<Link>, Vec<Unknown>) {
+fn opened(cycle: &Cycle) -> (Vec<Link>, Vec<Unknown>) {
     let mut unknowns = Vec::new();
-    let links = cycle.iter().map(|&segment| link(segment, &mut unknowns)).collect();
+    let links = cycle.segments.iter().map(|&segment| link(segment, &mut unknowns)).collect();
     (links, unknowns)
 }
 
@@ -168,6 +183,30 @@ fn settle(g: &mut Graph, links: &mut [Link], unknown: &Unknown, number: usize) {
             *link = Link::moved(g, unknown.motion, unknown.symbol);
         }
     }
+}
+
+/// What the sum of angles says about one unknown: its slope and the rest; the rest may hold no other open unknown.
+fn winding_of(
+    g: &mut Graph,
+    winding: Option<Scalar>,
+    unknowns: &[Unknown],
+    links: &[Link],
+    number: usize,
+) -> Option<Winding> {
+    let (sum, symbol) = (winding?, unknowns.get(number)?.symbol);
+    if !g.depends_on(sum, &[symbol]) {
+        return None;
+    }
+    let open = |k: usize| links.iter().any(|link| matches!(link, Link::Free { unknown, .. } if *unknown == k));
+    let others = unknowns.iter().enumerate().filter(|&(k, _)| k != number && open(k)).map(|(_, other)| other.symbol);
+    let others: Vec<Scalar> = others.collect();
+    if g.depends_on(sum, &others) {
+        return Some(Winding::Open);
+    }
+    let slope = g.derivative(sum, &[(symbol, Scalar::ONE)]);
+    // With the unknown at zero, and not by a difference in which it would stand and cancel.
+    let still = g.symbol_id(symbol).map(|id| (id, Scalar::ZERO)).into_iter().collect();
+    Some(Winding::Known { slope, rest: g.substitute(&[sum], &still)[0] })
 }
 
 /// The cycle without one unknown, from its right side round to its left.

@@ -21,6 +21,8 @@ pub(super) enum Source {
     Point(Run),
     /// A point's place along the motion's axis.
     Along(Run),
+    /// The sum of all angles.
+    Winding,
     /// The first group is met first when going right from the unknown.
     Pair(Run, Run, Measure),
 }
@@ -46,6 +48,7 @@ impl Candidate {
             Source::Direction(..) => "a direction on both sides",
             Source::Point(_) => "a point on both sides",
             Source::Along(_) => "a point along the axis",
+            Source::Winding => "the sum of all angles",
             Source::Pair(_, _, measure) => measure.describe(),
         };
         format!("{what}: {}", self.primitive.describe())
@@ -56,6 +59,16 @@ impl Candidate {
 pub(super) struct Opened<'c> {
     pub(super) motion: Motion,
     pub(super) rest: &'c [Link],
+    pub(super) winding: Option<Winding>,
+}
+
+/// The sum of the cycle's angles, where it holds the unknown.
+#[derive(Clone, Copy)]
+pub(super) enum Winding {
+    /// It holds other unknowns that are open.
+    Open,
+    /// slope x + rest = 0
+    Known { slope: Scalar, rest: Scalar },
 }
 
 /// A group taken out, as seen from the unknown.
@@ -73,9 +86,15 @@ impl Opened<'_> {
     pub(super) fn candidates(&self, g: &mut Graph) -> Vec<Candidate> {
         let groups: Vec<Taken> = self.runs(g).into_iter().map(|run| self.take(g, run)).collect();
         let mut list = Vec::new();
+        // Where turns count, nothing serves that gives an angle up to whole turns: it would be off by some of them.
+        let vague = |primitive: &Primitive| {
+            primitive.is_angle() && (self.winding.is_some() || matches!(self.motion, Motion::Screw(..)))
+        };
         let mut add = |source: Source, primitive: Option<Primitive>| {
+            let primitive = primitive.filter(|primitive| !vague(primitive));
             list.extend(primitive.map(|primitive| Candidate { primitive, source }));
         };
+        add(Source::Winding, self.by_winding());
         for group in &groups {
             for k in 0..group.features.directions.len() {
                 add(Source::Direction(group.run, k), self.direction(g, group, k));
@@ -114,6 +133,7 @@ impl Opened<'_> {
                 let group = self.take(g, run);
                 self.along(g, &group)
             }
+            Source::Winding => self.by_winding(),
             Source::Pair(first, second, measure) => {
                 let (first, second) = (self.take(g, first), self.take(g, second));
                 self.between(g, &first, &second, measure)
@@ -141,6 +161,13 @@ impl Opened<'_> {
             }
         }
         list
+    }
+
+    fn by_winding(&self) -> Option<Primitive> {
+        match self.winding? {
+            Winding::Known { slope, rest } => Some(Primitive::Linear { slope, one: rest }),
+            Winding::Open => None,
+        }
     }
 
     fn take(&self, g: &mut Graph, run: Run) -> Taken {

@@ -14,7 +14,7 @@ use crate::symbolic::lower::Lowering;
 use super::chain::Link;
 use super::pairs::{Candidate, Opened};
 use super::primitives::{Known, Primitive};
-use super::{Failure, Solved, Unknown, Value, open, settle};
+use super::{Failure, Solved, Unknown, Value, open, settle, winding_of};
 
 /// One unknown, and the equation that it is found from.
 #[derive(Clone, Copy, Debug)]
@@ -36,14 +36,20 @@ struct Bench {
     g: Graph,
     links: Vec<Link>,
     unknowns: Vec<Unknown>,
+    winding: Option<Scalar>,
     known: Known,
     solved: Vec<(usize, Candidate, Primitive, Solved)>,
 }
 
 /// The order in which all wanted unknowns are found.
-pub(super) fn plan(g: &mut Graph, links: &[Link], unknowns: &[Unknown]) -> Result<Vec<Step>, Failure> {
+pub(super) fn plan(
+    g: &mut Graph,
+    links: &[Link],
+    unknowns: &[Unknown],
+    winding: Option<Scalar>,
+) -> Result<Vec<Step>, Failure> {
     let mut search = Search { orders: 0, best: None, furthest: None };
-    search.extend(Bench::new(g, links, unknowns));
+    search.extend(Bench::new(g, links, unknowns, winding));
     match (search.best, search.furthest) {
         (Some((_, bench)), _) => Ok(bench.steps()),
         (None, Some(bench)) => {
@@ -56,8 +62,14 @@ pub(super) fn plan(g: &mut Graph, links: &[Link], unknowns: &[Unknown]) -> Resul
 
 /// The same order and the same equations for other links; nothing where an equation has another form, or where other
 /// unknowns are needed.
-pub(super) fn adapt(g: &mut Graph, links: &[Link], unknowns: &[Unknown], steps: &[Step]) -> Option<Vec<Step>> {
-    let mut bench = Bench::new(g, links, unknowns);
+pub(super) fn adapt(
+    g: &mut Graph,
+    links: &[Link],
+    unknowns: &[Unknown],
+    winding: Option<Scalar>,
+    steps: &[Step],
+) -> Option<Vec<Step>> {
+    let mut bench = Bench::new(g, links, unknowns, winding);
     for step in steps {
         let unknown = bench.unknowns.get(step.unknown)?;
         let same = bench.open_unknowns(unknown.wanted).any(|k| k == step.unknown);
@@ -117,7 +129,7 @@ impl Search {
 }
 
 impl Bench {
-    fn new(g: &mut Graph, links: &[Link], unknowns: &[Unknown]) -> Bench {
+    fn new(g: &mut Graph, links: &[Link], unknowns: &[Unknown], winding: Option<Scalar>) -> Bench {
         let mut scalars = Vec::new();
         let offsets: Vec<[Scalar; 3]> = links
             .iter()
@@ -135,6 +147,7 @@ impl Bench {
             .collect();
         scalars.extend(offsets.iter().flatten());
         scalars.extend(unknowns.iter().map(|u| u.symbol));
+        scalars.extend(winding);
         let mut lowering = Lowering::new(g);
         let lowered = lowering.run(&scalars);
         let mut copy = Copy { from: g, to: lowering.to, map: HashMap::new() };
@@ -154,7 +167,8 @@ impl Bench {
             .iter()
             .map(|u| Unknown { motion: copy.motion(u.motion), symbol: copy.scalar(u.symbol), wanted: u.wanted })
             .collect::<Vec<_>>();
-        Bench { g: copy.to, links, unknowns, known: Known::default(), solved: Vec::new() }
+        let winding = winding.map(|sum| copy.scalar(sum));
+        Bench { g: copy.to, links, unknowns, winding, known: Known::default(), solved: Vec::new() }
     }
 
     /// Numbers of what isn't solved.
@@ -173,13 +187,13 @@ impl Bench {
         for number in self.open_unknowns(wanted) {
             let unknown = &self.unknowns[number];
             let rest = open(&self.links, number);
-            let candidates = Opened { motion: unknown.motion, rest: &rest }.candidates(&mut scratch);
-            list.extend(candidates.into_iter().map(|candidate| {
-                // The direction of a screw gives its angle up to whole turns only.
-                let vague = matches!(unknown.motion, Motion::Screw(..)) && candidate.primitive.is_angle();
-                let rank = candidate.primitive.signs() + if vague { 2 } else { 0 };
-                (rank, effort(&scratch, &candidate), number, candidate)
-            }));
+            let winding = winding_of(&mut scratch, self.winding, &self.unknowns, &self.links, number);
+            let candidates = Opened { motion: unknown.motion, rest: &rest, winding }.candidates(&mut scratch);
+            list.extend(
+                candidates
+                    .into_iter()
+                    .map(|candidate| (candidate.primitive.signs(), effort(&scratch, &candidate), number, candidate)),
+            );
         }
         let least = list.iter().map(|(rank, ..)| *rank).min().unwrap_or(0);
         list.retain(|(rank, ..)| *rank == least);
@@ -208,9 +222,10 @@ impl Bench {
     fn take(&mut self, number: usize, candidate: &Candidate) -> Option<()> {
         let rest = open(&self.links, number);
         let unknown = self.unknowns[number];
-        let opened = Opened { motion: unknown.motion, rest: &rest };
+        let winding = winding_of(&mut self.g, self.winding, &self.unknowns, &self.links, number);
+        let opened = Opened { motion: unknown.motion, rest: &rest, winding };
         let primitive = opened.derive(&mut self.g, candidate.source)?;
-        let solved = primitive.solve(&mut self.g, unknown.symbol, true, &mut self.known, String::new());
+        let solved = primitive.solve(&mut self.g, unknown.symbol, Scalar::ONE, &mut self.known, String::new());
         settle(&mut self.g, &mut self.links, &unknown, number);
         self.solved.push((number, *candidate, primitive, solved));
         Some(())

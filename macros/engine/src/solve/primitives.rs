@@ -111,8 +111,8 @@ impl Primitive {
         }
     }
 
-    /// The solution. `sign` chooses between two.
-    pub(super) fn solve(&self, g: &mut Graph, symbol: Scalar, sign: bool, known: &mut Known, how: String) -> Solved {
+    /// The solution. `sign`, one or minus one, chooses between two.
+    pub(super) fn solve(&self, g: &mut Graph, symbol: Scalar, sign: Scalar, known: &mut Known, how: String) -> Solved {
         let (value, equation, inverse_slope, root) = match *self {
             Primitive::Turn { near, far } => turn(g, symbol, near, far, known),
             Primitive::Root { a, b, c } => root(g, symbol, [a, b, c], sign, known),
@@ -165,13 +165,13 @@ fn turn(g: &mut Graph, x: Scalar, w: [Scalar; 2], v: [Scalar; 2], known: &mut Kn
 }
 
 /// a cos x + b sin x = c
-fn root(g: &mut Graph, x: Scalar, raw: [Scalar; 3], sign: bool, known: &mut Known) -> Parts {
+fn root(g: &mut Graph, x: Scalar, raw: [Scalar; 3], sign: Scalar, known: &mut Known) -> Parts {
     let [a, b, c] = known.simplest(g, raw);
     let whole = squares(g, [a, b]);
     let square = g.mul(c, c);
     let rest = g.sub(whole, square);
     let root = g.sqrt(rest);
-    let r = if sign { root } else { -root };
+    let r = g.mul(sign, root);
     let zero = Scalar::ZERO;
     let slope = g.reciprocal(r);
     let (cos, sin) = if c == zero {
@@ -196,12 +196,12 @@ fn root(g: &mut Graph, x: Scalar, raw: [Scalar; 3], sign: bool, known: &mut Know
 }
 
 /// square x^2 + 2 half x + one = 0
-fn quadratic(g: &mut Graph, x: Scalar, raw: [Scalar; 3], sign: bool, known: &mut Known) -> Parts {
+fn quadratic(g: &mut Graph, x: Scalar, raw: [Scalar; 3], sign: Scalar, known: &mut Known) -> Parts {
     let [square, half, one] = known.simplest(g, raw);
     let (whole, product) = (g.mul(half, half), g.mul(square, one));
     let rest = g.sub(whole, product);
     let root = g.sqrt(rest);
-    let r = if sign { root } else { -root };
+    let r = g.mul(sign, root);
     let inverse = g.reciprocal(square);
     let top = g.sub(r, half);
     let value = g.mul(top, inverse);

@@ -33,7 +33,7 @@ impl Graph {
                     }
                 }
                 ScalarNode::Call(Call::Min | Call::Max | Call::Select, _) => cost.add += 1,
-                ScalarNode::Call(Call::Epsilon, _) => {}
+                ScalarNode::Call(Call::Epsilon | Call::Nan, _) => {}
                 ScalarNode::Call(call, _) if call.is_comparison() => cost.compare += 1,
                 ScalarNode::Call(..) => cost.other += 1,
             }

@@ -348,6 +348,7 @@ pub fn call_f64(call: Call, x: &[f64]) -> f64 {
     let mask = |b: bool| f64::from(u8::from(b));
     match (call, x) {
         (Call::Epsilon, []) => f64::EPSILON,
+        (Call::Nan, []) => f64::NAN,
         (Call::Tan, [a]) => a.tan(),
         (Call::Asin, [a]) => a.asin(),
         (Call::Acos, [a]) => a.acos(),

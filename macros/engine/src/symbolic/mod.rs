@@ -18,6 +18,7 @@ pub mod lower;
 pub mod number;
 pub mod pivoted;
 mod scalar;
+pub mod signs;
 pub mod substitute;
 mod trigonometry;
 mod vector;

@@ -323,7 +323,7 @@ impl Graph {
 
     /// A function of literals is a literal; a choice by a condition of literals is made.
     fn fold_call(&mut self, call: Call, arguments: &[Scalar]) -> Option<Scalar> {
-        if call == Call::Epsilon {
+        if matches!(call, Call::Epsilon | Call::Nan) {
             return None;
         }
         if let (Call::Select, &[mask, a, b]) = (call, arguments) {

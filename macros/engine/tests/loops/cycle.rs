@@ -30,7 +30,12 @@ pub(crate) struct Cycle {
 
 /// A root that is nearly zero makes digits disappear; such draws are no test.
 pub(crate) enum Outcome {
-    Solved { branches: usize, error: f64 },
+    /// How far the rest of the loop stays open, at worst and on the branch that was drawn.
+    Solved {
+        branches: usize,
+        error: f64,
+        drawn: f64,
+    },
     Poor,
 }
 
@@ -182,7 +187,8 @@ impl Cycle {
     }
 
     pub(crate) fn solve(&mut self, signs: &[bool]) -> Result<Solution, Failure> {
-        solve(&mut self.g, &self.segments, signs)
+        let cycle = multibody_engine::solve::Cycle { segments: self.segments.clone(), winding: None };
+        solve(&mut self.g, &cycle, signs)
     }
 
     /// Puts the solved values in; `None` where there is no real solution.
@@ -284,7 +290,7 @@ impl Cycle {
         let truth = self.values.clone();
         let signs = self.solve(&[])?.signs;
         let mut found: Vec<Vec<f64>> = Vec::new();
-        let (mut worst, mut hit) = (0.0_f64, false);
+        let (mut worst, mut drawn, mut hit) = (0.0_f64, 0.0, false);
         for branch in 0..1_usize << signs {
             let choice: Vec<bool> = (0..signs).map(|k| branch >> k & 1 == 0).collect();
             self.values.resize(self.values.len().max(truth.len()), 0.0);
@@ -312,13 +318,16 @@ impl Cycle {
                 self.values = values;
                 list
             };
-            hit |= near(&true_wanted, &wanted);
+            let here = near(&true_wanted, &wanted);
             found.push(wanted);
-            worst = worst.max(self.complete(&solution));
+            let open = self.complete(&solution);
+            hit |= here;
+            drawn = if here { open } else { drawn };
+            worst = worst.max(open);
         }
         assert!(hit, "the truth is among the branches {found:?}");
         self.values = truth;
-        Ok(Outcome::Solved { branches: found.len(), error: worst })
+        Ok(Outcome::Solved { branches: found.len(), error: worst, drawn })
     }
 
     /// Equations vanish, slopes are right, and rates agree with finite differences.

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 
 use crate::model::types::{BodyRef, Closing, Coordinate, JointId, Model, SolveHow};
 
-use super::super::closings::coordinate_name;
+use super::super::closings::{coordinate_name, is_uncounted, row_count};
 use super::super::structure::{Means, Row, Step};
 use super::blocks::{components, matching};
 use super::checks::thing;
@@ -358,12 +358,33 @@ impl Reduction<'_> {
                         .collect();
                     found.sort_unstable();
                     let unknowns = found.into_iter().map(|column| self.coordinate(column)).collect();
-                    let rows = places.iter().filter_map(|&k| self.row(rows[k])).collect();
+                    let rows: Vec<Row> = places.iter().filter_map(|&k| self.row(rows[k])).collect();
+                    self.check_turns(&rows)?;
                     steps.push(Step { unknowns, means: Means::Newton { rows, guess: 0 } });
                 }
             }
         }
         Ok(steps)
+    }
+
+    /// From a guess a thread that doesn't count its turns could be found on another one.
+    fn check_turns(&self, rows: &[Row]) -> Result<(), Vec<Complaint>> {
+        // The equation of the travel is a screw's last.
+        let last = |row: &&Row| row.index + 1 == row_count(self.model, row.closing);
+        for row in rows.iter().filter(last) {
+            let Closing::Cut(joint) = row.closing else { continue };
+            if is_uncounted(self.model, joint) {
+                let (span, what) = thing(self.model, row.closing);
+                let message = format!(
+                    "{what} can't be reduced: an orientation tells the screw's angle up to whole turns only, and its travel \
+                     with it"
+                );
+                let help = "let all that turns in this loop turn about the screw's axis by joints of one coordinate, whose \
+                            turns are counted, or write `constraints: Multipliers`";
+                return Err(vec![Complaint { span, message, help: Some(help.to_owned()) }]);
+            }
+        }
+        Ok(())
     }
 
     /// Columns that an equation depends on, couplings seen through.

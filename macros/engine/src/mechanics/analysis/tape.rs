@@ -273,6 +273,7 @@ fn call_slope(call: Call, x: &[f64; 3], k: usize, y: f64) -> f64 {
         Call::Max => mask((x[0] > x[1]) == (k == 0)),
         Call::Select if k > 0 => mask((x[0] != 0.0) == (k == 1)),
         Call::Epsilon
+        | Call::Nan
         | Call::Signum
         | Call::Less
         | Call::LessEqual

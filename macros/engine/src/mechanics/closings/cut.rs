@@ -8,6 +8,7 @@ use crate::symbolic::graph::{Scalar, Vector};
 use super::super::build::Place;
 use super::super::constants::{self, Axis};
 use super::super::equations::Equations;
+use super::super::tree::Motion;
 use super::Writing;
 use super::view::View;
 
@@ -22,6 +23,8 @@ pub(super) enum Equation {
     Turn(usize, usize),
     /// Travel along the axis against the angle about it, with metres per radian.
     Pitch(usize, Scalar),
+    /// The angle about an axis, whole turns included.
+    Turns(usize),
 }
 
 /// A cut joint.
@@ -76,7 +79,38 @@ impl Equations<'_> {
                 ([Equation::Along(k)].into_iter().chain(turns(k)).collect(), vec![k])
             }
         };
-        Some(Cut { ends, equations, aligned })
+        let mut cut = Cut { ends, equations, aligned };
+        if matches!(joint.kind, JointKind::Prismatic { .. } | JointKind::Fixed) && self.holds_screw(&ends) {
+            self.count_turns(&mut cut);
+        }
+        Some(cut)
+    }
+
+    /// Whether a screw of the tree stands between two frames.
+    fn holds_screw(&self, ends: &[Place; 2]) -> bool {
+        let common = self.common(ends[0].link, ends[1].link);
+        let links = &self.mechanism.tree.links;
+        ends.iter().any(|end| {
+            let way = std::iter::successors(end.link, |&at| links.get(at).and_then(|link| link.parent));
+            let mut way = way.take_while(|&at| Some(at) != common);
+            way.any(|at| links.get(at).is_some_and(|link| matches!(link.motion, Motion::Screw(..))))
+        })
+    }
+
+    /// Where everything in the loop turns about one axis, the cosine that speaks of this turn becomes the angle: with
+    /// cosines alone a screw of the loop would be free to skip turns, and its nut to jump.
+    fn count_turns(&mut self, cut: &mut Cut) {
+        let view = self.view(&cut.ends, Writing::PLAIN);
+        for equation in 0..cut.equations.len() {
+            // Axis k of the child against k + 1 of the parent: a turn about k + 2.
+            let Equation::Turn(k, other) = cut.equations[equation] else { continue };
+            let axis = 3 - k - other;
+            let angle = self.winding(&view, &cut.ends, axis);
+            if angle.is_some_and(|angle| self.g.literal(angle).is_none()) {
+                cut.equations[equation] = Equation::Turns(axis);
+                return;
+            }
+        }
     }
 
     fn turned(&mut self, axis: &Expr) -> Axis {
@@ -119,9 +153,17 @@ impl Equations<'_> {
                 self.g.dot(way, axis)
             }
             Equation::Turn(k, other) => self.see_cosine(view, cut, k, other),
+            Equation::Turns(k) => match self.winding(view, &cut.ends, k) {
+                Some(angle) => angle,
+                None => self.see_cosine(view, cut, (k + 1) % 3, (k + 2) % 3),
+            },
             Equation::Pitch(k, pitch) => {
                 let axis = self.see_axis(view, &cut.ends[0], k);
                 let travel = self.g.dot(way, axis);
+                if let Some(angle) = self.winding(view, &cut.ends, k) {
+                    let turned = self.g.mul(pitch, angle);
+                    return self.g.sub(travel, turned);
+                }
                 let Some((sin, cos)) = self.thread(travel, pitch) else { return travel };
                 let (i, j) = ((k + 1) % 3, (k + 2) % 3);
                 let (c, s) = (self.see_cosine(view, cut, i, i), self.see_cosine(view, cut, i, j));
@@ -131,6 +173,25 @@ impl Equations<'_> {
                 g.mul(pitch, lag)
             }
         }
+    }
+
+    /// The angle of a cut joint that counts its turns: of a screw, or of a joint that holds an angle where a screw stands
+    /// in its loop.
+    pub(in super::super) fn counted_turns(&mut self, joint: JointId) -> Option<Scalar> {
+        let cut = self.cut(joint)?;
+        let axis = cut.equations.iter().find_map(|&equation| match equation {
+            Equation::Pitch(k, _) | Equation::Turns(k) => Some(k),
+            _ => None,
+        })?;
+        let view = self.view(&cut.ends, Writing::PLAIN);
+        self.winding(&view, &cut.ends, axis)
+    }
+
+    /// Whether this is a screw that knows its angle up to whole turns only.
+    pub(in super::super) fn turns_unknown(&mut self, joint: JointId) -> bool {
+        let Some(cut) = self.cut(joint) else { return false };
+        let pitched = |equation: &Equation| matches!(equation, Equation::Pitch(_, pitch) if *pitch != Scalar::ZERO);
+        cut.equations.iter().any(pitched) && self.counted_turns(joint).is_none()
     }
 
     /// Sine and cosine of the angle that belongs to a travel; nothing for a thread without pitch, which has no travel.
@@ -160,6 +221,10 @@ impl Equations<'_> {
         }
         for &equation in &cut.equations {
             let Equation::Pitch(k, pitch) = equation else { continue };
+            // A thread that counts its turns has no branch on which it runs the other way.
+            if self.winding(&view, &cut.ends, k).is_some() {
+                continue;
+            }
             let way = self.see_cut_way(&view, cut);
             let axis = self.see_axis(&view, &cut.ends[0], k);
             let travel = self.g.dot(way, axis);

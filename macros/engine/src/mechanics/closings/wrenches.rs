@@ -6,7 +6,8 @@
 //! for axes c of the child and p of the parent (w_child - w_parent) . (c x p), for a rod d . (v_2 - v_1).
 //!
 //! Exact everywhere: ways along an axis of the parent, cosines, rods and expressions. For the gap of a point the term
-//! w_A . (f x d) is left out, and for a screw the cosine of its lag is taken as one: both hold where the loop is closed.
+//! w_A . (f x d) is left out, and for a screw that doesn't count its turns the cosine of its lag is taken as one: both hold
+//! where the loop is closed.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -136,6 +137,10 @@ impl Equations<'_> {
                     let p = self.see_axis(view, &cut.ends[0], other);
                     let both = self.g.cross(c, p);
                     moments.push(self.g.scale(-multiplier, both));
+                }
+                Equation::Turns(k) => {
+                    let axis = self.see_axis(view, &cut.ends[0], k);
+                    moments.push(self.g.scale(-multiplier, axis));
                 }
                 Equation::Pitch(k, pitch) => {
                     let axis = self.see_axis(view, &cut.ends[0], k);

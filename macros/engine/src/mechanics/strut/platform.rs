@@ -8,6 +8,7 @@
 
 use std::rc::Rc;
 
+use crate::mechanics::branches::Branch;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::reduction::Reduction;
 use crate::mechanics::structure::{Means, Role};
@@ -15,6 +16,7 @@ use crate::mechanics::tree::{Motion, Tree};
 use crate::model::types::{Closing, Comparison, ExprNode, Joint, JointKind, SolveHow};
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 use crate::symbolic::inputs::Known;
+use crate::symbolic::signs::is_positive;
 
 use super::carrier::{Axes, Carrier};
 use super::detect::{Chain, detect};
@@ -55,6 +57,10 @@ impl Equations<'_> {
         for step in &structure.steps {
             let Means::Solve(item) = step.means else { return None };
             let SolveHow::From { closing: Closing::Cut(ball), .. } = model.solves.get(item)?.how else { return None };
+            // Here each line keeps its sense.
+            if !self.branches.get(&item).is_some_and(Branch::is_fixed) {
+                return None;
+            }
             let (chain, link, pin) = self.chain(model.joints.get(ball.0)?)?;
             if *held.get_or_insert(link) != link {
                 return None;
@@ -133,7 +139,12 @@ impl Equations<'_> {
         let travel = self.mechanism.tree.links.get(chain.slide)?.q;
         let reach = self.g.add(chain.zero, travel);
         let reach = self.finish(reduction, &[reach]);
-        let reaches: Vec<f64> = self.samples(&reach).into_iter().flatten().collect();
+        let parameters = self.symbols.parameters();
+        let adjustable = self.g.depends_on(reach[0], &parameters);
+        if adjustable && !is_positive(&self.g, reach[0]) && !is_positive(&self.g, -reach[0]) {
+            return None;
+        }
+        let reaches: Vec<f64> = self.samples(&reach, &reduction.map).into_iter().flatten().collect();
         let first = *reaches.first()?;
         reaches.iter().all(|x| x * first > 0.0).then_some(first > 0.0)
     }
