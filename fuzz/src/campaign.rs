@@ -1,0 +1,102 @@
+//! Many models in a row, and what became of them.
+
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+use crate::mechanism::Mechanism;
+use crate::mechanism::shrink::minimise;
+use crate::oracle::{Verdict, tree};
+use crate::random::Random;
+
+/// What to run.
+#[derive(Clone, Copy, Debug)]
+pub struct Plan {
+    /// Number of models.
+    pub models: usize,
+    /// Of the first; the others follow.
+    pub seed: u64,
+    /// Of each class of failures so many are minimised and printed.
+    pub shown: usize,
+    /// No model is begun after this.
+    pub time: Duration,
+}
+
+/// Counts by class.
+#[derive(Debug, Default)]
+pub struct Tally {
+    /// Models looked at.
+    pub models: usize,
+    /// Numbers compared.
+    pub numbers: usize,
+    /// Refusals and failures by class.
+    pub classes: BTreeMap<String, Vec<u64>>,
+    /// Minimised failures as text.
+    pub reports: Vec<String>,
+}
+
+impl Tally {
+    /// How many models were wrong, or broke the compiler.
+    pub fn failures(&self) -> usize {
+        let bad = |class: &&String| !class.starts_with("true");
+        self.classes.keys().filter(bad).map(|class| self.classes[class].len()).sum()
+    }
+}
+
+/// A family of mechanisms and what is checked of them.
+pub trait Family {
+    /// The model of a seed.
+    fn draw(&self, seed: u64) -> Mechanism;
+    /// What becomes of it.
+    fn check(&self, mechanism: &Mechanism, seed: u64) -> Verdict;
+    /// Whether a refusal has a true reason.
+    fn excuses(&self, mechanism: &Mechanism, seed: u64, said: &[String]) -> bool;
+}
+
+/// Open chains and trees.
+pub struct Chains;
+
+impl Family for Chains {
+    fn draw(&self, seed: u64) -> Mechanism {
+        Mechanism::tree(&mut Random::new(seed))
+    }
+
+    fn check(&self, mechanism: &Mechanism, seed: u64) -> Verdict {
+        tree::check(mechanism, seed)
+    }
+
+    fn excuses(&self, mechanism: &Mechanism, seed: u64, said: &[String]) -> bool {
+        let singular = |text: &String| text.contains("mass or inertia") || text.contains("singular");
+        said.iter().all(singular) && tree::is_singular(mechanism, seed)
+    }
+}
+
+/// Runs a family.
+pub fn run(family: &dyn Family, plan: Plan) -> Tally {
+    let start = Instant::now();
+    let mut tally = Tally::default();
+    for seed in plan.seed..plan.seed + plan.models as u64 {
+        if start.elapsed() > plan.time {
+            break;
+        }
+        let mechanism = family.draw(seed);
+        let verdict = family.check(&mechanism, seed);
+        tally.models += 1;
+        let mut class = verdict.class();
+        match &verdict {
+            Verdict::Right(numbers) => {
+                tally.numbers += numbers;
+                continue;
+            }
+            Verdict::Refused(said) if family.excuses(&mechanism, seed, said) => class = format!("true {class}"),
+            _ => {}
+        }
+        let seen = tally.classes.entry(class.clone()).or_default();
+        seen.push(seed);
+        if seen.len() <= plan.shown {
+            let small = minimise(mechanism, 400, &|m| family.check(m, seed).class() == verdict.class());
+            let after = family.check(&small, seed);
+            tally.reports.push(format!("== {class}, seed {seed}\n{after}\n{}", small.text()));
+        }
+    }
+    tally
+}

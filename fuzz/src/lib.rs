@@ -1,0 +1,13 @@
+//! Random models against truth that the engine did not make.
+//!
+//! `mechanism` draws mechanisms as data and writes them in the language, `programs` compiles the text and interprets what
+//! comes of it, `plain` works the same data out in plain numbers, and `oracle` compares. A failure is made as small as it
+//! gets (`mechanism::shrink`) and printed as text.
+
+pub mod algebra;
+pub mod campaign;
+pub mod mechanism;
+pub mod oracle;
+pub mod plain;
+pub mod programs;
+pub mod random;

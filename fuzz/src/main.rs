@@ -1,0 +1,49 @@
+//! The long runs: `cargo run --release -p multibody-fuzz -- chains --models 10000 --seed 1`.
+
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use multibody_fuzz::campaign::{Chains, Family, Plan, Tally, run};
+
+fn number(arguments: &[String], name: &str, default: u64) -> u64 {
+    let at = arguments.iter().position(|word| word == name);
+    at.and_then(|k| arguments.get(k + 1)).and_then(|text| text.parse().ok()).unwrap_or(default)
+}
+
+fn show(what: &str, tally: &Tally, start: Instant) -> bool {
+    for report in &tally.reports {
+        println!("{report}");
+    }
+    let time = start.elapsed().as_secs_f64();
+    println!("{what}: {} models, {} numbers compared, {time:.1} s", tally.models, tally.numbers);
+    for (class, seeds) in &tally.classes {
+        println!("  {:5}  {class}  (seeds {:?})", seeds.len(), &seeds[..seeds.len().min(6)]);
+    }
+    tally.failures() == 0
+}
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let plan = Plan {
+        models: number(&arguments, "--models", 1000) as usize,
+        seed: number(&arguments, "--seed", 1),
+        shown: number(&arguments, "--shown", 2) as usize,
+        time: Duration::from_secs(number(&arguments, "--seconds", 36_000)),
+    };
+    std::panic::set_hook(Box::new(|_| {}));
+    let start = Instant::now();
+    let family: Box<dyn Family> = match arguments.first().map(String::as_str) {
+        Some("chains") => Box::new(Chains),
+        _ => {
+            println!("chains [--models N] [--seed S] [--shown K] [--seconds T]");
+            return ExitCode::FAILURE;
+        }
+    };
+    let name = arguments[0].as_str();
+    if let Some(seed) = arguments.iter().position(|word| word == "--print") {
+        let seed = arguments.get(seed + 1).and_then(|text| text.parse().ok()).unwrap_or(plan.seed);
+        println!("{}", family.draw(seed).text());
+    }
+    let tally = run(family.as_ref(), plan);
+    if show(name, &tally, start) { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}

@@ -1,0 +1,145 @@
+//! What must hold, whatever the model.
+
+pub mod tree;
+
+use std::fmt;
+
+use multibody_engine::optimize::program::Symbol;
+
+use crate::mechanism::expression::Point;
+use crate::programs::Values;
+
+/// What became of a model.
+#[derive(Clone, Debug)]
+pub enum Verdict {
+    /// Everything agrees; so many numbers were compared.
+    Right(usize),
+    /// The compiler says no.
+    Refused(Vec<String>),
+    /// A panic.
+    Panic,
+    /// What, by how much, and where.
+    Wrong(Vec<Fault>),
+}
+
+/// Numbers that don't agree.
+#[derive(Clone, Debug)]
+pub struct Fault {
+    /// Which function, against what.
+    pub what: String,
+    /// Difference over size.
+    pub error: f64,
+    /// What came and what should have come.
+    pub detail: String,
+}
+
+impl Verdict {
+    /// What minimising must keep: the kind of failure, and the first words of it.
+    pub fn class(&self) -> String {
+        match self {
+            Verdict::Right(_) => "right".into(),
+            Verdict::Refused(list) => {
+                // Names and numbers differ from model to model.
+                let text = list.first().cloned().unwrap_or_default();
+                let mut class = String::new();
+                for (k, part) in text.split('`').enumerate() {
+                    class += if k % 2 == 0 { part } else { "_" };
+                }
+                let digits = |c: char| if c.is_ascii_digit() { '0' } else { c };
+                format!("refused: {}", class.chars().map(digits).collect::<String>())
+            }
+            Verdict::Panic => "panic".into(),
+            Verdict::Wrong(list) => {
+                let text = list.first().map_or("", |fault| fault.what.as_str());
+                format!("wrong: {}", text.split(|c: char| c.is_ascii_digit()).next().unwrap_or_default())
+            }
+        }
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Verdict::Right(count) => write!(f, "right ({count} numbers)"),
+            Verdict::Refused(list) => write!(f, "refused: {}", list.join("; ")),
+            Verdict::Panic => write!(f, "panic"),
+            Verdict::Wrong(list) => {
+                for fault in list.iter().take(4) {
+                    writeln!(f, "{}: error {:.2e}; {}", fault.what, fault.error, fault.detail)?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+/// Faults so far, and how many numbers were compared.
+#[derive(Default)]
+pub struct Findings {
+    faults: Vec<Fault>,
+    compared: usize,
+}
+
+impl Findings {
+    /// Two lists, whose errors count in terms of `size`.
+    pub fn compare(&mut self, what: &str, got: &[f64], want: &[f64], size: f64, tolerance: f64) {
+        self.compared += got.len();
+        if got.len() != want.len() {
+            let detail = format!("{} numbers for {}", got.len(), want.len());
+            self.faults.push(Fault { what: what.into(), error: f64::INFINITY, detail });
+            return;
+        }
+        let mut worst = (0.0_f64, 0);
+        for (k, (a, b)) in got.iter().zip(want).enumerate() {
+            let error = (a - b).abs() / size.max(1e-3);
+            let error = if error.is_nan() { f64::INFINITY } else { error };
+            if error > worst.0 {
+                worst = (error, k);
+            }
+        }
+        if worst.0 > tolerance {
+            let k = worst.1;
+            let detail = format!("number {k} of {}: {:e} for {:e}", got.len(), got[k], want[k]);
+            self.faults.push(Fault { what: what.into(), error: worst.0, detail });
+        }
+    }
+
+    /// What became of it.
+    pub fn verdict(self) -> Verdict {
+        if self.faults.is_empty() { Verdict::Right(self.compared) } else { Verdict::Wrong(self.faults) }
+    }
+}
+
+/// A point as symbols: what other symbols there are is NaN.
+pub struct At<'a> {
+    /// Coordinates, parameters, inputs.
+    pub point: &'a Point,
+    /// Momenta and impulses, joint by joint.
+    pub momenta: Vec<Vec<f64>>,
+}
+
+impl<'a> At<'a> {
+    /// Without momenta.
+    pub fn new(point: &'a Point) -> At<'a> {
+        At { point, momenta: Vec::new() }
+    }
+}
+
+impl Values for At<'_> {
+    fn value(&self, symbol: Symbol, joint: Option<&str>) -> f64 {
+        let number = joint.and_then(|name| name.strip_prefix('j')).and_then(|text| text.parse::<usize>().ok());
+        let of = |list: &[Vec<f64>], component: usize| {
+            number.and_then(|k| list.get(k)).and_then(|list| list.get(component)).copied().unwrap_or(f64::NAN)
+        };
+        match symbol {
+            Symbol::Time => self.point.time,
+            Symbol::Param { param, .. } => self.point.params[param.0],
+            Symbol::Input { input, .. } => self.point.inputs[input.0],
+            Symbol::Position { component, .. } => of(&self.point.q, component),
+            Symbol::Velocity { component, .. } => of(&self.point.v, component),
+            Symbol::Acceleration { component, .. } => of(&self.point.a, component),
+            Symbol::Impulse { component, .. } | Symbol::Momentum { component, .. } => of(&self.momenta, component),
+            _ => f64::NAN,
+        }
+    }
+}

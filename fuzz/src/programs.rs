@@ -1,0 +1,91 @@
+//! From text to compiled programs, and these in numbers.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use multibody_engine::diagnostics::Diagnostics;
+use multibody_engine::mechanics::structure::Structure;
+use multibody_engine::model::types::{JointId, Model};
+use multibody_engine::optimize::program::{Compiled, FunctionKind, Symbol};
+use multibody_engine::{Trouble, compile, model, optimize, syntax};
+
+#[path = "../../macros/engine/tests/common/interpreter.rs"]
+mod interpreter;
+
+/// A compiled model.
+pub struct Programs {
+    /// As checked.
+    pub model: Model,
+    /// Of its coordinates.
+    pub structure: Structure,
+    /// Its functions.
+    pub compiled: Compiled,
+}
+
+/// Why there is none.
+#[derive(Clone, Debug)]
+pub enum Failure {
+    /// The messages.
+    Refused(Vec<String>),
+    /// The engine broke.
+    Panic,
+}
+
+/// Where the values of symbols come from.
+pub trait Values {
+    /// By what the symbol stands for; the joint's name is that of its field.
+    fn value(&self, symbol: Symbol, joint: Option<&str>) -> f64;
+}
+
+impl Programs {
+    /// Compiles the one model of a call.
+    pub fn new(text: &str) -> Result<Programs, Failure> {
+        catch_unwind(AssertUnwindSafe(|| Programs::build(text))).unwrap_or(Err(Failure::Panic))
+    }
+
+    fn build(text: &str) -> Result<Programs, Failure> {
+        let mut diagnostics = Diagnostics::default();
+        let tokens = text.parse().map_err(|_| Failure::Refused(vec!["no tokens".into()]))?;
+        let source = syntax::parse(tokens, &mut diagnostics);
+        let mut models = model::check(&source, &mut diagnostics);
+        let said: Vec<String> = diagnostics.errors().iter().map(|e| e.message.clone()).collect();
+        let (Some(model), []) = (models.pop(), &said[..]) else { return Err(Failure::Refused(said)) };
+        match compile(&model) {
+            Ok((structure, compiled)) => Ok(Programs { model, structure, compiled }),
+            Err(trouble) => Err(Failure::Refused(match trouble {
+                Trouble::Complaints(list) => list.into_iter().map(|complaint| complaint.message).collect(),
+                Trouble::Refused(optimize::Refusal::TooLarge) => vec!["too large".into()],
+                Trouble::Refused(_) => vec!["not finite".into()],
+            })),
+        }
+    }
+
+    fn joint(&self, id: JointId) -> String {
+        self.model.joints.get(id.0).map(|joint| joint.place.field.to_string()).unwrap_or_default()
+    }
+
+    /// Results of a function, if the model has it.
+    pub fn run(&self, kind: FunctionKind, values: &dyn Values) -> Option<Vec<f64>> {
+        let function = self.compiled.functions.iter().find(|f| f.kind == kind)?;
+        let symbols = |symbol: Symbol| {
+            let joint = match symbol {
+                Symbol::Position { joint, .. }
+                | Symbol::Velocity { joint, .. }
+                | Symbol::Acceleration { joint, .. }
+                | Symbol::Impulse { joint, .. }
+                | Symbol::Momentum { joint, .. } => Some(self.joint(joint)),
+                _ => None,
+            };
+            values.value(symbol, joint.as_deref())
+        };
+        let none = |_| f64::NAN;
+        let fields = interpreter::run(&self.compiled.prelude, &symbols, &none);
+        Some(interpreter::run(&function.program, &symbols, &|field| fields[field.0]))
+    }
+
+    /// The greatest ratio of two literals of a function: what comes of a division by rounding is far from all others.
+    pub fn extremes(&self) -> (f64, f64) {
+        let all = self.compiled.functions.iter().flat_map(|f| f.program.literals());
+        let sizes = all.chain(self.compiled.prelude.literals()).map(f64::abs).filter(|x| *x > 0.0);
+        sizes.fold((f64::INFINITY, 0.0), |(low, high), x| (low.min(x), high.max(x)))
+    }
+}
