@@ -286,7 +286,8 @@ impl<'a> Plain<'a> {
                     let (from, to) = (self.frame(a), self.frame(b));
                     let d = minus(to.place, from.place);
                     let reach = norm(d);
-                    let n = scaled(1.0 / reach, d);
+                    // Where two points meet there is no direction, and no force.
+                    let n = if reach > 1e-9 { scaled(1.0 / reach, d) } else { none };
                     let rate = dot(n, minus(to.velocity, from.velocity));
                     let pull = value(stiffness) * (reach - value(length)) + value(damping) * rate;
                     push(a, scaled(pull, n), none);

@@ -50,6 +50,15 @@ impl Mechanism {
         }
         offer(&|m| std::mem::take(&mut m.outputs));
         offer(&|m| m.gravity.take().is_some());
+        offer(&|m| {
+            let mut read = 0;
+            m.expressions(&mut |e| {
+                if let Expr::Input(k) = e {
+                    read = read.max(*k + 1);
+                }
+            });
+            std::mem::replace(&mut m.inputs, read) != read
+        });
         for k in 0..self.params.len() {
             offer(&|m| m.bind(k));
         }
