@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use crate::mechanism::Mechanism;
 use crate::mechanism::shrink::minimise;
-use crate::oracle::{Verdict, tree};
+use crate::oracle::{Verdict, loops, tree};
 use crate::random::Random;
 
 /// What to run.
@@ -67,6 +67,23 @@ impl Family for Chains {
     fn excuses(&self, mechanism: &Mechanism, seed: u64, said: &[String]) -> bool {
         let singular = |text: &String| text.contains("mass or inertia") || text.contains("singular");
         said.iter().all(singular) && tree::is_singular(mechanism, seed)
+    }
+}
+
+/// Loops of all kinds in all formulations.
+pub struct Loops;
+
+impl Family for Loops {
+    fn draw(&self, seed: u64) -> Mechanism {
+        Mechanism::looped_one(&mut Random::new(seed))
+    }
+
+    fn check(&self, mechanism: &Mechanism, seed: u64) -> Verdict {
+        loops::check(mechanism, seed)
+    }
+
+    fn excuses(&self, mechanism: &Mechanism, _: u64, _: &[String]) -> bool {
+        !loops::is_regular(mechanism)
     }
 }
 

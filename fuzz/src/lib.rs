@@ -6,6 +6,7 @@
 
 pub mod algebra;
 pub mod campaign;
+pub mod closed;
 pub mod mechanism;
 pub mod oracle;
 pub mod plain;

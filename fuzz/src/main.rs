@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-use multibody_fuzz::campaign::{Chains, Family, Plan, Tally, run};
+use multibody_fuzz::campaign::{Chains, Family, Loops, Plan, Tally, run};
 
 fn number(arguments: &[String], name: &str, default: u64) -> u64 {
     let at = arguments.iter().position(|word| word == name);
@@ -34,8 +34,9 @@ fn main() -> ExitCode {
     let start = Instant::now();
     let family: Box<dyn Family> = match arguments.first().map(String::as_str) {
         Some("chains") => Box::new(Chains),
+        Some("loops") => Box::new(Loops),
         _ => {
-            println!("chains [--models N] [--seed S] [--shown K] [--seconds T]");
+            println!("chains|loops [--models N] [--seed S] [--shown K] [--seconds T]");
             return ExitCode::FAILURE;
         }
     };

@@ -310,6 +310,12 @@ impl<'a> Plain<'a> {
         (wrenches, efforts, power)
     }
 
+    /// What joints must exert on a body beside declared forces on it: a force, and a moment about its origin.
+    pub fn needed(&self, body: usize) -> Wrench {
+        let (need, have) = (self.inertial(body), self.applied().0[body]);
+        (minus(need.0, have.0), minus(need.1, have.1))
+    }
+
     /// Efforts that the motion needs beside declared forces, and the sum of sizes that they are made of.
     pub fn efforts(&self) -> (Vec<f64>, f64) {
         let (wrenches, own, _) = self.applied();

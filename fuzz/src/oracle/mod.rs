@@ -1,5 +1,6 @@
 //! What must hold, whatever the model.
 
+pub mod loops;
 pub mod tree;
 
 use std::fmt;

@@ -1,0 +1,244 @@
+//! Closed loops in all formulations, against the plain tree with multipliers for all equations.
+
+use multibody_engine::mechanics::structure::Means;
+use multibody_engine::optimize::program::{FunctionKind, Symbol};
+
+use super::{At, Findings, Verdict};
+use crate::algebra::{V3, apply, dot, norm, quaternion, transposed};
+use crate::closed::{accelerations, settled, state};
+use crate::mechanism::Mechanism;
+use crate::mechanism::expression::Point;
+use crate::plain::{Motion, Plain, split};
+use crate::programs::{Failure, Programs, Values};
+use crate::random::Random;
+
+const TOLERANCE: f64 = 1e-7;
+
+/// Compiles it and looks at it at several closed states.
+pub fn check(mechanism: &Mechanism, seed: u64) -> Verdict {
+    let programs = match Programs::new(&mechanism.text()) {
+        Ok(programs) => programs,
+        Err(Failure::Panic) => return Verdict::Panic,
+        Err(Failure::Refused(list)) => return Verdict::Refused(list),
+    };
+    let mut random = Random::new(seed);
+    let mut findings = Findings::default();
+    for _ in 0..8 {
+        let Some(point) = state(mechanism, &mut random) else { continue };
+        look(mechanism, &programs, &point, &mut findings);
+        if findings.compared > 400 {
+            break;
+        }
+    }
+    findings.verdict()
+}
+
+/// Whether the drawn configuration is one at all, and not a singular one.
+pub fn is_regular(mechanism: &Mechanism) -> bool {
+    let mut random = Random::new(0);
+    let mut at = mechanism.point(&mut random);
+    at.params.clear();
+    for default in &mechanism.params {
+        let value = default.value(&at);
+        at.params.push(value);
+    }
+    at.q = mechanism.closed.clone();
+    settled(mechanism, at).and_then(|at| accelerations(mechanism, &at)).is_some_and(|found| found.ratio > 1e-3)
+}
+
+/// Roll, pitch, yaw of a turn.
+fn angles(r: &[V3; 3]) -> [f64; 3] {
+    [r[2][1].atan2(r[2][2]), -r[2][0].clamp(-1.0, 1.0).asin(), r[1][0].atan2(r[0][0])]
+}
+
+/// Rates of roll, pitch, yaw for an angular velocity in world axes.
+fn angle_rates([_, pitch, yaw]: [f64; 3], w: V3) -> [f64; 3] {
+    let ((sp, cp), (sy, cy)) = (pitch.sin_cos(), yaw.sin_cos());
+    let level = cy * w[0] + sy * w[1];
+    [level / cp, cy * w[1] - sy * w[0], w[2] + level * sp / cp]
+}
+
+/// A closed state in any formulation's coordinates.
+struct Anywhere<'a> {
+    tree: At<'a>,
+    bodies: &'a [Motion],
+    quaternions: bool,
+    guesses: Vec<f64>,
+}
+
+impl Values for Anywhere<'_> {
+    fn value(&self, symbol: Symbol, joint: Option<&str>) -> f64 {
+        if let Symbol::Guess { index } = symbol {
+            return self.guesses.get(index).copied().unwrap_or(f64::NAN);
+        }
+        let body = joint.and_then(|name| name.strip_prefix('b')).and_then(|text| text.parse::<usize>().ok());
+        let Some(body) = body.and_then(|k| self.bodies.get(k)) else { return self.tree.value(symbol, joint) };
+        let rpy = angles(&body.rotation);
+        match symbol {
+            Symbol::Position { component, .. } if component < 3 => body.place[component],
+            Symbol::Position { component, .. } if self.quaternions => quaternion(&body.rotation)[component - 3],
+            Symbol::Position { component, .. } => rpy[component - 3],
+            Symbol::Velocity { component, .. } if component < 3 => body.velocity[component],
+            Symbol::Velocity { component, .. } if self.quaternions => {
+                apply(&transposed(&body.rotation), body.omega)[component - 3]
+            }
+            Symbol::Velocity { component, .. } => angle_rates(rpy, body.omega)[component - 3],
+            _ => f64::NAN,
+        }
+    }
+}
+
+fn look(m: &Mechanism, programs: &Programs, point: &Point, findings: &mut Findings) {
+    let Some(found) = accelerations(m, point) else { return };
+    // Near a singular pose nothing says how large a difference may be.
+    if found.ratio < 1e-2 || found.accelerations.iter().any(|x| x.abs() > 1e5) {
+        return;
+    }
+    let point = Point { a: split(m, &found.accelerations), ..point.clone() };
+    let plain = Plain::new(m, &point);
+    let absolute = m.tail.contains("Absolute");
+    let quaternions = m.tail.contains("Absolute(Quaternion)");
+    if absolute && !quaternions && plain.bodies.iter().any(|b| angles(&b.rotation)[1].cos().abs() < 0.3) {
+        return;
+    }
+    // The branch that was chosen.
+    if m.tail.contains("solve") && point.q[2][0].sin() < 0.05 {
+        return;
+    }
+    let guesses = guesses(m, programs, &point);
+    let values = Anywhere { tree: At::new(&point), bodies: &plain.bodies, quaternions, guesses };
+    let fastest = found.accelerations.iter().fold(10.0_f64, |r, x| r.max(x.abs()));
+    let reach = 1.0 + plain.bodies.iter().fold(0.0_f64, |r, b| r.max(norm(b.place)));
+    let [kinetic, potential] = plain.energies();
+    if let Some(got) = programs.run(FunctionKind::KineticEnergy, &values) {
+        findings.compare("kinetic energy", &got, &[kinetic], kinetic, TOLERANCE);
+    }
+    if let Some(got) = programs.run(FunctionKind::PotentialEnergy, &values) {
+        findings.compare("potential energy", &got, &[potential], potential.abs() + kinetic + 1.0, TOLERANCE);
+    }
+    let equations = programs.structure.independent.len();
+    if !absolute && equations != found.rank && programs.structure.steps.is_empty() {
+        findings.compare("number of equations", &[equations as f64], &[found.rank as f64], 1.0, 0.0);
+    }
+    if !absolute {
+        let joint = |k: usize| -> Option<usize> {
+            programs.model.joints.get(k)?.place.field.to_string().strip_prefix('j')?.parse().ok()
+        };
+        let state: Vec<(usize, usize)> =
+            programs.structure.state.iter().filter_map(|c| Some((joint(c.joint.0)?, c.index))).collect();
+        let want: Vec<f64> = state.iter().map(|&(j, k)| point.a[j][k]).collect();
+        if let Some(got) = programs.run(FunctionKind::ForwardDynamics, &values) {
+            let got = &got[..want.len().min(got.len())];
+            findings.compare("forward dynamics", got, &want, fastest / found.ratio, TOLERANCE);
+        }
+        if let Some(got) = programs.run(FunctionKind::MassMatrix, &values) {
+            let v: Vec<f64> = state.iter().map(|&(j, k)| point.v[j][k]).collect();
+            let twice: f64 = got.chunks(v.len().max(1)).zip(&v).map(|(row, x)| x * row.iter().zip(&v).map(|(m, y)| m * y).sum::<f64>()).sum();
+            findings.compare("mass matrix (energy)", &[0.5 * twice], &[kinetic], kinetic, TOLERANCE);
+        }
+        if m.tail.contains("Reduced") {
+            if let Some(got) = programs.run(FunctionKind::InverseDynamics, &values) {
+                let zero = vec![0.0; got.len()];
+                findings.compare("inverse dynamics (left)", &got, &zero, plain.efforts().1 / found.ratio, TOLERANCE);
+            }
+        }
+    }
+    if m.outputs {
+        outputs(m, programs, &values, &plain, (reach, fastest / found.ratio), findings);
+    }
+}
+
+fn outputs(
+    m: &Mechanism,
+    programs: &Programs,
+    values: &Anywhere<'_>,
+    plain: &Plain<'_>,
+    (reach, fastest): (f64, f64),
+    findings: &mut Findings,
+) {
+    let Some(got) = programs.run(FunctionKind::Outputs, values) else { return };
+    // What has a fixed width stands before and behind the Jacobians.
+    let freedoms = programs.structure.freedoms();
+    let mut rest = &got[..];
+    for (k, body) in plain.bodies.iter().enumerate() {
+        let mut take = |what: &str, want: &[f64], size: f64| {
+            let (own, more) = rest.split_at(want.len().min(rest.len()));
+            rest = more;
+            findings.compare(&format!("{what} of b{k}"), own, want, size, TOLERANCE);
+        };
+        take("position", &body.place, reach);
+        take("rotation", body.rotation.as_flattened(), 1.0);
+        take("twist", &[body.velocity, body.omega].concat(), 10.0 * reach);
+        take("acceleration", &body.acceleration, reach * fastest);
+        take("angular acceleration", &body.alpha, fastest);
+        let width = 6 * freedoms;
+        if rest.len() < width {
+            findings.compare("Jacobian", rest, &vec![0.0; width], 1.0, 0.0);
+            return;
+        }
+        let (columns, more) = rest.split_at(width);
+        rest = more;
+        // Jacobian by velocity is the twist.
+        let v: Vec<f64> = programs
+            .structure
+            .state
+            .iter()
+            .map(|c| {
+                let name = programs.model.joints[c.joint.0].place.field.to_string();
+                values.value(Symbol::Velocity { joint: c.joint, component: c.index }, Some(&name))
+            })
+            .collect();
+        let twist: Vec<f64> =
+            columns.chunks(freedoms.max(1)).map(|row| row.iter().zip(&v).map(|(a, b)| a * b).sum()).collect();
+        findings.compare(&format!("Jacobian by velocity of b{k}"), &twist, &[body.velocity, body.omega].concat(), 10.0 * reach, TOLERANCE);
+    }
+    // Reactions: the body's balance. Those of all joints at a body, with declared forces, are what its motion takes.
+    let count = m.joints.len();
+    if rest.len() != 6 * count {
+        findings.compare("number of outputs", &[rest.len() as f64], &[6.0 * count as f64], 1.0, 0.0);
+        return;
+    }
+    if !m.rods.is_empty() {
+        return;
+    }
+    let size = plain.efforts().1 * reach + fastest;
+    for body in 0..m.bodies.len() {
+        let (need, mut have) = (plain.needed(body), ([0.0; 3], [0.0; 3]));
+        let mut largest = size;
+        for (k, joint) in m.joints.iter().enumerate() {
+            let part = |at: usize| [0, 1, 2].map(|i| rest[6 * k + at + i]);
+            let (force, moment) = (part(0), part(3));
+            let on_child = joint.child.body == Some(body);
+            if !on_child && joint.parent.body != Some(body) {
+                continue;
+            }
+            let point = plain.frame(&joint.child).place;
+            let sign = if on_child { 1.0 } else { -1.0 };
+            let arm = crate::algebra::minus(point, plain.bodies[body].place);
+            let turned = crate::algebra::plus(moment, crate::algebra::cross(arm, force));
+            have.0 = crate::algebra::plus(have.0, crate::algebra::scaled(sign, force));
+            have.1 = crate::algebra::plus(have.1, crate::algebra::scaled(sign, turned));
+            largest = largest.max(dot(force, force).sqrt() + dot(turned, turned).sqrt());
+        }
+        let (have, need) = ([have.0, have.1].concat(), [need.0, need.1].concat());
+        findings.compare(&format!("balance of b{body} with reactions"), &have, &need, largest, TOLERANCE);
+    }
+}
+
+/// Where Newton's method starts: near the truth.
+fn guesses(m: &Mechanism, programs: &Programs, point: &Point) -> Vec<f64> {
+    let mut list = vec![f64::NAN; programs.structure.guesses()];
+    for step in &programs.structure.steps {
+        let Means::Newton { guess, .. } = step.means else { continue };
+        for (k, unknown) in step.unknowns.iter().enumerate() {
+            let name = programs.model.joints[unknown.joint.0].place.field.to_string();
+            let joint = name.strip_prefix('j').and_then(|text| text.parse::<usize>().ok());
+            if let Some(joint) = joint.filter(|&j| j < m.bodies.len()) {
+                if m.joints[joint].kind.quaternion().is_none() {
+                    list[guess + k] = point.q[joint][unknown.index] + 1e-3;
+                }
+            }
+        }
+    }
+    list
+}
