@@ -108,6 +108,9 @@ pub fn hamilton(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
 
 /// The solution of least squares and least length, and the ratio of the least to the greatest singular value kept.
 pub fn least(matrix: &DMatrix<f64>, rhs: &DVector<f64>) -> (DVector<f64>, f64, usize) {
+    if matrix.is_empty() {
+        return (DVector::zeros(matrix.ncols()), 1.0, 0);
+    }
     let svd = matrix.clone().svd(true, true);
     let most = svd.singular_values.iter().fold(0.0_f64, |m, x| m.max(*x));
     let bound = 1e-9 * most;

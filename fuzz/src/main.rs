@@ -30,7 +30,9 @@ fn main() -> ExitCode {
         shown: number(&arguments, "--shown", 2) as usize,
         time: Duration::from_secs(number(&arguments, "--seconds", 36_000)),
     };
-    std::panic::set_hook(Box::new(|_| {}));
+    if !arguments.iter().any(|word| word == "--panics") {
+        std::panic::set_hook(Box::new(|_| {}));
+    }
     let start = Instant::now();
     let family: Box<dyn Family> = match arguments.first().map(String::as_str) {
         Some("chains") => Box::new(Chains),

@@ -43,7 +43,9 @@ pub fn is_regular(mechanism: &Mechanism) -> bool {
         at.params.push(value);
     }
     at.q = mechanism.closed.clone();
-    settled(mechanism, at).and_then(|at| accelerations(mechanism, &at)).is_some_and(|found| found.ratio > 1e-3)
+    settled(mechanism, at).and_then(|at| accelerations(mechanism, &at)).is_some_and(|found| {
+        found.ratio > 1e-3 && found.rank < mechanism.freedoms()
+    })
 }
 
 /// Roll, pitch, yaw of a turn.
@@ -172,8 +174,9 @@ fn outputs(
         take("acceleration", &body.acceleration, reach * fastest);
         take("angular acceleration", &body.alpha, fastest);
         let width = 6 * freedoms;
-        if rest.len() < width {
-            findings.compare("Jacobian", rest, &vec![0.0; width], 1.0, 0.0);
+        let expected = (m.bodies.len() * (24 + width)) + 6 * m.joints.len();
+        if got.len() != expected {
+            findings.compare("number of outputs", &[got.len() as f64], &[expected as f64], 1.0, 0.0);
             return;
         }
         let (columns, more) = rest.split_at(width);
