@@ -62,9 +62,7 @@ pub fn about(axis: V3, angle: f64) -> Matrix {
     let n = scaled(1.0 / norm(axis), axis);
     let (s, c) = angle.sin_cos();
     let k = [[0.0, -n[2], n[1]], [n[2], 0.0, -n[0]], [-n[1], n[0], 0.0]];
-    [0, 1, 2].map(|i| {
-        [0, 1, 2].map(|j| c * f64::from(u8::from(i == j)) + s * k[i][j] + (1.0 - c) * n[i] * n[j])
-    })
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| c * f64::from(u8::from(i == j)) + s * k[i][j] + (1.0 - c) * n[i] * n[j]))
 }
 
 /// The turn of a unit quaternion, real part first.

@@ -7,6 +7,8 @@
 pub mod algebra;
 pub mod campaign;
 pub mod closed;
+pub mod grammar;
+pub mod grammar_campaign;
 pub mod mechanism;
 pub mod oracle;
 pub mod plain;

@@ -4,6 +4,7 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use multibody_fuzz::campaign::{Chains, Family, Loops, Plan, Tally, run};
+use multibody_fuzz::grammar_campaign;
 
 fn number(arguments: &[String], name: &str, default: u64) -> u64 {
     let at = arguments.iter().position(|word| word == name);
@@ -34,11 +35,26 @@ fn main() -> ExitCode {
         std::panic::set_hook(Box::new(|_| {}));
     }
     let start = Instant::now();
+    let done = match arguments.first().map(String::as_str) {
+        Some("grammar") => Some(grammar_campaign::run(plan, false).0),
+        Some("broken") => Some(grammar_campaign::run(plan, true).0),
+        Some("rustc") => match grammar_campaign::through_rustc(plan, "long") {
+            Ok(tally) => Some(tally),
+            Err(error) => {
+                println!("{error}");
+                return ExitCode::FAILURE;
+            }
+        },
+        _ => None,
+    };
+    if let Some(tally) = done {
+        return if show(&arguments[0], &tally, start) { ExitCode::SUCCESS } else { ExitCode::FAILURE };
+    }
     let family: Box<dyn Family> = match arguments.first().map(String::as_str) {
         Some("chains") => Box::new(Chains),
         Some("loops") => Box::new(Loops),
         _ => {
-            println!("chains|loops [--models N] [--seed S] [--shown K] [--seconds T]");
+            println!("chains|loops|grammar|broken|rustc [--models N] [--seed S] [--shown K] [--seconds T]");
             return ExitCode::FAILURE;
         }
     };

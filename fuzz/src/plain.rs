@@ -36,14 +36,7 @@ impl Motion {
     /// The ground.
     pub fn still() -> Motion {
         let none = [0.0; 3];
-        Motion {
-            rotation: identity(),
-            place: none,
-            velocity: none,
-            acceleration: none,
-            omega: none,
-            alpha: none,
-        }
+        Motion { rotation: identity(), place: none, velocity: none, acceleration: none, omega: none, alpha: none }
     }
 
     /// A frame that is fixed to this one.
@@ -152,9 +145,7 @@ fn tensor(body: &Body, at: &Point) -> Matrix {
     let diagonal = |x: f64, y: f64, z: f64| [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]];
     let round = |across: f64, along: f64, axis: V3| {
         let n = scaled(1.0 / norm(axis), axis);
-        [0, 1, 2].map(|i| {
-            [0, 1, 2].map(|j| across * f64::from(u8::from(i == j)) + (along - across) * n[i] * n[j])
-        })
+        [0, 1, 2].map(|i| [0, 1, 2].map(|j| across * f64::from(u8::from(i == j)) + (along - across) * n[i] * n[j]))
     };
     let m = body.mass.value(at);
     match &body.inertia {

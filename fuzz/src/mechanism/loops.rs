@@ -137,10 +137,8 @@ impl Mechanism {
         // Every body may be written in axes of its own.
         let own: Vec<Vec<Step>> =
             (0..3).map(|_| if random.chance(40) { vec![turn(random)] } else { Vec::new() }).collect();
-        let with = |k: usize, step: Option<Step>| Frame {
-            body: Some(k),
-            steps: own[k].iter().cloned().chain(step).collect(),
-        };
+        let with =
+            |k: usize, step: Option<Step>| Frame { body: Some(k), steps: own[k].iter().cloned().chain(step).collect() };
         let slider = random.chance(30);
         for k in 0..3 {
             let kind = if slider && k == 2 {
@@ -213,7 +211,8 @@ impl Mechanism {
         let last = m.bodies.len() - 1;
         for _ in 0..rods {
             let normal = any_normal(random, [1.0, 0.3, 0.2]);
-            let first = Frame { body: None, steps: vec![Step::At(Vector::literal(normal.map(|x| (x * 1e3).round() / 1e3)))] };
+            let first =
+                Frame { body: None, steps: vec![Step::At(Vector::literal(normal.map(|x| (x * 1e3).round() / 1e3)))] };
             let second = m.frame(random, Some(last));
             let plain = Plain::new(&m, &point);
             let length = norm(minus(plain.frame(&first).place, plain.frame(&second).place));

@@ -124,11 +124,11 @@ pub fn typed(matrix: &Matrix) -> [[Expr; 3]; 3] {
 pub fn turn(random: &mut Random) -> Step {
     match random.below(10) {
         0 => {
-            let quarters = [[[0, -1, 0], [1, 0, 0], [0, 0, 1]], [[1, 0, 0], [0, 0, -1], [0, 1, 0]], [
-                [0, 0, 1],
-                [1, 0, 0],
-                [0, 1, 0],
-            ]];
+            let quarters = [
+                [[0, -1, 0], [1, 0, 0], [0, 0, 1]],
+                [[1, 0, 0], [0, 0, -1], [0, 1, 0]],
+                [[0, 0, 1], [1, 0, 0], [0, 1, 0]],
+            ];
             Step::Oriented(random.pick(&quarters).map(|row| row.map(|k: i32| number(format!("{k}"), f64::from(k)))))
         }
         1 => Step::Oriented(

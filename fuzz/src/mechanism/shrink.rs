@@ -70,7 +70,10 @@ impl Mechanism {
                 !same
             });
             offer(&|m| replace(&mut m.bodies[k].com, &Vector::Whole("0 * X".into(), [0.0; 3])));
-            offer(&|m| replace(&mut m.bodies[k].com, &Vector::Whole("X".into(), [1.0, 0.0, 0.0])) && !self.bodies[k].com.text().starts_with('0'));
+            offer(&|m| {
+                replace(&mut m.bodies[k].com, &Vector::Whole("X".into(), [1.0, 0.0, 0.0]))
+                    && !self.bodies[k].com.text().starts_with('0')
+            });
             offer(&|m| plain(&m.bodies[k].mass, 1.0).map(|e| m.bodies[k].mass = e).is_some());
         }
         for k in 0..self.joints.len() {

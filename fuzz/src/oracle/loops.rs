@@ -43,9 +43,9 @@ pub fn is_regular(mechanism: &Mechanism) -> bool {
         at.params.push(value);
     }
     at.q = mechanism.closed.clone();
-    settled(mechanism, at).and_then(|at| accelerations(mechanism, &at)).is_some_and(|found| {
-        found.ratio > 1e-3 && found.rank < mechanism.freedoms()
-    })
+    settled(mechanism, at)
+        .and_then(|at| accelerations(mechanism, &at))
+        .is_some_and(|found| found.ratio > 1e-3 && found.rank < mechanism.freedoms())
 }
 
 /// Roll, pitch, yaw of a turn.
@@ -135,7 +135,11 @@ fn look(m: &Mechanism, programs: &Programs, point: &Point, findings: &mut Findin
         }
         if let Some(got) = programs.run(FunctionKind::MassMatrix, &values) {
             let v: Vec<f64> = state.iter().map(|&(j, k)| point.v[j][k]).collect();
-            let twice: f64 = got.chunks(v.len().max(1)).zip(&v).map(|(row, x)| x * row.iter().zip(&v).map(|(m, y)| m * y).sum::<f64>()).sum();
+            let twice: f64 = got
+                .chunks(v.len().max(1))
+                .zip(&v)
+                .map(|(row, x)| x * row.iter().zip(&v).map(|(m, y)| m * y).sum::<f64>())
+                .sum();
             findings.compare("mass matrix (energy)", &[0.5 * twice], &[kinetic], kinetic, TOLERANCE);
         }
         if m.tail.contains("Reduced") {
@@ -193,7 +197,13 @@ fn outputs(
             .collect();
         let twist: Vec<f64> =
             columns.chunks(freedoms.max(1)).map(|row| row.iter().zip(&v).map(|(a, b)| a * b).sum()).collect();
-        findings.compare(&format!("Jacobian by velocity of b{k}"), &twist, &[body.velocity, body.omega].concat(), 10.0 * reach, TOLERANCE);
+        findings.compare(
+            &format!("Jacobian by velocity of b{k}"),
+            &twist,
+            &[body.velocity, body.omega].concat(),
+            10.0 * reach,
+            TOLERANCE,
+        );
     }
     // Reactions: the body's balance. Those of all joints at a body, with declared forces, are what its motion takes.
     let count = m.joints.len();

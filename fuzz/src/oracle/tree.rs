@@ -191,7 +191,8 @@ impl Sight<'_> {
         if let Some(got) = run(FunctionKind::Momentum) {
             findings.compare("momentum", &got, &list, size, TOLERANCE);
         }
-        for (what, kind) in [("velocity of momenta", FunctionKind::MomentumVelocity), ("impulse", FunctionKind::Impulse)]
+        for (what, kind) in
+            [("velocity of momenta", FunctionKind::MomentumVelocity), ("impulse", FunctionKind::Impulse)]
         {
             if let Some(got) = run(kind) {
                 let bound = TOLERANCE * (1.0 + 1e-4 * ratio());

@@ -1,0 +1,434 @@
+//! Random calls of the macro that keep to the grammar and to the types: everything that the language has, in any order.
+//!
+//! A call is one item per line, so a failure is made small by leaving lines out. What comes of a call is code or
+//! messages of the compiler's own; the code must pass `rustc` and clippy without a word (`rustc`).
+
+pub mod expressions;
+pub mod mutate;
+pub mod names;
+pub mod oracle;
+pub mod rustc;
+
+use std::fmt::Write;
+
+use expressions::{Level, axis, literal, output, positive, rotation, scalar, vector};
+use names::{Names, Shape};
+
+use crate::random::Random;
+
+/// A call as lines: one item or one bracket each.
+pub fn call(random: &mut Random) -> Vec<String> {
+    let mut out = Lines::default();
+    let part = random.chance(35).then(|| out.part(random));
+    out.model(random, part.as_ref());
+    out.lines
+}
+
+#[derive(Default)]
+struct Lines {
+    lines: Vec<String>,
+    /// For names that are never used twice.
+    count: usize,
+}
+
+struct Part {
+    names: Names,
+    params: Vec<String>,
+}
+
+const UNITS: [&str; 4] = ["/// [kg] of something", "/// [N m]", "/// words", "/// [m/s^2]"];
+
+impl Lines {
+    fn push(&mut self, line: String) {
+        self.lines.push(line);
+    }
+
+    fn name(&mut self, random: &mut Random, stem: &str) -> String {
+        self.count += 1;
+        // Words of Rust and of generated code among them.
+        let odd =
+            ["state", "time", "model", "self_", "r#type", "v", "q", "params", "input_", "r#match", "values", "c1"];
+        if random.chance(6) {
+            let word = *random.pick(&odd);
+            if !["state", "time"].contains(&word) {
+                return format!(
+                    "{word}{}",
+                    if word.starts_with("r#") { String::new() } else { self.count.to_string() }
+                );
+            }
+        }
+        format!("{stem}{}", self.count)
+    }
+
+    /// Constants, parameters, inputs.
+    fn values(&mut self, random: &mut Random, names: &mut Names, part: bool) -> Vec<String> {
+        let mut params = Vec::new();
+        for _ in 0..random.below(3) {
+            let name = format!("K{}", {
+                self.count += 1;
+                self.count
+            });
+            match random.below(4) {
+                0 => {
+                    self.push(format!("const {name}: Vec3 = [{}, 0.5, 1];", literal(random)));
+                    names.vectors.push((Shape::Const, name));
+                }
+                1 => {
+                    self.push(format!("const {name}: [Scalar; 2] = [{}, 2];", literal(random)));
+                    names.scalars.push((Shape::Const, format!("{name}[1]")));
+                }
+                _ => {
+                    self.push(format!("const {name} = {};", positive(random, names, Level::Constant)));
+                    names.scalars.push((Shape::Const, name));
+                }
+            }
+        }
+        for _ in 0..random.below(4) {
+            let name = self.name(random, "p");
+            if random.chance(40) {
+                self.push((*random.pick(&UNITS)).to_owned());
+            }
+            match random.below(5) {
+                0 => {
+                    self.push(format!("param {name}: Vec3 = [0.3, {}, 1];", literal(random)));
+                    names.vectors.push((Shape::Param, name));
+                }
+                1 => {
+                    self.push(format!(
+                        "param {name}: [Scalar; 3] = [1, 0.4, {}];",
+                        positive(random, names, Level::Constant)
+                    ));
+                    names.scalars.push((Shape::Param, format!("{name}[2]")));
+                    names.scalars.push((Shape::Param, format!("{name}[0]")));
+                }
+                2 => {
+                    self.push(format!("param {name}: [Vec3; 2] = [[1, 0, 0], [0, 0.1, 0.2]];"));
+                    names.vectors.push((Shape::Param, format!("{name}[1]")));
+                }
+                _ => {
+                    self.push(format!("param {name} = {};", positive(random, names, Level::Parameter)));
+                    names.scalars.push((Shape::Param, name.clone()));
+                    params.push(name);
+                }
+            }
+        }
+        for _ in 0..random.below(if part { 2 } else { 3 }) {
+            let name = self.name(random, "u");
+            match random.below(4) {
+                0 => {
+                    self.push(format!("input {name}: Vec3;"));
+                    names.vectors.push((Shape::Input, name));
+                }
+                1 => {
+                    self.push(format!("input {name}: [Scalar; 2];"));
+                    names.scalars.push((Shape::Input, format!("{name}[0]")));
+                }
+                _ => {
+                    self.push(format!("input {name};"));
+                    names.scalars.push((Shape::Input, name));
+                }
+            }
+        }
+        params
+    }
+
+    fn inertia(&self, random: &mut Random, names: &Names, mass: &str) -> String {
+        let p = |random: &mut Random| positive(random, names, Level::Parameter);
+        match random.below(7) {
+            0 => format!("cuboid({mass}, [{}, 0.4, {}])", p(random), p(random)),
+            1 => format!("cylinder({mass}, {}, {}, {})", p(random), p(random), axis(random, names)),
+            2 => format!("sphere({mass}, {})", p(random)),
+            3 => "inertia(0.2, 0.23, 0.21, 0.02, -0.01, 0.03)".into(),
+            4 => {
+                let x = p(random);
+                format!("diag({x}, {x}, {x})")
+            }
+            _ => "diag(0.1, 0.2, 0.25)".into(),
+        }
+    }
+
+    fn place(&self, random: &mut Random, names: &Names, frame: &str) -> String {
+        let mut text = frame.to_owned();
+        for _ in 0..random.below(3) {
+            text += &match random.below(4) {
+                0 => format!(".rotated({}, {})", axis(random, names), scalar(random, names, Level::Parameter, 1)),
+                1 => ".oriented([[0, -1, 0], [1, 0, 0], [0, 0, 1]])".into(),
+                _ => format!(".at({})", vector(random, names, Level::Parameter, 1)),
+            };
+        }
+        text
+    }
+
+    /// A body on a joint.
+    fn link(&mut self, random: &mut Random, names: &mut Names, parent: &str, kinds: usize) {
+        let (body, joint) = (self.name(random, "b"), self.name(random, "j"));
+        let mass = positive(random, names, Level::Parameter);
+        let inertia = self.inertia(random, names, &mass);
+        let com = if random.chance(60) {
+            format!(", com: {}", vector(random, names, Level::Parameter, 1))
+        } else {
+            String::new()
+        };
+        if random.chance(20) {
+            self.push("/// A body with words.".into());
+        }
+        self.push(format!("body {body} {{ mass: {mass}{com}, inertia: {inertia} }}"));
+        let parent = self.place(random, names, parent);
+        let child = if random.chance(70) { body.clone() } else { self.place(random, names, &body) };
+        let a = axis(random, names);
+        let armature = if random.chance(20) { ", armature: 0.05" } else { "" };
+        let (kind, fields, coordinates): (&str, String, &[&str]) = match random.below(kinds) {
+            0..=4 => ("Revolute", format!(", axis: {a}{armature}"), &["angle"]),
+            5 | 6 => ("Prismatic", format!(", axis: {a}{armature}"), &["travel"]),
+            7 => ("Screw", format!(", axis: {a}, pitch: 0.1{armature}"), &["angle"]),
+            8 => ("Cylindrical", format!(", axis: {a}"), &["travel", "angle"]),
+            9 => ("Universal", ", axes: [X, Z]".into(), &["first", "second"]),
+            10 => ("Planar", ", axis: Y".into(), &["x", "y", "angle"]),
+            11 => ("Ball", ", coordinates: RollPitchYaw".into(), &["roll", "pitch", "yaw"]),
+            12 => ("Free", ", coordinates: RollPitchYaw".into(), &["x", "y", "z", "roll", "pitch", "yaw"]),
+            13 => ("Fixed", String::new(), &[]),
+            14 => ("Ball", String::new(), &[]),
+            _ => ("Free", String::new(), &["x", "y", "z"]),
+        };
+        self.push(format!("joint {joint}: {kind} {{ parent: {parent}, child: {child}{fields} }}"));
+        names.frames.push(body.clone());
+        names.bodies.push(body);
+        names.coordinates.extend(coordinates.iter().map(|c| format!("{joint}.{c}")));
+        if random.chance(80) {
+            names.joints.push(joint);
+        }
+    }
+
+    fn force(&mut self, random: &mut Random, names: &mut Names) {
+        let name = self.name(random, "f");
+        let level = Level::Force;
+        let frame = |random: &mut Random| names.frame(random).unwrap_or_else(|| "ground".into());
+        let number = |random: &mut Random| scalar(random, names, level, 2);
+        let text = match (random.below(7), names.coordinate(random)) {
+            (0 | 1, Some(c)) => format!("Effort {{ joint: {c}, value: {} }}", number(random)),
+            (2, Some(c)) => {
+                format!("SpringDamper {{ joint: {c}, stiffness: {}, damping: 0.2, rest: 0.1 }}", number(random))
+            }
+            (3, Some(c)) => format!("Damper {{ joint: {c}, damping: {} }}", positive(random, names, Level::Parameter)),
+            (4, _) => format!(
+                "Spring {{ between: [{}, ground.at([3, 2, 1])], stiffness: {}, length: 0.5 }}",
+                frame(random),
+                number(random)
+            ),
+            (5, _) => format!(
+                "Torque {{ at: {}, value: {}, axes: {} }}",
+                frame(random),
+                vector(random, names, level, 2),
+                frame(random)
+            ),
+            _ => format!("Force {{ at: {}, value: {}, axes: ground }}", frame(random), vector(random, names, level, 2)),
+        };
+        self.push(format!("force {name}: {text}"));
+        names.forces.push(name);
+    }
+
+    fn lets(&mut self, random: &mut Random, names: &mut Names) {
+        for _ in 0..random.below(3) {
+            let name = self.name(random, "l");
+            match random.below(4) {
+                0 => {
+                    let frame = names.frame(random).unwrap_or_else(|| "ground".into());
+                    self.push(format!("let {name} = {frame}.at(0.2 * Y);"));
+                    names.frames.push(name);
+                }
+                1 => {
+                    self.push(format!("let {name} = {};", scalar(random, names, Level::Position, 2)));
+                    names.scalars.push((Shape::LetPosition, name));
+                }
+                _ => {
+                    self.push(format!("let {name} = {};", scalar(random, names, Level::Force, 2)));
+                    names.scalars.push((Shape::LetForce, name));
+                }
+            }
+        }
+    }
+
+    fn states(&mut self, random: &mut Random, names: &mut Names) {
+        if random.chance(30) {
+            let name = self.name(random, "s");
+            names.scalars.push((Shape::State, name.clone()));
+            let rate = scalar(random, names, Level::Force, 2);
+            self.push(format!("state {name}: rate = {rate}, start: {};", literal(random)));
+        }
+    }
+
+    /// A module with a port.
+    fn part(&mut self, random: &mut Random) -> Part {
+        let mut names = Names::default();
+        self.push("/// A part.".into());
+        self.push("mod leg {".into());
+        self.push("port base: Frame;".into());
+        let params = self.values(random, &mut names, true);
+        self.link(random, &mut names, "base", 8);
+        if random.chance(50) {
+            let parent = names.bodies[0].clone();
+            self.link(random, &mut names, &parent, 8);
+        }
+        self.states(random, &mut names);
+        if random.chance(50) {
+            self.force(random, &mut names);
+        }
+        if random.chance(50) {
+            let name = self.name(random, "o");
+            self.push(format!("output {name} = {};", output(random, &names)));
+        }
+        self.push("}".into());
+        Part { names, params }
+    }
+
+    fn model(&mut self, random: &mut Random, part: Option<&Part>) {
+        let mut names = Names::default();
+        self.push("/// A model.".into());
+        self.push("pub mod m {".into());
+        self.values(random, &mut names, false);
+        if random.chance(80) {
+            self.push(format!(
+                "world {{ gravity: {} }}",
+                random.pick(&["-9.81 * Z", "[0, -9.8, 1]", "-9.81 * [1, 2, 2] / 3"])
+            ));
+        }
+        let bodies = 1 + random.below(3);
+        for k in 0..bodies {
+            let parent =
+                if k == 0 || random.chance(20) { "ground".to_owned() } else { random.pick(&names.bodies).clone() };
+            self.link(random, &mut names, &parent, 16);
+        }
+        let simple = names.coordinates.clone();
+        if let Some(part) = part {
+            self.use_part(random, &mut names, part);
+        }
+        let driven = self.held(random, &names, &simple);
+        self.states(random, &mut names);
+        self.lets(random, &mut names);
+        for _ in 0..random.below(3) {
+            self.force(random, &mut names);
+        }
+        for _ in 0..random.below(4) {
+            let name = self.name(random, "o");
+            if random.chance(30) {
+                self.push((*random.pick(&UNITS)).to_owned());
+            }
+            self.push(format!("output {name} = {};", output(random, &names)));
+        }
+        if random.chance(15) {
+            let at = names.frame(random).unwrap_or_else(|| "ground".into());
+            self.push(format!("assume {at}.position.z > -100;"));
+        }
+        self.emit(random, &names, driven);
+        self.push("}".into());
+    }
+
+    fn use_part(&mut self, random: &mut Random, names: &mut Names, part: &Part) {
+        let name = self.name(random, "leg_");
+        let parent = if names.bodies.is_empty() { "ground".into() } else { random.pick(&names.bodies).clone() };
+        let set = match part.params.first() {
+            Some(p) if random.chance(40) => format!(", {p}: {}", positive(random, names, Level::Parameter)),
+            _ => String::new(),
+        };
+        if random.chance(50) {
+            self.push(format!("part {name}: leg {{ base: {parent}.at(X){set} }};"));
+            names.join(part.names.within(&name));
+        } else {
+            let count = 1 + random.below(3);
+            let base = format!("{parent}.rotated(Z, {} * i)", literal(random));
+            self.push(format!("part {name}: [leg; {count}] = |i| leg {{ base: {base}{set} }};"));
+            for k in 0..count {
+                names.join(part.names.within(&format!("{name}[{k}]")));
+            }
+        }
+    }
+
+    /// A drive, a constraint, or neither; whether there is one.
+    fn held(&mut self, random: &mut Random, names: &Names, coordinates: &[String]) -> bool {
+        match random.below(10) {
+            0 | 1 if !coordinates.is_empty() => {
+                let target = random.pick(coordinates).clone();
+                self.push(format!("drive {target} = {};", scalar(random, names, Level::Time, 2)));
+                true
+            }
+            2 | 3 if coordinates.len() > 1 => {
+                let (a, b) = (&coordinates[0], &coordinates[coordinates.len() - 1]);
+                let extra = match random.below(3) {
+                    0 => " + 0.1 * sin(t)",
+                    1 => " - 0.2",
+                    _ => "",
+                };
+                let factor = positive(random, names, Level::Parameter);
+                self.push(format!("constraint gear: {a} - {factor} * {b}{extra};").replacen(':', " =", 1));
+                if random.chance(60) {
+                    self.push("formulation { constraints: Reduced }".into());
+                }
+                true
+            }
+            4 if coordinates.len() > 2 && names.bodies.len() > 1 => {
+                let (first, last) = (&names.bodies[0], &names.bodies[names.bodies.len() - 1]);
+                let between = format!("[ground.at([0.5, 0.4, 0.3]), {last}.at(0.3 * X)]");
+                self.push(format!("constraint link: Rod {{ between: {between}, length: 1.2 }}"));
+                if random.chance(30) {
+                    self.push(format!("output reach = norm({first}.position);"));
+                }
+                true
+            }
+            5 => {
+                let said = *random.pick(&[
+                    "coordinates: Absolute(RollPitchYaw)",
+                    "coordinates: Absolute(Quaternion)",
+                    "constraints: Reduced",
+                    "constraints: Stabilised, rate: 10, position: 25",
+                ]);
+                self.push(format!("formulation {{ {said} }}"));
+                true
+            }
+            6 if random.chance(30) => {
+                // A rotation that a joint follows.
+                let body = self.name(random, "b");
+                self.push(format!("body {body} {{ mass: 1, inertia: diag(0.1, 0.2, 0.25) }}"));
+                let joint = self.name(random, "j");
+                self.push(format!("joint {joint}: Ball {{ parent: ground, child: {body} }}"));
+                self.push(format!("drive {joint}.orientation = {};", rotation(random, names, Level::Time)));
+                true
+            }
+            _ => false,
+        }
+    }
+
+    fn emit(&mut self, random: &mut Random, names: &Names, held: bool) {
+        let all = [
+            "forward_dynamics",
+            "inverse_dynamics",
+            "mass_matrix",
+            "bias",
+            "energy",
+            "constraints",
+            "derivatives",
+            "residual",
+            "impulse",
+            "momentum",
+        ];
+        let chance = *random.pick(&[10, 30, 60]);
+        let mut words: Vec<String> = Vec::new();
+        for word in all {
+            // Momenta have conditions of their own, which refusals would fill with.
+            if random.chance(chance) && !(word == "momentum" && (held || random.chance(60))) {
+                words.push(word.into());
+            }
+        }
+        if random.chance(8) {
+            if let Some(input) = names.scalar(random, Shape::Input) {
+                words.retain(|word| word != "inverse_dynamics");
+                words.push(format!("inverse_dynamics {{ solve_for: {input} }}"));
+            }
+        }
+        if words.is_empty() {
+            return;
+        }
+        let mut line = String::new();
+        write!(line, "emit {};", words.join(", ")).expect("text is always written");
+        self.push(line);
+    }
+}
