@@ -414,7 +414,8 @@ impl Lines {
         let mut words: Vec<String> = Vec::new();
         for word in all {
             // Momenta have conditions of their own, which refusals would fill with.
-            if random.chance(chance) && !(word == "momentum" && (held || random.chance(60))) {
+            let void = word == "constraints" && !held;
+            if random.chance(chance) && !void && !(word == "momentum" && (held || random.chance(60))) {
                 words.push(word.into());
             }
         }
