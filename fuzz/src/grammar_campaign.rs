@@ -90,9 +90,9 @@ pub fn file(models: usize, mut seed: u64) -> String {
     while count < models {
         let lines = call(&mut Random::new(seed));
         if matches!(outcome(&lines.join("\n")), Some(Outcome::Code(size)) if size < 150_000) {
-            let lines: Vec<String> = lines.iter().map(|line| format!("    {line}")).collect();
-            let body = lines.join("\n");
-            text += &format!("\n/// Of seed {seed}.\npub mod seed{seed} {{\nmultibody::multibody! {{\n{body}\n}}\n}}\n");
+            let lines: String = lines.iter().map(|line| format!("        {line}\n")).collect();
+            let call = format!("    multibody::multibody! {{\n{lines}    }}\n");
+            text += &format!("\n/// Of seed {seed}.\npub mod seed{seed} {{\n{call}}}\n");
             count += 1;
         }
         seed += 1;

@@ -419,11 +419,11 @@ impl Lines {
                 words.push(word.into());
             }
         }
-        if random.chance(8) {
-            if let Some(input) = names.scalar(random, Shape::Input) {
-                words.retain(|word| word != "inverse_dynamics");
-                words.push(format!("inverse_dynamics {{ solve_for: {input} }}"));
-            }
+        if random.chance(8)
+            && let Some(input) = names.scalar(random, Shape::Input)
+        {
+            words.retain(|word| word != "inverse_dynamics");
+            words.push(format!("inverse_dynamics {{ solve_for: {input} }}"));
         }
         if words.is_empty() {
             return;

@@ -10,7 +10,7 @@ impl Mechanism {
     /// An open chain or tree with everything on it.
     pub fn tree(random: &mut Random) -> Mechanism {
         let mut m = Mechanism::base(random);
-        let bodies = *random.pick(&[1, 2, 2, 3, 3, 3, 4, 4, 5, 6]);
+        let bodies = *random.pick(&[1, 2, 2, 2, 3, 3, 3, 4, 4, 5]);
         for _ in 0..bodies {
             let kind = m.kind(random);
             m.hang(random, kind);
@@ -199,7 +199,7 @@ impl Mechanism {
             }
             4 | 5 => {
                 let (a, b) = (random.below(self.bodies.len() + 1), random.below(self.bodies.len()));
-                let first = (a != b).then(|| a).filter(|a| *a < self.bodies.len());
+                let first = (a != b && a < self.bodies.len()).then_some(a);
                 let which = random.below(3);
                 Force::LineSpring {
                     between: [self.frame(random, first), self.frame(random, Some(b))],

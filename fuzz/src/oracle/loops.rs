@@ -142,11 +142,11 @@ fn look(m: &Mechanism, programs: &Programs, point: &Point, findings: &mut Findin
                 .sum();
             findings.compare("mass matrix (energy)", &[0.5 * twice], &[kinetic], kinetic, TOLERANCE);
         }
-        if m.tail.contains("Reduced") {
-            if let Some(got) = programs.run(FunctionKind::InverseDynamics, &values) {
-                let zero = vec![0.0; got.len()];
-                findings.compare("inverse dynamics (left)", &got, &zero, plain.efforts().1 / found.ratio, TOLERANCE);
-            }
+        if m.tail.contains("Reduced")
+            && let Some(got) = programs.run(FunctionKind::InverseDynamics, &values)
+        {
+            let zero = vec![0.0; got.len()];
+            findings.compare("inverse dynamics (left)", &got, &zero, plain.efforts().1 / found.ratio, TOLERANCE);
         }
     }
     if m.outputs {
@@ -246,10 +246,10 @@ fn guesses(m: &Mechanism, programs: &Programs, point: &Point) -> Vec<f64> {
         for (k, unknown) in step.unknowns.iter().enumerate() {
             let name = programs.model.joints[unknown.joint.0].place.field.to_string();
             let joint = name.strip_prefix('j').and_then(|text| text.parse::<usize>().ok());
-            if let Some(joint) = joint.filter(|&j| j < m.bodies.len()) {
-                if m.joints[joint].kind.quaternion().is_none() {
-                    list[guess + k] = point.q[joint][unknown.index] + 1e-3;
-                }
+            if let Some(joint) = joint.filter(|&j| j < m.bodies.len())
+                && m.joints[joint].kind.quaternion().is_none()
+            {
+                list[guess + k] = point.q[joint][unknown.index] + 1e-4;
             }
         }
     }

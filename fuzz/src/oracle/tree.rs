@@ -25,7 +25,7 @@ pub fn check(mechanism: &Mechanism, seed: u64) -> Verdict {
     let mut findings = Findings::default();
     for _ in 0..3 {
         let point = mechanism.point(&mut random);
-        Sight { mechanism, programs: &programs, point }.all(&mut findings, &mut random);
+        Sight { mechanism, programs: &programs, point }.all(&mut findings);
     }
     findings.verdict()
 }
@@ -57,7 +57,7 @@ impl Sight<'_> {
         Point { v: v.to_vec(), a: a.to_vec(), ..self.point.clone() }
     }
 
-    fn all(&self, findings: &mut Findings, random: &mut Random) {
+    fn all(&self, findings: &mut Findings) {
         let (m, point) = (self.mechanism, &self.point);
         let plain = Plain::new(m, point);
         let none: Vec<Vec<f64>> = point.a.iter().map(|list| vec![0.0; list.len()]).collect();
@@ -86,7 +86,7 @@ impl Sight<'_> {
         if let Some(got) = self.run(FunctionKind::ForwardDynamics, point) {
             self.forward(findings, &got, &matrix);
         }
-        self.outputs(findings, random);
+        self.outputs(findings);
         self.impulses(findings, &matrix);
         self.derivatives(findings);
     }
@@ -125,7 +125,7 @@ impl Sight<'_> {
         }
     }
 
-    fn outputs(&self, findings: &mut Findings, _: &mut Random) {
+    fn outputs(&self, findings: &mut Findings) {
         let m = self.mechanism;
         let (Some(got), true) = (self.run(FunctionKind::Outputs, &self.point), m.outputs) else { return };
         let a = self.run(FunctionKind::ForwardDynamics, &self.point);
