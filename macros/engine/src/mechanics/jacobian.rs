@@ -1,16 +1,18 @@
 //! Stage `mechanics`: Jacobians of frames.
 //!
-//! In: a frame, axes. Out: per velocity coordinate the partial velocity of the frame's origin and its partial angular
-//! velocity: for a motion about an axis z through o these are z x (p - o) and z, for one along it z and 0. All are
-//! written in the wanted axes from the start, so a frame's own axes cost no turn at the end.
+//! In: a frame, axes. Out: per velocity of the state the partial velocity of the frame's origin and its partial angular
+//! velocity. On the tree, for a motion about an axis z through o these are z x (p - o) and z, for one along it z and 0. All
+//! are written in the wanted axes from the start, so a frame's own axes cost no turn at the end. Where coordinates follow
+//! from others or from time, the columns of the tree times the velocity map are those of the state: J S.
 
 use std::rc::Rc;
 
-use crate::symbolic::graph::{Rotation, Scalar};
+use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
 use super::build::Place;
 use super::columns::Columns;
 use super::equations::Equations;
+use super::reduction::Reduction;
 use super::tree::Motion;
 use super::values::Value;
 
@@ -44,7 +46,7 @@ impl Equations<'_> {
                 let z = if mechanism.flipped.get(freedom) == Some(&true) { -turned[axis] } else { turned[axis] };
                 let swing = g.cross(z, arm);
                 let (linear, angular) = match link.motion {
-                    Motion::Prismatic(_) => (z, crate::symbolic::graph::Vector::ZERO),
+                    Motion::Prismatic(_) => (z, Vector::ZERO),
                     Motion::Screw(_, pitch) => {
                         let travel = g.scale(pitch, z);
                         (g.add_vectors(swing, travel), z)
@@ -57,6 +59,24 @@ impl Equations<'_> {
                 }
             }
         }
+        let rows = match self.reduction.clone() {
+            Some(reduction) => self.by_state(&reduction, &rows),
+            None => rows,
+        };
         Value::Jacobian(Rc::new(rows))
+    }
+
+    /// Coefficients of the state's velocities, from those of the tree's.
+    fn by_state(&mut self, reduction: &Reduction, rows: &[Vec<Scalar>; 6]) -> [Vec<Scalar>; 6] {
+        let state = self.state();
+        let map = self.velocity_map(reduction, &state);
+        let g = &mut self.g;
+        rows.each_ref().map(|row| {
+            let column = |g: &mut Graph, j: usize| {
+                let terms: Vec<Scalar> = row.iter().zip(&map).map(|(&entry, map)| g.mul(entry, map[j])).collect();
+                g.sum(&terms)
+            };
+            (0..state.len()).map(|j| column(g, j)).collect()
+        })
     }
 }

@@ -4,6 +4,7 @@
 
 use std::rc::Rc;
 
+use crate::model::types::Type;
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
 /// A value on the graph. Clones are cheap.
@@ -21,6 +22,19 @@ pub(super) enum Value {
     /// Six rows.
     Jacobian(Rc<[Vec<Scalar>; 6]>),
     Array(Rc<[Value]>),
+}
+
+/// Number of scalars of a value, in a model with so many velocities.
+pub(super) fn width(ty: &Type, freedoms: usize) -> usize {
+    match ty {
+        Type::Jacobian => 6 * freedoms,
+        Type::Array(element, count) => count * width(element, freedoms),
+        Type::Scalar | Type::Bool => 1,
+        Type::Vec3 => 3,
+        Type::Twist | Type::Wrench => 6,
+        Type::Pose => 7,
+        Type::Rotation => 9,
+    }
 }
 
 impl Value {

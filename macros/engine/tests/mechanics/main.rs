@@ -6,6 +6,7 @@ mod balance;
 mod closings;
 mod expressions;
 mod forces;
+mod jacobians;
 mod joints;
 mod loops;
 mod motion;

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::mechanics::Derivation;
+use multibody_engine::mechanics::structure::Structure;
 use multibody_engine::model::check;
 use multibody_engine::model::types::{Joint, JointKind, Model, Orientation};
 use multibody_engine::optimize::program::{FunctionKind, Symbol};
@@ -14,6 +15,7 @@ use multibody_engine::syntax::parse;
 /// A model with its equations.
 pub(crate) struct Case {
     pub(crate) model: Model,
+    pub(crate) structure: Structure,
     pub(crate) derivation: Derivation,
 }
 
@@ -26,8 +28,8 @@ pub(crate) struct Point {
 /// Derives the body of `mod m { .. }`, preceded by `parts`.
 pub(crate) fn case_with(parts: &str, body: &str) -> Case {
     let model = model_with(parts, body);
-    let derivation = multibody_engine::mechanics::of(&model).unwrap_or_else(|_| panic!("mechanics")).1;
-    Case { model, derivation }
+    let (structure, derivation) = multibody_engine::mechanics::of(&model).unwrap_or_else(|_| panic!("mechanics"));
+    Case { model, structure, derivation }
 }
 
 /// The checked model of `mod m { .. }`.
@@ -154,7 +156,7 @@ impl Case {
         let all = self.eval(FunctionKind::Outputs, point);
         let mut start = 0;
         for output in &self.model.outputs {
-            let width = width(&output.value.ty, self.dof());
+            let width = width(&output.value.ty, self.structure.freedoms());
             if output.place.field == name {
                 return all[start..start + width].to_vec();
             }

@@ -9,6 +9,8 @@ use crate::mechanics::constrained::Solved;
 use crate::mechanics::equations::{Equations, Method, Style, Way};
 use crate::mechanics::needs::Needs;
 use crate::mechanics::strut::forward;
+use crate::mechanics::values::width;
+use crate::model::types::Output;
 use crate::symbolic::graph::Scalar;
 
 use super::{Candidate, Deriving, METHODS, MOST_COMPOSITE, MOST_STRUT_WAYS, articulates, floats, freedoms};
@@ -100,21 +102,27 @@ impl<'m> Deriving<'m> {
         let needs = Needs::of(model.outputs.iter().map(|output| &output.value));
         let kept = needs.kept(model);
         let open = self.is_open();
+        let freedoms = self.structure.freedoms();
         let mut all = |equations: &mut Equations<'m>| {
             let flat = |equations: &mut Equations<'m>| {
                 let mut results = Vec::new();
                 for output in &model.outputs {
                     let value = equations.value(&output.value);
+                    let before = results.len();
                     value.flatten(&mut equations.g, &mut results);
+                    // Generated code takes as many scalars as the type has: one too many, and all others are misplaced.
+                    if results.len() - before != width(&output.value.ty, freedoms) {
+                        return Err(vec![misplaced(output)]);
+                    }
                 }
-                results
+                Ok(results)
             };
             if open {
-                return Ok(flat(equations));
+                return flat(equations);
             }
             let reduction = Rc::new(equations.reduce()?);
             equations.reduction = Some(Rc::clone(&reduction));
-            let results = flat(equations);
+            let results = flat(equations)?;
             match equations.solved.clone() {
                 Some(solved) => Ok(equations.put_in_all(&reduction, &solved, &results)),
                 None => Ok(equations.finish(&reduction, &results)),
@@ -122,7 +130,7 @@ impl<'m> Deriving<'m> {
         };
         let articulates = open && needs.accelerations && articulates(model, &kept);
         let mut ways = Vec::new();
-        if !(articulates && freedoms(model) > MOST_COMPOSITE) {
+        if !(articulates && super::freedoms(model) > MOST_COMPOSITE) {
             ways.push((Style::World, Method::Composite, "world axes"));
             if needs.frames {
                 ways.push((Style::Nested, Method::Composite, "link axes"));
@@ -144,5 +152,13 @@ impl<'m> Deriving<'m> {
             )?);
         }
         Ok(candidates)
+    }
+}
+
+fn misplaced(output: &Output) -> Complaint {
+    Complaint {
+        span: output.value.span,
+        message: format!("the output `{}` was derived with another number of scalars than its type has", output.place.field),
+        help: Some("this is an error of multibody: please report it with the model".to_owned()),
     }
 }
