@@ -148,6 +148,7 @@ fn closings(layout: &Layout<'_>) -> Vec<Line> {
     });
     let constraints = model.constraints.iter().enumerate().map(|(number, constraint)| {
         let (kind, parent, child) = match &constraint.kind {
+            ConstraintKind::Value(_) if constraint.drive.is_some() => ("drive", String::new(), String::new()),
             ConstraintKind::Value(_) => ("expression", String::new(), String::new()),
             ConstraintKind::Rod { between, .. } => {
                 let [a, b] = &**between;

@@ -52,6 +52,7 @@ fn call(call: Call, values: &[f64]) -> Option<f64> {
         (Call::Powf, [x, y]) => x.powf(*y),
         (Call::Sqrt, [x]) => x.sqrt(),
         (Call::Abs, [x]) => x.abs(),
+        (Call::Signum, [x]) if *x == 0.0 => 0.0,
         (Call::Signum, [x]) => x.signum(),
         (Call::Min, [x, y]) => x.min(*y),
         (Call::Max, [x, y]) => x.max(*y),

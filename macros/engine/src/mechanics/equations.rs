@@ -12,6 +12,7 @@ use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 use super::branches::Branch;
 use super::build::Mechanism;
 use super::closings::Writing;
+use super::closings::expression::{Slopes, StandIns};
 use super::columns::Columns;
 use super::constrained::Solved;
 use super::floating::seats;
@@ -97,6 +98,9 @@ pub struct Equations<'m> {
     pub(super) gathered: bool,
     /// Multipliers of the equations by which dependent coordinates are found, where reactions have asked for them.
     pub(super) holding: Option<Rc<[(Row, Scalar)]>>,
+    /// What expressions that are held act with, by constraint.
+    pub(super) slopes: HashMap<usize, Rc<Slopes>>,
+    pub(super) stand_ins: StandIns,
     /// Forces are being derived: the checker lets none depend on loads, and here that would be an endless regress.
     pub(super) loading: bool,
 }
@@ -131,6 +135,8 @@ impl<'m> Equations<'m> {
             multiplied: Vec::new(),
             gathered: false,
             holding: None,
+            slopes: HashMap::new(),
+            stand_ins: StandIns::default(),
             loading: false,
         };
         let mechanism = equations.build(kept);

@@ -5,13 +5,12 @@
 
 use std::rc::Rc;
 
-use crate::model::types::{Coordinate, Expr, ExprNode, Order};
+use crate::model::types::{Coordinate, Expr, ExprNode};
 use crate::symbolic::graph::{Call, Rotation, Scalar, Vector};
 
 use super::constants;
 use super::equations::Equations;
 use super::structure::Role;
-use super::symbols::Symbols;
 use super::values::{Part, Value};
 
 impl Equations<'_> {
@@ -70,27 +69,20 @@ impl Equations<'_> {
             }
             ExprNode::State(id) => Value::Scalar(self.symbols.states.get(id.0).copied().unwrap_or(Scalar::ZERO)),
             &ExprNode::Coordinate { joint, index, order } => {
-                let scalar = match order {
-                    Order::Position => Symbols::of(&self.symbols.positions, joint).get(index).copied(),
-                    Order::Rate => Symbols::of(&self.symbols.velocities, joint).get(index).copied(),
-                    Order::Acceleration => {
-                        let first = self.symbols.first.get(joint.0).copied().unwrap_or(0);
-                        self.accelerations().get(first + index).copied()
-                    }
-                };
-                Value::Scalar(scalar.unwrap_or(Scalar::ZERO))
+                Value::Scalar(self.coordinate(Coordinate { joint, index }, order))
             }
             &ExprNode::RelativeAngularVelocity(joint) => Value::Vector(self.relative_angular_velocity(joint)),
             &ExprNode::Effort { joint, index } => {
                 let coordinate = Coordinate { joint, index };
                 Value::Scalar(match self.structure.role(coordinate) {
                     Role::Driven(_) => self.drive_effort(coordinate),
+                    _ if self.is_held(coordinate) => self.holding_effort(coordinate),
                     _ => self.effort(joint, index),
                 })
             }
             ExprNode::OfFrame(frame, quantity) => {
                 let place = self.place(frame);
-                self.of_place(&place, *quantity)
+                if self.stands_apart() { self.read_place(&place, *quantity) } else { self.of_place(&place, *quantity) }
             }
             ExprNode::Jacobian { frame, axes } => {
                 let (place, axes) = (self.place(frame), self.place(axes));
@@ -105,7 +97,12 @@ impl Equations<'_> {
             ExprNode::Potential => Value::Scalar(self.potential()),
             ExprNode::Express { frame, vector } => {
                 let place = self.place(frame);
-                Value::Vector(self.express(&place, vector))
+                Value::Vector(if self.stands_apart() {
+                    let v = self.known_vector(vector);
+                    self.read_express(&place, v)
+                } else {
+                    self.express(&place, vector)
+                })
             }
             _ => self.operation(node),
         }

@@ -6,10 +6,11 @@
 
 use std::rc::Rc;
 
-use crate::model::types::{Expr, ForceId, ForceKind, Frame, JointId, JointKind};
+use crate::model::types::{Coordinate, Expr, ForceId, ForceKind, Frame, JointId, JointKind, Order, Orientation};
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
 use super::build::{Mechanism, Place};
+use super::closings::measured::Dual;
 use super::closings::{Held, row_count};
 use super::equations::Equations;
 use super::newton_euler::Wrench;
@@ -142,7 +143,7 @@ impl Equations<'_> {
         match kind {
             ForceKind::Effort { joint, values } if self.model.cuts.contains(joint) => {
                 let values: Vec<Scalar> = values.iter().map(|value| self.scalar(value)).collect();
-                self.act_across(terms, *joint, &values);
+                self.act_across(terms, *joint, &values, false);
             }
             ForceKind::Effort { joint, values } => {
                 let first = self.symbols.first.get(joint.0).copied().unwrap_or(0);
@@ -154,8 +155,13 @@ impl Equations<'_> {
             ForceKind::JointSpring { joint, coordinate, stiffness, damping, rest } => {
                 let spring = self.joint_spring(*joint, *coordinate, [stiffness, damping, rest]);
                 let effort = spring.effort(&mut self.g);
-                let first = self.symbols.first.get(joint.0).copied().unwrap_or(0);
-                terms.effort(first + coordinate, effort);
+                if self.model.cuts.contains(joint) {
+                    let mut efforts = vec![Scalar::ZERO; *coordinate];
+                    efforts.push(effort);
+                    self.act_across(terms, *joint, &efforts, false);
+                } else {
+                    terms.effort(self.freedom(Coordinate { joint: *joint, index: *coordinate }), effort);
+                }
             }
             ForceKind::LineSpring { between, stiffness, damping, length } => {
                 let ends = [self.place(&between[0]), self.place(&between[1])];
@@ -187,8 +193,8 @@ impl Equations<'_> {
     }
 
     /// Efforts on a joint that closes a loop: a wrench on the child at its point, and its opposite on the parent there.
-    fn act_across(&mut self, terms: &mut Terms, id: JointId, efforts: &[Scalar]) {
-        let Some((ends, Wrench { moment, force })) = self.across(id, efforts) else { return };
+    pub(super) fn act_across(&mut self, terms: &mut Terms, id: JointId, efforts: &[Scalar], held: bool) {
+        let Some((ends, Wrench { moment, force })) = self.across(id, efforts, held) else { return };
         let [parent, child] = ends;
         let ([way, _], common) = self.way(&parent, &child, 0);
         let way = self.between(common, parent.link, way);
@@ -202,8 +208,9 @@ impl Equations<'_> {
     }
 
     /// Efforts on a joint that closes a loop as a wrench on the child at its point, in the axes of the parent's link; the
-    /// joint's two ends.
-    pub(super) fn across(&mut self, id: JointId, efforts: &[Scalar]) -> Option<([Place; 2], Wrench)> {
+    /// joint's two ends. The effort of a screw is a moment about its axis, or as much as a force along it that does the same
+    /// work: what is `held` by a multiplier must do that of the measured coordinate, which is a travel, exactly.
+    pub(super) fn across(&mut self, id: JointId, efforts: &[Scalar], held: bool) -> Option<([Place; 2], Wrench)> {
         let model = self.model;
         let joint = model.joints.get(id.0)?;
         let effort = |k: usize| efforts.get(k).copied().unwrap_or(Scalar::ZERO);
@@ -211,6 +218,11 @@ impl Equations<'_> {
         // In the axes of the parent's frame, but for what belongs to axes of the child.
         let (mut force, mut moment, mut own) = (Vector::ZERO, Vector::ZERO, Vector::ZERO);
         match &joint.kind {
+            JointKind::Screw { axis, pitch } if held && self.scalar(pitch) != Scalar::ZERO => {
+                let pitch = self.scalar(pitch);
+                let push = self.g.div(effort(0), pitch);
+                force = self.along(axis, 0, push);
+            }
             JointKind::Revolute { axis } | JointKind::Screw { axis, .. } => moment = self.along(axis, 0, effort(0)),
             JointKind::Prismatic { axis } => force = self.along(axis, 0, effort(0)),
             JointKind::Cylindrical { axis } => {
@@ -227,8 +239,11 @@ impl Equations<'_> {
                 force = self.g.add_vectors(x, y);
                 moment = self.along(axis, 0, effort(2));
             }
-            JointKind::Ball(_) => own = self.g.vector([effort(0), effort(1), effort(2)]),
-            JointKind::Fixed | JointKind::Free(_) => {}
+            JointKind::Ball(Orientation::Quaternion) => own = self.g.vector([effort(0), effort(1), effort(2)]),
+            JointKind::Ball(Orientation::RollPitchYaw) | JointKind::Free(_) => {
+                return Some((ends, self.along_duals(id, efforts)));
+            }
+            JointKind::Fixed => {}
         }
         let [parent, child] = &ends;
         let force = self.g.rotate(parent.rotation, force);
@@ -239,8 +254,21 @@ impl Equations<'_> {
         Some((ends, Wrench { moment, force }))
     }
 
+    /// Efforts along what is dual to the coordinates.
+    fn along_duals(&mut self, joint: JointId, efforts: &[Scalar]) -> Wrench {
+        let (mut forces, mut moments) = (Vec::new(), Vec::new());
+        for (index, &effort) in efforts.iter().enumerate().filter(|(_, effort)| **effort != Scalar::ZERO) {
+            match self.dual(Coordinate { joint, index }) {
+                Some(Dual::Slides(direction)) => forces.push(self.g.scale(effort, direction)),
+                Some(Dual::Turns(direction)) => moments.push(self.g.scale(effort, direction)),
+                None => {}
+            }
+        }
+        Wrench { moment: self.g.sum_vectors(&moments), force: self.g.sum_vectors(&forces) }
+    }
+
     /// A length along a joint's axis, or along the following axes of its plane.
-    fn along(&mut self, axis: &Expr, next: usize, length: Scalar) -> Vector {
+    pub(super) fn along(&mut self, axis: &Expr, next: usize, length: Scalar) -> Vector {
         let axis = self.axis(axis);
         let length = if axis.flipped && next == 0 { -length } else { length };
         let along = self.g.along((axis.index + next) % 3, length);
@@ -261,12 +289,10 @@ impl Equations<'_> {
     /// The springs' and dampers' data; what is left out is zero.
     pub(super) fn joint_spring(&mut self, joint: JointId, index: usize, data: [&Option<Expr>; 3]) -> JointSpring {
         let [stiffness, damping, rest] = self.optional(data);
-        let component = |lists: &[Vec<Scalar>]| {
-            lists.get(joint.0).and_then(|list| list.get(index)).copied().unwrap_or(Scalar::ZERO)
-        };
-        let coordinate = component(&self.symbols.positions);
-        let rate = component(&self.symbols.velocities);
-        JointSpring { stiffness, damping, stretch: self.g.sub(coordinate, rest), rate }
+        let coordinate = Coordinate { joint, index };
+        let position = if data[0].is_some() { self.coordinate(coordinate, Order::Position) } else { Scalar::ZERO };
+        let rate = self.coordinate(coordinate, Order::Rate);
+        JointSpring { stiffness, damping, stretch: self.g.sub(position, rest), rate }
     }
 
     pub(super) fn optional(&mut self, data: [&Option<Expr>; 3]) -> [Scalar; 3] {
@@ -307,9 +333,14 @@ impl Equations<'_> {
         }
         let power = match &force.kind {
             ForceKind::Effort { joint, values } => {
-                let rates = self.symbols.velocities.get(joint.0).cloned().unwrap_or_default();
-                let values: Vec<Scalar> = values.iter().map(|value| self.scalar(value)).collect();
-                let terms: Vec<Scalar> = values.iter().zip(rates).map(|(&u, rate)| self.g.mul(u, rate)).collect();
+                let mut terms = Vec::with_capacity(values.len());
+                for (index, value) in values.iter().enumerate() {
+                    let value = self.scalar(value);
+                    if value != Scalar::ZERO {
+                        let rate = self.coordinate(Coordinate { joint: *joint, index }, Order::Rate);
+                        terms.push(self.g.mul(value, rate));
+                    }
+                }
                 self.g.sum(&terms)
             }
             ForceKind::JointSpring { joint, coordinate, stiffness, damping, rest } => {

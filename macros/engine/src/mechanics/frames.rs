@@ -303,6 +303,9 @@ impl Equations<'_> {
     pub(super) fn relative_angular_velocity(&mut self, joint: JointId) -> Vector {
         let mechanism = Rc::clone(&self.mechanism);
         let tree = &mechanism.tree;
+        if self.model.cuts.contains(&joint) {
+            return self.measured_angular_velocity(joint);
+        }
         let Some(joint) = mechanism.joints.get(joint.0) else { return Vector::ZERO };
         let mut angular = Vector::ZERO;
         for link in tree.links.get(joint.links.clone()).unwrap_or(&[]) {

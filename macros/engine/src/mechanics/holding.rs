@@ -2,13 +2,13 @@
 //!
 //! In: the tree, the equations by which dependent coordinates are found. Out: a multiplier for each of these equations. The
 //! equations of motion M a = f - G^T lambda hold for dependent coordinates too: with e the efforts that the motion takes
-//! beside all declared forces, G_d^T lambda = -e_d, as many equations as multipliers. Linear couplings are seen through
-//! (they act on coordinates, so that no link is loaded by them). The rest falls into the smallest systems that can be
+//! beside all declared forces, G_d^T lambda = -e_d, as many equations as multipliers. Linear couplings of coordinates are
+//! seen through (they act on coordinates, so that no link is loaded by them), those of places of frames are not. The rest falls into the smallest systems that can be
 //! solved one after the other, each by a pivoted solve.
 
 use std::rc::Rc;
 
-use crate::model::types::{Closing, Coordinate};
+use crate::model::types::{Closing, ConstraintId, Coordinate};
 use crate::symbolic::graph::Scalar;
 
 use super::analysis::blocks::{components, matching};
@@ -45,19 +45,28 @@ impl Equations<'_> {
         found
     }
 
-    /// Equations and unknowns of all steps but linear couplings.
-    fn held_rows(&self) -> (Vec<Row>, Vec<Coordinate>) {
-        let structure = &self.structure;
+    /// Equations and unknowns of all steps but linear couplings of coordinates.
+    fn held_rows(&mut self) -> (Vec<Row>, Vec<Coordinate>) {
+        let structure = Rc::clone(&self.structure);
         let mut rows = structure.independent.clone();
         let mut unknowns = Vec::new();
         for step in &structure.steps {
             match step.means {
-                Means::Linear(id) => rows.retain(|row| row.closing != Closing::Constraint(id)),
-                Means::Solve(_) | Means::Newton { .. } => unknowns.extend(&step.unknowns),
+                Means::Linear(id) if self.is_seen_through(id) => {
+                    rows.retain(|row| row.closing != Closing::Constraint(id));
+                }
+                Means::Linear(_) | Means::Solve(_) | Means::Newton { .. } => unknowns.extend(&step.unknowns),
             }
         }
         rows.retain(|row| !structure.rows.contains(row));
         (rows, unknowns)
+    }
+
+    /// Whether a coupling acts on coordinates of the tree alone.
+    fn is_seen_through(&mut self, id: ConstraintId) -> bool {
+        let slopes = self.slopes(id);
+        let cuts = &self.model.cuts;
+        slopes.wrenches.is_empty() && slopes.efforts.iter().all(|(coordinate, _)| !cuts.contains(&coordinate.joint))
     }
 
     fn balances(&mut self, rows: &[Row], unknowns: &[Coordinate]) -> Vec<Balance> {
@@ -93,7 +102,8 @@ impl Equations<'_> {
         let structure = Rc::clone(&self.structure);
         let (mut map, mut coupled) = (Map::new(), Vec::new());
         for step in &structure.steps {
-            if !matches!(step.means, Means::Linear(_)) {
+            let Means::Linear(id) = step.means else { continue };
+            if !self.is_seen_through(id) {
                 continue;
             }
             // A coupling is always solved.

@@ -16,6 +16,7 @@ use crate::symbolic::graph::{Scalar, ScalarNode};
 
 use super::constrained::Solved;
 use super::equations::Equations;
+use super::kinks;
 use super::reduction::Reduction;
 use super::saddle::Saddle;
 use super::time::Seeds;
@@ -48,7 +49,7 @@ impl Equations<'_> {
         let efforts = self.reduced_efforts(reduction, true);
         let directions = self.directions(reduction);
         let columns = self.partials(&efforts, &directions.columns, accumulation);
-        directions.matrices(&columns)
+        kinks::guarded(&mut self.g, &efforts, &directions.matrices(&columns))
     }
 
     /// Derivatives of the accelerations and of the rates of own states, in the same order.
@@ -82,11 +83,12 @@ impl Equations<'_> {
         // The checker lets no rate depend on accelerations or reactions.
         let rates: Vec<Scalar> = model.states.iter().map(|state| self.scalar(&state.rate)).collect();
         let rates = self.finish(reduction, &rates);
+        let values = [residual, rates.clone()].concat();
         let rates = self.partials(&rates, &directions.columns, Accumulation::Forward);
         for (column, rates) in columns.iter_mut().zip(rates) {
             column.extend(rates);
         }
-        directions.matrices(&columns)
+        kinks::guarded(&mut self.g, &values, &directions.matrices(&columns))
     }
 
     /// -(dF/dz)^-1 dF/dx, column by column; a column holds what the matrix has to solve.

@@ -35,6 +35,7 @@ pub mod inertia;
 mod jacobian;
 mod jumps;
 pub mod kinematics;
+mod kinks;
 mod linearisation;
 mod momentum;
 mod names;

@@ -8,13 +8,14 @@
 
 use std::rc::Rc;
 
-use crate::model::types::{Closing, ForceKind, JointId};
+use crate::model::types::{Closing, Coordinate, ForceKind, JointId};
 use crate::symbolic::graph::{Scalar, Vector};
 
 use super::build::Place;
 use super::equations::Equations;
 use super::kinematics::motions;
 use super::newton_euler::{Wrench, transmitted};
+use super::structure::Row;
 use super::values::Value;
 
 impl Equations<'_> {
@@ -50,17 +51,40 @@ impl Equations<'_> {
         self.accelerations();
         let mut multiplied = self.rows_with_multipliers();
         multiplied.extend(self.holding_multipliers().iter().copied());
+        let held_across = self.expression_efforts(joint, &multiplied);
         multiplied.retain(|(row, _)| row.closing == Closing::Cut(joint));
         let held = self.by_closing(&multiplied);
         let mut parts: Vec<[Vector; 2]> = held.iter().map(|one| self.cut_reaction(joint, one, axes)).collect();
-        let efforts = self.efforts_across(joint);
-        if let Some((ends, Wrench { moment, force })) = self.across(joint, &efforts) {
-            parts.push(self.turned_to(axes, ends[0].link, [force, moment]));
+        let declared = self.efforts_across(joint);
+        for (efforts, held) in [(declared, false), (held_across, true)] {
+            if let Some((ends, Wrench { moment, force })) = self.across(joint, &efforts, held) {
+                parts.push(self.turned_to(axes, ends[0].link, [force, moment]));
+            }
         }
         [0, 1].map(|k| {
             let list: Vec<Vector> = parts.iter().map(|part| part[k]).collect();
             self.g.sum_vectors(&list)
         })
+    }
+
+    /// Whether a drive holds a measured coordinate to its course.
+    pub(super) fn is_held(&self, coordinate: Coordinate) -> bool {
+        self.model.constraints.iter().any(|constraint| constraint.drive == Some(coordinate))
+    }
+
+    /// What a drive exerts on a measured coordinate beside all declared forces: less its multiplier.
+    pub(super) fn holding_effort(&mut self, coordinate: Coordinate) -> Scalar {
+        if self.loading {
+            return Scalar::ZERO;
+        }
+        self.accelerations();
+        let mut multiplied = self.rows_with_multipliers();
+        multiplied.extend(self.holding_multipliers().iter().copied());
+        let drives = |row: &Row| match row.closing {
+            Closing::Constraint(id) => self.model.constraints.get(id.0).is_some_and(|c| c.drive == Some(coordinate)),
+            Closing::Cut(_) => false,
+        };
+        multiplied.iter().find(|(row, _)| drives(row)).map_or(Scalar::ZERO, |&(_, multiplier)| -multiplier)
     }
 
     /// Sums of the declared efforts on a joint that closes a loop.
@@ -69,13 +93,21 @@ impl Equations<'_> {
         let mut sums: Vec<Scalar> = Vec::new();
         self.loading = true;
         for force in &model.forces {
-            let ForceKind::Effort { joint: at, values } = &force.kind else { continue };
-            if *at == joint {
-                sums.resize(sums.len().max(values.len()), Scalar::ZERO);
-                for (sum, value) in sums.iter_mut().zip(values) {
-                    let value = self.scalar(value);
-                    *sum = self.g.add(*sum, value);
+            match &force.kind {
+                ForceKind::Effort { joint: at, values } if *at == joint => {
+                    sums.resize(sums.len().max(values.len()), Scalar::ZERO);
+                    for (sum, value) in sums.iter_mut().zip(values) {
+                        let value = self.scalar(value);
+                        *sum = self.g.add(*sum, value);
+                    }
                 }
+                ForceKind::JointSpring { joint: at, coordinate, stiffness, damping, rest } if *at == joint => {
+                    sums.resize(sums.len().max(coordinate + 1), Scalar::ZERO);
+                    let spring = self.joint_spring(joint, *coordinate, [stiffness, damping, rest]);
+                    let effort = spring.effort(&mut self.g);
+                    sums[*coordinate] = self.g.add(sums[*coordinate], effort);
+                }
+                _ => {}
             }
         }
         self.loading = false;

@@ -302,7 +302,8 @@ impl Equations<'_> {
 
     /// Puts all definitions into results.
     pub(super) fn finish(&mut self, reduction: &Reduction, roots: &[Scalar]) -> Vec<Scalar> {
-        if reduction.map.is_empty() { roots.to_vec() } else { self.g.substitute(roots, &reduction.map) }
+        let roots = self.put_in_stand_ins(roots);
+        if reduction.map.is_empty() { roots } else { self.g.substitute(&roots, &reduction.map) }
     }
 
     /// Efforts on the coordinates of the tree as efforts on those of the state and on driven ones: the transposed velocity

@@ -3,7 +3,8 @@
 //! In: a stretch and its rate. Out: force, power put into the mechanism, energy k x^2 / 2. Along a line of length
 //! L = |d| the force on the far end is -(k (L - L0) + c L') d / L with L' = d . d' / L. With natural length zero it is
 //! -(k + c L' / L) d, which needs no root, and no quotient either without a damper. Elsewhere L = 0 is a singular point:
-//! the line has no direction there, and the force is not a number.
+//! the line has no direction there, and the force is not a number. Points that are one point in every position have no
+//! line: nothing acts between them, and what is stored stays k L0^2 / 2.
 
 use crate::model::types::Expr;
 use crate::symbolic::graph::{Graph, Scalar, Vector};
@@ -68,6 +69,9 @@ impl LineSpring {
 
     /// Force per vector d.
     fn coefficient(&self, g: &mut Graph) -> Scalar {
+        if self.way == Vector::ZERO {
+            return Scalar::ZERO;
+        }
         if self.damping == Scalar::ZERO && self.natural == Scalar::ZERO {
             return self.stiffness;
         }

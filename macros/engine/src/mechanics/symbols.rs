@@ -38,7 +38,7 @@ pub struct Symbols {
     unknowns: Vec<Scalar>,
 }
 
-/// Bits for coordinates outside the state.
+/// Bits for coordinates outside the state, which stand-ins share.
 const MARKS: usize = 126;
 
 /// Unknowns that one closing brings into its loop, at most: two balls.
@@ -102,6 +102,9 @@ impl Symbols {
             }
         }
     }
+
+    /// The bit of what stands for a quantity while an expression is taken apart.
+    pub(super) const STAND_INS: usize = MARKS - 1;
 
     /// Whether an expression reads a coordinate that is not in the state: such symbols must be replaced.
     pub fn is_unfinished(g: &Graph, s: Scalar) -> bool {

@@ -10,6 +10,7 @@ use syn::Path;
 use super::checker::{Checker, ScopeId, Subject, Task};
 use super::docs;
 use super::expand::root;
+use super::loops::Driven;
 use super::requests::Requested;
 use super::solves::Solved;
 use super::topology::Topology;
@@ -43,6 +44,8 @@ struct Collected<'a> {
 #[derive(Default)]
 struct Loops {
     drives: Vec<Drive>,
+    /// Drives of measured coordinates.
+    held: Vec<Constraint>,
     solves: Vec<Solve>,
     independent: Vec<Coordinate>,
     kinematics: Vec<Kinematics>,
@@ -73,7 +76,8 @@ impl<'a> Checker<'a, '_> {
         let (bodies, joints, topology) = found?;
         self.check_coordinate_uses(&topology, &joints);
         self.check_armatures(&topology, &joints);
-        let constraints: Vec<Constraint> = all(collected.constraints)?;
+        let mut constraints: Vec<Constraint> = all(collected.constraints)?;
+        constraints.extend(loops.held);
         if let Some(span) =
             collected.requested.constraints.filter(|_| constraints.is_empty() && topology.cuts.is_empty())
         {
@@ -218,7 +222,11 @@ impl<'a> Checker<'a, '_> {
         for task in &collected.deferred {
             let context = root(task.scope);
             match &task.item.kind {
-                ItemKind::Drive { target, value } => loops.drives.extend(self.drive(target, value, context, tree)),
+                ItemKind::Drive { target, value } => match self.drive(target, value, context, tree) {
+                    Some(Driven::Follows(drive)) => loops.drives.push(drive),
+                    Some(Driven::Held(constraint)) => loops.held.push(constraint),
+                    None => {}
+                },
                 ItemKind::Solve { unknowns, how } => {
                     match self.solve(unknowns, how, task.item.keyword, context, tree) {
                         Some(Solved::Item(solve)) => loops.solves.push(solve),
@@ -254,6 +262,13 @@ impl<'a> Checker<'a, '_> {
                 self.report.help(drive.span, message, "drive an independent coordinate, or remove one of the two");
             }
             driven.extend(list);
+        }
+        for constraint in &loops.held {
+            let Some(coordinate) = constraint.drive else { continue };
+            if !driven.insert(coordinate) {
+                let message = format!("{} is driven twice", self.coordinate_name(coordinate));
+                self.report.error(constraint.span, message);
+            }
         }
         let mut found: BTreeSet<Coordinate> = BTreeSet::new();
         for solve in &loops.solves {

@@ -212,6 +212,7 @@ fn scalar_call(function: Function, x: f64, y: Option<f64>) -> Option<f64> {
         Function::Ln => x.ln(),
         Function::Sqrt => x.sqrt(),
         Function::Abs => x.abs(),
+        Function::Signum if x == 0.0 => 0.0,
         Function::Signum => x.signum(),
         Function::Min => x.min(y?),
         Function::Max => x.max(y?),

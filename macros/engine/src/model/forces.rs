@@ -212,11 +212,12 @@ impl<'a> Checker<'a, '_> {
     /// One scalar coordinate.
     fn spring_target(&mut self, expr: &Expr, context: Context<'a>) -> Option<(JointId, usize)> {
         let (joint, shape, index) = self.target(expr, context)?;
-        if shape == Shape::Free(Orientation::Quaternion) {
+        // The place of what is free is a number in each direction, its orientation none.
+        if shape == Shape::Free(Orientation::Quaternion) && index.is_none() {
             self.report.help(
                 expr.span(),
                 "springs and dampers need coordinates that are numbers, and this joint has quaternions",
-                "write `coordinates: RollPitchYaw` on the joint, or `between: [..]` here",
+                "take one of its `x`, `y`, `z`, write `coordinates: RollPitchYaw` on the joint, or `between: [..]` here",
             );
             return None;
         }

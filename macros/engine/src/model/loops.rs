@@ -13,14 +13,22 @@ use super::expressions::source_text;
 use super::fields::{Known, field};
 use super::names::Shape;
 use super::topology::Topology;
-use super::typed::{Allowed, FrameValue};
+use super::typed::{Allowed, FrameValue, new_expr};
 use super::types::{
-    BodyRef, Constraint, ConstraintKind, Coordinate, Drive, DriveTarget, Expr as Checked, Joint, JointId, Orientation,
-    Type,
+    BodyRef, Constraint, ConstraintKind, Coordinate, Drive, DriveTarget, Expr as Checked, ExprNode, Joint, JointId,
+    JointKind, Order, Orientation, Type,
 };
 use crate::syntax::tree::{self, ItemKind};
 
 const ROD: Known<'static> = Known { required: &["between", "length"], optional: &[] };
+
+/// What a `drive` gives.
+pub(super) enum Driven {
+    /// Coordinates of the tree, which leave the state.
+    Follows(Drive),
+    /// A measured coordinate, held to its course by a multiplier.
+    Held(Constraint),
+}
 
 impl<'a> Checker<'a, '_> {
     pub(super) fn finish_constraint(&mut self, slot: &Slot<'a>) -> Option<Constraint> {
@@ -62,6 +70,7 @@ impl<'a> Checker<'a, '_> {
         Some(Constraint {
             place: slot.place.clone(),
             kind: kind?,
+            drive: None,
             docs: docs::docs(&slot.item.attrs),
             span: name.span(),
         })
@@ -106,7 +115,7 @@ impl<'a> Checker<'a, '_> {
         value: &Expr,
         context: Context<'a>,
         joints: Option<(&Topology, &[Joint])>,
-    ) -> Option<Drive> {
+    ) -> Option<Driven> {
         let found = self.drive_target(target, context, joints);
         let ty = match found {
             Some(DriveTarget::Coordinate(_)) => Type::Scalar,
@@ -120,7 +129,19 @@ impl<'a> Checker<'a, '_> {
             }
         };
         let value = self.typed(value, context, &ty, Allowed::Time)?;
-        Some(Drive { target: found?, value: value.expr, span: target.span() })
+        let span = target.span();
+        Some(match found? {
+            DriveTarget::Coordinate(coordinate) if joints.is_some_and(|(tree, _)| tree.is_cut(coordinate.joint)) => {
+                let Coordinate { joint, index } = coordinate;
+                let place = self.joints.get(joint.0)?.place.clone();
+                let order = Order::Position;
+                let measured = new_expr(ExprNode::Coordinate { joint, index, order }, Type::Scalar, span);
+                let gap = new_expr(ExprNode::Sub(measured, value.expr), Type::Scalar, span);
+                let kind = ConstraintKind::Value(gap);
+                Driven::Held(Constraint { place, kind, drive: Some(coordinate), docs: docs::docs(&[]), span })
+            }
+            target => Driven::Follows(Drive { target, value: value.expr, span }),
+        })
     }
 
     fn drive_target(
@@ -163,7 +184,13 @@ impl<'a> Checker<'a, '_> {
                 return None;
             }
         };
-        self.in_the_tree(joint, expr.span(), joints)?;
+        if let Some((topology, list)) = joints
+            && topology.is_cut(joint)
+            && !list.get(joint.0).is_some_and(|joint| self.is_measured(joint))
+        {
+            self.refuse_cut_coordinate(joint, expr.span(), list);
+            return None;
+        }
         Some(DriveTarget::Coordinate(Coordinate { joint, index }))
     }
 
@@ -184,6 +211,7 @@ impl<'a> Checker<'a, '_> {
                 return None;
             }
         };
+        let joint = self.itself(joint, joints);
         let shape = self.shape(joint)?;
         let target = match (member, shape) {
             ("position", Shape::Free(_)) => DriveTarget::Position(joint),
@@ -200,6 +228,18 @@ impl<'a> Checker<'a, '_> {
         Some(target)
     }
 
+    /// A Free joint on the ground whose body has absolute coordinates is that body's own.
+    fn itself(&self, joint: JointId, joints: Option<(&Topology, &[Joint])>) -> JointId {
+        let Some((topology, list)) = joints else { return joint };
+        let Some(written) = list.get(joint.0).filter(|written| topology.is_cut(joint) && plain(written)) else {
+            return joint;
+        };
+        match (&written.kind, written.child.body) {
+            (JointKind::Free(_), BodyRef::Body(id)) => self.absolute.get(id.0).copied().flatten().unwrap_or(joint),
+            _ => joint,
+        }
+    }
+
     /// The Free joint on the ground whose coordinates are the pose of a body.
     pub(super) fn free_carrier(
         &mut self,
@@ -213,10 +253,6 @@ impl<'a> Checker<'a, '_> {
         // Without a tree nothing more is known, and that has been told.
         let (topology, list) = joints?;
         let text = source_text(base);
-        let plain = |joint: &Joint| {
-            let at_ground = joint.parent.body == BodyRef::Ground && joint.parent.steps.is_empty();
-            at_ground && joint.child.steps.is_empty()
-        };
         let carrier = topology.carrier(frame.frame.body, list).filter(|_| frame.frame.steps.is_empty());
         let free = carrier
             .filter(|id| list.get(id.0).is_some_and(|j| matches!(self.shape(*id), Some(Shape::Free(_))) && plain(j)));
@@ -264,6 +300,11 @@ impl<'a> Checker<'a, '_> {
         let name = self.path_text(&slot.place);
         slot.shape.map_or_else(|| format!("`{name}`"), |shape| shape.coordinate_text(&name, coordinate.index))
     }
+}
+
+/// Whether a joint leads from the ground's frame to a body's own.
+fn plain(joint: &Joint) -> bool {
+    joint.parent.body == BodyRef::Ground && joint.parent.steps.is_empty() && joint.child.steps.is_empty()
 }
 
 /// What a joint has that can be driven.

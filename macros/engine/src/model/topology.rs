@@ -193,10 +193,21 @@ impl Checker<'_, '_> {
         slot.is_some_and(|slot| slot.item.attrs.iter().any(|a| a.path().is_ident("cut")))
     }
 
+    /// Whether coordinates of the joint are measured where it closes a loop: it lies between bodies that stand in the tree by
+    /// themselves.
+    pub(super) fn is_measured(&self, joint: &Joint) -> bool {
+        let own = match joint.child.body {
+            BodyRef::Ground => joint.parent.body,
+            body => body,
+        };
+        matches!(own, BodyRef::Body(id) if self.absolute.get(id.0).is_some_and(Option::is_some))
+    }
+
     /// Refuses coordinates of joints that have none.
     pub(super) fn check_coordinate_uses(&mut self, topology: &Topology, joints: &[Joint]) {
         for (id, span) in std::mem::take(&mut self.coordinate_uses) {
-            if topology.is_cut(id) {
+            let measured = joints.get(id.0).is_some_and(|joint| self.is_measured(joint));
+            if topology.is_cut(id) && !measured {
                 self.refuse_cut_coordinate(id, span, joints);
             }
         }

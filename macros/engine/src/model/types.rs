@@ -86,6 +86,8 @@ pub struct Coordinate {
 pub struct Constraint {
     pub place: Place,
     pub kind: ConstraintKind,
+    /// The measured coordinate that this drives: the expression is the coordinate less its course.
+    pub drive: Option<Coordinate>,
     pub docs: Docs,
     pub span: Span,
 }

@@ -80,7 +80,13 @@ pub fn model() -> Model {
     model.tree.retain(|joint| joint.0 < 10);
     let span = Span::call_site();
     let value = ConstraintKind::Value(number(0.0));
-    model.constraints.push(Constraint { place: place(0, "ring"), kind: value, docs: docs("m", "the bead's"), span });
+    model.constraints.push(Constraint {
+        place: place(0, "ring"),
+        kind: value,
+        drive: None,
+        docs: docs("m", "the bead's"),
+        span,
+    });
     let time = || expr(ExprNode::Time, Type::Scalar);
     let swing =
         expr(ExprNode::Mul(number(0.5), expr(ExprNode::Call(Function::Sin, vec![time()]), Type::Scalar)), Type::Scalar);

@@ -219,10 +219,10 @@ fn rods_and_expressions_are_exact() {
     let docs = multibody_engine::model::types::Docs::default;
     use multibody_engine::model::types::{Constraint, ConstraintId, ConstraintKind, ForceKind};
     let kind = ConstraintKind::Value(model.outputs[0].value.clone());
-    model.constraints.push(Constraint { place: place.clone(), kind, docs: docs(), span });
+    model.constraints.push(Constraint { place: place.clone(), kind, drive: None, docs: docs(), span });
     let ForceKind::LineSpring { between, length: Some(length), .. } = &model.forces[0].kind else { panic!("a spring") };
     let kind = ConstraintKind::Rod { between: between.clone(), length: length.clone() };
-    model.constraints.push(Constraint { place, kind, docs: docs(), span });
+    model.constraints.push(Constraint { place, kind, drive: None, docs: docs(), span });
     for (seed, writing) in Writing::ALL.into_iter().enumerate() {
         let mut e = equations(&model);
         let values = draw(&e, 100 + seed as u64);

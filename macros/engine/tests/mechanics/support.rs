@@ -28,7 +28,10 @@ pub(crate) struct Point {
 /// Derives the body of `mod m { .. }`, preceded by `parts`.
 pub(crate) fn case_with(parts: &str, body: &str) -> Case {
     let model = model_with(parts, body);
-    let (structure, derivation) = multibody_engine::mechanics::of(&model).unwrap_or_else(|_| panic!("mechanics"));
+    let (structure, derivation) = multibody_engine::mechanics::of(&model).unwrap_or_else(|list| {
+        let messages: Vec<_> = list.iter().map(|complaint| complaint.message.as_str()).collect();
+        panic!("{messages:?} in {body}")
+    });
     Case { model, structure, derivation }
 }
 
@@ -153,16 +156,20 @@ impl Case {
 
     /// Numbers of one output.
     pub(crate) fn output(&self, name: &str, point: &Point) -> Vec<f64> {
+        self.outputs(point).remove(name).unwrap_or_else(|| panic!("no output {name}"))
+    }
+
+    /// Numbers of all outputs.
+    pub(crate) fn outputs(&self, point: &Point) -> HashMap<String, Vec<f64>> {
         let all = self.eval(FunctionKind::Outputs, point);
         let mut start = 0;
-        for output in &self.model.outputs {
-            let width = width(&output.value.ty, self.structure.freedoms());
-            if output.place.field == name {
-                return all[start..start + width].to_vec();
-            }
-            start += width;
-        }
-        panic!("no output {name}")
+        let outputs = self.model.outputs.iter().map(|output| {
+            let end = start + width(&output.value.ty, self.structure.freedoms());
+            let values = all[start..end].to_vec();
+            start = end;
+            (output.place.field.to_string(), values)
+        });
+        outputs.collect()
     }
 
     pub(crate) fn dof(&self) -> usize {
@@ -188,6 +195,9 @@ impl Case {
         let mut first = 0;
         for (k, joint) in self.model.joints.iter().enumerate() {
             let id = multibody_engine::model::types::JointId(k);
+            if self.model.cuts.contains(&id) {
+                continue;
+            }
             let straight = quaternion_start(joint).unwrap_or(joint.kind.freedoms());
             for component in 0..straight {
                 *next.values.get_mut(&Symbol::Position { joint: id, component }).expect("known") +=
@@ -214,6 +224,14 @@ impl Case {
             let state = multibody_engine::model::types::StateId(k);
             *next.values.get_mut(&Symbol::State { state }).expect("known") += h * rate;
         }
+        next
+    }
+
+    /// The point after a displacement, velocities and everything else as they were.
+    pub(crate) fn moved(&self, point: &Point, displacement: &[f64]) -> Point {
+        let still = vec![0.0; displacement.len()];
+        let mut next = self.displaced(point, 1.0, displacement, &still, &[]);
+        next.set(Symbol::Time, point.get(Symbol::Time));
         next
     }
 

@@ -59,7 +59,9 @@ fn coupling(e: &mut Equations<'_>, model: &Model, constraint: ConstraintId) -> O
         if !positions(e, slope).is_empty() {
             return None;
         }
-        terms.push((coordinate, e.g.literal(slope).is_some_and(|n| n.value() != 0.0)));
+        // What has a quaternion leaves the state as a whole or not at all.
+        let gives = !has_quaternion(kind) && e.g.literal(slope).is_some_and(|n| n.value() != 0.0);
+        terms.push((coordinate, gives));
     }
     terms.sort_unstable();
     (!terms.is_empty()).then_some(Coupling { constraint, terms })

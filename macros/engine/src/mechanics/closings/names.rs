@@ -13,7 +13,10 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// Name of an equation.
 pub fn row_name(model: &Model, closing: Closing, index: usize) -> String {
     match closing {
-        Closing::Constraint(id) => model.constraints.get(id.0).map_or_else(String::new, |c| path(model, &c.place)),
+        Closing::Constraint(id) => model.constraints.get(id.0).map_or_else(String::new, |c| match c.drive {
+            Some(coordinate) => format!("drive of {}", coordinate_name(model, coordinate)),
+            None => path(model, &c.place),
+        }),
         Closing::Cut(id) => model.joints.get(id.0).map_or_else(String::new, |joint| {
             let list = of_joint(joint);
             let suffix = list.get(index).map_or("", String::as_str);

@@ -5,21 +5,21 @@
 //! equations are, for the component f of the way d = C - P along an axis fixed to a link A, f . (v_C - v_P) + w_A . (f x d),
 //! for axes c of the child and p of the parent (w_child - w_parent) . (c x p), for a rod d . (v_2 - v_1).
 //!
-//! Exact everywhere: ways along an axis of the parent, cosines, rods and expressions. For the gap of a point the term
+//! Exact everywhere: ways along an axis of the parent, cosines, rods and expressions ([`super::expression`]). For the gap of a
+//! point the term
 //! w_A . (f x d) is left out, and for a screw that doesn't count its turns the cosine of its lag is taken as one: both hold
 //! where the loop is closed.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use crate::model::types::{Closing, ConstraintKind, Coordinate, JointId};
+use crate::model::types::{Closing, ConstraintId, ConstraintKind, JointId};
 use crate::symbolic::graph::{Scalar, Vector};
 
 use super::super::build::Place;
 use super::super::equations::Equations;
 use super::super::forces::{Loads, Terms};
 use super::super::newton_euler::{Wrench, to_parent};
-use super::super::symbols::Symbols;
 use super::Writing;
 use super::cut::{Cut, Equation};
 use super::view::View;
@@ -189,20 +189,27 @@ impl Equations<'_> {
                 self.apply(gathered, &view, &ends[0], force, Vector::ZERO);
                 self.apply(gathered, &view, &ends[1], -force, Vector::ZERO);
             }
-            Some(ConstraintKind::Value(value)) => {
-                let residual = self.scalar(value);
-                for &joint in &model.tree {
-                    for index in 0..Symbols::of(&self.symbols.velocities, joint).len() {
-                        let slope = self.partial(&[residual], Coordinate { joint, index });
-                        let effort = self.g.mul(multiplier, slope[0]);
-                        let first = self.symbols.first.get(joint.0).copied().unwrap_or(0);
-                        if effort != Scalar::ZERO {
-                            gathered.terms.effort(first + index, -effort);
-                        }
-                    }
-                }
-            }
+            Some(ConstraintKind::Value(_)) => self.hold_expression(gathered, id, multiplier),
             None => {}
+        }
+    }
+
+    fn hold_expression(&mut self, gathered: &mut Gathered, id: ConstraintId, multiplier: Scalar) {
+        let slopes = self.slopes(id);
+        for &(link, wrench) in &slopes.wrenches {
+            let (moments, forces) = gathered.world.entry(link).or_default();
+            moments.push(self.g.scale(-multiplier, wrench.moment));
+            forces.push(self.g.scale(-multiplier, wrench.force));
+        }
+        for &(coordinate, slope) in &slopes.efforts {
+            let effort = -self.g.mul(multiplier, slope);
+            if self.model.cuts.contains(&coordinate.joint) {
+                let mut efforts = vec![Scalar::ZERO; coordinate.index];
+                efforts.push(effort);
+                self.act_across(&mut gathered.terms, coordinate.joint, &efforts, true);
+            } else {
+                gathered.terms.effort(self.freedom(coordinate), effort);
+            }
         }
     }
 

@@ -158,7 +158,10 @@ impl<'m> Deriving<'m> {
 fn misplaced(output: &Output) -> Complaint {
     Complaint {
         span: output.value.span,
-        message: format!("the output `{}` was derived with another number of scalars than its type has", output.place.field),
+        message: format!(
+            "the output `{}` was derived with another number of scalars than its type has",
+            output.place.field
+        ),
         help: Some("this is an error of multibody: please report it with the model".to_owned()),
     }
 }

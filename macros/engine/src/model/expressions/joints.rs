@@ -53,9 +53,6 @@ impl Checker<'_, '_> {
         let shape = self.shape(joint)?;
         let at = span(expr);
         let uses = Uses::of(Class::Position, source_text(expr), at);
-        if let Some(value) = self.measured(joint, index, Order::Position, at)? {
-            return Some(value.with(uses));
-        }
         self.uses_coordinates(joint, at);
         if shape != Shape::Free(Orientation::Quaternion) {
             let node = ExprNode::Coordinate { joint, index, order: Order::Position };
@@ -87,12 +84,6 @@ impl Checker<'_, '_> {
     ) -> Option<Meaning> {
         let name = member.to_string();
         let text = format!("{}.{name}", source_text(base));
-        if name == "rate"
-            && let Some(value) = self.measured(joint, index, Order::Rate, member.span())?
-        {
-            let uses = Uses::of(Class::State, text, member.span());
-            return Some(Meaning::Value(value.with(uses)));
-        }
         self.uses_coordinates(joint, member.span());
         let (node, class) = match name.as_str() {
             "rate" => (coordinate(joint, index, Order::Rate), Class::State),

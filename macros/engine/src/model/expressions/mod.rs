@@ -8,7 +8,6 @@ mod broadcast;
 mod calls;
 mod coerce;
 mod joints;
-mod measured;
 mod members;
 mod methods;
 mod operators;
