@@ -21,10 +21,9 @@ const FORMULATIONS: [&str; 4] = [
 const MOST: usize = 90;
 
 /// Why a formulation may be refused.
-const REASONS: [&str; 5] = [
+const REASONS: [&str; 4] = [
     // `emit kinematics` names coordinates that are no coordinates any more.
     "closes a loop and has no coordinates",
-    "closes a loop, so it can't have an armature",
     // Quaternions leave the state whole or not at all.
     "and it is a quaternion",
     // Told of single bodies on single joints in absolute coordinates.

@@ -34,9 +34,7 @@ mod view;
 mod winding;
 mod wrenches;
 
-use crate::model::types::{
-    Closing, Constraint, ConstraintId, ConstraintKind, ExprNode, JointId, JointKind, Model,
-};
+use crate::model::types::{Closing, Constraint, ConstraintId, ConstraintKind, ExprNode, JointId, JointKind, Model};
 use crate::symbolic::graph::{Graph, Scalar};
 
 use super::equations::{Equations, Method, Style, Way};

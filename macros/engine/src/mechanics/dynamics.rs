@@ -22,13 +22,19 @@ impl Equations<'_> {
     pub(super) fn inverse_dynamics(&mut self) -> Vec<Scalar> {
         let mechanism = Rc::clone(&self.mechanism);
         let list = self.efforts(&mechanism.tree.acceleration);
-        mechanism.sign(&list)
+        let mut efforts = mechanism.sign(&list);
+        let accelerations = self.symbols.accelerations.concat();
+        self.add_rotor_efforts(&mut efforts, &accelerations);
+        efforts
     }
 
     pub(super) fn bias(&mut self) -> Vec<Scalar> {
         let mechanism = Rc::clone(&self.mechanism);
-        let list = self.efforts(&vec![Scalar::ZERO; mechanism.tree.freedoms()]);
-        mechanism.sign(&list)
+        let still = vec![Scalar::ZERO; mechanism.tree.freedoms()];
+        let list = self.efforts(&still);
+        let mut efforts = mechanism.sign(&list);
+        self.add_rotor_efforts(&mut efforts, &still);
+        efforts
     }
 
     /// In the tree's coordinates.
@@ -70,6 +76,7 @@ impl Equations<'_> {
             let row = mechanism.sign(row);
             entries.extend(row.iter().take(mechanism.flipped.len()).map(|&entry| if flip { -entry } else { entry }));
         }
+        self.add_rotors(&mut entries);
         entries
     }
 

@@ -25,6 +25,8 @@ impl Equations<'_> {
                 twice.push(g.product(&[link.armature, rate, rate]));
             }
         }
+        twice.extend(self.twice_of_rotors());
+        let g = &mut self.g;
         let sum = g.sum(&twice);
         let half = g.decimal(0.5);
         g.mul(half, sum)

@@ -21,6 +21,7 @@ use super::newton_euler::Wrench;
 use super::parallel::{Axes, Shared, share_axes};
 use super::reduction::{Map, Reduction};
 use super::regroup::{regroup, regroup_but};
+use super::rotors::Rotor;
 use super::structure::{Row, Structure};
 use super::symbols::Symbols;
 use super::tree::Tree;
@@ -98,6 +99,8 @@ pub struct Equations<'m> {
     pub(super) gathered: bool,
     /// Multipliers of the equations by which dependent coordinates are found, where reactions have asked for them.
     pub(super) holding: Option<Rc<[(Row, Scalar)]>>,
+    /// Of joints that close loops.
+    pub(super) rotors: Option<Rc<[Rotor]>>,
     /// What expressions that are held act with, by constraint.
     pub(super) slopes: HashMap<usize, Rc<Slopes>>,
     pub(super) stand_ins: StandIns,
@@ -135,6 +138,7 @@ impl<'m> Equations<'m> {
             multiplied: Vec::new(),
             gathered: false,
             holding: None,
+            rotors: None,
             slopes: HashMap::new(),
             stand_ins: StandIns::default(),
             loading: false,

@@ -28,6 +28,15 @@ pub(super) struct Loads {
     pub world: Vec<(usize, Wrench)>,
 }
 
+impl Loads {
+    pub(super) fn add(&self, g: &mut Graph, others: &Loads) -> Loads {
+        let applied = self.applied.iter().zip(&others.applied).map(|(a, b)| a.add(g, b)).collect();
+        let efforts = self.efforts.iter().zip(&others.efforts).map(|(&a, &b)| g.add(a, b)).collect();
+        let world = [&self.world[..], &others.world].concat();
+        Loads { applied, efforts, world }
+    }
+}
+
 /// Terms of sums, added up once.
 pub(super) struct Terms {
     moments: Vec<Vec<Vector>>,
@@ -116,11 +125,7 @@ impl Equations<'_> {
     pub(super) fn held_by(&mut self, loads: &Loads, multiplied: &[(Row, Scalar)]) -> Rc<Loads> {
         let held = self.by_closing(multiplied);
         let others = self.constraint_wrenches(&held);
-        let g = &mut self.g;
-        let applied = loads.applied.iter().zip(&others.applied).map(|(a, b)| a.add(g, b)).collect();
-        let efforts = loads.efforts.iter().zip(&others.efforts).map(|(&a, &b)| g.add(a, b)).collect();
-        let world = [&loads.world[..], &others.world].concat();
-        Rc::new(Loads { applied, efforts, world })
+        Rc::new(loads.add(&mut self.g, &others))
     }
 
     /// Multipliers gathered by what they close.

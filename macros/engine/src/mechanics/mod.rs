@@ -46,6 +46,7 @@ pub mod parallel;
 mod reactions;
 mod reduction;
 pub mod regroup;
+mod rotors;
 mod saddle;
 mod springs;
 pub mod structure;

@@ -55,7 +55,13 @@ impl Equations<'_> {
         multiplied.retain(|(row, _)| row.closing == Closing::Cut(joint));
         let held = self.by_closing(&multiplied);
         let mut parts: Vec<[Vector; 2]> = held.iter().map(|one| self.cut_reaction(joint, one, axes)).collect();
-        let declared = self.efforts_across(joint);
+        let mut declared = self.efforts_across(joint);
+        let accelerations = self.accelerations();
+        for rotor in self.rotors().iter().filter(|rotor| rotor.joint == joint) {
+            let push = self.rotor_effort(rotor, &accelerations);
+            declared.resize(declared.len().max(1), Scalar::ZERO);
+            declared[0] = self.g.sub(declared[0], push);
+        }
         for (efforts, held) in [(declared, false), (held_across, true)] {
             if let Some((ends, Wrench { moment, force })) = self.across(joint, &efforts, held) {
                 parts.push(self.turned_to(axes, ends[0].link, [force, moment]));
@@ -124,7 +130,8 @@ impl Equations<'_> {
         let user = self.accelerations();
         let mut acceleration = mechanism.sign(&user);
         acceleration.resize(tree.freedoms(), Scalar::ZERO);
-        let mut loads = self.loads();
+        let loads = self.loads();
+        let mut loads = self.with_rotors(loads, &user);
         let holding = self.holding_multipliers();
         if !holding.is_empty() {
             loads = self.held_by(&loads, &holding);

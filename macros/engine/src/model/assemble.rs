@@ -75,7 +75,6 @@ impl<'a> Checker<'a, '_> {
         let loops = self.loops(&collected, tree);
         let (bodies, joints, topology) = found?;
         self.check_coordinate_uses(&topology, &joints);
-        self.check_armatures(&topology, &joints);
         let mut constraints: Vec<Constraint> = all(collected.constraints)?;
         constraints.extend(loops.held);
         if let Some(span) =

@@ -38,8 +38,8 @@ impl Topology {
 }
 
 /// Weights of joints in the tree, so far apart that a sum over all joints keeps their order: `#[cut]`, then whether the
-/// joint has no armature (one that closes a loop can't carry any), then whether the parent is absolute, then freedoms, and
-/// source order last.
+/// joint has no armature (a rotor costs more where its rate is measured), then whether the parent is absolute, then
+/// freedoms, and source order last.
 const FREEDOM: i128 = 1 << 30;
 const AT_ABSOLUTE: i128 = 1 << 48;
 const NO_ARMATURE: i128 = 1 << 60;
@@ -210,24 +210,6 @@ impl Checker<'_, '_> {
             if topology.is_cut(id) && !measured {
                 self.refuse_cut_coordinate(id, span, joints);
             }
-        }
-    }
-
-    /// Refuses armatures of joints that have no coordinate to carry them.
-    pub(super) fn check_armatures(&mut self, topology: &Topology, joints: &[Joint]) {
-        for (index, joint) in joints.iter().enumerate() {
-            if !(topology.is_cut(JointId(index)) && has_armature(joint)) {
-                continue;
-            }
-            let help = if self.coordinates.is_some() {
-                "with the coordinates that `formulation` sets it has none: keep `coordinates: Joint`, or give the rotor a \
-                 body and a joint of its own"
-            } else {
-                "put `#[cut]` on another joint of the loop, or give the rotor a body and a joint of its own"
-            };
-            let message =
-                format!("the joint `{}` closes a loop and has no coordinate for its armature", joint.place.field);
-            self.report.help(joint.span, message, help);
         }
     }
 

@@ -91,6 +91,9 @@ fn joints_are_measured() {
         ("Revolute { axis: -Y", "angle", 1),
         ("Prismatic { axis: [1, 0.3, -0.2]", "travel", 1),
         ("Prismatic { axis: -Z", "travel", 1),
+        ("Revolute { armature: 0.7, axis: [1, 0.3, -0.2]", "angle", 1),
+        ("Prismatic { armature: 0.4, axis: -Z", "travel", 1),
+        ("Screw { armature: 0.3, axis: [0.2, 0.3, -1], pitch: 0.2", "angle", 1),
         ("Screw { axis: [0.2, 0.3, -1], pitch: 0.2", "angle", 1),
         ("Screw { axis: -X, pitch: -0.3", "angle", 1),
         ("Cylindrical { axis: [1, 0.3, -0.2]", "travel angle", 2),
@@ -110,7 +113,8 @@ fn joints_are_measured() {
                 "{BODIES}
                 joint one: Revolute {{ parent: ground.at([0.1, 0.2, 0]), child: a.at([0.1, 0, 0.2]), axis: [1, 0.3, -0.2] }}
                 joint two: {kind}, parent: a.at([1, 0.2, 0]).rotated([1, 1, 0], 0.4), child: b.at([0.1, 0, 0.2]).rotated(X, 0.3) }}
-                force wind: Force {{ at: b, value: [1, 2, -0.5], axes: ground }}"
+                force wind: Force {{ at: b, value: [1, 2, -0.5], axes: ground }}
+                output moving = kinetic();"
             );
             for (k, name) in names.iter().enumerate() {
                 text += &format!(
@@ -137,7 +141,7 @@ fn joints_are_measured() {
             .collect();
         let told: Vec<&str> = told
             .into_iter()
-            .filter(|name| ["power", "told", "stored", "relative"].iter().any(|p| name.starts_with(p)))
+            .filter(|name| ["power", "told", "stored", "relative", "moving"].iter().any(|p| name.starts_with(p)))
             .collect();
         assert!(told.len() >= 3);
         agrees(&text[BODIES.len()..], text, &told);

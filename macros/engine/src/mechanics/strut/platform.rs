@@ -49,7 +49,7 @@ impl Equations<'_> {
     pub(in crate::mechanics) fn platform(&mut self, reduction: &Reduction) -> Option<Platform> {
         let model = self.model;
         let structure = Rc::clone(&self.structure);
-        if !structure.rows.is_empty() || structure.steps.is_empty() {
+        if !structure.rows.is_empty() || structure.steps.is_empty() || !self.rotors().is_empty() {
             return None;
         }
         let mut chains: Vec<(Chain, Triple)> = Vec::with_capacity(structure.steps.len());
