@@ -55,6 +55,11 @@ impl Mechanism {
 
     /// With outputs that tell the motion, accelerations and reactions.
     pub(crate) fn case(&self, formulation: &str, relative: bool) -> Case {
+        self.try_case(formulation, relative).unwrap_or_else(|refusal| panic!("{refusal} in {}", self.items))
+    }
+
+    /// The same, or why the formulation is refused.
+    pub(crate) fn try_case(&self, formulation: &str, relative: bool) -> Result<Case, String> {
         let mut text = format!("{} {formulation}", self.items);
         for (k, body) in self.bodies.iter().enumerate() {
             text += &format!(
@@ -69,7 +74,7 @@ impl Mechanism {
         for (k, (_, _, address)) in self.coordinates.iter().enumerate().filter(|_| relative) {
             text += &format!("output coordinate_{k} = [{address}, {address}.rate];");
         }
-        case(&text)
+        try_case(&text)
     }
 
     /// A random motion that the loops allow, in relative coordinates with multipliers.

@@ -27,12 +27,20 @@ pub(crate) struct Point {
 
 /// Derives the body of `mod m { .. }`, preceded by `parts`.
 pub(crate) fn case_with(parts: &str, body: &str) -> Case {
-    let model = model_with(parts, body);
-    let (structure, derivation) = multibody_engine::mechanics::of(&model).unwrap_or_else(|list| {
+    derived(model_with(parts, body)).unwrap_or_else(|messages| panic!("{messages} in {body}"))
+}
+
+/// The same without parts, or why it is refused.
+pub(crate) fn try_case(body: &str) -> Result<Case, String> {
+    derived(model_of(body))
+}
+
+fn derived(model: Model) -> Result<Case, String> {
+    let (structure, derivation) = multibody_engine::mechanics::of(&model).map_err(|list| {
         let messages: Vec<_> = list.iter().map(|complaint| complaint.message.as_str()).collect();
-        panic!("{messages:?} in {body}")
-    });
-    Case { model, structure, derivation }
+        messages.join("; ")
+    })?;
+    Ok(Case { model, structure, derivation })
 }
 
 /// The checked model of `mod m { .. }`.
