@@ -13,6 +13,5 @@ mod joints;
 mod kinks;
 mod loops;
 mod motion;
-mod random_outputs;
 mod reactions;
 mod support;
