@@ -14,38 +14,46 @@ pub mod solve;
 pub mod symbolic;
 pub mod syntax;
 
+use std::collections::HashSet;
+
 use proc_macro2::TokenStream;
 
 use diagnostics::Diagnostics;
 use mechanics::analysis::Complaint;
 use mechanics::structure::Structure;
+use model::Soundness;
 use model::types::Model;
 use optimize::Refusal;
 use optimize::program::Compiled;
 
-/// Tokens of a `multibody!` call to tokens of its modules; with errors in between, everything that is wrong.
+/// Tokens of a `multibody!` call to tokens of its modules, and of everything that is wrong. A model without a mistake is
+/// there in full whatever stands beside it, one with mistakes as an outline without equations: one mistake, one error.
 pub fn expand(tokens: TokenStream) -> TokenStream {
     let mut diagnostics = Diagnostics::default();
     let source = syntax::parse(tokens, &mut diagnostics);
-    let models = model::check(&source, &mut diagnostics);
-    if !diagnostics.is_empty() {
-        let mut output = diagnostics.to_tokens();
-        output.extend(emit::skeletons(&source));
-        return output;
-    }
-    let mut output = TokenStream::new();
-    for model in &models {
-        match compile(model) {
-            Ok((structure, compiled)) => output.extend(emit::emit(model, &structure, &compiled)),
-            Err(trouble) => trouble.report(model, &mut diagnostics),
+    let mut modules = TokenStream::new();
+    let mut names = HashSet::new();
+    for checked in model::check_all(&source, &mut diagnostics) {
+        let model = &checked.model;
+        let has_cfg = model.attrs.iter().any(|attr| attr.path().is_ident("cfg"));
+        // Two modules of one name are an error already, unless `cfg` takes one away.
+        if !names.insert(model.name.to_string()) && !has_cfg {
+            continue;
         }
+        if checked.state == Soundness::Sound {
+            match compile(model) {
+                Ok((structure, compiled)) => {
+                    modules.extend(emit::emit(model, &structure, &compiled));
+                    continue;
+                }
+                Err(trouble) => trouble.report(model, &mut diagnostics),
+            }
+        }
+        modules.extend(emit::skeleton(&checked));
     }
-    if diagnostics.is_empty() {
-        return output;
-    }
-    let mut errors = diagnostics.to_tokens();
-    errors.extend(emit::skeletons(&source));
-    errors
+    let mut output = diagnostics.to_tokens();
+    output.extend(modules);
+    output
 }
 
 /// The stages behind the checked model.

@@ -1,19 +1,20 @@
 //! What stands beside errors has the names that the model would have had.
 
-use multibody_engine::diagnostics::Diagnostics;
-use multibody_engine::emit::{skeleton, skeletons};
-use multibody_engine::syntax::parse;
+use multibody_engine::expand;
 
-fn skeletons_of(text: &str) -> String {
-    let mut diagnostics = Diagnostics::default();
-    let source = parse(text.parse().expect("tokens"), &mut diagnostics);
-    for module in &source.modules {
-        let alone = skeleton(module);
-        syn::parse2::<syn::File>(alone).expect("items");
-    }
-    let tokens = skeletons(&source);
+/// All that a call expands to, errors first, without spaces.
+fn expanded(text: &str) -> String {
+    let tokens = expand(text.parse().expect("tokens"));
     syn::parse2::<syn::File>(tokens.clone()).expect("items");
     tokens.to_string().split_whitespace().collect()
+}
+
+/// The modules beside the errors.
+fn skeletons_of(text: &str) -> String {
+    let text = expanded(text);
+    assert!(text.contains("compile_error!"), "no error");
+    let start = text.find("#[doc=\"Standsinfor").unwrap_or(0);
+    text[start..].to_string()
 }
 
 #[test]
@@ -57,9 +58,9 @@ fn fields_are_guessed() {
         "->Derivative<T>{::core::unimplemented!()}",
         "impl<T:Real>::mb::SystemforModel<T>",
     ] {
-        assert!(text.contains(piece), "{piece} is not in {text}");
+        assert!(text.contains(piece), "{piece} is missing");
     }
-    assert!(!text.contains("wrong") && !text.contains("lost"));
+    assert!(text.contains("pubwrong:T") && !text.contains("lost"));
     assert_eq!(text.matches("modbroken").count(), 1);
 }
 
@@ -78,19 +79,19 @@ fn loops_are_guessed() {
         "pubb:::multibody::FreeRollPitchYaw<T>",
         "pubconstCONSTRAINTS:usize=4;",
         "pubmultipliers:::multibody::nalgebra::SVector<T,4>",
-        "pubfnconstraint_jacobian(&self,_t:T,_q:&Position<T>)->::multibody::nalgebra::SMatrix<T,4,10>",
+        "pubfnconstraint_jacobian(&self,_t:T,_q:&Position<T>)->::multibody::nalgebra::SMatrix<T,4,7>",
         "pubfnresidual(",
         "pubfninverse_dynamics(&self,_t:T,_state:&State<T>,_input:&Input<T>,_accel:&Velocity<T>)->Solved<T>",
         "pubfnkinematics(&self,_t:T,_state:&State<T>,_accel:&Velocity<T>)->::multibody::Kinematics<T,1>",
         "->::multibody::Kinematics<T,7>",
         "impl<T:Real>::multibody::ConstrainedforModel<T>",
     ] {
-        assert!(text.contains(piece), "{piece} is not in {text}");
+        assert!(text.contains(piece), "{piece} is missing");
     }
     assert!(!text.contains("guess"));
     let text = skeletons_of(&format!("mod broken {{ formulation {{ constraints: Reduced }} {items} }}"));
     for piece in ["pubguess:::multibody::nalgebra::SVector<T,4>", "pubfnclose(", "pubresidual:T"] {
-        assert!(text.contains(piece), "{piece} is not in {text}");
+        assert!(text.contains(piece), "{piece} is missing");
     }
     assert!(!text.contains("pubmultipliers"));
     let solved = "solve (one) from two {}";
@@ -108,4 +109,109 @@ fn nothing_grows_without_bound() {
     );
     assert!(text.len() < 10_000_000);
     assert_eq!(text.matches("modmodel").count(), 1);
+}
+
+const FOUR_BAR: &str = "
+    body a { mass: 1.0, inertia: rod(1.0, 1.0, X) }
+    body b { mass: 1.0, com: X, inertia: rod(1.0, 3.0, X) }
+    body c { mass: 1.0, inertia: rod(1.0, 2.0, X) }
+    joint ja: Revolute { parent: ground, child: a, axis: Z }
+    joint jb: Revolute { parent: a.at(X), child: b, axis: Z }
+    joint jc: Revolute { parent: ground.at(3 * X), child: c, axis: Z }
+    joint jd: Revolute { parent: b.at(3 * X), child: c.at(2 * X), axis: Z }
+    output p = c.position;";
+
+/// A model without mistakes is there in full, whatever stands beside it.
+#[test]
+fn a_model_without_mistakes_stays_whole() {
+    let good = expanded(&format!("pub mod good {{ {FOUR_BAR} }}"));
+    let bad = "pub mod bad { body a { mass: 0.0 } joint x: Prismatic { parent: ground, child: a, axis: X } }";
+    let both = expanded(&format!("pub mod good {{ {FOUR_BAR} }} {bad}"));
+    assert_eq!(both.matches("compile_error!").count(), 1);
+    assert!(both.contains(&good), "the good model has changed");
+    let both = expanded(&format!("{bad} pub mod good {{ {FOUR_BAR} }}"));
+    assert!(both.ends_with(&good), "the good model has changed");
+    // Mistakes that only the equations show.
+    let bad = bad.replace("mass: 0.0", "mass: 1e308 * 1e308");
+    let both = expanded(&format!("{bad} pub mod good {{ {FOUR_BAR} }}"));
+    assert_eq!(both.matches("compile_error!").count(), 1);
+    assert!(both.ends_with(&good), "the good model has changed");
+}
+
+/// Whatever is wrong, the structs are those of the model that was meant.
+#[test]
+fn stand_ins_have_the_types_that_were_meant() {
+    let structs = |text: &str| -> Vec<String> {
+        let starts = text.match_indices("pubstruct");
+        let declared = starts.filter_map(|(at, _)| text[at..].split_once('}').map(|(item, _)| item.to_string()));
+        let names = ["Position<", "Velocity<", "State<", "Params<", "Input<", "Output<", "Derivative<", "States<"];
+        let plain = |item: String| -> String {
+            let mut out = String::new();
+            let mut rest = item.as_str();
+            while let Some((before, after)) = rest.split_once("#[doc=") {
+                out += before;
+                rest = after.split_once("\"]").map_or("", |(_, after)| after);
+            }
+            out + rest
+        };
+        declared.map(plain).filter(|item| names.iter().any(|name| item.contains(name))).collect()
+    };
+    let cases: &[(&str, &str, &str)] = &[
+        ("", "com: X", "cmo: X"),
+        ("", "com: X", "com: Q"),
+        ("", "c.position", "c.positoin"),
+        ("", "c.position", "cc.position"),
+        ("", "c.position", "2.0 * (c.position + mistake)"),
+        ("", "parent: b.at(3 * X)", "parent: bb.at(3 * X)"),
+        ("", "parent: a.at(X)", "parent: a.at(Q)"),
+        ("", "parent: ground.at(3 * X)", "prent: ground.at(3 * X)"),
+        ("", "jb: Revolute", "jb: Revolut"),
+        ("", "jd: Revolute", "jd: Hinge"),
+        ("", "mass: 1.0", "mass: -1.0"),
+        ("", "mass: 1.0", "mass 1.0"),
+        ("param m: Vec3 = [1.0, 2.0, 3.0];", "m: Vec3", "m: Vector3"),
+        ("param m = [1.0, 2.0, 3.0];", "[1.0, 2.0, 3.0]", "[1.0, 2.0, pi]"),
+        ("param m = 2.0 * X;", "2.0 * X", "2,0 * X"),
+        ("input u: [Scalar; 3];", "[Scalar; 3]", "[scalar; 3]"),
+        ("input f: Vec3; force w: Force { at: b, value: f, axes: ground }", "at: b", "on: b"),
+        ("input f; force w: Effort { joint: ja, value: f }", "joint: ja", "joint: joa"),
+        ("state s: rate = 1.0 - s, start: 0.0;", "1.0 - s", "1.0 - ss"),
+        ("output v = b.velocity.x;", "b.velocity", "b.velocty"),
+        ("output r = ja.reaction;", "reaction", "reactin"),
+        ("output n = norm(b.velocity);", "norm", "nrom"),
+        ("output n = cross(b.velocity, X);", "b.velocity", "b.speed"),
+        ("output n = [b.velocity, c.velocity];", "c.velocity", "c.speed"),
+        ("param k = 2.0; output n = k * X;", "k * X", "kk * X"),
+        ("formulation { constraints: Reduced, independent: ja }", "mass: 1.0", "mas: 1.0"),
+        ("formulation { constraints: Reduced } solve (jb, jc) from jd { sin(ja + jb - jc) > 0.0 }", "sin(ja + jb - jc) > 0.0", "sin(ja + jbb - jc) > 0.0"),
+        ("formulation { constraints: Reduced } solve (jb, jc) from jd { sin(ja + jb - jc) > 0.0 }", "Reduced", "Reducd"),
+        ("formulation { coordinates: Absolute(RollPitchYaw) }", "com: X", "comm: X"),
+        ("drive ja = 2.0 * t;", "2.0 * t", "2.0 * tt"),
+        ("drive ja = 2.0 * t;", "axis: Z", "axes: Z"),
+        ("#[allow(unphysical_inertia)]", "allow(unphysical_inertia)", "allow(unphysical)"),
+    ];
+    let mut wrong = String::new();
+    for (more, right, mistake) in cases {
+        let text = format!(
+            "pub mod m {{ {FOUR_BAR} {more} {} }}",
+            if more.starts_with('#') { "body z { mass: 1.0 } joint jz: Free { parent: ground, child: z }" } else { "" }
+        );
+        let meant = expanded(&text);
+        assert!(!meant.contains("compile_error!"), "{more}: {}", &meant[..200]);
+        assert!(text.contains(right), "{right}");
+        // The last one: items of the case come last.
+        let at = text.rfind(right).expect("there");
+        let found = expanded(&format!("{}{mistake}{}", &text[..at], &text[at + right.len()..]));
+        let errors = found.matches("compile_error!").count();
+        if errors != 1 {
+            wrong += &format!("{more} {mistake}: {errors} errors\n");
+        }
+        let (meant, found) = (structs(&meant), structs(&found));
+        for item in &meant {
+            if !found.contains(item) {
+                wrong += &format!("{more} {mistake}: no {item}\n");
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
 }

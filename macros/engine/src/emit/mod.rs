@@ -42,7 +42,7 @@ use crate::optimize::program::{Compiled, Function, FunctionKind};
 
 pub use self::functions::name as function_name;
 pub use self::report::report;
-pub use self::skeleton::{skeleton, skeletons};
+pub use self::skeleton::skeleton;
 pub use self::text::source;
 
 /// What every generated item is printed from.

@@ -22,47 +22,42 @@ use crate::syntax::tree::{self, ItemKind};
 
 /// What the items have given so far; `None` for those with mistakes.
 #[derive(Default)]
-struct Collected<'a> {
-    states: Vec<Option<State>>,
-    bodies: Vec<Option<Body>>,
-    joints: Vec<Option<Joint>>,
+pub(super) struct Collected<'a> {
+    pub(super) states: Vec<Option<State>>,
+    pub(super) bodies: Vec<Option<Body>>,
+    pub(super) joints: Vec<Option<Joint>>,
     forces: Vec<Option<Force>>,
-    outputs: Vec<Option<Output>>,
-    constraints: Vec<Option<Constraint>>,
+    pub(super) outputs: Vec<Option<Output>>,
+    pub(super) constraints: Vec<Option<Constraint>>,
     assumptions: Vec<Option<Expr>>,
     gravity: Option<Expr>,
-    handling: Option<Handling>,
-    independent: Option<(&'a tree::Fields, ScopeId)>,
-    requested: Requested<'a>,
+    pub(super) handling: Option<Handling>,
+    pub(super) independent: Option<(&'a tree::Fields, ScopeId)>,
+    pub(super) requested: Requested<'a>,
     /// `drive` and `solve`, which need to know what hangs on what.
-    deferred: Vec<Task<'a>>,
+    pub(super) deferred: Vec<Task<'a>>,
     world: bool,
     formulation: bool,
 }
 
 /// What closes loops and what follows from that.
 #[derive(Default)]
-struct Loops {
-    drives: Vec<Drive>,
+pub(super) struct Loops {
+    pub(super) drives: Vec<Drive>,
     /// Drives of measured coordinates.
-    held: Vec<Constraint>,
-    solves: Vec<Solve>,
-    independent: Vec<Coordinate>,
-    kinematics: Vec<Kinematics>,
-    skipped: Vec<String>,
+    pub(super) held: Vec<Constraint>,
+    pub(super) solves: Vec<Solve>,
+    pub(super) independent: Vec<Coordinate>,
+    pub(super) kinematics: Vec<Kinematics>,
+    pub(super) skipped: Vec<String>,
 }
 
 impl<'a> Checker<'a, '_> {
     /// Checks the module at `index` and all parts inside it.
     pub(super) fn model(&mut self, index: usize) -> Option<Model> {
-        let source = self.source;
-        let module = source.modules.get(index)?;
+        let module = self.source.modules.get(index)?;
         self.expand_root(index);
-        let mut collected = Collected::default();
-        let tasks = std::mem::take(&mut self.tasks);
-        for task in &tasks {
-            self.task(*task, &mut collected);
-        }
+        let mut collected = self.read_all();
         // Without all joints and bodies nothing can be said about how they hang together.
         let bodies: Option<Vec<Body>> = all(std::mem::take(&mut collected.bodies));
         let joints: Option<Vec<Joint>> = all(std::mem::take(&mut collected.joints));
@@ -95,12 +90,6 @@ impl<'a> Checker<'a, '_> {
         let mut skipped = topology.skipped;
         skipped.extend(loops.skipped);
         Some(Model {
-            name: module.name.clone(),
-            vis: module.vis.clone(),
-            attrs: module.attrs.clone(),
-            krate: source.krate.clone().unwrap_or_else(runtime),
-            part_types: std::mem::take(&mut self.part_types),
-            instances: std::mem::take(&mut self.instances),
             params,
             inputs,
             states: all(collected.states)?,
@@ -122,7 +111,50 @@ impl<'a> Checker<'a, '_> {
             gravity: collected.gravity,
             emit,
             asked: collected.requested.asked,
+            ..self.blank(module)
         })
+    }
+
+    /// A model of this name, with the parts that were expanded and nothing in them.
+    pub(super) fn blank(&self, module: &tree::Module) -> Model {
+        Model {
+            name: module.name.clone(),
+            vis: module.vis.clone(),
+            attrs: module.attrs.clone(),
+            krate: self.source.krate.clone().unwrap_or_else(runtime),
+            part_types: self.part_types.clone(),
+            instances: self.instances.clone(),
+            params: Vec::new(),
+            inputs: Vec::new(),
+            states: Vec::new(),
+            bodies: Vec::new(),
+            joints: Vec::new(),
+            tree: Vec::new(),
+            cuts: Vec::new(),
+            constraints: Vec::new(),
+            drives: Vec::new(),
+            solves: Vec::new(),
+            assumptions: Vec::new(),
+            handling: Handling::default(),
+            independent: Vec::new(),
+            skipped: Vec::new(),
+            solve_for: Vec::new(),
+            kinematics: Vec::new(),
+            forces: Vec::new(),
+            outputs: Vec::new(),
+            gravity: None,
+            emit: Vec::new(),
+            asked: Vec::new(),
+        }
+    }
+
+    /// What all items give.
+    pub(super) fn read_all(&mut self) -> Collected<'a> {
+        let mut collected = Collected::default();
+        for task in self.tasks.clone() {
+            self.task(task, &mut collected);
+        }
+        collected
     }
 
     /// Whether items were given up, by the parser or here: what hangs together is not known then.
@@ -216,7 +248,7 @@ impl<'a> Checker<'a, '_> {
     }
 
     /// What needs to know the tree. Without one its mistakes are told all the same.
-    fn loops(&mut self, collected: &Collected<'a>, tree: Option<(&Topology, &[Joint])>) -> Loops {
+    pub(super) fn loops(&mut self, collected: &Collected<'a>, tree: Option<(&Topology, &[Joint])>) -> Loops {
         let mut loops = Loops::default();
         for task in &collected.deferred {
             let context = root(task.scope);

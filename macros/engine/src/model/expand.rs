@@ -19,8 +19,7 @@ use super::fields::field;
 use super::names::{self, Shape};
 use super::typed::{FrameValue, Uses};
 use super::types::{
-    BodyId, BodyRef, ConstraintId, ForceId, Frame, InputId, Instance, InstanceId, JointId, Orientation, ParamId, Place,
-    StateId,
+    BodyId, BodyRef, ConstraintId, ForceId, Frame, InputId, Instance, InstanceId, JointId, ParamId, Place, StateId,
 };
 use crate::syntax::tree::{self, ItemKind};
 
@@ -249,7 +248,13 @@ impl<'a> Checker<'a, '_> {
             }
             ItemKind::Joint { kind, fields, .. } => {
                 let id = JointId(self.joints.len());
-                self.joints.push(JointSlot { place, item, scope, shape: shape(kind, fields), frames: Lazy::Waiting });
+                self.joints.push(JointSlot {
+                    place,
+                    item,
+                    scope,
+                    shape: Shape::read(&kind.to_string(), fields),
+                    frames: Lazy::Waiting,
+                });
                 (Subject::Joint(id), Symbol::Joint(id))
             }
             ItemKind::Part(part) => match self.expand_part(item, part, scope) {
@@ -386,17 +391,4 @@ pub(super) fn root<'a>(scope: ScopeId) -> Context<'a> {
 fn bound<'a>(binding: Binding<'a>, name: &Ident) -> Option<(&'a Expr, Context<'a>)> {
     let field = binding.part.fields.list.iter().find(|f| f.name == *name)?;
     Some((&field.value, binding.context))
-}
-
-/// Shape of a joint, before its fields are checked.
-fn shape(kind: &Ident, fields: &tree::Fields) -> Option<Shape> {
-    let shape = Shape::named(&kind.to_string())?;
-    let said = fields.list.iter().find(|f| f.name == "coordinates");
-    let angles =
-        said.is_some_and(|field| matches!(&field.value, Expr::Path(path) if path.path.is_ident("RollPitchYaw")));
-    Some(match shape {
-        Shape::Ball(_) if angles => Shape::Ball(Orientation::RollPitchYaw),
-        Shape::Free(_) if angles => Shape::Free(Orientation::RollPitchYaw),
-        other => other,
-    })
 }

@@ -15,6 +15,7 @@ use super::fields::{Known, field};
 use super::names::{JOINT_KINDS, Shape};
 use super::typed::{Allowed, FrameValue, Typed};
 use super::types::{BodyRef, Joint, JointId, JointKind, Orientation, Type};
+use crate::diagnostics::nearest;
 use crate::syntax::tree::{self, ItemKind};
 
 /// How far from perpendicular the axes of a universal joint may be: the sine of the angle that is missing.
@@ -124,16 +125,7 @@ impl<'a> Checker<'a, '_> {
         if name == tree::UNREADABLE {
             return self.report.silent();
         }
-        let instead = match name.as_str() {
-            "Hinge" | "Pin" | "Rotary" => Some("Revolute"),
-            "Slider" | "Sliding" | "Linear" => Some("Prismatic"),
-            "Spherical" => Some("Ball"),
-            "Weld" | "Rigid" => Some("Fixed"),
-            "Floating" | "SixDof" | "FreeJoint" => Some("Free"),
-            "Cardan" | "Hooke" => Some("Universal"),
-            "Helical" => Some("Screw"),
-            _ => None,
-        };
+        let instead = elsewhere(&name);
         let message = format!("unknown kind of joint `{name}`");
         if let Some(instead) = instead {
             let help = format!("write `{instead}`");
@@ -246,6 +238,27 @@ impl Orientation {
             _ => None,
         }
     }
+}
+
+/// What other tools call a kind of joint.
+fn elsewhere(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "Hinge" | "Pin" | "Rotary" | "Rotational" | "Continuous" => "Revolute",
+        "Slider" | "Sliding" | "Linear" | "Translational" => "Prismatic",
+        "Spherical" => "Ball",
+        "Weld" | "Rigid" => "Fixed",
+        "Floating" | "SixDof" | "FreeJoint" => "Free",
+        "Cardan" | "Hooke" => "Universal",
+        "Helical" => "Screw",
+        _ => return None,
+    })
+}
+
+/// The shape of a joint whose kind is none: of the one that was probably meant.
+pub(super) fn meant(kind: &str, fields: &tree::Fields) -> Shape {
+    let near = || nearest(kind, JOINT_KINDS.iter().map(|(kind, _)| *kind));
+    let name = elsewhere(kind).or_else(near).unwrap_or("Revolute");
+    Shape::read(name, fields).unwrap_or(Shape::Revolute)
 }
 
 fn known(shape: Shape) -> Known<'static> {

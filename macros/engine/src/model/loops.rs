@@ -144,7 +144,7 @@ impl<'a> Checker<'a, '_> {
         })
     }
 
-    fn drive_target(
+    pub(super) fn drive_target(
         &mut self,
         expr: &Expr,
         context: Context<'a>,

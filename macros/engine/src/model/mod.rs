@@ -2,7 +2,8 @@
 //!
 //! In: all modules of one `multibody!` call. Out: one [`types::Model`] per module without ports. Modules with ports are
 //! parts; they are expanded where they are used, and a part that nobody uses is checked by itself. All mistakes are
-//! reported in one go, and a model with a mistake is left out.
+//! reported in one go. Of a model with a mistake an outline is left (`outline`, `supposed`), from which emission makes
+//! what stands beside the error.
 
 mod arborescence;
 mod assemble;
@@ -23,11 +24,13 @@ mod mass_matrix;
 mod massless;
 mod matrix3;
 mod names;
+mod outline;
 mod parts;
 mod report;
 mod requests;
 mod solves;
 mod spatial;
+mod supposed;
 mod topology;
 mod typed;
 pub mod types;
@@ -44,8 +47,31 @@ use crate::syntax::tree::{self, ItemKind};
 use checker::Checker;
 use report::Report;
 
-/// Checks all modules of one call.
+/// What has become of one module that is no part.
+pub struct Checked {
+    pub model: types::Model,
+    pub state: Soundness,
+}
+
+/// How much of a [`Checked`] model is the user's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Soundness {
+    /// All of it.
+    Sound,
+    /// There are mistakes, but what moves and what holds it is known: its structure may be analysed.
+    Whole,
+    /// How bodies hang together is partly a guess.
+    Guessed,
+}
+
+/// The models of one call that have no mistake.
 pub fn check(source: &tree::Source, diagnostics: &mut Diagnostics) -> Vec<types::Model> {
+    let checked = check_all(source, diagnostics).into_iter();
+    checked.filter(|checked| checked.state == Soundness::Sound).map(|checked| checked.model).collect()
+}
+
+/// Checks all modules of one call. Of those with mistakes what is known of them is given.
+pub fn check_all(source: &tree::Source, diagnostics: &mut Diagnostics) -> Vec<Checked> {
     let mut report = Report::new(diagnostics);
     let modules = modules(source, &mut report);
     let mut used: BTreeSet<usize> = BTreeSet::new();
@@ -57,9 +83,12 @@ pub fn check(source: &tree::Source, diagnostics: &mut Diagnostics) -> Vec<types:
         report.take_failed();
         let mut checker = Checker::new(source, &modules, &mut report, false);
         let model = checker.model(index);
+        let failed = checker.report.take_failed();
+        models.extend(match model {
+            Some(model) if !failed => Some(Checked { model, state: Soundness::Sound }),
+            other => checker.outline(index, other),
+        });
         used.extend(checker.part_modules.iter().map(|(part, ..)| *part));
-        let failed = report.take_failed();
-        models.extend(model.filter(|_| !failed));
     }
     for (index, module) in source.modules.iter().enumerate() {
         if !is_part(module) {

@@ -2,7 +2,10 @@
 //!
 //! In: names. Out: whether a user may have them, and why not.
 
+use syn::Expr;
+
 use crate::rust_keywords::is_keyword;
+use crate::syntax::tree::Fields;
 
 use super::types::{Function, JointKind, Orientation};
 
@@ -135,6 +138,18 @@ impl Shape {
     pub(super) fn named(name: &str) -> Option<Shape> {
         let found = JOINT_KINDS.iter().find(|(kind, _)| *kind == name);
         found.map(|(_, shape)| *shape)
+    }
+
+    /// Of a joint of this kind with these fields, before they are checked.
+    pub(super) fn read(kind: &str, fields: &Fields) -> Option<Shape> {
+        let said = fields.list.iter().find(|f| f.name == "coordinates");
+        let angles =
+            said.is_some_and(|field| matches!(&field.value, Expr::Path(path) if path.path.is_ident("RollPitchYaw")));
+        Some(match Shape::named(kind)? {
+            Shape::Ball(_) if angles => Shape::Ball(Orientation::RollPitchYaw),
+            Shape::Free(_) if angles => Shape::Free(Orientation::RollPitchYaw),
+            other => other,
+        })
     }
 
     pub(super) fn of(kind: &JointKind) -> Shape {

@@ -17,11 +17,13 @@ pub(super) struct Report<'d> {
     seen: HashSet<(String, String)>,
     /// Set by any error, also by one that had been reported before.
     failed: bool,
+    /// All has been said.
+    muted: bool,
 }
 
 impl<'d> Report<'d> {
     pub(super) fn new(diagnostics: &'d mut Diagnostics) -> Self {
-        Report { diagnostics, seen: HashSet::new(), failed: false }
+        Report { diagnostics, seen: HashSet::new(), failed: false, muted: false }
     }
 
     /// Whether anything went wrong since the last call.
@@ -36,7 +38,12 @@ impl<'d> Report<'d> {
 
     /// Whether suggestions are still made.
     pub(super) fn suggests(&self) -> bool {
-        self.seen.len() < MAX_SUGGESTIONS
+        !self.muted && self.seen.len() < MAX_SUGGESTIONS
+    }
+
+    /// From here on, or until this is called again, mistakes are not reported: what they leave is looked at once more.
+    pub(super) fn mute(&mut self, muted: bool) {
+        self.muted = muted;
     }
 
     /// The parser has reported this one: the model is lost, nothing is said.
@@ -80,6 +87,9 @@ impl<'d> Report<'d> {
     /// the compiler, without `span-locations`), equal messages are one as well.
     fn is_new(&mut self, span: Span, message: &str) -> bool {
         self.failed = true;
+        if self.muted {
+            return false;
+        }
         let mut text = String::with_capacity(message.len());
         let mut in_number = false;
         for c in message.chars() {

@@ -188,7 +188,7 @@ impl Checker<'_, '_> {
         Some(chosen)
     }
 
-    fn says_cut(&self, joint: usize) -> bool {
+    pub(super) fn says_cut(&self, joint: usize) -> bool {
         let slot = self.joints.get(joint);
         slot.is_some_and(|slot| slot.item.attrs.iter().any(|a| a.path().is_ident("cut")))
     }

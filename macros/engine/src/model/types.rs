@@ -171,12 +171,14 @@ pub struct Kinematics {
 }
 
 /// A module with ports, used by this model at least once.
+#[derive(Clone)]
 pub struct PartType {
     pub name: Ident,
     pub docs: Docs,
 }
 
 /// The model (instance 0) or one instance of a part.
+#[derive(Clone)]
 pub struct Instance {
     /// `None` for the model itself.
     pub parent: Option<InstanceId>,

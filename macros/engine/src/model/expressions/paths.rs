@@ -60,7 +60,7 @@ impl<'a> Checker<'a, '_> {
         self.report.unknown(name.span(), format!("unknown name `{text}`"), &text, candidates, None);
     }
 
-    pub(super) fn names_of(&self, scope: ScopeId) -> Vec<String> {
+    pub(in crate::model) fn names_of(&self, scope: ScopeId) -> Vec<String> {
         let scope = self.scopes.get(scope.0);
         scope.map_or_else(Vec::new, |s| s.names.keys().cloned().collect())
     }
