@@ -21,8 +21,8 @@ use proc_macro::TokenStream;
 /// }
 /// ```
 ///
-/// The crate `multibody`, which re-exports this macro, documents the language in its module `language` and what is
-/// emitted in its module `generated`.
+/// Users call the macro of this name in the crate `multibody`, which says where that crate is found and hands on the rest.
+/// There the language is documented in the module `language` and what is emitted in the module `generated`.
 ///
 /// # Errors
 ///

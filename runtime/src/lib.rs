@@ -78,6 +78,8 @@ mod constrained;
 pub mod coordinates;
 mod cost;
 mod differentiable;
+#[doc(hidden)]
+pub mod emitted;
 #[doc = include_str!("../docs/embedded.md")]
 pub mod embedded {}
 pub mod equilibrium;
@@ -111,7 +113,8 @@ pub use integrators::{
     ImplicitMidpoint, IntegrationError, Integrator, Method, Radau, Rk4, SemiImplicitEuler, Statistics, Steps,
     SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint, Tolerance, Verlet,
 };
-pub use multibody_macros::multibody;
+#[doc(hidden)]
+pub use multibody_macros::multibody as __multibody;
 pub use nalgebra;
 pub use projection::{
     Assembled, AssemblyError, Projected, Projection, ProjectionError, WithBaumgarte, WithProjection, WithRank, assemble,
@@ -121,3 +124,36 @@ pub use simba;
 pub use simulate::{simulate, simulate_stiff};
 pub use system::{ExtraOf, PositionOf, StateSpace, System, VelocityOf};
 pub use tangent::Tangent;
+
+/// Derives the equations of motion of the declared mechanisms and emits them as Rust modules.
+///
+/// A call holds models and the parts that they use, one `mod` for each:
+///
+/// ```
+/// multibody::multibody! {
+///     /// A rod that hangs from a hinge.
+///     pub mod pendulum {
+///         /// [m]
+///         param length = 1.0;
+///         world { gravity: -9.81 * Y }
+///         body rod { mass: 2.0, com: -0.5 * length * Y, inertia: rod(2.0, length, Y) }
+///         joint hinge: Revolute { parent: ground, child: rod, axis: Z }
+///         output energy = kinetic() + potential();
+///         emit forward_dynamics, mass_matrix; // outputs are always emitted
+///     }
+/// }
+/// assert_eq!(pendulum::DOF, 1);
+/// ```
+///
+/// The module [`language`] documents the language, [`generated`] what is emitted. Generated code finds this crate under
+/// whatever name yours has for it.
+///
+/// # Errors
+///
+/// Every mistake of a call is a compile error at the token where it stands, all of them in one build.
+#[macro_export]
+macro_rules! multibody {
+    ($($tokens:tt)*) => {
+        $crate::__multibody! { @runtime($crate) $($tokens)* }
+    };
+}

@@ -43,7 +43,7 @@ fn fields_are_guessed() {
         }",
     );
     for piece in [
-        "pub(crate)modbroken{use::mb::Real;",
+        "pub(crate)modbroken{use::core::prelude::v1::*;use::mb::Real;",
         "pubsize:::mb::nalgebra::Vector3<T>",
         "publist:[T;3]",
         "pubpush:[::mb::nalgebra::Vector3<T>;2]",
@@ -163,7 +163,7 @@ fn stand_ins_have_the_types_that_were_meant() {
         ("", "c.position", "cc.position"),
         ("", "c.position", "2.0 * (c.position + mistake)"),
         ("", "parent: b.at(3 * X)", "parent: bb.at(3 * X)"),
-        ("", "parent: a.at(X)", "parent: a.at(Q)"),
+        ("", "parent: a.at(X)", "parent: a.at(XX)"),
         ("", "parent: ground.at(3 * X)", "prent: ground.at(3 * X)"),
         ("", "jb: Revolute", "jb: Revolut"),
         ("", "jd: Revolute", "jd: Hinge"),
@@ -171,7 +171,7 @@ fn stand_ins_have_the_types_that_were_meant() {
         ("", "mass: 1.0", "mass 1.0"),
         ("param m: Vec3 = [1.0, 2.0, 3.0];", "m: Vec3", "m: Vector3"),
         ("param m = [1.0, 2.0, 3.0];", "[1.0, 2.0, 3.0]", "[1.0, 2.0, pi]"),
-        ("param m = 2.0 * X;", "2.0 * X", "2,0 * X"),
+        ("param m = 2.0 * X;", "2.0 * X", "2.0 * X + Q"),
         ("input u: [Scalar; 3];", "[Scalar; 3]", "[scalar; 3]"),
         ("input f: Vec3; force w: Force { at: b, value: f, axes: ground }", "at: b", "on: b"),
         ("input f; force w: Effort { joint: ja, value: f }", "joint: ja", "joint: joa"),
@@ -183,8 +183,16 @@ fn stand_ins_have_the_types_that_were_meant() {
         ("output n = [b.velocity, c.velocity];", "c.velocity", "c.speed"),
         ("param k = 2.0; output n = k * X;", "k * X", "kk * X"),
         ("formulation { constraints: Reduced, independent: ja }", "mass: 1.0", "mas: 1.0"),
-        ("formulation { constraints: Reduced } solve (jb, jc) from jd { sin(ja + jb - jc) > 0.0 }", "sin(ja + jb - jc) > 0.0", "sin(ja + jbb - jc) > 0.0"),
-        ("formulation { constraints: Reduced } solve (jb, jc) from jd { sin(ja + jb - jc) > 0.0 }", "Reduced", "Reducd"),
+        (
+            "formulation { constraints: Reduced } solve (jb, jc) from jd { sin(ja + jb - jc) > 0.0 }",
+            "sin(ja + jb - jc) > 0.0",
+            "sin(ja + jbb - jc) > 0.0",
+        ),
+        (
+            "formulation { constraints: Reduced } solve (jb, jc) from jd { sin(ja + jb - jc) > 0.0 }",
+            "Reduced",
+            "Reducd",
+        ),
         ("formulation { coordinates: Absolute(RollPitchYaw) }", "com: X", "comm: X"),
         ("drive ja = 2.0 * t;", "2.0 * t", "2.0 * tt"),
         ("drive ja = 2.0 * t;", "axis: Z", "axes: Z"),
@@ -194,7 +202,11 @@ fn stand_ins_have_the_types_that_were_meant() {
     for (more, right, mistake) in cases {
         let text = format!(
             "pub mod m {{ {FOUR_BAR} {more} {} }}",
-            if more.starts_with('#') { "body z { mass: 1.0 } joint jz: Free { parent: ground, child: z }" } else { "" }
+            if more.starts_with('#') {
+                "body z { mass: 1.0, inertia: diag(1.0, 1.0, 1.0) } joint jz: Free { parent: ground, child: z }"
+            } else {
+                ""
+            }
         );
         let meant = expanded(&text);
         assert!(!meant.contains("compile_error!"), "{more}: {}", &meant[..200]);
@@ -208,6 +220,10 @@ fn stand_ins_have_the_types_that_were_meant() {
         }
         let (meant, found) = (structs(&meant), structs(&found));
         for item in &meant {
+            // Where a frame is unknown so is the number of equations that don't follow from others.
+            if ["bb.at", "XX"].iter().any(|unknown| mistake.contains(unknown)) && item.contains("Derivative") {
+                continue;
+            }
             if !found.contains(item) {
                 wrong += &format!("{more} {mistake}: no {item}\n");
             }

@@ -78,6 +78,15 @@ impl Arguments {
 
     /// Expands to `t: T, state: &State<T>, input: &Input<T>`; names of what isn't read start with `_`.
     pub(super) fn declare(self, layout: &Layout<'_>, roots: &BTreeSet<Root>) -> TokenStream {
+        self.declared(layout, roots, None)
+    }
+
+    /// The same, none of it read, with `A` for the type of the state or position: of a method that can't be called.
+    pub(super) fn refused(self, layout: &Layout<'_>) -> TokenStream {
+        self.declared(layout, &BTreeSet::new(), Some(quote!(A)))
+    }
+
+    fn declared(self, layout: &Layout<'_>, roots: &BTreeSet<Root>, refused: Option<TokenStream>) -> TokenStream {
         let named = |read: bool, name: &str| names::ident(&format!("{}{name}", if read { "" } else { "_" }));
         let krate = layout.krate();
         let mut list = Vec::new();
@@ -87,10 +96,12 @@ impl Arguments {
         }
         if self.state {
             let state = named(OF_STATE.iter().any(|root| roots.contains(root)), "state");
-            list.push(quote!(#state: &State<T>));
+            let ty = refused.unwrap_or_else(|| quote!(State<T>));
+            list.push(quote!(#state: &#ty));
         } else {
             let q = named(roots.contains(&Root::Position), "q");
-            list.push(quote!(#q: &Position<T>));
+            let ty = refused.unwrap_or_else(|| quote!(Position<T>));
+            list.push(quote!(#q: &#ty));
         }
         if self.input {
             let (input, ty) = (named(roots.contains(&Root::Input), "input"), input_type(layout));

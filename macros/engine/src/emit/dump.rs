@@ -25,7 +25,8 @@ pub(super) fn dump(model: &Model, structure: &Structure, compiled: &Compiled, to
     };
     let directory = PathBuf::from(directory);
     let name = names::plain(&model.name);
-    let source = source(tokens);
+    // Outside a macro the runtime is found by its name alone.
+    let source = source(tokens).replace("$crate", "::multibody");
     let source = formatted(&source).unwrap_or(source);
     // A build goes on without the files.
     let _ = std::fs::create_dir_all(&directory);

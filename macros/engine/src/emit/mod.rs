@@ -93,6 +93,7 @@ fn module(context: &Context<'_>) -> TokenStream {
         #(#attrs)*
         #docs
         #vis mod #name {
+            use ::core::prelude::v1::*;
             use #krate::Real;
             #items
         }

@@ -33,6 +33,16 @@ pub(super) struct Scope<'a> {
     pub(super) module: &'a tree::Module,
     pub(super) instance: InstanceId,
     pub(super) names: BTreeMap<String, Symbol>,
+    /// Outputs have names of their own: an expression that names something finds an output last.
+    pub(super) outputs: BTreeMap<String, NamedId>,
+}
+
+impl Scope<'_> {
+    /// What `name` stands for in expressions.
+    pub(super) fn symbol(&self, name: &str) -> Option<Symbol> {
+        let output = || self.outputs.get(name).map(|id| Symbol::Named(*id, "output"));
+        self.names.get(name).cloned().or_else(output)
+    }
 }
 
 /// What a name stands for.

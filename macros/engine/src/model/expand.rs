@@ -21,6 +21,7 @@ use super::typed::{FrameValue, Uses};
 use super::types::{
     BodyId, BodyRef, ConstraintId, ForceId, Frame, InputId, Instance, InstanceId, JointId, ParamId, Place, StateId,
 };
+use crate::rust_keywords::is_keyword;
 use crate::syntax::tree::{self, ItemKind};
 
 /// Bound on the items of one model once its parts are expanded.
@@ -84,7 +85,7 @@ impl<'a> Checker<'a, '_> {
     fn expand(&mut self, index: usize, instance: InstanceId, binding: Option<Binding<'a>>) -> Option<ScopeId> {
         let module = self.source.modules.get(index)?;
         let scope = ScopeId(self.scopes.len());
-        self.scopes.push(Scope { module, instance, names: BTreeMap::new() });
+        self.scopes.push(Scope { module, instance, names: BTreeMap::new(), outputs: BTreeMap::new() });
         self.expanding.push(index);
         self.expanded += module.items.len();
         let own = self.declare(module, scope);
@@ -111,6 +112,10 @@ impl<'a> Checker<'a, '_> {
                 own.push(false);
                 continue;
             }
+            if let ItemKind::Output(value) = &item.kind {
+                own.push(self.declare_output(value, &text, scope));
+                continue;
+            }
             if let Some(why) = names::refusal(&text) {
                 self.report.help(name.span(), why, "take another name");
                 own.push(false);
@@ -133,7 +138,6 @@ impl<'a> Checker<'a, '_> {
             let (value, role) = match &item.kind {
                 ItemKind::Const(value) => (value, Role::Const),
                 ItemKind::Let(value) => (value, Role::Let),
-                ItemKind::Output(value) => (value, Role::Output),
                 _ => continue,
             };
             let item = Some(value);
@@ -141,6 +145,27 @@ impl<'a> Checker<'a, '_> {
             self.set_symbol(scope, name, Symbol::Named(id, keyword));
         }
         own
+    }
+
+    /// Enters the name of an output; whether it is its own. What else has that name doesn't matter.
+    fn declare_output(&mut self, value: &'a tree::Value, text: &str, scope: ScopeId) -> bool {
+        let name = &value.name;
+        if is_keyword(text) {
+            let why = format!("`{text}` is a keyword of Rust");
+            self.report.help(name.span(), why, "take another name");
+            return false;
+        }
+        if self.scopes.get(scope.0).is_some_and(|scope| scope.outputs.contains_key(text)) {
+            let message = format!("the name `{text}` is taken: an `output` above has it already");
+            self.report.error(name.span(), message);
+            return false;
+        }
+        let context = Context { scope, index: None };
+        let id = self.add_named(name, Role::Output, context, Some(value), scope, value.value.as_ref());
+        if let Some(scope) = self.scopes.get_mut(scope.0) {
+            scope.outputs.insert(text.to_string(), id);
+        }
+        true
     }
 
     fn add_named(
@@ -180,7 +205,11 @@ impl<'a> Checker<'a, '_> {
         };
         let place = self.place(scope, name);
         let (subject, symbol) = match &item.kind {
-            ItemKind::Const(_) | ItemKind::Let(_) | ItemKind::Output(_) => {
+            ItemKind::Output(_) => {
+                let id = self.scopes.get(scope.0).and_then(|scope| scope.outputs.get(&name.to_string()));
+                return id.filter(|_| own).map_or(Subject::None, |id| Subject::Named(*id));
+            }
+            ItemKind::Const(_) | ItemKind::Let(_) => {
                 let names = self.scopes.get(scope.0).map(|s| &s.names);
                 return match names.and_then(|n| n.get(&name.to_string())) {
                     Some(Symbol::Named(id, _)) if own => Subject::Named(*id),

@@ -48,19 +48,24 @@ pub(super) fn field<'a>(fields: &'a tree::Fields, name: &str) -> Option<&'a Expr
 impl Checker<'_, '_> {
     /// `owner` is the phrase that messages begin with, such as "the joint `elbow`"; `at` is its name.
     pub(super) fn check_fields(&mut self, owner: &str, at: &Ident, fields: &tree::Fields, known: &Known<'_>) {
-        self.check_given(owner, fields, known);
+        let given: Vec<String> = fields.list.iter().map(|f| f.name.to_string()).collect();
+        let unknown: Vec<&str> = given.iter().map(String::as_str).filter(|given| !known.has(given)).collect();
+        let meant = |given: &str, name: &str| known.meant(given) == Some(name) || nearest(given, [name]).is_some();
+        // A field under another name is told as such, not as a missing one too.
+        let missing = known.required.iter().copied().filter(|name| field(fields, name).is_none());
+        let missing: Vec<&str> = missing.filter(|name| !unknown.iter().any(|given| meant(given, name))).collect();
+        let strange = unknown.iter().filter(|given| !known.names().any(|name| meant(given, name)));
+        let strange: Vec<&str> = strange.copied().collect();
+        let (instead, missing) = match missing.split_at_checked(strange.len()) {
+            Some((instead, missing)) => (strange.into_iter().zip(instead.iter().copied()).collect(), missing),
+            // Which of them it is nobody knows.
+            None => (Vec::new(), &[][..]),
+        };
+        self.check_names(owner, fields, known, &instead);
         if fields.broken {
             return self.report.silent();
         }
-        // A misspelt field is told as such, not as a missing one too.
-        let misspelt = |name: &str| {
-            let given = fields.list.iter().map(|f| f.name.to_string());
-            let mut unknown = given.filter(|given| !known.has(given));
-            unknown.any(|given| known.meant(&given) == Some(name) || nearest(&given, [name]).is_some())
-        };
-        let missing: Vec<&str> =
-            known.required.iter().copied().filter(|name| field(fields, name).is_none() && !misspelt(name)).collect();
-        if let [first, ..] = missing.as_slice() {
+        if let [first, ..] = missing {
             self.report.help(
                 at.span(),
                 format!("{owner} lacks `{}`", missing.join("`, `")),
@@ -71,6 +76,11 @@ impl Checker<'_, '_> {
 
     /// Unknown and repeated fields.
     pub(super) fn check_given(&mut self, owner: &str, fields: &tree::Fields, known: &Known<'_>) {
+        self.check_names(owner, fields, known, &[]);
+    }
+
+    /// `instead`: unknown names, each with a field that is missing.
+    fn check_names(&mut self, owner: &str, fields: &tree::Fields, known: &Known<'_>, instead: &[(&str, &str)]) {
         let mut seen: Vec<String> = Vec::new();
         for given in &fields.list {
             let name = given.name.to_string();
@@ -78,7 +88,8 @@ impl Checker<'_, '_> {
                 self.report.silent();
                 continue;
             }
-            if let (false, Some(meant)) = (known.has(&name), known.meant(&name)) {
+            let missing = instead.iter().find(|(given, _)| *given == name).map(|(_, missing)| *missing);
+            if let (false, Some(meant)) = (known.has(&name), known.meant(&name).or(missing)) {
                 let message = format!("{owner} has no field `{name}`");
                 self.report.help(given.name.span(), message, format!("write `{meant}`"));
             } else if !known.has(&name) {

@@ -136,7 +136,12 @@ impl<'a> Checker<'a, '_> {
         self.report.unknown(kind.span(), message, &name, kinds, Some(list));
     }
 
-    fn joint_kind(&mut self, shape: Shape, fields: &tree::Fields, context: Context<'a>) -> Option<JointKind> {
+    pub(super) fn joint_kind(
+        &mut self,
+        shape: Shape,
+        fields: &tree::Fields,
+        context: Context<'a>,
+    ) -> Option<JointKind> {
         if let Some(expr) = field(fields, "coordinates") {
             self.orientation(shape, expr);
         }
@@ -259,6 +264,12 @@ pub(super) fn meant(kind: &str, fields: &tree::Fields) -> Shape {
     let near = || nearest(kind, JOINT_KINDS.iter().map(|(kind, _)| *kind));
     let name = elsewhere(kind).or_else(near).unwrap_or("Revolute");
     Shape::read(name, fields).unwrap_or(Shape::Revolute)
+}
+
+/// The names of the fields that a joint has.
+pub(super) fn fields_of(shape: Shape) -> Vec<&'static str> {
+    let known = known(shape);
+    known.required.iter().chain(known.optional).copied().collect()
 }
 
 fn known(shape: Shape) -> Known<'static> {

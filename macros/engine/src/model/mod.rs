@@ -86,7 +86,7 @@ pub fn check_all(source: &tree::Source, diagnostics: &mut Diagnostics) -> Vec<Ch
         let failed = checker.report.take_failed();
         models.extend(match model {
             Some(model) if !failed => Some(Checked { model, state: Soundness::Sound }),
-            other => checker.outline(index, other),
+            _ => checker.outline(index),
         });
         used.extend(checker.part_modules.iter().map(|(part, ..)| *part));
     }

@@ -12,13 +12,13 @@ use proc_macro2::{Ident, Span};
 use syn::{Expr as Written, Type as WrittenType};
 
 use super::assemble::{Collected, Loops};
-use super::checker::{Checker, Role, Subject, Symbol, Task};
+use super::checker::{Checker, Context, Role, Subject, Task};
 use super::expand::root;
 use super::fields::field;
-use super::joints::meant;
+use super::joints::{fields_of, meant};
 use super::names::Shape;
 use super::topology::Topology;
-use super::typed::new_expr;
+use super::typed::{bounded_scalars, new_expr};
 use super::types::{
     Body, BodyRef, Constraint, ConstraintKind, Coordinate, Docs, Drive, DriveTarget, Expr, ExprNode, Frame, Handling,
     Input, InputId, InstanceId, Joint, JointId, JointKind, Kinematics, Model, Output, Param, ParamId, Place, Request,
@@ -28,17 +28,11 @@ use super::{Checked, Soundness};
 use crate::diagnostics::nearest;
 use crate::syntax::tree::{self, ItemKind};
 
-/// A frame on nothing that is known.
-const NOWHERE: Option<BodyRef> = None;
-
 impl<'a> Checker<'a, '_> {
-    /// The model with its mistakes filled in; `found`: all of it, where only the whole was wrong.
-    pub(super) fn outline(&mut self, index: usize, found: Option<Model>) -> Option<Checked> {
+    /// The model with its mistakes filled in.
+    pub(super) fn outline(&mut self, index: usize) -> Option<Checked> {
         self.report.mute(true);
-        let checked = match found {
-            Some(model) => Some(Checked { model, state: Soundness::Whole }),
-            None => self.filled(index),
-        };
+        let checked = self.filled(index);
         self.report.mute(false);
         self.report.take_failed();
         checked.map(|mut checked| {
@@ -55,10 +49,9 @@ impl<'a> Checker<'a, '_> {
         let mut ends = Vec::new();
         let mut joints = Vec::new();
         for (index, joint) in std::mem::take(&mut collected.joints).into_iter().enumerate() {
-            whole &= joint.is_some();
-            let Some((joint, known)) =
-                joint.map(|joint| known_ends(joint)).or_else(|| self.filled_joint(JointId(index)))
-            else {
+            let found = joint.map(known_ends).or_else(|| self.filled_joint(JointId(index), &mut whole));
+            let Some((joint, known)) = found else {
+                whole = false;
                 continue;
             };
             joints.push(joint);
@@ -115,59 +108,47 @@ impl<'a> Checker<'a, '_> {
         filled.collect()
     }
 
-    /// A joint with mistakes, and the bodies on both sides as far as they are known.
-    fn filled_joint(&mut self, id: JointId) -> Option<(Joint, [Option<BodyRef>; 2])> {
+    /// A joint with mistakes, and the bodies on both sides as far as they are known. Where misspelt words are all that was
+    /// wrong, it is the joint that was meant.
+    fn filled_joint(&mut self, id: JointId, whole: &mut bool) -> Option<(Joint, [Option<BodyRef>; 2])> {
         let slot = self.joints.get(id.0)?;
         let (place, item, context) = (slot.place.clone(), slot.item, root(slot.scope));
         let ItemKind::Joint { kind, fields, .. } = &item.kind else {
             return None;
         };
         let shape = slot.shape.unwrap_or_else(|| meant(&kind.to_string(), fields));
-        let [parent, child] = ["parent", "child"].map(|name| {
-            let given = field(fields, name).or_else(|| {
-                let names = fields.list.iter().map(|field| field.name.to_string()).collect::<Vec<_>>();
-                let near = nearest(name, names.iter().map(String::as_str))?;
-                field(fields, near)
-            });
-            given.and_then(|expr| self.near_frame(expr, context))
+        let fields = self.corrected_fields(fields, &fields_of(shape), context);
+        let frames = ["parent", "child"].map(|name| {
+            let found = field(&fields, name).and_then(|expr| self.near_frame(expr, context));
+            *whole &= matches!(found, Some((_, true)));
+            found.map(|(frame, _)| frame)
         });
-        let frame = |body: Option<BodyRef>| Frame {
-            body: body.unwrap_or(BodyRef::Ground),
-            steps: Vec::new(),
-            span: Span::call_site(),
-        };
+        let found = self.joint_kind(shape, &fields, context);
+        *whole &= found.is_some();
+        let ends = frames.each_ref().map(|frame| frame.as_ref().map(|frame| frame.body));
+        let nowhere = || Frame { body: BodyRef::Ground, steps: Vec::new(), span: Span::call_site() };
+        let [parent, child] = frames.map(|frame| frame.unwrap_or_else(nowhere));
         let joint = Joint {
             place,
-            kind: kind_of(shape),
-            parent: frame(parent),
-            child: frame(child),
+            kind: found.unwrap_or_else(|| kind_of(shape)),
+            parent,
+            child,
             armature: None,
             docs: Docs::default(),
             span: Span::call_site(),
         };
-        Some((joint, [parent, child]))
+        Some((joint, ends))
     }
 
-    /// The body of a frame whose expression may be wrong: `gruond.at(mistake)`.
-    fn near_frame(&mut self, expr: &'a Written, context: super::checker::Context<'a>) -> Option<BodyRef> {
+    /// A frame whose steps may be wrong, and whether they are not: of `b.at(mistake)` the body is known.
+    fn near_frame(&mut self, expr: &Written, context: Context<'a>) -> Option<(Frame, bool)> {
         if let Some(frame) = self.frame(expr, context) {
-            return Some(frame.frame.body);
+            return Some((frame.frame, true));
         }
         match expr {
-            Written::MethodCall(call) => self.near_frame(&call.receiver, context),
+            Written::MethodCall(call) => self.near_frame(&call.receiver, context).map(|(frame, _)| (frame, false)),
             Written::Paren(inner) => self.near_frame(&inner.expr, context),
-            Written::Path(path) => {
-                let name = path.path.get_ident()?.to_string();
-                let names = self.names_of(context.scope);
-                let near = nearest(&name, names.iter().map(String::as_str).chain(["ground"]))?;
-                let symbol = self.scopes.get(context.scope.0).and_then(|scope| scope.names.get(near)).cloned();
-                match symbol {
-                    Some(Symbol::Body(id)) => Some(BodyRef::Body(id)),
-                    None => Some(BodyRef::Ground),
-                    Some(_) => NOWHERE,
-                }
-            }
-            _ => NOWHERE,
+            _ => None,
         }
     }
 
@@ -191,12 +172,11 @@ impl<'a> Checker<'a, '_> {
             let context = root(task.scope);
             match &task.item.kind {
                 ItemKind::Drive { target, value } => {
-                    let found = self.drive(target, value, context, Some(tree));
-                    *whole &= found.is_some();
-                    let found = found.or_else(|| {
+                    let found = self.drive(target, value, context, Some(tree)).or_else(|| {
                         let target = self.drive_target(target, context, Some(tree))?;
                         Some(Drive { target, value: zero(type_of(target)), span: Span::call_site() })
                     });
+                    *whole &= found.is_some();
                     loops.drives.extend(found);
                 }
                 ItemKind::Solve { unknowns, how } => {
@@ -296,13 +276,32 @@ impl<'a> Checker<'a, '_> {
     }
 
     /// The declared type of a value, also where it is misspelt, or the one that its expression seems to have.
-    fn seeming(&mut self, item: &'a tree::Value, context: super::checker::Context<'a>) -> Type {
+    fn seeming(&mut self, item: &'a tree::Value, context: Context<'a>) -> Type {
         let declared = match &item.ty {
-            Some(written) => self.read_type(written, context, 0).or_else(|| near_type(written)),
+            Some(written) => self.read_type(written, context, 0).or_else(|| self.near_type(written, context)),
             None => None,
         };
         let seeming = || item.value.as_ref().map_or(Type::Scalar, |expr| self.seeming_type(expr, context));
-        declared.unwrap_or_else(seeming)
+        match declared.unwrap_or_else(seeming) {
+            Type::Array(element, count) if *element == Type::Array(Box::new(Type::Scalar), 3) => {
+                Type::Array(Box::new(Type::Vec3), count)
+            }
+            ty => ty,
+        }
+    }
+
+    /// `Vector3`, `[f64; 3]`
+    fn near_type(&mut self, written: &WrittenType, context: Context<'a>) -> Option<Type> {
+        match written {
+            WrittenType::Array(array) => {
+                let element = self.near_type(&array.elem, context)?;
+                let count = usize::try_from(self.whole_number(&array.len, context)?).ok()?;
+                let ty = Type::Array(Box::new(element), count);
+                bounded_scalars(&ty).filter(|count| *count > 0).map(|_| ty)
+            }
+            WrittenType::Path(path) => path.path.segments.last().map(|last| named_type(&last.ident.to_string())),
+            _ => None,
+        }
     }
 }
 
@@ -312,25 +311,18 @@ fn known_ends(joint: Joint) -> (Joint, [Option<BodyRef>; 2]) {
     (joint, ends)
 }
 
-/// `Vector3`, `Vec`, `[f64; 3]`.
-fn near_type(written: &WrittenType) -> Option<Type> {
-    let WrittenType::Path(path) = written else {
-        return None;
-    };
-    let name = path.path.segments.last()?.ident.to_string();
-    Some(
-        match nearest(&name, ["Vec3", "Vector3", "Rotation", "Pose", "Twist", "Wrench", "Jacobian", "Scalar"])
-            .unwrap_or(name.as_str())
-        {
-            "Vec3" | "Vector3" | "Vector" | "Point3" => Type::Vec3,
-            "Rotation" | "UnitQuaternion" | "Quaternion" | "Rotation3" => Type::Rotation,
-            "Pose" | "Isometry3" | "Frame" => Type::Pose,
-            "Twist" => Type::Twist,
-            "Wrench" => Type::Wrench,
-            "Jacobian" => Type::Jacobian,
-            _ => Type::Scalar,
-        },
-    )
+/// The type that somebody who writes `name` is looking for.
+fn named_type(name: &str) -> Type {
+    let near = nearest(name, ["Vec3", "Vector3", "Rotation", "Pose", "Twist", "Wrench", "Jacobian", "Scalar"]);
+    match near.unwrap_or(name) {
+        "Vec3" | "Vector3" | "Vector" | "Point3" => Type::Vec3,
+        "Rotation" | "UnitQuaternion" | "Quaternion" | "Rotation3" => Type::Rotation,
+        "Pose" | "Isometry3" | "Frame" => Type::Pose,
+        "Twist" => Type::Twist,
+        "Wrench" => Type::Wrench,
+        "Jacobian" => Type::Jacobian,
+        _ => Type::Scalar,
+    }
 }
 
 /// `constraints: Reducd`

@@ -130,7 +130,9 @@ impl<'a> Checker<'a, '_> {
                 self.report.error(field.name.span(), message);
                 continue;
             }
-            match settable.iter().find(|(known, _)| *known == name) {
+            let of_name = || settable.iter().filter(|(known, _)| *known == name);
+            let set = of_name().find(|(_, keyword)| matches!(*keyword, "port" | "param"));
+            match set.or_else(|| of_name().next()) {
                 Some((_, "port" | "param")) => {}
                 Some((_, keyword)) => self.report.error(
                     field.name.span(),

@@ -4,13 +4,15 @@
 //! In: joints whose frames are partly unknown; expressions with mistakes. Out: a tree and the joints that close loops,
 //! chosen as [`super::topology`] would choose them if every unknown frame were where it is needed; types.
 
+use proc_macro2::Ident;
 use syn::{BinOp, Expr, Member};
 
-use super::checker::{Checker, Context, Meaning, Symbol};
-use super::names::FUNCTIONS;
+use super::checker::{Checker, Context, Meaning};
+use super::names::{FUNCTIONS, VALUES};
 use super::topology::Topology;
 use super::types::{BodyRef, Function, Joint, JointId, JointKind, Type};
 use crate::diagnostics::nearest;
+use crate::syntax::tree::{Field, Fields};
 
 /// Members that vectors, and what has them, are asked for.
 const VECTORS: [&str; 14] = [
@@ -102,39 +104,94 @@ impl<'a> Checker<'a, '_> {
         Topology { tree: all().filter(|id| !cut(id)).collect(), cuts: all().filter(cut).collect(), skipped: Vec::new() }
     }
 
+    /// Fields with misspelt names, in them and of them, replaced by the nearest.
+    pub(super) fn corrected_fields(&self, fields: &Fields, known: &[&str], context: Context<'a>) -> Fields {
+        let correct = |field: &Field| {
+            let name = field.name.to_string();
+            let near = nearest(&name, known.iter().copied()).filter(|_| !known.contains(&name.as_str()));
+            let name = near.map_or_else(|| field.name.clone(), |near| Ident::new(near, field.name.span()));
+            let mut value = field.value.clone();
+            self.correct(&mut value, context);
+            Field { name, value }
+        };
+        Fields { span: fields.span, list: fields.list.iter().map(correct).collect(), broken: fields.broken }
+    }
+
+    /// Replaces misspelt names by the nearest.
+    fn correct(&self, expr: &mut Expr, context: Context<'a>) {
+        match expr {
+            Expr::Paren(inner) => self.correct(&mut inner.expr, context),
+            Expr::Unary(unary) => self.correct(&mut unary.expr, context),
+            Expr::Binary(binary) => {
+                self.correct(&mut binary.left, context);
+                self.correct(&mut binary.right, context);
+            }
+            Expr::Array(array) => array.elems.iter_mut().for_each(|element| self.correct(element, context)),
+            Expr::Index(index) => self.correct(&mut index.expr, context),
+            Expr::Call(call) => {
+                respell(&mut call.func, FUNCTIONS.iter().map(|function| function.0));
+                call.args.iter_mut().for_each(|argument| self.correct(argument, context));
+            }
+            Expr::MethodCall(call) => {
+                self.correct(&mut call.receiver, context);
+                call.args.iter_mut().for_each(|argument| self.correct(argument, context));
+            }
+            Expr::Field(field) => {
+                self.correct(&mut field.base, context);
+                let members = || VECTORS.into_iter().chain(OTHERS.iter().map(|other| other.0));
+                if let Member::Named(name) = &mut field.member {
+                    let text = name.to_string();
+                    let own = self.scopes.iter().any(|scope| scope.symbol(&text).is_some());
+                    if let (false, Some(near)) = (own || members().any(|m| m == text), nearest(&text, members())) {
+                        *name = Ident::new(near, name.span());
+                    }
+                }
+            }
+            Expr::Path(_) => {
+                let names = self.names_of(context.scope);
+                let index = context.index.map(|(index, _)| index.to_string());
+                let names = names.iter().map(String::as_str).chain(VALUES).chain(index.as_deref());
+                respell(expr, names);
+            }
+            _ => {}
+        }
+    }
+
     /// The type that an expression with mistakes would probably have without them.
     pub(super) fn seeming_type(&mut self, expr: &Expr, context: Context<'a>) -> Type {
-        if let Some(Meaning::Value(value)) = self.meaning(expr, context) {
-            return match value.expr.ty {
-                Type::Array(element, 3) if *element == Type::Scalar => Type::Vec3,
-                ty => ty,
-            };
+        let mut corrected = expr.clone();
+        self.correct(&mut corrected, context);
+        self.type_from(&corrected, context)
+    }
+
+    fn type_from(&mut self, expr: &Expr, context: Context<'a>) -> Type {
+        match self.meaning(expr, context) {
+            Some(Meaning::Value(value)) => return value.expr.ty,
+            Some(Meaning::Joint(_) | Meaning::Coordinate(..)) => return Type::Scalar,
+            _ => {}
         }
         match expr {
-            Expr::Paren(inner) => self.seeming_type(&inner.expr, context),
-            Expr::Unary(unary) => self.seeming_type(&unary.expr, context),
+            Expr::Paren(inner) => self.type_from(&inner.expr, context),
+            Expr::Unary(unary) => self.type_from(&unary.expr, context),
             Expr::Binary(binary) => {
-                let (left, right) =
-                    (self.seeming_type(&binary.left, context), self.seeming_type(&binary.right, context));
+                let (left, right) = (self.type_from(&binary.left, context), self.type_from(&binary.right, context));
                 match (&binary.op, left, right) {
                     (BinOp::Add(_) | BinOp::Sub(_) | BinOp::Mul(_), Type::Scalar, other) => other,
                     (BinOp::Add(_) | BinOp::Sub(_) | BinOp::Mul(_) | BinOp::Div(_), known, _) => known,
                     _ => Type::Bool,
                 }
             }
-            Expr::Array(array) => match array.elems.first().map(|element| self.seeming_type(element, context)) {
-                Some(Type::Scalar) if array.elems.len() == 3 => Type::Vec3,
+            Expr::Array(array) => match array.elems.first().map(|element| self.type_from(element, context)) {
                 Some(element) => Type::Array(Box::new(element), array.elems.len()),
                 None => Type::Scalar,
             },
             Expr::Call(call) => {
                 let name = called(&call.func);
-                let known = nearest(&name, FUNCTIONS.iter().map(|function| function.0)).unwrap_or(&name);
-                let function = FUNCTIONS.iter().find(|function| function.0 == known);
-                match (known, function) {
+                let function = FUNCTIONS.iter().find(|function| function.0 == name);
+                match (name.as_str(), function) {
                     (_, Some((_, Function::Cross, _))) => Type::Vec3,
                     ("select", _) => {
-                        call.args.iter().nth(1).map_or(Type::Scalar, |value| self.seeming_type(value, context))
+                        call.args.iter().nth(1).map_or(Type::Scalar, |value| self.type_from(value, context))
                     }
                     ("rotation" | "roll_pitch_yaw" | "identity", _) => Type::Rotation,
                     ("pose", _) => Type::Pose,
@@ -143,7 +200,7 @@ impl<'a> Checker<'a, '_> {
                 }
             }
             Expr::MethodCall(call) => match call.method.to_string().as_str() {
-                "express" => match self.seeming_type(&call.receiver, context) {
+                "express" => match self.type_from(&call.receiver, context) {
                     Type::Scalar => Type::Vec3,
                     ty => ty,
                 },
@@ -154,33 +211,26 @@ impl<'a> Checker<'a, '_> {
                 Member::Named(name) => member_type(&name.to_string()),
                 Member::Unnamed(_) => Type::Scalar,
             },
-            Expr::Index(index) => match self.seeming_type(&index.expr, context) {
+            Expr::Index(index) => match self.type_from(&index.expr, context) {
                 Type::Array(element, _) => *element,
                 _ => Type::Scalar,
             },
-            Expr::Path(path) => {
-                let name = path.path.get_ident().map(ToString::to_string).unwrap_or_default();
-                let names = self.names_of(context.scope);
-                let near = nearest(&name, names.iter().map(String::as_str));
-                let names = self.scopes.get(context.scope.0).map(|scope| &scope.names);
-                let symbol = near.and_then(|near| names?.get(near)).cloned();
-                match symbol {
-                    Some(Symbol::Param(id)) => self.param_type(id, name_span(path)).unwrap_or(Type::Scalar),
-                    Some(Symbol::Input(id)) => self.input_type(id).unwrap_or(Type::Scalar),
-                    Some(Symbol::Named(id, _)) => match self.named_meaning(id, name_span(path)) {
-                        Some(Meaning::Value(value)) => value.expr.ty,
-                        _ => Type::Scalar,
-                    },
-                    _ => Type::Scalar,
-                }
-            }
             _ => Type::Scalar,
         }
     }
 }
 
-fn name_span(path: &syn::ExprPath) -> proc_macro2::Span {
-    path.path.segments.first().map_or_else(proc_macro2::Span::call_site, |segment| segment.ident.span())
+/// The nearest of the names in place of one that is none of them.
+fn respell<'n>(path: &mut Expr, names: impl Iterator<Item = &'n str> + Clone) {
+    let Expr::Path(path) = path else { return };
+    let Some(name) = path.path.get_ident() else { return };
+    let text = name.to_string();
+    if names.clone().any(|known| known == text) {
+        return;
+    }
+    if let Some(near) = nearest(&text, names) {
+        path.path = Ident::new(near, name.span()).into();
+    }
 }
 
 fn called(function: &Expr) -> String {
@@ -192,13 +242,10 @@ fn called(function: &Expr) -> String {
 
 /// Of `base.member`, by the member alone.
 fn member_type(name: &str) -> Type {
-    let all = VECTORS.into_iter().chain(OTHERS.iter().map(|other| other.0));
-    let known = if all.clone().any(|known| known == name) { Some(name) } else { nearest(name, all) };
-    let known = known.unwrap_or(name);
-    if VECTORS.contains(&known) {
+    if VECTORS.contains(&name) {
         return Type::Vec3;
     }
-    let other = OTHERS.iter().find(|other| other.0 == known);
+    let other = OTHERS.iter().find(|other| other.0 == name);
     other.map_or(Type::Scalar, |other| other.1.clone())
 }
 

@@ -113,13 +113,19 @@ pub(super) fn visibility(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> 
 
 /// The path in `#![krate(::mb)]`.
 pub(super) fn krate(attribute: &Attribute, diagnostics: &mut Diagnostics) -> Read<Path> {
-    const FORM: &str = "write `#![krate(::name)]`";
     let Some(list) = attribute.meta.require_list().ok().filter(|list| !list.tokens.is_empty()) else {
         diagnostics.error_help(name(attribute).1, "`krate` needs the path of the runtime crate", FORM);
         return Err(Reported);
     };
-    let mut cursor = Cursor::new(list.tokens.clone());
-    let start = cursor.span();
+    crate_path(list.tokens.clone(), name(attribute).1, diagnostics)
+}
+
+const FORM: &str = "write `#![krate(::name)]`";
+
+/// `::mb`, `crate::mb`, `$crate`
+pub(super) fn crate_path(tokens: TokenStream, at: Span, diagnostics: &mut Diagnostics) -> Read<Path> {
+    let mut cursor = Cursor::new(tokens);
+    let start = if cursor.at_end() { at } else { cursor.span() };
     let mut path = Path { leading_colon: None, segments: syn::punctuated::Punctuated::new() };
     if let Some(span) = cursor.take("::") {
         path.leading_colon = Some(Token![::](span));

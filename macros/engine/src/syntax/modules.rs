@@ -3,7 +3,7 @@
 //! In: all tokens of the call. Out: the tree.
 
 use proc_macro2::{Delimiter, TokenStream};
-use syn::{Attribute, Visibility};
+use syn::{Attribute, Path, Visibility};
 
 use super::attributes;
 use super::cursor::Cursor;
@@ -17,6 +17,7 @@ const FORM: &str = "write `pub mod name { .. }`";
 /// The whole call.
 pub(super) fn source(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Source {
     let mut cursor = Cursor::new(tokens);
+    let runtime = runtime(&mut cursor, diagnostics);
     let mut source = Source { krate: None, modules: Vec::new() };
     let errors = diagnostics.errors().len();
     beginning(&mut source, &mut cursor, diagnostics);
@@ -40,10 +41,23 @@ pub(super) fn source(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Sour
             }
         }
     }
+    source.krate = source.krate.or(runtime);
     if !seen && diagnostics.errors().len() == errors {
         diagnostics.error_help(cursor.span(), "there is no model here", FORM);
     }
     source
+}
+
+/// `@runtime($crate)`, with which the runtime's own macro says where it is, whatever name the user's crate has for it.
+fn runtime(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Option<Path> {
+    let is_said = cursor.at("@") && cursor.ident(1).is_some_and(|word| word == "runtime");
+    if !is_said || !cursor.at_group(2, Delimiter::Parenthesis) {
+        return None;
+    }
+    cursor.bump();
+    cursor.bump();
+    let group = cursor.take_group(Delimiter::Parenthesis)?;
+    attributes::crate_path(group.stream(), group.span(), diagnostics).ok()
 }
 
 /// `#![krate(::mb)]`

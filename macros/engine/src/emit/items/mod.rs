@@ -7,6 +7,7 @@ mod defaults;
 mod differentiable;
 mod equations;
 mod impulses;
+mod missing;
 mod model;
 mod parts;
 pub(super) mod separable;
@@ -31,6 +32,7 @@ pub(super) fn all(context: &Context<'_>) -> TokenStream {
         space::items(context),
         conversions::items(context),
         model::items(context),
+        missing::items(context),
         system::item(context),
         differentiable::item(context),
         separable::item(context),

@@ -36,6 +36,7 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
         modules.extend(quote! {
             #docs
             pub mod #name {
+                use ::core::prelude::v1::*;
                 use #krate::Real;
                 #items
             }

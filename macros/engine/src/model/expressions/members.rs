@@ -63,8 +63,7 @@ impl<'a> Checker<'a, '_> {
 
     fn part_member(&mut self, scope: ScopeId, base: &Expr, member: &Ident) -> Option<Meaning> {
         let name = member.to_string();
-        let names = self.scopes.get(scope.0).map(|s| &s.names);
-        if let Some(symbol) = names.and_then(|n| n.get(&name)).cloned() {
+        if let Some(symbol) = self.scopes.get(scope.0).and_then(|scope| scope.symbol(&name)) {
             return self.symbol(&symbol, member);
         }
         let known = self.names_of(scope);

@@ -33,8 +33,7 @@ impl<'a> Checker<'a, '_> {
         if let Some(meaning) = builtin(&text, span) {
             return Some(meaning);
         }
-        let names = self.scopes.get(context.scope.0).map(|s| &s.names);
-        if let Some(symbol) = names.and_then(|n| n.get(&text)).cloned() {
+        if let Some(symbol) = self.scopes.get(context.scope.0).and_then(|scope| scope.symbol(&text)) {
             return self.symbol(&symbol, name);
         }
         if FUNCTIONS.iter().any(|(function, ..)| *function == text) || SPECIAL_FUNCTIONS.contains(&text.as_str()) {
@@ -62,7 +61,7 @@ impl<'a> Checker<'a, '_> {
 
     pub(in crate::model) fn names_of(&self, scope: ScopeId) -> Vec<String> {
         let scope = self.scopes.get(scope.0);
-        scope.map_or_else(Vec::new, |s| s.names.keys().cloned().collect())
+        scope.map_or_else(Vec::new, |s| s.names.keys().chain(s.outputs.keys()).cloned().collect())
     }
 
     pub(super) fn is_broken(&self, scope: ScopeId) -> bool {
