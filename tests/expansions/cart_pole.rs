@@ -52,6 +52,7 @@
 ///
 /// - centre of mass at the body's origin: `cart`
 pub mod cart_pole {
+    use ::core::prelude::v1::*;
     use ::multibody::Real;
     /// Number of degrees of freedom: components of a velocity.
     pub const DOF: usize = 2;
@@ -622,6 +623,95 @@ pub mod cart_pole {
     impl<T: Real> Default for Model<T> {
         fn default() -> Self {
             Self::new(&Params::default())
+        }
+    }
+    impl<T: Real> Model<T> {
+        /// Not derived: `emit residual` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn residual<A: ::multibody::emitted::Residual>(
+            &self,
+            _t: T,
+            _state: &A,
+            _input: &Input<T>,
+            _accel: &Velocity<T>,
+            _multipliers: &::multibody::nalgebra::SVector<T, 0>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit kinematics { given: .., find: .. }` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn kinematics<A: ::multibody::emitted::Kinematics>(
+            &self,
+            _t: T,
+            _state: &A,
+            _accel: &Velocity<T>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit derivatives` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn forward_derivatives<A: ::multibody::emitted::Derivatives>(
+            &self,
+            _t: T,
+            _state: &A,
+            _input: &Input<T>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit derivatives` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn inverse_derivatives<A: ::multibody::emitted::Derivatives>(
+            &self,
+            _t: T,
+            _state: &A,
+            _input: &Input<T>,
+            _accel: &Velocity<T>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit impulse` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn impulse<A: ::multibody::emitted::Impulse>(
+            &self,
+            _q: &A,
+            _impulse: &Velocity<T>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit momentum` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn momentum<A: ::multibody::emitted::Momentum>(
+            &self,
+            _state: &A,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit momentum` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn momentum_rate<A: ::multibody::emitted::Momentum>(
+            &self,
+            _t: T,
+            _state: &A,
+            _input: &Input<T>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit momentum` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn velocity<A: ::multibody::emitted::Momentum>(
+            &self,
+            _q: &A,
+            _momentum: &Velocity<T>,
+        ) -> A::Result {
+            A::never()
         }
     }
     impl<T: Real> ::multibody::System for Model<T> {

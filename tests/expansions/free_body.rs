@@ -37,6 +37,7 @@
 /// - orientation by quaternions: `free`
 /// - centre of mass at the body's origin: `nut`
 pub mod free_body {
+    use ::core::prelude::v1::*;
     use ::multibody::Real;
     /// Number of degrees of freedom: components of a velocity.
     pub const DOF: usize = 6;
@@ -651,6 +652,106 @@ pub mod free_body {
     impl<T: Real> Default for Model<T> {
         fn default() -> Self {
             Self::new(&Params::default())
+        }
+    }
+    impl<T: Real> Model<T> {
+        /// Not derived: `emit residual` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn residual<A: ::multibody::emitted::Residual>(
+            &self,
+            _t: T,
+            _state: &A,
+            _input: &(),
+            _accel: &Velocity<T>,
+            _multipliers: &::multibody::nalgebra::SVector<T, 0>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit kinematics { given: .., find: .. }` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn kinematics<A: ::multibody::emitted::Kinematics>(
+            &self,
+            _t: T,
+            _state: &A,
+            _accel: &Velocity<T>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit derivatives` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn forward_derivatives<A: ::multibody::emitted::Derivatives>(
+            &self,
+            _t: T,
+            _state: &A,
+            _input: &(),
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit derivatives` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn inverse_derivatives<A: ::multibody::emitted::Derivatives>(
+            &self,
+            _t: T,
+            _state: &A,
+            _input: &(),
+            _accel: &Velocity<T>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit impulse` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn impulse<A: ::multibody::emitted::Impulse>(
+            &self,
+            _q: &A,
+            _impulse: &Velocity<T>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit momentum` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn momentum<A: ::multibody::emitted::Momentum>(
+            &self,
+            _state: &A,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit momentum` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn momentum_rate<A: ::multibody::emitted::Momentum>(
+            &self,
+            _t: T,
+            _state: &A,
+            _input: &(),
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit momentum` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn velocity<A: ::multibody::emitted::Momentum>(
+            &self,
+            _q: &A,
+            _momentum: &Velocity<T>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// The model has no `output`.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn outputs<A: ::multibody::emitted::Outputs>(
+            &self,
+            _t: T,
+            _state: &A,
+            _input: &(),
+        ) -> A::Result {
+            A::never()
         }
     }
     impl<T: Real> ::multibody::System for Model<T> {
