@@ -16,6 +16,7 @@ use super::checker::{Checker, Context, Role, Subject, Task};
 use super::expand::root;
 use super::fields::field;
 use super::joints::{fields_of, meant};
+use super::loops::Driven;
 use super::names::Shape;
 use super::topology::Topology;
 use super::typed::{bounded_scalars, new_expr};
@@ -64,8 +65,9 @@ impl<'a> Checker<'a, '_> {
         whole &= topology.is_some();
         let topology = topology.unwrap_or_else(|| self.supposed(bodies.len(), &joints, &ends));
         whole &= collected.constraints.iter().all(Option::is_some);
-        let constraints = self.filled_constraints(std::mem::take(&mut collected.constraints));
-        let loops = self.filled_loops(&collected, (&topology, &joints), &mut whole);
+        let mut constraints = self.filled_constraints(std::mem::take(&mut collected.constraints));
+        let mut loops = self.filled_loops(&collected, (&topology, &joints), &mut whole);
+        constraints.append(&mut loops.held);
         let handling = collected.handling.take().or_else(|| meant_handling(&collected));
         let mut emit = collected.requested.list;
         if emit.is_empty() {
@@ -158,6 +160,7 @@ impl<'a> Checker<'a, '_> {
             constraint.unwrap_or_else(|| Constraint {
                 place,
                 kind: ConstraintKind::Value(zero(Type::Scalar)),
+                drive: None,
                 docs: Docs::default(),
                 span: Span::call_site(),
             })
@@ -174,10 +177,17 @@ impl<'a> Checker<'a, '_> {
                 ItemKind::Drive { target, value } => {
                     let found = self.drive(target, value, context, Some(tree)).or_else(|| {
                         let target = self.drive_target(target, context, Some(tree))?;
-                        Some(Drive { target, value: zero(type_of(target)), span: Span::call_site() })
+                        // What is only measured has no coordinate to take away.
+                        let is_cut = matches!(target, DriveTarget::Coordinate(c) if tree.0.is_cut(c.joint));
+                        let value = zero(type_of(target));
+                        (!is_cut).then(|| Driven::Follows(Drive { target, value, span: Span::call_site() }))
                     });
                     *whole &= found.is_some();
-                    loops.drives.extend(found);
+                    match found {
+                        Some(Driven::Follows(drive)) => loops.drives.push(drive),
+                        Some(Driven::Held(constraint)) => loops.held.push(constraint),
+                        None => {}
+                    }
                 }
                 ItemKind::Solve { unknowns, how } => {
                     let found = self.solve(unknowns, how, task.item.keyword, context, Some(tree));
