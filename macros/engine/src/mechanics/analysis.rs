@@ -11,8 +11,10 @@ mod checks;
 mod closed;
 mod configurations;
 mod linear;
+mod measure;
 mod problem;
 mod rank;
+mod ranked;
 mod reduction;
 pub mod singular;
 mod tape;
@@ -28,9 +30,10 @@ use super::groups;
 use super::structure::{Means, Role, Row, Step, Structure};
 
 use closed::Sampled;
-use configurations::Effort;
+use configurations::{Effort, Found};
 use linear::Elimination;
 use problem::{Problem, Source};
+use ranked::Ranked;
 
 /// How far parameters are moved to see what holds at their defaults alone; relative to one and their size.
 const OFF: f64 = 1e-2;
@@ -79,6 +82,15 @@ struct Analysis<'m> {
     samples: Vec<Sampled>,
 }
 
+/// A group with what was found about it.
+struct Looked {
+    group: Group,
+    /// Places of equations that are not formulas.
+    rows: Vec<usize>,
+    found: Found,
+    ranked: Ranked,
+}
+
 /// Equations that share coordinates.
 struct Group {
     /// Numbers in the problem, couplings that are eliminated first, then formulas, then all others.
@@ -114,34 +126,44 @@ impl<'m> Analysis<'m> {
         self.constants(problem, structure);
         let mut freedoms = problem.columns.len() - self.driven.len();
         let mut linear_steps = Vec::new();
+        let mut looked = Vec::new();
         for group in groups(problem, &eliminations) {
-            let Some(found) = self.close(problem, &group, structure) else { continue };
-            let jacobians: Vec<&[Vec<f64>]> = found.iter().map(|c| c.jacobian.as_slice()).collect();
+            let Some(mut found) = self.close(problem, &group, structure) else { continue };
             let all: Vec<usize> = (0..group.equations.len()).collect();
             let is_formula = |&k: &usize| matches!(problem.equations[group.equations[k]].source, Source::Formula(..));
             let (formulas, rows): (Vec<usize>, Vec<usize>) = all.iter().partition(|k| is_formula(k));
+            let ranked = ranked::ranked(&mut found, &rows, &formulas);
+            looked.push(Looked { group, rows, found, ranked });
+        }
+        let locked = checks::locked(problem, &looked);
+        for (number, one) in looked.into_iter().enumerate() {
+            let Looked { group, rows, found, ranked } = one;
+            let staying = self.with_other_parameters(problem, &group, &rows, &ranked, structure);
+            self.drop_redundant(problem, &group, &rows, &staying, &ranked, structure);
+            let Ranked { rank, ref independent, ref kept, .. } = ranked;
             // Without formulas: what follows from the rows before it. With them: what needs no step of its own.
-            let independent = rank::kept(&jacobians, &rows);
-            let staying = self.with_other_parameters(problem, &group, &rows, independent.clone(), structure);
-            let kept = if formulas.is_empty() { independent.clone() } else { rank::kept(&jacobians, &all) };
-            self.drop_redundant(problem, &group, &rows, &staying, structure);
-            let rank = independent.len();
             if kept.len() > rank {
                 self.complain_formulas(problem, &group);
                 continue;
             }
-            let closed = found.iter().any(|configuration| configuration.closed);
-            if rank >= group.columns.len() && (closed || reduced) {
+            let closed = found.configurations.iter().any(|configuration| configuration.closed);
+            if reduced && closed && ranked.elusive {
+                self.complain_elusive(problem, &group, &ranked.evidence);
+                continue;
+            }
+            let stuck = rank >= group.columns.len();
+            if (stuck && reduced && !closed) || (closed && locked.contains(&number)) {
                 self.complain_locked(problem, &group, closed);
                 continue;
             }
-            if !self.check_drives(problem, &group, &jacobians, &independent) {
+            let jacobians: Vec<&[Vec<f64>]> = found.configurations.iter().map(|c| c.jacobian.as_slice()).collect();
+            if !self.check_drives(problem, &group, &jacobians, independent) {
                 continue;
             }
-            freedoms -= rank;
+            freedoms = freedoms.saturating_sub(rank);
             structure.independent.extend(independent.iter().filter_map(|&k| row_of(problem, group.equations[k])));
             let of_group: Vec<&Elimination> =
-                eliminations.iter().filter(|one| has_row(problem, &group, &independent, one)).collect();
+                eliminations.iter().filter(|one| has_row(problem, &group, independent, one)).collect();
             linear_steps.extend(
                 of_group.iter().map(|one| Step { unknowns: vec![one.unknown], means: Means::Linear(one.constraint) }),
             );
@@ -150,8 +172,8 @@ impl<'m> Analysis<'m> {
                     model,
                     problem,
                     group: &group,
-                    configurations: &found,
-                    kept: &kept,
+                    configurations: &found.configurations,
+                    kept,
                     eliminations: &of_group,
                     driven: &self.driven,
                 };
@@ -165,7 +187,7 @@ impl<'m> Analysis<'m> {
                 let rows = staying.iter().filter_map(|&k| row_of(problem, group.equations[k]));
                 structure.rows.extend(rows.filter(|row| !eliminated(row)));
             }
-            self.samples.push(Sampled { group, configurations: found, rank });
+            self.samples.push(Sampled { group, configurations: found.configurations, rank });
         }
         // Couplings stand in an order of their own, whatever the groups.
         let place = |step: &Step| eliminations.iter().position(|one| step.unknowns.contains(&one.unknown));
@@ -196,9 +218,12 @@ impl<'m> Analysis<'m> {
         problem: &Problem,
         group: &Group,
         rows: &[usize],
-        independent: Vec<usize>,
+        ranked: &Ranked,
         structure: &mut Structure,
     ) -> Vec<usize> {
+        let staying = ranked.staying.clone();
+        let reduced = matches!(self.model.handling, Handling::Reduced);
+        let independent = if reduced { ranked.independent.clone() } else { staying };
         let adjustable = group.equations.iter().any(|&k| problem.equations[k].adjustable);
         let dropped: Vec<usize> = rows.iter().copied().filter(|k| !independent.contains(k)).collect();
         if dropped.is_empty() || !adjustable {
@@ -219,7 +244,7 @@ impl<'m> Analysis<'m> {
         if needed.is_empty() {
             return independent;
         }
-        if matches!(self.model.handling, Handling::Reduced) {
+        if reduced {
             let names: Vec<String> = needed
                 .iter()
                 .filter_map(|&k| row_of(problem, group.equations[k]))
@@ -231,6 +256,7 @@ impl<'m> Analysis<'m> {
                 .push(format!("hold only for parameters like the declared ones, and are taken for granted: {names}"));
             return independent;
         }
+        structure.wavering.extend(needed.iter().filter_map(|&k| row_of(problem, group.equations[k])));
         let mut kept: Vec<usize> = independent.into_iter().chain(needed).collect();
         kept.sort_unstable();
         kept
@@ -242,6 +268,7 @@ impl<'m> Analysis<'m> {
         group: &Group,
         rows: &[usize],
         kept: &[usize],
+        ranked: &Ranked,
         structure: &mut Structure,
     ) {
         let mut names = Vec::new();
@@ -254,7 +281,16 @@ impl<'m> Analysis<'m> {
             structure.dropped.push(row);
         }
         if !names.is_empty() {
-            structure.notes.push(format!("redundant equations, left out: {}", names.join(", ")));
+            let (names, evidence) = (names.join(", "), &ranked.evidence);
+            structure.notes.push(format!("redundant equations, left out: {names}; {evidence}"));
+        } else if !ranked.agreed {
+            let names: Vec<String> = rows
+                .iter()
+                .filter_map(|&k| row_of(problem, group.equations[k]))
+                .map(|row| format!("`{}`", row_name(self.model, row.closing, row.index)))
+                .collect();
+            let (names, evidence) = (names.join(", "), &ranked.evidence);
+            structure.notes.push(format!("no equation is left out of {names}: {evidence}"));
         }
     }
 
@@ -356,6 +392,16 @@ fn groups(problem: &Problem, eliminations: &[Elimination]) -> Vec<Group> {
                     let (a, b) = (find(&mut root, other), find(&mut root, k));
                     root[a.max(b)] = a.min(b);
                 }
+            }
+        }
+    }
+    // What tells a joint from its opposite may speak of columns that no equation has in common.
+    for bond in problem.bonds() {
+        let mut owners = bond.iter().filter_map(|&column| owner[column]);
+        if let Some(first) = owners.next() {
+            for other in owners {
+                let (a, b) = (find(&mut root, first), find(&mut root, other));
+                root[a.max(b)] = a.min(b);
             }
         }
     }

@@ -19,6 +19,8 @@ pub struct Structure {
     pub state: Vec<Coordinate>,
     /// Equations that keep a multiplier, in the order of multipliers.
     pub rows: Vec<Row>,
+    /// Those among them that vanish or follow from others at the parameters' defaults, and not with others.
+    pub wavering: Vec<Row>,
     /// Equations that don't follow from others, those with multipliers among them: the loops hold by their forces.
     pub independent: Vec<Row>,
     /// Equations that follow from the others everywhere.
@@ -137,7 +139,14 @@ impl Structure {
     /// Where one of them vanishes in a singular pose, the others tell that what is left of it is rounding. Empty where
     /// each stands for itself.
     pub fn row_groups(&self, model: &Model) -> Box<[usize]> {
-        let group = |row: &Row| (row.closing, is_length(model, row.closing, row.index));
+        let own = |row: &Row| (row.closing, is_length(model, row.closing, row.index));
+        // One that vanishes but for a parameter is compared with whatever else its closing keeps: what a parameter of
+        // rounding leaves of it is far below that, in any unit.
+        let group = |row: &Row| {
+            let steady = |other: &&Row| other.closing == row.closing && !self.wavering.contains(other);
+            let other = if self.wavering.contains(row) { self.rows.iter().find(steady) } else { None };
+            own(other.unwrap_or(row))
+        };
         let first = |row: &Row| self.rows.iter().position(|other| group(other) == group(row)).unwrap_or(0);
         let groups: Box<[usize]> = self.rows.iter().map(first).collect();
         let alone = groups.iter().enumerate().all(|(k, &group)| k == group);

@@ -13,5 +13,6 @@ mod joints;
 mod kinks;
 mod loops;
 mod motion;
+mod ranks;
 mod reactions;
 mod support;

@@ -3,7 +3,7 @@
 //! In: groups of equations with what was found about them. Out: complaints about loops that cannot close or cannot move,
 //! formulas that don't close their loop, drives of what follows from the rest, quaternions that would have to be split.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::Span;
 
@@ -12,14 +12,16 @@ use crate::model::types::{Closing, JointId, Model};
 use super::super::closings::{coordinate_name, path, row_name};
 use super::super::structure::{Role, Structure};
 use super::super::symbols::has_quaternion;
-use super::configurations::{Configuration, Effort, configurations};
-use super::problem::{Gap, Problem};
-use super::{Analysis, Group, columns_of, driven_by, formula_of, rank, row_of};
+use super::configurations::{Effort, Found, configurations};
+use super::measure::Gap;
+use super::problem::Problem;
+use super::{Analysis, Group, Looked, columns_of, driven_by, formula_of, rank, row_of};
 
 impl Analysis<'_> {
     /// Equations without coordinates: they hold, or nothing can make them.
     pub(super) fn constants(&mut self, problem: &Problem, structure: &mut Structure) {
         let mut blamed: BTreeMap<Closing, Gap> = BTreeMap::new();
+        let mut rounding = Vec::new();
         for (k, gap) in problem.constants() {
             let Some(row) = row_of(problem, k) else { continue };
             let adjustable = problem.equations[k].adjustable;
@@ -28,10 +30,17 @@ impl Analysis<'_> {
                 continue;
             }
             structure.dropped.push(row);
+            if problem.equations[k].constant {
+                rounding.push(format!("`{}`", row_name(self.model, row.closing, row.index)));
+            }
             if adjustable {
                 let name = row_name(self.model, row.closing, row.index);
                 structure.notes.push(format!("`{name}` depends on parameters alone: it must hold by their choice"));
             }
+        }
+        if !rounding.is_empty() {
+            let names = rounding.join(", ");
+            structure.notes.push(format!("constant but for rounding, and hold everywhere: {names}"));
         }
         for closing in problem.reversed() {
             blamed.entry(closing).or_default();
@@ -48,16 +57,11 @@ impl Analysis<'_> {
     }
 
     /// Closed configurations of a group; nothing if it cannot be closed.
-    pub(super) fn close(
-        &mut self,
-        problem: &Problem,
-        group: &Group,
-        structure: &mut Structure,
-    ) -> Option<Vec<Configuration>> {
+    pub(super) fn close(&mut self, problem: &Problem, group: &Group, structure: &mut Structure) -> Option<Found> {
         let effort = Effort::of(group.equations.len());
         let found = configurations(problem, &group.equations, &group.columns, effort);
         if found.configurations.iter().any(|configuration| configuration.closed) {
-            return Some(found.configurations);
+            return Some(found);
         }
         let without: Vec<usize> =
             group.equations.iter().copied().filter(|&k| formula_of(problem, k).is_none()).collect();
@@ -78,7 +82,7 @@ impl Analysis<'_> {
                 let own = |&k: &usize| row_of(problem, k).is_some_and(|row| row.closing == closing);
                 let equations: Vec<usize> = group.equations.iter().copied().filter(own).collect();
                 let columns = columns_of(problem, &equations);
-                let alone = configurations(problem, &equations, &columns, Effort { wanted: 1, starts: 24 });
+                let alone = configurations(problem, &equations, &columns, Effort::ONE);
                 if !alone.configurations.iter().any(|configuration| configuration.closed) {
                     blamed = Some((closing, equations, alone.gap));
                     break;
@@ -97,7 +101,7 @@ impl Analysis<'_> {
         }
         let gap = gap.text(problem.size);
         structure.notes.push(format!("{what} did not close at the declared values, and its rank is not known: {gap}"));
-        Some(found.configurations)
+        Some(found)
     }
 
     /// Formulas that the equations don't imply, or contradict.
@@ -115,6 +119,15 @@ impl Analysis<'_> {
                 Some("check signs and branches, or let the macro solve: `from` a joint"),
             );
         }
+    }
+
+    /// Reduced, equations that were left out would never be looked at again.
+    pub(super) fn complain_elusive(&mut self, problem: &Problem, group: &Group, evidence: &str) {
+        let closing = group.equations.iter().filter_map(|&k| row_of(problem, k)).map(|row| row.closing).min();
+        let Some(closing) = closing else { return };
+        let (span, what) = self.thing(closing);
+        let message = format!("{what} can't be reduced: how many of its equations count is not known ({evidence})");
+        self.complain(span, message, Some("take `constraints: Multipliers`, which need not know"));
     }
 
     pub(super) fn complain_locked(&mut self, problem: &Problem, group: &Group, closed: bool) {
@@ -191,6 +204,42 @@ impl Analysis<'_> {
     fn thing(&self, closing: Closing) -> (Span, String) {
         thing(self.model, closing)
     }
+}
+
+/// Groups of what can't move at all. Equations of one closing may fall into several groups, some of which fix all their
+/// coordinates: a body in absolute coordinates on a hinge stays at its place and turns. So what hangs together is taken
+/// together: groups that share a closing or a joint, with all coordinates of these joints.
+pub(super) fn locked(problem: &Problem, looked: &[Looked]) -> Vec<usize> {
+    let mut root: Vec<usize> = (0..looked.len()).collect();
+    let (mut by_closing, mut by_joint) = (BTreeMap::new(), BTreeMap::new());
+    for (number, one) in looked.iter().enumerate() {
+        let closings = one.group.equations.iter().filter_map(|&k| row_of(problem, k)).map(|row| row.closing);
+        let mut others: Vec<usize> = closings.map(|closing| *by_closing.entry(closing).or_insert(number)).collect();
+        for joint in joints(problem, one) {
+            others.push(*by_joint.entry(joint).or_insert(number));
+        }
+        for other in others {
+            let (a, b) = (super::find(&mut root, other), super::find(&mut root, number));
+            root[a.max(b)] = a.min(b);
+        }
+    }
+    // By component: its joints, and the freedoms that equations take.
+    let mut parts: BTreeMap<usize, (BTreeSet<JointId>, usize)> = BTreeMap::new();
+    for (number, one) in looked.iter().enumerate() {
+        let part = parts.entry(super::find(&mut root, number)).or_default();
+        part.0.extend(joints(problem, one));
+        part.1 += one.ranked.rank;
+    }
+    let mut is_locked = |number: &usize| {
+        parts.get(&super::find(&mut root, *number)).is_some_and(|(joints, rank)| {
+            *rank >= problem.columns.iter().filter(|column| joints.contains(&column.coordinate.joint)).count()
+        })
+    };
+    (0..looked.len()).filter(|number| is_locked(number)).collect()
+}
+
+fn joints(problem: &Problem, looked: &Looked) -> Vec<JointId> {
+    looked.group.columns.iter().map(|&column| problem.columns[column].coordinate.joint).collect()
 }
 
 pub(super) fn thing(model: &Model, closing: Closing) -> (Span, String) {

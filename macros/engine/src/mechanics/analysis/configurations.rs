@@ -6,9 +6,9 @@
 //! from their meant directions is minimised along with the equations; where these vanish it vanishes to second order.
 //! Everything is deterministic: the starts are numbered.
 
-use crate::model::types::Closing;
-
-use super::problem::{Gap, Linearised, Point, Problem, Random, Source};
+use super::measure::Gap;
+use super::problem::{Linearised, Point, Problem, Random, Source};
+use super::rank;
 use super::singular::{add, clear_rank, dot, singular_values};
 use super::tape::Values;
 
@@ -27,13 +27,22 @@ pub(super) struct Configuration {
     /// Jacobian rows of unit length or zero, over the group's columns.
     pub jacobian: Vec<Vec<f64>>,
     pub closed: bool,
-    /// Where there is a clear gap in the singular values.
+    /// Of all equations, where there is a clear gap in the singular values.
     pub rank: Option<usize>,
+    /// Least singular value before that gap and greatest one behind it.
+    pub gap: (f64, f64),
 }
 
 /// What was found about a group of equations that share coordinates.
+#[derive(Default)]
 pub(super) struct Found {
     pub configurations: Vec<Configuration>,
+    /// Jacobians at random points that close nothing: what depends there depends everywhere. Only where some equations
+    /// depend on others at all closed configurations.
+    pub anywhere: Vec<Vec<Vec<f64>>>,
+    /// Jacobians where the equations are off by a little, each by something else: where that can be, they are independent
+    /// somewhere near.
+    pub beside: Vec<Vec<Vec<f64>>>,
     /// Of the start that came nearest.
     pub gap: Gap,
 }
@@ -41,58 +50,96 @@ pub(super) struct Found {
 /// How hard to look.
 #[derive(Clone, Copy)]
 pub(super) struct Effort {
-    pub wanted: usize,
-    pub starts: usize,
+    /// Closed configurations, where their rank leaves no doubt.
+    wanted: usize,
+    /// Starts for these.
+    starts: usize,
+    /// Closed configurations where equations depend on each other there, but not everywhere.
+    wide: usize,
 }
 
 impl Effort {
     /// Enough to be sure of what a few loops can do; bounded where a start costs much.
     pub(super) fn of(equations: usize) -> Effort {
-        let wanted = match equations {
-            0..=30 => 5,
-            31..=120 => 3,
-            _ => 2,
+        let (wanted, wide) = match equations {
+            0..=16 => (5, 40),
+            17..=30 => (5, 20),
+            31..=60 => (3, 10),
+            61..=120 => (3, 5),
+            _ => (2, 2),
         };
         let cube = equations.max(1).saturating_pow(3);
-        Effort { wanted, starts: (8_000_000 / cube).clamp(4, 48) }
+        Effort { wanted, starts: (8_000_000 / cube).clamp(4, 48), wide }
     }
+
+    /// To see whether equations can be closed at all.
+    pub(super) const ONE: Effort = Effort { wanted: 1, starts: 24, wide: 1 };
 }
 
 /// Looks for closed configurations. `columns` are those of the group, in order.
+///
+/// A branch of few dimensions attracts few starts: a scissor collapses far more often than it opens. So where equations
+/// depend on each other at all configurations found, but not at points that are not closed, the search goes on, with every
+/// other start from a point where all equations are off by a little: where collapsed loops can't be, and open ones can.
 pub(super) fn configurations(problem: &Problem, equations: &[usize], columns: &[usize], effort: Effort) -> Found {
     let search = Search::new(problem, equations, columns);
-    let mut found = Found { configurations: Vec::new(), gap: Gap::default() };
-    let (mut unclear, mut best) = (Vec::new(), None);
+    let is_row = |&k: &usize| matches!(problem.equations[equations[k]].source, Source::Row(_));
+    let rows: Vec<usize> = (0..equations.len()).filter(is_row).collect();
+    let mut found = Found::default();
+    let (mut unclear, mut unmeant, mut best) = (Vec::new(), Vec::new(), None);
     let mut values = Values::default();
-    for start in 0..effort.starts {
+    let (mut most, mut general) = (0, None);
+    let mut start = 0;
+    loop {
+        let enough = found.configurations.len() >= effort.wanted || unmeant.len() >= 2 * effort.wanted;
+        if !enough && start >= effort.starts {
+            break;
+        }
+        if enough {
+            if most == rows.len() || found.configurations.len() >= effort.wide || start >= effort.starts + effort.wide {
+                break;
+            }
+            if most >= *general.get_or_insert_with(|| search.anywhere(&rows, &mut found.anywhere, &mut values)) {
+                break;
+            }
+        }
         let mut random = Random(0x5EED + 977 * start as u64);
         let amplitude = [0.3, 0.6, 0.15, 1.0][start % 4];
         let mut point = problem.start(&mut random, amplitude);
+        if enough && start % 2 == 1 && rows.len() == equations.len() && rows.len() <= columns.len() {
+            let off = [0.02, 0.2][start / 2 % 2];
+            if search.off_by(off, &mut random).close(&mut point, &mut values) && off < 0.1 {
+                let at = search.linearise(&point, &mut values);
+                found.beside.push(search.jacobian(&at));
+            }
+        }
+        start += 1;
         let closed = search.close(&mut point, &mut values);
         let at = problem.linearise(&point, equations, &mut values);
         let residual = dot(&at.residuals, &at.residuals);
+        let gap = problem.gap(&values, equations);
         let configuration = search.configuration(point, &at, closed);
         if !closed {
             if best.as_ref().is_none_or(|(least, _)| residual < *least) {
                 best = Some((residual, configuration));
-                found.gap = problem.gap(&values, equations);
+                found.gap = gap;
             }
-            continue;
-        }
-        if configuration.rank.is_some() {
+        } else if !problem.is_meant(&configuration.point, columns, &mut values) {
+            unmeant.push(configuration);
+        } else if configuration.rank.is_some() {
+            most = most.max(rank::of(&configuration.jacobian, &rows));
             found.configurations.push(configuration);
         } else {
             unclear.push(configuration);
         }
-        if found.configurations.len() >= effort.wanted {
-            break;
+    }
+    if most < rows.len() && general.is_none() {
+        search.anywhere(&rows, &mut found.anywhere, &mut values);
+    }
+    for others in [unclear, unmeant, best.into_iter().map(|(_, configuration)| configuration).collect()] {
+        if found.configurations.is_empty() {
+            found.configurations = others;
         }
-    }
-    if found.configurations.is_empty() {
-        found.configurations = unclear;
-    }
-    if found.configurations.is_empty() {
-        found.configurations.extend(best.map(|(_, configuration)| configuration));
     }
     found
 }
@@ -105,19 +152,15 @@ pub(super) struct Search<'p> {
     alignments: Vec<usize>,
     /// By column, where it stays as it is; none if empty.
     held: &'p [bool],
+    /// By equation, what its residual is wanted to be; zero if empty.
+    target: Vec<f64>,
 }
 
 impl<'p> Search<'p> {
     /// `columns` are those of the equations, in order.
     pub(super) fn new(problem: &'p Problem, equations: &'p [usize], columns: &'p [usize]) -> Self {
-        let mut closings: Vec<Closing> = Vec::new();
-        for &k in equations {
-            if let Source::Row(row) = problem.equations[k].source {
-                closings.push(row.closing);
-            }
-        }
-        closings.dedup();
-        Search { problem, equations, columns, alignments: problem.alignments_of(&closings), held: &[] }
+        let alignments = problem.alignments_of(columns);
+        Search { problem, equations, columns, alignments, held: &[], target: Vec::new() }
     }
 
     /// The same where some columns stay as they are.
@@ -128,6 +171,25 @@ impl<'p> Search<'p> {
 }
 
 impl Search<'_> {
+    /// The same where each equation is off by something of its own.
+    fn off_by(&self, off: f64, random: &mut Random) -> Search<'_> {
+        let target = self.equations.iter().map(|_| off * random.next()).collect();
+        let Search { problem, equations, columns, held, .. } = *self;
+        Search { problem, equations, columns, alignments: Vec::new(), held, target }
+    }
+
+    /// Adds Jacobians at points that close nothing, and gives the greatest rank of some rows there.
+    fn anywhere(&self, rows: &[usize], jacobians: &mut Vec<Vec<Vec<f64>>>, values: &mut Values) -> usize {
+        let mut random = Random(0xFA2);
+        let count = if self.equations.len() > 60 { 1 } else { 2 };
+        for _ in 0..count {
+            let point = self.problem.start(&mut random, 0.7);
+            let at = self.problem.linearise(&point, self.equations, values);
+            jacobians.push(self.jacobian(&at));
+        }
+        jacobians.iter().map(|jacobian| rank::of(jacobian, rows)).max().unwrap_or(0)
+    }
+
     /// Whether all equations vanish and all axes point as they should, which the point is moved to reach.
     pub(super) fn close(&self, point: &mut Point, values: &mut Values) -> bool {
         let mut at = self.linearise(point, values);
@@ -173,12 +235,18 @@ impl Search<'_> {
 
     fn all_residuals(&self, point: &Point, values: &mut Values) -> Vec<f64> {
         let mut residuals = self.problem.residuals(point, self.equations, values);
+        self.aim(&mut residuals);
         residuals.extend(self.problem.misalignments(&self.alignments, values));
         residuals
     }
 
+    fn aim(&self, residuals: &mut [f64]) {
+        residuals.iter_mut().zip(&self.target).for_each(|(residual, target)| *residual -= target);
+    }
+
     fn linearise(&self, point: &Point, values: &mut Values) -> Linearised {
         let mut at = self.problem.linearise(point, self.equations, values);
+        self.aim(&mut at.residuals);
         at.residuals.extend(self.problem.misalignments(&self.alignments, values));
         at.rows.extend(self.problem.alignment_rows(point, &self.alignments, values));
         if !self.held.is_empty() {
@@ -235,11 +303,21 @@ impl Search<'_> {
     }
 
     fn configuration(&self, point: Point, at: &Linearised, closed: bool) -> Configuration {
+        let jacobian = self.jacobian(at);
+        let values = if closed { singular_values(&jacobian) } else { Vec::new() };
+        let rank = if closed { clear_rank(&values) } else { None };
+        let value = |k: Option<usize>| k.and_then(|k| values.get(k)).copied().unwrap_or(0.0);
+        let gap = (value(rank.and_then(|rank| rank.checked_sub(1))), value(rank));
+        Configuration { point, jacobian, closed, rank, gap }
+    }
+
+    /// Rows of unit length or zero, over the group's columns.
+    fn jacobian(&self, at: &Linearised) -> Vec<Vec<f64>> {
         let mut place = vec![usize::MAX; self.problem.columns.len()];
         for (k, &column) in self.columns.iter().enumerate() {
             place[column] = k;
         }
-        let rows = at.rows.iter().map(|row| {
+        let rows = at.rows.iter().take(self.equations.len()).map(|row| {
             let mut dense = vec![0.0; self.columns.len()];
             for &(column, entry) in row {
                 if let Some(slot) = dense.get_mut(place[column]) {
@@ -252,9 +330,7 @@ impl Search<'_> {
             dense.iter_mut().for_each(|x| *x *= factor);
             dense
         });
-        let jacobian: Vec<Vec<f64>> = rows.collect();
-        let rank = if closed { clear_rank(&singular_values(&jacobian)) } else { None };
-        Configuration { point, jacobian, closed, rank }
+        rows.collect()
     }
 }
 

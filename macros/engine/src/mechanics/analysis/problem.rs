@@ -4,8 +4,6 @@
 //! depends on, evaluated in double precision with parameters at their defaults and inputs at zero. Columns are velocity
 //! coordinates of the tree; travels count in units of the mechanism's size, so that they compare with angles.
 
-use std::ops::Range;
-
 use crate::model::types::{Closing, ConstraintKind, Coordinate, Handling, JointId, Model, SolveHow};
 use crate::optimize::program::Symbol;
 use crate::symbolic::graph::{Graph, Scalar};
@@ -17,6 +15,7 @@ use super::super::reduction::Reduction;
 use super::super::structure::Row;
 use super::super::symbols::{Symbols, has_quaternion};
 use super::super::tree::Motion;
+use super::measure::{Gap, Measure};
 use super::tape::{Tape, Values};
 
 /// Where an equation comes from.
@@ -34,64 +33,12 @@ pub(super) struct Equation {
     pub columns: Vec<usize>,
     /// Whether a parameter has a say.
     pub adjustable: bool,
-    root: usize,
-    measure: Measure,
-    /// A typical length of its gradient.
-    scale: f64,
-}
-
-/// What a residual is.
-#[derive(Clone, Copy, Debug)]
-enum Measure {
-    /// m
-    Length,
-    Cosine,
-    /// (d . d - length^2) / 2, with the root of the length.
-    Rod(usize),
-    /// A user's expression.
-    Value,
-}
-
-/// How far a loop is from being closed.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Gap {
-    /// m, squared
-    square: f64,
-    cosine: f64,
-    value: f64,
-}
-
-impl Gap {
-    pub(super) fn widen(&mut self, other: &Gap) {
-        self.square += other.square;
-        self.cosine = self.cosine.max(other.cosine);
-        self.value = self.value.max(other.value);
-    }
-
-    pub(super) fn is_open(&self, size: f64) -> bool {
-        self.square.sqrt() > 1e-9 * size || self.cosine > 1e-9 || self.value > 1e-9
-    }
-
-    pub(super) fn text(&self, size: f64) -> String {
-        let length = self.square.sqrt();
-        if length > 1e-7 * size {
-            format!("the smallest gap found is {} m", short(length))
-        } else if self.cosine > 1e-7 {
-            let angle = self.cosine.min(1.0).asin();
-            format!("its axes miss each other by {} rad at least", short(angle))
-        } else if self.value > 1e-7 {
-            format!("the smallest value found is {}", short(self.value))
-        } else {
-            "only with axes that point the wrong way does it".to_owned()
-        }
-    }
-}
-
-/// Three digits.
-fn short(x: f64) -> String {
-    let digits = (2.0 - x.abs().log10().floor()).clamp(0.0, 12.0) as usize;
-    let text = format!("{x:.digits$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    /// Whether what slopes it has are rounding: it has no columns then.
+    pub constant: bool,
+    pub(super) root: usize,
+    pub(super) measure: Measure,
+    /// A typical length of its gradient, or what that would be if it had one above rounding.
+    pub(super) scale: f64,
 }
 
 /// A column.
@@ -100,7 +47,7 @@ pub(super) struct Column {
     /// Part of a quaternion: no scalar of its own.
     pub turns: bool,
     /// What counts as one.
-    unit: f64,
+    pub(super) unit: f64,
 }
 
 /// How a symbol moves with the columns.
@@ -123,18 +70,26 @@ struct Quaternion {
 struct Alignment {
     closing: Closing,
     root: usize,
+    columns: Vec<usize>,
+}
+
+/// A condition of a `solve` item: not zero where it holds.
+struct Condition {
+    root: usize,
+    columns: Vec<usize>,
 }
 
 pub(super) struct Problem {
-    tape: Tape,
+    pub(super) tape: Tape,
     pub equations: Vec<Equation>,
     pub columns: Vec<Column>,
     alignments: Vec<Alignment>,
+    conditions: Vec<Condition>,
     movers: Vec<Mover>,
     quaternions: Vec<Quaternion>,
     /// By joint the symbols of its position.
     positions: Vec<Vec<usize>>,
-    defaults: Vec<f64>,
+    pub(super) defaults: Vec<f64>,
     /// Positions that drives give at time zero, with the tape's roots for them.
     driven: Vec<(usize, usize)>,
     /// m
@@ -143,7 +98,7 @@ pub(super) struct Problem {
 
 /// Values of all symbols.
 #[derive(Clone)]
-pub(super) struct Point(Vec<f64>);
+pub(super) struct Point(pub(super) Vec<f64>);
 
 /// Rows of numbers at one point.
 #[derive(Clone, Default)]
@@ -206,6 +161,11 @@ impl Problem {
         roots.extend(rods);
         roots.extend(e.lengths());
         let scaled = lengths..roots.len();
+        roots.extend(e.spans());
+        let spans = scaled.end..roots.len();
+        let first_condition = roots.len();
+        roots.extend(e.conditions());
+        let conditions = first_condition..roots.len();
         let driven = e.driven();
         let driven: Vec<(usize, usize)> = driven
             .into_iter()
@@ -223,10 +183,9 @@ impl Problem {
         let tape = Tape::new(&lowering.to, &roots);
         let defaults = defaults(model, &e.symbols, off);
         let parameter = |&id: &usize| matches!(e.symbols.table.get(id), Some(Symbol::Param { .. }));
-        let equations = sources.iter().zip(measures).enumerate().map(|(root, (&(source, _), measure))| {
-            let depends = tape.symbols(root);
+        let columns_of = |root: usize| {
             let mut list: Vec<usize> = Vec::new();
-            for &id in &depends {
+            for id in tape.symbols(root) {
                 match movers.get(id) {
                     Some(&Mover::Straight(column)) => list.push(column),
                     Some(&Mover::Turns(number, _)) => {
@@ -238,17 +197,25 @@ impl Problem {
             }
             list.sort_unstable();
             list.dedup();
-            Equation { source, columns: list, adjustable: depends.iter().any(parameter), root, measure, scale: 1.0 }
+            list
+        };
+        let equations = sources.iter().zip(measures).enumerate().map(|(root, (&(source, _), measure))| {
+            let adjustable = tape.symbols(root).iter().any(parameter);
+            Equation { source, columns: columns_of(root), adjustable, constant: false, root, measure, scale: 1.0 }
         });
         let equations: Vec<Equation> = equations.collect();
         let first = equations.len();
         let alignments = cosines.iter().enumerate();
-        let alignments = alignments.map(|(k, &(closing, _))| Alignment { closing, root: first + k }).collect();
+        let alignments = alignments
+            .map(|(k, &(closing, _))| Alignment { closing, root: first + k, columns: columns_of(first + k) })
+            .collect();
+        let conditions = conditions.map(|root| Condition { root, columns: columns_of(root) }).collect();
         let mut problem = Problem {
             tape,
             equations,
             columns,
             alignments,
+            conditions,
             movers,
             quaternions,
             positions,
@@ -256,7 +223,7 @@ impl Problem {
             driven,
             size: 1.0,
         };
-        problem.measure(scaled);
+        problem.measure(scaled, spans);
         problem
     }
 
@@ -276,34 +243,6 @@ impl Problem {
         let still = |closing: Closing| self.equations.iter().all(|one| !of(one, closing) || one.columns.is_empty());
         let wrong = self.alignments.iter().filter(|one| self.tape.value(&values, one.root) < 0.5 && still(one.closing));
         wrong.map(|one| one.closing).collect()
-    }
-
-    /// Size of the mechanism and scales of its equations.
-    fn measure(&mut self, scaled: Range<usize>) {
-        let mut values = Values::default();
-        self.tape.run(&mut values, &self.defaults);
-        let lengths = scaled.map(|root| self.tape.value(&values, root).abs());
-        let size = lengths.filter(|x| x.is_finite()).fold(0.0, f64::max);
-        self.size = if size > 0.0 { size } else { 1.0 };
-        for column in &mut self.columns {
-            column.unit *= if column.unit < 0.0 { -self.size } else { 1.0 };
-        }
-        let all: Vec<usize> = (0..self.equations.len()).collect();
-        let mut scales = vec![0.0_f64; all.len()];
-        let mut random = Random(7);
-        for _ in 0..3 {
-            let point = self.start(&mut random, 0.7);
-            let at = self.linearise(&point, &all, &mut values);
-            for (scale, row) in scales.iter_mut().zip(&at.rows) {
-                let square: f64 = row.iter().map(|entry| entry.1 * entry.1).sum();
-                if square.is_finite() {
-                    *scale = scale.max(square.sqrt());
-                }
-            }
-        }
-        for (equation, scale) in self.equations.iter_mut().zip(scales) {
-            equation.scale = if scale > 0.0 { scale } else { 1.0 };
-        }
     }
 
     /// Random coordinates; `amplitude` one fills the circle and twice the mechanism's size.
@@ -360,6 +299,15 @@ impl Problem {
         self.positions.iter().map(|symbols| symbols.iter().map(value).collect()).collect()
     }
 
+    /// What counts as one in the column that a symbol moves with; zero where there is none.
+    pub(super) fn unit_of(&self, symbol: usize) -> f64 {
+        match self.movers.get(symbol) {
+            Some(&Mover::Straight(column)) => self.columns[column].unit,
+            Some(Mover::Turns(..)) => 1.0,
+            _ => 0.0,
+        }
+    }
+
     /// Moves along scaled columns.
     pub(super) fn displace(&self, point: &mut Point, step: &[f64]) {
         for (value, mover) in point.0.iter_mut().zip(&self.movers) {
@@ -391,26 +339,6 @@ impl Problem {
         equations.iter().map(residual).collect()
     }
 
-    /// What is left of some equations, after an evaluation.
-    pub(super) fn gap(&self, values: &Values, equations: &[usize]) -> Gap {
-        let mut gap = Gap::default();
-        for equation in equations.iter().map(|&k| &self.equations[k]) {
-            let residual = self.tape.value(values, equation.root).abs();
-            match equation.measure {
-                Measure::Length => gap.square += residual * residual,
-                Measure::Cosine => gap.cosine = gap.cosine.max(residual),
-                Measure::Value => gap.value = gap.value.max(residual),
-                Measure::Rod(root) => {
-                    let length = self.tape.value(values, root).abs();
-                    let signed = self.tape.value(values, equation.root);
-                    let way = (length * length + 2.0 * signed).max(0.0).sqrt();
-                    gap.square += (way - length) * (way - length);
-                }
-            }
-        }
-        gap
-    }
-
     /// Scaled residuals and Jacobian by scaled columns.
     pub(super) fn linearise(&self, point: &Point, equations: &[usize], values: &mut Values) -> Linearised {
         let residuals = self.residuals(point, equations, values);
@@ -421,9 +349,26 @@ impl Problem {
         Linearised { rows: rows.collect(), residuals }
     }
 
-    /// Numbers of the alignments of some closings.
-    pub(super) fn alignments_of(&self, closings: &[Closing]) -> Vec<usize> {
-        (0..self.alignments.len()).filter(|&k| closings.contains(&self.alignments[k].closing)).collect()
+    /// Numbers of the alignments that some columns have a say in.
+    pub(super) fn alignments_of(&self, columns: &[usize]) -> Vec<usize> {
+        let own = |&k: &usize| self.alignments[k].columns.iter().any(|column| columns.contains(column));
+        (0..self.alignments.len()).filter(own).collect()
+    }
+
+    /// Columns that belong together though no equation says so: those that tell a joint from its opposite.
+    pub(super) fn bonds(&self) -> impl Iterator<Item = &[usize]> {
+        self.alignments.iter().map(|one| one.columns.as_slice())
+    }
+
+    /// Whether the conditions of `solve` items hold that speak of some columns alone.
+    pub(super) fn is_meant(&self, point: &Point, columns: &[usize], values: &mut Values) -> bool {
+        let own = |one: &&Condition| one.columns.iter().all(|column| columns.contains(column));
+        let mut own = self.conditions.iter().filter(own).peekable();
+        if own.peek().is_none() {
+            return true;
+        }
+        self.tape.run(values, &point.0);
+        own.all(|one| self.tape.value(values, one.root) != 0.0)
     }
 
     /// How far cosines are from one, after an evaluation.
@@ -435,7 +380,7 @@ impl Problem {
         list.iter().map(|&k| self.gradient(point, self.alignments[k].root, 1.0, values)).collect()
     }
 
-    fn gradient(&self, point: &Point, root: usize, factor: f64, values: &mut Values) -> Vec<(usize, f64)> {
+    pub(super) fn gradient(&self, point: &Point, root: usize, factor: f64, values: &mut Values) -> Vec<(usize, f64)> {
         let mut row: Vec<(usize, f64)> = Vec::new();
         let mut turns: Vec<(usize, [f64; 4])> = Vec::new();
         self.tape.gradient(values, root, |symbol, slope| match self.movers.get(symbol) {
@@ -484,6 +429,29 @@ impl Equations<'_> {
         let positions: Vec<Scalar> = self.symbols.positions.concat();
         let ids = positions.iter().filter_map(|&s| self.g.symbol_id(s));
         ids.filter_map(|id| reduction.map.get(&id).map(|&value| (id.0, value))).collect()
+    }
+
+    /// Conditions of `solve` items.
+    fn conditions(&mut self) -> Vec<Scalar> {
+        let model = self.model;
+        let mut list = Vec::new();
+        for solve in &model.solves {
+            if let SolveHow::From { branches, .. } = &solve.how {
+                list.extend(branches.iter().map(|condition| self.scalar(condition)));
+            }
+        }
+        list
+    }
+
+    /// Masses and traces of second moments: how far bodies reach.
+    fn spans(&mut self) -> Vec<Scalar> {
+        let mechanism = std::rc::Rc::clone(&self.mechanism);
+        let mut spans = Vec::new();
+        for link in &mechanism.tree.links {
+            let [xx, yy, zz, ..] = link.inertia.second;
+            spans.extend([link.inertia.mass, self.g.sum(&[xx, yy, zz])]);
+        }
+        spans
     }
 
     /// Constant lengths of the mechanism, component by component.

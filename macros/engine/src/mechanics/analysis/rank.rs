@@ -60,6 +60,15 @@ pub(super) fn kept(jacobians: &[&[Vec<f64>]], order: &[usize]) -> Vec<usize> {
     kept
 }
 
+/// Rank of some rows of one Jacobian.
+pub(super) fn of(jacobian: &[Vec<f64>], rows: &[usize]) -> usize {
+    let mut basis = Basis::default();
+    for row in rows.iter().filter_map(|&row| jacobian.get(row)) {
+        basis.grow(row, NEW);
+    }
+    basis.len()
+}
+
 /// Greatest rank of some columns at any configuration.
 pub(super) fn rank(jacobians: &[&[Vec<f64>]], rows: &[usize], columns: &[bool]) -> usize {
     let rank_of = |jacobian: &&[Vec<f64>]| {

@@ -242,6 +242,70 @@ impl Tape {
             }
         }
     }
+
+    /// After `run`: a bound of what the slopes of one root are made of: the sum over all symbols, each counted with its
+    /// `unit`, of all products along all ways with nothing cancelled, sines and cosines taken as one. Some roundings of it
+    /// bound the error of the slopes (Higham 2002, chapter 3).
+    pub(super) fn slope_bound(&self, values: &Values, root: usize, unit: impl Fn(usize) -> f64) -> f64 {
+        let values = &values.values;
+        let (Some(edge), Some(needs)) = (self.roots.get(root), self.needs.get(root)) else { return 0.0 };
+        let mut sizes = vec![0.0_f64; edge.node + 1];
+        for &index in needs {
+            let node = &self.nodes[index];
+            let operands = &self.operands[node.first..node.last];
+            let size = |k: usize| operands.get(k).map_or(0.0, |edge: &Edge| sizes[edge.node]);
+            sizes[index] = match node.op {
+                Op::Literal(_) | Op::Symbol(_) | Op::Unknown => values[index].abs(),
+                Op::Sum => operands.iter().map(|edge| sizes[edge.node]).sum(),
+                Op::Product => operands.iter().map(|edge| sizes[edge.node]).product(),
+                Op::Reciprocal => size(0) * values[index] * values[index],
+                Op::Sin | Op::Cos => 1.0,
+                Op::Call(call) => {
+                    let x = [0, 1, 2].map(|k| operand(values, operands, k));
+                    let slope = |k: usize| call_slope(call, &x, k, values[index]).abs();
+                    let parts = (0..operands.len().min(3)).map(|k| slope(k) * size(k));
+                    parts.filter(|part| part.is_finite()).sum::<f64>() + values[index].abs()
+                }
+            };
+        }
+        let mut slopes = vec![0.0_f64; edge.node + 1];
+        slopes[edge.node] = 1.0;
+        let mut bound = 0.0;
+        for &index in needs.iter().rev() {
+            let slope = slopes[index];
+            if slope == 0.0 || !slope.is_finite() {
+                continue;
+            }
+            let node = &self.nodes[index];
+            let operands = &self.operands[node.first..node.last];
+            for (k, edge) in operands.iter().enumerate() {
+                let factor = match node.op {
+                    Op::Literal(_) | Op::Symbol(_) | Op::Unknown => 0.0,
+                    Op::Sum | Op::Sin | Op::Cos => 1.0,
+                    Op::Product => {
+                        let others = operands.iter().enumerate().filter(|other| other.0 != k);
+                        others.map(|other| sizes[other.1.node]).product()
+                    }
+                    Op::Reciprocal => values[index] * values[index],
+                    Op::Call(call) => {
+                        let x = [0, 1, 2].map(|k| operand(values, operands, k));
+                        call_slope(call, &x, k, values[index]).abs()
+                    }
+                };
+                slopes[edge.node] += slope * factor;
+            }
+            if let Op::Symbol(id) = node.op {
+                bound += slope * unit(id);
+            }
+        }
+        if bound.is_finite() { bound } else { 0.0 }
+    }
+
+    /// Whether a root depends on sines or cosines.
+    pub(super) fn turns(&self, root: usize) -> bool {
+        let needs = self.needs.get(root).map_or(&[][..], Vec::as_slice);
+        needs.iter().any(|&index| matches!(self.nodes[index].op, Op::Sin | Op::Cos))
+    }
 }
 
 fn operand(values: &[f64], operands: &[Edge], k: usize) -> f64 {

@@ -1,0 +1,78 @@
+//! Stage `mechanics`: which equations a group needs, and how sure that is.
+//!
+//! In: what was found about a group. Out: [`Ranked`]. The rank is the greatest at any closed configuration. An equation is
+//! left out if it depends on others at every closed configuration that was found, and these agree: they have the same
+//! rank, and the same equations carry it. Where they don't (a loop that can collapse has branches on which less is left to
+//! hold), or where all equations can be met beside zero at once and so are independent somewhere, only what depends on
+//! others at points that close nothing is left out, which is so everywhere. The multipliers' rank sees to the rest.
+
+use super::configurations::{Configuration, Found};
+use super::rank;
+
+pub(super) struct Ranked {
+    pub rank: usize,
+    /// Rows that carry the rank.
+    pub independent: Vec<usize>,
+    /// Rows that multipliers keep, before other parameters are looked at.
+    pub staying: Vec<usize>,
+    /// Rows and formulas that are not implied by those before them.
+    pub kept: Vec<usize>,
+    /// Whether everything agrees.
+    pub agreed: bool,
+    /// Whether equations are independent somewhere near, but at no closed configuration that was found.
+    pub elusive: bool,
+    /// What it rests on.
+    pub evidence: String,
+}
+
+/// Keeps the configurations of the greatest rank in `found`. `rows` are places of equations, `formulas` those of formulas.
+pub(super) fn ranked(found: &mut Found, rows: &[usize], formulas: &[usize]) -> Ranked {
+    let closed = found.configurations.iter().any(|configuration| configuration.closed);
+    let ranks: Vec<usize> = found.configurations.iter().map(|c| rank::of(&c.jacobian, rows)).collect();
+    let greatest = ranks.iter().copied().max().unwrap_or(0);
+    let beside = found.beside.iter().map(|jacobian| rank::of(jacobian, rows)).max().unwrap_or(0);
+    let everywhere: Vec<&[Vec<f64>]> = found.configurations.iter().map(|c| c.jacobian.as_slice()).collect();
+    let union = rank::kept(&everywhere, rows);
+    let same = ranks.iter().all(|&rank| rank == greatest);
+    let agreed = closed && same && union.len() == greatest && beside <= greatest;
+    let staying = if agreed {
+        union.clone()
+    } else {
+        let others = found.anywhere.iter().chain(&found.beside).map(Vec::as_slice);
+        let all: Vec<&[Vec<f64>]> = everywhere.into_iter().chain(others).collect();
+        rank::kept(&all, rows)
+    };
+    let mut numbers = ranks.iter();
+    let count = found.configurations.len();
+    let configurations = &mut found.configurations;
+    configurations.retain(|_| numbers.next() == Some(&greatest));
+    let regular: Vec<&[Vec<f64>]> = configurations.iter().map(|c| c.jacobian.as_slice()).collect();
+    let mut independent = rank::kept(&regular, rows);
+    if independent.len() > greatest {
+        independent = rank::kept(&regular[..1], rows);
+    }
+    let kept = if formulas.is_empty() {
+        independent.clone()
+    } else {
+        let mut all: Vec<usize> = rows.iter().chain(formulas).copied().collect();
+        all.sort_unstable();
+        rank::kept(&regular, &all)
+    };
+    let evidence = evidence(configurations, count, &ranks, beside);
+    Ranked { rank: greatest, independent, staying, kept, agreed, elusive: beside > greatest, evidence }
+}
+
+fn evidence(configurations: &[Configuration], count: usize, ranks: &[usize], beside: usize) -> String {
+    let (least, most) = (ranks.iter().min().copied().unwrap_or(0), ranks.iter().max().copied().unwrap_or(0));
+    if least < most {
+        return format!("of {count} closed configurations some leave {least} equations independent and some {most}");
+    }
+    if beside > most {
+        return format!(
+            "{most} are independent at {count} closed configurations, but {beside} where all are off by a little"
+        );
+    }
+    let kept = configurations.iter().map(|c| c.gap.0).fold(f64::INFINITY, f64::min);
+    let left = configurations.iter().map(|c| c.gap.1).fold(0.0, f64::max);
+    format!("at {count} closed configurations singular values are at least {kept:.0e} and then at most {left:.0e}")
+}
