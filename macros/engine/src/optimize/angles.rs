@@ -6,6 +6,7 @@
 use std::collections::{BTreeMap, HashMap};
 use std::ops::{Mul, Neg};
 
+use crate::symbolic::fingerprint::Print;
 use crate::symbolic::number::Number;
 
 use super::dag::{Dag, Id, Kind, ONE};
@@ -117,11 +118,11 @@ fn minus(a: &Combination, b: &Combination) -> Combination {
 struct Known {
     angles: Vec<Angle>,
     by_unit: BTreeMap<Id, Vec<usize>>,
-    by_units: HashMap<Vec<(Id, u64)>, usize>,
+    by_units: HashMap<Vec<(Id, Print)>, usize>,
 }
 
 impl Known {
-    fn key(units: &Combination) -> Vec<(Id, u64)> {
+    fn key(units: &Combination) -> Vec<(Id, Print)> {
         units.iter().map(|(&id, c)| (id, c.residue)).collect()
     }
 

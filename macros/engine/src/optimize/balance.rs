@@ -108,24 +108,28 @@ fn rescale(dag: &mut Dag, id: Id, users: &Users) -> bool {
     let mut candidates: Vec<Number> = Vec::new();
     let mut propose = |n: Number| {
         let n = n.abs();
+        // Nothing is divided by what has cancelled, and nothing is scaled by it.
+        if !n.is_sharp() {
+            return;
+        }
         if !n.is_one() && !n.is_zero() && n.value().is_finite() && !candidates.contains(&n) {
             candidates.push(n);
         }
     };
     for &(c, term) in &terms {
         if term != ONE && !c.is_unit() {
-            propose(Number::ONE.div(c));
+            propose(inverse(c));
         }
     }
     for &(sum, term, power) in &reach.coefficients {
         if let (Some(c), 1 | -1) = (coefficient(dag, sum, term), power) {
-            propose(if power == 1 { c } else { Number::ONE.div(c) });
+            propose(if power == 1 { c } else { inverse(c) });
         }
     }
     for &(k, power) in &reach.roots {
         if power.abs() == 1 {
             let c = dag.roots[k].0;
-            propose(if power == 1 { c } else { Number::ONE.div(c) });
+            propose(if power == 1 { c } else { inverse(c) });
         }
     }
     let before = expense(dag, &terms, &reach, Number::ONE);
@@ -148,6 +152,11 @@ fn coefficient(dag: &Dag, sum: Id, term: Id) -> Option<Number> {
     }
 }
 
+/// One over a literal; of what isn't sharp itself, which is then not proposed.
+fn inverse(c: Number) -> Number {
+    if c.is_sharp() { Number::ONE.div(c) } else { c }
+}
+
 fn power(n: Number, exponent: i32) -> Number {
     let p = (0..exponent.unsigned_abs()).fold(Number::ONE, |p, _| p.mul(n));
     if exponent < 0 { Number::ONE.div(p) } else { p }
@@ -155,15 +164,17 @@ fn power(n: Number, exponent: i32) -> Number {
 
 /// Coefficients that would not be one.
 fn expense(dag: &Dag, terms: &[(Number, Id)], reach: &Reach, factor: Number) -> usize {
-    let costs = |c: Number| usize::from(!c.is_unit());
-    let inside: usize = terms.iter().filter(|t| t.1 != ONE).map(|t| costs(t.0.mul(factor))).sum();
-    let outside: usize = reach
-        .coefficients
-        .iter()
-        .filter_map(|&(sum, term, p)| coefficient(dag, sum, term).map(|c| costs(c.mul(power(factor, -p)))))
-        .sum();
-    let roots: usize = reach.roots.iter().map(|&(k, p)| costs(dag.roots[k].0.mul(power(factor, -p)))).sum();
-    inside + outside + roots
+    let inside = terms.iter().filter(|t| t.1 != ONE && !t.0.is_inverse_of(factor)).count();
+    // c / factor^p is one where c is that power.
+    let costs = |c: Number, p: i32| match p {
+        1 => !c.equals_up_to_sign(factor),
+        -1 => !c.is_inverse_of(factor),
+        _ => !c.equals_up_to_sign(power(factor, p)),
+    };
+    let outside =
+        reach.coefficients.iter().filter(|&&(sum, term, p)| coefficient(dag, sum, term).is_some_and(|c| costs(c, p)));
+    let roots = reach.roots.iter().filter(|&&(k, p)| costs(dag.roots[k].0, p));
+    inside + outside.count() + roots.count()
 }
 
 fn apply(dag: &mut Dag, id: Id, terms: Vec<(Number, Id)>, reach: &Reach, factor: Number) {

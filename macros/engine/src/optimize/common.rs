@@ -7,6 +7,7 @@
 use std::collections::HashMap;
 use std::ops::{Div, Mul};
 
+use crate::symbolic::fingerprint::Print;
 use crate::symbolic::number::Number;
 
 use super::dag::{Dag, Id, Kind, ratio};
@@ -23,13 +24,15 @@ pub fn share(dag: &mut Dag) {
 }
 
 fn share_sums(dag: &mut Dag) -> bool {
-    let mut pairs: HashMap<(Id, Id, u64), Vec<Id>> = HashMap::new();
+    let mut pairs: HashMap<(Id, Id, Print), Vec<Id>> = HashMap::new();
     let order = dag.order();
     let uses = dag.uses(&order);
     for &id in &order {
         let Kind::Sum(terms) = &dag.nodes[id].kind else { continue };
-        // A term that only this sum has is in no common pair. The constant is a term like others.
-        let shared: Vec<(Number, Id)> = terms.iter().copied().filter(|&(_, x)| uses[x] > 1).collect();
+        // A term that only this sum has is in no common pair. The constant is a term like others. Ratios are taken of
+        // what has all its digits.
+        let shared = |&(c, x): &(Number, Id)| uses[x] > 1 && c.is_sharp();
+        let shared: Vec<(Number, Id)> = terms.iter().copied().filter(shared).collect();
         if shared.len() > 64 {
             continue;
         }
@@ -39,7 +42,7 @@ fn share_sums(dag: &mut Dag) -> bool {
             }
         }
     }
-    let mut list: Vec<((Id, Id, u64), Vec<Id>)> = pairs.into_iter().filter(|(_, sums)| sums.len() > 1).collect();
+    let mut list: Vec<((Id, Id, Print), Vec<Id>)> = pairs.into_iter().filter(|(_, sums)| sums.len() > 1).collect();
     list.sort_by(|a, b| b.1.len().cmp(&a.1.len()).then_with(|| a.0.cmp(&b.0)));
     let mut changed = false;
     for ((x, y, r), sums) in list {

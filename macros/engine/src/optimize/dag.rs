@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use std::hash::BuildHasherDefault;
 use std::ops::{Add, Mul, Neg};
 
-use crate::symbolic::fingerprint::{self as field, Point, Print};
+use crate::symbolic::fingerprint::{Point, Print};
 use crate::symbolic::graph::{BlockKind, Call, PassHasher, SymbolId};
 use crate::symbolic::number::Number;
 
@@ -439,6 +439,6 @@ impl Dag {
 }
 
 /// Residue of a ratio of coefficients, sign included.
-pub fn ratio(a: Number, b: Number) -> u64 {
-    field::mul(a.residue, field::inverse(b.residue))
+pub fn ratio(a: Number, b: Number) -> Print {
+    a.residue * b.residue.inverse()
 }

@@ -61,7 +61,7 @@ impl Dag {
                 (coefficient.mul(c), id)
             }
             ScalarNode::Reciprocal(x) => {
-                let (c, id) = operand(map, *x);
+                let (c, id) = self.divisor(operand(map, *x));
                 (Number::ONE.div(c), self.make(Kind::Reciprocal(id), self.nodes[id].print.inverse()))
             }
             ScalarNode::Sqrt(x) => {
@@ -104,6 +104,11 @@ impl Dag {
         }
     }
 
+    /// A divisor whose coefficient has all its digits: what has cancelled is divided by as it stands.
+    fn divisor(&mut self, (c, id): (Number, Id)) -> (Number, Id) {
+        if c.is_sharp() { (c, id) } else { (Number::ONE, self.plain((c, id))) }
+    }
+
     /// Takes over a node of another DAG with the same symbols, and what it needs. `map` remembers what has been taken.
     pub fn adopt(&mut self, from: &Dag, id: Id, map: &mut HashMap<Id, (Number, Id)>) -> (Number, Id) {
         if id == ONE {
@@ -136,7 +141,8 @@ impl Dag {
                 (coefficient.mul(c), id)
             }
             Kind::Reciprocal(x) => {
-                let (c, x) = self.adopt(from, *x, map);
+                let x = self.adopt(from, *x, map);
+                let (c, x) = self.divisor(x);
                 (Number::ONE.div(c), self.make(Kind::Reciprocal(x), self.nodes[x].print.inverse()))
             }
             &Kind::Output { block, index } => {

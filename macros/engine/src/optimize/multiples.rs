@@ -7,6 +7,7 @@
 use std::collections::BTreeMap;
 use std::ops::Mul;
 
+use crate::symbolic::fingerprint::Print;
 use crate::symbolic::number::Number;
 
 use super::dag::{Dag, Id, Kind, ONE};
@@ -59,7 +60,7 @@ fn settle(dag: &mut Dag) {
 fn candidates(dag: &Dag) -> Vec<(Id, Number, Vec<Place>)> {
     let order = dag.order();
     let uses = dag.uses(&order);
-    let mut places: BTreeMap<(Id, u64), (Number, Vec<Place>)> = BTreeMap::new();
+    let mut places: BTreeMap<(Id, Print), (Number, Vec<Place>)> = BTreeMap::new();
     for &id in &order {
         let Kind::Sum(terms) = &dag.nodes[id].kind else { continue };
         if dag.nodes[id].stage <= Stage::Parameter {

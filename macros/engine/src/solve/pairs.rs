@@ -284,6 +284,6 @@ fn common_factor(g: &mut Graph, a: Scalar, b: Scalar) -> Option<Scalar> {
         (_, Some(n)) if a == Scalar::ZERO => n,
         _ => return None,
     };
-    let factor = g.number(factor);
+    let factor = g.number(factor.is_sharp().then_some(factor)?);
     Some(g.reciprocal(factor))
 }

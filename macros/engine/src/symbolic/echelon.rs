@@ -3,6 +3,7 @@
 //! In: rows of literals. Out: the same rows reduced, exactly, by the choice of pivots that costs the fewest products.
 //! The number of choices that are tried is bounded.
 
+use super::fingerprint::Print;
 use super::number::Number;
 
 /// Rows in reduced form beside what right sides they take, and their pivots' columns.
@@ -53,7 +54,7 @@ fn echelon(constant: &[Vec<Number>], columns: &[usize]) -> Option<(f64, Echelon)
     for (at, &column) in columns.iter().enumerate() {
         let size = |i: &usize| rows[*i][column].abs().value();
         let largest = (at..k).max_by(|a, b| size(a).total_cmp(&size(b)).then(b.cmp(a)))?;
-        if rows[largest][column].is_zero() {
+        if rows[largest][column].is_zero() || !rows[largest][column].is_sharp() {
             return None;
         }
         rows.swap(at, largest);
@@ -75,7 +76,7 @@ fn echelon(constant: &[Vec<Number>], columns: &[usize]) -> Option<(f64, Echelon)
 fn products((rows, pivots): &Echelon, n: usize) -> usize {
     let mut cost = 0;
     for j in (0..n).filter(|j| !pivots.contains(j)) {
-        let mut seen: Vec<u64> = Vec::new();
+        let mut seen: Vec<Print> = Vec::new();
         for row in rows {
             let c = row[j].abs();
             if !c.is_zero() {

@@ -1,96 +1,73 @@
 //! Stage `symbolic`: exact randomised values, by which equal expressions are found.
 //!
-//! In: field operations. Out: a [`Print`], the value of an expression at one random point modulo the prime
-//! p = 2^61 - 1, in two independent draws. Two expressions with the same print are equal as rational functions of
-//! their symbols but for a chance of about (degree / p)^2 (Schwartz 1980, Zippel 1979). Angles are drawn as points on
-//! the circle s^2 + c^2 = 1, whose group law is exact modulo p, so sines and cosines of sums agree with the addition
-//! theorems. Roots and transcendental functions get a print of their own, a hash of their arguments' prints: that can
-//! miss an identity, never invent one.
+//! In: field operations. Out: a [`Print`], the value of an expression at one random point in the field of p^2 elements
+//! that a square root of [`NON_SQUARE`] makes of the integers modulo the prime p = [`PRIME`]. Two expressions with the
+//! same print are equal as functions of their symbols but for a chance of about degree / p^2 (Schwartz 1980, Zippel
+//! 1979). Angles are drawn as points on the circle s^2 + c^2 = 1, whose group law is exact, so sines and cosines of sums
+//! agree with the addition theorems. Roots and transcendental functions of symbols get a print of their own, a hash of
+//! their arguments' prints: that can miss an identity, never invent one.
+//!
+//! The prime is chosen for literals (see [`super::number`]). p - 1 is divisible by [`TURN`](super::modular::TURN), and by
+//! four, so there is a root i of -1 and a root z of unity of that order, and with i = z^(TURN / 4) the cosine and sine of
+//! 2 pi k / TURN are (z^k + z^-k) / 2 and (z^k - z^-k) / 2i. Square roots of the primes in TURN are Gauss sums of z. Every
+//! other integer has a root too: modulo p, or as a multiple of the root that the field was made with.
 
 use std::ops::{Add, Mul, Neg, Sub};
+use std::sync::OnceLock;
 
-/// The prime 2^61 - 1.
-pub const PRIME: u64 = (1 << 61) - 1;
+pub use super::modular::mix;
+use super::modular::{self, PRIMES_OF_TURN, Residue};
+use super::number::Number;
 
-/// Value of an expression at a random point, in two draws.
+/// The prime; below 2^62.
+pub const PRIME: u64 = 4_580_050_217_783_040_001;
+
+/// No square modulo the prime; the least.
+pub const NON_SQUARE: u64 = 103;
+
+/// A root of unity of order [`modular::TURN`].
+const ROOT_OF_UNITY: u64 = 3_018_882_285_539_591_936;
+
+/// Roots of [`PRIMES_OF_TURN`], which follow from the root of unity.
+const ROOTS: [u64; 9] = [
+    1_911_947_173_086_140_078,
+    1_797_779_374_524_585_284,
+    1_305_037_843_561_264_802,
+    2_220_312_138_828_893_650,
+    3_484_250_653_552_243_117,
+    3_850_445_254_386_436_921,
+    329_888_670_779_618_262,
+    2_421_769_709_951_880_327,
+    3_165_850_905_922_842_718,
+];
+
+/// A point on the circle: cosine and sine of an angle.
+pub type Point = modular::Point<Print>;
+
+/// Value of an expression at a random point: a + b sqrt([`NON_SQUARE`]). Rational numbers have no second part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Print(pub [u64; 2]);
 
-/// Reduces any 64-bit word modulo the prime.
-pub fn reduce(x: u64) -> u64 {
-    let r = (x & PRIME) + (x >> 61);
-    if r >= PRIME { r - PRIME } else { r }
-}
-
-pub fn add(a: u64, b: u64) -> u64 {
-    let r = a + b;
-    if r >= PRIME { r - PRIME } else { r }
-}
-
-pub fn neg(a: u64) -> u64 {
-    if a == 0 { 0 } else { PRIME - a }
-}
-
-pub fn mul(a: u64, b: u64) -> u64 {
-    let wide = u128::from(a) * u128::from(b);
-    let r = (wide as u64 & PRIME) + (wide >> 61) as u64;
-    if r >= PRIME { r - PRIME } else { r }
-}
-
-pub fn pow(mut base: u64, mut exponent: u64) -> u64 {
-    let mut result = 1;
-    while exponent > 0 {
-        if exponent & 1 == 1 {
-            result = mul(result, base);
-        }
-        base = mul(base, base);
-        exponent >>= 1;
-    }
-    result
-}
-
-/// Multiplicative inverse; zero for zero.
-pub fn inverse(a: u64) -> u64 {
-    pow(a, PRIME - 2)
-}
-
-/// A fixed mixing of 64 bits (SplitMix64, Steele et al. 2014): draws must be the same on every machine.
-pub fn mix(x: u64) -> u64 {
-    let x = x.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    let x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    x ^ (x >> 31)
-}
-
 impl Print {
     pub const ZERO: Print = Print([0, 0]);
-    pub const ONE: Print = Print([1, 1]);
-
-    /// Of a literal: the same in both draws.
-    pub fn constant(residue: u64) -> Self {
-        Print([residue, residue])
-    }
+    pub const ONE: Print = Print([1, 0]);
 
     /// A draw that depends on `key` alone.
     pub fn draw(key: u64) -> Self {
-        Print([reduce(mix(key)), reduce(mix(mix(key ^ 0x5DEE_CE66)))])
+        Print([mix(key) % PRIME, mix(mix(key ^ 0x5DEE_CE66)) % PRIME])
     }
 
     /// A draw for an opaque function `tag` of arguments with these prints.
     pub fn opaque(tag: u64, arguments: &[Print]) -> Self {
-        let fold = |lane: usize| {
-            let mut h = mix(tag);
-            for argument in arguments {
-                h = mix(h ^ argument.0[lane]);
-            }
-            reduce(h)
+        let fold = |salt: u64| {
+            arguments.iter().fold(mix(tag ^ salt), |h, argument| mix(mix(h ^ argument.0[0]) ^ argument.0[1])) % PRIME
         };
-        Print([fold(0), fold(1)])
+        Print([fold(0), fold(0x51A7)])
     }
 
-    /// Literals have equal draws; anything that depends on a symbol has not, but for a chance of 1 / p.
+    /// Rational numbers are; anything that depends on a symbol is not, but for a chance of 1 / p.
     pub fn is_constant(self) -> bool {
-        self.0[0] == self.0[1]
+        self.0[1] == 0
     }
 
     pub fn is_zero(self) -> bool {
@@ -99,11 +76,20 @@ impl Print {
 
     /// Of `x` and `-x`, the one that stands for both in tables.
     pub fn canonical(self) -> Print {
-        if self.0[0] <= PRIME / 2 { self } else { self.neg() }
+        let first = if self.0[0] == 0 { self.0[1] } else { self.0[0] };
+        if first <= PRIME / 2 { self } else { -self }
     }
 
     pub fn inverse(self) -> Print {
-        Print([inverse(self.0[0]), inverse(self.0[1])])
+        let [a, b] = self.0;
+        if b == 0 {
+            return Print([modular::inverse::<PRIME>(a), 0]);
+        }
+        // 1 / (a + b r) = (a - b r) / (a^2 - b^2 r^2)
+        let square = modular::mul::<PRIME>(modular::mul::<PRIME>(b, b), NON_SQUARE);
+        let norm = modular::add::<PRIME>(modular::mul::<PRIME>(a, a), modular::neg::<PRIME>(square));
+        let scale = modular::inverse::<PRIME>(norm);
+        Print([modular::mul::<PRIME>(a, scale), modular::mul::<PRIME>(modular::neg::<PRIME>(b), scale)])
     }
 
     /// One word for hash tables.
@@ -115,7 +101,7 @@ impl Print {
 impl Add for Print {
     type Output = Print;
     fn add(self, other: Print) -> Print {
-        Print([add(self.0[0], other.0[0]), add(self.0[1], other.0[1])])
+        Print([modular::add::<PRIME>(self.0[0], other.0[0]), modular::add::<PRIME>(self.0[1], other.0[1])])
     }
 }
 
@@ -129,70 +115,79 @@ impl Sub for Print {
 impl Neg for Print {
     type Output = Print;
     fn neg(self) -> Print {
-        Print([neg(self.0[0]), neg(self.0[1])])
+        Print([modular::neg::<PRIME>(self.0[0]), modular::neg::<PRIME>(self.0[1])])
     }
 }
 
 impl Mul for Print {
     type Output = Print;
     fn mul(self, other: Print) -> Print {
-        Print([mul(self.0[0], other.0[0]), mul(self.0[1], other.0[1])])
-    }
-}
-
-/// A point on the circle: cosine and sine of an angle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Point {
-    pub cos: Print,
-    pub sin: Print,
-}
-
-impl Point {
-    pub const ZERO: Point = Point { cos: Print::ONE, sin: Print::ZERO };
-    pub const QUARTER: Point = Point { cos: Print::ZERO, sin: Print::ONE };
-
-    /// The point whose half-angle tangent is `t`.
-    pub fn from_tangent(t: Print) -> Point {
-        let square = t.mul(t);
-        let scale = Print::ONE.add(square).inverse();
-        Point { cos: Print::ONE.sub(square).mul(scale), sin: t.add(t).mul(scale) }
-    }
-
-    /// Of an integer multiple of the angle.
-    pub fn times(self, k: i64) -> Point {
-        let mut base = if k < 0 { self.neg() } else { self };
-        let mut k = k.unsigned_abs();
-        let mut result = Point::ZERO;
-        while k > 0 {
-            if k & 1 == 1 {
-                result = result.add(base);
+        let ([a, b], [c, d]) = (self.0.map(u128::from), other.0.map(u128::from));
+        match (self.0[1], other.0[1]) {
+            (0, 0) => Print([modular::reduce_wide::<PRIME>(a * c), 0]),
+            _ => {
+                let last = u128::from(modular::reduce_wide::<PRIME>(b * d));
+                let first = modular::reduce_wide::<PRIME>(a * c + last * u128::from(NON_SQUARE));
+                Print([first, modular::reduce_wide::<PRIME>(a * d + b * c)])
             }
-            base = base.add(base);
-            k >>= 1;
         }
-        result
     }
 }
 
-/// Of the sum of two angles.
-impl Add for Point {
-    type Output = Point;
-    fn add(self, other: Point) -> Point {
-        Point { cos: self.cos * other.cos - self.sin * other.sin, sin: self.sin * other.cos + self.cos * other.sin }
+impl Residue for Print {
+    const ZERO: Print = Print::ZERO;
+    const ONE: Print = Print::ONE;
+
+    fn integer(n: i128) -> Print {
+        Print([modular::integer::<PRIME>(n), 0])
+    }
+
+    fn inverse(self) -> Print {
+        Print::inverse(self)
+    }
+
+    fn opaque(tag: u64, arguments: &[Print]) -> Print {
+        Print::opaque(tag, arguments)
+    }
+
+    fn canonical(self) -> Print {
+        Print::canonical(self)
+    }
+
+    fn of(n: Number) -> Print {
+        n.residue
+    }
+
+    fn first_turn() -> Point {
+        static POINT: OnceLock<Point> = OnceLock::new();
+        *POINT.get_or_init(|| {
+            let z = Print([ROOT_OF_UNITY, 0]);
+            let i = Print([modular::pow::<PRIME>(ROOT_OF_UNITY, (modular::TURN / 4) as u64), 0]);
+            let half = Print::integer(2).inverse();
+            Point { cos: (z + z.inverse()) * half, sin: (z - z.inverse()) * half * i.inverse() }
+        })
+    }
+
+    fn root_of_prime(prime: u128) -> Print {
+        if let Some(at) = PRIMES_OF_TURN.iter().position(|&t| u128::from(t) == prime) {
+            return Print([ROOTS[at], 0]);
+        }
+        let residue = (prime % u128::from(PRIME)) as u64;
+        if let Some(root) = modular::root::<PRIME>(residue) {
+            return Print([root, 0]);
+        }
+        let quotient = modular::mul::<PRIME>(residue, modular::inverse::<PRIME>(NON_SQUARE));
+        Print([0, modular::root::<PRIME>(quotient).unwrap_or(0)])
     }
 }
 
-impl Neg for Point {
-    type Output = Point;
-    fn neg(self) -> Point {
-        Point { cos: self.cos, sin: -self.sin }
-    }
-}
-
-/// Finds n / d with |n| and d below 2^16 that has this residue (Wang 1981). One residue in 2^28 has one by chance.
-pub fn reconstruct(residue: u64) -> Option<(i64, i64)> {
+/// Finds n / d with |n| and d below 2^16 that has this print (Wang 1981). One residue modulo p in 2^29 has one by chance.
+pub fn reconstruct(print: Print) -> Option<(i64, i64)> {
     let bound = 1_i128 << 16;
-    let (mut r0, mut r1) = (i128::from(PRIME), i128::from(residue));
+    if !print.is_constant() {
+        return None;
+    }
+    let (mut r0, mut r1) = (i128::from(PRIME), i128::from(print.0[0]));
     let (mut t0, mut t1) = (0_i128, 1_i128);
     while r1 >= bound {
         let q = r0 / r1;
@@ -213,29 +208,45 @@ mod tests {
     #[test]
     fn field_laws_hold() {
         for k in 0..200 {
-            let (a, b) = (reduce(mix(k)), reduce(mix(k + 1000)));
-            assert_eq!(mul(a, inverse(a)), 1);
-            assert_eq!(add(a, neg(a)), 0);
-            assert_eq!(u128::from(mul(a, b)), u128::from(a) * u128::from(b) % u128::from(PRIME));
+            let (a, b, c) = (Print::draw(k), Print::draw(k + 1000), Print::draw(k + 2000));
+            assert_eq!(a * a.inverse(), Print::ONE);
+            assert_eq!(a + -a, Print::ZERO);
+            assert_eq!((a * b) * c, a * (b * c));
+            assert_eq!(a * (b + c), a * b + a * c);
+            assert_eq!(a * b, b * a);
+            assert_eq!((a * b).inverse(), a.inverse() * b.inverse());
+            let plain = u128::from(a.0[0]) * u128::from(b.0[0]) % u128::from(PRIME);
+            assert_eq!(u128::from(modular::mul::<PRIME>(a.0[0], b.0[0])), plain);
+            assert_eq!(a.canonical(), (-a).canonical());
         }
+        let pure = Print([0, 5]);
+        assert_eq!(pure.canonical(), (-pure).canonical());
+        assert_eq!(pure * pure, Print::integer(25 * i128::from(NON_SQUARE)));
+        assert!(!modular::is_square::<PRIME>(NON_SQUARE));
+        // The largest that is ever reduced.
+        let most = 2 * u128::from(PRIME - 1) * u128::from(PRIME - 1);
+        assert_eq!(u128::from(modular::reduce_wide::<PRIME>(most)), most % u128::from(PRIME));
     }
 
     #[test]
     fn points_stay_on_the_circle() {
-        let p = Point::from_tangent(Print::draw(1));
-        let q = Point::from_tangent(Print::draw(2));
-        for point in [p, q, p.add(q), p.times(5), p.times(-3)] {
-            assert_eq!(point.cos.mul(point.cos).add(point.sin.mul(point.sin)), Print::ONE);
+        let p = Point::drawn(1, Print::draw(1));
+        let q = Point::drawn(1, Print::draw(2));
+        for point in [p, q, p + q, p.times(5), p.times(-3), Print::first_turn()] {
+            assert_eq!(point.cos * point.cos + point.sin * point.sin, Print::ONE);
         }
-        assert_eq!(p.times(3).add(p.times(-2)), p);
+        assert_eq!(p.times(3) + p.times(-2), p);
         assert_eq!(Point::QUARTER.times(4), Point::ZERO);
+        // A half-angle tangent of i is a point nowhere.
+        let i = modular::pow::<PRIME>(ROOT_OF_UNITY, (modular::TURN / 4) as u64);
+        assert_eq!(Point::from_tangent(Print([i, 0])), None);
     }
 
     #[test]
     fn rationals_come_back() {
         for (n, d) in [(0_i64, 1_i64), (1, 1), (-1, 1), (1, 2), (-7, 3), (12_345, 7_891)] {
-            let n_mod = if n < 0 { neg(n.unsigned_abs()) } else { n.unsigned_abs() };
-            assert_eq!(reconstruct(mul(n_mod, inverse(d as u64))), Some((n, d)));
+            let print = Print::integer(i128::from(n)) * Print::integer(i128::from(d)).inverse();
+            assert_eq!(reconstruct(print), Some((n, d)));
         }
     }
 }

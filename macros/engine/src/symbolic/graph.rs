@@ -224,6 +224,8 @@ pub struct Graph {
     reads: [Vec<u128>; 3],
     /// Nodes that read these are not looked up.
     pub(super) shunned: u128,
+    /// Large numbers whose square roots are literals.
+    pub(super) radicands: Vec<u128>,
     names: HashMap<u32, String>,
     vector_names: HashMap<u32, String>,
 }
@@ -253,6 +255,7 @@ impl Graph {
             places: Default::default(),
             reads: Default::default(),
             shunned: 0,
+            radicands: Vec::new(),
             names: HashMap::new(),
             vector_names: HashMap::new(),
         };

@@ -1,23 +1,25 @@
 //! Stage `symbolic`: the exact randomised identity test (law 7 of the engine).
 //!
 //! In: expressions of two graphs whose symbols were made in the same order. Out: a [`Verdict`]. [`identical`] evaluates
-//! both modulo the prime of [`super::fingerprint`] (Schwartz 1980, Zippel 1979) at points that are drawn from a seed and
-//! have nothing in common with the prints by which the graph merges nodes; only literals and constant angles, which the
-//! graph folds, are the same. Angles are points on the circle, constant ones multiples of a common base; unit quaternions
-//! lie on the sphere. Square roots are exact, but for their sign, where the argument is a square: points are drawn until
-//! all are. Other functions are opaque: equal for equal arguments. What that can't see (signs of roots, min, max, select,
-//! exp) is compared by [`close`] at random points in double precision.
+//! both modulo the prime of [`super::check`] (Schwartz 1980, Zippel 1979) at points that are drawn from a seed. The prime,
+//! the images of literals and the points have nothing in common with the prints by which the graph merges nodes. Angles
+//! are points on the circle; unit quaternions lie on the sphere. Square roots are exact, but for their sign, where the
+//! argument is a square: points are drawn until all are. Other functions are opaque: equal for equal arguments. What that
+//! can't see (signs of roots, min, max, select, exp) is compared by [`close`] at random points in double precision.
 //!
 //! "Identical" can be trusted; "different" means so only if every angle is a sum of the same units: a product of sums, or
 //! a dot product, is one unit.
 
 use std::cell::Cell;
 
+use super::check::{self as field, Check, PRIME};
+use super::elementary::{literal_point, multiple};
 use super::evaluate::{Evaluator, Field, Real};
-use super::fingerprint::{self as field, Point, Print, mix, reconstruct, reduce};
 use super::graph::{Call, Graph, Scalar, SymbolId};
+use super::modular::{self, mix};
 use super::number::Number;
-use super::trigonometry::{PARTS, literal_point};
+
+type Point = modular::Point<Check>;
 
 /// What a test has found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +28,7 @@ pub enum Verdict {
     /// Position of the first pair that isn't.
     Different(usize),
     /// No point was found at which the expressions have a value: one of them is the root of what is never a square, or
-    /// isn't a number.
+    /// isn't a number, or holds the root of a literal that the check's field doesn't have.
     Undecided,
 }
 
@@ -113,7 +115,7 @@ impl Draw {
     /// For the symbols of this graph.
     pub fn new(g: &Graph, seed: u64) -> Draw {
         let seed = mix(seed ^ 0x1DE_4717);
-        let mut symbols: Vec<u64> = (0..g.symbols.len() as u64).map(|id| reduce(mix(seed ^ mix(id)))).collect();
+        let mut symbols: Vec<u64> = (0..g.symbols.len() as u64).map(|id| field::reduce(mix(seed ^ mix(id)))).collect();
         for &SymbolId(first) in &g.quaternions {
             if let Some(q) = symbols.get_mut(first..first + 4) {
                 project(q);
@@ -140,21 +142,15 @@ impl Draw {
         if value == 0 {
             return Point::ZERO;
         }
-        let angle = |value: u64| {
-            let (key, sign) = canonical(value);
-            let tangent = reduce(mix(self.seed ^ mix(key)));
-            (Point::from_tangent(Print::constant(tangent)), if sign { -1 } else { 1 })
-        };
-        match reconstruct(factor.residue) {
-            Some((n, d)) if PARTS % d == 0 => {
-                let (point, sign) = angle(value);
-                point.times(sign * n * (PARTS / d))
-            }
-            _ => {
-                let (point, sign) = angle(field::mul(value, factor.residue));
-                point.times(sign * PARTS)
-            }
-        }
+        multiple(Check::new(value), factor, |unit| Point::drawn(mix(self.seed), unit))
+    }
+
+    /// An element that is known; else the point is refused.
+    fn get(&self, element: Check) -> u64 {
+        element.get().unwrap_or_else(|| {
+            self.refused.set(true);
+            0
+        })
     }
 }
 
@@ -171,7 +167,7 @@ fn project(q: &mut [u64]) {
 
 /// Of x and -x the one that stands for both, and whether it is -x.
 fn canonical(x: u64) -> (u64, bool) {
-    if x <= field::PRIME / 2 { (x, false) } else { (field::neg(x), true) }
+    if x <= PRIME / 2 { (x, false) } else { (field::neg(x), true) }
 }
 
 /// Arithmetic modulo the prime at a drawn point.
@@ -184,22 +180,13 @@ impl Modular<'_> {
     /// Cosine and sine of a sum of angles with literal factors and a literal.
     pub fn angle(&self, terms: &[(u64, Number)], constant: Number) -> (u64, u64) {
         let units = terms.iter().map(|&(value, factor)| self.draw.unit(value, factor));
-        let point = units.fold(literal_point(constant), |sum, point| sum + point);
-        (point.cos.0[0], point.sin.0[0])
-    }
-
-    fn root(&self, x: u64) -> u64 {
-        // p is 3 modulo 4.
-        let root = field::pow(x, field::PRIME.div_ceil(4));
-        if field::mul(root, root) != x {
-            self.draw.refused.set(true);
-        }
-        root
+        let point = units.fold(literal_point(constant).0, |sum, point| sum + point);
+        (self.draw.get(point.cos), self.draw.get(point.sin))
     }
 
     fn opaque(&self, call: Call, arguments: &[u64]) -> u64 {
         let fold = arguments.iter().fold(mix(self.draw.seed ^ mix(call as u64)), |h, &x| mix(h ^ x));
-        reduce(fold)
+        field::reduce(fold)
     }
 }
 
@@ -207,7 +194,7 @@ impl Field for Modular<'_> {
     type Value = u64;
 
     fn literal(&self, n: Number) -> u64 {
-        n.residue
+        self.draw.get(n.check())
     }
 
     fn symbol(&self, id: SymbolId) -> u64 {
@@ -228,13 +215,13 @@ impl Field for Modular<'_> {
 
     /// One over zero is a value that nothing else has.
     fn reciprocal(&self, a: u64) -> u64 {
-        if a == 0 { reduce(mix(self.draw.seed ^ 0xD1)) } else { field::inverse(a) }
+        if a == 0 { field::reduce(mix(self.draw.seed ^ 0xD1)) } else { field::inverse(a) }
     }
 
     /// Symmetries are all that is known of a function.
     fn call(&self, call: Call, x: &[u64]) -> u64 {
         match (call, x) {
-            (Call::Sqrt, &[x]) => self.root(x),
+            (Call::Sqrt, &[x]) => self.draw.get(Check::new(x).root()),
             (Call::Tan | Call::Atan | Call::Asin | Call::Sinh | Call::Tanh | Call::Signum, &[x]) => {
                 let (key, negative) = canonical(x);
                 match self.opaque(call, &[key]) {
@@ -260,15 +247,15 @@ impl Field for Modular<'_> {
         for (unit, factor) in units.terms {
             match graph.given_point(unit, factor) {
                 Some((c, s, times)) => {
-                    let [cos, sin] = [c, s].map(|x| Print::constant(known(x)));
-                    point = point + Point { cos, sin }.times(times);
+                    let [cos, sin] = [c, s].map(|x| Check::new(known(x)));
+                    point = point + Point { cos, sin }.times(times.into());
                 }
                 None => terms.push((known(unit), factor)),
             }
         }
         let (cos, sin) = self.angle(&terms, units.constant);
-        let sum = point + Point { cos: Print::constant(cos), sin: Print::constant(sin) };
-        (sum.cos.0[0], sum.sin.0[0])
+        let sum = point + Point { cos: Check::new(cos), sin: Check::new(sin) };
+        (self.draw.get(sum.cos), self.draw.get(sum.sin))
     }
 
     /// Elimination with the first pivot there is. The rank is that modulo the prime: the true one, but by chance.

@@ -208,6 +208,7 @@ impl Graph {
     pub fn empty_copy(&self) -> Graph {
         let mut copy = Graph::new();
         copy.quaternions.clone_from(&self.quaternions);
+        copy.radicands.clone_from(&self.radicands);
         for &s in &self.symbols {
             let id = super::graph::SymbolId(copy.symbols.len());
             let handle = copy.insert_scalar(ScalarNode::Symbol(id), self.prints[s.index()]);

@@ -3,11 +3,13 @@
 //! It knows no mechanics. See [`graph`] for the normal form.
 
 pub mod adjoint;
+pub mod check;
 pub mod count;
 pub mod dependence;
 pub mod differentiate;
 pub mod doubled;
 mod echelon;
+mod elementary;
 pub mod evaluate;
 pub mod fingerprint;
 pub mod graph;
@@ -15,8 +17,10 @@ pub mod identity;
 pub mod inputs;
 pub mod linear_algebra;
 pub mod lower;
+pub mod modular;
 pub mod number;
 pub mod pivoted;
+pub mod radical;
 mod scalar;
 pub mod signs;
 pub mod substitute;

@@ -5,10 +5,11 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::evaluate::call_f64;
+use super::elementary;
 use super::fingerprint::{Print, mix, reconstruct};
 use super::graph::{Block, BlockId, BlockKind, Call, Graph, Scalar, ScalarNode, SymbolId, Vector, VectorNode};
-use super::number::Number;
+use super::number::{Number, Root};
+use super::radical::gcd;
 
 impl Graph {
     /// A literal, read as the decimal that the user wrote.
@@ -44,8 +45,14 @@ impl Graph {
     pub fn unit_quaternion(&mut self) -> [Scalar; 4] {
         self.quaternions.push(SymbolId(self.symbols.len()));
         let base = self.symbols.len() as u64;
-        let t: [Print; 3] = std::array::from_fn(|k| Print::draw(mix(0x0A7E_0000 + 4 * base + k as u64)));
-        let square = t.iter().fold(Print::ZERO, |sum, t| sum.add(t.mul(*t)));
+        let draw = |attempt: u64| -> [Print; 3] {
+            std::array::from_fn(|k| Print::draw(mix(0x0A7E_0000 + 4 * base + k as u64 + (attempt << 32))))
+        };
+        let square_of = |t: [Print; 3]| t.iter().fold(Print::ZERO, |sum, t| sum.add(t.mul(*t)));
+        // By chance 1 + t^2 vanishes: then another is drawn.
+        let lies = |&attempt: &u64| !Print::ONE.add(square_of(draw(attempt))).is_zero();
+        let t = draw((0..8).find(lies).unwrap_or(0));
+        let square = square_of(t);
         let scale = Print::ONE.add(square).inverse();
         let vector = t.map(|t| t.add(t).mul(scale));
         let scalar = Print::ONE.sub(square).mul(scale);
@@ -78,16 +85,23 @@ impl Graph {
         if let Some(found) = self.find(print) {
             return found;
         }
-        let mut constant = Number::ZERO;
+        let (mut constant, mut literals) = (Number::ZERO, false);
         let mut list: Vec<Scalar> = Vec::with_capacity(terms.len());
         for &t in terms {
             match self.literal(t) {
-                Some(n) => constant = constant.add(n),
+                Some(n) => {
+                    literals |= !n.is_zero();
+                    constant = constant.add(n);
+                }
                 None => list.push(t),
             }
         }
         if list.is_empty() {
             return self.number(constant);
+        }
+        if literals && constant.is_zero() {
+            // What opaque literals leave may be zero by its value alone: then the rest has another print.
+            return self.sum(&list);
         }
         if let Some(known) = self.known(print) {
             return known;
@@ -132,9 +146,9 @@ impl Graph {
             return Some(found);
         }
         if print.is_constant()
-            && let Some((n, d)) = reconstruct(print.0[0])
+            && let Some((n, d)) = reconstruct(print)
         {
-            return Some(self.number(Number::integer(n).div(Number::integer(d))));
+            return Some(self.number(Number::ratio(n, d)));
         }
         None
     }
@@ -253,18 +267,40 @@ impl Graph {
         if x == Scalar::ZERO || x == Scalar::ONE {
             return x;
         }
+        if let Some(root) = self.literal(x).and_then(elementary::root).and_then(|root| self.admitted(root)) {
+            return self.number(root);
+        }
         let print = Print::opaque(0x59, &[self.print(x)]);
         if let Some(found) = self.find(print) {
             return found;
         }
-        if let Some(n) = self.literal(x) {
-            let root = n.value().sqrt();
-            let exact = Number::decimal(root);
-            if exact.mul(exact) == n {
-                return self.number(exact);
+        self.insert_scalar(ScalarNode::Sqrt(x), print)
+    }
+
+    /// The length of a vector.
+    pub fn length(&mut self, components: [Scalar; 3]) -> Scalar {
+        let literals: Option<Vec<Number>> = components.iter().map(|&c| self.literal(c)).collect();
+        if let Some(root) = literals.and_then(|list| Number::length(&list)).and_then(|root| self.admitted(root)) {
+            return self.number(root);
+        }
+        let squares = components.map(|c| self.mul(c, c));
+        let square = self.sum(&squares);
+        self.sqrt(square)
+    }
+
+    /// A root of a literal. Radicands too large to be taken apart may share factors, and then the signs of their roots
+    /// are not known to agree: such a root stays a node that no rule looks into.
+    fn admitted(&mut self, root: Root) -> Option<Number> {
+        let apart = |&a: &u128| self.radicands.iter().all(|&b| a == b || gcd(a, b) == 1);
+        if !root.large.iter().all(apart) {
+            return None;
+        }
+        for n in root.large {
+            if !self.radicands.contains(&n) {
+                self.radicands.push(n);
             }
         }
-        self.insert_scalar(ScalarNode::Sqrt(x), print)
+        Some(root.number)
     }
 
     /// Integer power by repeated squaring.
@@ -329,21 +365,17 @@ impl Graph {
         if let (Call::Select, &[mask, a, b]) = (call, arguments) {
             let ScalarNode::Call(condition, inner) = self.node(mask) else { return None };
             let (Call::Less | Call::LessEqual | Call::Equal, [x, y]) = (condition, &inner[..]) else { return None };
-            let values = [self.literal(*x)?.value(), self.literal(*y)?.value()];
-            return Some(if call_f64(*condition, &values) != 0.0 { a } else { b });
+            let difference = self.literal(*x)? - self.literal(*y)?;
+            let holds = match condition {
+                Call::Less => difference.is_negative(),
+                Call::LessEqual => difference.is_negative() || difference.is_zero(),
+                _ => difference.is_zero(),
+            };
+            return Some(if holds { a } else { b });
         }
-        if matches!(call, Call::Less | Call::LessEqual | Call::Equal | Call::And | Call::Or | Call::Not) {
-            return None;
-        }
-        let values: Option<Vec<f64>> = arguments.iter().map(|&a| self.literal(a).map(Number::value)).collect();
-        let value = call_f64(call, &values?);
-        let prints: Vec<Print> = arguments.iter().map(|&a| self.print(a)).collect();
-        // Whole results (exp(0), max(1, 2)) are exact; others are known to double precision.
-        let exact = Number::decimal(value);
-        let residue = Print::opaque(0xCA_0000 + call as u64, &prints).0[0];
-        let known = matches!(call, Call::Min | Call::Max | Call::Abs | Call::Signum)
-            || (value == value.round() && value.abs() < 1e6);
-        value.is_finite().then(|| self.number(if known { exact } else { Number::transcendental(value, residue) }))
+        let values: Option<Vec<Number>> = arguments.iter().map(|&a| self.literal(a)).collect();
+        let value = elementary::call(call, &values?)?;
+        Some(self.number(value))
     }
 
     /// The results of a block over these operands: unknown values, equal only for an equal block.
@@ -377,6 +409,13 @@ impl Graph {
         outputs
     }
 
+    /// The components of a vector of literals.
+    pub(super) fn literal_vector(&self, v: Vector) -> Option<[Number; 3]> {
+        let VectorNode::Triple(components) = self.vector_node(v) else { return None };
+        let [Some(x), Some(y), Some(z)] = components.map(|c| self.literal(c)) else { return None };
+        Some(if v.is_negative() { [-x, -y, -z] } else { [x, y, z] })
+    }
+
     /// x, y or z of a vector.
     pub fn component(&mut self, v: Vector, axis: usize) -> Scalar {
         let flip = v.is_negative();
@@ -393,6 +432,10 @@ impl Graph {
     }
 
     pub fn dot(&mut self, a: Vector, b: Vector) -> Scalar {
+        if let (Some(a), Some(b)) = (self.literal_vector(a), self.literal_vector(b)) {
+            let products = [0, 1, 2].map(|k| a[k] * b[k]);
+            return self.number(products[0] + products[1] + products[2]);
+        }
         let (pa, pb) = (self.vector_print(a), self.vector_print(b));
         let print = (0..3).fold(Print::ZERO, |sum, k| sum.add(pa[k].mul(pb[k])));
         if let Some(known) = self.known(print) {

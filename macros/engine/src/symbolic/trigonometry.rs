@@ -1,19 +1,16 @@
 //! Stage `symbolic`: angles, their sines and cosines.
 //!
 //! In: an angle, any scalar. Out: its point on the circle modulo the prime, and nodes for sine and cosine. An angle is
-//! read as a sum of units with rational factors and a literal. Each unit is drawn as a twelfth of itself, and decimal
-//! literals on the common base of 1e-9 rad, so halves, thirds, sums and differences of angles agree exactly with the
-//! addition theorems. Multiples of a quarter turn are exact.
+//! read as a sum of units with rational factors and a literal (see [`super::elementary`]). Each unit is drawn as a twelfth
+//! of itself, so halves, thirds, sums and differences of angles agree exactly with the addition theorems.
 
 use std::collections::BTreeMap;
-use std::ops::{Add, Div, Mul};
+use std::ops::Add;
 
-use super::fingerprint::{self as field, Point, Print, mix, reconstruct};
-use super::graph::{Graph, Scalar, ScalarNode};
+use super::elementary::{literal_point, multiple, quarters, sin_cos};
+use super::fingerprint::{Point, Print, reconstruct};
+use super::graph::{Call, Graph, Scalar, ScalarNode};
 use super::number::Number;
-
-/// Denominators up to twelve (1, 2, 3, 4, 6, 12) stay within the group of one unit.
-pub(super) const PARTS: i64 = 12;
 
 /// Whole multiples of a given point that are written out.
 const MOST_TIMES: i64 = 8;
@@ -28,7 +25,9 @@ impl Graph {
             return if sin.is_negative() { -*x } else { *x };
         }
         if let (Some(c), Some(s)) = (self.literal(cos), self.literal(sin)) {
-            return self.decimal(s.value().atan2(c.value()));
+            if let Some(angle) = super::elementary::call(Call::Atan2, &[s, c]) {
+                return self.number(angle);
+            }
         }
         // atan2 is odd in the sine.
         if sin.is_negative() {
@@ -64,7 +63,7 @@ impl Graph {
     /// The point, and how many times, of a unit that is given as one. Other fractions of it need its angle.
     pub(super) fn given_point(&self, unit: Scalar, factor: Number) -> Option<(Scalar, Scalar, i64)> {
         let &ScalarNode::Angle(c, s) = self.node(unit) else { return None };
-        match reconstruct(factor.residue) {
+        match factor.rational().or_else(|| reconstruct(factor.residue)) {
             Some((n, 1)) if n.abs() <= MOST_TIMES => Some((c, s, n)),
             _ => None,
         }
@@ -108,21 +107,19 @@ impl Graph {
         if let Some((_, sin)) = self.by_points(angle) {
             return sin;
         }
+        if let Some(n) = self.literal(angle) {
+            return self.number(sin_cos(n).0);
+        }
         match self.quarter_turns(angle) {
             (Scalar::ZERO, 0 | 2) => Scalar::ZERO,
-            (Scalar::ZERO, k) => {
-                if k == 1 {
-                    Scalar::ONE
-                } else {
-                    -Scalar::ONE
-                }
-            }
+            (Scalar::ZERO, 1) => Scalar::ONE,
+            (Scalar::ZERO, _) => -Scalar::ONE,
             (rest, 1) => self.cos(rest),
             (rest, 2) => -self.sin(rest),
             (rest, 3) => -self.cos(rest),
             _ => {
                 let print = self.point(angle).sin;
-                self.trigonometric(ScalarNode::Sin(angle), angle, print, f64::sin_cos)
+                self.find(print).unwrap_or_else(|| self.insert_scalar(ScalarNode::Sin(angle), print))
             }
         }
     }
@@ -132,43 +129,20 @@ impl Graph {
         if let Some((cos, _)) = self.by_points(angle) {
             return cos;
         }
+        if let Some(n) = self.literal(angle) {
+            return self.number(sin_cos(n).1);
+        }
         match self.quarter_turns(angle) {
             (Scalar::ZERO, 1 | 3) => Scalar::ZERO,
-            (Scalar::ZERO, k) => {
-                if k == 0 {
-                    Scalar::ONE
-                } else {
-                    -Scalar::ONE
-                }
-            }
+            (Scalar::ZERO, 0) => Scalar::ONE,
+            (Scalar::ZERO, _) => -Scalar::ONE,
             (rest, 1) => -self.sin(rest),
             (rest, 2) => -self.cos(rest),
             (rest, 3) => self.sin(rest),
             _ => {
                 let print = self.point(angle).cos;
-                let swapped = |x: f64| (x.cos(), -x.sin());
-                self.trigonometric(ScalarNode::Cos(angle), angle, print, swapped)
+                self.find(print).unwrap_or_else(|| self.insert_scalar(ScalarNode::Cos(angle), print))
             }
-        }
-    }
-
-    /// A literal's value, with its derivative's help for the digits beyond double precision, or a node.
-    fn trigonometric(
-        &mut self,
-        node: ScalarNode,
-        angle: Scalar,
-        print: Print,
-        f: impl Fn(f64) -> (f64, f64),
-    ) -> Scalar {
-        if let Some(found) = self.find(print) {
-            return found;
-        }
-        match self.literal(angle) {
-            Some(n) => {
-                let (value, slope) = f(n.value());
-                self.number(Number::transcendental(value + slope * n.low(), print.0[0]))
-            }
-            None => self.insert_scalar(node, print),
         }
     }
 
@@ -197,10 +171,10 @@ impl Graph {
     pub fn point(&self, angle: Scalar) -> Point {
         let units = self.units(angle);
         let point = |(&unit, &factor): (&Scalar, &Number)| match self.given_point(unit, factor) {
-            Some((c, s, times)) => Point { cos: self.print(c), sin: self.print(s) }.times(times),
-            None => unit_point(self.print(unit), factor),
+            Some((c, s, times)) => Point { cos: self.print(c), sin: self.print(s) }.times(times.into()),
+            None => multiple(self.print(unit), factor, |unit| Point::drawn(0xA9_61E5, unit)),
         };
-        units.terms.iter().map(point).fold(literal_point(units.constant), Add::add)
+        units.terms.iter().map(point).fold(literal_point(units.constant).0, Add::add)
     }
 }
 
@@ -215,48 +189,4 @@ impl Units {
         let sum = self.terms.entry(unit).or_insert(Number::ZERO);
         *sum = *sum + factor;
     }
-}
-
-/// The number of quarter turns that a literal means: exactly, or as the decimal that rounds it to double precision.
-fn quarters(n: Number) -> Option<i64> {
-    let turns = (n.value() / std::f64::consts::FRAC_PI_2).round();
-    if turns.abs() > 1e6 {
-        return None;
-    }
-    let exact = Number::integer(turns as i64).mul(Number::pi()).div(Number::integer(2));
-    (n.residue == exact.residue || (turns != 0.0 && n.value() == exact.value())).then_some(turns as i64)
-}
-
-/// `factor` times the unit with this print.
-fn unit_point(print: Print, factor: Number) -> Point {
-    let key = print.canonical();
-    let sign = if key == print { 1 } else { -1 };
-    // The same mixing in both draws: a literal, whose draws agree, is a literal point.
-    let draw = |print: Print| Point::from_tangent(Print(print.0.map(|lane| field::reduce(mix(lane ^ 0xA9_61E5)))));
-    match reconstruct(factor.residue) {
-        Some((n, d)) if PARTS % d == 0 && n.abs() < 1 << 20 => draw(key).times(sign * n * (PARTS / d)),
-        // An irrational or odd fraction of a unit is a unit of its own.
-        _ => {
-            let scaled = key.mul(factor.print());
-            let scaled_key = scaled.canonical();
-            let scaled_sign = if scaled_key == scaled { 1 } else { -1 };
-            draw(scaled_key).times(sign * scaled_sign)
-        }
-    }
-}
-
-/// A literal angle: quarter turns are exact, decimals up to nine places are multiples of one base, others are opaque.
-pub(super) fn literal_point(n: Number) -> Point {
-    if n.is_zero() {
-        return Point::ZERO;
-    }
-    if let Some(turns) = quarters(n) {
-        return Point::QUARTER.times(turns.rem_euclid(4));
-    }
-    let base = Number::decimal(1e-9);
-    let count = (n.value() * 1e9).round();
-    if count.abs() < 1e15 && Number::integer(count as i64).mul(base).residue == n.residue {
-        return unit_point(base.print(), Number::ONE).times(count as i64);
-    }
-    unit_point(n.print(), Number::ONE)
 }

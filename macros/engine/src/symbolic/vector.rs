@@ -7,6 +7,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 use super::fingerprint::Print;
 use super::graph::{Graph, Rotation, RotationNode, Scalar, Vector, VectorNode};
+use super::number::Number;
 
 type Matrix = [[Print; 3]; 3];
 
@@ -86,6 +87,13 @@ impl Graph {
         if let Some(found) = self.find_vector(print) {
             return found;
         }
+        if let (Some(a), Some(b)) = (self.literal_vector(a), self.literal_vector(b)) {
+            let components = [0, 1, 2].map(|i| {
+                let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+                self.number(a[j] * b[k] - a[k] * b[j])
+            });
+            return self.vector(components);
+        }
         let flip = a.is_negative() != b.is_negative();
         let node = VectorNode::Cross(a.flip_if(a.is_negative()), b.flip_if(b.is_negative()));
         self.insert_vector(node, if flip { print.map(Print::neg) } else { print }).flip_if(flip)
@@ -105,27 +113,46 @@ impl Graph {
 
     /// Rotation about a coordinate axis.
     pub fn axis_rotation(&mut self, axis: usize, angle: Scalar) -> Rotation {
+        let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+        if self.literal(angle).is_some() {
+            let (s, c) = (self.sin(angle), self.cos(angle));
+            return self.point_rotation(axis, c, s);
+        }
         let point = self.point(angle);
         let (c, s) = (point.cos, point.sin);
-        let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
         let mut m = [[Print::ZERO; 3]; 3];
         m[axis][axis] = Print::ONE;
         (m[j][j], m[j][k], m[k][j], m[k][k]) = (c, s.neg(), s, c);
         if let Some(found) = self.find_rotation(&m) {
             return found;
         }
-        if self.literal(angle).is_some() {
-            // A literal angle is a literal matrix.
-            let (s, c) = (self.sin(angle), self.cos(angle));
-            let mut rows = [[Scalar::ZERO; 3]; 3];
-            rows[axis][axis] = Scalar::ONE;
-            (rows[j][j], rows[j][k], rows[k][j], rows[k][k]) = (c, -s, s, c);
-            return self.insert_rotation(RotationNode::Matrix(Box::new(rows)), m);
-        }
         if angle.is_negative() {
             return self.axis_rotation(axis, -angle).transpose();
         }
         self.insert_rotation(RotationNode::Axis(axis, angle), m)
+    }
+
+    /// Rotation about a coordinate axis by the angle with this cosine and sine.
+    pub fn point_rotation(&mut self, axis: usize, cos: Scalar, sin: Scalar) -> Rotation {
+        let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+        let mut rows = [[Scalar::ZERO; 3]; 3];
+        rows[axis][axis] = Scalar::ONE;
+        (rows[j][j], rows[j][k], rows[k][j], rows[k][k]) = (cos, -sin, sin, cos);
+        self.matrix_rotation(rows)
+    }
+
+    /// A rotation of literals whose entries all lie this near to those of a matrix.
+    pub fn near_rotation(&self, m: &[[f64; 3]; 3], reach: f64) -> Option<Rotation> {
+        let entry = |rows: &[[Scalar; 3]; 3], i: usize, j: usize| self.literal(rows[i][j]).map(Number::value);
+        let near = |x: Option<f64>, y: f64| x.is_some_and(|x| (x - y).abs() <= reach);
+        let is_near = |rows: &[[Scalar; 3]; 3], transposed: bool| {
+            (0..3).all(|i| (0..3).all(|j| near(entry(rows, i, j), if transposed { m[j][i] } else { m[i][j] })))
+        };
+        self.rotations.iter().enumerate().find_map(|(index, node)| match node {
+            RotationNode::Matrix(rows) if is_near(rows, false) => Some(Rotation::new(index, false)),
+            RotationNode::Matrix(rows) if is_near(rows, true) => Some(Rotation::new(index, true)),
+            _ => None,
+        })
     }
 
     /// From an orthogonal matrix with determinant one, row by row.
