@@ -13,6 +13,7 @@ use super::equations::Equations;
 use super::inertia::Inertia;
 use super::names;
 use super::tree::{Motion, Tree};
+use super::typed;
 
 /// A frame that is fixed to a link, or to the ground.
 #[derive(Clone, Copy, Debug)]
@@ -186,7 +187,7 @@ impl Equations<'_> {
                 }
                 FrameStep::Oriented(rows) => {
                     let rows = [0, 1, 2].map(|i| [0, 1, 2].map(|j| self.scalar(&rows[i][j])));
-                    (self.g.matrix_rotation(rows), Vector::ZERO)
+                    (typed::oriented(&mut self.g, rows), Vector::ZERO)
                 }
             };
             place = place.then(&mut self.g, rotation, offset);

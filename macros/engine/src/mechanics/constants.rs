@@ -2,10 +2,11 @@
 //!
 //! In: axes, angles, frames. Out: rotations that are multiplied out to one matrix, since work on parameters is done once
 //! and a vector then passes one rotation and not several; and the coordinate axis behind any axis. A literal direction
-//! is reached by turns about coordinate axes, whose sines and cosines lie on the circle exactly, so a rotation times its
-//! transpose is one.
+//! is reached by turns about coordinate axes, whose sines and cosines are quotients of its components and lengths, so that
+//! it is exact as they are, and a rotation times its transpose is one.
 
 use crate::symbolic::graph::{Call, Graph, Rotation, RotationNode, Scalar, Vector};
+use crate::symbolic::number::Number;
 
 /// An axis of any direction as a coordinate axis.
 #[derive(Clone, Copy, Debug)]
@@ -91,28 +92,52 @@ pub(super) fn axis(g: &mut Graph, direction: [Scalar; 3]) -> Axis {
     {
         return Axis { turn: Rotation::IDENTITY, index: k, flipped: n.is_negative() };
     }
+    let typed = direction.iter().any(|&c| g.literal(c).is_some_and(Number::is_rounded_decimal));
     let normal = (0..3).find(|&k| direction[k] == Scalar::ZERO && direction[(k + 1) % 3] != Scalar::ZERO);
     if let Some(k) = normal {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        let angle = angle_of(g, direction[j], direction[i]);
-        return Axis { turn: g.axis_rotation(k, angle), index: i, flipped: false };
+        let length = |g: &mut Graph| g.length([direction[i], direction[j], Scalar::ZERO]);
+        return Axis { turn: towards(g, k, [direction[i], direction[j]], length, typed), index: i, flipped: false };
     }
     let [x, y, z] = direction;
-    let azimuth = angle_of(g, y, x);
-    let (xx, yy) = (g.mul(x, x), g.mul(y, y));
-    let square = g.add(xx, yy);
-    let level = match (g.literal(x), g.literal(y)) {
-        (Some(x), Some(y)) => g.decimal(x.value().hypot(y.value())),
-        _ => g.sqrt(square),
-    };
-    let inclination = angle_of(g, level, z);
-    let (first, second) = (g.axis_rotation(2, azimuth), g.axis_rotation(1, inclination));
+    let level = g.length([x, y, Scalar::ZERO]);
+    let first = towards(g, 2, [x, y], |_| level, typed);
+    let second = towards(g, 1, [z, level], |g| g.length(direction), typed);
     Axis { turn: compose(g, first, second), index: 2, flipped: false }
 }
 
-fn angle_of(g: &mut Graph, y: Scalar, x: Scalar) -> Scalar {
-    match (g.literal(y), g.literal(x)) {
-        (Some(y), Some(x)) => g.decimal(y.value().atan2(x.value())),
-        _ => g.call(Call::Atan2, &[y, x]),
+/// The turn about a coordinate axis by the angle of the point (x, y). Of literals it is made of cosine and sine, so that it
+/// is exact; `typed` ones were rounded, and mean the quarter of a degree that they round.
+fn towards(
+    g: &mut Graph,
+    axis: usize,
+    [x, y]: [Scalar; 2],
+    length: impl Fn(&mut Graph) -> Scalar,
+    typed: bool,
+) -> Rotation {
+    let (Some(along), Some(across)) = (g.literal(x), g.literal(y)) else {
+        let angle = g.call(Call::Atan2, &[y, x]);
+        return g.axis_rotation(axis, angle);
+    };
+    let angle = across.value().atan2(along.value());
+    if typed && let Some(angle) = quarter_degrees(g, angle) {
+        let (sin, cos) = (g.sin(angle), g.cos(angle));
+        let size = along.value().hypot(across.value());
+        let near = |s: Scalar, n: Number| {
+            g.literal(s).is_some_and(|s| (s.value() * size - n.value()).abs() <= f64::EPSILON * size)
+        };
+        if near(cos, along) && near(sin, across) {
+            return g.point_rotation(axis, cos, sin);
+        }
     }
+    let length = length(g);
+    let (cos, sin) = (g.div(x, length), g.div(y, length));
+    g.point_rotation(axis, cos, sin)
+}
+
+/// The multiple of a quarter of a degree that is nearest to an angle.
+pub(super) fn quarter_degrees(g: &mut Graph, angle: f64) -> Option<Scalar> {
+    let count = (angle * 720.0 / std::f64::consts::PI).round();
+    let part = (count.abs() < 1e6).then(|| Number::ratio(count as i64, 720))?;
+    Some(g.number(part * Number::pi()))
 }

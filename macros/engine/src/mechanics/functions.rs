@@ -30,11 +30,7 @@ pub(super) fn call(g: &mut Graph, function: Function, arguments: &[Value]) -> Va
         Function::Signum => g.call(Call::Signum, &[x]),
         Function::Min => g.call(Call::Min, &[x, y]),
         Function::Max => g.call(Call::Max, &[x, y]),
-        Function::Hypot => {
-            let squares = [g.mul(x, x), g.mul(y, y)];
-            let sum = g.sum(&squares);
-            g.sqrt(sum)
-        }
+        Function::Hypot => g.length([x, y, Scalar::ZERO]),
         Function::Powi => {
             let power = g.literal(y).map_or(0.0, |n| n.value());
             // Within range: a saturating cast of what the checker has seen to be an integer.
@@ -53,6 +49,10 @@ pub(super) fn call(g: &mut Graph, function: Function, arguments: &[Value]) -> Va
         }
         Function::Norm => {
             let a = argument(0).vector(g);
+            let components = g.components(a);
+            if components.iter().all(|&c| g.literal(c).is_some()) {
+                return Value::Scalar(g.length(components));
+            }
             let square = g.dot(a, a);
             length(g, square)
         }

@@ -54,6 +54,7 @@ pub mod strut;
 pub mod symbols;
 pub mod time;
 pub mod tree;
+mod typed;
 mod values;
 mod velocities;
 mod verification;

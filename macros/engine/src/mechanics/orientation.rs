@@ -6,7 +6,8 @@
 //! one is selected whose pivot is at least 1/2, so there is one root and one reciprocal and no cancellation (after
 //! Shepperd 1978).
 
-use crate::symbolic::graph::{Call, Graph, Rotation, RotationNode, Scalar, ScalarNode, Vector};
+use crate::symbolic::graph::{Call, Graph, Rotation, RotationNode, Scalar, Vector};
+use crate::symbolic::number::Number;
 
 use super::build::Place;
 use super::constants;
@@ -169,23 +170,16 @@ pub(super) fn of_rows(g: &mut Graph, m: &[[Scalar; 3]; 3]) -> Quaternion {
     chosen.map(|c| g.mul(c, scale))
 }
 
-/// A matrix of literals needs no code.
+/// A matrix of literals needs no code. Its quaternion is exact where the root in it is.
 fn literal(g: &mut Graph, m: &[[Scalar; 3]; 3]) -> Option<Quaternion> {
-    let mut n = [[0.0; 3]; 3];
+    let mut n = [[Number::ZERO; 3]; 3];
     for (row, scalars) in n.iter_mut().zip(m) {
         for (value, &s) in row.iter_mut().zip(scalars) {
-            if !matches!(g.node(s), ScalarNode::Literal(_)) {
-                return None;
-            }
-            *value = g.literal(s)?.value();
+            *value = g.literal(s)?;
         }
     }
-    let squares = [
-        1.0 + n[0][0] + n[1][1] + n[2][2],
-        1.0 + n[0][0] - n[1][1] - n[2][2],
-        1.0 - n[0][0] + n[1][1] - n[2][2],
-        1.0 - n[0][0] - n[1][1] + n[2][2],
-    ];
+    let (one, [x, y, z]) = (Number::ONE, [n[0][0], n[1][1], n[2][2]]);
+    let squares = [one + x + y + z, one + x - y - z, one - x + y - z, one - x - y + z];
     let turns = [n[2][1] - n[1][2], n[0][2] - n[2][0], n[1][0] - n[0][1]];
     let both = [n[1][2] + n[2][1], n[2][0] + n[0][2], n[0][1] + n[1][0]];
     let forms = [
@@ -194,8 +188,14 @@ fn literal(g: &mut Graph, m: &[[Scalar; 3]; 3]) -> Option<Quaternion> {
         [turns[1], both[2], squares[2], both[0]],
         [turns[2], both[1], both[0], squares[3]],
     ];
-    let large = squares.iter().zip(forms).max_by(|a, b| a.0.total_cmp(b.0));
-    let (square, form) = large?;
-    let scale = 0.5 / square.sqrt();
-    Some(form.map(|c| g.decimal(c * scale)))
+    let (square, form) = squares.iter().zip(forms).max_by(|a, b| a.0.value().total_cmp(&b.0.value()))?;
+    let square = g.number(*square);
+    let root = g.sqrt(square);
+    match g.literal(root) {
+        Some(root) => Some(form.map(|c| g.number(c / (Number::integer(2) * root)))),
+        None => {
+            let scale = 0.5 / g.literal(square)?.value().sqrt();
+            Some(form.map(|c| g.decimal(c.value() * scale)))
+        }
+    }
 }
