@@ -48,3 +48,21 @@ pub fn inertia_violation<T: Real>(xx: T, yy: T, zz: T, xy: T, xz: T, yz: T) -> T
     let f = c + m * xz - e / d * e;
     !(Real::gt(a, zero) & Real::gt(d, zero) & Real::gt(f, zero) & Real::is_finite(trace))
 }
+
+/// Whether a scalar holds a number that isn't zero: it is not infinite there, and has all its digits.
+///
+/// ```
+/// use multibody::is_held;
+///
+/// assert!(is_held::<f64>(1e39) && is_held::<f32>(1e38) && is_held::<f32>(1e-37));
+/// assert!(!is_held::<f32>(1e39) && !is_held::<f32>(1e-40) && !is_held::<f32>(1e-46));
+/// ```
+#[inline]
+pub fn is_held<T: Real>(value: f64) -> T::Mask {
+    // 2^64: what has lost digits below the least normal number misses the multiple, which has them.
+    const LARGE: f64 = 18_446_744_073_709_551_616.0;
+    let held = T::lit(value);
+    let (near, scale) = if value.abs() < 1.0 { (held * T::lit(LARGE), T::lit(value * LARGE)) } else { (held, held) };
+    let gap = Real::abs(near - scale);
+    Real::is_finite(held) & !Real::eq(held, T::lit(0.0)) & Real::le(gap, T::lit(4.0) * T::epsilon() * Real::abs(scale))
+}

@@ -107,7 +107,7 @@ pub use cost::Cost;
 pub use differentiable::{Derivatives, Differentiable, Jacobian};
 pub use equilibrium::{Equilibrium, EquilibriumError, Free, constrained_equilibrium, equilibrium, trim};
 pub use impulsive::Impulsive;
-pub use inertia::{ParamError, inertia_violation};
+pub use inertia::{ParamError, inertia_violation, is_held};
 pub use integrators::{
     Composition4, Composition6, Dop853, DormandPrince, Euler, GaussLegendre4, GaussLegendre6, GeneralisedAlpha,
     ImplicitMidpoint, IntegrationError, Integrator, Method, Radau, Rk4, SemiImplicitEuler, Statistics, Steps,

@@ -130,8 +130,15 @@ fn case(seed: u64) -> Case {
     let symbols = symbols(&g, count);
     let symbol_names = (0..count).map(|k| format!("symbol{k}")).collect();
     let functions = vec![Derived { kind: FunctionKind::Outputs, candidates: vec![("random", results)] }];
-    let derivation =
-        Derivation { graph: g, symbols, symbol_names, functions, notes: Vec::new(), dead_centres: Vec::new() };
+    let derivation = Derivation {
+        graph: g,
+        symbols,
+        symbol_names,
+        functions,
+        notes: Vec::new(),
+        dead_centres: Vec::new(),
+        checks: Vec::new(),
+    };
     let point = (0..count).map(|k| if k < SYMBOLS { rng.real(-1.5, 1.5) } else { f64::NAN }).collect();
     Case { derivation, point }
 }

@@ -12,7 +12,7 @@ use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::mechanics::structure::Structure;
 use multibody_engine::model::check;
 use multibody_engine::model::types::{Model, Type};
-use multibody_engine::optimize::program::{Compiled, FunctionKind, Symbol};
+use multibody_engine::optimize::program::{Compiled, Condition, FunctionKind, Symbol};
 use multibody_engine::syntax::parse;
 use multibody_engine::{Trouble, compile};
 use rng::Rng;
@@ -447,4 +447,73 @@ fn parameters_far_away_are_never_wrong() {
     }
     println!("{models} models: {closed} closed, {nothing} no number, {refused} refused");
     assert!(closed > 10 * models && refused * 3 < models * 2, "{closed} {nothing} {refused}");
+}
+
+/// What `Params::check` computes, and which of its tests fail.
+fn failing(machine: &Machine, at: &Values) -> Vec<String> {
+    let symbol = |symbol: Symbol| machine.value(symbol, at);
+    let results = interpreter::run(&machine.compiled.checks.program, &symbol, &|_| f64::NAN);
+    let mut results = results.into_iter();
+    let mut list = Vec::new();
+    for (what, condition, count) in &machine.compiled.checks.list {
+        let values: Vec<f64> = results.by_ref().take(*count).collect();
+        let holds = match condition {
+            Condition::Finite => values.iter().all(|x| x.is_finite()),
+            Condition::Pivot => values[0] > 64.0 * f64::EPSILON * values[1],
+            Condition::Small => values.iter().all(|x| x.abs() < f64::EPSILON.sqrt()),
+        };
+        list.extend((!holds).then(|| what.clone()));
+    }
+    list
+}
+
+#[test]
+fn parameters_are_tested_at_the_default_position() {
+    let slide = machine("param m = 1.0; body b { mass: m } joint j: Prismatic { parent: ground, child: b, axis: Z }")
+        .unwrap_or_else(|e| panic!("{e}"));
+    assert!(failing(&slide, &values(&[])).is_empty());
+    assert!(failing(&slide, &values(&[("m", 0.0)]))[0].contains("nothing resists `j`"));
+    // A point at the end of a bar without length resists no turn.
+    let arm = machine(
+        "param l = 1.0; world { gravity: -9.81 * Y }
+        body a { mass: 1.0, com: l * X } body b { mass: 1.0, com: l * X }
+        joint one: Revolute { parent: ground, child: a, axis: Z }
+        joint two: Revolute { parent: a.at(X), child: b, axis: Z }",
+    )
+    .unwrap_or_else(|e| panic!("{e}"));
+    assert!(failing(&arm, &values(&[("l", 0.5)])).is_empty());
+    assert!(failing(&arm, &values(&[("l", 0.0)]))[0].contains("nothing resists `two`"));
+    // The pendulum's link is never so short that it doesn't reach, but when its length says so.
+    let slider = |rest: &str| {
+        machine(&format!(
+            "param crank = 0.5; param coupler = 2.0; param off = 0.1;
+            body one {{ mass: 1.0, inertia: diag(0.1, 0.1, 0.1) }} body two {{ mass: 1.0, inertia: diag(0.1, 0.1, 0.1) }}
+            body three {{ mass: 1.0 }}
+            joint a: Revolute {{ parent: ground, child: one, axis: Z }}
+            joint b: Revolute {{ parent: one.at(crank * X), child: two, axis: Z }}
+            joint c: Prismatic {{ parent: ground.at(off * Y), child: three, axis: X }}
+            #[cut] joint d: Revolute {{ parent: two.at(coupler * X), child: three, axis: Z }}
+            {rest} formulation {{ constraints: Reduced }}"
+        ))
+        .unwrap_or_else(|e| panic!("{e}"))
+    };
+    let found = slider("solve (b, c) from d { c > 0.3 }");
+    assert!(failing(&found, &values(&[("off", -0.4)])).is_empty());
+    assert!(failing(&found, &values(&[("off", 3.0)]))[0].contains("conditions of its `solve`"));
+    assert!(failing(&found, &values(&[("coupler", 0.2), ("crank", 0.0)]))[0].contains("conditions of its `solve`"));
+    // Formulas that hold for some lengths alone.
+    let written = machine(
+        "param left = 0.7; param right = 0.7;
+        body s1 { mass: 0.1 } body s2 { mass: 0.1 } body plate { mass: 0.6, inertia: diag(1e-3, 1e-3, 2e-3) }
+        joint px: Prismatic { parent: ground, child: s1, axis: X }
+        joint py: Prismatic { parent: s1.at(0.7 * Y), child: s2, axis: Y }
+        joint turn: Revolute { parent: s2, child: plate, axis: Z }
+        constraint a: Rod { between: [ground, plate], length: left }
+        constraint b: Rod { between: [ground.at(X), plate.at(X)], length: right }
+        solve (turn) = (0.0); solve (py) from a { py > -0.7 }
+        formulation { constraints: Reduced }",
+    )
+    .unwrap_or_else(|e| panic!("{e}"));
+    assert!(failing(&written, &values(&[("left", 0.8), ("right", 0.8)])).is_empty());
+    assert!(failing(&written, &values(&[("left", 0.8)]))[0].contains("does not hold with these parameters"));
 }

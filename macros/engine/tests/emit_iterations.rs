@@ -107,6 +107,7 @@ fn case(k: usize) -> (Model, Compiled, f64) {
         functions,
         notes: Vec::new(),
         dead_centres: Vec::new(),
+        checks: Vec::new(),
     })
     .unwrap();
     assert!(compiled.sound);

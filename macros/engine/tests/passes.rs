@@ -168,7 +168,15 @@ fn derivation(
 ) -> Derivation {
     let symbol_names = (0..symbols.len()).map(|k| format!("symbol{k}")).collect();
     let functions = vec![Derived { kind, candidates: vec![(method, results)] }];
-    Derivation { graph, symbols, symbol_names, functions, notes: Vec::new(), dead_centres: Vec::new() }
+    Derivation {
+        graph,
+        symbols,
+        symbol_names,
+        functions,
+        notes: Vec::new(),
+        dead_centres: Vec::new(),
+        checks: Vec::new(),
+    }
 }
 
 /// The equations of the body of a `mod m { .. }`.

@@ -26,6 +26,7 @@ mod lower;
 mod names;
 mod numeric;
 mod places;
+mod range;
 mod report;
 mod results;
 mod skeleton;

@@ -7,7 +7,7 @@
 use super::document::{code, cost, kind, values};
 use super::items::separable::is_separable;
 use super::layout::Layout;
-use super::{Context, context, document, functions, joints, loops, names};
+use super::{Context, context, document, functions, joints, literals, loops, names, range};
 use crate::mechanics::structure::Structure;
 use crate::model::types::{Body, BodyRef, Docs, ExprNode, Frame, JointId, JointKind, Model, Orientation, Place, Type};
 use crate::optimize::program::{Compiled, FunctionKind};
@@ -76,6 +76,17 @@ pub(super) fn lines(context: &Context<'_>) -> Vec<String> {
     if !groups.is_empty() {
         lines.extend(["", "## Repeated parts", ""].map(String::from));
         lines.extend(groups.iter().map(|group| format!("- {}", group.sentence())));
+    }
+    let beyond = range::beyond_single(context);
+    if !beyond.is_empty() {
+        const MOST: usize = 12;
+        let numbers: Vec<String> = beyond.iter().take(MOST).map(|x| format!("`{}`", literals::text(*x))).collect();
+        let more = if beyond.len() > MOST { format!(" and {} more", beyond.len() - MOST) } else { String::new() };
+        lines.extend(["", "## Beyond single precision", ""].map(String::from));
+        lines.push(format!(
+            "`f32` doesn't hold these numbers of the equations: {}{more}. With it `Params::check` is an error.",
+            numbers.join(", ")
+        ));
     }
     section(&mut lines, "Functions", &["function", "method", "operations", "as derived"], {
         let compiled = context.compiled;

@@ -5,6 +5,7 @@
 //! value are one node, in the form that was made first, so a second way would come out as the first; and what one
 //! function costs must not depend on which others are asked for.
 
+mod checks;
 mod derivatives;
 mod impulses;
 mod motion;
@@ -111,8 +112,9 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
         let kind = FunctionKind::DeadCentres;
         functions.push(Derived { kind, candidates: deriving.candidates(kind)? });
     }
+    let checks = deriving.checks()?;
     let Deriving { graph, symbols, notes, dead_centres, .. } = deriving;
-    Ok(Derivation { graph, symbols: symbols.table, symbol_names, functions, notes, dead_centres })
+    Ok(Derivation { graph, symbols: symbols.table, symbol_names, functions, notes, dead_centres, checks })
 }
 
 /// What to derive, each once, in a fixed order.

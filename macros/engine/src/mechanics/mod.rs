@@ -63,7 +63,7 @@ mod world;
 pub use derive::{MOST_FREEDOMS, derive, freedoms};
 
 use crate::model::types::{Coordinate, Model};
-use crate::optimize::program::{FunctionKind, Symbol};
+use crate::optimize::program::{Condition, FunctionKind, Symbol};
 use crate::symbolic::graph::{Graph, Scalar};
 
 use analysis::Complaint;
@@ -90,6 +90,18 @@ pub struct Derivation {
     pub notes: Vec<String>,
     /// Unknowns whose roots [`FunctionKind::DeadCentres`] gives, in this order.
     pub dead_centres: Vec<Coordinate>,
+    /// For `Params::check`.
+    pub checks: Vec<Test>,
+}
+
+/// What must hold of parameters.
+#[derive(Clone)]
+pub struct Test {
+    /// What is wrong where it doesn't.
+    pub what: String,
+    pub condition: Condition,
+    /// Of parameters alone.
+    pub values: Vec<Scalar>,
 }
 
 /// One function with the ways in which it was derived; the cheapest will be taken, ties by order.

@@ -19,10 +19,11 @@ pub mod schedule;
 pub mod stage;
 
 use crate::mechanics::Derivation;
+use crate::symbolic::graph::Scalar;
 use crate::symbolic::lower::Lowering;
 
 use dag::Dag;
-use program::{Compiled, Cost, Function, FunctionKind};
+use program::{Checks, Compiled, Cost, Function, FunctionKind};
 
 /// Most operations that one function may have before optimisation. Passes take about a second for ten thousand in an
 /// unoptimised build, and rustc takes longer.
@@ -81,11 +82,32 @@ pub fn compile(derivation: &Derivation) -> Result<Compiled, Refusal> {
         })
         .collect();
     let prelude = schedule::schedule(&prelude, &schedule::Fields::new());
+    let checks = checks(derivation, &mut sound);
     let finite = |program: &program::Program| program.literals().all(f64::is_finite);
     if !finite(&prelude) || !functions.iter().all(|f| finite(&f.program)) {
         return Err(Refusal::NotFinite);
     }
-    Ok(Compiled { fields: names, prelude, prelude_cost, functions, sound })
+    Ok(Compiled { fields: names, prelude, prelude_cost, functions, checks, sound })
+}
+
+/// Tests of parameters as a program of their own: what they compute is no field of the model.
+fn checks(derivation: &Derivation, sound: &mut bool) -> Checks {
+    let tests = &derivation.checks;
+    let roots: Vec<Scalar> = tests.iter().flat_map(|test| test.values.iter().copied()).collect();
+    let mut lowering = Lowering::new(&derivation.graph);
+    let roots = lowering.run(&roots);
+    if roots.is_empty() || lowering.to.len() > MOST_OPERATIONS {
+        return Checks::default();
+    }
+    let mut dag = Dag::import(&lowering.to, &roots, &derivation.symbols);
+    dag.symbol_names.clone_from(&derivation.symbol_names);
+    *sound &= simplify(&mut dag);
+    let program = schedule::schedule(&dag, &schedule::Fields::new());
+    if !program.literals().all(f64::is_finite) {
+        return Checks::default();
+    }
+    let list = tests.iter().map(|test| (test.what.clone(), test.condition, test.values.len())).collect();
+    Checks { program, list }
 }
 
 /// All rewrites, a fixed number of rounds. Each pass pays by its own count, not always by the whole: what comes out

@@ -309,7 +309,28 @@ pub struct Compiled {
     pub prelude: Program,
     pub prelude_cost: Cost,
     pub functions: Vec<Function>,
+    /// What `Params::check` computes from parameters.
+    pub checks: Checks,
     /// Whether every rewrite passed the identity test. Where one didn't, the function stands as it was derived: right, but
     /// dearer than need be. The tests see to it that this never happens.
     pub sound: bool,
+}
+
+/// Tests of parameters.
+#[derive(Clone, Debug, Default)]
+pub struct Checks {
+    /// Reads parameters and no fields; its results are the values of all tests in order.
+    pub program: Program,
+    /// What is wrong where a test fails, the test, and how many values it takes.
+    pub list: Vec<(String, Condition, usize)>,
+}
+
+/// What must hold of values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Condition {
+    Finite,
+    /// The first value is above rounding of the second.
+    Pivot,
+    /// Below the square root of the rounding unit.
+    Small,
 }

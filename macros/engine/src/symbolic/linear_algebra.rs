@@ -65,6 +65,12 @@ impl Factors {
         Factors { order: order.to_vec(), reciprocal, factors, singular: None }
     }
 
+    /// What is left of a diagonal entry once the rows before it are eliminated.
+    pub fn pivot(&self, g: &mut Graph, row: usize) -> Option<Scalar> {
+        let inverse = *self.reciprocal.get(row)?;
+        (inverse != Scalar::ZERO).then(|| g.reciprocal(inverse))
+    }
+
     /// A row whose pivot is zero by structure: the matrix is singular.
     pub fn singular(&self) -> Option<usize> {
         self.singular

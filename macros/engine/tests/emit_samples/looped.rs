@@ -157,6 +157,7 @@ pub fn looped() -> (Model, Structure, Compiled) {
     let closed = (0..GUESSES).map(|index| sum(&[guess(index), lit(1.0 + index as f64)])).chain([lit(0.125)]);
     let function = |kind, results| derived(kind, program(&[], vec![], results));
     let compiled = Compiled {
+        checks: Default::default(),
         sound: true,
         functions: vec![
             function(FunctionKind::ForwardDynamics, forward),

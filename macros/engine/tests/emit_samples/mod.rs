@@ -244,6 +244,7 @@ pub fn pendulum() -> (Model, Compiled) {
             ],
         ),
         prelude_cost: Cost { mul: 4, div: 2, ..Cost::default() },
+        checks: Default::default(),
         sound: true,
         functions: vec![
             derived(
@@ -399,6 +400,7 @@ fn everything_read(model: &Model) -> Compiled {
         fields: vec!["total".into()],
         prelude: program(&[], vec![], vec![sum(&params)]),
         prelude_cost: Cost::default(),
+        checks: Default::default(),
         sound: true,
         functions: vec![
             function(FunctionKind::ForwardDynamics, dof + states.len(), &all),
@@ -429,6 +431,7 @@ pub fn nothing() -> (Model, Compiled) {
     add_joint(&mut model, place(0, "weld"), JointKind::Fixed);
     let none = || program(&[], vec![], vec![]);
     let compiled = Compiled {
+        checks: Default::default(),
         sound: true,
         functions: vec![
             derived(FunctionKind::ForwardDynamics, none()),
@@ -457,6 +460,7 @@ pub fn long(count: usize) -> (Model, Compiled) {
         statements.push(set(i, value));
     }
     let compiled = Compiled {
+        checks: Default::default(),
         sound: true,
         functions: vec![derived(
             FunctionKind::ForwardDynamics,

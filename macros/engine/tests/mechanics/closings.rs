@@ -380,6 +380,7 @@ fn a_leg_costs_what_it_should() {
                 functions: vec![Derived { kind: FunctionKind::Constraints, candidates: vec![("one", residuals)] }],
                 notes: Vec::new(),
                 dead_centres: Vec::new(),
+                checks: Vec::new(),
             };
             let compiled = multibody_engine::optimize::compile(&derivation).expect("compiled");
             let cost = compiled.functions[0].after;

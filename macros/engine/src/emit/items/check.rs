@@ -1,16 +1,20 @@
-//! Stage `emit`: `Params::check`: masses and inertias at values other than the declared ones.
+//! Stage `emit`: `Params::check`: what values other than the declared ones can break, and what the scalar can't hold.
 //!
-//! A body whose inertia no body can have at the declared values already carries `#[allow(unphysical_inertia)]`, since the
-//! checker refuses it otherwise; it is not checked here.
+//! Numbers of the model are compared with what the scalar makes of them; every parameter must be finite; masses, inertias
+//! and lengths must be such as there are; then come the tests that were derived: pivots of the mass matrix and loops at
+//! the default position. A body whose inertia no body can have at the declared values already carries
+//! `#[allow(unphysical_inertia)]`, since the checker refuses it otherwise; its inertia is not checked here.
 
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::emit::blocks::each_leaf;
+use crate::emit::blocks::{body, each_leaf};
 use crate::emit::expressions::Names;
-use crate::emit::{Context, lower, names, numeric};
-use crate::model::types::{Body, Expr, Model};
-use crate::optimize::program::Expression;
+use crate::emit::layout::Layout;
+use crate::emit::places::RESERVED;
+use crate::emit::{Context, literals, lower, names, numeric, range};
+use crate::model::types::{Body, ConstraintKind, Expr, ForceKind, Model, ParamId};
+use crate::optimize::program::{Condition, Expression, Symbol};
 
 /// Expands to `impl<T: Real> Params<T> { pub fn check(&self) -> Result<(), ParamError> { .. } }`.
 pub(super) fn item(context: &Context<'_>) -> TokenStream {
@@ -18,6 +22,44 @@ pub(super) fn item(context: &Context<'_>) -> TokenStream {
     let krate = layout.krate();
     let print = Names { layout, locals: &[], fields: &[] };
     let mut checks = TokenStream::new();
+    for value in range::beyond_single(context) {
+        let what = format!("the number {} of this model is out of the range of the scalar", literals::text(value));
+        let value = literals::number(value);
+        checks.extend(quote! {
+            if !#krate::all(#krate::is_held::<T>(#value)) {
+                return Err(#krate::ParamError { what: #what });
+            }
+        });
+    }
+    let mut reads = false;
+    for (number, param) in layout.model.params.iter().enumerate() {
+        let count = param.ty.scalars();
+        if count == 0 {
+            continue;
+        }
+        reads = true;
+        let what = format!("`{}` is not finite", layout.name(&param.place));
+        let values = (0..count).map(|element| {
+            let symbol = Expression::Symbol(Symbol::Param { param: ParamId(number), element });
+            let value = print.expression(&symbol);
+            quote!(Real::is_finite(#value))
+        });
+        checks.extend(quote! {
+            if !#krate::all(#(#values)&*) {
+                return Err(#krate::ParamError { what: #what });
+            }
+        });
+    }
+    for (length, least, name) in lengths(layout) {
+        let what = format!("the length of `{name}` is {least}");
+        let length = print.expression(&length);
+        let holds = if least == "negative" { quote!(Real::ge) } else { quote!(Real::gt) };
+        checks.extend(quote! {
+            if !#krate::all(#holds(#length, T::lit(0.0))) {
+                return Err(#krate::ParamError { what: #what });
+            }
+        });
+    }
     for body in &layout.model.bodies {
         let name = layout.name(&body.place);
         if let Some(mass) = adjustable(layout.model, &body.mass) {
@@ -42,15 +84,18 @@ pub(super) fn item(context: &Context<'_>) -> TokenStream {
             });
         }
     }
+    checks.extend(derived(context));
     let params = names::ident("params");
-    let open = (!checks.is_empty()).then(|| quote!(let #params = self;));
+    let open = reads.then(|| quote!(let #params = self;));
     quote! {
         impl<T: Real> Params<T> {
-            /// Whether rigid bodies can have the masses and inertias that follow from these parameters.
+            /// Whether a mechanism can have these parameters: they are finite, masses, inertias and lengths are such as
+            /// there are, the mass matrix is regular at the default position and loops with conditions have a solution
+            /// there, and the scalar holds the numbers of the model.
             ///
             /// # Errors
             ///
-            /// Names the first body whose mass or inertia is impossible.
+            /// Names the first parameter, body, coordinate or number for which that is not so.
             pub fn check(&self) -> Result<(), #krate::ParamError> {
                 #open
                 #checks
@@ -58,6 +103,55 @@ pub(super) fn item(context: &Context<'_>) -> TokenStream {
             }
         }
     }
+}
+
+/// Lengths that parameters change: of rods, which are positive, and of springs between points.
+fn lengths(layout: &Layout<'_>) -> Vec<(Expression, &'static str, String)> {
+    let model = layout.model;
+    let rods = model.constraints.iter().filter_map(|constraint| match &constraint.kind {
+        ConstraintKind::Rod { length, .. } => {
+            Some((adjustable(model, length)?, "not positive", layout.name(&constraint.place)))
+        }
+        ConstraintKind::Value(_) => None,
+    });
+    let springs = model.forces.iter().filter_map(|force| match &force.kind {
+        ForceKind::LineSpring { length: Some(length), .. } => {
+            Some((adjustable(model, length)?, "negative", layout.name(&force.place)))
+        }
+        _ => None,
+    });
+    rods.chain(springs).collect()
+}
+
+/// Expands to the statements of the derived tests and what they demand.
+fn derived(context: &Context<'_>) -> TokenStream {
+    let layout = &context.layout;
+    let krate = layout.krate();
+    let checks = &context.compiled.checks;
+    if checks.list.is_empty() || context.hollow {
+        return TokenStream::new();
+    }
+    let locals = names::unique(checks.program.locals.iter().map(String::as_str), RESERVED);
+    let body = body(&checks.program, &Names { layout, locals: &locals, fields: &[] });
+    let mut values = body.results.into_iter();
+    let mut tests = TokenStream::new();
+    for (what, condition, count) in &checks.list {
+        let values: Vec<TokenStream> = values.by_ref().take(*count).collect();
+        let holds = match (condition, &values[..]) {
+            (Condition::Pivot, [pivot, whole]) => {
+                quote!(Real::gt(#pivot, T::lit(64.0) * T::epsilon() * (#whole)))
+            }
+            (Condition::Small, _) => quote!(#(Real::lt(Real::abs(#values), Real::sqrt(T::epsilon())))&*),
+            _ => quote!(#(Real::is_finite(#values))&*),
+        };
+        tests.extend(quote! {
+            if !#krate::all(#holds) {
+                return Err(#krate::ParamError { what: #what });
+            }
+        });
+    }
+    let statements = body.statements;
+    quote!(#statements #tests)
 }
 
 /// An expression that parameters change.

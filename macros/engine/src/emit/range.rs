@@ -1,0 +1,20 @@
+//! Stage `emit`: numbers that single precision doesn't hold.
+//!
+//! In: programs and declared defaults. Out: the numbers beyond the range of `f32`: those that become infinite, and those
+//! that become zero or lose digits. Products of literals are literals once a program is written, so looking at these is
+//! enough.
+
+use super::Context;
+
+/// Numbers in order, each once, without signs.
+pub(super) fn beyond_single(context: &Context<'_>) -> Vec<f64> {
+    let compiled = context.compiled;
+    let programs = compiled.functions.iter().map(|function| &function.program);
+    let programs = programs.chain([&compiled.prelude, &compiled.checks.program]);
+    let mut list: Vec<f64> = programs.flat_map(|program| program.literals()).map(f64::abs).collect();
+    list.extend(context.layout.model.params.iter().flat_map(|param| param.default.iter()).map(|x| x.abs()));
+    list.retain(|&x| x != 0.0 && !(f64::from(f32::MIN_POSITIVE)..=f64::from(f32::MAX)).contains(&x));
+    list.sort_by(f64::total_cmp);
+    list.dedup();
+    list
+}
