@@ -41,7 +41,8 @@ fn model_of(body: &str) -> Result<Model, String> {
 fn machine(body: &str) -> Result<Machine, String> {
     let model = model_of(body)?;
     match compile(&model) {
-        Ok((structure, compiled)) => Ok(Machine { model, structure, compiled }),
+        Ok((structure, compiled)) if compiled.sound => Ok(Machine { model, structure, compiled }),
+        Ok(_) => panic!("a pass has changed a value"),
         Err(Trouble::Complaints(complaints)) => Err(complaints[0].message.clone()),
         Err(Trouble::Refused(refusal)) => Err(format!("{refusal:?}")),
     }

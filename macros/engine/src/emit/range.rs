@@ -1,8 +1,7 @@
 //! Stage `emit`: numbers that single precision doesn't hold.
 //!
-//! In: programs and declared defaults. Out: the numbers beyond the range of `f32`: those that become infinite, and those
-//! that become zero or lose digits. Products of literals are literals once a program is written, so looking at these is
-//! enough.
+//! In: programs. Out: the numbers beyond the range of `f32`: those that become infinite, and those that become zero or
+//! lose digits. Products of literals are literals once a program is written, so looking at these is enough.
 
 use super::Context;
 
@@ -12,9 +11,13 @@ pub(super) fn beyond_single(context: &Context<'_>) -> Vec<f64> {
     let programs = compiled.functions.iter().map(|function| &function.program);
     let programs = programs.chain([&compiled.prelude, &compiled.checks.program]);
     let mut list: Vec<f64> = programs.flat_map(|program| program.literals()).map(f64::abs).collect();
-    list.extend(context.layout.model.params.iter().flat_map(|param| param.default.iter()).map(|x| x.abs()));
-    list.retain(|&x| x != 0.0 && !(f64::from(f32::MIN_POSITIVE)..=f64::from(f32::MAX)).contains(&x));
+    list.retain(|&x| is_beyond(x));
     list.sort_by(f64::total_cmp);
     list.dedup();
     list
+}
+
+/// Whether `f32` makes infinity, zero, or a number with fewer digits of it.
+pub(super) fn is_beyond(x: f64) -> bool {
+    x != 0.0 && !(f64::from(f32::MIN_POSITIVE)..=f64::from(f32::MAX)).contains(&x.abs())
 }

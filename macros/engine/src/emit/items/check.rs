@@ -49,6 +49,21 @@ pub(super) fn item(context: &Context<'_>) -> TokenStream {
                 return Err(#krate::ParamError { what: #what });
             }
         });
+        // A default that the scalar turned into something else, where it still stands.
+        for (element, &default) in param.default.iter().enumerate().filter(|(_, x)| range::is_beyond(**x)) {
+            let what = format!(
+                "`{}` is declared as {}, which is out of the range of the scalar",
+                layout.name(&param.place),
+                literals::text(default)
+            );
+            let symbol = Expression::Symbol(Symbol::Param { param: ParamId(number), element });
+            let (value, default) = (print.expression(&symbol), literals::number(default));
+            checks.extend(quote! {
+                if !#krate::all(#krate::is_held::<T>(#default) | !Real::eq(#value, T::lit(#default))) {
+                    return Err(#krate::ParamError { what: #what });
+                }
+            });
+        }
     }
     for (length, least, name) in lengths(layout) {
         let what = format!("the length of `{name}` is {least}");
