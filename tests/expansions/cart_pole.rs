@@ -295,13 +295,35 @@ pub mod cart_pole {
         }
     }
     impl<T: Real> Params<T> {
-        /// Whether rigid bodies can have the masses and inertias that follow from these parameters.
+        /// Whether a mechanism can have these parameters: they are finite, masses, inertias and lengths are such as
+        /// there are, the mass matrix is regular at the default position and loops with conditions have a solution
+        /// there, and the scalar holds the numbers of the model.
         ///
         /// # Errors
         ///
-        /// Names the first body whose mass or inertia is impossible.
+        /// Names the first parameter, body, coordinate or number for which that is not so.
         pub fn check(&self) -> Result<(), ::multibody::ParamError> {
             let params = self;
+            if !::multibody::all(Real::is_finite(params.g)) {
+                return Err(::multibody::ParamError {
+                    what: "`g` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.mc)) {
+                return Err(::multibody::ParamError {
+                    what: "`mc` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.mp)) {
+                return Err(::multibody::ParamError {
+                    what: "`mp` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.l)) {
+                return Err(::multibody::ParamError {
+                    what: "`l` is not finite",
+                });
+            }
             {
                 let mass = params.mc;
                 if !::multibody::all(
@@ -334,6 +356,29 @@ pub mod cart_pole {
             ) {
                 return Err(::multibody::ParamError {
                     what: "no rigid body can have the inertia of `pole`",
+                });
+            }
+            let pivot_1_part = params.mp * params.l;
+            let second_hinge_yy = T::lit(0.3333333333333333) * params.l * pivot_1_part;
+            let mass_track = params.mc + params.mp;
+            let inverse_2 = T::lit(1.0) / second_hinge_yy;
+            let pivot_1 = mass_track
+                - T::lit(0.25) * pivot_1_part * pivot_1_part * inverse_2;
+            if !::multibody::all(
+                Real::gt(
+                    second_hinge_yy,
+                    T::lit(64.0) * T::epsilon() * (second_hinge_yy),
+                ),
+            ) {
+                return Err(::multibody::ParamError {
+                    what: "the mass matrix is singular at the default position: nothing resists `hinge`",
+                });
+            }
+            if !::multibody::all(
+                Real::gt(pivot_1, T::lit(64.0) * T::epsilon() * (mass_track)),
+            ) {
+                return Err(::multibody::ParamError {
+                    what: "the mass matrix is singular at the default position: nothing resists `track`",
                 });
             }
             Ok(())

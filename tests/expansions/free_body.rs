@@ -234,13 +234,28 @@ pub mod free_body {
         }
     }
     impl<T: Real> Params<T> {
-        /// Whether rigid bodies can have the masses and inertias that follow from these parameters.
+        /// Whether a mechanism can have these parameters: they are finite, masses, inertias and lengths are such as
+        /// there are, the mass matrix is regular at the default position and loops with conditions have a solution
+        /// there, and the scalar holds the numbers of the model.
         ///
         /// # Errors
         ///
-        /// Names the first body whose mass or inertia is impossible.
+        /// Names the first parameter, body, coordinate or number for which that is not so.
         pub fn check(&self) -> Result<(), ::multibody::ParamError> {
             let params = self;
+            if !::multibody::all(Real::is_finite(params.m)) {
+                return Err(::multibody::ParamError {
+                    what: "`m` is not finite",
+                });
+            }
+            if !::multibody::all(
+                Real::is_finite(params.i[0]) & Real::is_finite(params.i[1])
+                    & Real::is_finite(params.i[2]),
+            ) {
+                return Err(::multibody::ParamError {
+                    what: "`i` is not finite",
+                });
+            }
             {
                 let mass = params.m;
                 if !::multibody::all(
@@ -263,6 +278,48 @@ pub mod free_body {
             ) {
                 return Err(::multibody::ParamError {
                     what: "no rigid body can have the inertia of `nut`",
+                });
+            }
+            if !::multibody::all(
+                Real::gt(params.i[2], T::lit(64.0) * T::epsilon() * (params.i[2])),
+            ) {
+                return Err(::multibody::ParamError {
+                    what: "the mass matrix is singular at the default position: nothing resists `free.turn_z`",
+                });
+            }
+            if !::multibody::all(
+                Real::gt(params.i[1], T::lit(64.0) * T::epsilon() * (params.i[1])),
+            ) {
+                return Err(::multibody::ParamError {
+                    what: "the mass matrix is singular at the default position: nothing resists `free.turn_y`",
+                });
+            }
+            if !::multibody::all(
+                Real::gt(params.i[0], T::lit(64.0) * T::epsilon() * (params.i[0])),
+            ) {
+                return Err(::multibody::ParamError {
+                    what: "the mass matrix is singular at the default position: nothing resists `free.turn_x`",
+                });
+            }
+            if !::multibody::all(
+                Real::gt(params.m, T::lit(64.0) * T::epsilon() * (params.m)),
+            ) {
+                return Err(::multibody::ParamError {
+                    what: "the mass matrix is singular at the default position: nothing resists `free.z`",
+                });
+            }
+            if !::multibody::all(
+                Real::gt(params.m, T::lit(64.0) * T::epsilon() * (params.m)),
+            ) {
+                return Err(::multibody::ParamError {
+                    what: "the mass matrix is singular at the default position: nothing resists `free.y`",
+                });
+            }
+            if !::multibody::all(
+                Real::gt(params.m, T::lit(64.0) * T::epsilon() * (params.m)),
+            ) {
+                return Err(::multibody::ParamError {
+                    what: "the mass matrix is singular at the default position: nothing resists `free.x`",
                 });
             }
             Ok(())

@@ -220,13 +220,30 @@ pub mod pendulum {
         }
     }
     impl<T: Real> Params<T> {
-        /// Whether rigid bodies can have the masses and inertias that follow from these parameters.
+        /// Whether a mechanism can have these parameters: they are finite, masses, inertias and lengths are such as
+        /// there are, the mass matrix is regular at the default position and loops with conditions have a solution
+        /// there, and the scalar holds the numbers of the model.
         ///
         /// # Errors
         ///
-        /// Names the first body whose mass or inertia is impossible.
+        /// Names the first parameter, body, coordinate or number for which that is not so.
         pub fn check(&self) -> Result<(), ::multibody::ParamError> {
             let params = self;
+            if !::multibody::all(Real::is_finite(params.g)) {
+                return Err(::multibody::ParamError {
+                    what: "`g` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.m)) {
+                return Err(::multibody::ParamError {
+                    what: "`m` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.l)) {
+                return Err(::multibody::ParamError {
+                    what: "`l` is not finite",
+                });
+            }
             {
                 let mass = params.m;
                 if !::multibody::all(
@@ -249,6 +266,18 @@ pub mod pendulum {
             ) {
                 return Err(::multibody::ParamError {
                     what: "no rigid body can have the inertia of `bob`",
+                });
+            }
+            let second_hinge_yy = T::lit(0.3333333333333333) * params.m * params.l
+                * params.l;
+            if !::multibody::all(
+                Real::gt(
+                    second_hinge_yy,
+                    T::lit(64.0) * T::epsilon() * (second_hinge_yy),
+                ),
+            ) {
+                return Err(::multibody::ParamError {
+                    what: "the mass matrix is singular at the default position: nothing resists `hinge`",
                 });
             }
             Ok(())
