@@ -5,6 +5,7 @@ use std::collections::HashMap;
 
 #[path = "common/interpreter.rs"]
 mod interpreter;
+#[allow(dead_code)]
 #[path = "common/rng.rs"]
 mod rng;
 
