@@ -53,7 +53,7 @@ impl Programs {
             Ok((structure, compiled)) => Ok(Programs { model, structure, compiled }),
             Err(trouble) => Err(Failure::Refused(match trouble {
                 Trouble::Complaints(list) => list.into_iter().map(|complaint| complaint.message).collect(),
-                Trouble::Refused(optimize::Refusal::TooLarge) => vec!["too large".into()],
+                Trouble::Refused(optimize::Refusal::TooLarge(_)) => vec!["too large".into()],
                 Trouble::Refused(_) => vec!["not finite".into()],
             })),
         }

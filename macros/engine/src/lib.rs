@@ -23,8 +23,8 @@ use mechanics::analysis::Complaint;
 use mechanics::structure::Structure;
 use model::Soundness;
 use model::types::Model;
-use optimize::Refusal;
-use optimize::program::Compiled;
+use optimize::program::{Compiled, FunctionKind};
+use optimize::{Excess, Refusal};
 
 /// Tokens of a `multibody!` call to tokens of its modules, and of everything that is wrong. A model without a mistake is
 /// there in full whatever stands beside it, one with mistakes as an outline without equations: one mistake, one error.
@@ -58,8 +58,9 @@ pub fn expand(tokens: TokenStream) -> TokenStream {
 
 /// The stages behind the checked model.
 pub fn compile(model: &Model) -> Result<(Structure, Compiled), Trouble> {
-    if mechanics::freedoms(model) > mechanics::MOST_FREEDOMS {
-        return Err(Trouble::Refused(Refusal::TooLarge));
+    let freedoms = mechanics::freedoms(model);
+    if freedoms > mechanics::MOST_FREEDOMS {
+        return Err(Trouble::Refused(Refusal::TooLarge(Excess::Coordinates(freedoms))));
     }
     let (structure, derivation) = mechanics::of(model).map_err(Trouble::Complaints)?;
     let compiled = optimize::compile(&derivation).map_err(Trouble::Refused)?;
@@ -85,21 +86,55 @@ impl Trouble {
                     }
                 }
             }
-            Trouble::Refused(Refusal::TooLarge) => diagnostics.error_help(
-                span,
-                format!("the equations of `{}` are too large", model.name),
-                format!(
-                    "a model may have {} coordinates and a function {} operations before optimisation; ask for less in \
-                     `emit` (a mass matrix grows with the square of the coordinates), or declare fewer bodies",
-                    mechanics::MOST_FREEDOMS,
-                    optimize::MOST_OPERATIONS
-                ),
-            ),
+            Trouble::Refused(Refusal::TooLarge(excess)) => {
+                let (message, help) = too_large(&model.name.to_string(), excess);
+                diagnostics.error_help(span, message, help);
+            }
             Trouble::Refused(Refusal::NotFinite) => diagnostics.error_help(
                 span,
                 format!("the equations of `{}` hold a number that is not finite", model.name),
                 "literals multiply out of the range of f64, or something is divided by what is always zero",
             ),
         }
+    }
+}
+
+/// What is said of it, and what to do.
+fn too_large(model: &str, excess: Excess) -> (String, &'static str) {
+    match excess {
+        Excess::Coordinates(found) => (
+            format!("`{model}` has {found} coordinates, more than {}", mechanics::MOST_FREEDOMS),
+            "declare fewer bodies, or several models that act on each other by inputs and outputs",
+        ),
+        Excess::Operations(kind, found) => (
+            format!(
+                "the function `{}` of `{model}` has {found} operations before optimisation, more than {}",
+                emit::function_name(kind),
+                optimize::MOST_OPERATIONS
+            ),
+            instead(kind),
+        ),
+        Excess::Expressions => (
+            format!("the equations of `{model}` have more than {} expressions", symbolic::graph::MOST_NODES),
+            "ask for less in `emit`, or declare fewer bodies",
+        ),
+    }
+}
+
+/// What to do about a function that is too large.
+fn instead(kind: FunctionKind) -> &'static str {
+    match kind {
+        FunctionKind::ForwardDynamics | FunctionKind::InverseDynamics | FunctionKind::Bias => "declare fewer bodies",
+        FunctionKind::MassMatrix | FunctionKind::ConstraintJacobian => {
+            "leave it out of `emit`: a matrix grows with the square of the coordinates; or declare fewer bodies"
+        }
+        FunctionKind::ForwardDerivatives | FunctionKind::InverseDerivatives => {
+            "leave `derivatives` out of `emit`: they grow with the square of the coordinates; or declare fewer bodies"
+        }
+        FunctionKind::Outputs => "declare fewer outputs, or simpler ones: accelerations and reactions are dear",
+        FunctionKind::Guess | FunctionKind::DeadCentres | FunctionKind::Kinematics(_) => {
+            "solve the loops by `solve (..) from ..`, or hold them by multipliers, `constraints: Multipliers`"
+        }
+        _ => "leave it out of `emit`, or declare fewer bodies",
     }
 }

@@ -13,6 +13,13 @@ mb::multibody! {
     }
 }
 
+mb::multibody! {
+    pub mod found_by_itself {
+        body block { mass: 2.0 }
+        joint rail: Prismatic { parent: ground, child: block, axis: X }
+    }
+}
+
 mod multibody {
     //! A module that has the name by chance.
 }
@@ -21,5 +28,6 @@ fn main() {
     let model = pendulum::Model::<f64>::new(&pendulum::Params::default());
     let mut x = pendulum::State::default();
     x.q.hinge = 0.5;
+    assert_eq!(found_by_itself::DOF, 1);
     assert!(mb::Rk4::step(&model, 0.0, &x, &(), 1e-3).v.hinge < 0.0);
 }

@@ -120,7 +120,7 @@ impl<'a> Checker<'a, '_> {
         Model {
             name: module.name.clone(),
             vis: module.vis.clone(),
-            attrs: module.attrs.clone(),
+            attrs: module.attrs.iter().filter(|attr| !docs::is_derive(attr)).cloned().collect(),
             krate: self.source.krate.clone().unwrap_or_else(runtime),
             part_types: self.part_types.clone(),
             instances: self.instances.clone(),

@@ -63,6 +63,8 @@ pub(super) fn attributes(attrs: &[Attribute], report: &mut Report<'_>) -> Attrib
             }
         } else if path.is_ident("cfg") {
             report.help(path.span(), "`cfg` stands on a whole model, not on an item", "write it above `mod`");
+        } else if is_derive(attr) {
+            refuse_derive(attr, report);
         } else {
             report.help(
                 path.span(),
@@ -72,6 +74,21 @@ pub(super) fn attributes(attrs: &[Attribute], report: &mut Report<'_>) -> Attrib
         }
     }
     found
+}
+
+/// `#[derive(..)]`, `#[serde(..)]`
+pub(super) fn is_derive(attr: &Attribute) -> bool {
+    attr.path().is_ident("derive") || attr.path().is_ident("serde")
+}
+
+/// Nothing can be derived for the generated structs.
+pub(super) fn refuse_derive(attr: &Attribute, report: &mut Report<'_>) {
+    report.help(
+        attr.path().span(),
+        "generated structs take no attributes: they have `Clone`, `Copy`, `Debug`, `Default` and `PartialEq`",
+        "to store a state convert its `q` and `v` into vectors, `SVector::from(state.q)`, which serde can write with \
+         nalgebra's feature `serde-serialize`; of `Params` and `Input` write the fields",
+    );
 }
 
 /// A leading `[kg]` is the unit.

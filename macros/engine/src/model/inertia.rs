@@ -11,7 +11,7 @@ use syn::{Expr as Written, ExprCall};
 use super::checker::{Checker, Context};
 use super::evaluate::dot;
 use super::expressions::{component_of, source_text};
-use super::typed::{Allowed, new_expr, number};
+use super::typed::{Allowed, new_expr, number, type_text};
 use super::types::{Expr, ExprNode, Type};
 
 /// Shapes, their arguments and which of these are `Vec3`.
@@ -83,6 +83,10 @@ impl<'a> Checker<'a, '_> {
             );
             return None;
         }
+        let form = || format!("write `{name}({})`", arguments.join(", "));
+        for (expr, argument) in call.args.iter().zip(*arguments) {
+            self.check_kind(expr, matches!(*argument, "axis" | "size"), context, &form)?;
+        }
         let values: Vec<Option<Expr>> = call
             .args
             .iter()
@@ -99,6 +103,32 @@ impl<'a> Checker<'a, '_> {
             .collect();
         let values: Vec<Expr> = values.into_iter().collect::<Option<_>>()?;
         self.tensor(&name, values.as_slice(), at)
+    }
+
+    /// Refuses a scalar in the place of a `Vec3` and the other way round: arguments in another order.
+    fn check_kind(
+        &mut self,
+        expr: &Written,
+        wants_vector: bool,
+        context: Context<'a>,
+        form: &dyn Fn() -> String,
+    ) -> Option<()> {
+        if matches!(expr, Written::Verbatim(_)) {
+            return Some(());
+        }
+        let value = self.value(expr, context)?;
+        let vector = Type::Array(Box::new(Type::Scalar), 3);
+        let is_vector = value.expr.ty == Type::Vec3 || value.expr.ty == vector;
+        let (wanted, fits) = match wants_vector {
+            true => (Type::Vec3, is_vector),
+            false => (Type::Scalar, value.expr.ty == Type::Scalar),
+        };
+        if fits {
+            return Some(());
+        }
+        let message = format!("expected {}, found {}", type_text(&wanted), type_text(&value.expr.ty));
+        self.report.help(expr.span(), message, form());
+        None
     }
 
     fn tensor(&mut self, name: &str, values: &[Expr], at: Span) -> Option<Tensor> {

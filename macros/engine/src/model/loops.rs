@@ -35,7 +35,7 @@ impl<'a> Checker<'a, '_> {
         let context = root(slot.scope);
         let (name, kind) = match &slot.item.kind {
             ItemKind::ConstraintValue { name, value } => {
-                let value = self.scalar(value, context, Allowed::Positions);
+                let value = self.scalar(value, context, Allowed::Constraint);
                 (name, value.map(|value| ConstraintKind::Value(value.expr)))
             }
             ItemKind::ConstraintKind { name, kind, fields } if kind == "Rod" => {

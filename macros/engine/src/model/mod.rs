@@ -80,6 +80,10 @@ pub fn check_all(source: &tree::Source, diagnostics: &mut Diagnostics) -> Vec<Ch
         if is_part(module) {
             continue;
         }
+        // Without them the model is what was meant.
+        for attr in module.attrs.iter().filter(|attr| docs::is_derive(attr)) {
+            docs::refuse_derive(attr, &mut report);
+        }
         report.take_failed();
         let mut checker = Checker::new(source, &modules, &mut report, false);
         let model = checker.model(index);

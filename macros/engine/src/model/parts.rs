@@ -176,7 +176,7 @@ impl<'a> Checker<'a, '_> {
         let span = super::expressions::span(expr);
         let value = self.scalar(expr, context, Allowed::Constants)?;
         let number = self.evaluator.scalar(&value.expr)?;
-        if number.fract() == 0.0 && number.abs() < 1e9 {
+        if number.fract() == 0.0 && number.abs() < 1e15 {
             return Some(number as i64);
         }
         let message = format!("expected a whole number, found {number}");

@@ -32,12 +32,48 @@ const REQUESTS: [(&str, Request); 11] = [
     ("momentum", Request::Momentum),
 ];
 
-/// Named by the design, derived by later versions.
-const NOT_YET: [&str; 5] = ["linearize", "regressor", "assemble", "reactions", "gravity"];
+/// Named by the design, derived by later versions; what there is instead.
+const NOT_YET: [(&str, &str); 5] = [
+    (
+        "linearize",
+        "write `derivatives`: `forward_derivatives` are the matrices of the linearised equations at any state",
+    ),
+    ("regressor", "`inverse_dynamics` is linear in masses and moments of mass: differences of two calls give a column"),
+    ("assemble", "call `multibody::assemble`, for models whose loops are held by multipliers"),
+    ("reactions", "write `output name = joint.reaction;`"),
+    ("gravity", "write `bias`: at rest, without other forces, it is what gravity demands"),
+];
 
 /// They come with another function.
-const TOGETHER: [(&str, &str); 3] =
-    [("constraint_jacobian", "constraints"), ("constraint_rate", "constraints"), ("constraint_bias", "constraints")];
+const TOGETHER: [(&str, &str); 11] = [
+    ("constraint_jacobian", "constraints"),
+    ("constraint_rate", "constraints"),
+    ("constraint_bias", "constraints"),
+    ("kinetic_energy", "energy"),
+    ("potential_energy", "energy"),
+    ("forward_derivatives", "derivatives"),
+    ("inverse_derivatives", "derivatives"),
+    ("momentum_rate", "momentum"),
+    ("velocity", "momentum"),
+    ("close", "forward_dynamics"),
+    ("dead_centres", "forward_dynamics"),
+];
+
+/// What other tools call a function, or what is no function here.
+const ELSEWHERE: [(&str, &str); 12] = [
+    ("ForwardDynamics", "write `forward_dynamics`"),
+    ("dynamics", "write `forward_dynamics`"),
+    ("accelerations", "write `forward_dynamics`"),
+    ("acceleration", "write `forward_dynamics`"),
+    ("InverseDynamics", "write `inverse_dynamics`"),
+    ("coriolis", "write `bias`: the efforts at zero acceleration"),
+    ("inertia_matrix", "write `mass_matrix`"),
+    ("linearise", "write `derivatives`"),
+    ("linearization", "write `derivatives`"),
+    ("gradients", "write `derivatives`"),
+    ("jacobian", "write `output name = body.jacobian;`: outputs are always emitted"),
+    ("forward_kinematics", "write `output name = body.pose;`: outputs are always emitted"),
+];
 
 const KINEMATICS: Known<'static> = Known { required: &["given", "find"], optional: &[] };
 
@@ -82,11 +118,16 @@ impl<'a> Checker<'a, '_> {
                     into.list.push(*found);
                     into.asked.push((*found, span));
                 }
-            } else if NOT_YET.contains(&name.as_str()) {
-                let message = format!("`{name}` is not available yet");
-                self.report.error(span, message);
+            } else if let Some((_, instead)) = NOT_YET.iter().find(|(known, _)| *known == name) {
+                self.report.help(span, format!("`{name}` is not available yet"), *instead);
+            } else if let Some((_, instead)) = ELSEWHERE.iter().find(|(known, _)| *known == name) {
+                self.report.help(span, format!("`{name}` is nothing that can be derived"), *instead);
             } else if let Some((_, with)) = TOGETHER.iter().find(|(known, _)| *known == name) {
-                self.report.help(span, format!("`{name}` needs no asking for"), format!("it comes with `{with}`"));
+                self.report.help(
+                    span,
+                    format!("`{name}` is not asked for by itself"),
+                    format!("it comes with `{with}`"),
+                );
             } else if name == "outputs" {
                 self.report.help(span, "`outputs` needs no asking for", "outputs are always emitted");
             } else {
@@ -95,7 +136,7 @@ impl<'a> Checker<'a, '_> {
                     span,
                     format!("`{name}` is nothing that can be derived"),
                     &name,
-                    list.iter().copied().chain(NOT_YET),
+                    list.iter().copied().chain(NOT_YET.iter().map(|(known, _)| *known)),
                     Some(format!("there are `{}`", list.join("`, `"))),
                 );
             }

@@ -104,8 +104,10 @@ pub(super) enum Allowed {
     Parameters,
     /// Those and time: what a drive may follow.
     Time,
-    /// Those and positions: what holds or chooses a position.
+    /// Those and positions: what chooses a position.
     Positions,
+    /// The same, held at zero.
+    Constraint,
     /// All that is known before forces and accelerations are.
     Forces,
     /// Those, without the potential energy: a spring's is part of it.
@@ -118,7 +120,9 @@ impl Allowed {
             Allowed::Constants => false,
             Allowed::Parameters => class == Class::Parameter,
             Allowed::Time => matches!(class, Class::Parameter | Class::Time),
-            Allowed::Positions => matches!(class, Class::Parameter | Class::Time | Class::Position),
+            Allowed::Positions | Allowed::Constraint => {
+                matches!(class, Class::Parameter | Class::Time | Class::Position)
+            }
             Allowed::Forces => !matches!(class, Class::Acceleration | Class::Load),
             Allowed::Springs => !matches!(class, Class::Potential | Class::Acceleration | Class::Load),
         }
@@ -138,8 +142,16 @@ impl Allowed {
                 "is an input, whose rate nobody knows; a drive follows time and parameters"
             }
             (Allowed::Time, _) => "moves with the mechanism; a drive follows time and parameters",
-            (Allowed::Positions, Class::Input) => "is an input; only positions, parameters and time may stand here",
-            (Allowed::Positions, _) => "is no position; only positions, parameters and time may stand here",
+            (Allowed::Constraint, Class::State) => {
+                "is no position: constraints of velocities are not supported yet. A gear or rolling along a line is one of \
+                 positions, such as `x - radius * angle`; elsewhere a stiff damper at the contact comes near"
+            }
+            (Allowed::Positions | Allowed::Constraint, Class::Input) => {
+                "is an input; only positions, parameters and time may stand here"
+            }
+            (Allowed::Positions | Allowed::Constraint, _) => {
+                "is no position; only positions, parameters and time may stand here"
+            }
             (Allowed::Constants, _) => "changes in time; only literals and `const` may stand here",
             _ => "changes in time; only `const` and `param` may stand here",
         }

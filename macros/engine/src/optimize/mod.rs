@@ -33,15 +33,26 @@ pub const MOST_OPERATIONS: usize = 60_000;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refusal {
     /// The equations are larger than the compiler can take within a reasonable time.
-    TooLarge,
+    TooLarge(Excess),
     /// A number in the equations is infinite: a product of literals that is out of range, or a division by what is zero.
     NotFinite,
+}
+
+/// What of a model is too large.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Excess {
+    /// It has so many coordinates.
+    Coordinates(usize),
+    /// A function has so many operations before optimisation, more than [`MOST_OPERATIONS`].
+    Operations(FunctionKind, usize),
+    /// The equations of all functions have more expressions than one graph may hold.
+    Expressions,
 }
 
 /// Optimises every candidate, takes the cheapest of each function, and moves parameter work into `Model::new`.
 pub fn compile(derivation: &Derivation) -> Result<Compiled, Refusal> {
     if derivation.graph.is_full() {
-        return Err(Refusal::TooLarge);
+        return Err(Refusal::TooLarge(Excess::Expressions));
     }
     let mut sound = true;
     let mut chosen: Vec<(FunctionKind, &'static str, Cost, Dag)> = Vec::new();
@@ -51,7 +62,7 @@ pub fn compile(derivation: &Derivation) -> Result<Compiled, Refusal> {
             let mut lowering = Lowering::new(&derivation.graph);
             let roots = lowering.run(results);
             if lowering.to.len() > MOST_OPERATIONS {
-                return Err(Refusal::TooLarge);
+                return Err(Refusal::TooLarge(Excess::Operations(function.kind, lowering.to.len())));
             }
             let before = lowering.to.cost(&roots);
             let mut dag = Dag::import(&lowering.to, &roots, &derivation.symbols);

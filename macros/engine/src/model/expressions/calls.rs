@@ -182,6 +182,15 @@ impl<'a> Checker<'a, '_> {
             "degrees" | "rad" | "radians" | "to_radians" => pow("write `deg(30.0)`"),
             "length" | "magnitude" => pow("write `norm(v)`"),
             "energy" => pow("write `kinetic() + potential()`"),
+            "vec3" | "vec" | "vector" => pow("a vector is written `[x, y, z]`"),
+            "pow2" | "square" | "sqr" => pow("write `powi(x, 2)`"),
+            "max3" | "min3" => pow("write `max(a, max(b, c))`"),
+            "mod" | "fmod" | "rem" | "floor" | "ceil" | "round" => {
+                pow("there is none: equations of motion need slopes")
+            }
+            "der" | "ddt" | "dt" | "diff" => {
+                pow("the rate of a coordinate is `joint.rate`, of a point `frame.velocity`")
+            }
             "if_else" | "ifelse" | "cond" => pow("write `select(condition, a, b)`"),
             _ => None,
         };

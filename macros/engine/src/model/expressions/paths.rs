@@ -6,6 +6,7 @@ use proc_macro2::{Ident, Span};
 use syn::ExprPath;
 use syn::spanned::Spanned;
 
+use crate::diagnostics::nearest;
 use crate::model::checker::{Checker, Context, Meaning, ScopeId, Symbol};
 use crate::model::expand::article;
 use crate::model::names::{FUNCTIONS, SPECIAL_FUNCTIONS, VALUES};
@@ -38,6 +39,11 @@ impl<'a> Checker<'a, '_> {
         }
         if FUNCTIONS.iter().any(|(function, ..)| *function == text) || SPECIAL_FUNCTIONS.contains(&text.as_str()) {
             self.report.help(span, format!("`{text}` is a function"), format!("write `{text}(..)`"));
+            return None;
+        }
+        let near = self.names_of(context.scope).iter().any(|known| nearest(&text, [known.as_str()]).is_some());
+        if let Some(instead) = elsewhere(&text).filter(|_| !near) {
+            self.report.help(span, format!("unknown name `{text}`"), instead);
             return None;
         }
         self.unknown_name(name, context);
@@ -127,6 +133,17 @@ impl<'a> Checker<'a, '_> {
             Symbol::Parts(scopes) => Some(Meaning::Parts(scopes.clone())),
         }
     }
+}
+
+/// What is written in other languages for what every expression may name here.
+fn elsewhere(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "time" => "write `t`",
+        "world" | "base" | "inertial" | "origin" => "the frame that does not move is `ground`",
+        "ex" | "ey" | "ez" | "e_x" | "e_y" | "e_z" => "the unit vectors are `X`, `Y`, `Z`",
+        "g" | "gravity" => "gravity stands in `world { gravity: -9.81 * Z }`; a number of your own is a `const`",
+        _ => return None,
+    })
 }
 
 /// The frame of a body itself.
