@@ -354,8 +354,7 @@ impl<S: System, R: Fn(&S::State) -> f64, D: Fn(&S::State) -> f64> Events<S, 1> f
     }
 }
 
-/// Runs a motion that no position continues beyond its dead centre: it ends in a typed error, or the coordinate that leads
-/// turns round; either way the dead centre is told.
+/// Runs a motion that no position continues beyond its dead centre: it ends there, in the error that says so.
 fn locks<S: System<Scalar = f64, Input = ()>>(
     name: &str,
     system: &S,
@@ -370,20 +369,9 @@ fn locks<S: System<Scalar = f64, Input = ()>>(
     });
     let nearest = told.nearest.min(near_steps);
     println!("{name}: {:?}, turned {}, nearest {nearest:.1e}", run.map(|run| run.1), told.turned);
-    assert!(nearest <= 1e-3, "{name}: the dead centre went unseen");
-    match run {
-        // It may stand there, as if it were at rest: nothing but the distance tells.
-        Ok((end, ..)) => assert!(told.turned || distance(&end) <= 1e-3, "{name}: it went on beyond its dead centre"),
-        Err(error) => {
-            let typed = matches!(
-                error,
-                IntegrationError::NonFinite { .. }
-                    | IntegrationError::StepTooSmall { .. }
-                    | IntegrationError::TooManySteps { .. }
-            );
-            assert!(typed, "{name}: {error}");
-        }
-    }
+    // It stops short of it by what rounding allows.
+    let ended = matches!(run, Err(IntegrationError::DeadCentre { .. } | IntegrationError::StepTooSmall { .. }));
+    assert!(ended, "{name}: it went on beyond its dead centre");
 }
 
 #[test]

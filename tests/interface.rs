@@ -21,12 +21,12 @@ use multibody::{Kinematics, Projection, Rk4, System, assemble};
 fn main() {
     let model = Model::<f64>::default();
     let mut state = State::default();
-    assert_eq!(state.guess, SVector::from([0.0; 4]));
+    assert_eq!(SVector::from(state.guess), SVector::from([0.0; 4]));
     state.q.a = 0.75;
     state.q.b = -0.5;
     state.v.a = 2.0;
     state.v.b = 3.0;
-    state.guess[3] = 0.5;
+    state.guess.legs[1].gimbal.second = 0.5;
 
     // The pieces of forward dynamics.
     let Derivative { v, x, multipliers, rank, residual } = model.forward_dynamics(0.0, &state, &Input::default());
@@ -62,7 +62,7 @@ fn main() {
 
     // The guess: renewed by steps, kept by everything else.
     let Closed { state: closed, residual } = model.close(0.0, &state);
-    assert_eq!((closed.guess, residual), (SVector::from([1.0, 2.0, 3.0, 4.5]), 0.125));
+    assert_eq!((SVector::from(closed.guess), residual), (SVector::from([1.0, 2.0, 3.0, 4.5]), 0.125));
     assert!(closed.q == state.q && closed != state);
     assert_eq!(model.accepted(0.0, &state, &input), closed);
     assert_eq!(Rk4::step(&model, 0.0, &state, &input, 1e-3).guess, closed.guess);

@@ -158,10 +158,11 @@ fn four_bar_in_three_formulations() {
         // From a guess that is wrong by some degrees.
         let mut same = four_bar_newton::State::default();
         (same.q.crank, same.v.crank) = (state.q.crank, state.v.crank);
-        same.guess = SVector::from([want.angles[1] + 0.05 * random.unit(), want.angles[2] + 0.05 * random.unit()]);
+        same.guess =
+            SVector::from([want.angles[1] + 0.05 * random.unit(), want.angles[2] + 0.05 * random.unit()]).into();
         let closed = iterated.close(0.0, &same);
         assert!(closed.residual <= 1e-14, "{:e}", closed.residual);
-        assert_close("guess", closed.state.guess.as_slice(), &want.angles[1..], 1e-13);
+        assert_close("guess", SVector::from(closed.state.guess).as_slice(), &want.angles[1..], 1e-13);
         let got = iterated.outputs(0.0, &same, &four_bar_newton::Input { torque });
         let accel = iterated.forward_dynamics(0.0, &same, &four_bar_newton::Input { torque });
         assert!(accel.residual <= 1e-14, "{:e}", accel.residual);
@@ -234,7 +235,7 @@ fn spatial_loop_in_three_formulations() {
         let mut same = spatial_newton::State::default();
         (same.q.driver, same.v.driver) = (state.q.driver, state.v.driver);
         // Its unknowns, in the order of the tree.
-        same.guess = SVector::from([first, second, shaft]).map(|x| x + 0.02);
+        same.guess = SVector::from([first, second, shaft]).map(|x| x + 0.02).into();
         let got = iterated.outputs(0.0, &same, &spatial_newton::Input { torque });
         for (a, b) in [(got.angles, want.angles), (got.rates, want.rates), (got.accels, want.accels)] {
             assert_close("iterated", &a, &b, 1e-11);
@@ -263,7 +264,7 @@ fn newtons_guess_follows_the_motion() {
     let start = bar(0.3, 8.0);
     let angles = solved.outputs(0.0, &start, &Default::default()).angles;
     let mut same = four_bar_newton::State::default();
-    (same.q.crank, same.v.crank, same.guess) = (0.3, 8.0, SVector::from([angles[1], angles[2]]));
+    (same.q.crank, same.v.crank, same.guess) = (0.3, 8.0, SVector::from([angles[1], angles[2]]).into());
     let end = DormandPrince::integrate(&solved, 0.0, &start, &Default::default(), 1e-3, 3000, |_, _| ()).unwrap();
     let other = DormandPrince::integrate(&iterated, 0.0, &same, &Default::default(), 1e-3, 3000, |_, _| ()).unwrap();
     assert!((end.q.crank - 0.3).abs() > 6.0, "it should have gone round: {}", end.q.crank);

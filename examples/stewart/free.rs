@@ -1,7 +1,7 @@
 //! A free motion: the plate on six springs with dampers, in two formulations.
 
 use multibody::nalgebra::SVector;
-use multibody::{Constrained, DormandPrince, ExtraOf, Projection, StateSpace, System, VelocityOf};
+use multibody::{Constrained, DormandPrince, ExtraOf, Margin, Projection, StateSpace, System, VelocityOf};
 
 use crate::models::{hybrid, reduced};
 
@@ -59,6 +59,10 @@ impl System for Sprung {
             power += leg.thrust * rate;
         }
         (self.0.forward_dynamics(t, &run.plate, &input), power)
+    }
+    /// A wrapper hands on what integrators ask of loops.
+    fn margins(&self, t: f64, run: &Run, (): &(), visit: &mut dyn FnMut(Margin<f64>)) -> f64 {
+        System::margins(&self.0, t, &run.plate, &reduced::Input::default(), visit)
     }
 }
 

@@ -125,7 +125,7 @@ impl Method for Blocks {
     }
 
     fn joints(&self) -> Joints {
-        self.state.guess
+        self.state.guess.into()
     }
 }
 
@@ -185,7 +185,7 @@ pub(crate) fn kinematics() {
         Row::new(&dense, "3.5", || Box::new(Dense::new(&start, &rates, 1e-10))),
         Row::new("one projection a step, dense LU", "2.5", || Box::new(Dense::new(&start, &rates, f64::INFINITY))),
         Row::new("Newton as the engine emits it, six blocks of three", "", || {
-            let state = iterated::State { guess: start, ..Default::default() };
+            let state = iterated::State { guess: start.into(), ..Default::default() };
             Box::new(Blocks { model: iterated::Model::default(), state })
         }),
     ];

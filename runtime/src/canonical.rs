@@ -6,6 +6,12 @@ use crate::{PositionOf, System, VelocityOf};
 ///
 /// Generated models for which this is so implement it: the mass matrix is constant and so is every damping, which is
 /// none. Explicit symmetric compositions apply to such systems alone.
+#[diagnostic::on_unimplemented(
+    message = "the accelerations of `{Self}` depend on velocities",
+    label = "this has to be `Separable`",
+    note = "`multibody!` finds by itself where accelerations depend on time, positions and inputs alone: no damping, and a mass matrix that is constant",
+    note = "for any other model take `ImplicitMidpoint`, or `SymplecticMidpoint` with `emit momentum`, or `Rk4`"
+)]
 pub trait Separable: System {}
 
 impl<S: Separable + ?Sized> Separable for &S {}
@@ -14,6 +20,11 @@ impl<S: Separable + ?Sized> Separable for &S {}
 ///
 /// Models with `emit momentum` implement it. Symplectic Runge-Kutta methods keep the structure of phase space in these
 /// variables only.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not written in momenta",
+    label = "this has to be `Canonical`",
+    note = "a model of `multibody!` is with `emit forward_dynamics, momentum`"
+)]
 pub trait Canonical: System {
     /// The momenta `M(q) v` of a state.
     fn momentum(&self, state: &Self::State) -> VelocityOf<Self>;

@@ -49,6 +49,11 @@ use nalgebra::SVector;
 /// let (d, rank) = Bead.correction(0.0, &Vector2::new(2.0, 0.0), &0.5, &Vector2::new(1.0, 1.0));
 /// assert_eq!((d, rank), (Vector2::new(0.25, 0.0), 1.0));
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no constraint equations to project on",
+    label = "this has to be `Constrained`",
+    note = "a model of `multibody!` with loops is, with `emit forward_dynamics` and `formulation {{ constraints: Multipliers }}`; one that is `Reduced`, or has no loops, needs no projection"
+)]
 pub trait Constrained: System {
     /// One component for each equation.
     type Residual: Tangent<Self::Scalar>;

@@ -77,6 +77,11 @@ pub struct Jacobian<M> {
 /// Models with `emit derivatives` implement it. Write `W` for the number of velocities and own states together. With
 /// `y = (v, x)` and `y' = f(q, y)`, implicit methods then need to solve `W` equations, not as many as there are
 /// coordinates in all, since `q' = v`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no derivatives, which implicit methods and equilibria need",
+    label = "this has to be `Differentiable`",
+    note = "a model of `multibody!` is with `emit forward_dynamics, derivatives`"
+)]
 pub trait Differentiable: System {
     /// A matrix of `W` rows and columns, `[[T; W]; W]`, by rows.
     type Matrix: Square<Self::Scalar>;

@@ -14,6 +14,11 @@ use crate::{PositionOf, System, Tangent, VelocityOf};
 ///
 /// Impacts take an impulse and no rates; a projection weighted by mass, or a stabilised acceleration, takes rates and no
 /// impulse.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not tell what an impulse does",
+    label = "this has to be `Impulsive`",
+    note = "a model of `multibody!` is with `emit forward_dynamics, impulse`"
+)]
 pub trait Impulsive: System {
     /// One component for each equation between coordinates that is kept; `()` where there is none. It is the `Residual`
     /// of [`Constrained`](crate::Constrained) for systems that are constrained.

@@ -55,6 +55,7 @@ mod hermite;
 mod integrator;
 mod interval;
 mod method;
+mod outlook;
 mod problem;
 mod radau;
 mod rk4;

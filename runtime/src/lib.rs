@@ -122,7 +122,7 @@ pub use projection::{
 pub use scalar::{Real, all, any};
 pub use simba;
 pub use simulate::{simulate, simulate_stiff};
-pub use system::{ExtraOf, PositionOf, StateSpace, System, VelocityOf};
+pub use system::{ExtraOf, Margin, Opening, PositionOf, StateSpace, System, VelocityOf};
 pub use tangent::Tangent;
 
 /// Derives the equations of motion of the declared mechanisms and emits them as Rust modules.

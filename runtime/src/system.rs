@@ -27,6 +27,37 @@ pub trait StateSpace: Copy {
     fn join(&self, q: Self::Position, v: Self::Velocity, x: Self::Extra) -> Self;
 }
 
+/// How far the solution of a system's loops is from a dead centre, where two solutions meet: what [`System::margins`] tells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Margin<T> {
+    /// The coordinate that the solution finds.
+    pub coordinate: &'static str,
+    /// Zero in the dead centre, and regular around it: the square root in a closed form, the determinant of the equations
+    /// that Newton's method solves. NaN where there is no solution. Its unit does not matter.
+    pub root: T,
+    /// The rate of the square of the root along the motion, which is finite in the dead centre too.
+    pub rate: T,
+}
+
+/// How far the loops of a state are open: what [`System::opening`] tells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Opening<T> {
+    /// The greatest residual, in m or rad.
+    pub residual: T,
+    /// The greatest residual that a motion may start with.
+    pub tolerance: T,
+    /// What closes the loops, for the message of [`IntegrationError::OpenLoops`](crate::IntegrationError).
+    pub remedy: &'static str,
+}
+
+impl<T: Real> Opening<T> {
+    /// Of a system whose loops can't be open.
+    #[inline]
+    pub fn none() -> Self {
+        Self { residual: T::lit(0.0), tolerance: T::lit(0.0), remedy: "" }
+    }
+}
+
 /// The position type of a system.
 pub type PositionOf<S> = <<S as System>::State as StateSpace>::Position;
 
@@ -38,7 +69,7 @@ pub type ExtraOf<S> = <<S as System>::State as StateSpace>::Extra;
 
 /// A mechanical system that can be integrated in time.
 ///
-/// Generated models implement it. A feedback law that is to be evaluated at every stage of a step, not held over the
+/// Generated models with forward dynamics implement it. A feedback law that is to be evaluated at every stage of a step, not held over the
 /// step as an input is, is a wrapper:
 ///
 /// ```
@@ -86,6 +117,11 @@ pub type ExtraOf<S> = <<S as System>::State as StateSpace>::Extra;
 /// }
 /// assert!(x.q.abs() < 1e-6); // the double pole at -1 brings it to rest
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no accelerations to integrate",
+    label = "this has to be a `multibody::System`",
+    note = "a model of `multibody!` is one with `emit forward_dynamics`, which is what it emits if it says nothing; the model itself is to be passed, `Model<T>` and not its module or its parameters"
+)]
 pub trait System {
     /// The scalar.
     type Scalar: Real;
@@ -118,6 +154,38 @@ pub trait System {
     /// Wrappers hand the call on.
     #[inline]
     fn reached(&self, _t: Self::Scalar, _state: &Self::State) {}
+
+    /// How far the loops are from each of their dead centres, and how fast they come nearer, at a state that
+    /// [`System::accepted`] gave. Returns the greatest residual that Newton's method has left in a loop.
+    ///
+    /// Where two solutions of a loop meet, the coordinates of a reduced model end: the mechanism goes on with the other
+    /// solution, a step that jumps over comes back with the same one, and nothing in accelerations or energy tells.
+    /// Integrators ask after every step, and end in [`IntegrationError::DeadCentre`](crate::IntegrationError) instead.
+    /// By default there are none. Wrappers hand the call on.
+    #[inline]
+    fn margins(
+        &self,
+        _t: Self::Scalar,
+        _state: &Self::State,
+        _input: &Self::Input,
+        _visit: &mut dyn FnMut(Margin<Self::Scalar>),
+    ) -> Self::Scalar {
+        Self::Scalar::lit(0.0)
+    }
+
+    /// How far the loops are open at a state that a motion is to start from; integrators refuse more than the tolerance.
+    /// By default nothing is open. Wrappers hand the call on.
+    #[inline]
+    fn opening(&self, _t: Self::Scalar, _state: &Self::State, _input: &Self::Input) -> Opening<Self::Scalar> {
+        Opening::none()
+    }
+
+    /// A coordinate without inertia, whose acceleration no equation gives: asked for only where a derivative isn't finite,
+    /// to name the cause. By default none is known. Wrappers hand the call on.
+    #[inline]
+    fn without_inertia(&self, _t: Self::Scalar, _state: &Self::State, _input: &Self::Input) -> Option<&'static str> {
+        None
+    }
 }
 
 impl<S: System + ?Sized> System for &S {
@@ -136,5 +204,23 @@ impl<S: System + ?Sized> System for &S {
     #[inline]
     fn reached(&self, t: S::Scalar, state: &S::State) {
         (**self).reached(t, state);
+    }
+    #[inline]
+    fn margins(
+        &self,
+        t: S::Scalar,
+        state: &S::State,
+        input: &S::Input,
+        visit: &mut dyn FnMut(Margin<S::Scalar>),
+    ) -> S::Scalar {
+        (**self).margins(t, state, input, visit)
+    }
+    #[inline]
+    fn opening(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> Opening<S::Scalar> {
+        (**self).opening(t, state, input)
+    }
+    #[inline]
+    fn without_inertia(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> Option<&'static str> {
+        (**self).without_inertia(t, state, input)
     }
 }

@@ -7,7 +7,7 @@ use multibody_engine::emit::function_name;
 use multibody_engine::mechanics;
 use multibody_engine::model::types::Model;
 use multibody_engine::optimize;
-use multibody_engine::optimize::program::Cost;
+use multibody_engine::optimize::program::{Cost, FunctionKind};
 
 use super::engine::{calls, literal, models};
 
@@ -36,7 +36,9 @@ pub fn count(model: &Model, params: bool) -> Vec<Row> {
     let mut derivation =
         mechanics::of(model).unwrap_or_else(|trouble| panic!("{}: {}", model.name, trouble[0].message)).1;
     let dof = model.joints.iter().map(|joint| joint.kind.freedoms()).sum();
-    let functions = std::mem::take(&mut derivation.functions);
+    let mut functions = std::mem::take(&mut derivation.functions);
+    // What integrators look at once a step is no equation of motion.
+    functions.retain(|function| function.kind != FunctionKind::Margins);
     let rows = functions.into_iter().map(|function| {
         derivation.functions = vec![function];
         let compiled = optimize::compile(&derivation).unwrap_or_else(|_| panic!("{} is too large", model.name));

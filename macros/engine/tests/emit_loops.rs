@@ -57,7 +57,8 @@ fn only_the_state_has_fields() {
     let [Item::Mod(leg)] = parts[..] else { panic!("one part") };
     assert_eq!(leg.ident, "leg");
     let structs = items(leg).iter().filter(|item| matches!(item, Item::Struct(_))).count();
-    assert_eq!((structs, fields(leg, "Input")), (1, vec!["thrust:T".to_string()]));
+    assert_eq!((structs, fields(leg, "Input")), (2, vec!["thrust:T".to_string()]));
+    assert_eq!(fields(leg, "Guess"), ["gimbal:::multibody::Universal<T>"]);
 }
 
 #[test]
@@ -122,7 +123,8 @@ fn structs_say_what_is_given() {
         fields(&module, "Derivative"),
         ["v:Velocity<T>", "x:States<T>", &format!("multipliers:{}", vector(1)), "rank:T", "residual:T"]
     );
-    assert_eq!(fields(&module, "State")[3], format!("guess:{}", vector(4)));
+    assert_eq!(fields(&module, "State")[3], "guess:Guess<T>");
+    assert_eq!(fields(&module, "Guess"), ["legs:[leg::Guess<T>;2]"]);
     assert_eq!(fields(&module, "Closed"), ["state:State<T>", "residual:T"]);
     assert_eq!(fields(&module, "Solved"), ["input:Input<T>", "rank:T"]);
 }

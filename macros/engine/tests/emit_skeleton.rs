@@ -90,7 +90,7 @@ fn loops_are_guessed() {
     }
     assert!(!text.contains("guess"));
     let text = skeletons_of(&format!("mod broken {{ formulation {{ constraints: Reduced }} {items} }}"));
-    for piece in ["pubguess:::multibody::nalgebra::SVector<T,4>", "pubfnclose(", "pubresidual:T"] {
+    for piece in ["pubguess:Guess<T>", "pubfnclose(", "pubresidual:T"] {
         assert!(text.contains(piece), "{piece} is missing");
     }
     assert!(!text.contains("pubmultipliers"));

@@ -167,6 +167,12 @@ impl Control {
         self.after_rejection = false;
     }
 
+    /// After a step that its error would have allowed, and yet can't be kept.
+    pub(super) fn refuse(&mut self, length: f64) {
+        self.step = 0.5 * length;
+        self.after_rejection = true;
+    }
+
     /// Whether a step is below the least one.
     pub(super) fn is_too_short(&self, t: f64, length: f64) -> bool {
         let (t, length) = (t.abs(), length.abs());

@@ -28,6 +28,33 @@ pub enum IntegrationError {
         /// `[s]` the time reached.
         time: f64,
     },
+    /// A step comes to a dead centre of a loop, or would jump over it: two solutions of the loop meet there, so the
+    /// coordinates of a reduced model end. The mechanism itself may go on with the other solution, which the same model
+    /// with `constraints: Multipliers` and [`WithProjection`](crate::WithProjection) follows. A fixed step that is too long
+    /// to tell a near miss from a dead centre ends so too; shorter steps, or steps chosen by error, go on.
+    DeadCentre {
+        /// `[s]` the time reached.
+        time: f64,
+        /// The coordinate that the solution of the loop finds.
+        coordinate: &'static str,
+    },
+    /// The loops of the state are open: at the start, or in a run because Newton's method no longer converges.
+    OpenLoops {
+        /// `[s]` the time.
+        time: f64,
+        /// The greatest residual, in m or rad.
+        residual: f64,
+        /// What closes them.
+        remedy: &'static str,
+    },
+    /// The mass matrix is singular: nothing that moves with this coordinate has inertia, so no equation gives its
+    /// acceleration.
+    NoInertia {
+        /// `[s]` the last time at which all was finite, or the start.
+        time: f64,
+        /// The coordinate.
+        coordinate: &'static str,
+    },
     /// Events of one function, each with a jump, follow each other ever faster: a ball that comes to rest. Or functions
     /// cross zero more than a hundred times between two points at which they are looked at, or jump more than ten thousand
     /// times within one step of given length.
@@ -55,6 +82,18 @@ impl fmt::Display for IntegrationError {
             Self::NoConvergence { time } => {
                 write!(f, "at t = {time} s the equations of the step have no solution near its start: it is too long")
             }
+            Self::DeadCentre { time, coordinate } => write!(
+                f,
+                "after t = {time} s the loop that gives `{coordinate}` comes to a dead centre, where its coordinates end: \
+                 take `constraints: Multipliers` with projection, or a coordinate that goes through, or shorter steps"
+            ),
+            Self::OpenLoops { time, residual, remedy } => {
+                write!(f, "at t = {time} s the loops are open by {residual:e} (m or rad): {remedy}")
+            }
+            Self::NoInertia { time, coordinate } => write!(
+                f,
+                "after t = {time} s the mass matrix is singular: nothing that moves with `{coordinate}` has inertia"
+            ),
             Self::EventsAccumulate { time } => {
                 write!(f, "events follow each other too fast and accumulate at t = {time} s")
             }

@@ -2,6 +2,7 @@
 
 use super::dense::Dense;
 use super::error::IntegrationError;
+use super::outlook::{Soundness, cause, check_start};
 use super::problem::{Problem, Step};
 use super::slope::{SlopeOf, displaced, is_finite, magnitude};
 use crate::{Real, StateSpace, System, Tangent, all};
@@ -159,6 +160,9 @@ pub(super) fn step<S: System, M: Method<S>>(
         attempt.displacement = attempt.displacement.scale(S::Scalar::lit(f64::NAN)); // no state rather than a wrong one
     }
     let next = problem.accepted(step.end, &displaced(state, &attempt.displacement));
+    let sound = Soundness::at(&problem, step.end, &next, dt).mask;
+    let (q, v, x) = next.split();
+    let next = next.join(q, v.map(&mut |v| Real::select(sound, v, S::Scalar::lit(f64::NAN))), x);
     problem.reached(step.end, &next);
     next
 }
@@ -175,7 +179,8 @@ pub(super) fn integrate<S: System, M: Method<S>>(
     let problem = Problem::new(system, input);
     let mut state = *state;
     let mut t = t0;
-    let mut memory = None;
+    let (mut memory, mut signs) = (None, None);
+    check_start(&problem, t, &state)?;
     for k in 1..=steps {
         let end = t0 + S::Scalar::lit(f64::from(k)) * dt;
         let now = memory.unwrap_or_else(|| method.begin(&problem, t, &state));
@@ -183,11 +188,12 @@ pub(super) fn integrate<S: System, M: Method<S>>(
         let attempt = method.attempt(&problem, &step, &now);
         let next = Accepted::new(&problem, end, &displaced(&state, &attempt.displacement));
         if !is_finite(&magnitude(&next.state)) {
-            return Err(IntegrationError::NonFinite { time: t.greatest() });
+            return Err(cause(&problem, t, &state, dt));
         }
         if !attempt.converged {
             return Err(IntegrationError::NoConvergence { time: t.greatest() });
         }
+        signs = Some(Soundness::at(&problem, end, &next.state, dt).check(t, signs, &problem, &next.state)?);
         if k < steps {
             memory = Some(method.proceed(&problem, &step, &now, &attempt, &next));
         }
@@ -204,7 +210,7 @@ macro_rules! inherent {
     ($method:ident $(: $bound:path)?) => {
         impl $method {
             /// The state after one step of `dt` `[s]` from the time `t` `[s]`, with the input held; NaN where an implicit
-            /// method finds no solution.
+            /// method finds no solution, or a loop comes to a dead centre.
             #[inline]
             pub fn step<S: $crate::System $(+ $bound)?>(
                 system: &S,
@@ -223,7 +229,9 @@ macro_rules! inherent {
             ///
             /// # Errors
             /// [`NonFinite`](crate::IntegrationError::NonFinite) as soon as the state is infinite or NaN (in any lane);
-            /// [`NoConvergence`](crate::IntegrationError::NoConvergence) where an implicit method finds no solution.
+            /// [`NoConvergence`](crate::IntegrationError::NoConvergence) where an implicit method finds no solution;
+            /// [`DeadCentre`](crate::IntegrationError::DeadCentre) and
+            /// [`OpenLoops`](crate::IntegrationError::OpenLoops) of loops.
             pub fn integrate<S: $crate::System $(+ $bound)?>(
                 system: &S,
                 t0: S::Scalar,

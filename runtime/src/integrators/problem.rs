@@ -2,7 +2,7 @@
 
 use super::control::Tolerance;
 use super::slope::{SlopeOf, displaced, rate_of_displacement, slope};
-use crate::{Canonical, Differentiable, Jacobian, Real, System, VelocityOf};
+use crate::{Canonical, Differentiable, Jacobian, Margin, Opening, Real, System, VelocityOf};
 use core::cell::Cell;
 
 /// A system with the input that is held, counting its evaluations.
@@ -69,6 +69,24 @@ impl<'a, S: System> Problem<'a, S> {
     #[inline]
     pub fn reached(&self, t: S::Scalar, state: &S::State) {
         self.system.reached(t, state);
+    }
+
+    /// Calls with every dead centre that the loops have: see [`System::margins`].
+    #[inline]
+    pub fn margins(&self, t: S::Scalar, state: &S::State, visit: &mut dyn FnMut(Margin<S::Scalar>)) -> S::Scalar {
+        self.system.margins(t, state, self.input, visit)
+    }
+
+    /// How far the loops are open at a start: see [`System::opening`].
+    #[inline]
+    pub fn opening(&self, t: S::Scalar, state: &S::State) -> Opening<S::Scalar> {
+        self.system.opening(t, state, self.input)
+    }
+
+    /// A coordinate without inertia: see [`System::without_inertia`].
+    #[inline]
+    pub fn without_inertia(&self, t: S::Scalar, state: &S::State) -> Option<&'static str> {
+        self.system.without_inertia(t, state, self.input)
     }
 
     /// Evaluations of the system so far.

@@ -4,7 +4,8 @@ use super::control::Control;
 use super::error::IntegrationError;
 use super::integrator::{Integrator, Statistics, Steps};
 use super::interval::Interval;
-use super::method::{Accepted, Method};
+use super::method::Method;
+use super::outlook::{Outlook, Reached, STUCK, cause, check_start};
 use super::problem::{Problem, Step};
 use super::slope::{SlopeOf, advanced, displaced, is_finite, magnitude, owed};
 use crate::{Real, System, Tangent};
@@ -45,6 +46,11 @@ pub(super) struct Run<'a, S: System, M: Method<S>> {
     interruptions: u32,
     accepted: u32,
     rejected: u32,
+    /// Dead centres around the state.
+    outlook: Outlook,
+    /// `[s]` length of the last step and of the longest, without a sign.
+    last: f64,
+    longest: f64,
 }
 
 impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
@@ -80,11 +86,17 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
         if !is_finite(&magnitude(state)) {
             return Err(IntegrationError::NonFinite { time: t0 });
         }
+        check_start(problem, start, state)?;
         let control = match settings.steps {
             Steps::Fixed(_) => None,
             Steps::Adaptive(tolerance) => {
                 let slope = || settings.method.first_slope(problem, start, state, &mut memory);
-                Some(Control::start(tolerance, M::ESTIMATE, problem, (t0, t1), state, slope)?)
+                match Control::start(tolerance, M::ESTIMATE, problem, (t0, t1), state, slope) {
+                    Err(IntegrationError::NonFinite { .. }) => {
+                        return Err(cause(problem, start, state, S::Scalar::lit(0.0)));
+                    }
+                    control => Some(control?),
+                }
             }
         };
         Ok(Self {
@@ -102,6 +114,9 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
             interruptions: 0,
             accepted: 0,
             rejected: 0,
+            outlook: Outlook::unknown(),
+            last: 0.0,
+            longest: 0.0,
         })
     }
 
@@ -146,8 +161,11 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
         };
         let target = control.target(self.t, self.end);
         let length = target - self.t; // with the rounding of the time, so that steps add up to it
+        let cut = self.outlook.cut(length);
+        let (target, length) = if cut == length { (target, length) } else { (self.t + cut, self.t + cut - self.t) };
         if target != self.end && control.is_too_short(self.t, length) {
-            return Err(IntegrationError::StepTooSmall { time: self.t, step: length.abs() });
+            let error = IntegrationError::StepTooSmall { time: self.t, step: length.abs() };
+            return Err(self.explained(error, length));
         }
         Ok((target, length))
     }
@@ -161,6 +179,9 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
             return Err(IntegrationError::TooManySteps { time: self.t });
         }
         let (target, length) = self.target()?;
+        if let Some(coordinate) = self.outlook.ahead(length) {
+            return Err(self.dead_centre(coordinate));
+        }
         let state = self.state;
         let step = Step {
             t: S::Scalar::lit(self.t),
@@ -180,7 +201,16 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
         if let (Steps::Adaptive(tolerance), Some(control)) = (self.settings.steps, &mut self.control) {
             let (size, next_size) = (magnitude(&state), magnitude(&next));
             let error = method.error(&step, &attempt, |vector| tolerance.norm(vector, &size, &next_size)).greatest();
-            let error = if attempt.converged { error } else { f64::NAN };
+            let mut error = if attempt.converged { error } else { f64::NAN };
+            if error <= 1.0 && self.outlook.is_near(Real::max(length.abs(), self.longest)) {
+                let tolerance = tolerance.relative + tolerance.absolute;
+                let end = (step.end, length);
+                let spread = Outlook::spread(self.problem, end, &next, &attempt.error, tolerance);
+                error = if spread <= error { error } else { spread }; // NaN counts as more
+                if (error.is_nan() || error > 1.0) && self.outlook.is_rounding(length) {
+                    return Err(self.dead_centre(self.outlook.name_ahead(length)));
+                }
+            }
             let accepted = control.judge(error, length);
             control.change_step(method.next_step(&attempt, length, control.step()));
             if !accepted {
@@ -189,16 +219,26 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
                 return if error.is_finite() || !control.is_too_short(self.t, control.step()) {
                     Ok(())
                 } else {
-                    Err(stopped(attempt.converged || !is_finite(&magnitude(&next)), self.t))
+                    Err(self.explained(stopped(attempt.converged || !is_finite(&magnitude(&next)), self.t), length))
                 };
             }
         } else if !attempt.converged {
-            return Err(stopped(!is_finite(&magnitude(&next)), self.t));
+            return Err(self.explained(stopped(!is_finite(&magnitude(&next)), self.t), length));
         }
-        let next = Accepted::new(self.problem, step.end, &next);
+        let Reached { end: next, outlook } = Reached::new(self.problem, step.end, &next);
         let rest = if self.settings.compensated { owed(&next.state, &rest) } else { rest };
         if !is_finite(&magnitude(&next.state)) {
-            return Err(IntegrationError::NonFinite { time: self.t });
+            return Err(self.explained(IntegrationError::NonFinite { time: self.t }, length));
+        }
+        let passed = outlook.behind(length, &self.outlook, self.problem, (target, &next.state));
+        let passed = passed.map(|coordinate| self.dead_centre(coordinate));
+        let open = outlook.open().map(|residual| IntegrationError::OpenLoops { time: self.t, residual, remedy: STUCK });
+        if let Some(error) = passed.or(open) {
+            let Some(control) = &mut self.control else { return Err(error) };
+            control.refuse(length);
+            self.rejected += 1;
+            self.memory = method.repeat(&self.memory, &attempt);
+            return if control.is_too_short(self.t, control.step()) { Err(error) } else { Ok(()) };
         }
         let verdict = observe(&Interval::new(
             (method, self.problem, &self.memory),
@@ -209,6 +249,9 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
             self.settings.compensated.then_some(&self.rest),
         ))?;
         self.accepted += 1;
+        self.last = length.abs();
+        self.longest = Real::max(self.longest, self.last);
+        self.outlook = outlook;
         match verdict {
             Verdict::Continue => {
                 self.problem.reached(step.end, &next.state);
@@ -245,8 +288,28 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
         Ok(())
     }
 
+    fn dead_centre(&self, coordinate: &'static str) -> IntegrationError {
+        IntegrationError::DeadCentre { time: self.t, coordinate }
+    }
+
+    /// What is behind an error after a step of this length: a dead centre, or no inertia.
+    fn explained(&self, error: IntegrationError, length: f64) -> IntegrationError {
+        if let Some(coordinate) = self.outlook.blamed(Real::max(length.abs(), self.last).copysign(length)) {
+            return self.dead_centre(coordinate);
+        }
+        if !matches!(error, IntegrationError::NonFinite { .. }) {
+            return error;
+        }
+        match cause(self.problem, S::Scalar::lit(self.t), &self.state, S::Scalar::lit(length)) {
+            IntegrationError::DeadCentre { coordinate, .. } => self.dead_centre(coordinate),
+            IntegrationError::NoInertia { coordinate, .. } => IntegrationError::NoInertia { time: self.t, coordinate },
+            _ => error,
+        }
+    }
+
     /// A state that no step led to.
     fn jump(&mut self, time: f64, state: S::State) {
+        self.outlook = Outlook::at(self.problem, S::Scalar::lit(time), &state);
         self.t = time;
         self.state = state;
         self.rest = SlopeOf::<S>::zero();

@@ -4,7 +4,7 @@
 //! `Phi'' = 0` the accelerations keep `Phi'' + 2 a Phi' + a^2 Phi = 0`, critically damped, so what steps leave open
 //! closes like `exp(-a t)`. The exact motion is not changed, since all that is added vanishes with `Phi` and `Phi'`.
 
-use super::handed_on::handed_on;
+use super::handed_on::{handed_on, watched};
 use super::{ByMass, Plain, Weighting};
 use crate::linear::Square;
 use crate::tangent::unit;
@@ -100,6 +100,8 @@ impl<S: Constrained, W: Weighting<S>> System for WithBaumgarte<S, W> {
     fn reached(&self, t: S::Scalar, state: &S::State) {
         self.system.reached(t, state);
     }
+
+    watched!();
 }
 
 /// Of what is added only `-2 a C G` and `-a^2 C G` are differentiated, where `C` is the jump: exact to first order in

@@ -86,4 +86,28 @@ macro_rules! handed_on {
     };
 }
 
-pub(super) use handed_on;
+/// What a wrapper's `System` says of loops: what the system says that it holds.
+macro_rules! watched {
+    () => {
+        #[inline]
+        fn margins(
+            &self,
+            t: S::Scalar,
+            state: &S::State,
+            input: &S::Input,
+            visit: &mut dyn FnMut(crate::Margin<S::Scalar>),
+        ) -> S::Scalar {
+            self.system.margins(t, state, input, visit)
+        }
+        #[inline]
+        fn opening(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> crate::Opening<S::Scalar> {
+            self.system.opening(t, state, input)
+        }
+        #[inline]
+        fn without_inertia(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> Option<&'static str> {
+            self.system.without_inertia(t, state, input)
+        }
+    };
+}
+
+pub(super) use {handed_on, watched};

@@ -1,6 +1,6 @@
 //! How many equations are independent: [`rank`] at one state, [`WithRank`] over an integration.
 
-use super::handed_on::handed_on;
+use super::handed_on::{handed_on, watched};
 use super::{Plain, Weighting};
 use crate::{
     Canonical, Constrained, Differentiable, ExtraOf, Impulsive, Jacobian, PositionOf, Real, Separable, StateSpace,
@@ -65,6 +65,8 @@ impl<S: Constrained> System for WithRank<S> {
         let lower = Real::lt(now, least);
         self.least.set(Some((Real::select(lower, now, least), Real::select(lower, t, when))));
     }
+
+    watched!();
 }
 
 handed_on!(WithRank<S>, [], Constrained, Impulsive, Differentiable, Canonical, Separable);

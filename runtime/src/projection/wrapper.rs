@@ -1,6 +1,6 @@
 //! A projection after each step of any integrator: [`WithProjection`].
 
-use super::handed_on::handed_on;
+use super::handed_on::{handed_on, watched};
 use super::{ByMass, Mask, Plain, Projection, Weighting, finite};
 use crate::{
     Canonical, Constrained, Differentiable, ExtraOf, Impulsive, Jacobian, PositionOf, Real, Separable, StateSpace,
@@ -83,6 +83,8 @@ impl<S: Constrained, W: Weighting<S>> System for WithProjection<S, W> {
     fn reached(&self, t: S::Scalar, state: &S::State) {
         self.system.reached(t, state);
     }
+
+    watched!();
 }
 
 handed_on!(WithProjection<S, W>, [W: Weighting<S>], Constrained, Impulsive, Differentiable, Canonical, Separable);

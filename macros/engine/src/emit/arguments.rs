@@ -48,9 +48,10 @@ impl Arguments {
             FunctionKind::Constraints | FunctionKind::ConstraintJacobian | FunctionKind::DeadCentres => {
                 Arguments { time: true, ..position }
             }
-            FunctionKind::ConstraintRate | FunctionKind::ConstraintBias | FunctionKind::Guess => {
-                Arguments { time: true, ..state }
-            }
+            FunctionKind::ConstraintRate
+            | FunctionKind::ConstraintBias
+            | FunctionKind::Guess
+            | FunctionKind::Margins => Arguments { time: true, ..state },
             FunctionKind::Kinematics(_) => Arguments { time: true, accel: true, ..state },
             FunctionKind::Residual => Arguments { accel: true, multipliers: true, ..all },
         }

@@ -135,6 +135,9 @@ pub(super) fn group(layout: &Layout<'_>, group: Group, owner: Option<PartTypeId>
         }
         Group::States => format!("States of {of} beside its coordinates, or their rates."),
         Group::Input => format!("Inputs of {of}, held over a step. The default is zero."),
+        Group::Guess => {
+            format!("Where Newton's method starts to close the loops of {of}: coordinates that follow from the others.")
+        }
         Group::Output => format!("Outputs of {of}."),
     };
     let mut lines = vec![line];
@@ -231,6 +234,11 @@ pub(super) fn function(layout: &Layout<'_>, function: &Function) -> Vec<String> 
              efforts of gravity and of all declared forces."
         }
         FunctionKind::MomentumVelocity => "Velocities `M^-1 * momentum` that belong to momenta.",
+        FunctionKind::Margins => {
+            "For integrators, at a state whose guess is the solution: how far loops are from dead centres (the root of a \
+             closed form, the determinant of what Newton's method solves), each followed by the rate of its square; then \
+             the greatest residual of Newton's method, if it closes loops."
+        }
         FunctionKind::DeadCentres => {
             "Distances from dead centres, in the order of `DEAD_CENTRES`. Of a loop's solution: its square root, a product \
              of lengths, zero where two solutions meet and NaN where the loop cannot be closed. Of roll, pitch and yaw: \

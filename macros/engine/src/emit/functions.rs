@@ -36,6 +36,7 @@ pub fn name(kind: FunctionKind) -> Cow<'static, str> {
         FunctionKind::Kinematics(number) => return Cow::Owned(format!("kinematics_{}", number + 1)),
         FunctionKind::Guess => "close",
         FunctionKind::DeadCentres => "dead_centres",
+        FunctionKind::Margins => "margins",
         FunctionKind::Impulse => "impulse",
         FunctionKind::Momentum => "momentum",
         FunctionKind::MomentumRate => "momentum_rate",

@@ -9,7 +9,7 @@ use std::collections::HashSet;
 use crate::mechanics::analysis::driven_by;
 use crate::mechanics::closings::{closings, row_count};
 use crate::mechanics::structure::{Means, Row, Step, Structure};
-use crate::model::types::{Coordinate, Handling, JointId, Model};
+use crate::model::types::{Coordinate, Handling, Model};
 
 /// As many equations are made up.
 const MOST: usize = 512;
@@ -31,10 +31,9 @@ pub(super) fn structure(model: &Model) -> Structure {
         let left: Vec<Coordinate> =
             structure.state.iter().copied().filter(|coordinate| !away.contains(coordinate)).collect();
         if model.independent.is_empty() {
-            // Which coordinates Newton's method finds is not known: how many, perhaps.
+            // Which coordinates Newton's method finds is not known: any of them may be one.
             if model.solves.is_empty() && !rows.is_empty() {
-                let unknown = Coordinate { joint: JointId(0), index: 0 };
-                steps.push(newton(vec![unknown; rows.len()]));
+                steps.push(newton(left));
             }
         } else {
             let dependent = left.into_iter().filter(|coordinate| !model.independent.contains(coordinate));

@@ -6,8 +6,7 @@
 
 use super::leaf::Leaf;
 use super::{document, names};
-use crate::mechanics::structure::Structure;
-use crate::model::types::{Joint, JointId, JointKind, Model, Orientation};
+use crate::model::types::{Coordinate, Joint, JointId, JointKind, Model, Orientation};
 use proc_macro2::Ident;
 
 /// A leaf made of neighbouring coordinates of a joint.
@@ -101,11 +100,11 @@ pub(super) fn pieces(kind: &JointKind, held: &[bool]) -> Vec<Piece> {
     pieces.collect()
 }
 
-/// Which coordinates of a joint are in the state.
-pub(super) fn held(model: &Model, structure: &Structure, joint: JointId) -> Vec<bool> {
+/// Which coordinates of a joint are among these.
+pub(super) fn held(model: &Model, coordinates: &[Coordinate], joint: JointId) -> Vec<bool> {
     let freedoms = model.joints.get(joint.0).map_or(0, |joint| joint.kind.freedoms());
     let mut held = vec![false; freedoms];
-    for coordinate in structure.state.iter().filter(|coordinate| coordinate.joint == joint) {
+    for coordinate in coordinates.iter().filter(|coordinate| coordinate.joint == joint) {
         if let Some(place) = held.get_mut(coordinate.index) {
             *place = true;
         }
@@ -115,17 +114,17 @@ pub(super) fn held(model: &Model, structure: &Structure, joint: JointId) -> Vec<
 
 /// The field of a joint's piece. Fields of one name in one part have one type, in whatever instance they stand: where
 /// another instance has more of the joint than this one, the name says what is left.
-pub(super) fn field(model: &Model, structure: &Structure, id: JointId, joint: &Joint, piece: &Piece) -> Ident {
+pub(super) fn field(model: &Model, coordinates: &[Coordinate], id: JointId, joint: &Joint, piece: &Piece) -> Ident {
     let part = |joint: &Joint| model.instances.get(joint.place.instance.0).and_then(|instance| instance.part_type);
     let is_beside = |other: &&Joint| part(other) == part(joint);
     let suffix = piece.suffix.or_else(|| {
-        let own = held(model, structure, id);
+        let own = held(model, coordinates, id);
         let mut others =
             model.joints.iter().enumerate().filter(|(_, other)| {
                 part(joint).is_some() && is_beside(other) && other.place.field == joint.place.field
             });
         let differs = others.any(|(number, _)| {
-            let other = held(model, structure, JointId(number));
+            let other = held(model, coordinates, JointId(number));
             other.contains(&true) && other != own
         });
         let what = if piece.first[1] == 0 { "position" } else { "orientation" };

@@ -23,13 +23,15 @@ pub(super) enum Group {
     Position,
     Velocity,
     States,
+    /// Where Newton's method starts to close loops.
+    Guess,
     Input,
     Output,
 }
 
 impl Group {
-    pub(super) const ALL: [Group; 6] =
-        [Group::Params, Group::Position, Group::Velocity, Group::States, Group::Input, Group::Output];
+    pub(super) const ALL: [Group; 7] =
+        [Group::Params, Group::Position, Group::Velocity, Group::States, Group::Guess, Group::Input, Group::Output];
 
     /// Name of the struct.
     pub(super) fn name(self) -> Ident {
@@ -38,6 +40,7 @@ impl Group {
             Group::Position => "Position",
             Group::Velocity => "Velocity",
             Group::States => "States",
+            Group::Guess => "Guess",
             Group::Input => "Input",
             Group::Output => "Output",
         })
@@ -90,8 +93,11 @@ pub(super) struct Layout<'a> {
     position: Table,
     velocity: Table,
     states: Table,
+    guess: Table,
     input: Table,
     output: Table,
+    /// By the number of an unknown in the guess: its leaf there, and the component.
+    guessed: Vec<(usize, usize)>,
     /// By joint: numbers of its leaves in `position` and `velocity`, and what of the joint they hold.
     joints: Vec<Vec<(usize, Piece)>>,
 }
@@ -105,11 +111,14 @@ impl<'a> Layout<'a> {
             position: Table::default(),
             velocity: Table::default(),
             states: Table::default(),
+            guess: Table::default(),
+            guessed: Vec::new(),
             input: Table::default(),
             output: Table::default(),
             joints: Vec::new(),
         };
         layout.add_joints();
+        layout.add_guess();
         let dof = layout.dof();
         for param in &model.params {
             let leaf = Leaf::value(&param.ty, dof);
@@ -147,8 +156,8 @@ impl<'a> Layout<'a> {
             if self.joints.get(id.0).is_none_or(|pieces| !pieces.is_empty()) {
                 continue;
             }
-            for piece in joints::pieces(&joint.kind, &joints::held(model, structure, id)) {
-                let field = joints::field(model, structure, id, joint, &piece);
+            for piece in joints::pieces(&joint.kind, &joints::held(model, &structure.state, id)) {
+                let field = joints::field(model, &structure.state, id, joint, &piece);
                 let place = Place { instance: joint.place.instance, field };
                 let [of_position, of_velocity] = piece.docs(joint);
                 self.add(Group::Position, &place, piece.position.clone(), of_position);
@@ -158,6 +167,58 @@ impl<'a> Layout<'a> {
                 }
             }
         }
+    }
+
+    /// What Newton's method finds, in its order, coordinates of one joint together; starts where the loops are closed.
+    fn add_guess(&mut self) {
+        let (model, structure) = (self.model, self.structure);
+        let unknowns = structure.guessed();
+        self.guessed = vec![(usize::MAX, 0); unknowns.len()];
+        for (number, coordinate) in unknowns.iter().enumerate() {
+            let id = coordinate.joint;
+            let Some(joint) = model.joints.get(id.0) else {
+                continue;
+            };
+            if unknowns.iter().take(number).any(|other| other.joint == id) {
+                continue;
+            }
+            for piece in joints::pieces(&joint.kind, &joints::held(model, &unknowns, id)) {
+                let field = joints::field(model, &unknowns, id, joint, &piece);
+                let place = Place { instance: joint.place.instance, field };
+                let [docs, _] = piece.docs(joint);
+                let entry = self.add(Group::Guess, &place, piece.position.clone(), docs);
+                let mut start = vec![0.0; piece.position.size()];
+                for (known, unknown) in unknowns.iter().enumerate().filter(|(_, unknown)| unknown.joint == id) {
+                    let Some(component) = piece.component(false, unknown.index) else { continue };
+                    if let Some(place) = self.guessed.get_mut(known) {
+                        *place = (entry, component);
+                    }
+                    let closed = structure.closed.first().and_then(|closed| closed.value(model, *unknown));
+                    if let Some((place, value)) = start.get_mut(component).zip(closed) {
+                        *place = value;
+                    }
+                }
+                self.default(Group::Guess, start);
+            }
+        }
+    }
+
+    /// The leaf and the component of an unknown of the guess.
+    pub(super) fn guessed(&self, index: usize) -> Option<(&Entry, usize)> {
+        let (entry, component) = *self.guessed.get(index)?;
+        Some((self.guess.entries.get(entry)?, component))
+    }
+
+    /// The unknowns of the guess in the order of its leaves.
+    pub(super) fn in_leaves(&self, unknowns: &[TokenStream]) -> Vec<TokenStream> {
+        let mut list = vec![TokenStream::new(); self.guess.size];
+        for (index, unknown) in unknowns.iter().enumerate() {
+            let place = self.guessed(index).and_then(|(entry, component)| list.get_mut(entry.offset + component));
+            if let Some(place) = place {
+                place.clone_from(unknown);
+            }
+        }
+        list
     }
 
     fn add(&mut self, group: Group, place: &Place, leaf: Leaf, docs: Vec<String>) -> usize {
@@ -187,6 +248,7 @@ impl<'a> Layout<'a> {
             Group::Position => &self.position,
             Group::Velocity => &self.velocity,
             Group::States => &self.states,
+            Group::Guess => &self.guess,
             Group::Input => &self.input,
             Group::Output => &self.output,
         }
@@ -198,6 +260,7 @@ impl<'a> Layout<'a> {
             Group::Position => &mut self.position,
             Group::Velocity => &mut self.velocity,
             Group::States => &mut self.states,
+            Group::Guess => &mut self.guess,
             Group::Input => &mut self.input,
             Group::Output => &mut self.output,
         }

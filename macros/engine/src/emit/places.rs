@@ -95,12 +95,13 @@ impl Layout<'_> {
     pub(super) fn path_of(&self, symbol: Symbol) -> TokenStream {
         let place = match symbol {
             Symbol::Time | Symbol::Unknown { .. } => None,
-            Symbol::Multiplier { row: index } | Symbol::Rate { row: index } | Symbol::Guess { index } => {
+            Symbol::Multiplier { row: index } | Symbol::Rate { row: index } => {
                 let index = Literal::usize_unsuffixed(index);
                 return quote!([#index]);
             }
             Symbol::Param { param, element } => self.entry(Group::Params, param.0, element),
             Symbol::Input { input, element } => self.entry(Group::Input, input.0, element),
+            Symbol::Guess { index } => self.guessed(index),
             Symbol::State { state } => self.entry(Group::States, state.0, 0),
             Symbol::Position { joint, component } => self.joint(Group::Position, joint, component),
             Symbol::Velocity { joint, component }

@@ -49,7 +49,7 @@ pub(super) fn lines(context: &Context<'_>) -> Vec<String> {
         joints.filter(|(id, _)| !model.cuts.contains(id)).map(|(id, j)| {
             let (parent, child) = (frame(layout, &j.parent), frame(layout, &j.child));
             let all = j.kind.freedoms();
-            let held = joints::held(model, layout.structure, id).iter().filter(|held| **held).count();
+            let held = joints::held(model, &layout.structure.state, id).iter().filter(|held| **held).count();
             let freedoms = if held == all { all.to_string() } else { format!("{held} of {all}") };
             let kind = kind(&j.kind).to_string();
             row(layout, &j.place, vec![kind, parent, child, freedoms, text(&j.docs)])

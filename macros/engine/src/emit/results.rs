@@ -68,6 +68,10 @@ pub(super) fn ty(layout: &Layout<'_>, kind: FunctionKind) -> TokenStream {
         | FunctionKind::MomentumRate
         | FunctionKind::MomentumVelocity => quote!(Velocity<T>),
         FunctionKind::DeadCentres => vector_type(layout, layout.structure.dead_centres.len()),
+        FunctionKind::Margins => {
+            let residual = usize::from(layout.structure.guesses() > 0);
+            vector_type(layout, 2 * layout.structure.margins().len() + residual)
+        }
     }
 }
 
@@ -110,7 +114,7 @@ pub(super) fn value(layout: &Layout<'_>, kind: FunctionKind, results: Vec<TokenS
         FunctionKind::Guess => {
             let (mut results, state) = (results, names::ident("state"));
             let residual = results.split_off(layout.structure.guesses().min(results.len()));
-            let guess = vector(layout, results);
+            let guess = filled(layout, Group::Guess, &layout.in_leaves(&results));
             quote!(Closed { state: State { guess: #guess, ..*#state }, residual: #(#residual)* })
         }
         FunctionKind::Bias
@@ -118,6 +122,7 @@ pub(super) fn value(layout: &Layout<'_>, kind: FunctionKind, results: Vec<TokenS
         | FunctionKind::ConstraintRate
         | FunctionKind::ConstraintBias
         | FunctionKind::DeadCentres
+        | FunctionKind::Margins
         | FunctionKind::Residual => vector(layout, results),
     }
 }

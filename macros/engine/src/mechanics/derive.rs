@@ -112,6 +112,10 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
         let kind = FunctionKind::DeadCentres;
         functions.push(Derived { kind, candidates: deriving.candidates(kind)? });
     }
+    if model.emit.contains(&Request::ForwardDynamics) && deriving.may_reach_dead_centres() {
+        let kind = FunctionKind::Margins;
+        functions.push(Derived { kind, candidates: deriving.candidates(kind)? });
+    }
     let checks = deriving.checks()?;
     let Deriving { graph, symbols, notes, dead_centres, .. } = deriving;
     Ok(Derivation { graph, symbols: symbols.table, symbol_names, functions, notes, dead_centres, checks })
@@ -200,6 +204,7 @@ impl<'m> Deriving<'m> {
                 | FunctionKind::ConstraintJacobian
                 | FunctionKind::ConstraintRate
                 | FunctionKind::ConstraintBias
+                | FunctionKind::Margins
                 | FunctionKind::Guess => Ok(Vec::new()),
                 FunctionKind::DeadCentres => self.only("closed forms", |e| {
                     let pitches = gimbals::pitches(e.model, &e.structure);
@@ -262,10 +267,21 @@ impl<'m> Deriving<'m> {
                 roots.extend(gimbals::cosines(&mut e.g, &e.symbols, &pitches));
                 Ok(e.finish(reduction, &roots))
             }),
+            FunctionKind::Margins => self.only("closed forms, determinants", |e| {
+                e.at_guess = true;
+                let reduction = e.reduce()?;
+                Ok(e.margins(&reduction))
+            }),
             FunctionKind::Impulse | FunctionKind::MomentumVelocity => self.constrained_jumps(),
             FunctionKind::Momentum => self.reduced_momenta(),
             FunctionKind::MomentumRate => self.reduced_momentum_rates(),
         }
+    }
+
+    /// Whether loops are solved in a way that ends in dead centres.
+    fn may_reach_dead_centres(&self) -> bool {
+        let dependent = |c: &Coordinate| matches!(self.structure.role(*c), Role::Dependent(_));
+        self.structure.guesses() > 0 || self.dead_centres.iter().any(dependent)
     }
 
     /// Whether every coordinate is in the state and no equation keeps a multiplier.

@@ -106,6 +106,8 @@ pub struct Equations<'m> {
     pub(super) stand_ins: StandIns,
     /// Forces are being derived: the checker lets none depend on loads, and here that would be an endless regress.
     pub(super) loading: bool,
+    /// What Newton's method finds stands in the guess already.
+    pub(super) at_guess: bool,
 }
 
 impl<'m> Equations<'m> {
@@ -142,6 +144,7 @@ impl<'m> Equations<'m> {
             slopes: HashMap::new(),
             stand_ins: StandIns::default(),
             loading: false,
+            at_guess: false,
         };
         let mechanism = equations.build(kept);
         equations.rotations = vec![None; mechanism.tree.links.len()];

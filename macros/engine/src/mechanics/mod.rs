@@ -37,6 +37,7 @@ mod jumps;
 pub mod kinematics;
 mod kinks;
 mod linearisation;
+mod margins;
 mod momentum;
 mod names;
 mod needs;

@@ -42,6 +42,8 @@ pub(super) struct Reduction {
     pub residuals: Vec<Scalar>,
     /// Unknowns that iterations have found, in the order of the guess.
     pub guesses: Vec<Scalar>,
+    /// Of each iteration the derivatives of its equations by its unknowns, row by row, on the tree.
+    pub matrices: Vec<Vec<Scalar>>,
 }
 
 /// A dependent coordinate before it is put in: expressions on the tree.
@@ -243,10 +245,18 @@ impl Equations<'_> {
         let ids = inner.iter().filter_map(|&s| g.symbol_id(s));
         let kind = BlockKind::Iterate { unknowns: ids.collect(), count: ITERATIONS };
         let start: Vec<Scalar> = (0..size).map(|k| self.symbols.guess(guess + k)).collect();
-        let operands: Vec<Scalar> = start.into_iter().chain(next).chain([residual]).collect();
-        let mut outputs = self.g.block_outputs(kind, &operands);
-        let residual = outputs.pop().unwrap_or(Scalar::ZERO);
+        let (outputs, residual): (Vec<Scalar>, Scalar) = if self.at_guess {
+            let known: Vec<(Scalar, Scalar)> = inner.iter().copied().zip(start.iter().copied()).collect();
+            let known = self.map(&known);
+            (start, self.g.substitute(&[residual], &known)[0])
+        } else {
+            let operands: Vec<Scalar> = start.into_iter().chain(next).chain([residual]).collect();
+            let mut outputs = self.g.block_outputs(kind, &operands);
+            let residual = outputs.pop().unwrap_or(Scalar::ZERO);
+            (outputs, residual)
+        };
         reduction.residuals.push(residual);
+        reduction.matrices.push(matrix.clone());
         reduction.guesses.extend(&outputs);
         // Rates: J x' = -E', with everything on the tree.
         let unknowns: Vec<(Scalar, Scalar)> = symbols.iter().map(|s| (s[1], s[2])).collect();

@@ -168,4 +168,10 @@ impl Structure {
         let newton = |step: &&Step| matches!(step.means, Means::Newton { .. });
         self.steps.iter().filter(newton).map(|step| step.unknowns.len()).sum()
     }
+
+    /// These unknowns, by their place in the guess.
+    pub fn guessed(&self) -> Vec<Coordinate> {
+        let newton = |step: &&Step| matches!(step.means, Means::Newton { .. });
+        self.steps.iter().filter(newton).flat_map(|step| step.unknowns.iter().copied()).collect()
+    }
 }

@@ -269,6 +269,9 @@ pub enum FunctionKind {
     Guess,
     /// Roots in closed forms of loops that vanish where two solutions meet.
     DeadCentres,
+    /// Of each of `Structure::margins` what vanishes in its dead centre, and the rate of its square; then, with iterations,
+    /// the greatest residual at the guess.
+    Margins,
     /// Partial derivatives of the accelerations and of the rates of own states, R of them: R x DOF by displacements of the
     /// position, R x DOF by velocities, R x own states, R x scalars of inputs, each row by row.
     ForwardDerivatives,

@@ -453,3 +453,49 @@ fn dead_centres_are_told() {
     assert!(at(last - 1e-12) < 1e-5 && at(last - 1e-12) >= 0.0, "{}", at(last - 1e-12));
     assert!(at(last + 1e-3).is_nan());
 }
+
+/// What integrators look at: the closed form's root, and Newton's determinant at its solution, vanish together, and the rates
+/// of their squares are those along the motion. The hinges stand askew to the axes, so that nothing is planar in them.
+#[test]
+fn margins_have_their_rates() {
+    let solve = "solve (coupler, rocker) from pin { sin(rocker - crank - coupler) > 0.0 }";
+    let turned = |text: String| {
+        text.replace("ground,", "ground.rotated([1, 2, 0.5], 0.7),")
+            .replace("ground.at", "ground.rotated([1, 2, 0.5], 0.7).at")
+    };
+    let closed = case(&turned(four_bar(&format!("{REDUCED} {solve}"), "Revolute").replace("2.5 * X", "1.2 * X")));
+    let newton = "formulation { constraints: Reduced, independent: [crank] }";
+    let newton = case(&turned(four_bar(newton, "Revolute").replace("2.5 * X", "1.2 * X")));
+    let (speed, step) = (0.8, 1e-6);
+    let mut ratio = None;
+    for crank in [0.3, 0.9, -1.2, 1.5, 1.6] {
+        let mut angles = vec![1.0, 2.0];
+        let mut at = |case: &Case, crank: f64| {
+            let mut point = case.rest();
+            let [position, velocity] = symbols(case, ("crank", 0));
+            point.set(position, crank);
+            point.set(velocity, speed);
+            if case.derivation.functions.iter().any(|function| function.kind == FunctionKind::Guess) {
+                for _ in 0..4 {
+                    settle(case, &mut point, &angles);
+                    angles = case.eval(FunctionKind::Guess, &point);
+                    angles.pop();
+                }
+                for (index, &value) in angles.iter().enumerate() {
+                    point.set(Symbol::Guess { index }, value);
+                }
+            }
+            case.eval(FunctionKind::Margins, &point)
+        };
+        for case in [&closed, &newton] {
+            let now = at(case, crank);
+            let [before, after] = [-step, step].map(|d| at(case, crank + d)[0].powi(2));
+            close("rate", &[now[1]], &[speed * (after - before) / (2.0 * step)], 1e-6);
+        }
+        let (root, determinant) = (at(&closed, crank)[0], at(&newton, crank));
+        assert!(determinant[2] < 1e-12, "solved: {determinant:?}");
+        let now = (root / determinant[0]).abs();
+        let constant = *ratio.get_or_insert(now);
+        close("root over determinant", &[now], &[constant], 1e-9);
+    }
+}

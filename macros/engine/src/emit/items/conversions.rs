@@ -1,4 +1,4 @@
-//! Stage `emit`: `Velocity` and `Position` from vectors and back. A position with quaternions comes from a vector only
+//! Stage `emit`: `Velocity`, `Position` and `Guess` from vectors and back. A position with quaternions comes from a vector only
 //! by a constructor that normalises.
 
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -13,7 +13,7 @@ use crate::model::types::{InstanceId, Place};
 pub(super) fn items(context: &Context<'_>) -> TokenStream {
     let layout = &context.layout;
     let mut tokens = TokenStream::new();
-    for group in [Group::Velocity, Group::Position] {
+    for group in [Group::Velocity, Group::Position, Group::Guess] {
         if layout.is_empty(group, None) {
             continue;
         }
@@ -32,7 +32,11 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
 fn to_vector(layout: &Layout<'_>, group: Group) -> TokenStream {
     let (krate, name) = (layout.krate(), group.name());
     let size = Literal::usize_unsuffixed(layout.table(group).size);
-    let from = names::ident(if group == Group::Velocity { "velocity" } else { "position" });
+    let from = names::ident(match group {
+        Group::Velocity => "velocity",
+        Group::Guess => "guess",
+        _ => "position",
+    });
     let scalars = layout.table(group).entries.iter().flat_map(|entry| {
         let path = layout.leaf_path(entry);
         let from = from.clone();

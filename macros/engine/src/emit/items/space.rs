@@ -22,7 +22,7 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
         (quote!(States<T>), quote!(self.x), quote!(x: States<T>))
     };
     let x = layout.has_states().then(|| quote!(x,));
-    let guess = (layout.structure.guesses() > 0).then(|| quote!(guess: self.guess,));
+    let guess = (!layout.is_empty(Group::Guess, None)).then(|| quote!(guess: self.guess,));
     tokens.extend(quote! {
         impl<T: Real> #krate::StateSpace for State<T> {
             type Scalar = T;

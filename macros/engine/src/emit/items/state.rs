@@ -55,13 +55,14 @@ fn state(context: &Context<'_>) -> TokenStream {
     if layout.has_states() {
         fields.push(Field::of("x", "States", "the model's own states"));
     }
-    let guesses = layout.structure.guesses();
-    if guesses > 0 {
+    let mut docs = "All that changes in time. Its default is every joint at zero, at rest.".to_owned();
+    if !layout.is_empty(Group::Guess, None) {
         let text = "where Newton's method starts to close loops; not integrated, renewed by every accepted step";
-        fields.push(Field::vector(context, "guess", guesses, text));
+        fields.push(Field::of("guess", "Guess", text));
+        docs += " Its guess is then one that closes the loops, if the macro found any with these joints at zero and \
+                 parameters at their defaults, and else one near by.";
     }
-    let docs = "All that changes in time. Its default is every joint at zero, at rest.";
-    declare("State", docs, &fields, compares_by_hand(layout, Group::Position))
+    declare("State", &docs, &fields, compares_by_hand(layout, Group::Position))
 }
 
 fn derivative(context: &Context<'_>) -> Option<TokenStream> {

@@ -1,6 +1,6 @@
 //! Stage `emit`: `System`, by which integrators run the model.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use crate::emit::arguments::{Arguments, input_type};
@@ -28,6 +28,8 @@ pub(super) fn item(context: &Context<'_>) -> TokenStream {
         (false, false) => (quote!(()), quote!((self.forward_dynamics(t, state, input), ()))),
     };
     let accepted = accepted(context);
+    let margins = margins(context);
+    let opening = opening(context);
     let constrained = constrained(context);
     quote! {
         impl<T: Real> #krate::System for Model<T> {
@@ -39,6 +41,8 @@ pub(super) fn item(context: &Context<'_>) -> TokenStream {
                 #value
             }
             #accepted
+            #margins
+            #opening
         }
         #constrained
     }
@@ -48,15 +52,93 @@ pub(super) fn item(context: &Context<'_>) -> TokenStream {
 fn accepted(context: &Context<'_>) -> Option<TokenStream> {
     let close = context.function(FunctionKind::Guess)?;
     let arguments = functions::arguments(close);
-    let [t, state, input] = ["t", "state", "input"].map(names::ident);
+    let ([t, input], state) = (named(arguments), names::ident("state"));
     let passed = arguments.pass();
     let ty = input_type(&context.layout);
-    // A name that isn't read starts with `_`.
-    let t_name = if arguments.has_time() { t } else { names::ident("_t") };
-    let input_name = if arguments.has_input() { input } else { names::ident("_input") };
     Some(quote! {
-        fn accepted(&self, #t_name: T, #state: &State<T>, #input_name: &#ty) -> State<T> {
+        fn accepted(&self, #t: T, #state: &State<T>, #input: &#ty) -> State<T> {
             self.close(#passed).state
+        }
+    })
+}
+
+/// The names of `t`, `state` and `input` in a method that hands them on with `arguments`: what isn't read starts with `_`.
+fn named(arguments: Arguments) -> [Ident; 2] {
+    let t = names::ident(if arguments.has_time() { "t" } else { "_t" });
+    let input = names::ident(if arguments.has_input() { "input" } else { "_input" });
+    [t, input]
+}
+
+/// Expands to `fn margins(..) -> T`, which tells integrators of dead centres, where loops have any.
+fn margins(context: &Context<'_>) -> Option<TokenStream> {
+    let layout = &context.layout;
+    let krate = layout.krate();
+    let arguments = functions::arguments(context.function(FunctionKind::Margins)?);
+    let passed = arguments.pass();
+    let ([t, input], state) = (named(arguments), names::ident("state"));
+    let ty = input_type(layout);
+    let coordinates = layout.structure.margins();
+    let count = coordinates.len();
+    let calls = coordinates.iter().enumerate().map(|(k, coordinate)| {
+        let name = layout.coordinate(*coordinate);
+        let [root, rate] = [2 * k, 2 * k + 1].map(Literal::usize_unsuffixed);
+        quote!(visit(#krate::Margin { coordinate: #name, root: margins[#root], rate: margins[#rate] });)
+    });
+    let residual = if layout.structure.guesses() > 0 {
+        let last = Literal::usize_unsuffixed(2 * count);
+        quote!(margins[#last])
+    } else {
+        quote!(T::lit(0.0))
+    };
+    Some(quote! {
+        fn margins(
+            &self,
+            #t: T,
+            #state: &State<T>,
+            #input: &#ty,
+            visit: &mut dyn FnMut(#krate::Margin<T>),
+        ) -> T {
+            let margins = self.margins(#passed);
+            #(#calls)*
+            #residual
+        }
+    })
+}
+
+/// Expands to `fn opening(..) -> Opening<T>`, which tells how far the loops of a start are open, where they can be.
+fn opening(context: &Context<'_>) -> Option<TokenStream> {
+    let layout = &context.layout;
+    let krate = layout.krate();
+    let ty = input_type(layout);
+    let [time, state] = ["t", "state"].map(names::ident);
+    let (arguments, residual, tolerance, remedy) = if let Some(close) = context.function(FunctionKind::Guess) {
+        let arguments = functions::arguments(close);
+        let passed = arguments.pass();
+        (
+            arguments,
+            quote!(self.close(#passed).residual),
+            quote!(T::lit(1e-8)),
+            "Newton's method finds no solution from the guess of the state: set `guess` nearer to one, such as the \
+             default, or one that `close` has found",
+        )
+    } else {
+        let constraints = context.function(FunctionKind::Constraints).filter(|_| layout.rows() > 0)?;
+        let arguments = functions::arguments(constraints);
+        if arguments != Arguments::least(FunctionKind::Constraints) {
+            return None;
+        }
+        (
+            arguments,
+            quote!(self.constraints(#time, &#state.q).amax()),
+            quote!(T::lit(1e-4)),
+            "close them with `multibody::assemble` or `Projection::project`",
+        )
+    };
+    let [t, input] = named(arguments);
+    Some(quote! {
+        fn opening(&self, #t: T, #state: &State<T>, #input: &#ty) -> #krate::Opening<T> {
+            let tolerance = Real::max(#tolerance, T::lit(1e4) * T::epsilon());
+            #krate::Opening { residual: #residual, tolerance, remedy: #remedy }
         }
     })
 }

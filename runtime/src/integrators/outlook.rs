@@ -1,0 +1,328 @@
+//! What integrators ask of closed loops: are they closed, and does a dead centre lie within a step?
+//!
+//! In a dead centre two solutions of a loop meet. With time its root goes through zero at a steady rate `-a`, and the
+//! mechanism goes on with the other solution; but the coordinates of a reduced model are functions of the root's square
+//! `u`, so they turn back as if they were reflected. No energy tells: a motion that has come back is one of the same
+//! equations. What tells is the root. Its square `u = a^2 s^2` at the distance `s` in time falls at the rate
+//! `u' = -2 a^2 s`, so `u / |u'|` is half of the time that is left (all of it where the mechanism locks up, and `u` falls
+//! like `s`). A step that is shorter has not come there, and its stages have not come near enough to lose their order. So
+//! **`2 |u'| dt < u` at both ends of every step**: at its start nothing may lie ahead within twice its length, at its end
+//! nothing behind. It holds for a step of any length that a method accepts, costs a few operations, and is true too for a near miss
+//! that the step resolves. A root that changes sign (the determinant of what Newton's method solves), that is zero or NaN
+//! has been passed.
+//!
+//! Steps chosen by error are cut to a little less, so they come nearer in a geometric sequence, and their error is judged
+//! in the root too ([`Outlook::spread`]): near a dead centre coordinates stand still, and an error far below their
+//! tolerance is a different motion. Where rounding alone is more than that, the dead centre is reached.
+
+use super::error::IntegrationError;
+use super::method::Accepted;
+use super::problem::Problem;
+use super::slope::{SlopeOf, displaced, is_finite, magnitude};
+use crate::{Margin, Real, System, Tangent, all, any};
+
+/// No dead centre may lie within so many lengths of a step. With one, methods of first order creep up to it and never arrive.
+const LENGTHS: f64 = 2.0;
+/// Steps chosen by error are at most this share of `u / |u'|`.
+const SHARE: f64 = 0.4;
+/// From this share of their longest on, their error is judged in the root.
+const NEAR: f64 = 0.05;
+/// So many roundings of the coordinates count as an error too: what they do to the root no step makes good.
+const ROUNDINGS: f64 = 4.0;
+/// Where a step of this share is still too long for it, what is left is rounding.
+const ROUNDING: f64 = 1e-3;
+/// A state that is no longer finite is blamed on a dead centre within so many steps.
+const BLAMED: f64 = 8.0;
+
+/// A rate `[1/s]` with the coordinate that has it.
+type Rate = (f64, &'static str);
+
+/// What lies ahead and behind at a state.
+#[derive(Clone, Copy)]
+pub(super) struct Outlook {
+    /// The greatest share of the root's square that is lost, and gained, in a second.
+    falls: Rate,
+    rises: Rate,
+    /// A root that is zero or NaN.
+    lost: Option<&'static str>,
+    /// Which of the first roots are negative, and which positive, in any lane.
+    signs: Option<[u64; 2]>,
+    /// The residual that Newton's method has left, if it is too great.
+    open: Option<f64>,
+}
+
+impl Outlook {
+    /// Nothing is known: at a start, where Newton's method has not been at work.
+    pub(super) const fn unknown() -> Self {
+        Self { falls: (0.0, ""), rises: (0.0, ""), lost: None, signs: None, open: None }
+    }
+
+    /// At a state that [`System::accepted`] gave.
+    #[inline]
+    pub(super) fn at<S: System>(problem: &Problem<'_, S>, t: S::Scalar, state: &S::State) -> Self {
+        let mut found = Self { signs: Some([0; 2]), ..Self::unknown() };
+        let mut bit = 1_u64;
+        let zero = S::Scalar::lit(0.0);
+        let residual = problem.margins(t, state, &mut |margin: Margin<S::Scalar>| {
+            let square = margin.root * margin.root;
+            if !all(Real::gt(square, zero) & Real::is_finite(square)) || any(Real::ne(margin.rate, margin.rate)) {
+                found.lost = found.lost.or(Some(margin.coordinate));
+                return;
+            }
+            let rate = margin.rate / square;
+            for (known, rate) in [(&mut found.falls, -rate), (&mut found.rises, rate)] {
+                let rate = rate.greatest();
+                if rate > known.0 {
+                    *known = (rate, margin.coordinate);
+                }
+            }
+            if let Some([negative, positive]) = &mut found.signs {
+                *negative |= if any(Real::lt(margin.root, zero)) { bit } else { 0 };
+                *positive |= if any(Real::gt(margin.root, zero)) { bit } else { 0 };
+            }
+            bit <<= 1;
+        });
+        if !all(is_closed(residual)) {
+            found.open = Some(residual.greatest());
+        }
+        found
+    }
+
+    /// Whether Newton's method has left a loop open.
+    pub(super) const fn open(&self) -> Option<f64> {
+        self.open
+    }
+
+    /// The loop whose dead centre lies within the length `[s]` ahead, with its sign.
+    pub(super) fn ahead(&self, length: f64) -> Option<&'static str> {
+        self.lost.or_else(|| within(if length > 0.0 { self.falls } else { self.rises }, length))
+    }
+
+    /// The loop whose dead centre lies within the length `[s]` behind, after a step from where `before` was.
+    pub(super) fn behind<S: System>(
+        &self,
+        length: f64,
+        before: &Self,
+        problem: &Problem<'_, S>,
+        (t, state): (f64, &S::State),
+    ) -> Option<&'static str> {
+        let passed = match (self.signs, before.signs) {
+            (Some(signs), Some(others)) if signs != others => {
+                Some(changed(problem, S::Scalar::lit(t), state, signs, others))
+            }
+            _ => None,
+        };
+        let near = || within(if length > 0.0 { self.rises } else { self.falls }, length);
+        self.lost.or(passed).or_else(near)
+    }
+
+    /// The loop to blame for a state that is not finite after a step of this length from here.
+    pub(super) fn blamed(&self, length: f64) -> Option<&'static str> {
+        self.ahead(BLAMED * length)
+    }
+
+    /// The greatest length `[s]` of a step in the direction of `length`, if it is less.
+    pub(super) fn cut(&self, length: f64) -> f64 {
+        let (rate, _) = if length > 0.0 { self.falls } else { self.rises };
+        if rate * length.abs() > SHARE { (SHARE / rate).copysign(length) } else { length }
+    }
+
+    /// The loop that would be reached first in the direction of `length`.
+    pub(super) const fn name_ahead(&self, length: f64) -> &'static str {
+        match self.lost {
+            Some(name) => name,
+            None if length > 0.0 => self.falls.1,
+            None => self.rises.1,
+        }
+    }
+
+    fn nearest(&self) -> Rate {
+        if self.falls.0 > self.rises.0 { self.falls } else { self.rises }
+    }
+
+    /// Whether errors are to be judged in the roots, where steps of this length have been taken.
+    pub(super) fn is_near(&self, length: f64) -> bool {
+        self.nearest().0 * length.abs() > NEAR
+    }
+
+    /// Whether a step of this length is so short beside what is left that its error is rounding.
+    pub(super) fn is_rounding(&self, length: f64) -> bool {
+        self.nearest().0 * length.abs() < ROUNDING
+    }
+
+    /// How much an error of the step to `end`, and the rounding of its coordinates, change roots and their rates, in units of
+    /// a relative tolerance; the square root of the rounding unit is the least one.
+    pub(super) fn spread<S: System>(
+        problem: &Problem<'_, S>,
+        (t, length): (S::Scalar, f64),
+        end: &S::State,
+        error: &SlopeOf<S>,
+        tolerance: f64,
+    ) -> f64 {
+        let rounding = S::Scalar::lit(ROUNDINGS) * S::Scalar::epsilon();
+        let error = error.zip(&magnitude(end), &mut |error, size| {
+            let rounding = rounding * Real::abs(size);
+            -(error + Real::select(Real::lt(error, S::Scalar::lit(0.0)), -rounding, rounding))
+        });
+        let other = displaced(end, &error);
+        let [one, other] = [*end, other].map(|state| problem.accepted(t, &state));
+        let length = S::Scalar::lit(length);
+        let (mut worst, mut count) = (0.0_f64, 0_u32);
+        problem.margins(t, &one, &mut |a| {
+            let mut at = 0_u32;
+            problem.margins(t, &other, &mut |b| {
+                if at == count {
+                    let square = a.root * a.root;
+                    let change = Real::abs(square - b.root * b.root);
+                    let rate = Real::abs(length * (a.rate - b.rate));
+                    let share = (Real::max(change, rate) / square).greatest();
+                    // NaN counts as more than any number.
+                    worst = if share <= worst { worst } else { share };
+                }
+                at += 1;
+            });
+            count += 1;
+        });
+        worst / Real::max(tolerance, Real::sqrt(S::Scalar::epsilon()).greatest())
+    }
+}
+
+/// The coordinate of this rate, if it takes all within the length.
+fn within((rate, coordinate): Rate, length: f64) -> Option<&'static str> {
+    (rate * length.abs() * LENGTHS >= 1.0).then_some(coordinate)
+}
+
+/// Whether what Newton's method has left is no more than it leaves where it converges.
+#[inline]
+fn is_closed<T: Real>(residual: T) -> T::Mask {
+    Real::le(residual, Real::max(T::lit(1e-8), T::lit(1e4) * T::epsilon()))
+}
+
+/// What lies around the end of a step of one length, in the scalar's own precision.
+pub(super) struct Soundness<T: Real> {
+    /// Whether the loops are closed and no dead centre lies within the step's length ahead or behind, lane by lane.
+    pub(super) mask: T::Mask,
+    /// The coordinate of a dead centre that does.
+    coordinate: Option<&'static str>,
+    /// What Newton's method has left.
+    residual: T,
+    /// Which roots are negative, and which positive, in any lane.
+    signs: [u64; 2],
+}
+
+impl<T: Real> Soundness<T> {
+    #[inline]
+    pub(super) fn at<S: System<Scalar = T>>(problem: &Problem<'_, S>, t: T, state: &S::State, dt: T) -> Self {
+        let zero = T::lit(0.0);
+        let mut mask = Real::le(zero, zero);
+        let mut coordinate = None;
+        let (mut signs, mut bit) = ([0; 2], 1_u64);
+        let residual = problem.margins(t, state, &mut |margin| {
+            let square = margin.root * margin.root;
+            let far = Real::lt(Real::abs(margin.rate * dt) * T::lit(LENGTHS), square);
+            if !all(far) {
+                coordinate = coordinate.or(Some(margin.coordinate));
+            }
+            mask = mask & far;
+            let [negative, positive] = &mut signs;
+            *negative |= if any(Real::lt(margin.root, zero)) { bit } else { 0 };
+            *positive |= if any(Real::gt(margin.root, zero)) { bit } else { 0 };
+            bit <<= 1;
+        });
+        Self { mask: mask & is_closed(residual), coordinate, residual, signs }
+    }
+
+    /// Why an integration can't go on, which has reached the time `t`; `before` is the end of the last step.
+    #[inline]
+    pub(super) fn check<S: System<Scalar = T>>(
+        &self,
+        t: T,
+        before: Option<[u64; 2]>,
+        problem: &Problem<'_, S>,
+        state: &S::State,
+    ) -> Result<[u64; 2], IntegrationError> {
+        let passed = before.filter(|before| *before != self.signs);
+        if all(self.mask) && passed.is_none() {
+            return Ok(self.signs);
+        }
+        let time = t.greatest();
+        let coordinate = self.coordinate.or_else(|| Some(changed(problem, t, state, self.signs, passed?)));
+        Err(match coordinate {
+            Some(coordinate) => IntegrationError::DeadCentre { time, coordinate },
+            None => IntegrationError::OpenLoops { time, residual: self.residual.greatest(), remedy: STUCK },
+        })
+    }
+}
+
+/// Why a state is not finite after a step of one length from `state`.
+pub(super) fn cause<S: System>(
+    problem: &Problem<'_, S>,
+    t: S::Scalar,
+    state: &S::State,
+    dt: S::Scalar,
+) -> IntegrationError {
+    let (time, dt) = (t.greatest(), dt * S::Scalar::lit(BLAMED));
+    if let Some(coordinate) = Soundness::at(problem, t, &problem.accepted(t, state), dt).coordinate {
+        return IntegrationError::DeadCentre { time, coordinate };
+    }
+    match problem.without_inertia(t, state) {
+        Some(coordinate) => IntegrationError::NoInertia { time, coordinate },
+        None => IntegrationError::NonFinite { time },
+    }
+}
+
+/// What is wrong with a start, if anything.
+pub(super) fn check_start<S: System>(
+    problem: &Problem<'_, S>,
+    t: S::Scalar,
+    state: &S::State,
+) -> Result<(), IntegrationError> {
+    if !is_finite(&magnitude(state)) {
+        return Ok(()); // what is not finite is told as such
+    }
+    let opening = problem.opening(t, state);
+    if any(Real::gt(opening.residual, opening.tolerance) | Real::ne(opening.residual, opening.residual)) {
+        let (time, residual) = (t.greatest(), opening.residual.greatest());
+        return Err(IntegrationError::OpenLoops { time, residual, remedy: opening.remedy });
+    }
+    Ok(())
+}
+
+/// The coordinate of the first root whose sign is another one.
+fn changed<S: System>(
+    problem: &Problem<'_, S>,
+    t: S::Scalar,
+    state: &S::State,
+    [negative, positive]: [u64; 2],
+    others: [u64; 2],
+) -> &'static str {
+    let [other_negative, other_positive] = others;
+    let which = ((negative ^ other_negative) | (positive ^ other_positive)).trailing_zeros();
+    let (mut at, mut name) = (0, "");
+    problem.margins(t, state, &mut |margin| {
+        if at == which {
+            name = margin.coordinate;
+        }
+        at += 1;
+    });
+    name
+}
+
+/// What Newton's method says of a run in which it stops converging.
+pub(super) const STUCK: &str = "Newton's method no longer converges from the solution of the step before: shorter steps \
+     help, if not a dead centre is near";
+
+/// The end of a step that is to be kept with what lies around it.
+pub(super) struct Reached<S: System> {
+    pub(super) end: Accepted<S>,
+    pub(super) outlook: Outlook,
+}
+
+impl<S: System> Reached<S> {
+    #[inline]
+    pub(super) fn new(problem: &Problem<'_, S>, t: S::Scalar, end: &S::State) -> Self {
+        let end = Accepted::new(problem, t, end);
+        let outlook = Outlook::at(problem, t, &end.state);
+        Self { end, outlook }
+    }
+}
