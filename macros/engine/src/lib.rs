@@ -1,6 +1,6 @@
 //! The compiler behind `multibody!`, an ordinary library so that tests, benches and fuzzers can link it.
 //!
-//! Stages flow one way: `syntax -> model -> (symbolic <- mechanics <- solve) -> optimize -> emit`. `symbolic` knows no
+//! Stages flow one way: `syntax -> model -> (symbolic <- mechanics <- solve) -> optimize -> verify -> emit`. `symbolic` knows no
 //! mechanics; `mechanics` knows no tokens; `emit` decides nothing about equations. The public items here serve the
 //! project's own tests and tools; users call the macro.
 
@@ -13,6 +13,7 @@ mod rust_keywords;
 pub mod solve;
 pub mod symbolic;
 pub mod syntax;
+pub mod verify;
 
 use std::collections::HashSet;
 
@@ -63,9 +64,15 @@ pub fn compile(model: &Model) -> Result<(Structure, Compiled), Trouble> {
         return Err(Trouble::Refused(Refusal::TooLarge(Excess::Coordinates(freedoms))));
     }
     let (structure, derivation) = mechanics::of(model).map_err(Trouble::Complaints)?;
-    let compiled = optimize::compile(&derivation).map_err(Trouble::Refused)?;
-    Ok((structure, compiled))
+    let compiled = verify::compile(model, &structure, &derivation).map_err(Trouble::Refused)?;
+    match emit::misfit(model, &structure, &compiled) {
+        None => Ok((structure, compiled)),
+        Some(kind) => Err(Trouble::Refused(Refusal::Misfit(kind))),
+    }
 }
+
+/// What to do about an error that is not the user's.
+const REPORT: &str = "this is an error of multibody: please report it with the model";
 
 /// Why there is no code for a model.
 pub enum Trouble {
@@ -95,6 +102,32 @@ impl Trouble {
                 format!("the equations of `{}` hold a number that is not finite", model.name),
                 "literals multiply out of the range of f64, or something is divided by what is always zero",
             ),
+            Trouble::Refused(Refusal::Wrong(kind)) => diagnostics.error_help(
+                span,
+                format!(
+                    "`{}` of `{}` does not have the values of its equations",
+                    emit::function_name(kind),
+                    model.name
+                ),
+                REPORT,
+            ),
+            Trouble::Refused(Refusal::Misfit(kind)) => diagnostics.error_help(
+                span,
+                format!(
+                    "`{}` of `{}` does not give as many numbers as its type holds",
+                    emit::function_name(kind),
+                    model.name
+                ),
+                REPORT,
+            ),
+            Trouble::Refused(Refusal::Contradiction(a, b)) => {
+                let [a, b] = [a, b].map(emit::function_name);
+                let message = match a == b {
+                    true => format!("`{a}` of `{}` contradicts itself", model.name),
+                    false => format!("`{a}` and `{b}` of `{}` contradict each other", model.name),
+                };
+                diagnostics.error_help(span, message, REPORT);
+            }
         }
     }
 }

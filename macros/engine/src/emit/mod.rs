@@ -71,6 +71,14 @@ pub fn emit(model: &Model, structure: &Structure, compiled: &Compiled) -> TokenS
     tokens
 }
 
+/// The first function whose program doesn't give as many numbers as its value is built from: they would be handed out to
+/// the wrong places.
+pub fn misfit(model: &Model, structure: &Structure, compiled: &Compiled) -> Option<FunctionKind> {
+    let layout = Layout::new(model, structure);
+    let fits = |function: &&Function| function.program.results.len() == results::count(&layout, function.kind);
+    compiled.functions.iter().find(|function| !fits(function)).map(|function| function.kind)
+}
+
 fn context<'a>(model: &'a Model, structure: &'a Structure, compiled: &'a Compiled, hollow: bool) -> Context<'a> {
     Context {
         layout: Layout::new(model, structure),

@@ -33,6 +33,36 @@ impl Layout<'_> {
     }
 }
 
+/// Number of scalars that the method's value is built from.
+pub(super) fn count(layout: &Layout<'_>, kind: FunctionKind) -> usize {
+    let (dof, rows) = (layout.dof(), layout.rows());
+    let [states, inputs, outputs] = [Group::States, Group::Input, Group::Output].map(|group| layout.table(group).size);
+    // With the rank of their system.
+    let multipliers = if rows > 0 { rows + 1 } else { 0 };
+    match kind {
+        FunctionKind::ForwardDynamics => dof + states + multipliers + usize::from(layout.structure.guesses() > 0),
+        FunctionKind::InverseDynamics if layout.solves_inputs() => layout.model.solve_for.len() + 1,
+        FunctionKind::InverseDynamics
+        | FunctionKind::Bias
+        | FunctionKind::Momentum
+        | FunctionKind::MomentumRate
+        | FunctionKind::MomentumVelocity => dof,
+        FunctionKind::MassMatrix => dof * dof,
+        FunctionKind::KineticEnergy | FunctionKind::PotentialEnergy => 1,
+        FunctionKind::Constraints | FunctionKind::ConstraintRate | FunctionKind::ConstraintBias => rows,
+        FunctionKind::ConstraintJacobian => rows * dof,
+        FunctionKind::Residual => dof + rows,
+        FunctionKind::Kinematics(number) => 3 * found(layout, number),
+        FunctionKind::Guess => layout.structure.guesses() + 1,
+        FunctionKind::DeadCentres => layout.structure.dead_centres.len(),
+        FunctionKind::ForwardDerivatives | FunctionKind::InverseDerivatives => {
+            differentiated(layout, kind) * (2 * dof + states + inputs)
+        }
+        FunctionKind::Impulse => dof + multipliers,
+        FunctionKind::Outputs => outputs,
+    }
+}
+
 /// Expands to the method's return type.
 pub(super) fn ty(layout: &Layout<'_>, kind: FunctionKind) -> TokenStream {
     let dof = layout.dof();

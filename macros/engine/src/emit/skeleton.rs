@@ -50,6 +50,7 @@ pub fn skeleton(checked: &Checked) -> TokenStream {
         before: Cost::default(),
         after: Cost::default(),
         method: "",
+        candidate: 0,
     }));
     module(&context(model, &structure, &compiled, true))
 }

@@ -390,11 +390,12 @@ impl Dag {
         let mut angles = std::collections::HashSet::new();
         let uses = self.uses(&order);
         let mut seen = vec![false; self.blocks.len()];
+        let late = self.late_masks(&order);
         for &id in &order {
             let node = &self.nodes[id];
             let cost = match node.stage {
                 Stage::Literal => continue,
-                Stage::Parameter => &mut prelude,
+                Stage::Parameter if !late.contains(&id) => &mut prelude,
                 _ => &mut runtime,
             };
             match &node.kind {
@@ -430,6 +431,23 @@ impl Dag {
             }
         }
         (runtime, prelude)
+    }
+
+    /// Masks of parameters that later work reads: they run there.
+    fn late_masks(&self, order: &[Id]) -> std::collections::HashSet<Id> {
+        let mut late = std::collections::HashSet::new();
+        for &id in order.iter().rev() {
+            if self.nodes[id].stage > Stage::Parameter || late.contains(&id) {
+                let masks = self.operands(&self.nodes[id].kind);
+                late.extend(masks.filter(|&id| self.nodes[id].stage == Stage::Parameter && self.is_mask(id)));
+            }
+        }
+        late
+    }
+
+    /// Whether a node's value is a mask, see [`Call::is_mask`].
+    pub fn is_mask(&self, id: Id) -> bool {
+        matches!(&self.nodes[id].kind, Kind::Call(call, _) if call.is_mask())
     }
 
     /// A reciprocal that runs in the stage of its users.

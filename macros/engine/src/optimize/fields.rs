@@ -65,12 +65,23 @@ fn frontier(dag: &Dag) -> Vec<Id> {
     };
     let early = |id: Id| id != ONE && dag.nodes[id].stage <= Stage::Parameter && !number(id);
     let mut found: Vec<Id> = Vec::new();
+    // A mask is no number: it is made where it is read, of fields.
+    let mut take = |id: Id| {
+        let mut stack = vec![id];
+        while let Some(id) = stack.pop() {
+            if early(id) && dag.is_mask(id) {
+                stack.extend(dag.operands(&dag.nodes[id].kind));
+            } else if early(id) {
+                found.push(id);
+            }
+        }
+    };
     for id in dag.order() {
         if dag.nodes[id].stage > Stage::Parameter {
-            found.extend(dag.operands(&dag.nodes[id].kind).filter(|&operand| early(operand)));
+            dag.operands(&dag.nodes[id].kind).for_each(&mut take);
         }
     }
-    found.extend(dag.roots.iter().map(|root| root.1).filter(|&id| early(id)));
+    dag.roots.iter().for_each(|root| take(root.1));
     let mut seen = vec![false; dag.nodes.len()];
     found.retain(|&id| !std::mem::replace(&mut seen[id], true));
     found

@@ -36,6 +36,12 @@ pub enum Refusal {
     TooLarge(Excess),
     /// A number in the equations is infinite: a product of literals that is out of range, or a division by what is zero.
     NotFinite,
+    /// A function does not have the values of its equations: an error of this compiler.
+    Wrong(FunctionKind),
+    /// A function does not give as many numbers as its type holds: an error of this compiler.
+    Misfit(FunctionKind),
+    /// The equations of two functions contradict each other: an error of this compiler.
+    Contradiction(FunctionKind, FunctionKind),
 }
 
 /// What of a model is too large.
@@ -51,14 +57,20 @@ pub enum Excess {
 
 /// Optimises every candidate, takes the cheapest of each function, and moves parameter work into `Model::new`.
 pub fn compile(derivation: &Derivation) -> Result<Compiled, Refusal> {
+    compile_with(derivation, &[])
+}
+
+/// The same with some functions as they were derived, and with what all of them read of parameters: for those that the
+/// optimiser has made wrong.
+pub fn compile_with(derivation: &Derivation, plain: &[FunctionKind]) -> Result<Compiled, Refusal> {
     if derivation.graph.is_full() {
         return Err(Refusal::TooLarge(Excess::Expressions));
     }
     let mut sound = true;
-    let mut chosen: Vec<(FunctionKind, &'static str, Cost, Dag)> = Vec::new();
+    let mut chosen: Vec<Chosen> = Vec::new();
     for function in &derivation.functions {
-        let mut best: Option<(u32, &'static str, Cost, Dag)> = None;
-        for (method, results) in &function.candidates {
+        let mut best: Option<(u32, Chosen)> = None;
+        for (candidate, (method, results)) in function.candidates.iter().enumerate() {
             let mut lowering = Lowering::new(&derivation.graph);
             let roots = lowering.run(results);
             if lowering.to.len() > MOST_OPERATIONS {
@@ -67,29 +79,32 @@ pub fn compile(derivation: &Derivation) -> Result<Compiled, Refusal> {
             let before = lowering.to.cost(&roots);
             let mut dag = Dag::import(&lowering.to, &roots, &derivation.symbols);
             dag.symbol_names.clone_from(&derivation.symbol_names);
-            sound &= simplify(&mut dag);
+            if !plain.contains(&function.kind) {
+                sound &= simplify(&mut dag);
+            }
             let weight = dag.cost().0.weight();
-            if best.as_ref().is_none_or(|(least, ..)| weight < *least) {
-                best = Some((weight, *method, before, dag));
+            if best.as_ref().is_none_or(|(least, _)| weight < *least) {
+                best = Some((weight, Chosen { kind: function.kind, method, candidate, before, dag }));
             }
         }
-        if let Some((_, method, before, dag)) = best {
-            chosen.push((function.kind, method, before, dag));
-        }
+        chosen.extend(best.map(|(_, chosen)| chosen));
     }
-    let dags: Vec<&Dag> = chosen.iter().map(|c| &c.3).collect();
+    let dags: Vec<&Dag> = chosen.iter().map(|c| &c.dag).collect();
     let fields::Gathered { mut prelude, fields, names } = fields::gather(&dags, &derivation.symbols);
     prelude.symbol_names.clone_from(&derivation.symbol_names);
-    sound &= simplify(&mut prelude);
+    if plain.is_empty() {
+        sound &= simplify(&mut prelude);
+    }
     let prelude_cost = prelude.cost().1;
     let functions: Vec<Function> = chosen
         .iter()
-        .map(|(kind, method, before, dag)| Function {
+        .map(|Chosen { kind, method, candidate, before, dag }| Function {
             kind: *kind,
             program: schedule::schedule(dag, &fields),
             before: *before,
             after: dag.cost().0,
             method,
+            candidate: *candidate,
         })
         .collect();
     let prelude = schedule::schedule(&prelude, &schedule::Fields::new());
@@ -119,6 +134,15 @@ fn checks(derivation: &Derivation, sound: &mut bool) -> Checks {
     }
     let list = tests.iter().map(|test| (test.what.clone(), test.condition, test.values.len())).collect();
     Checks { program, list }
+}
+
+/// The cheapest way to a function.
+struct Chosen {
+    kind: FunctionKind,
+    method: &'static str,
+    candidate: usize,
+    before: Cost,
+    dag: Dag,
 }
 
 /// All rewrites, a fixed number of rounds. Each pass pays by its own count, not always by the whole: what comes out

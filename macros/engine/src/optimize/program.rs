@@ -107,6 +107,12 @@ pub enum Call {
 }
 
 impl Call {
+    /// Whether the result is a mask: the scalar's own kind of truth, which is no number and has no place in a field.
+    pub fn is_mask(self) -> bool {
+        use Call::{And, Equal, Less, LessEqual, Not, Or};
+        matches!(self, Less | LessEqual | Equal | And | Or | Not)
+    }
+
     /// Work of one instruction or two, as additions are.
     pub fn is_comparison(self) -> bool {
         use Call::{Abs, And, Equal, Less, LessEqual, Not, Or, Signum};
@@ -301,6 +307,8 @@ pub struct Function {
     pub after: Cost,
     /// What it was made from, such as `composite rigid body, LDL^T` or `articulated body`.
     pub method: &'static str,
+    /// Its number among the candidates of the derivation.
+    pub candidate: usize,
 }
 
 /// Everything that `emit` prints for one model, besides the model itself.

@@ -343,6 +343,11 @@ impl Graph {
         &self.vectors[v.index()]
     }
 
+    /// The vector at a position.
+    pub(crate) fn vector_node_at(&self, index: usize) -> &VectorNode {
+        &self.vectors[index]
+    }
+
     pub fn rotation_node(&self, r: Rotation) -> &RotationNode {
         &self.rotations[r.index()]
     }

@@ -6,7 +6,7 @@
 use super::graph::{AnyNode, Graph, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode};
 
 /// One truth per node.
-pub(super) struct Marks {
+pub(crate) struct Marks {
     scalars: Vec<bool>,
     vectors: Vec<bool>,
     rotations: Vec<bool>,
@@ -30,7 +30,7 @@ impl Marks {
     }
 
     /// Nodes that were made later have no mark.
-    pub(super) fn has(&self, node: AnyNode) -> bool {
+    pub(crate) fn has(&self, node: AnyNode) -> bool {
         let (list, i) = self.list(node);
         list.get(i).copied().unwrap_or(false)
     }
@@ -111,7 +111,7 @@ impl Graph {
     }
 
     /// All nodes that these scalars need, operands before users.
-    pub(super) fn reachable(&self, roots: &[Scalar]) -> Vec<AnyNode> {
+    pub(crate) fn reachable(&self, roots: &[Scalar]) -> Vec<AnyNode> {
         self.reachable_from(roots.iter().map(|root| AnyNode::Scalar(root.index())))
     }
 
@@ -125,7 +125,7 @@ impl Graph {
     }
 
     /// Which of these nodes, given operands before users, read one of the symbols, themselves included.
-    pub(super) fn depending(&self, nodes: &[AnyNode], symbols: impl IntoIterator<Item = Scalar>) -> Marks {
+    pub(crate) fn depending(&self, nodes: &[AnyNode], symbols: impl IntoIterator<Item = Scalar>) -> Marks {
         let mut marks = Marks::new(self);
         symbols.into_iter().for_each(|s| marks.set(AnyNode::Scalar(s.index())));
         for &node in nodes {

@@ -214,6 +214,7 @@ pub fn derived(kind: FunctionKind, program: Program) -> Derived {
         before: Cost { add: 7, mul: 9, div: 1, sqrt: 0, sincos: 1, compare: 0, other: 0 },
         after: Cost { add: 0, mul: 1, div: 0, sqrt: 0, sincos: 1, compare: 0, other: 0 },
         method: "articulated body",
+        candidate: 0,
     }
 }
 

@@ -1,0 +1,124 @@
+//! Stage `verify`: programs in double precision, statement by statement, as the emitted code runs.
+//!
+//! In: a program and the values that it reads. Out: its results. Where a system has lesser rank than size, its solution is
+//! one of many, and rounding chooses among them: then pivots are taken in the order that the derived equations took.
+
+use super::linear::{solve, solve_symmetric};
+use super::trace::Pivots;
+use crate::optimize::program::{Call, Expression, Local, Program, Statement, Symbol};
+use crate::symbolic::evaluate::call_f64;
+
+/// Matrices of one system differ by rounding alone.
+const SAME: f64 = 1e-6;
+
+/// What a program reads.
+pub(super) struct Reads<'a> {
+    pub symbol: &'a dyn Fn(Symbol) -> f64,
+    pub fields: &'a [f64],
+    pub deficient: &'a [Pivots],
+}
+
+/// Results of a program.
+pub(super) fn run(program: &Program, reads: &Reads<'_>) -> Vec<f64> {
+    let mut machine = Machine { locals: vec![f64::NAN; program.locals.len()], reads };
+    machine.run(&program.statements);
+    program.results.iter().map(|result| machine.value(result)).collect()
+}
+
+struct Machine<'a> {
+    locals: Vec<f64>,
+    reads: &'a Reads<'a>,
+}
+
+impl Machine<'_> {
+    fn run(&mut self, statements: &[Statement]) {
+        for statement in statements {
+            self.statement(statement);
+        }
+    }
+
+    fn set(&mut self, local: Local, value: f64) {
+        if let Some(slot) = self.locals.get_mut(local.0) {
+            *slot = value;
+        }
+    }
+
+    fn statement(&mut self, statement: &Statement) {
+        match statement {
+            Statement::Let { local, value } => {
+                let value = self.value(value);
+                self.set(*local, value);
+            }
+            Statement::SinCos { sin, cos, angle } => {
+                let (s, c) = self.value(angle).sin_cos();
+                self.set(*sin, s);
+                self.set(*cos, c);
+            }
+            Statement::Solve { size, symmetric, groups, matrix, rhs, results } => {
+                let (matrix, rhs) = (self.values(matrix), self.values(rhs));
+                let known = self.reads.deficient.iter().find(|pivots| is_same(&pivots.matrix, &matrix, *size));
+                let mut solved = match symmetric {
+                    true => solve_symmetric(&matrix, &rhs, groups, known.map(|pivots| &pivots.rows[..])),
+                    false => solve(&matrix, &rhs, known.map(|pivots| (&pivots.rows[..], &pivots.columns[..]))),
+                };
+                solved.x.push(solved.rows.len() as f64);
+                for (&local, x) in results.iter().zip(solved.x) {
+                    self.set(local, x);
+                }
+            }
+            Statement::Iterate { count, unknowns, start, body, next, residual } => {
+                let mut values = self.values(start);
+                for _ in 0..*count {
+                    unknowns.iter().zip(&values).for_each(|(&local, &x)| self.set(local, x));
+                    self.run(body);
+                    let size = self.value(&residual.1);
+                    self.set(residual.0, size);
+                    values = self.values(next);
+                }
+                unknowns.iter().zip(&values).for_each(|(&local, &x)| self.set(local, x));
+            }
+        }
+    }
+
+    fn values(&self, list: &[Expression]) -> Vec<f64> {
+        list.iter().map(|expression| self.value(expression)).collect()
+    }
+
+    fn value(&self, expression: &Expression) -> f64 {
+        match expression {
+            Expression::Literal(x) => *x,
+            Expression::Symbol(symbol) => (self.reads.symbol)(*symbol),
+            Expression::Field(field) => self.reads.fields.get(field.0).copied().unwrap_or(f64::NAN),
+            Expression::Local(local) => self.locals.get(local.0).copied().unwrap_or(f64::NAN),
+            Expression::Neg(x) => -self.value(x),
+            Expression::Sum(terms) => {
+                let mut sum = -0.0;
+                for (minus, term) in terms {
+                    let term = self.value(term);
+                    sum += if *minus { -term } else { term };
+                }
+                sum
+            }
+            Expression::Product(list) => {
+                let mut product = 1.0;
+                for factor in list {
+                    product *= self.value(factor);
+                }
+                product
+            }
+            Expression::Quotient(a, b) => self.value(a) / self.value(b),
+            Expression::Call(Call::Sqrt, x) => x.first().map_or(f64::NAN, |x| self.value(x)).sqrt(),
+            Expression::Call(call, list) => call_f64(*call, &self.values(list)),
+        }
+    }
+}
+
+/// Whether two matrices are one, row by row.
+fn is_same(a: &[f64], b: &[f64], n: usize) -> bool {
+    let largest = |row: &[f64]| row.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let close = |(a, b): (&[f64], &[f64])| {
+        let size = largest(a).max(largest(b));
+        a.iter().zip(b).all(|(x, y)| (x - y).abs() <= SAME * size)
+    };
+    a.len() == b.len() && a.chunks(n.max(1)).zip(b.chunks(n.max(1))).all(close)
+}

@@ -1,0 +1,110 @@
+//! Stage `verify`: one program against the equations that it was made from.
+//!
+//! In: the tape of a function, its program, a state. Out: a [`Verdict`]. A result is right if it is no further from the
+//! exact value than a few errors that the derived equations make themselves in double precision at this state, or, if that is not
+//! enough to tell, than what one rounding of each of their operations can do at worst. Both come from the derived equations:
+//! the operations of the program under test, and the size of its coefficients, excuse nothing.
+
+use super::arithmetic::Arithmetic;
+use super::machine::{self, Reads};
+use super::states::{State, States};
+use super::tape::Tape;
+use super::trace::Trace;
+use crate::optimize::program::Program;
+use crate::symbolic::doubled::Doubled;
+use crate::symbolic::graph::SymbolId;
+
+/// As many times its own error, or rounding, a result may be off without being looked at closely.
+const PLAIN: f64 = 64.0;
+
+/// As many times the greatest error by one rounding of every operation it may be off at all.
+pub(super) const WORST: f64 = 4.0;
+
+/// Results that keep fewer digits than this are not worth a comparison.
+const POOR: f64 = 1e-6;
+
+/// Results that are looked at one by one, at most.
+const CLOSELY: usize = 4;
+
+/// What a comparison says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Verdict {
+    Right,
+    /// The result with this number is wrong.
+    Wrong(usize),
+    /// Not at this state.
+    Unclear,
+}
+
+/// A function, its program and what is left out of the comparison.
+pub(super) struct Subject<'a> {
+    pub tape: &'a Tape,
+    pub program: &'a Program,
+    /// Whether the last result is what an iteration has left: nothing but rounding.
+    pub residual: bool,
+}
+
+impl Subject<'_> {
+    pub(super) fn compare(&self, states: &States<'_>, state: &State, prelude: &Program) -> Verdict {
+        let symbol = |id: SymbolId| state.value(id);
+        let exact: Trace<'_, Doubled> = Trace::new(self.tape, &symbol);
+        let plain: Trace<'_, f64> = Trace::new(self.tape, &symbol);
+        let derived = exact.roots();
+        let own: Vec<f64> = plain.roots();
+        let deficient = exact.deficient();
+        let look = |symbol| states.value(state, symbol);
+        let fields = machine::run(prelude, &Reads { symbol: &look, fields: &[], deficient: &[] });
+        let results = machine::run(self.program, &Reads { symbol: &look, fields: &fields, deficient: &deficient });
+        if results.len() != derived.len() {
+            return Verdict::Wrong(results.len().min(derived.len()));
+        }
+        let doubtful = exact.kink || exact.unclear;
+        let wrong = |at: usize| if doubtful { Verdict::Unclear } else { Verdict::Wrong(at) };
+        let count = derived.len() - usize::from(self.residual);
+        let mut scales = Vec::with_capacity(count);
+        let (mut largest, mut lost) = (0.0_f64, 0.0_f64);
+        for (exact, own) in derived.iter().zip(&own).take(count) {
+            if !exact.high.is_finite() || !own.is_finite() {
+                return Verdict::Unclear;
+            }
+            let error = (Doubled::of(*own).sub(*exact)).high.abs();
+            (largest, lost) = (largest.max(exact.high.abs()), lost.max(error));
+            scales.push(exact.high.abs().max(error / f64::EPSILON));
+        }
+        if lost > POOR * largest {
+            return Verdict::Unclear;
+        }
+        let mut weights = vec![0.0; derived.len()];
+        let mut suspects: Vec<(f64, usize)> = Vec::new();
+        for (at, (exact, result)) in derived.iter().zip(&results).take(count).enumerate() {
+            if !result.is_finite() {
+                return wrong(at);
+            }
+            let error = Doubled::of(*result).sub(*exact).high;
+            // Below what single numbers can hold there are no relative errors.
+            let scale = scales[at].max(f64::MIN_POSITIVE / f64::EPSILON);
+            let ratio = error.abs() / (f64::EPSILON * scale);
+            if ratio > PLAIN {
+                weights[at] = error.signum() / scale;
+                suspects.push((ratio, at));
+            }
+        }
+        if suspects.is_empty() {
+            return Verdict::Right;
+        }
+        suspects.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let total: f64 = suspects.iter().map(|s| s.0).sum();
+        if total > WORST * exact.slopes::<f64>(&weights, 0).bound {
+            return wrong(suspects[0].1);
+        }
+        for &(ratio, at) in suspects.iter().take(CLOSELY) {
+            let mut single = vec![0.0; derived.len()];
+            single[at] = weights[at];
+            let bound = exact.slopes::<f64>(&single, 0).bound;
+            if ratio > WORST * bound {
+                return wrong(at);
+            }
+        }
+        Verdict::Right
+    }
+}
