@@ -70,7 +70,7 @@ pub(super) fn quarters(n: Number) -> Option<i64> {
         return (form.n == 0 && form.parts <= 2).then(|| i64::from(form.turns) * i64::from(2 / form.parts));
     }
     let turns = (n.value() / FRAC_PI_2).round();
-    if turns == 0.0 || !(turns.abs() <= 1e6) {
+    if turns == 0.0 || turns.is_nan() || turns.abs() > 1e6 {
         return None;
     }
     (n.value() == multiple_of_pi(turns as i64, 2).value()).then_some(turns as i64)
@@ -117,7 +117,8 @@ pub(super) fn root(n: Number) -> Option<Root> {
     }
     // sqrt(2 + 2 cos a) = 2 cos(a / 2)
     let value = n.doubled().sqrt();
-    if !n.is_exact() || !(value.high > 0.0 && value.high <= 2.0) {
+    let within = value.high > 0.0 && value.high <= 2.0;
+    if !n.is_exact() || !within {
         return None;
     }
     let (turns, parts) = part_of_pi((value / Doubled::new(2.0)).acos())?;

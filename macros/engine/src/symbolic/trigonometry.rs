@@ -24,10 +24,10 @@ impl Graph {
         {
             return if sin.is_negative() { -*x } else { *x };
         }
-        if let (Some(c), Some(s)) = (self.literal(cos), self.literal(sin)) {
-            if let Some(angle) = super::elementary::call(Call::Atan2, &[s, c]) {
-                return self.number(angle);
-            }
+        if let (Some(c), Some(s)) = (self.literal(cos), self.literal(sin))
+            && let Some(angle) = super::elementary::call(Call::Atan2, &[s, c])
+        {
+            return self.number(angle);
         }
         // atan2 is odd in the sine.
         if sin.is_negative() {
