@@ -225,7 +225,7 @@ fn sample(seed: u64) -> Sample {
 
 /// What a refusal may say: all of these stand in the tests of the analysis.
 fn is_known(refusal: &str) -> bool {
-    ["quaternion", "whole turns", "no freedom", "cannot close", "wrong way", "redundant", "singular"]
+    ["quaternion", "can't be reduced", "no freedom", "cannot close", "wrong way", "redundant", "singular"]
         .iter()
         .any(|part| refusal.contains(part))
 }
