@@ -3,7 +3,7 @@
 //!
 //! Oblique axes, frames that are turned, all kinds of joints, efforts, springs and dampers on joints and along lines,
 //! forces, torques, loops. `MULTIBODY_MECHANISMS=1000 cargo test --release -p multibody-engine --test mechanics
-//! random_outputs` looks at more of them.
+//! random_outputs -- --ignored` looks at more of them.
 
 use std::collections::HashMap;
 
@@ -231,6 +231,7 @@ fn is_known(refusal: &str) -> bool {
 }
 
 #[test]
+#[ignore = "takes half a minute"]
 fn random_outputs() {
     let count = std::env::var("MULTIBODY_MECHANISMS").ok().and_then(|text| text.parse().ok()).unwrap_or(10);
     let (mut models, mut refused) = (0, 0);
