@@ -13,6 +13,7 @@ mod joints;
 mod kinks;
 mod loops;
 mod motion;
+mod random_outputs;
 mod ranks;
 mod reactions;
 mod support;
