@@ -362,7 +362,7 @@ impl Equations<'_> {
             if (own.is_empty() || !alone) && end < count {
                 continue;
             }
-            if own.iter().any(|k| open(k)) {
+            if own.iter().any(&open) {
                 stages.push(Stage { roots: start..end, conditions: own });
             }
             start = end;
