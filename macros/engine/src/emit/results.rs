@@ -55,12 +55,18 @@ pub(super) fn count(layout: &Layout<'_>, kind: FunctionKind) -> usize {
         FunctionKind::Kinematics(number) => 3 * found(layout, number),
         FunctionKind::Guess => layout.structure.guesses() + 1,
         FunctionKind::DeadCentres => layout.structure.dead_centres.len(),
+        FunctionKind::Margins => margins(layout),
         FunctionKind::ForwardDerivatives | FunctionKind::InverseDerivatives => {
             differentiated(layout, kind) * (2 * dof + states + inputs)
         }
         FunctionKind::Impulse => dof + multipliers,
         FunctionKind::Outputs => outputs,
     }
+}
+
+/// Margins with their rates, and how far loops of Newton's method are open.
+fn margins(layout: &Layout<'_>) -> usize {
+    2 * layout.structure.margins().len() + usize::from(layout.structure.guesses() > 0)
 }
 
 /// Expands to the method's return type.
@@ -98,10 +104,7 @@ pub(super) fn ty(layout: &Layout<'_>, kind: FunctionKind) -> TokenStream {
         | FunctionKind::MomentumRate
         | FunctionKind::MomentumVelocity => quote!(Velocity<T>),
         FunctionKind::DeadCentres => vector_type(layout, layout.structure.dead_centres.len()),
-        FunctionKind::Margins => {
-            let residual = usize::from(layout.structure.guesses() > 0);
-            vector_type(layout, 2 * layout.structure.margins().len() + residual)
-        }
+        FunctionKind::Margins => vector_type(layout, margins(layout)),
     }
 }
 
