@@ -76,8 +76,8 @@ pub fn check(model: &Model, structure: &Structure, derivation: &Derivation, comp
     let mut drawn: HashMap<(usize, usize), Option<State>> = HashMap::new();
     let mut found = Found::default();
     for (function, tape) in compiled.functions.iter().zip(&tapes) {
-        let residual =
-            closing.is_some() && matches!(function.kind, FunctionKind::ForwardDynamics | FunctionKind::Guess);
+        let residual = closing.is_some()
+            && matches!(function.kind, FunctionKind::ForwardDynamics | FunctionKind::Guess | FunctionKind::Margins);
         let subject = Subject { tape, program: &function.program, residual };
         let count = match tape.nodes.len() {
             0..=2_000 => 3,
