@@ -108,9 +108,8 @@ fn inertia_to_zero_is_continuous() {
 }
 
 /// A rod that spins ever more easily: finite down to the least positive number, as physics has it. At zero nothing resists
-/// the spin. As a literal that is an error of the compiler which names the joint. As a parameter it is allowed, since other
-/// joints would resist: NaN or infinity come out, and an integrator ends in `NonFinite` at the time where it began, which
-/// does not say why.
+/// the spin. As a literal that is an error of the compiler which names the joint. As a parameter `check` refuses it; without
+/// that NaN or infinity come out, and an integrator ends in `NonFinite` at the time where it began, which does not say why.
 #[test]
 fn a_singular_mass_matrix_is_a_typed_error() {
     let spun = |i: f64, torque: f64| {
@@ -132,7 +131,7 @@ fn a_singular_mass_matrix_is_a_typed_error() {
         assert!(!accel.z.is_finite(), "{torque}");
         assert!(matches!(end, Err(IntegrationError::NonFinite { time: 0.0 })), "{torque}: {end:?}");
     }
-    assert!(spinning::Params { i: 0.0 }.check().is_ok());
+    assert!(spinning::Params { i: 1e-3 }.check().is_ok() && spinning::Params { i: 0.0 }.check().is_err());
     // What no body can have is refused by the parameters.
     for i in [-1e-3, f64::NAN, 1.0] {
         assert!(spinning::Params { i }.check().is_err(), "{i}");

@@ -49,6 +49,21 @@ impl<S: System> System for Bounded<'_, S> {
         self.count();
         self.system.reached(t, state);
     }
+    fn margins(
+        &self,
+        t: S::Scalar,
+        state: &S::State,
+        input: &S::Input,
+        visit: &mut dyn FnMut(Margin<S::Scalar>),
+    ) -> S::Scalar {
+        self.system.margins(t, state, input, visit)
+    }
+    fn opening(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> Opening<S::Scalar> {
+        self.system.opening(t, state, input)
+    }
+    fn without_inertia(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> Option<&'static str> {
+        self.system.without_inertia(t, state, input)
+    }
 }
 
 impl<S: Constrained> Constrained for Bounded<'_, S> {

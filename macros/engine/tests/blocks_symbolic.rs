@@ -37,7 +37,6 @@ fn sines_and_cosines_of_given_angles() {
             (symbols[4], point[4]),
             (symbols[5], point[5]),
         ];
-        let literals = [0.3, std::f64::consts::FRAC_PI_2, std::f64::consts::PI, -std::f64::consts::FRAC_PI_2];
         for _ in 0..5 {
             let (a, b) = (list[rng.below(list.len())], list[rng.below(list.len())]);
             list.push(match rng.below(4) {
@@ -48,8 +47,11 @@ fn sines_and_cosines_of_given_angles() {
                     (g.mul(two, a.0), -2.0 * a.1)
                 }
                 _ => {
-                    let x = literals[rng.below(4)];
-                    let literal = g.decimal(x);
+                    let quarters = [0, 1, 2, -1][rng.below(4)];
+                    let (pi, two, count) = (g.pi(), g.integer(2), g.integer(quarters));
+                    let turned = g.mul(count, pi);
+                    let literal = if quarters == 0 { g.decimal(0.3) } else { g.div(turned, two) };
+                    let x = if quarters == 0 { 0.3 } else { quarters as f64 * std::f64::consts::FRAC_PI_2 };
                     (g.sub(a.0, literal), a.1 - x)
                 }
             });
@@ -94,7 +96,8 @@ fn given_angles_fold() {
     let rest = g.sub(sum, angle);
     assert_eq!(g.sin(rest), sin);
     let (zero, one) = (Scalar::ZERO, Scalar::ONE);
-    assert_eq!((g.angle(one, zero), g.angle(zero, -one)), (zero, g.decimal(-std::f64::consts::FRAC_PI_2)));
+    let (pi, two) = (g.pi(), g.integer(2));
+    assert_eq!((g.angle(one, zero), g.angle(zero, -one)), (zero, -g.div(pi, two)));
 }
 
 /// Two ways to the same point, by a seed of the test's own.

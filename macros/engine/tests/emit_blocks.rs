@@ -64,8 +64,10 @@ fn what_nothing_reads_is_left_out() {
 }
 
 /// What `long` needs of the runtime crate.
-const RUNTIME: &str = "
-mod multibody {
+const RUNTIME: &str = concat!(
+    "mod multibody {\npub mod emitted {\n",
+    include_str!("../../../runtime/src/emitted.rs"),
+    "}
     pub trait Real: Copy + std::ops::Add<Output = Self> + std::ops::Mul<Output = Self> + PartialEq {
         fn lit(value: f64) -> Self;
     }
@@ -120,7 +122,8 @@ fn main() {
     let state = long::State { q: long::Position { hinge: 1.0 }, v: long::Velocity { hinge: 1.0 } };
     println!(\"{}\", model.forward_dynamics(0.0, &state, &()).hinge);
 }
-";
+"
+);
 
 #[test]
 fn ten_thousand_statements_compile() {

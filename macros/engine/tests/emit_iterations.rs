@@ -118,8 +118,10 @@ fn case(k: usize) -> (Model, Compiled, f64) {
 }
 
 /// What the cases need of the runtime crate.
-const RUNTIME: &str = "
-pub mod multibody {
+const RUNTIME: &str = concat!(
+    "pub mod multibody {\npub mod emitted {\n",
+    include_str!("../../../runtime/src/emitted.rs"),
+    "}
     use std::ops::*;
     pub trait Real: Copy + PartialEq + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
         + Div<Output = Self> + Neg<Output = Self> {
@@ -195,7 +197,8 @@ pub mod multibody {
         }
     }
 }
-";
+"
+);
 
 #[test]
 fn loops_compile_without_a_warning() {

@@ -424,7 +424,7 @@ fn freedoms_are_those_of_the_closures() {
     let wanted: u64 = std::env::var("LOOPS").ok().and_then(|text| text.parse().ok()).unwrap_or(400);
     let bound = if std::env::var("LOOPS").is_ok() { Duration::MAX } else { Duration::from_secs(45) };
     let start = Instant::now();
-    let (mut looked, mut unclear, mut wrong, mut refused) = (0, 0, Vec::new(), Vec::new());
+    let (mut looked, mut unclear, mut unsure, mut wrong, mut refused) = (0, 0, 0, Vec::new(), Vec::new());
     for seed in 0..wanted {
         if start.elapsed() > bound {
             break;
@@ -443,6 +443,8 @@ fn freedoms_are_those_of_the_closures() {
             match found(&mechanism, formulation) {
                 Ok(count) if count == freedoms => {}
                 Err(message) if freedoms == 0 && message.contains("leaves no freedom") => {}
+                // Honest, though not always needed: frames that were typed are no more exact than their digits.
+                Err(message) if formulation.contains("Reduced") && message.contains("is not known") => unsure += 1,
                 // Nothing counts the turns of such a screw.
                 Err(message) if formulation.contains("Reduced") && message.contains("whole turns only") => {}
                 Ok(count) => wrong.push(format!("{seed} {formulation}: {count} for {freedoms}\n{}", mechanism.text)),
@@ -462,5 +464,6 @@ fn freedoms_are_those_of_the_closures() {
         println!("{text}");
     }
     assert!(wrong.is_empty() && refused.is_empty());
+    assert!(50 * unsure <= looked, "{unsure} of {looked} reduced models refused for want of a clear rank");
     assert!(looked >= 100 || wanted < 300, "{looked} in {:?}", start.elapsed());
 }

@@ -131,6 +131,11 @@ fn towards(
         }
     }
     let length = length(g);
+    if g.literal(length).is_none() {
+        // A length with a root that nothing is known of: by its angle the turn is one on the circle all the same.
+        let angle = g.call(Call::Atan2, &[y, x]);
+        return g.axis_rotation(axis, angle);
+    }
     let (cos, sin) = (g.div(x, length), g.div(y, length));
     g.point_rotation(axis, cos, sin)
 }

@@ -73,7 +73,9 @@ impl Equations<'_> {
         let sum = self.g.add(Scalar::ONE, square);
         let root = self.g.call(Call::Sqrt, &[sum]);
         let inverse = self.g.reciprocal(root);
-        self.g.mul(g, inverse)
+        let share = self.g.mul(g, inverse);
+        // Its sign changes in the poles too, where nothing meets: integrators see it by its rate alone.
+        self.g.call(Call::Abs, &[share])
     }
 }
 

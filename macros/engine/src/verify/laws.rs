@@ -56,7 +56,7 @@ impl Sum {
     fn holds(&self) -> Option<bool> {
         let sum = self.value.iter().fold(Doubled::ZERO, |sum, &x| sum + x).high.abs();
         let size: f64 = self.value.iter().map(|x| x.high.abs()).sum();
-        if !(sum.is_finite() && size.is_finite()) {
+        if !(sum.is_finite() && size.is_finite() && self.bound.is_finite()) {
             return None;
         }
         Some(sum <= EXACT * size || sum <= WORST * f64::EPSILON * (self.bound + size))

@@ -42,6 +42,8 @@ pub(super) struct Subject<'a> {
     pub program: &'a Program,
     /// Whether the last result is what an iteration has left: nothing but rounding.
     pub residual: bool,
+    /// As many times [`WORST`] a result may be off.
+    pub slack: f64,
 }
 
 impl Subject<'_> {
@@ -94,14 +96,22 @@ impl Subject<'_> {
         }
         suspects.sort_by(|a, b| b.0.total_cmp(&a.0));
         let total: f64 = suspects.iter().map(|s| s.0).sum();
-        if total > WORST * exact.slopes::<f64>(&weights, 0).bound {
+        let worst = WORST * self.slack;
+        let bound = exact.slopes::<f64>(&weights, 0).bound;
+        if !bound.is_finite() {
+            return Verdict::Unclear;
+        }
+        if total > worst * bound {
             return wrong(suspects[0].1);
         }
         for &(ratio, at) in suspects.iter().take(CLOSELY) {
             let mut single = vec![0.0; derived.len()];
             single[at] = weights[at];
             let bound = exact.slopes::<f64>(&single, 0).bound;
-            if ratio > WORST * bound {
+            if !bound.is_finite() {
+                return Verdict::Unclear;
+            }
+            if ratio > worst * bound {
                 return wrong(at);
             }
         }

@@ -476,13 +476,12 @@ fn margins_have_their_rates() {
             point.set(position, crank);
             point.set(velocity, speed);
             if case.derivation.functions.iter().any(|function| function.kind == FunctionKind::Guess) {
-                for _ in 0..4 {
-                    settle(case, &mut point, &angles);
+                for _ in 0..40 {
+                    for (index, &value) in angles.iter().enumerate() {
+                        point.set(Symbol::Guess { index }, value);
+                    }
                     angles = case.eval(FunctionKind::Guess, &point);
                     angles.pop();
-                }
-                for (index, &value) in angles.iter().enumerate() {
-                    point.set(Symbol::Guess { index }, value);
                 }
             }
             case.eval(FunctionKind::Margins, &point)
