@@ -41,14 +41,32 @@ multibody! {
     }
 }
 
+multibody! {
+    /// Two cranks on axes askew, of which Newton's method finds the second.
+    pub mod askew {
+        formulation { constraints: Reduced, independent: [p] }
+        world { gravity: [1.0, -9.0, 2.0] }
+        let seat = ground.at([2.0, 0.3, -0.4]).rotated([1, 2, 0.5], 0.7);
+        body one { mass: 2.0, com: [0.5, 0.1, 0.05], inertia: diag(0.02, 0.2, 0.2) }
+        body two { mass: 1.0, com: [0.6, 0, -0.1], inertia: diag(0.02, 0.15, 0.15) }
+        joint p: Revolute { parent: ground, child: one, axis: [1, 1, 4] }
+        joint r: Revolute { parent: seat, child: two, axis: [0.2, -1, 3] }
+        constraint rod: Rod { between: [one.at(1.6 * X), two.at(1.3 * X)], length: 1.5 }
+        emit forward_dynamics, inverse_dynamics, mass_matrix, energy;
+    }
+}
+
 #[test]
 fn functions_agree() {
     let model = pinned::Model::<f64>::default();
     let mut state = pinned::State::default();
     (state.q.a, state.q.b, state.q.c) = (1.1, -0.7, 1.9);
     (state.v.a, state.v.b, state.v.c) = (3.0, -2.0, 1.5);
-    let agreement = verify_at(&model, 0.3, &state, &pinned::Input { torque: 2.0 });
+    let input = pinned::Input { torque: 2.0 };
+    let agreement = verify_at(&model, 0.3, &state, &input);
     assert!(agreement.worst() < 1e-13, "{agreement:?}");
+    let (_, held) = model.free_motion(0.3, &state, &input);
+    assert!(held.amax() > 1.0, "the last pin holds: {held}");
 
     let model = craft::Model::<f64>::default();
     let mut state = craft::State::default();
@@ -56,6 +74,20 @@ fn functions_agree() {
     state.v.float.angular = [0.3, -1.1, 0.8].into();
     state.v.float.linear = [1.0, 2.0, -0.5].into();
     let agreement = verify(&model, &state);
+    assert!(agreement.worst() < 1e-13, "{agreement:?}");
+
+    // In single precision, to its own roundings.
+    let single = craft::Model::<f32>::default();
+    let mut coarse = craft::State::<f32>::default();
+    (coarse.q.hinge, coarse.v.hinge) = (-2.3, 1.7);
+    coarse.v.float.angular = [0.3, -1.1, 0.8].into();
+    let agreement = verify(&single, &coarse);
+    assert!(agreement.worst() < 1e-5, "{agreement:?}");
+
+    let newton = askew::Model::<f64>::default();
+    let mut closed = newton.close(0.0, &askew::State::default()).state;
+    closed.v.p = 4.0;
+    let agreement = verify(&newton, &closed);
     assert!(agreement.worst() < 1e-13, "{agreement:?}");
 
     state.v.hinge = f64::NAN;
