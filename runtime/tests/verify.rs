@@ -42,16 +42,19 @@ multibody! {
 }
 
 multibody! {
-    /// Two cranks on axes askew, of which Newton's method finds the second.
-    pub mod askew {
-        formulation { constraints: Reduced, independent: [p] }
+    /// A four-bar on an oblique axis, of whose angles Newton's method finds two.
+    pub mod iterated {
+        formulation { constraints: Reduced, independent: [a] }
         world { gravity: [1.0, -9.0, 2.0] }
-        let seat = ground.at([2.0, 0.3, -0.4]).rotated([1, 2, 0.5], 0.7);
-        body one { mass: 2.0, com: [0.5, 0.1, 0.05], inertia: diag(0.02, 0.2, 0.2) }
-        body two { mass: 1.0, com: [0.6, 0, -0.1], inertia: diag(0.02, 0.15, 0.15) }
-        joint p: Revolute { parent: ground, child: one, axis: [1, 1, 4] }
-        joint r: Revolute { parent: seat, child: two, axis: [0.2, -1, 3] }
-        constraint rod: Rod { between: [one.at(1.6 * X), two.at(1.3 * X)], length: 1.5 }
+        let seat = ground.rotated([1, 2, 0.5], 0.7);
+        body one { mass: 1.0, com: X, inertia: rod(1.0, 2.0, X) }
+        body two { mass: 1.0, com: [0.6, 0.1, 0.0], inertia: rod(1.0, 1.2, X) }
+        body three { mass: 1.0, com: 0.75 * X, inertia: rod(1.0, 1.5, X) }
+        joint a: Revolute { parent: seat, child: one, axis: Z }
+        joint b: Revolute { parent: one.at(2.0 * X), child: two, axis: Z }
+        joint c: Revolute { parent: seat.at(3.5 * X), child: three, axis: Z }
+        #[cut]
+        joint d: Revolute { parent: two.at(1.2 * X), child: three.at(1.5 * X), axis: Z }
         emit forward_dynamics, inverse_dynamics, mass_matrix, energy;
     }
 }
@@ -84,9 +87,12 @@ fn functions_agree() {
     let agreement = verify(&single, &coarse);
     assert!(agreement.worst() < 1e-5, "{agreement:?}");
 
-    let newton = askew::Model::<f64>::default();
-    let mut closed = newton.close(0.0, &askew::State::default()).state;
-    closed.v.p = 4.0;
+    let newton = iterated::Model::<f64>::default();
+    let mut start = iterated::State::default();
+    (start.q.a, start.v.a, start.guess) = (0.7, 4.0, iterated::Guess { b: -0.7, c: 2.1 });
+    let closed = newton.close(0.0, &start);
+    assert!(closed.residual < 1e-12);
+    let closed = closed.state;
     let agreement = verify(&newton, &closed);
     assert!(agreement.worst() < 1e-13, "{agreement:?}");
 
