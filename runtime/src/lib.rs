@@ -42,6 +42,7 @@
 //!   them closed.
 //! - [`impact`]: impulses, and impacts with Newton's law, at joints and frames.
 //! - [`mod@equilibrium`]: states of rest and steady motions.
+//! - [`verify`](fn@verify): how well the functions of a model agree, for your tests.
 //! - [`linear`]: small linear systems, with their rank and without a branch.
 //!
 //! # Conventions
@@ -98,6 +99,7 @@ mod scalar;
 mod simulate;
 mod system;
 mod tangent;
+mod verify;
 
 pub use canonical::{Canonical, Separable};
 pub use configuration::Configuration;
@@ -124,6 +126,7 @@ pub use simba;
 pub use simulate::{simulate, simulate_stiff};
 pub use system::{ExtraOf, Margin, Opening, PositionOf, StateSpace, System, VelocityOf};
 pub use tangent::Tangent;
+pub use verify::{Agreement, Verifiable, verify, verify_at};
 
 /// Derives the equations of motion of the declared mechanisms and emits them as Rust modules.
 ///

@@ -772,4 +772,43 @@ pub mod cart_pole {
             (self.forward_dynamics(t, state, input), ())
         }
     }
+    impl<T: Real> ::multibody::Verifiable<2> for Model<T> {
+        fn free_motion(
+            &self,
+            t: T,
+            state: &State<T>,
+            input: &Input<T>,
+        ) -> (
+            ::multibody::nalgebra::SVector<T, 2>,
+            ::multibody::nalgebra::SVector<T, 2>,
+        ) {
+            (
+                self.forward_dynamics(t, state, input).into(),
+                ::multibody::nalgebra::SVector::zeros(),
+            )
+        }
+        fn efforts(
+            &self,
+            t: T,
+            state: &State<T>,
+            input: &Input<T>,
+            accelerations: &::multibody::nalgebra::SVector<T, 2>,
+        ) -> ::multibody::nalgebra::SVector<T, 2> {
+            self.inverse_dynamics(t, state, input, &(*accelerations).into()).into()
+        }
+        fn inertia(
+            &self,
+            _t: T,
+            state: &State<T>,
+            _input: &Input<T>,
+        ) -> ::multibody::nalgebra::SMatrix<T, 2, 2> {
+            {
+                let state = &state.q;
+                self.mass_matrix(state)
+            }
+        }
+        fn kinetic(&self, _t: T, state: &State<T>, _input: &Input<T>) -> T {
+            self.kinetic_energy(state)
+        }
+    }
 }

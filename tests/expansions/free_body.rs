@@ -819,4 +819,43 @@ pub mod free_body {
             (self.forward_dynamics(t, state, input), ())
         }
     }
+    impl<T: Real> ::multibody::Verifiable<6> for Model<T> {
+        fn free_motion(
+            &self,
+            t: T,
+            state: &State<T>,
+            input: &(),
+        ) -> (
+            ::multibody::nalgebra::SVector<T, 6>,
+            ::multibody::nalgebra::SVector<T, 6>,
+        ) {
+            (
+                self.forward_dynamics(t, state, input).into(),
+                ::multibody::nalgebra::SVector::zeros(),
+            )
+        }
+        fn efforts(
+            &self,
+            t: T,
+            state: &State<T>,
+            input: &(),
+            accelerations: &::multibody::nalgebra::SVector<T, 6>,
+        ) -> ::multibody::nalgebra::SVector<T, 6> {
+            self.inverse_dynamics(t, state, input, &(*accelerations).into()).into()
+        }
+        fn inertia(
+            &self,
+            _t: T,
+            state: &State<T>,
+            _input: &(),
+        ) -> ::multibody::nalgebra::SMatrix<T, 6, 6> {
+            {
+                let state = &state.q;
+                self.mass_matrix(state)
+            }
+        }
+        fn kinetic(&self, _t: T, state: &State<T>, _input: &()) -> T {
+            self.kinetic_energy(state)
+        }
+    }
 }

@@ -606,4 +606,43 @@ pub mod pendulum {
         }
     }
     impl<T: Real> ::multibody::Separable for Model<T> {}
+    impl<T: Real> ::multibody::Verifiable<1> for Model<T> {
+        fn free_motion(
+            &self,
+            t: T,
+            state: &State<T>,
+            input: &(),
+        ) -> (
+            ::multibody::nalgebra::SVector<T, 1>,
+            ::multibody::nalgebra::SVector<T, 1>,
+        ) {
+            (
+                self.forward_dynamics(t, state, input).into(),
+                ::multibody::nalgebra::SVector::zeros(),
+            )
+        }
+        fn efforts(
+            &self,
+            t: T,
+            state: &State<T>,
+            input: &(),
+            accelerations: &::multibody::nalgebra::SVector<T, 1>,
+        ) -> ::multibody::nalgebra::SVector<T, 1> {
+            self.inverse_dynamics(t, state, input, &(*accelerations).into()).into()
+        }
+        fn inertia(
+            &self,
+            _t: T,
+            state: &State<T>,
+            _input: &(),
+        ) -> ::multibody::nalgebra::SMatrix<T, 1, 1> {
+            {
+                let state = &state.q;
+                self.mass_matrix(state)
+            }
+        }
+        fn kinetic(&self, _t: T, state: &State<T>, _input: &()) -> T {
+            self.kinetic_energy(state)
+        }
+    }
 }

@@ -155,6 +155,11 @@ impl Arguments {
         self.time
     }
 
+    /// Whether it takes the state, and not its position alone.
+    pub(super) fn has_state(self) -> bool {
+        self.state
+    }
+
     pub(super) fn has_input(self) -> bool {
         self.input
     }

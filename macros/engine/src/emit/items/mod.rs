@@ -15,6 +15,7 @@ mod space;
 mod state;
 mod structs;
 mod system;
+mod verifiable;
 
 use proc_macro2::TokenStream;
 
@@ -37,6 +38,7 @@ pub(super) fn all(context: &Context<'_>) -> TokenStream {
         differentiable::item(context),
         separable::item(context),
         impulses::items(context),
+        verifiable::item(context).unwrap_or_default(),
         parts::items(context),
     ]
     .into_iter()
