@@ -1,0 +1,1 @@
+//! Written by `are_as_the_generator_says`.
