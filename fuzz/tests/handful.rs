@@ -6,11 +6,14 @@
 #[path = "handful/models.rs"]
 pub mod models;
 
+/// Small ones, so that they compile in seconds.
+const SEEDS: [u64; 7] = [101, 102, 104, 105, 106, 107, 109];
+
 /// The file holds what the generator says; `UPDATE=1` writes it anew.
 #[test]
 fn are_as_the_generator_says() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/handful/models.rs");
-    let want = multibody_fuzz::grammar_campaign::file(4, 100);
+    let want = multibody_fuzz::grammar_campaign::file(&SEEDS);
     if std::env::var_os("UPDATE").is_some() {
         std::fs::write(path, &want).expect("a file of this package");
     }
