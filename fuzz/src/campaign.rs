@@ -83,8 +83,11 @@ impl Family for Loops {
     }
 
     fn excuses(&self, mechanism: &Mechanism, _: u64, said: &[String]) -> bool {
+        let all = |words: &str| said.iter().all(|text| text.contains(words));
         // The language has no coordinate for what a quaternion's loop leaves.
-        said.iter().all(|text| text.contains("and it is a quaternion")) || !loops::is_regular(mechanism)
+        all("and it is a quaternion")
+            || !loops::is_regular(mechanism)
+            || all("leaves no freedom") && loops::is_locked(mechanism)
     }
 }
 

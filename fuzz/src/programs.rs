@@ -5,8 +5,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::mechanics::structure::Structure;
 use multibody_engine::model::types::{JointId, Model};
+use multibody_engine::optimize::Refusal;
 use multibody_engine::optimize::program::{Compiled, FunctionKind, Symbol};
-use multibody_engine::{Trouble, compile, model, optimize, syntax};
+use multibody_engine::{Trouble, compile, model, syntax};
 
 #[path = "../../macros/engine/tests/common/interpreter.rs"]
 mod interpreter;
@@ -26,6 +27,8 @@ pub struct Programs {
 pub enum Failure {
     /// The messages.
     Refused(Vec<String>),
+    /// The engine's own check of what it has compiled says no.
+    Engine(Refusal),
     /// The engine broke.
     Panic,
 }
@@ -51,11 +54,12 @@ impl Programs {
         let (Some(model), []) = (models.pop(), &said[..]) else { return Err(Failure::Refused(said)) };
         match compile(&model) {
             Ok((structure, compiled)) => Ok(Programs { model, structure, compiled }),
-            Err(trouble) => Err(Failure::Refused(match trouble {
-                Trouble::Complaints(list) => list.into_iter().map(|complaint| complaint.message).collect(),
-                Trouble::Refused(optimize::Refusal::TooLarge(_)) => vec!["too large".into()],
-                Trouble::Refused(_) => vec!["not finite".into()],
-            })),
+            Err(trouble) => Err(match trouble {
+                Trouble::Complaints(list) => Failure::Refused(list.into_iter().map(|c| c.message).collect()),
+                Trouble::Refused(Refusal::TooLarge(_)) => Failure::Refused(vec!["too large".into()]),
+                Trouble::Refused(Refusal::NotFinite) => Failure::Refused(vec!["not finite".into()]),
+                Trouble::Refused(own) => Failure::Engine(own),
+            }),
         }
     }
 

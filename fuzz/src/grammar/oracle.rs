@@ -3,6 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use multibody_engine::diagnostics::Diagnostics;
+use multibody_engine::optimize::Refusal;
 use multibody_engine::{Trouble, compile, expand, model, syntax};
 use proc_macro2::TokenStream;
 
@@ -47,7 +48,10 @@ fn messages(tokens: TokenStream) -> Result<Vec<String>, String> {
                 Err(Trouble::Complaints(list)) => {
                     list.into_iter().for_each(|complaint| diagnostics.error(complaint.span, complaint.message));
                 }
-                Err(Trouble::Refused(refusal)) => diagnostics.error(model.name.span(), format!("{refusal:?}")),
+                Err(Trouble::Refused(refusal @ (Refusal::TooLarge(_) | Refusal::NotFinite))) => {
+                    diagnostics.error(model.name.span(), format!("{refusal:?}"));
+                }
+                Err(Trouble::Refused(own)) => return Err(format!("the engine's own check: {own:?}")),
             }
         }
     }

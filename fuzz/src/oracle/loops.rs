@@ -5,7 +5,7 @@ use multibody_engine::optimize::program::{FunctionKind, Symbol};
 
 use super::{At, Findings, Verdict};
 use crate::algebra::{V3, apply, dot, norm, quaternion, transposed};
-use crate::closed::{accelerations, settled, state};
+use crate::closed::{accelerations, jacobian, settled, state};
 use crate::mechanism::Mechanism;
 use crate::mechanism::expression::Point;
 use crate::plain::{Motion, Plain, split};
@@ -19,6 +19,7 @@ pub fn check(mechanism: &Mechanism, seed: u64) -> Verdict {
     let programs = match Programs::new(&mechanism.text()) {
         Ok(programs) => programs,
         Err(Failure::Panic) => return Verdict::Panic,
+        Err(Failure::Engine(refusal)) => return Verdict::Engine(refusal),
         Err(Failure::Refused(list)) => return Verdict::Refused(list),
     };
     let mut random = Random::new(seed);
@@ -33,8 +34,8 @@ pub fn check(mechanism: &Mechanism, seed: u64) -> Verdict {
     findings.verdict()
 }
 
-/// Whether the drawn configuration is one at all, and not a singular one.
-pub fn is_regular(mechanism: &Mechanism) -> bool {
+/// The drawn configuration, closed.
+fn drawn(mechanism: &Mechanism) -> Option<Point> {
     let mut random = Random::new(0);
     let mut at = mechanism.point(&mut random);
     at.params.clear();
@@ -44,6 +45,20 @@ pub fn is_regular(mechanism: &Mechanism) -> bool {
     }
     at.q = mechanism.closed.clone();
     settled(mechanism, at)
+}
+
+/// Whether the equations hold still every coordinate that they touch: nothing that they close can move.
+pub fn is_locked(mechanism: &Mechanism) -> bool {
+    drawn(mechanism).is_some_and(|at| {
+        let slope = jacobian(mechanism, &at);
+        let touched = slope.column_iter().filter(|column| column.amax() > 1e-9).count();
+        accelerations(mechanism, &at).is_some_and(|found| found.ratio > 1e-3 && found.rank == touched)
+    })
+}
+
+/// Whether the drawn configuration is one at all, and not a singular one.
+pub fn is_regular(mechanism: &Mechanism) -> bool {
+    drawn(mechanism)
         .and_then(|at| accelerations(mechanism, &at))
         .is_some_and(|found| found.ratio > 1e-3 && found.rank < mechanism.freedoms())
 }

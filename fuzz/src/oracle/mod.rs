@@ -5,6 +5,7 @@ pub mod tree;
 
 use std::fmt;
 
+use multibody_engine::optimize::Refusal;
 use multibody_engine::optimize::program::Symbol;
 
 use crate::mechanism::expression::Point;
@@ -17,6 +18,8 @@ pub enum Verdict {
     Right(usize),
     /// The compiler says no.
     Refused(Vec<String>),
+    /// The compiler says that it has made an error: no reason excuses it.
+    Engine(Refusal),
     /// A panic.
     Panic,
     /// What, by how much, and where.
@@ -49,6 +52,7 @@ impl Verdict {
                 let digits = |c: char| if c.is_ascii_digit() { '0' } else { c };
                 format!("refused: {}", class.chars().map(digits).collect::<String>())
             }
+            Verdict::Engine(refusal) => format!("engine: {refusal:?}"),
             Verdict::Panic => "panic".into(),
             Verdict::Wrong(list) => {
                 let text = list.first().map_or("", |fault| fault.what.as_str());
@@ -63,6 +67,7 @@ impl fmt::Display for Verdict {
         match self {
             Verdict::Right(count) => write!(f, "right ({count} numbers)"),
             Verdict::Refused(list) => write!(f, "refused: {}", list.join("; ")),
+            Verdict::Engine(refusal) => write!(f, "the engine's own check: {refusal:?}"),
             Verdict::Panic => write!(f, "panic"),
             Verdict::Wrong(list) => {
                 for fault in list.iter().take(4) {

@@ -19,6 +19,7 @@ pub fn check(mechanism: &Mechanism, seed: u64) -> Verdict {
     let programs = match Programs::new(&mechanism.text()) {
         Ok(programs) => programs,
         Err(Failure::Panic) => return Verdict::Panic,
+        Err(Failure::Engine(refusal)) => return Verdict::Engine(refusal),
         Err(Failure::Refused(list)) => return Verdict::Refused(list),
     };
     let mut random = Random::new(seed);

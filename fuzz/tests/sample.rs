@@ -1,0 +1,42 @@
+//! A bounded, seeded sample of the long runs (see `ARCHITECTURE.md`, "How it is proven").
+
+use std::time::Duration;
+
+use multibody_fuzz::campaign::{Chains, Family, Loops, Plan, run};
+use multibody_fuzz::grammar_campaign;
+
+fn plan(models: usize, seed: u64) -> Plan {
+    // On a slow machine fewer are looked at; none is judged less strictly.
+    Plan { models, seed, shown: 1, time: Duration::from_secs(12) }
+}
+
+#[track_caller]
+fn passes(family: &dyn Family, models: usize, seed: u64) {
+    let tally = run(family, plan(models, seed));
+    assert!(tally.models > 0 && tally.numbers > 0);
+    assert_eq!(tally.failures(), 0, "{:#?}\n{}", tally.classes, tally.reports.join("\n"));
+}
+
+#[test]
+fn chains_and_trees() {
+    passes(&Chains, 80, 1);
+}
+
+#[test]
+fn loops_in_all_formulations() {
+    passes(&Loops, 26, 35);
+}
+
+#[test]
+fn calls_that_keep_to_the_grammar() {
+    let (tally, good) = grammar_campaign::run(plan(60, 1), false);
+    assert_eq!(tally.failures(), 0, "{:#?}\n{}", tally.classes, tally.reports.join("\n"));
+    assert!(4 * good.len() > tally.models, "{} of {} compile", good.len(), tally.models);
+}
+
+#[test]
+fn broken_calls() {
+    let (tally, _) = grammar_campaign::run(plan(300, 1), true);
+    assert!(tally.models > 10);
+    assert_eq!(tally.failures(), 0, "{:#?}\n{}", tally.classes, tally.reports.join("\n"));
+}
