@@ -177,7 +177,7 @@ fn solved_start() -> solved::State {
 /// When the crank turns back.
 fn truth() -> f64 {
     let model = kept::Model::<f64>::default();
-    let [a, b, c] = solved::Model::default().outputs(0.0, &solved_start(), &()).angles.into();
+    let [a, b, c] = solved::Model::default().outputs(0.0, &solved_start(), &()).angles;
     let start = kept::State { q: kept::Position { a, b, c }, ..Default::default() };
     let mut turns = Turns(|x: &kept::State| x.v.a, 0.0);
     let system = WithProjection::new(&model, Projection::default());
@@ -202,7 +202,7 @@ fn every_method_ends_in_a_dead_centre() {
 
     let model = iterated::Model::default();
     let mut start = iterated::State { q: iterated::Position { a: 0.7 }, ..Default::default() };
-    let [_, b, c] = solved::Model::default().outputs(0.0, &solved_start(), &()).angles.into();
+    let [_, b, c] = solved::Model::default().outputs(0.0, &solved_start(), &()).angles;
     start.guess = iterated::Guess { b: b + 0.01, c: c - 0.01 };
     plain("Newton", &model, &start, truth);
     implicit("Newton", &model, &start, truth);
@@ -360,7 +360,7 @@ fn an_event_hands_over() {
     let (end, _, when) = integrator.with_events(&model, 0.0, 3.0, &solved_start(), &(), &mut near, |_| ()).unwrap();
     assert!(when > 0.8 && when < truth(), "stopped at {when} s");
     let kept = kept::Model::<f64>::default();
-    let [a, b, c] = model.outputs(when, &end, &()).angles.into();
+    let [a, b, c] = model.outputs(when, &end, &()).angles;
     let other = kept::State { q: kept::Position { a, b, c }, v: kept::Velocity { a: end.v.a, b: 0.0, c: 0.0 } };
     let held = kept::Velocity { a: 0.0, b: 1.0, c: 1.0 };
     let other = Projection::default().project_weighted(&kept, when, &other, &held).unwrap().state;

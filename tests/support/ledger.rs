@@ -7,7 +7,7 @@ use multibody_engine::emit::function_name;
 use multibody_engine::mechanics;
 use multibody_engine::model::types::Model;
 use multibody_engine::optimize;
-use multibody_engine::optimize::program::{Cost, FunctionKind};
+use multibody_engine::optimize::program::Cost;
 
 use super::engine::{calls, literal, models};
 
@@ -36,9 +36,7 @@ pub fn count(model: &Model, params: bool) -> Vec<Row> {
     let mut derivation =
         mechanics::of(model).unwrap_or_else(|trouble| panic!("{}: {}", model.name, trouble[0].message)).1;
     let dof = model.joints.iter().map(|joint| joint.kind.freedoms()).sum();
-    let mut functions = std::mem::take(&mut derivation.functions);
-    // What integrators look at once a step is no equation of motion.
-    functions.retain(|function| function.kind != FunctionKind::Margins);
+    let functions = std::mem::take(&mut derivation.functions);
     let rows = functions.into_iter().map(|function| {
         derivation.functions = vec![function];
         let compiled = optimize::compile(&derivation).unwrap_or_else(|_| panic!("{} is too large", model.name));

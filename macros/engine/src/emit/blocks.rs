@@ -279,7 +279,8 @@ impl<'a> Blocks<'a> {
         }
         match (&names[..], &next[..]) {
             ([], _) => {}
-            ([name], [next]) => last.extend(quote!(#name = #next;)),
+            // By a tuple too: `x = x + step` alone is asked to be `x += step` in the user's crate.
+            ([name], [next]) => last.extend(quote!((#name,) = (#next,);)),
             _ => last.extend(quote!((#(#names),*) = (#(#next),*);)),
         }
         let body = Blocks::new(self.names, body, &after).all();

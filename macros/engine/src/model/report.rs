@@ -41,6 +41,11 @@ impl<'d> Report<'d> {
         !self.muted && self.seen.len() < MAX_SUGGESTIONS
     }
 
+    /// Whether so much is wrong that nobody's meaning is guessed at any more.
+    pub(super) fn is_hopeless(&self) -> bool {
+        self.seen.len() >= MAX_SUGGESTIONS
+    }
+
     /// From here on, or until this is called again, mistakes are not reported: what they leave is looked at once more.
     pub(super) fn mute(&mut self, muted: bool) {
         self.muted = muted;

@@ -41,8 +41,8 @@ impl<'a> Checker<'a, '_> {
             self.report.help(span, format!("`{text}` is a function"), format!("write `{text}(..)`"));
             return None;
         }
-        let near = self.names_of(context.scope).iter().any(|known| nearest(&text, [known.as_str()]).is_some());
-        if let Some(instead) = elsewhere(&text).filter(|_| !near) {
+        let near = || self.names_of(context.scope).iter().any(|known| nearest(&text, [known.as_str()]).is_some());
+        if let Some(instead) = elsewhere(&text).filter(|_| !near()) {
             self.report.help(span, format!("unknown name `{text}`"), instead);
             return None;
         }
