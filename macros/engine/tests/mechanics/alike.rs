@@ -158,11 +158,11 @@ fn place(point: &mut Point, joint: JointId, kind: &JointKind, [position, q, velo
     let rotation = of_quaternion(q);
     if let JointKind::Free(Orientation::Quaternion) = kind {
         let own = apply(&transpose(&rotation), &[spin[0], spin[1], spin[2]]);
-        for component in 0..4 {
-            point.set(Symbol::Position { joint, component: 3 + component }, q[component]);
+        for (component, &q) in q.iter().enumerate() {
+            point.set(Symbol::Position { joint, component: 3 + component }, q);
         }
-        for component in 0..3 {
-            point.set(Symbol::Velocity { joint, component: 3 + component }, own[component]);
+        for (component, &rate) in own.iter().enumerate() {
+            point.set(Symbol::Velocity { joint, component: 3 + component }, rate);
         }
         return;
     }
@@ -249,9 +249,8 @@ fn least(jacobian: &[f64], r: &[f64], n: usize) -> Option<Vec<f64>> {
         for i in 0..m {
             if i != k {
                 let factor = a[i][k] / a[k][k];
-                for j in k..=m {
-                    a[i][j] -= factor * a[k][j];
-                }
+                let pivot = a[k].clone();
+                a[i].iter_mut().zip(&pivot).skip(k).for_each(|(x, p)| *x -= factor * p);
             }
         }
     }
