@@ -16,7 +16,7 @@
 //! | Planar | d . axis, child's axis . both axes across |
 //! | Fixed | d, three axes of the child . the next one of the parent |
 //!
-//! The angle of a screw counts its turns ([`winding`]), and so does the one that a Prismatic or Fixed joint holds where a
+//! The angle of a screw counts its turns (`winding`), and so does the one that a Prismatic or Fixed joint holds where a
 //! screw stands in its loop. Where an orientation alone gives it, up to whole turns, the
 //! equation is pitch * sin(travel / pitch - angle): it holds on every turn of the thread, so a motion stays on its own,
 //! and nothing tells on which it began. Solved from a guess such an equation could skip a turn: *Reduced* refuses it.
