@@ -154,7 +154,8 @@ fn a_residue_of_an_offset_is_no_size() {
             // Each hinge holds two origins together, so that of `b2` is the ground's, whatever the angles; the last joint
             // asks it to be a millimetre away. Four joints can share that, a quarter of it each: no gap in all is less than
             // sqrt(4) 0.25 mm, as plain least squares over three free bodies finds too.
-            let messages = looked(&text).1.err().map(|list| list.into_iter().map(|one| one.message).collect::<Vec<_>>());
+            let messages =
+                looked(&text).1.err().map(|list| list.into_iter().map(|one| one.message).collect::<Vec<_>>());
             let said = messages.as_deref().unwrap_or_default();
             let gap = said.first().and_then(|text| text.strip_suffix(" m")?.rsplit(' ').next()?.parse::<f64>().ok());
             assert!(said.len() == 1 && said[0].contains("`l0` closes cannot close"), "{messages:?}");
@@ -185,4 +186,42 @@ fn bodies_on_hinges_may_stay_at_their_place() {
         constraint still = x;",
     );
     assert!(found.is_err(), "nothing moves");
+}
+
+/// What time moves is not locked; what only holds at time zero does not hold.
+#[test]
+fn time_moves() {
+    let slider = |constraints: &str| {
+        format!(
+            "body one {{ mass: 1.0, inertia: diag(0.01, 0.01, 0.02) }}
+            joint x: Cylindrical {{ parent: ground, child: one, axis: X }} {constraints}"
+        )
+    };
+    // Fully prescribed, and one equation follows from the other at all times.
+    for constraints in [
+        "constraint a = x.travel - 0.3 * t; constraint b = x.angle - t;",
+        "constraint a = x.travel - 0.3 * t; constraint b = x.angle - t; constraint c = x.angle * 0.3 - x.travel;",
+        "constraint a = sin(t) * (x.travel - 0.3);",
+    ] {
+        for formulation in ["", "formulation { constraints: Reduced }"] {
+            let (_, structure) = sound(&slider(&format!("{constraints} {formulation}")));
+            let count = constraints.matches("constraint").count().min(2);
+            assert_eq!(structure.independent.len(), count, "{constraints}: {:?}", structure.notes);
+        }
+    }
+    for constraints in [
+        "constraint a = x.travel - 0.3 * t; constraint b = x.travel - 0.5 * t;",
+        "constraint a = x.travel - 0.3 * t; constraint b = x.travel;",
+        "constraint a = x.travel - 0.3 * t; constraint b = x.angle; constraint c = x.angle + x.travel;",
+        "constraint a = 0.1 * t;",
+        "constraint a = sin(t) * (1.0 + x.travel * 0.0);",
+        "constraint a = sin(t) * x.travel; constraint b = x.travel - 0.3;",
+    ] {
+        for formulation in ["", "formulation { constraints: Reduced }"] {
+            let (_, found) = looked(&slider(&format!("{constraints} {formulation}")));
+            let messages = found.err().map(|list| list.into_iter().map(|one| one.message).collect::<Vec<_>>());
+            let said = messages.as_ref().is_some_and(|list| list.len() == 1 && list[0].contains("cannot close"));
+            assert!(said, "{constraints} {formulation}: {messages:?}");
+        }
+    }
 }

@@ -208,7 +208,7 @@ impl Analysis<'_> {
 
 /// Groups of what can't move at all. Equations of one closing may fall into several groups, some of which fix all their
 /// coordinates: a body in absolute coordinates on a hinge stays at its place and turns. So what hangs together is taken
-/// together: groups that share a closing or a joint, with all coordinates of these joints.
+/// together: groups that share a closing or a joint, with all coordinates of these joints. What time prescribes moves.
 pub(super) fn locked(problem: &Problem, looked: &[Looked]) -> Vec<usize> {
     let mut root: Vec<usize> = (0..looked.len()).collect();
     let (mut by_closing, mut by_joint) = (BTreeMap::new(), BTreeMap::new());
@@ -224,15 +224,16 @@ pub(super) fn locked(problem: &Problem, looked: &[Looked]) -> Vec<usize> {
         }
     }
     // By component: its joints, and the freedoms that equations take.
-    let mut parts: BTreeMap<usize, (BTreeSet<JointId>, usize)> = BTreeMap::new();
+    let mut parts: BTreeMap<usize, (BTreeSet<JointId>, usize, bool)> = BTreeMap::new();
     for (number, one) in looked.iter().enumerate() {
         let part = parts.entry(super::find(&mut root, number)).or_default();
         part.0.extend(joints(problem, one));
         part.1 += one.ranked.rank;
+        part.2 |= one.group.equations.iter().any(|&k| problem.equations[k].timed);
     }
     let mut is_locked = |number: &usize| {
-        parts.get(&super::find(&mut root, *number)).is_some_and(|(joints, rank)| {
-            *rank >= problem.columns.iter().filter(|column| joints.contains(&column.coordinate.joint)).count()
+        parts.get(&super::find(&mut root, *number)).is_some_and(|(joints, rank, timed)| {
+            !timed && *rank >= problem.columns.iter().filter(|column| joints.contains(&column.coordinate.joint)).count()
         })
     };
     (0..looked.len()).filter(|number| is_locked(number)).collect()

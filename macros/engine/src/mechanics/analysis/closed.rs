@@ -37,13 +37,18 @@ pub(super) fn closed(problem: &Problem, samples: &[Sampled], structure: &Structu
     let mut random = Random(0xC105ED);
     for k in 0..if least == 0 { 0 } else { most } {
         let mut point = problem.start(&mut random, 1.0);
+        problem.put_time(&mut point, 0.0);
+        let mut reached = true;
         for sampled in samples {
             let mut own = sampled.configurations.iter().filter(|c| c.closed);
             if let Some(found) = own.nth(k % points(sampled)) {
                 problem.take(&mut point, &found.point, &sampled.group.columns);
             }
+            reached &= at_start(problem, sampled, &mut point, &mut values);
         }
-        list.push(closed_at(problem, &point, samples, &mut values));
+        if reached {
+            list.push(closed_at(problem, &point, samples, &mut values));
+        }
     }
     list
 }
@@ -77,7 +82,18 @@ fn near(problem: &Problem, sampled: &Sampled, structure: &Structure, values: &mu
             return singular;
         }
     }
-    sampled.configurations.iter().find(|configuration| configuration.closed).map(|c| c.point.clone())
+    sampled.configurations.iter().filter(|configuration| configuration.closed).find_map(|found| {
+        let mut point = found.point.clone();
+        problem.put_time(&mut point, 0.0);
+        at_start(problem, sampled, &mut point, values).then_some(point)
+    })
+}
+
+/// Whether a point that was found closed at a time of its own can be moved to where it is at time zero.
+fn at_start(problem: &Problem, sampled: &Sampled, point: &mut Point, values: &mut Values) -> bool {
+    let Group { equations, columns } = &sampled.group;
+    let timed = equations.iter().any(|&k| problem.equations[k].timed);
+    !timed || Search::new(problem, equations, columns).close(point, values)
 }
 
 fn closed_at(problem: &Problem, point: &Point, samples: &[Sampled], values: &mut Values) -> Closed {

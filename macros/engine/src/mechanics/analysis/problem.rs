@@ -2,7 +2,8 @@
 //!
 //! In: the model. Out: a [`Problem`]: residuals of all closings and of formulas that a user wrote, with what each of them
 //! depends on, evaluated in double precision with parameters at their defaults and inputs at zero. Columns are velocity
-//! coordinates of the tree; travels count in units of the mechanism's size, so that they compare with angles.
+//! coordinates of the tree; travels count in units of the mechanism's size, so that they compare with angles. Where time has
+//! a say each start has a time of its own: what holds at time zero alone does not hold.
 
 use crate::model::types::{Closing, ConstraintKind, Coordinate, Handling, JointId, Model, SolveHow};
 use crate::optimize::program::Symbol;
@@ -33,6 +34,8 @@ pub(super) struct Equation {
     pub columns: Vec<usize>,
     /// Whether a parameter has a say.
     pub adjustable: bool,
+    /// Whether time has.
+    pub timed: bool,
     /// Whether what slopes it has are rounding: it has no columns then.
     pub constant: bool,
     pub(super) root: usize,
@@ -89,6 +92,8 @@ pub(super) struct Problem {
     quaternions: Vec<Quaternion>,
     /// By joint the symbols of its position.
     positions: Vec<Vec<usize>>,
+    /// Its symbol.
+    time: Option<usize>,
     pub(super) defaults: Vec<f64>,
     /// Positions that drives give at time zero, with the tape's roots for them.
     driven: Vec<(usize, usize)>,
@@ -183,6 +188,7 @@ impl Problem {
         let tape = Tape::new(&lowering.to, &roots);
         let defaults = defaults(model, &e.symbols, off);
         let parameter = |&id: &usize| matches!(e.symbols.table.get(id), Some(Symbol::Param { .. }));
+        let time = e.symbols.table.iter().position(|symbol| matches!(symbol, Symbol::Time));
         let columns_of = |root: usize| {
             let mut list: Vec<usize> = Vec::new();
             for id in tape.symbols(root) {
@@ -200,8 +206,11 @@ impl Problem {
             list
         };
         let equations = sources.iter().zip(measures).enumerate().map(|(root, (&(source, _), measure))| {
-            let adjustable = tape.symbols(root).iter().any(parameter);
-            Equation { source, columns: columns_of(root), adjustable, constant: false, root, measure, scale: 1.0 }
+            let symbols = tape.symbols(root);
+            let adjustable = symbols.iter().any(parameter);
+            let timed = symbols.iter().any(|&id| Some(id) == time);
+            let columns = columns_of(root);
+            Equation { source, columns, adjustable, timed, constant: false, root, measure, scale: 1.0 }
         });
         let equations: Vec<Equation> = equations.collect();
         let first = equations.len();
@@ -219,6 +228,7 @@ impl Problem {
             movers,
             quaternions,
             positions,
+            time,
             defaults,
             driven,
             size: 1.0,
@@ -227,12 +237,20 @@ impl Problem {
         problem
     }
 
-    /// Equations that depend on no coordinate.
+    /// Equations that depend on no coordinate. Those of time are looked at twice: it should make no difference to them.
     pub(super) fn constants(&self) -> Vec<(usize, Gap)> {
         let mut values = Values::default();
-        self.tape.run(&mut values, &self.defaults);
+        let mut point = Point(self.defaults.clone());
         let constant = |k: &usize| self.equations[*k].columns.is_empty();
-        (0..self.equations.len()).filter(constant).map(|k| (k, self.gap(&values, &[k]))).collect()
+        let constant: Vec<usize> = (0..self.equations.len()).filter(constant).collect();
+        self.tape.run(&mut values, &point.0);
+        let mut list: Vec<(usize, Gap)> = constant.into_iter().map(|k| (k, self.gap(&values, &[k]))).collect();
+        if list.iter().any(|one| self.equations[one.0].timed) {
+            self.put_time(&mut point, 0.377);
+            self.tape.run(&mut values, &point.0);
+            list.iter_mut().for_each(|(k, gap)| gap.widen(&self.gap(&values, &[*k])));
+        }
+        list
     }
 
     /// Closings that move nothing, and are closed with axes that point the wrong way.
@@ -245,9 +263,19 @@ impl Problem {
         wrong.map(|one| one.closing).collect()
     }
 
-    /// Random coordinates; `amplitude` one fills the circle and twice the mechanism's size.
+    /// Random coordinates; `amplitude` one fills the circle and twice the mechanism's size. The time is at random too, more
+    /// often soon than late, since some drives leave a loop's reach after a while.
     pub(super) fn start(&self, random: &mut Random, amplitude: f64) -> Point {
-        self.shaken(&Point(self.defaults.clone()), random, amplitude, &[])
+        let way = 0.5 * (Random(!random.0).next() + 1.0);
+        let mut point = self.shaken(&Point(self.defaults.clone()), random, amplitude, &[]);
+        self.put_time(&mut point, 1e-4 + way.powi(4));
+        point
+    }
+
+    pub(super) fn put_time(&self, point: &mut Point, time: f64) {
+        if let Some(slot) = self.time.and_then(|symbol| point.0.get_mut(symbol)) {
+            *slot = time;
+        }
     }
 
     /// A point at random around another; columns that are held stay.
