@@ -21,9 +21,11 @@ const FORMULATIONS: [&str; 4] = [
 const MOST: usize = 90;
 
 /// Why a formulation may be refused.
-const REASONS: [&str; 2] = [
+const REASONS: [&str; 3] = [
     // `emit kinematics` names coordinates that are no coordinates any more.
     "closes a loop and has no coordinates",
+    // A measured angle as a factor, or with a parameter as its ratio.
+    "known up to whole turns",
     // Quaternions leave the state whole or not at all.
     "and it is a quaternion",
 ];

@@ -25,7 +25,7 @@ use proc_macro2::Span;
 
 use crate::model::types::{Closing, Coordinate, DriveTarget, Handling, JointId, JointKind, Model};
 
-use super::closings::{closings, coordinate_name, row_count, row_name};
+use super::closings::{closings, coordinate_name, row_count, row_name, turns};
 use super::groups;
 use super::structure::{Means, Role, Row, Step, Structure};
 
@@ -52,6 +52,10 @@ pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
     structure.groups = groups::find(model);
     if model.cuts.is_empty() && model.constraints.is_empty() && model.drives.is_empty() {
         return Ok(structure);
+    }
+    let uncounted = turns::complaints(model);
+    if !uncounted.is_empty() {
+        return Err(uncounted);
     }
     let mut analysis =
         Analysis { model, complaints: Vec::new(), driven: HashMap::new(), steps: Vec::new(), samples: Vec::new() };

@@ -21,8 +21,8 @@
 //! equation is pitch * sin(travel / pitch - angle): it holds on every turn of the thread, so a motion stays on its own,
 //! and nothing tells on which it began. Solved from a guess such an equation could skip a turn: *Reduced* refuses it.
 //!
-//! A rod is (d . d - length^2) / 2, an expression is itself, a drive of a measured angle the sine of its lag. Cosines vanish
-//! on a further branch too, where axes point the
+//! A rod is (d . d - length^2) / 2, an expression is itself; where it counts the turns of measured angles, and so does a
+//! drive of one, it is taken up to whole turns (`turns`). Cosines vanish on a further branch too, where axes point the
 //! other way: [`Equations::alignments`] tells the branches apart. The axes in which d and the cosines are worked out
 //! don't matter for what the equations say, but for what they cost: [`Writing`].
 
@@ -30,11 +30,12 @@ mod cut;
 pub(super) mod expression;
 pub(super) mod measured;
 mod names;
+pub(super) mod turns;
 mod view;
 mod winding;
 mod wrenches;
 
-use crate::model::types::{Closing, Constraint, ConstraintId, ConstraintKind, ExprNode, JointId, JointKind, Model};
+use crate::model::types::{Closing, ConstraintId, ConstraintKind, JointId, JointKind, Model};
 use crate::symbolic::graph::{Graph, Scalar};
 
 use super::equations::{Equations, Method, Style, Way};
@@ -140,10 +141,7 @@ impl Equations<'_> {
                 let model = self.model;
                 let Some(constraint) = model.constraints.get(id.0) else { return Vec::new() };
                 match &constraint.kind {
-                    ConstraintKind::Value(value) => match self.lag(constraint) {
-                        Some([sin, _]) => vec![sin],
-                        None => vec![self.scalar(value)],
-                    },
+                    ConstraintKind::Value(_) => vec![self.expression_residual(id)],
                     ConstraintKind::Rod { between, length } => {
                         let ends = [self.place(&between[0]), self.place(&between[1])];
                         let length = self.scalar(length);
@@ -169,23 +167,8 @@ impl Equations<'_> {
     pub fn alignments(&mut self, closing: Closing) -> Vec<Scalar> {
         match closing {
             Closing::Cut(joint) => self.cut(joint).map_or_else(Vec::new, |cut| self.cut_alignments(&cut)),
-            Closing::Constraint(id) => {
-                let model = self.model;
-                let lag = model.constraints.get(id.0).and_then(|constraint| self.lag(constraint));
-                lag.map_or_else(Vec::new, |[_, cos]| vec![cos])
-            }
+            // Their equations vanish nowhere else.
+            Closing::Constraint(_) => Vec::new(),
         }
-    }
-
-    /// Sine and cosine of the angle between a measured coordinate that counts no turns and its course.
-    fn lag(&mut self, constraint: &Constraint) -> Option<[Scalar; 2]> {
-        let ConstraintKind::Value(value) = &constraint.kind else { return None };
-        let ExprNode::Sub(_, course) = &*value.node else { return None };
-        let [cos, sin] = self.measured_point(constraint.drive?)?;
-        let course = self.scalar(course);
-        let g = &mut self.g;
-        let (s, c) = (g.sin(course), g.cos(course));
-        let products = [g.mul(sin, c), -g.mul(cos, s), g.mul(cos, c), g.mul(sin, s)];
-        Some([g.sum(&products[..2]), g.sum(&products[2..])])
     }
 }

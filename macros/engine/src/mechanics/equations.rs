@@ -13,6 +13,7 @@ use super::branches::Branch;
 use super::build::Mechanism;
 use super::closings::Writing;
 use super::closings::expression::{Slopes, StandIns};
+use super::closings::turns::Turns;
 use super::columns::Columns;
 use super::constrained::Solved;
 use super::floating::seats;
@@ -103,6 +104,8 @@ pub struct Equations<'m> {
     pub(super) rotors: Option<Rc<[Rotor]>>,
     /// What expressions that are held act with, by constraint.
     pub(super) slopes: HashMap<usize, Rc<Slopes>>,
+    /// What whole turns of measured angles do to them.
+    pub(super) turns: HashMap<usize, Turns>,
     pub(super) stand_ins: StandIns,
     /// Forces are being derived: the checker lets none depend on loads, and here that would be an endless regress.
     pub(super) loading: bool,
@@ -142,6 +145,7 @@ impl<'m> Equations<'m> {
             holding: None,
             rotors: None,
             slopes: HashMap::new(),
+            turns: HashMap::new(),
             stand_ins: StandIns::default(),
             loading: false,
             at_guess: false,

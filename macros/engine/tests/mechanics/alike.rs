@@ -79,7 +79,18 @@ impl Mechanism {
 
     /// A random motion that the loops allow, in relative coordinates with multipliers.
     pub(crate) fn motion(&self, case: &Case, seed: u64) -> Option<Motion> {
-        let point = closed(case, &case.random(seed))?;
+        self.motion_within(case, seed, 1.0)
+    }
+
+    /// One with coordinates up to this.
+    pub(crate) fn motion_within(&self, case: &Case, seed: u64, greatest: f64) -> Option<Motion> {
+        let mut point = case.random(seed);
+        for (joint, index, _) in &self.coordinates {
+            let symbol = Symbol::Position { joint: case.joint(joint), component: *index };
+            let value = point.get(symbol);
+            point.set(symbol, greatest * value);
+        }
+        let point = closed(case, &point)?;
         let outputs = case.outputs(&point);
         let bodies = (0..self.bodies.len()).map(|k| {
             let get = |what: &str| outputs[&format!("{what}_{k}")].clone();

@@ -1,5 +1,8 @@
 //! Accelerations, reactions, powers and measured coordinates are the same in every formulation.
 
+use multibody_engine::mechanics::analysis::analyse;
+use multibody_engine::optimize::program::FunctionKind;
+
 use super::alike::Mechanism;
 use super::support::*;
 
@@ -12,6 +15,11 @@ const FORMULATIONS: [&str; 4] = [
 
 /// Outputs that the mechanism declares itself must agree too.
 fn agrees(what: &str, items: &str, outputs: &[&str]) {
+    agrees_within(1.0, what, items, outputs);
+}
+
+/// With coordinates up to a bound.
+fn agrees_within(greatest: f64, what: &str, items: &str, outputs: &[&str]) {
     let mechanism = Mechanism::new(items);
     let (bodies, joints) = mechanism.names();
     let base = mechanism.case("formulation { constraints: Multipliers }", true);
@@ -24,12 +32,17 @@ fn agrees(what: &str, items: &str, outputs: &[&str]) {
         }
     }
     assert!(others.len() >= 3, "{what}");
-    let motions: Vec<_> = (1..20).filter_map(|seed| mechanism.motion(&base, seed)).take(3).collect();
+    let motions: Vec<_> = (1..20).filter_map(|seed| mechanism.motion_within(&base, seed, greatest)).take(3).collect();
     assert!(motions.len() == 3, "{what}: no motions");
     for motion in &motions {
         let expected = base.outputs(&mechanism.adopt(&base, &base, motion));
         for (formulation, case) in &others {
-            let found = case.outputs(&mechanism.adopt(case, &base, motion));
+            let point = mechanism.adopt(case, &base, motion);
+            let found = case.outputs(&point);
+            if !case.structure.rows.is_empty() {
+                let gaps = case.candidate(FunctionKind::Constraints, 0, &point);
+                assert!(gaps.iter().all(|gap| gap.abs() < 1e-10), "{what}, {formulation}: open by {gaps:?}");
+            }
             let same = |name: &str| {
                 let what = format!("{what}, {formulation}, {name}");
                 close(&what, &found[name], &expected[name], 1e-8);
@@ -66,6 +79,81 @@ fn expressions_load_the_bodies() {
             "constraint rod: Rod { between: [ground.at([2, 0, 0]), b.at(Y)], length: 2.0 }",
         ],
         |constraint| agrees(constraint, &format!("{BODIES} {HINGES} {constraint}"), &[]),
+    );
+}
+
+/// Measured angles are known up to whole turns, and couplings of them hold over any number of turns.
+#[test]
+fn couplings_hold_over_many_turns() {
+    each(
+        &[
+            "constraint gear = 3.0 * (one + 2.0 * two) - 0.4 * cos(t);",
+            "constraint gear = one / 3.0 - 0.4 * two;",
+            "constraint gear = 47.0 * one - 13.0 * two;",
+            "constraint cam = two - 0.3 * sin(2.0 * two - one) - one;",
+            "constraint mixed = b.at([0.3, 1, 0.1]).position.y + 0.5 * two - 0.2 * one - 0.4;",
+            "constraint held = sin(two) * cos(one) - 0.2;",
+        ],
+        |constraint| {
+            let told = "output told = [one.rate, two.rate, one.accel, two.accel];";
+            agrees_within(30.0, constraint, &format!("{BODIES} {HINGES} {constraint} {told}"), &["told"]);
+        },
+    );
+}
+
+/// The same with other joints that measure angles.
+#[test]
+fn couplings_of_all_angles() {
+    let kinds = [
+        ("Universal { axes: [X, -Z]", "two.first - 2 * one"),
+        ("Universal { axes: [[1, 1, 0], [1, -1, 3]]", "two.second + two.first - one"),
+        ("Cylindrical { axis: [1, 0.3, -0.2]", "two.travel - 0.2 * two.angle + 0.1 * one"),
+        ("Planar { axis: -Z", "0.3 * two.angle + two.x - 0.6 * one"),
+        ("Screw { axis: [0.2, 0.3, -1], pitch: 0.2", "two.angle + 0.37 * two.angle - one"),
+        ("Ball { coordinates: RollPitchYaw", "two.roll - 2 * one + two.pitch * two.pitch"),
+        ("Ball { coordinates: RollPitchYaw", "two.yaw + 0.5 * one"),
+    ];
+    let texts: Vec<String> = kinds
+        .iter()
+        .map(|(kind, value)| {
+            format!(
+                "{BODIES}
+                joint one: Revolute {{ parent: ground.at([0.1, 0.2, 0]), child: a.at([0.1, 0, 0.2]), axis: [1, 0.3, -0.2] }}
+                joint two: {kind}, parent: a.at([1, 0.2, 0]).rotated([1, 1, 0], 0.4), child: b.at([0.1, 0, 0.2]).rotated(X, 0.3) }}
+                constraint coupled = {value} - 0.1;"
+            )
+        })
+        .collect();
+    let list: Vec<&str> = texts.iter().map(String::as_str).collect();
+    each(&list, |text| {
+        // A pitch that is measured stays within a quarter.
+        let greatest = if text.contains("Ball") { 1.4 } else { 20.0 };
+        agrees_within(greatest, text.lines().last().unwrap_or(""), text, &[]);
+    });
+}
+
+/// What no number of turns leaves alone is refused at its angle, and a coordinate takes it.
+#[test]
+fn turns_that_can_not_be_counted_are_refused() {
+    each(
+        &[
+            "param ratio = 2.0; constraint gear = two - ratio * one;",
+            "constraint gear = two - sqrt(2.0) * one;",
+            "constraint gear = two - 1.2345678 * one;",
+            "constraint gear = two - one * one;",
+            "constraint cam = dot(b.position, X) - two * sin(one);",
+            "constraint cam = two - abs(one);",
+            "constraint cam = sin(0.7123 * two) - sin(one);",
+        ],
+        |items| {
+            let items = format!("{BODIES} {HINGES} {items}");
+            let refused = |formulation: &str| analyse(&model_of(&format!("{items} {formulation}"))).err();
+            assert!(refused("formulation { constraints: Multipliers }").is_none(), "{items}");
+            for formulation in &FORMULATIONS[1..] {
+                let told = refused(formulation).unwrap_or_else(|| panic!("{items} {formulation} is taken"));
+                assert!(told.iter().all(|one| one.message.contains("up to whole turns")), "{told:?}");
+            }
+        },
     );
 }
 

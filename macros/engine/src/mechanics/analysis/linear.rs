@@ -11,6 +11,7 @@ use crate::optimize::program::Symbol;
 use crate::symbolic::graph::{Graph, ScalarNode};
 
 use super::super::closings::Writing;
+use super::super::closings::turns::Turns;
 use super::super::equations::{Equations, Method, Style, Way};
 use super::super::symbols::{Symbols, has_quaternion};
 
@@ -46,6 +47,10 @@ pub(super) fn couplings(model: &Model) -> Vec<Coupling> {
 }
 
 fn coupling(e: &mut Equations<'_>, model: &Model, constraint: ConstraintId) -> Option<Coupling> {
+    // An angle known up to whole turns gives nothing that is to count them.
+    if let Turns::Whole(..) = e.turns(constraint) {
+        return None;
+    }
     let residual = e.residuals(Closing::Constraint(constraint), Writing::PLAIN).first().copied()?;
     let mut terms = Vec::new();
     for (joint, component) in positions(e, residual) {

@@ -11,7 +11,7 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use crate::model::types::{Closing, ConstraintId, ConstraintKind, Coordinate, FrameQuantity, JointId};
+use crate::model::types::{Closing, ConstraintId, ConstraintKind, Coordinate, Expr, FrameQuantity, JointId};
 use crate::symbolic::graph::{Scalar, Vector};
 
 use super::super::build::Place;
@@ -78,11 +78,7 @@ impl Equations<'_> {
         if let Some(coordinate) = constraint.drive {
             return Slopes { efforts: vec![(coordinate, Scalar::ONE)], ..Slopes::default() };
         }
-        let memo = std::mem::take(&mut self.memo);
-        self.stand_ins.read = Some(Read::default());
-        let phi = self.scalar(value);
-        let read = self.stand_ins.read.take().unwrap_or_default();
-        self.memo = memo;
+        let (phi, read) = self.read(value);
         let mut slopes = Slopes::default();
         for (&coordinate, &symbol) in &read.coordinates {
             let slope = self.g.derivative(phi, &[(symbol, Scalar::ONE)]);
@@ -106,6 +102,22 @@ impl Equations<'_> {
             }
         }
         slopes
+    }
+
+    /// An expression in symbols for what it reads.
+    fn read(&mut self, value: &Expr) -> (Scalar, Read) {
+        let memo = std::mem::take(&mut self.memo);
+        self.stand_ins.read = Some(Read::default());
+        let phi = self.scalar(value);
+        let read = self.stand_ins.read.take().unwrap_or_default();
+        self.memo = memo;
+        (phi, read)
+    }
+
+    /// An expression in symbols for what it reads, and those of coordinates.
+    pub(super) fn standing_apart(&mut self, value: &Expr) -> (Scalar, Vec<(Coordinate, Scalar)>) {
+        let (phi, read) = self.read(value);
+        (phi, read.coordinates.into_iter().collect())
     }
 
     /// Efforts of expressions with multipliers on a joint that closes a loop.

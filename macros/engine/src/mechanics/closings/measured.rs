@@ -101,18 +101,20 @@ impl Equations<'_> {
         }
     }
 
-    /// Cosine and sine of a coordinate that is an angle about an axis, and counts no turns.
-    pub(super) fn measured_point(&mut self, Coordinate { joint, index }: Coordinate) -> Option<[Scalar; 2]> {
+    /// Whether a measured coordinate is an angle that is known up to whole turns. A pitch is none: it never passes a
+    /// quarter.
+    pub(super) fn is_angle(&mut self, Coordinate { joint, index }: Coordinate) -> bool {
         let model = self.model;
-        let joint = model.joints.get(joint.0)?;
-        let ends = [self.place(&joint.parent), self.place(&joint.child)];
-        if let JointKind::Screw { pitch, .. } = &joint.kind
-            && self.scalar(pitch) != Scalar::ZERO
-        {
-            return None;
+        match (model.joints.get(joint.0).map(|joint| &joint.kind), index) {
+            (Some(JointKind::Screw { pitch, .. }), _) => self.scalar(pitch) == Scalar::ZERO,
+            (Some(JointKind::Revolute { .. }), 0)
+            | (Some(JointKind::Cylindrical { .. }), 1)
+            | (Some(JointKind::Planar { .. }), 2)
+            | (Some(JointKind::Universal { .. }), 0 | 1)
+            | (Some(JointKind::Ball(Orientation::RollPitchYaw)), 0 | 2)
+            | (Some(JointKind::Free(Orientation::RollPitchYaw)), 3 | 5) => true,
+            _ => false,
         }
-        let angle = self.angle_of(&joint.kind, &ends, index)?;
-        Some(self.point_of(&ends, &angle))
     }
 
     /// A component of the way along a direction of the parent's frame.
