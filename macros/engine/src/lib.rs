@@ -111,6 +111,11 @@ impl Trouble {
                 ),
                 REPORT,
             ),
+            Trouble::Refused(Refusal::WrongChecks) => diagnostics.error_help(
+                span,
+                format!("`Params::check` of `{}` does not have the values of its equations", model.name),
+                REPORT,
+            ),
             Trouble::Refused(Refusal::Misfit(kind)) => diagnostics.error_help(
                 span,
                 format!(

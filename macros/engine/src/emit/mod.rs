@@ -31,6 +31,7 @@ mod report;
 mod results;
 mod skeleton;
 mod text;
+mod unchecked;
 mod values;
 
 use proc_macro2::{Ident, TokenStream};

@@ -7,7 +7,7 @@
 use super::document::{code, cost, kind, values};
 use super::items::separable::is_separable;
 use super::layout::Layout;
-use super::{Context, context, document, functions, joints, literals, loops, names, range};
+use super::{Context, context, document, functions, joints, literals, loops, names, range, unchecked};
 use crate::mechanics::structure::Structure;
 use crate::model::types::{Body, BodyRef, Docs, ExprNode, Frame, JointId, JointKind, Model, Orientation, Place, Type};
 use crate::optimize::program::{Compiled, FunctionKind};
@@ -99,6 +99,7 @@ pub(super) fn lines(context: &Context<'_>) -> Vec<String> {
         });
         std::iter::once(plain_row("new", new)).chain(functions)
     });
+    lines.extend(unchecked::lines(context));
     if is_separable(context) {
         let separable = "Accelerations do not depend on velocities: the model is `Separable`.";
         lines.extend(["", separable].map(String::from));

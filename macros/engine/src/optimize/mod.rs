@@ -38,6 +38,8 @@ pub enum Refusal {
     NotFinite,
     /// A function does not have the values of its equations: an error of this compiler.
     Wrong(FunctionKind),
+    /// The tests of parameters do not have the values of their equations: an error of this compiler.
+    WrongChecks,
     /// A function does not give as many numbers as its type holds: an error of this compiler.
     Misfit(FunctionKind),
     /// The equations of two functions contradict each other: an error of this compiler.
@@ -57,12 +59,20 @@ pub enum Excess {
 
 /// Optimises every candidate, takes the cheapest of each function, and moves parameter work into `Model::new`.
 pub fn compile(derivation: &Derivation) -> Result<Compiled, Refusal> {
-    compile_with(derivation, &[])
+    compile_with(derivation, Plain::default())
 }
 
-/// The same with some functions as they were derived, and with what all of them read of parameters: for those that the
-/// optimiser has made wrong.
-pub fn compile_with(derivation: &Derivation, plain: &[FunctionKind]) -> Result<Compiled, Refusal> {
+/// What is to stand as it was derived, since the optimiser has made it wrong.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Plain<'a> {
+    /// With them what all functions read of parameters.
+    pub functions: &'a [FunctionKind],
+    /// The tests of parameters.
+    pub checks: bool,
+}
+
+/// The same with some functions as they were derived.
+pub fn compile_with(derivation: &Derivation, plain: Plain<'_>) -> Result<Compiled, Refusal> {
     if derivation.graph.is_full() {
         return Err(Refusal::TooLarge(Excess::Expressions));
     }
@@ -79,7 +89,7 @@ pub fn compile_with(derivation: &Derivation, plain: &[FunctionKind]) -> Result<C
             let before = lowering.to.cost(&roots);
             let mut dag = Dag::import(&lowering.to, &roots, &derivation.symbols);
             dag.symbol_names.clone_from(&derivation.symbol_names);
-            if !plain.contains(&function.kind) {
+            if !plain.functions.contains(&function.kind) {
                 sound &= simplify(&mut dag);
             }
             let weight = dag.cost().0.weight();
@@ -92,7 +102,7 @@ pub fn compile_with(derivation: &Derivation, plain: &[FunctionKind]) -> Result<C
     let dags: Vec<&Dag> = chosen.iter().map(|c| &c.dag).collect();
     let fields::Gathered { mut prelude, fields, names } = fields::gather(&dags, &derivation.symbols);
     prelude.symbol_names.clone_from(&derivation.symbol_names);
-    if plain.is_empty() {
+    if plain.functions.is_empty() {
         sound &= simplify(&mut prelude);
     }
     let prelude_cost = prelude.cost().1;
@@ -108,16 +118,16 @@ pub fn compile_with(derivation: &Derivation, plain: &[FunctionKind]) -> Result<C
         })
         .collect();
     let prelude = schedule::schedule(&prelude, &schedule::Fields::new());
-    let checks = checks(derivation, &mut sound);
+    let checks = checks(derivation, plain.checks, &mut sound);
     let finite = |program: &program::Program| program.literals().all(f64::is_finite);
     if !finite(&prelude) || !functions.iter().all(|f| finite(&f.program)) {
         return Err(Refusal::NotFinite);
     }
-    Ok(Compiled { fields: names, prelude, prelude_cost, functions, checks, sound })
+    Ok(Compiled { fields: names, prelude, prelude_cost, functions, checks, sound, unchecked: Vec::new() })
 }
 
 /// Tests of parameters as a program of their own: what they compute is no field of the model.
-fn checks(derivation: &Derivation, sound: &mut bool) -> Checks {
+fn checks(derivation: &Derivation, plain: bool, sound: &mut bool) -> Checks {
     let tests = &derivation.checks;
     let roots: Vec<Scalar> = tests.iter().flat_map(|test| test.values.iter().copied()).collect();
     let mut lowering = Lowering::new(&derivation.graph);
@@ -127,7 +137,9 @@ fn checks(derivation: &Derivation, sound: &mut bool) -> Checks {
     }
     let mut dag = Dag::import(&lowering.to, &roots, &derivation.symbols);
     dag.symbol_names.clone_from(&derivation.symbol_names);
-    *sound &= simplify(&mut dag);
+    if !plain {
+        *sound &= simplify(&mut dag);
+    }
     let program = schedule::schedule(&dag, &schedule::Fields::new());
     if !program.literals().all(f64::is_finite) {
         return Checks::default();

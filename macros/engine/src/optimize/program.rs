@@ -325,6 +325,38 @@ pub struct Compiled {
     /// Whether every rewrite passed the identity test. Where one didn't, the function stands as it was derived: right, but
     /// dearer than need be. The tests see to it that this never happens.
     pub sound: bool,
+    /// What stage `verify` could not compare with its derived equations.
+    pub unchecked: Vec<Unchecked>,
+}
+
+/// What has no clear value at any state that was tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Unchecked {
+    pub part: Part,
+    pub doubt: Doubt,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    Function(FunctionKind),
+    /// The program of `Params::check`.
+    Checks,
+    /// What two functions must have in common, in words.
+    Law(&'static str),
+}
+
+/// Why values are not clear.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Doubt {
+    NotFinite,
+    /// Two numbers that are compared are equal but for rounding.
+    Comparison,
+    /// The rank of a system hangs on rounding.
+    Rank,
+    /// Rounding leaves few digits.
+    Rounding,
+    /// Loops don't close.
+    Open,
 }
 
 /// Tests of parameters.

@@ -4,7 +4,8 @@
 //! `optimize` compares residues; what it cannot see is how residues were given their values: a literal that should be zero and
 //! has a value of 8e-17, or coefficients of which nothing is left when they cancel. Here each function is evaluated as it will run, at several states,
 //! and compared with its derived equations (`tape`) in double-double precision, within a bound from these equations alone
-//! (`programs`). A function that fails is given back as it was derived; if that fails too, the model is refused.
+//! (`programs`). A function that fails is given back as it was derived; if that fails too, the model is refused. What has no clear
+//! value at any state that was tried is accepted, and said in the module's documentation ([`Compiled::unchecked`]).
 
 mod arithmetic;
 mod laws;
@@ -20,8 +21,9 @@ use std::collections::HashMap;
 use crate::mechanics::Derivation;
 use crate::mechanics::structure::Structure;
 use crate::model::types::Model;
-use crate::optimize::program::{Compiled, Function, FunctionKind};
-use crate::optimize::{self, Refusal};
+use crate::optimize::program::{Compiled, Doubt, Function, FunctionKind, Part, Unchecked};
+use crate::optimize::{self, Plain, Refusal};
+use crate::symbolic::graph::Scalar;
 
 use laws::{Laws, Outcome};
 use programs::{Subject, Verdict};
@@ -31,25 +33,33 @@ use tape::Tape;
 /// As often a state is drawn again.
 const ATTEMPTS: usize = 8;
 
+/// As often again for what has no clear value at any of these, from where the model stands by default and with numbers of other sizes.
+const FURTHER: usize = 16;
+
 /// A function that was given back as derived has lost digits where it misses its bound by less than this: it is refused only
 /// where it misses it by more. (Components of a vector that a turn has mixed are the worst case met, at 80 times the bound.)
 const LOST_DIGITS: f64 = 1e4;
 
 /// Compiles a derivation, and checks what comes of it.
 pub fn compile(model: &Model, structure: &Structure, derivation: &Derivation) -> Result<Compiled, Refusal> {
-    let compiled = optimize::compile(derivation)?;
-    let found = judge(model, structure, derivation, &compiled, 1.0);
+    let mut compiled = optimize::compile(derivation)?;
+    let mut found = judge(model, structure, derivation, &compiled, 1.0);
+    if found.broken.is_none() && found.is_wrong() {
+        let plain = Plain { functions: &found.wrong, checks: found.wrong_checks };
+        compiled = optimize::compile_with(derivation, plain)?;
+        found = judge(model, structure, derivation, &compiled, LOST_DIGITS);
+    }
     if let Some((a, b)) = found.broken {
         return Err(Refusal::Contradiction(a, b));
     }
-    if found.wrong.is_empty() {
-        return Ok(compiled);
+    if let Some(&kind) = found.wrong.first() {
+        return Err(Refusal::Wrong(kind));
     }
-    let compiled = optimize::compile_with(derivation, &found.wrong)?;
-    match judge(model, structure, derivation, &compiled, LOST_DIGITS).wrong.first() {
-        None => Ok(compiled),
-        Some(&kind) => Err(Refusal::Wrong(kind)),
+    if found.wrong_checks {
+        return Err(Refusal::WrongChecks);
     }
+    compiled.unchecked = found.unchecked;
+    Ok(compiled)
 }
 
 /// What the check has found.
@@ -57,12 +67,18 @@ pub fn compile(model: &Model, structure: &Structure, derivation: &Derivation) ->
 pub struct Found {
     /// Functions whose programs don't have the values of their equations.
     pub wrong: Vec<FunctionKind>,
-    /// Functions for which no state was found at which their values are clear.
-    pub unchecked: Vec<FunctionKind>,
+    /// Whether the program of `Params::check` is one.
+    pub wrong_checks: bool,
     /// Two functions whose derived equations contradict each other.
     pub broken: Option<(FunctionKind, FunctionKind)>,
-    /// Whether some law has no clear value at any state that was tried.
-    pub unjudged: bool,
+    /// What has no clear value at any state that was tried.
+    pub unchecked: Vec<Unchecked>,
+}
+
+impl Found {
+    fn is_wrong(&self) -> bool {
+        self.wrong_checks || !self.wrong.is_empty()
+    }
 }
 
 /// Compares all programs of a model with their derived equations.
@@ -70,66 +86,115 @@ pub fn check(model: &Model, structure: &Structure, derivation: &Derivation, comp
     judge(model, structure, derivation, compiled, 1.0)
 }
 
+/// States that were drawn, by number and attempt; nothing where loops don't close.
+struct Drawn<'a> {
+    states: &'a States<'a>,
+    closing: Option<&'a Tape>,
+    list: HashMap<(usize, usize), Option<State>>,
+}
+
+impl Drawn<'_> {
+    fn get(&mut self, number: usize, attempt: usize) -> Option<&State> {
+        let draw = || {
+            let state = self.states.draw(number, attempt);
+            match self.closing {
+                Some(tape) => self.states.closed(state, tape),
+                None => Some(state),
+            }
+        };
+        self.list.entry((number, attempt)).or_insert_with(draw).as_ref()
+    }
+
+    /// Compares at these states: one that is clear of each number, and one at all in the end.
+    fn compare(&mut self, subject: &Subject<'_>, numbers: &[usize]) -> Verdict {
+        let (mut checked, mut doubt) = (false, None);
+        let usual = numbers.iter().map(|&number| (number, 0..ATTEMPTS));
+        // Another number has parameters elsewhere.
+        let further = [0, 1].map(|number| (number, ATTEMPTS..ATTEMPTS + FURTHER));
+        let lonely = numbers.iter().all(|&number| number != 0).then_some((0, 0..ATTEMPTS));
+        for (last, (number, attempts)) in
+            usual.map(|of| (false, of)).chain(lonely.into_iter().chain(further).map(|of| (true, of)))
+        {
+            if last && checked {
+                break;
+            }
+            for attempt in attempts {
+                let states = self.states;
+                let verdict = match self.get(number, attempt) {
+                    Some(state) => subject.compare(states, state),
+                    None => Verdict::Unclear(Doubt::Open),
+                };
+                match verdict {
+                    Verdict::Right => {
+                        checked = true;
+                        break;
+                    }
+                    Verdict::Wrong(_) => return verdict,
+                    Verdict::Unclear(why) => doubt = doubt.or(Some(why)),
+                }
+            }
+        }
+        if checked { Verdict::Right } else { Verdict::Unclear(doubt.unwrap_or(Doubt::Open)) }
+    }
+}
+
 /// The same, with as many times the bound.
 fn judge(model: &Model, structure: &Structure, derivation: &Derivation, compiled: &Compiled, slack: f64) -> Found {
     let states = States::new(model, structure, &derivation.symbols);
     let tapes: Vec<Tape> = compiled.functions.iter().map(|function| tape_of(derivation, function)).collect();
     let closing = compiled.functions.iter().zip(&tapes).find(|(function, _)| function.kind == FunctionKind::Guess);
-    let draw = |number: usize, attempt: usize| {
-        let state = states.draw(number, attempt);
-        match closing {
-            Some((_, tape)) => states.closed(state, tape),
-            None => Some(state),
-        }
-    };
-    let mut drawn: HashMap<(usize, usize), Option<State>> = HashMap::new();
+    let mut drawn = Drawn { states: &states, closing: closing.map(|pair| pair.1), list: HashMap::new() };
     let mut found = Found::default();
     for (function, tape) in compiled.functions.iter().zip(&tapes) {
         let residual = closing.is_some()
             && matches!(function.kind, FunctionKind::ForwardDynamics | FunctionKind::Guess | FunctionKind::Margins);
-        let subject = Subject { tape, program: &function.program, residual, slack };
-        let count = match tape.nodes.len() {
-            0..=2_000 => 3,
-            2_001..=10_000 => 2,
-            _ => 1,
+        let subject = Subject { tape, prelude: Some(&compiled.prelude), program: &function.program, residual, slack };
+        // A parameter of zero shows nothing of what it multiplies: where one state must do, parameters are not at their defaults.
+        let numbers: &[usize] = match tape.nodes.len() {
+            0..=2_000 => &[0, 1, 2],
+            2_001..=10_000 => &[0, 1],
+            _ => &[1],
         };
-        let mut checked = false;
-        for number in 0..count {
-            for attempt in 0..ATTEMPTS {
-                let state = drawn.entry((number, attempt)).or_insert_with(|| draw(number, attempt));
-                let Some(state) = state else { continue };
-                match subject.compare(&states, state, &compiled.prelude) {
-                    Verdict::Right => {
-                        checked = true;
-                        break;
-                    }
-                    Verdict::Wrong(_) => {
-                        found.wrong.push(function.kind);
-                        break;
-                    }
-                    Verdict::Unclear => {}
-                }
-            }
-        }
-        found.wrong.dedup();
-        if !checked && !found.wrong.contains(&function.kind) {
-            found.unchecked.push(function.kind);
+        match drawn.compare(&subject, numbers) {
+            Verdict::Right => {}
+            Verdict::Wrong(_) => found.wrong.push(function.kind),
+            Verdict::Unclear(doubt) => found.unchecked.push(Unchecked { part: Part::Function(function.kind), doubt }),
         }
     }
+    check_checks(derivation, compiled, slack, &mut drawn, &mut found);
     let functions: Vec<(FunctionKind, &Tape)> =
         compiled.functions.iter().map(|function| function.kind).zip(&tapes).collect();
     let laws = Laws { model, structure, states: &states, functions: &functions };
-    found.unjudged = true;
-    for attempt in 0..ATTEMPTS {
-        let Some(state) = drawn.entry((0, attempt)).or_insert_with(|| draw(0, attempt)) else { continue };
-        match laws.judge(state) {
-            Outcome::Hold => found.unjudged = false,
-            Outcome::Broken(a, b) => (found.broken, found.unjudged) = (Some((a, b)), false),
-            Outcome::Unclear => continue,
+    let mut pending = laws.all();
+    let everywhere = [(1, 0..ATTEMPTS), (0, 0..ATTEMPTS), (0, ATTEMPTS..ATTEMPTS + FURTHER)];
+    for (number, attempt) in everywhere.into_iter().flat_map(|(number, list)| list.map(move |k| (number, k))) {
+        if pending.is_empty() {
+            break;
         }
-        break;
+        let Some(state) = drawn.get(number, attempt) else { continue };
+        if let Outcome::Broken(a, b) = laws.judge(state, &mut pending) {
+            found.broken = Some((a, b));
+            return found;
+        }
     }
+    let unclear = |law: &laws::Law| Unchecked { part: Part::Law(law.between), doubt: Doubt::Rounding };
+    found.unchecked.extend(pending.iter().map(unclear));
     found
+}
+
+/// The tests of parameters.
+fn check_checks(derivation: &Derivation, compiled: &Compiled, slack: f64, drawn: &mut Drawn<'_>, found: &mut Found) {
+    if compiled.checks.list.is_empty() {
+        return;
+    }
+    let roots: Vec<Scalar> = derivation.checks.iter().flat_map(|test| test.values.iter().copied()).collect();
+    let tape = Tape::new(&derivation.graph, &roots);
+    let subject = Subject { tape: &tape, prelude: None, program: &compiled.checks.program, residual: false, slack };
+    match drawn.compare(&subject, &[0, 1]) {
+        Verdict::Right => {}
+        Verdict::Wrong(_) => found.wrong_checks = true,
+        Verdict::Unclear(doubt) => found.unchecked.push(Unchecked { part: Part::Checks, doubt }),
+    }
 }
 
 /// The derived equations of a function.

@@ -10,7 +10,7 @@ use super::machine::{self, Reads};
 use super::states::{State, States};
 use super::tape::Tape;
 use super::trace::Trace;
-use crate::optimize::program::Program;
+use crate::optimize::program::{Doubt, Program};
 use crate::symbolic::doubled::Doubled;
 use crate::symbolic::graph::SymbolId;
 
@@ -23,8 +23,8 @@ pub(super) const WORST: f64 = 4.0;
 /// Results that keep fewer digits than this are not worth a comparison.
 const POOR: f64 = 1e-6;
 
-/// Results that are looked at one by one, at most.
-const CLOSELY: usize = 4;
+/// Operations of sweeps, at most, with which results are looked at one by one; beyond that the state is too poor.
+const CLOSELY: usize = 200_000_000;
 
 /// What a comparison says.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,12 +33,14 @@ pub(super) enum Verdict {
     /// The result with this number is wrong.
     Wrong(usize),
     /// Not at this state.
-    Unclear,
+    Unclear(Doubt),
 }
 
 /// A function, its program and what is left out of the comparison.
 pub(super) struct Subject<'a> {
     pub tape: &'a Tape,
+    /// What computes the fields of the model, where the program reads them.
+    pub prelude: Option<&'a Program>,
     pub program: &'a Program,
     /// Whether the last result is what an iteration has left: nothing but rounding.
     pub residual: bool,
@@ -47,7 +49,7 @@ pub(super) struct Subject<'a> {
 }
 
 impl Subject<'_> {
-    pub(super) fn compare(&self, states: &States<'_>, state: &State, prelude: &Program) -> Verdict {
+    pub(super) fn compare(&self, states: &States<'_>, state: &State) -> Verdict {
         let symbol = |id: SymbolId| state.value(id);
         let exact: Trace<'_, Doubled> = Trace::new(self.tape, &symbol);
         let plain: Trace<'_, f64> = Trace::new(self.tape, &symbol);
@@ -55,26 +57,31 @@ impl Subject<'_> {
         let own: Vec<f64> = plain.roots();
         let deficient = exact.deficient();
         let look = |symbol| states.value(state, symbol);
-        let fields = machine::run(prelude, &Reads { symbol: &look, fields: &[], deficient: &[] });
+        let nothing = Reads { symbol: &look, fields: &[], deficient: &[] };
+        let fields = self.prelude.map_or_else(Vec::new, |prelude| machine::run(prelude, &nothing));
         let results = machine::run(self.program, &Reads { symbol: &look, fields: &fields, deficient: &deficient });
         if results.len() != derived.len() {
             return Verdict::Wrong(results.len().min(derived.len()));
         }
-        let doubtful = exact.kink || exact.unclear;
-        let wrong = |at: usize| if doubtful { Verdict::Unclear } else { Verdict::Wrong(at) };
+        let doubt = match (exact.kink, exact.unclear) {
+            (true, _) => Some(Doubt::Comparison),
+            (_, true) => Some(Doubt::Rank),
+            _ => None,
+        };
+        let wrong = |at: usize| doubt.map_or(Verdict::Wrong(at), Verdict::Unclear);
         let count = derived.len() - usize::from(self.residual);
         let mut scales = Vec::with_capacity(count);
         let (mut largest, mut lost) = (0.0_f64, 0.0_f64);
         for (exact, own) in derived.iter().zip(&own).take(count) {
             if !exact.high.is_finite() || !own.is_finite() {
-                return Verdict::Unclear;
+                return Verdict::Unclear(Doubt::NotFinite);
             }
             let error = (Doubled::of(*own).sub(*exact)).high.abs();
             (largest, lost) = (largest.max(exact.high.abs()), lost.max(error));
             scales.push(exact.high.abs().max(error / f64::EPSILON));
         }
         if lost > POOR * largest {
-            return Verdict::Unclear;
+            return Verdict::Unclear(Doubt::Rounding);
         }
         let mut weights = vec![0.0; derived.len()];
         let mut suspects: Vec<(f64, usize)> = Vec::new();
@@ -99,17 +106,21 @@ impl Subject<'_> {
         let worst = WORST * self.slack;
         let bound = exact.slopes::<f64>(&weights, 0).bound;
         if !bound.is_finite() {
-            return Verdict::Unclear;
+            return Verdict::Unclear(Doubt::Rounding);
         }
         if total > worst * bound {
             return wrong(suspects[0].1);
         }
-        for &(ratio, at) in suspects.iter().take(CLOSELY) {
+        // Of a sum large bounds may hide what is wrong beside them.
+        if suspects.len() * self.tape.nodes.len() > CLOSELY {
+            return Verdict::Unclear(Doubt::Rounding);
+        }
+        for &(ratio, at) in &suspects {
             let mut single = vec![0.0; derived.len()];
             single[at] = weights[at];
             let bound = exact.slopes::<f64>(&single, 0).bound;
             if !bound.is_finite() {
-                return Verdict::Unclear;
+                return Verdict::Unclear(Doubt::Rounding);
             }
             if ratio > worst * bound {
                 return wrong(at);

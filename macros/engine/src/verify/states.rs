@@ -4,6 +4,7 @@
 //! derivation. Out: numbers for all symbols, always the same: parameters at their defaults in the first state and near them in others,
 //! coordinates of loops at or near a closed configuration, everything else at random.
 
+use super::ATTEMPTS;
 use super::tape::Tape;
 use super::trace::Trace;
 use crate::mechanics::structure::{Means, Structure};
@@ -26,6 +27,8 @@ const CLOSED: f64 = 1e-10;
 #[derive(Clone)]
 pub(super) struct State {
     pub values: Vec<f64>,
+    /// Whether parameters are at their defaults.
+    pub defaults: bool,
 }
 
 impl State {
@@ -96,15 +99,23 @@ impl<'m> States<'m> {
         self.place(symbol).and_then(|at| state.values.get(at)).copied().unwrap_or(f64::NAN)
     }
 
-    /// State number `number`, drawn for the time `attempt`: nearer to where loops close each time.
+    /// State number `number`, drawn for the time `attempt`: nearer to where loops close each time, then near the default
+    /// position with numbers of other sizes.
     pub(super) fn draw(&self, number: usize, attempt: usize) -> State {
         let mut random = Random(0x0C8E_C4ED + 7919 * number as u64 + 104_729 * attempt as u64);
         // The first is the one that a person would draw: in line, or at right angles.
         let closed = self.structure.closed.get(1..).filter(|list| !list.is_empty()).unwrap_or(&self.structure.closed);
-        let configuration = closed.get((number + attempt) % closed.len().max(1));
+        let further = attempt.checked_sub(ATTEMPTS);
+        let configuration = match further {
+            Some(_) => self.structure.closed.first(),
+            None => closed.get((number + attempt) % closed.len().max(1)),
+        };
         let near = [0.1, 0.03, 0.3, 0.01, 0.0][attempt % 5];
-        let wide = [1.2, 0.8, 0.4, 1.6, 0.1][attempt % 5];
+        let wide = if further.is_some() { near } else { [1.2, 0.8, 0.4, 1.6, 0.1][attempt % 5] };
         let around = if number == 0 { 0.0 } else { AROUND };
+        // Functions of the user's may ask for numbers that are large, or small, or all positive.
+        let size = further.map_or(1.0, |k| [1.0, 0.1, 10.0, 1e-2, 100.0, 1e-3, 1e3][k / 2 % 7]);
+        let positive = further.is_some_and(|k| k % 2 == 1);
         let held = |joint: usize, component: usize| {
             configuration.and_then(|c| c.positions.get(joint)?.get(component).copied())
         };
@@ -123,10 +134,13 @@ impl<'m> States<'m> {
                 None => wide * random.next(),
             },
             Symbol::Guess { .. } => 0.0,
-            _ => random.next(),
+            _ => {
+                let x = random.next();
+                size * if positive { x.abs() } else { x }
+            }
         };
         let values = self.symbols.iter().map(&mut value).collect();
-        let mut state = State { values };
+        let mut state = State { values, defaults: around == 0.0 };
         self.start(&mut state, &held);
         self.normalise(&mut state);
         state

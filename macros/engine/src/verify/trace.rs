@@ -21,6 +21,8 @@ pub(super) struct Trace<'t, T> {
     blocks: Vec<Results<T>>,
     /// Whether a comparison is so close that rounding may turn it.
     pub kink: bool,
+    /// Whether numbers that are compared are equal, so that slopes are those of one side.
+    pub corner: bool,
     /// Whether the rank of a system is.
     pub unclear: bool,
 }
@@ -53,6 +55,7 @@ impl<'t, T: Arithmetic> Trace<'t, T> {
             values: vec![T::ONE; tape.nodes.len()],
             blocks: vec![Results { values: Vec::new(), solved: None }; tape.blocks.len()],
             kink: false,
+            corner: false,
             unclear: false,
         };
         trace.run(0, tape.nodes.len(), symbol);
@@ -121,15 +124,30 @@ impl<'t, T: Arithmetic> Trace<'t, T> {
 
     fn call(&mut self, call: Call, operands: &[Edge]) -> T {
         let values = self.list(operands);
-        let close = |a: f64, b: f64| (a - b).abs() <= NEAR * (a.abs() + b.abs());
         match (call, &values[..]) {
             (Call::Less | Call::LessEqual | Call::Equal | Call::Min | Call::Max, [a, b]) => {
-                self.kink |= close(a.high(), b.high());
+                let close = (a.high() - b.high()).abs() <= NEAR * (a.high().abs() + b.high().abs());
+                self.corner |= close;
+                // Numbers that are read are the same in every evaluation.
+                let read = operands.iter().all(|&edge| self.is_read(edge));
+                self.kink |= close && !(read && a.sub(*b).high() == 0.0);
             }
-            (Call::Abs | Call::Signum, [a]) => self.kink |= a.high() == 0.0,
+            (Call::Abs | Call::Signum, [a]) => {
+                self.corner |= a.high() == 0.0;
+                self.kink |= a.high() == 0.0 && !self.is_read(operands[0]);
+            }
             _ => {}
         }
         T::call(call, &values)
+    }
+
+    /// Whether a number has no rounding of its own: a symbol, or a literal that double precision holds.
+    fn is_read(&self, edge: Edge) -> bool {
+        match self.tape.nodes[edge.node()].op {
+            Op::Symbol(_) => true,
+            Op::Literal(n) => n.doubled().low == 0.0,
+            _ => false,
+        }
     }
 
     fn solve(&mut self, block: usize) {

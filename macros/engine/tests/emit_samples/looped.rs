@@ -159,6 +159,7 @@ pub fn looped() -> (Model, Structure, Compiled) {
     let compiled = Compiled {
         checks: Default::default(),
         sound: true,
+        unchecked: Vec::new(),
         functions: vec![
             function(FunctionKind::ForwardDynamics, forward),
             // The inputs looked for in the order of `solve_for`: the second leg's, then the first one's.

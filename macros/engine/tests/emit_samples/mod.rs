@@ -247,6 +247,7 @@ pub fn pendulum() -> (Model, Compiled) {
         prelude_cost: Cost { mul: 4, div: 2, ..Cost::default() },
         checks: Default::default(),
         sound: true,
+        unchecked: Vec::new(),
         functions: vec![
             derived(
                 FunctionKind::ForwardDynamics,
@@ -403,6 +404,7 @@ fn everything_read(model: &Model) -> Compiled {
         prelude_cost: Cost::default(),
         checks: Default::default(),
         sound: true,
+        unchecked: Vec::new(),
         functions: vec![
             function(FunctionKind::ForwardDynamics, dof + states.len(), &all),
             function(FunctionKind::InverseDynamics, dof, &with_accel),
@@ -434,6 +436,7 @@ pub fn nothing() -> (Model, Compiled) {
     let compiled = Compiled {
         checks: Default::default(),
         sound: true,
+        unchecked: Vec::new(),
         functions: vec![
             derived(FunctionKind::ForwardDynamics, none()),
             derived(FunctionKind::InverseDynamics, none()),
@@ -463,6 +466,7 @@ pub fn long(count: usize) -> (Model, Compiled) {
     let compiled = Compiled {
         checks: Default::default(),
         sound: true,
+        unchecked: Vec::new(),
         functions: vec![derived(
             FunctionKind::ForwardDynamics,
             Program { locals, statements, results: vec![local(count - 1)] },

@@ -1,0 +1,68 @@
+//! Stage `verify`: constraint equations, their Jacobian, their rates, and what is left of their second derivatives.
+
+use super::{At, Judged, Law, Sum, judged};
+use crate::model::types::Handling;
+use crate::optimize::program::{FunctionKind, Symbol};
+use crate::symbolic::doubled::Doubled;
+
+pub(super) const LAWS: &[Law] = &[
+    Law { between: "the constraints and their Jacobian", judge: |at| at.jacobian() },
+    Law { between: "the constraints and their rates", judge: |at| at.rates() },
+    Law { between: "the rates of the constraints and their bias", judge: |at| at.second_rates() },
+];
+
+impl At<'_, '_> {
+    fn jacobian(&mut self) -> Judged {
+        let (phi, g) = (FunctionKind::Constraints, FunctionKind::ConstraintJacobian);
+        let rows = self.laws.structure.rows.len();
+        if rows == 0 || !self.has(phi) || !self.has(g) {
+            return Some(None);
+        }
+        let (n, r, symbols) = (self.dof(), self.weights(rows), self.symbols());
+        let s = self.weights(n);
+        let slopes = self.trace(phi)?.slopes::<Doubled>(&r, symbols);
+        let columns = self.displacements(&slopes);
+        let jacobian = self.values(g)?;
+        let mut sum = Sum::default();
+        let mut weights = vec![0.0; jacobian.len()];
+        for (at, &x) in jacobian.iter().enumerate() {
+            sum.product(&[x, Doubled::new(*r.get(at / n)?), Doubled::new(s[at % n])]);
+            weights[at] = r[at / n] * s[at % n];
+        }
+        columns.iter().zip(&s).for_each(|(&x, &s)| sum.product(&[-x, Doubled::new(s)]));
+        if sum.holds() != Some(true) {
+            sum.bound = self.bound(g, &weights) + slopes.bound;
+        }
+        judged(&sum, g, phi)
+    }
+
+    fn rates(&mut self) -> Judged {
+        self.rate_of(FunctionKind::Constraints, FunctionKind::ConstraintRate)
+    }
+
+    fn second_rates(&mut self) -> Judged {
+        if matches!(self.laws.model.handling, Handling::Stabilised { .. }) {
+            // Stabilising terms are in it too.
+            return Some(None);
+        }
+        self.rate_of(FunctionKind::ConstraintRate, FunctionKind::ConstraintBias)
+    }
+
+    /// Slopes by positions and time, times velocities, while these stand.
+    fn rate_of(&mut self, of: FunctionKind, rate: FunctionKind) -> Judged {
+        let rows = self.laws.structure.rows.len();
+        if rows == 0 || !self.has(of) || !self.has(rate) {
+            return Some(None);
+        }
+        let (r, v, symbols) = (self.weights(rows), self.velocities(), self.symbols());
+        let slopes = self.trace(of)?.slopes::<Doubled>(&r, symbols);
+        let mut sum = Sum::default();
+        self.values(rate)?.iter().zip(&r).for_each(|(&x, &r)| sum.product(&[x, Doubled::new(r)]));
+        self.displacements(&slopes).iter().zip(&v).for_each(|(&x, &v)| sum.product(&[-x, v]));
+        sum.add(-self.slope(&slopes, Symbol::Time));
+        if sum.holds() != Some(true) {
+            sum.bound = self.bound(rate, &r) + slopes.bound;
+        }
+        judged(&sum, rate, of)
+    }
+}

@@ -1,0 +1,154 @@
+//! Stage `verify`: energies and the mass matrix.
+
+use super::forces;
+use super::{At, Judged, Law, Sum, acceleration, judged, velocity};
+use crate::model::types::InputId;
+use crate::optimize::program::{FunctionKind, Symbol};
+use crate::symbolic::doubled::Doubled;
+
+pub(super) const LAWS: &[Law] = &[
+    Law { between: "the mass matrix and kinetic energy", judge: |at| at.energy() },
+    Law { between: "the mass matrix and its transpose", judge: |at| at.symmetry() },
+    Law { between: "the mass matrix and energies that are positive", judge: |at| at.pivots() },
+    Law { between: "energies and the power of efforts", judge: |at| at.balance() },
+];
+
+impl At<'_, '_> {
+    /// v M v / 2 is the kinetic energy.
+    fn energy(&mut self) -> Judged {
+        let (a, b) = (FunctionKind::MassMatrix, FunctionKind::KineticEnergy);
+        if !self.has(a) || !self.has(b) || !self.is_scleronomic(&[a, b]) {
+            return Some(None);
+        }
+        let (mass, energy, v) = (self.values(a)?, self.values(b)?, self.velocities());
+        let n = v.len();
+        let mut sum = Sum::default();
+        let mut weights = vec![0.0; n * n];
+        for (at, &m) in mass.iter().enumerate() {
+            sum.product(&[m, v[at / n], v[at % n], Doubled::new(0.5)]);
+            weights[at] = 0.5 * v[at / n].high * v[at % n].high;
+        }
+        energy.iter().for_each(|&x| sum.add(-x));
+        if sum.holds() != Some(true) {
+            sum.bound = self.bound(a, &weights) + self.bound(b, &[1.0]);
+        }
+        judged(&sum, a, b)
+    }
+
+    fn symmetry(&mut self) -> Judged {
+        let a = FunctionKind::MassMatrix;
+        if !self.has(a) {
+            return Some(None);
+        }
+        let (mass, n) = (self.values(a)?, self.dof());
+        if !mass.iter().all(|x| x.is_finite()) {
+            return None;
+        }
+        for i in 0..n {
+            for j in 0..i {
+                let (x, y) = (mass[i * n + j].high, mass[j * n + i].high);
+                let size = (mass[i * n + i].high * mass[j * n + j].high).abs().sqrt();
+                if (x - y).abs() > 1e-10 * (size + x.abs()) {
+                    return Some(Some((a, a)));
+                }
+            }
+        }
+        Some(None)
+    }
+
+    /// No pivot of M is negative. Other parameters than the defaults may be those of no body.
+    fn pivots(&mut self) -> Judged {
+        let a = FunctionKind::MassMatrix;
+        if !self.has(a) {
+            return Some(None);
+        }
+        let (mass, n) = (self.values(a)?, self.dof());
+        if !self.state.defaults || !mass.iter().all(|x| x.is_finite()) {
+            return None;
+        }
+        let mut rest: Vec<f64> = mass.iter().map(|x| x.high).collect();
+        for k in 0..n {
+            let pivot = rest[k * n + k];
+            let size = mass[k * n + k].high;
+            if size < 0.0 || pivot < -1e-9 * size {
+                return Some(Some((a, a)));
+            }
+            if pivot <= 1e-12 * size {
+                // Without inertia of its own: what is coupled to it says no more.
+                return Some(None);
+            }
+            for i in k + 1..n {
+                let factor = rest[i * n + k] / pivot;
+                for j in k + 1..n {
+                    rest[i * n + j] -= factor * rest[k * n + j];
+                }
+            }
+        }
+        Some(None)
+    }
+
+    /// The rate of both energies is the power of all else. Forces that vanish at rest without inputs and are linear in
+    /// velocities have opposite powers in opposite motions, so half the sum over both leaves inertia, weight and springs.
+    fn balance(&mut self) -> Judged {
+        let (t, u) = (FunctionKind::KineticEnergy, FunctionKind::PotentialEnergy);
+        let (fd, id, b) = (FunctionKind::ForwardDynamics, FunctionKind::InverseDynamics, FunctionKind::Bias);
+        let g = FunctionKind::ConstraintJacobian;
+        let rows = self.laws.structure.rows.len();
+        let inverse = self.has(id) && self.laws.model.solve_for.is_empty();
+        let kind = match () {
+            () if self.has(fd) && (rows == 0 || self.has(g)) => fd,
+            () if inverse => id,
+            () if self.has(b) => b,
+            () => return Some(None),
+        };
+        let all = self.has(t) && self.has(u) && self.is_scleronomic(&[t, u, kind, g]);
+        if !all || !forces::are_balanced(self.laws.model) {
+            return Some(None);
+        }
+        let model = self.laws.model;
+        let inputs = model.inputs.iter().enumerate().flat_map(|(k, input)| {
+            (0..input.ty.scalars()).map(move |element| (Symbol::Input { input: InputId(k), element }, Doubled::ZERO))
+        });
+        let still: Vec<(Symbol, Doubled)> = inputs.collect();
+        let v = self.velocities();
+        let mut opposite = still.clone();
+        opposite.extend(self.coordinates().iter().zip(&v).map(|(&c, &v)| (velocity(c), -v)));
+        let symbols = self.symbols();
+        let kinetic = self.with(t, &still)?.slopes::<Doubled>(&[1.0], symbols);
+        let potential = self.with(u, &still)?.slopes::<Doubled>(&[1.0], symbols);
+        let (one, other) = (self.with(kind, &still)?, self.with(kind, &opposite)?);
+        let half = Doubled::new(0.5);
+        let mean: Vec<Doubled> = one.roots().iter().zip(other.roots()).map(|(&x, y)| (x + y) * half).collect();
+        let mut sum = Sum::default();
+        for slopes in [&kinetic, &potential] {
+            self.displacements(slopes).iter().zip(&v).for_each(|(&x, &v)| sum.product(&[x, v]));
+        }
+        let momenta = self.by(&kinetic, velocity);
+        let mut weights = vec![0.0; mean.len()];
+        if kind == fd {
+            momenta.iter().zip(&mean).for_each(|(&p, &a)| sum.product(&[p, a]));
+            momenta.iter().zip(&mut weights).for_each(|(p, weight)| *weight = p.high);
+            if rows > 0 {
+                let (n, states) = (v.len(), model.states.len());
+                let jacobian = self.with(g, &still)?.roots();
+                for (at, &x) in jacobian.iter().enumerate() {
+                    let (row, column) = (n + states + at / n, at % n);
+                    sum.product(&[x, *mean.get(row)?, v[column]]);
+                    weights[row] += x.high * v[column].high;
+                }
+            }
+        } else {
+            if kind == id {
+                let accelerations = self.of_state(acceleration);
+                momenta.iter().zip(&accelerations).for_each(|(&p, &a)| sum.product(&[p, a]));
+            }
+            mean.iter().zip(&v).for_each(|(&x, &v)| sum.product(&[-x, v]));
+            v.iter().zip(&mut weights).for_each(|(v, weight)| *weight = v.high);
+        }
+        if sum.holds() != Some(true) {
+            sum.bound = kinetic.bound + potential.bound;
+            sum.bound += one.slopes::<f64>(&weights, 0).bound + other.slopes::<f64>(&weights, 0).bound;
+        }
+        judged(&sum, if kind == fd { u } else { t }, kind)
+    }
+}

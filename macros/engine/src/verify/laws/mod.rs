@@ -1,0 +1,254 @@
+//! Stage `verify`: functions of one model against each other.
+//!
+//! In: the derived equations of all functions that were asked for, and a state. Out: which two of them disagree. Each law holds
+//! whatever the model: it is a sum over results of one or several functions, with random weights, that is zero. The sums are made
+//! in double-double precision from the derived equations; as bound serves the error that one rounding of each of their
+//! operations can leave. Slopes of a function are its own, by a reverse sweep, and not those of another function.
+
+mod constraints;
+mod derivatives;
+mod dynamics;
+mod energies;
+mod forces;
+mod momenta;
+mod outputs;
+
+use super::programs::WORST;
+use super::states::{Random, State, States};
+use super::tape::{Op, Tape};
+use super::trace::{Slopes, Trace};
+use crate::mechanics::structure::{Role, Structure};
+use crate::mechanics::symbols::has_quaternion;
+use crate::model::types::{Coordinate, Model};
+use crate::optimize::program::{FunctionKind, Symbol};
+use crate::symbolic::doubled::Doubled;
+use crate::symbolic::graph::SymbolId;
+
+/// A sum of numbers with 31 digits that cancel is zero below this share of them.
+const EXACT: f64 = 1e-24;
+
+/// What the laws say at one state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Outcome {
+    /// Those that have a clear value.
+    Hold,
+    Broken(FunctionKind, FunctionKind),
+}
+
+/// What functions have in common, whatever the model.
+#[derive(Clone, Copy)]
+pub(super) struct Law {
+    /// In words.
+    pub between: &'static str,
+    judge: fn(&mut At<'_, '_>) -> Judged,
+}
+
+/// The functions of one model.
+pub(super) struct Laws<'a> {
+    pub model: &'a Model,
+    pub structure: &'a Structure,
+    pub states: &'a States<'a>,
+    pub functions: &'a [(FunctionKind, &'a Tape)],
+}
+
+/// A law under way: terms of one sum.
+#[derive(Default)]
+struct Sum {
+    value: Vec<Doubled>,
+    bound: f64,
+}
+
+impl Sum {
+    fn add(&mut self, x: Doubled) {
+        self.value.push(x);
+    }
+
+    fn product(&mut self, factors: &[Doubled]) {
+        self.add(factors.iter().fold(Doubled::ONE, |product, &x| product * x));
+    }
+
+    /// Nothing where the sum has no value; else whether it is zero.
+    fn holds(&self) -> Option<bool> {
+        let sum = self.value.iter().fold(Doubled::ZERO, |sum, &x| sum + x).high.abs();
+        let size: f64 = self.value.iter().map(|x| x.high.abs()).sum();
+        if !(sum.is_finite() && size.is_finite() && self.bound.is_finite()) {
+            return None;
+        }
+        Some(sum <= EXACT * size || sum <= WORST * f64::EPSILON * (self.bound + size))
+    }
+}
+
+/// One state with what has been evaluated there.
+struct At<'a, 's> {
+    laws: &'a Laws<'a>,
+    state: &'s State,
+    traces: Vec<Option<Trace<'a, Doubled>>>,
+    random: Random,
+    doubtful: bool,
+}
+
+impl<'a> Laws<'a> {
+    /// One file for each family.
+    pub(super) fn all(&self) -> Vec<Law> {
+        let families =
+            [energies::LAWS, dynamics::LAWS, derivatives::LAWS, momenta::LAWS, constraints::LAWS, outputs::LAWS];
+        families.concat()
+    }
+
+    /// The laws that are pending, at one state; those that have no clear value there stay.
+    pub(super) fn judge(&'a self, state: &State, pending: &mut Vec<Law>) -> Outcome {
+        let traces = self.functions.iter().map(|_| None).collect();
+        let mut at = At { laws: self, state, traces, random: Random(0x1A35), doubtful: false };
+        let mut broken = None;
+        pending.retain(|law| {
+            at.doubtful = false;
+            match (law.judge)(&mut at) {
+                Some(Some(_)) if at.doubtful => true,
+                Some(Some(functions)) => {
+                    broken = broken.or(Some(functions));
+                    false
+                }
+                Some(None) => false,
+                None => true,
+            }
+        });
+        broken.map_or(Outcome::Hold, |(a, b)| Outcome::Broken(a, b))
+    }
+}
+
+type Broken = (FunctionKind, FunctionKind);
+
+/// Nothing where a value is missing at this state; else who disagrees.
+type Judged = Option<Option<Broken>>;
+
+fn judged(sum: &Sum, a: FunctionKind, b: FunctionKind) -> Judged {
+    sum.holds().map(|holds| (!holds).then_some((a, b)))
+}
+
+impl<'a> At<'a, '_> {
+    fn has(&self, kind: FunctionKind) -> bool {
+        self.laws.functions.iter().any(|function| function.0 == kind)
+    }
+
+    fn tape(&self, kind: FunctionKind) -> Option<&'a Tape> {
+        self.laws.functions.iter().find(|function| function.0 == kind).map(|function| function.1)
+    }
+
+    /// A function with some symbols set otherwise.
+    fn with(&mut self, kind: FunctionKind, changed: &[(Symbol, Doubled)]) -> Option<Trace<'a, Doubled>> {
+        let tape = self.tape(kind)?;
+        let changed: Vec<(usize, Doubled)> =
+            changed.iter().filter_map(|&(symbol, x)| Some((self.laws.states.place(symbol)?, x))).collect();
+        let state = self.state;
+        let symbol = |id: SymbolId| {
+            let other = changed.iter().find(|(at, _)| *at == id.0);
+            other.map_or_else(|| state.value(id), |&(_, x)| x)
+        };
+        let trace = Trace::new(tape, &symbol);
+        self.doubtful |= is_doubtful(&trace);
+        Some(trace)
+    }
+
+    /// A function as the state is.
+    fn trace(&mut self, kind: FunctionKind) -> Option<&Trace<'a, Doubled>> {
+        let at = self.laws.functions.iter().position(|function| function.0 == kind)?;
+        if self.traces[at].is_none() {
+            self.traces[at] = self.with(kind, &[]);
+        }
+        let trace = self.traces[at].as_ref();
+        self.doubtful |= trace.is_some_and(is_doubtful);
+        trace
+    }
+
+    fn values(&mut self, kind: FunctionKind) -> Option<Vec<Doubled>> {
+        self.trace(kind).map(Trace::roots)
+    }
+
+    fn bound(&mut self, kind: FunctionKind, weights: &[f64]) -> f64 {
+        self.trace(kind).map_or(0.0, |trace| trace.slopes::<f64>(weights, 0).bound)
+    }
+
+    fn symbols(&self) -> usize {
+        self.state.values.len()
+    }
+
+    fn coordinates(&self) -> &'a [Coordinate] {
+        &self.laws.structure.state
+    }
+
+    fn dof(&self) -> usize {
+        self.coordinates().len()
+    }
+
+    fn weights(&mut self, count: usize) -> Vec<f64> {
+        (0..count).map(|_| self.random.next()).collect()
+    }
+
+    /// Of the state, in its order.
+    fn of_state(&self, symbol: fn(Coordinate) -> Symbol) -> Vec<Doubled> {
+        let value = |&c: &Coordinate| Doubled::new(self.laws.states.value(self.state, symbol(c)));
+        self.coordinates().iter().map(value).collect()
+    }
+
+    fn velocities(&self) -> Vec<Doubled> {
+        self.of_state(velocity)
+    }
+
+    /// Whether velocities of the state are all that moves what these functions read.
+    fn is_scleronomic(&self, kinds: &[FunctionKind]) -> bool {
+        let structure = self.laws.structure;
+        let driven = structure.roles.iter().flatten().any(|role| matches!(role, Role::Driven(_)));
+        let time = self.laws.states.place(Symbol::Time);
+        let reads_time =
+            |tape: &Tape| tape.nodes.iter().any(|node| matches!(node.op, Op::Symbol(id) if Some(id.0) == time));
+        !driven && !kinds.iter().filter_map(|&kind| self.tape(kind)).any(reads_time)
+    }
+
+    fn slope(&self, slopes: &Slopes, symbol: Symbol) -> Doubled {
+        let at = self.laws.states.place(symbol);
+        at.and_then(|at| slopes.symbols.get(at)).copied().unwrap_or(Doubled::ZERO)
+    }
+
+    /// Slopes by displacements of the position, in the order of the state.
+    fn displacements(&self, slopes: &Slopes) -> Vec<Doubled> {
+        let slope = |symbol: Symbol| self.slope(slopes, symbol);
+        let displacement = |&Coordinate { joint, index }: &Coordinate| {
+            let declared = &self.laws.model.joints[joint.0];
+            let turns = declared.kind.freedoms().saturating_sub(3);
+            if !has_quaternion(declared) || index < turns {
+                return slope(Symbol::Position { joint, component: index });
+            }
+            let place = |component: usize| Symbol::Position { joint, component: turns + component };
+            let [w, i, j, k] = [0, 1, 2, 3].map(|c| Doubled::new(0.5 * self.laws.states.value(self.state, place(c))));
+            // q (0, e) / 2
+            let rates = match index - turns {
+                0 => [-i, w, k, -j],
+                1 => [-j, -k, w, i],
+                _ => [-k, j, -i, w],
+            };
+            (0..4).fold(Doubled::ZERO, |sum, c| sum + slope(place(c)) * rates[c])
+        };
+        self.coordinates().iter().map(displacement).collect()
+    }
+
+    fn by(&self, slopes: &Slopes, symbol: fn(Coordinate) -> Symbol) -> Vec<Doubled> {
+        self.coordinates().iter().map(|&c| self.slope(slopes, symbol(c))).collect()
+    }
+}
+
+/// Whether rounding decides what a function is, or which slopes it has.
+fn is_doubtful(trace: &Trace<'_, Doubled>) -> bool {
+    trace.kink || trace.corner || trace.unclear
+}
+
+fn velocity(c: Coordinate) -> Symbol {
+    Symbol::Velocity { joint: c.joint, component: c.index }
+}
+
+fn acceleration(c: Coordinate) -> Symbol {
+    Symbol::Acceleration { joint: c.joint, component: c.index }
+}
+
+fn momentum(c: Coordinate) -> Symbol {
+    Symbol::Momentum { joint: c.joint, component: c.index }
+}

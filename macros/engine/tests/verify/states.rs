@@ -1,0 +1,130 @@
+//! States at which programs and laws are judged: what the usual ones don't show.
+
+use multibody_engine::optimize::program::{Doubt, Expression, FunctionKind, Part, Unchecked};
+use multibody_engine::{emit, optimize, verify};
+
+use crate::breaks::{Case, each};
+
+fn arm(rest: &str) -> Case {
+    Case::new(&format!(
+        "pub mod arm {{
+            world {{ gravity: -9.81 * Y }}
+            body a {{ mass: 1.0, com: X, inertia: diag(0.1, 0.1, 0.1) }}
+            joint j: Revolute {{ parent: ground, child: a, axis: Z }}
+            {rest}
+        }}"
+    ))
+}
+
+/// Every literal that is this one, or its opposite, becomes another.
+fn replace(program: &mut optimize::program::Program, from: f64, to: f64) -> usize {
+    let mut count = 0;
+    each(program, &mut |expression| {
+        if let Expression::Literal(x) = expression
+            && x.abs() == from
+        {
+            *x = to.copysign(*x);
+            count += 1;
+        }
+    });
+    count
+}
+
+/// Values that are finite far from where states are drawn first.
+#[test]
+fn numbers_of_other_sizes() {
+    let case = arm("input load; output o = sqrt(load - 3.0) * j;");
+    assert_eq!(case.check(&case.compiled).unchecked, []);
+    let mut compiled = case.compiled.clone();
+    let outputs = compiled.functions.iter_mut().find(|f| f.kind == FunctionKind::Outputs).unwrap();
+    assert_eq!(replace(&mut outputs.program, 3.0, 3.000_001), 1);
+    assert_eq!(case.check(&compiled).wrong, [FunctionKind::Outputs]);
+}
+
+/// What has no value anywhere is accepted, and the module's documentation says that nothing was compared.
+#[test]
+fn what_is_never_finite_is_said() {
+    let case = arm("input load; output o = ln(-1.0 - load * load);");
+    let unchecked = Unchecked { part: Part::Function(FunctionKind::Outputs), doubt: Doubt::NotFinite };
+    assert_eq!(case.check(&case.compiled).unchecked, [unchecked]);
+    let compiled = verify::compile(&case.model, &case.structure, &case.derivation).unwrap();
+    let report = emit::report(&case.model, &case.structure, &compiled);
+    assert!(report.contains("## Not checked in numbers"), "{report}");
+    assert!(report.contains("- `outputs`: some value is not finite"), "{report}");
+    let clear = arm("output o = j;");
+    let compiled = verify::compile(&clear.model, &clear.structure, &clear.derivation).unwrap();
+    assert!(!emit::report(&clear.model, &clear.structure, &compiled).contains("Not checked"));
+}
+
+/// A term times a parameter that is zero by default contradicts other functions all the same.
+#[test]
+fn parameters_of_zero() {
+    let mut case = arm("param extra = 0.0;
+        output o = extra;
+        emit forward_dynamics, inverse_dynamics, mass_matrix, energy;");
+    assert_eq!(case.check(&case.compiled).broken, None);
+    let outputs = case.derivation.functions.iter().find(|f| f.kind == FunctionKind::Outputs).unwrap();
+    let extra = outputs.candidates[0].1[0];
+    let energy = case.derivation.functions.iter().position(|f| f.kind == FunctionKind::KineticEnergy).unwrap();
+    for candidate in &mut case.derivation.functions[energy].candidates {
+        candidate.1[0] = case.derivation.graph.add(candidate.1[0], extra);
+    }
+    let compiled = optimize::compile(&case.derivation).unwrap();
+    let found = case.check(&compiled);
+    assert!(found.wrong.is_empty() && found.broken.is_some(), "{found:?}");
+}
+
+/// Parameters that are equal by default are no reason not to judge what compares them.
+#[test]
+fn parameters_that_are_equal() {
+    let case = arm("param low = 0.3;
+        param high = 0.3;
+        force motor: Effort { joint: j, value: select(low < high, 1.0, 2.0) * max(low, high) }
+        emit forward_dynamics, inverse_dynamics, mass_matrix, bias, energy;");
+    assert_eq!(case.check(&case.compiled).unchecked, []);
+}
+
+/// A wrong result among many that rounding may have moved further.
+#[test]
+fn suspects_hide_nobody() {
+    let inputs = ["i1", "i2", "i3", "i4", "i5", "i6"];
+    let declared: String = inputs.iter().map(|name| format!("input {name};")).collect();
+    // A product with a power of two has no rounding, so the equations as derived are better than their bound.
+    let steep: String = inputs.iter().map(|name| format!("output of_{name} = sin(134217728.0 * {name});")).collect();
+    let case = arm(&format!("{declared} {steep} output plain = 0.7 * (i1 + j);"));
+    let mut compiled = case.compiled.clone();
+    let outputs = compiled.functions.iter_mut().find(|f| f.kind == FunctionKind::Outputs).unwrap();
+    assert!(replace(&mut outputs.program, 134_217_728.0, 134_217_728.0 * (1.0 + f64::EPSILON)) >= 5);
+    let found = case.check(&compiled);
+    assert!(found.wrong.is_empty(), "{found:?}");
+    let outputs = compiled.functions.iter_mut().find(|f| f.kind == FunctionKind::Outputs).unwrap();
+    assert_eq!(replace(&mut outputs.program, 0.7, 0.7 * (1.0 + 1e-9)), 1);
+    assert_eq!(case.check(&compiled).wrong, [FunctionKind::Outputs]);
+}
+
+/// The program of `Params::check` is compared as functions are.
+#[test]
+fn tests_of_parameters() {
+    let case =
+        arm("param mass = 2.0; body b { mass: mass * 3.0 - 1.0, com: X } joint k: Fixed { parent: a, child: b }");
+    let found = case.check(&case.compiled);
+    assert!(!found.wrong_checks && found.unchecked.is_empty(), "{found:?}");
+    let (mut told, mut count) = (0, 0);
+    each(&mut case.compiled.checks.program.clone(), &mut |_| count += 1);
+    for at in 0..count {
+        let mut compiled = case.compiled.clone();
+        let (mut number, mut changed) = (0, false);
+        each(&mut compiled.checks.program, &mut |expression| {
+            if let (true, Expression::Literal(x)) = (number == at, expression) {
+                *x *= 1.000_001;
+                changed = true;
+            }
+            number += 1;
+        });
+        if changed {
+            assert!(case.check(&compiled).wrong_checks, "node {at}");
+            told += 1;
+        }
+    }
+    assert!(told > 0, "{:?}", case.compiled.checks);
+}
