@@ -23,7 +23,7 @@ fn long_sums_are_flat() {
     let sum: String = (0..120).map(|_| " + j - 1.0").collect();
     let said = quickly(move || said(&format!("mod m {{ {BODY} output x = 1.0{sum}; output y = X{sum}; }}")));
     assert_eq!(said.len(), 1, "{said:?}");
-    assert!(said[0].ends_with("expected a Vec3, found a scalar"), "{said:?}");
+    assert!(said[0].contains("expected a Vec3, found a scalar"), "{said:?}");
 }
 
 #[test]

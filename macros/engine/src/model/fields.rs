@@ -9,6 +9,10 @@ use super::checker::Checker;
 use crate::diagnostics::nearest;
 use crate::syntax::tree;
 
+/// Fields that joints have elsewhere.
+const STOPS: [&str; 8] = ["lower", "upper", "min", "max", "limit", "limits", "range", "stop"];
+const STOP: &str = "a joint turns without end: a stop is an `Effort` that pushes back, or an event of the integrator";
+
 /// Which fields an item has.
 pub(super) struct Known<'k> {
     pub(super) required: &'k [&'k str],
@@ -94,13 +98,10 @@ impl Checker<'_, '_> {
                 self.report.help(given.name.span(), message, format!("write `{meant}`"));
             } else if !known.has(&name) {
                 let list: Vec<&str> = known.names().collect();
-                self.report.unknown(
-                    given.name.span(),
-                    format!("{owner} has no field `{name}`"),
-                    &name,
-                    known.names(),
-                    Some(format!("it has `{}`", list.join("`, `"))),
-                );
+                let stop = owner.contains("joint") && STOPS.contains(&name.as_str());
+                let help = if stop { STOP.to_owned() } else { format!("it has `{}`", list.join("`, `")) };
+                let message = format!("{owner} has no field `{name}`");
+                self.report.unknown(given.name.span(), message, &name, known.names(), Some(help));
             } else if seen.contains(&name) {
                 let message = format!("the field `{name}` is given twice");
                 self.report.error(given.name.span(), message);

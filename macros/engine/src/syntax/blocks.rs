@@ -52,9 +52,12 @@ pub(super) fn kinded(
 ) -> Option<(Ident, Ident, Fields)> {
     let name = name(keyword, cursor, diagnostics).ok()?;
     let kind = kind(keyword, cursor, diagnostics);
-    // One error is enough for `joint elbow;`.
-    let silent = kind == UNREADABLE && !cursor.at_group(0, Delimiter::Brace);
-    let fields = if silent { lost(cursor) } else { block(keyword, cursor, diagnostics) };
+    // One error is enough for `joint elbow;`, and for `joint elbow { type: Revolute, .. }`.
+    let fields = match (kind == UNREADABLE, cursor.at_group(0, Delimiter::Brace)) {
+        (true, false) => lost(cursor),
+        (true, true) => block(keyword, cursor, &mut Diagnostics::default()),
+        (false, _) => block(keyword, cursor, diagnostics),
+    };
     Some((name, kind, fields))
 }
 

@@ -3,6 +3,7 @@
 //! In: the place of the braces. Out: fields in source order. A field that can't be read costs only itself.
 
 use proc_macro2::{Delimiter, Group, TokenTree};
+use syn::Expr;
 
 use super::cursor::{Cursor, Reported};
 use super::expressions::{expression, is_name};
@@ -53,7 +54,7 @@ pub(super) fn between(group: &Group, cursor: &Cursor, diagnostics: &mut Diagnost
         return fields;
     };
     while !inner.at_end() {
-        match field(&mut inner, diagnostics) {
+        match field(fields.list.last(), &mut inner, diagnostics) {
             Ok(field) => fields.list.push(field),
             Err(Reported) => {
                 fields.broken = true;
@@ -65,8 +66,8 @@ pub(super) fn between(group: &Group, cursor: &Cursor, diagnostics: &mut Diagnost
     fields
 }
 
-/// One field and what separates it from the next.
-fn field(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Result<Field, Reported> {
+/// One field and what separates it from the next; `before` is the one before it.
+fn field(before: Option<&Field>, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Result<Field, Reported> {
     const FORM: &str = "a field is written `name: value`";
     if cursor.at("#") && cursor.at_group(1, Delimiter::Bracket) {
         diagnostics.error_help(
@@ -81,7 +82,12 @@ fn field(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Result<Field, Re
     }
     let Some(name) = cursor.ident(0).filter(|name| is_name(name)).cloned() else {
         let message = format!("expected a field, found {}", cursor.found());
-        let help = if cursor.at("..") { "fields left out have the defaults of the documentation" } else { FORM };
+        let digits = cursor.literal().is_some() && before.is_some_and(|before| matches!(before.value, Expr::Lit(_)));
+        let help = match digits {
+            _ if cursor.at("..") => "fields left out have the defaults of the documentation",
+            true => hints::POINT,
+            false => FORM,
+        };
         diagnostics.error_help(cursor.span(), message, help);
         return Err(Reported);
     };

@@ -10,6 +10,8 @@ use super::cursor::{Cursor, Reported, short};
 use crate::diagnostics::Diagnostics;
 
 const LET: &str = "name intermediate results with `let name = value;`";
+/// What somebody hears who writes `1,5`.
+pub(super) const POINT: &str = "decimals are written with a point: `1.5`";
 const SELECT: &str = "write `select(condition, a, b)`";
 const ALONE: &str = "a name stands alone, such as `sin(x)` or `PI`";
 
@@ -128,6 +130,7 @@ pub(super) fn no_end(expected: &str, cursor: &Cursor, diagnostics: &mut Diagnost
     let value = matches!(cursor.peek(0), Some(TokenTree::Ident(_) | TokenTree::Literal(_)));
     let (message, help) = match cursor.operator(0).as_str() {
         _ if !expected.contains("operator") => (message, None),
+        "," if matches!(cursor.peek(1), Some(TokenTree::Literal(_))) => (message, Some(POINT)),
         ";" => (message, Some("values are separated by `,`; arrays are written element by element")),
         "=" => (message, Some("to compare, write `==`")),
         _ if cursor.at_group(0, Delimiter::Brace) => {

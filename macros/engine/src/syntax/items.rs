@@ -13,7 +13,7 @@ use super::expressions::{expression, is_name};
 use super::fields::{between, fields};
 use super::keywords::Keyword;
 use super::names::{finish, form, last_value, name, optional_type, unreadable};
-use super::tree::{Item, ItemKind, Request, Value, poison, poisoned_type};
+use super::tree::{Item, ItemKind, Request, Value, poison, poison_type, poisoned_type};
 use crate::diagnostics::Diagnostics;
 
 /// All items, and whether one was lost.
@@ -163,6 +163,8 @@ fn value(keyword: Keyword, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -
         let message = format!("expected `=`, found {}", cursor.found());
         diagnostics.error_help(cursor.span(), message, form(keyword));
         cursor.skip_item();
+        // `output tip: hand.position;`: what stands there is a value, so no type is looked for.
+        return Some(Value { name, ty: ty.map(|_| poison_type()), value: valued.then(poison) });
     }
     Some(Value { name, ty, value: valued.then(poison) })
 }

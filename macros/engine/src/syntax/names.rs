@@ -22,6 +22,10 @@ pub(super) fn form(keyword: Keyword) -> String {
 
 /// The name behind a keyword.
 pub(super) fn name(keyword: Keyword, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Read<Ident> {
+    if let Some(word) = cursor.ident(0).filter(|word| *word == "mut").cloned() {
+        diagnostics.error_help(word.span(), "nothing is ever assigned anew here", "remove the `mut`");
+        cursor.bump();
+    }
     match cursor.ident(0).cloned() {
         Some(name) if is_name(&name) && !cursor.at_item(0) => {
             cursor.bump();

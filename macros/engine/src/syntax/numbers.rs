@@ -34,7 +34,9 @@ pub(super) fn number(literal: &Literal, cursor: &Cursor, diagnostics: &mut Diagn
             "deg" | "degrees" => ("a number has no suffix here".to_owned(), format!("write `deg({})`", short(plain))),
             _ => {
                 let message = format!("a number has no suffix here: remove `{}`", short(&suffix));
-                (message, format!("write `{}`", short(plain)))
+                let sized = suffix.ends_with(|last: char| last.is_ascii_digit());
+                let name = if matches!(lit, Ok(Lit::Int(_))) && !sized { "; a name begins with a letter" } else { "" };
+                (message, format!("write `{}`{name}", short(plain)))
             }
         };
         diagnostics.error_help(literal.span(), message, help);

@@ -77,7 +77,13 @@ impl<'a> Checker<'a, '_> {
             return Some(value);
         }
         let message = format!("expected {}, found {}", type_text(ty), type_text(&value.expr.ty));
-        self.report.error(value.expr.span, message);
+        match (ty, &value.expr.ty) {
+            (Type::Vec3, Type::Scalar) => {
+                let help = "a vector is written `[x, y, z]`, or by axes: `-2.0 * Z`";
+                self.report.help(value.expr.span, message, help);
+            }
+            _ => self.report.error(value.expr.span, message),
+        }
         None
     }
 }
