@@ -189,6 +189,41 @@ fn a_hinge_about_any_axis_has_derivatives() {
     );
 }
 
+/// Four-bars in oblique planes, closed to a frame of sixteen digits: its axis is the others', and they have a closed form.
+#[test]
+fn typed_frames_keep_a_plane() {
+    for (from, to, [a, b, c]) in [
+        (
+            "ground.at([-0.19, sqrt(2) / 2, 0]).rotated(X + Y, deg(60))",
+            "ground.at([0.7449588134572304, 2.369299753722191, 0.8906763066320611])
+            .oriented([[-0.4835009379699021, -0.6254812890744414, 0.6123724356957945],
+            [0.2102844684776120, -0.7620895238205865, -0.6123724356957945],
+            [0.8497101183929215, -0.1673102348951994, 0.5000000000000001]])",
+            [0.807, 0.921, 1.038],
+        ),
+        (
+            "ground.at([0, -0.5, 2 / 3])
+            .oriented([[0.8944271909999159, -0.4472135954999579, 0], [0.4472135954999579, 0.8944271909999159, 0], [0, 0, 1]])
+            .rotated([1, 2, 3] / norm([1, 2, 3]), -1.305720)",
+            "ground.at([1.8746613329278576, 1.1176742872919085, 1.3580388835109347]).oriented([[0.5009120492087283, -0.6453346276461307, -0.5767411354484285],
+            [0.8651882199529257, 0.3555246024609412, 0.3536263580386476],
+            [-0.0231616711875536, -0.6761253400116136, 0.7364224749299683]])",
+            [1.147, 1.294, 0.905],
+        ),
+    ] {
+        compiled(&format!(
+            "body b0 {{ mass: 1, inertia: diag(0.1, 0.1, 0.1) }} body b1 {{ mass: 1, inertia: diag(0.1, 0.1, 0.1) }}
+            body b2 {{ mass: 1, inertia: diag(0.1, 0.1, 0.1) }}
+            joint j0: Revolute {{ parent: {from}, child: b0, axis: Z }}
+            joint j1: Revolute {{ parent: b0.at({a} * X), child: b1, axis: Z }}
+            joint j2: Revolute {{ parent: b1.at({b} * X), child: b2, axis: Z }}
+            #[cut] joint j3: Revolute {{ parent: b2.at({c} * X), child: {to}, axis: Z }}
+            solve (j1.angle, j2.angle) from j3 {{ sin(j2) > 0.0 }}
+            formulation {{ constraints: Reduced }} emit energy;"
+        ));
+    }
+}
+
 /// `CHAINS` chooses how many.
 #[test]
 fn chains_hold_no_dust() {

@@ -3,8 +3,9 @@
 //! In: nine literals. Out: a rotation that is orthogonal exactly. Matrices are typed with sixteen digits, which are the
 //! rounding of something else, and what is left of a zero then looks like a number. So a matrix that rounds turns about
 //! coordinate axes, or one about a simple axis, by quarters of a degree or by short decimals, is those turns; one that
-//! rounds a rotation which is there already is that rotation; any other becomes the rotation of a rational quaternion, or,
-//! where it has zeros, turns with rational half-angle tangents that have the same zeros.
+//! rounds a rotation which is there already is that rotation, and one that shares a simple axis with it (the frame at the
+//! other end of a planar loop) is that rotation followed by a turn about this axis; any other becomes the rotation of a
+//! rational quaternion, or, where it has zeros, turns with rational half-angle tangents that have the same zeros.
 
 use crate::symbolic::graph::{Graph, Rotation, Scalar};
 use crate::symbolic::number::Number;
@@ -41,7 +42,13 @@ pub(super) fn oriented(g: &mut Graph, rows: [[Scalar; 3]; 3]) -> Rotation {
             return rotation;
         }
     }
-    let rational = if m.iter().flatten().any(|&x| x == 0.0) { by_turns(g, &m, false) } else { by_quaternion(g, &m) };
+    for rotation in g.literal_rotations() {
+        if let Some(rotation) = about_shared(g, rotation, &m).filter(|&r| is_near(g, r)) {
+            return rotation;
+        }
+    }
+    let rational =
+        if m.iter().flatten().any(|&x| x == 0.0) { by_turns(g, &m, false) } else { Some(by_quaternion(g, &m)) };
     match rational {
         Some(rotation) if is_near(g, rotation) => rotation,
         _ => g.matrix_rotation(rows),
@@ -144,24 +151,58 @@ fn quaternion(m: &Matrix) -> [f64; 4] {
 
 /// A rotation by a simple angle about an axis whose components are to each other as small integers are.
 fn about_simple(g: &mut Graph, m: &Matrix) -> Option<Rotation> {
-    let [w, v @ ..] = quaternion(m);
-    let size = v.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let q = quaternion(m);
+    let axis = simple_axis(&q)?;
+    simple_turn(g, &q, axis)
+}
+
+fn simple_turn(g: &mut Graph, [w, v @ ..]: &[f64; 4], axis: [i64; 3]) -> Option<Rotation> {
     let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let integers = (1..=MOST_OF_AN_AXIS).find_map(|d| {
-        let scaled = v.map(|x| x / size * d as f64);
-        let whole = scaled.iter().all(|x| (x - x.round()).abs() <= 1e-13 * d as f64);
-        whole.then(|| scaled.map(|x| x.round() as i64))
-    })?;
-    let angle = simple_angle(g, 2.0 * length.atan2(w))?;
-    let axis = integers.map(|n| g.integer(n));
+    let angle = simple_angle(g, 2.0 * length.atan2(*w))?;
+    let axis = axis.map(|n| g.integer(n));
     Some(constants::about(g, axis, angle))
 }
 
-/// The rotation of a rational quaternion; it needs no unit length.
-fn by_quaternion(g: &mut Graph, m: &Matrix) -> Option<Rotation> {
+/// Small integers that the vector of a quaternion is proportional to.
+fn simple_axis([_, v @ ..]: &[f64; 4]) -> Option<[i64; 3]> {
+    let size = v.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    (1..=MOST_OF_AN_AXIS).find_map(|d| {
+        let scaled = v.map(|x| x / size * d as f64);
+        let whole = scaled.iter().all(|x| (x - x.round()).abs() <= 1e-13 * d as f64);
+        whole.then(|| scaled.map(|x| x.round() as i64))
+    })
+}
+
+/// A rotation that is there, followed by a turn about one of its simple axes.
+fn about_shared(g: &mut Graph, (there, rows): (Rotation, Matrix), m: &Matrix) -> Option<Rotation> {
+    let rest: Matrix = std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| rows[k][i] * m[k][j]).sum()));
+    let q = quaternion(&rest);
+    let axis = simple_axis(&q)?;
+    let turn = simple_turn(g, &q, axis).unwrap_or_else(|| {
+        // Scalar and axis as integers and their ratio, which is as good as any.
+        let [w, v @ ..] = q;
+        let (along, whole) = (0..3).map(|k| (v[k], axis[k])).max_by_key(|one| one.1.abs()).unwrap_or_default();
+        let (scalar, factor) = (w * whole as f64, along);
+        let (scalar, factor) = if scalar.abs() < factor.abs() {
+            (Number::decimal(scalar / factor), Number::ONE)
+        } else {
+            (Number::ONE, Number::decimal(factor / scalar))
+        };
+        rational(g, scalar, axis.map(|n| Number::integer(n) * factor))
+    });
+    Some(compose(g, there, turn))
+}
+
+/// The rational quaternion that is nearest.
+fn by_quaternion(g: &mut Graph, m: &Matrix) -> Rotation {
     let q = quaternion(m);
     let size = q.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     let [w, v @ ..] = q.map(|x| Number::decimal(x / size));
+    rational(g, w, v)
+}
+
+/// The rotation of a rational quaternion; it needs no unit length.
+fn rational(g: &mut Graph, w: Number, v: [Number; 3]) -> Rotation {
     let square = v.iter().fold(w * w, |sum, &x| sum + x * x);
     let two = Number::integer(2) / square;
     let mut rows = [[Scalar::ZERO; 3]; 3];
@@ -171,5 +212,5 @@ fn by_quaternion(g: &mut Graph, m: &Matrix) -> Option<Rotation> {
         rows[a][b] = g.number(two * (v[a] * v[b] - w * v[c]));
         rows[b][a] = g.number(two * (v[a] * v[b] + w * v[c]));
     }
-    Some(g.matrix_rotation(rows))
+    g.matrix_rotation(rows)
 }

@@ -155,6 +155,23 @@ impl Graph {
         })
     }
 
+    /// All rotations of literals that are no identity, with their entries row by row, and then their inverses.
+    pub fn literal_rotations(&self) -> Vec<(Rotation, [[f64; 3]; 3])> {
+        let value = |s: Scalar| self.literal(s).map(Number::value);
+        let matrix = |(index, node): (usize, &RotationNode)| {
+            let RotationNode::Matrix(rows) = node else { return None };
+            let mut m = [[0.0; 3]; 3];
+            for (entry, &s) in m.iter_mut().flatten().zip(rows.iter().flatten()) {
+                *entry = value(s)?;
+            }
+            Some((index, m))
+        };
+        let found: Vec<(usize, [[f64; 3]; 3])> = self.rotations.iter().enumerate().filter_map(matrix).collect();
+        let forth = found.iter().map(|&(index, m)| (Rotation::new(index, false), m));
+        let turned = |m: [[f64; 3]; 3]| [0, 1, 2].map(|i| [0, 1, 2].map(|j| m[j][i]));
+        forth.chain(found.iter().map(|&(index, m)| (Rotation::new(index, true), turned(m)))).collect()
+    }
+
     /// From an orthogonal matrix with determinant one, row by row.
     pub fn matrix_rotation(&mut self, rows: [[Scalar; 3]; 3]) -> Rotation {
         let m = rows.map(|row| row.map(|s| self.print(s)));
