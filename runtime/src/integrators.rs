@@ -46,6 +46,7 @@ mod control;
 mod dense;
 mod dop853;
 mod dormand_prince;
+mod doubt;
 mod error;
 mod euler;
 mod events;

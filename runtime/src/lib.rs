@@ -119,7 +119,8 @@ pub use integrators::{
 pub use multibody_macros::multibody as __multibody;
 pub use nalgebra;
 pub use projection::{
-    Assembled, AssemblyError, Projected, Projection, ProjectionError, WithBaumgarte, WithProjection, WithRank, assemble,
+    Assembled, AssemblyError, Projected, Projection, ProjectionError, WithBaumgarte, WithProjection, WithRank,
+    ambiguity, assemble,
 };
 pub use scalar::{Real, all, any};
 pub use simba;

@@ -68,12 +68,22 @@
 //! greater than its coordinates, a position counts as closed when what Newton's method would still change is below the
 //! rounding of the coordinates, and would close it.
 //!
+//! # Singular poses
+//! Where constraints come to depend on each other, as in a parallelogram that lies flat, motions cross: the mechanism goes
+//! on smoothly, but a residual, however small, makes the other motion turn off before it. Steps lead over such a pose; one
+//! that ends so near that rounding decides which motion goes on ends in
+//! [`IntegrationError::Ambiguous`](crate::IntegrationError::Ambiguous), or is tried shorter where steps are chosen by error.
+//! [`ambiguity`] tells how near a position is. Projections of a fixed number of corrections and single steps are not
+//! watched. Where stages of a given step come near, its error grows, as everywhere near such a pose: in `f32` within
+//! hundredths of a radian.
+//!
 //! # Lanes
 //! Every lane is iterated as if it were alone: lanes that have converged stay where they are while others go on. An
 //! error is given if any lane fails; [`Projection::project_fixed`] has no errors and reports lane by lane.
 
 mod assembly;
 mod baumgarte;
+mod clarity;
 mod error;
 mod handed_on;
 mod rank;
@@ -82,6 +92,7 @@ mod wrapper;
 
 pub use assembly::{Assembled, assemble};
 pub use baumgarte::WithBaumgarte;
+pub use clarity::ambiguity;
 pub use error::{AssemblyError, ProjectionError};
 pub use rank::{WithRank, rank};
 pub use weighting::{ByMass, Plain, Weighting, Weights};
@@ -91,9 +102,14 @@ use crate::tangent::greatest;
 use crate::{
     Configuration, Constrained, Impulsive, PositionOf, Real, StateSpace, System, Tangent, VelocityOf, all, any,
 };
+use clarity::{is_unclear, noticed};
 
 /// Tolerances are at least this many roundings.
 const ROUNDINGS: f64 = 16.0;
+/// A residual of this many roundings is left as it is without being asked what it takes to close it.
+const POLISHED: f64 = 0.25;
+/// What would close a residual of rounding is done up to this many roundings of the coordinates.
+const POLISHING: f64 = 100.0;
 
 /// Brings states back to where the constraints are satisfied, after each step of an integrator.
 ///
@@ -101,7 +117,7 @@ const ROUNDINGS: f64 = 16.0;
 /// or weighted coordinate by coordinate, or by the mass matrix. See the [module](self) for an example.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection {
-    /// `[m]` or `[rad]`: greatest residual of a position. That of velocities, per second, is this times one plus the
+    /// `[m]` or `[rad]`: greatest residual that a position may be left with. That of velocities, per second, is this times one plus the
     /// greatest velocity.
     pub tolerance: f64,
     /// Greatest number of Newton's iterations; with [`Projection::project_fixed`] exactly this many.
@@ -136,8 +152,9 @@ pub struct Projected<Z, T = f64> {
 impl Projection {
     /// The state nearest to `state` that satisfies the constraints at the time `t` `[s]`. Own states are kept.
     ///
-    /// A position within the tolerance is not moved. Velocities are always corrected, so the rank is that of the final
-    /// position.
+    /// A position is corrected once even where it is within the tolerance, and once more after a long correction, since near
+    /// a singular pose a motion goes where the least residual leads it. Velocities are always corrected, so the rank is that
+    /// of the final position.
     ///
     /// # Errors
     /// See [`ProjectionError`]; one is given if any lane fails.
@@ -265,9 +282,18 @@ impl Projection {
         let mut closed = if self.position { never::<S>() } else { !never::<S>() };
         let mut rank = None;
         let mut iterations = 0;
+        let mut corrections = [S::Scalar::lit(0.0); 2];
         for _ in 0..self.iterations {
             let size = greatest(&residual);
-            closed = closed | Real::le(size, closeness::<S>(self.tolerance, &q));
+            let close = Real::le(size, closeness::<S>(self.tolerance, &q));
+            // Near a singular pose a motion goes where the residual leads it, so what is within the tolerance is corrected
+            // all the same, and once more after a long way.
+            let enough = match iterations {
+                0 => Real::le(size, S::Scalar::lit(POLISHED) * S::Scalar::epsilon()),
+                1 => Real::le(corrections[0], noticed::<S>(&q)),
+                _ => !never::<S>(),
+            };
+            closed = closed | (close & enough);
             let settled = closed | !Real::is_finite(size);
             if all(settled) {
                 break;
@@ -275,12 +301,20 @@ impl Projection {
             let (d, now) = weighting.correction(system, t, &q, &negative(&residual));
             rank = Some(now);
             closed = closed | (!settled & at_rounding(system, t, &state.join(q, v, x), &d, &residual));
-            q = q.displace(&d.map(&mut |d| Real::select(settled, S::Scalar::lit(0.0), d)));
+            // In the pose itself what is within the tolerance is rounding, and no displacement makes it good.
+            let settled = settled | (close & Real::gt(greatest(&d), polishing::<S>(&q, size)));
+            closed = closed | (close & settled);
+            if let Some(correction) = corrections.get_mut(iterations as usize) {
+                *correction = greatest(&d);
+            }
+            let d = d.map(&mut |d| Real::select(settled, S::Scalar::lit(0.0), d));
+            q = q.displace(&d);
             residual = system.constraints(t, &q);
             iterations += 1;
         }
         let size = greatest(&residual);
         closed = closed | Real::le(size, closeness::<S>(self.tolerance, &q));
+        let unclear = is_unclear(system, t, &q, corrections);
 
         let state = state.join(q, v, x);
         let motion = if self.velocity {
@@ -289,7 +323,7 @@ impl Projection {
             let rank = rank.unwrap_or_else(|| weighting.correction(system, t, &q, &S::Residual::zero()).1);
             Motion { state, rank, rate: S::Scalar::lit(0.0), consistent: !never::<S>() }
         };
-        Run { motion, residual: size, closed, iterations }
+        Run { motion, residual: size, closed, unclear, iterations }
     }
 }
 
@@ -298,13 +332,15 @@ struct Run<S: System> {
     motion: Motion<S>,
     residual: S::Scalar,
     closed: Mask<S>,
+    /// Whether it may have come to another branch of a motion.
+    unclear: Mask<S>,
     iterations: u32,
 }
 
 impl<S: System> Run<S> {
     /// The state, if all lanes have one.
     fn check(self) -> Result<Projected<S::State, S::Scalar>, ProjectionError> {
-        let Self { motion, residual, closed, iterations } = self;
+        let Self { motion, residual, closed, unclear: _, iterations } = self;
         if !all(finite::<S>(&motion.state)) || !all(Real::is_finite(residual)) {
             Err(ProjectionError::NotFinite)
         } else if !all(closed) {
@@ -385,6 +421,13 @@ fn finite<S: System>(state: &S::State) -> Mask<S> {
 fn closeness<S: System>(tolerance: f64, q: &PositionOf<S>) -> S::Scalar {
     let roundings = S::Scalar::lit(ROUNDINGS) * S::Scalar::epsilon();
     Real::max(S::Scalar::lit(tolerance), roundings * (S::Scalar::lit(1.0) + greatest(&q.magnitude())))
+}
+
+/// The greatest displacement that a residual within the tolerance is closed by.
+fn polishing<S: Constrained>(q: &PositionOf<S>, residual: S::Scalar) -> S::Scalar {
+    let rounding = closeness::<S>(0.0, q);
+    let (least, most) = (S::Scalar::lit(POLISHING / ROUNDINGS) * rounding, noticed::<S>(q));
+    Real::select(Real::le(residual, rounding), Real::min(least, most), most)
 }
 
 /// Whether the correction `d` for a residual is lost in the rounding of the coordinates, and yet would make up for at

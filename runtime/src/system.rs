@@ -180,6 +180,17 @@ pub trait System {
         Opening::none()
     }
 
+    /// How unclear it is which motion goes on at a state that [`System::accepted`] gave: zero where there is no doubt, one or
+    /// more where rounding decides.
+    ///
+    /// Where constraints come to depend on each other, as in a parallelogram that lies flat, two motions cross. Integrators
+    /// lead steps over such a pose, and end in [`IntegrationError::Ambiguous`](crate::IntegrationError) where they can't. By
+    /// default there is never a doubt. Wrappers hand the call on.
+    #[inline]
+    fn ambiguity(&self, _t: Self::Scalar, _state: &Self::State, _input: &Self::Input) -> Self::Scalar {
+        Self::Scalar::lit(0.0)
+    }
+
     /// A coordinate without inertia, whose acceleration no equation gives: asked for only where a derivative isn't finite,
     /// to name the cause. By default none is known. Wrappers hand the call on.
     #[inline]
@@ -218,6 +229,10 @@ impl<S: System + ?Sized> System for &S {
     #[inline]
     fn opening(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> Opening<S::Scalar> {
         (**self).opening(t, state, input)
+    }
+    #[inline]
+    fn ambiguity(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> S::Scalar {
+        (**self).ambiguity(t, state, input)
     }
     #[inline]
     fn without_inertia(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> Option<&'static str> {

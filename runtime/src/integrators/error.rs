@@ -47,6 +47,14 @@ pub enum IntegrationError {
         /// What closes them.
         remedy: &'static str,
     },
+    /// A step ends in a pose in which constraints come to depend on each other and motions cross, as in a parallelogram that
+    /// lies flat, or so near to one that rounding decides which motion goes on. Other steps may lead over it, and looser
+    /// tolerances do so more easily; the same model with `constraints: Reduced`, where a loop has a closed form, knows its
+    /// branch.
+    Ambiguous {
+        /// `[s]` the time reached.
+        time: f64,
+    },
     /// The mass matrix is singular: nothing that moves with this coordinate has inertia, so no equation gives its
     /// acceleration.
     NoInertia {
@@ -90,6 +98,11 @@ impl fmt::Display for IntegrationError {
             Self::OpenLoops { time, residual, remedy } => {
                 write!(f, "at t = {time} s the loops are open by {residual:e} (m or rad): {remedy}")
             }
+            Self::Ambiguous { time } => write!(
+                f,
+                "after t = {time} s constraints depend on each other, and rounding would decide which of two motions goes on: \
+                 take steps of another length, or a looser tolerance, or `constraints: Reduced`"
+            ),
             Self::NoInertia { time, coordinate } => write!(
                 f,
                 "after t = {time} s the mass matrix is singular: nothing that moves with `{coordinate}` has inertia"

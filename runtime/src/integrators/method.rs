@@ -1,6 +1,7 @@
 //! What a method is: [`Method`], one attempt of a step at a time; and the loop over steps of one length.
 
 use super::dense::Dense;
+use super::doubt::Doubt;
 use super::error::IntegrationError;
 use super::outlook::{Soundness, cause, check_start};
 use super::problem::{Problem, Step};
@@ -179,14 +180,20 @@ pub(super) fn integrate<S: System, M: Method<S>>(
     let problem = Problem::new(system, input);
     let mut state = *state;
     let mut t = t0;
-    let (mut memory, mut signs) = (None, None);
+    let (mut memory, mut signs, mut doubt) = (None, None, Doubt::None);
     check_start(&problem, t, &state)?;
     for k in 1..=steps {
         let end = t0 + S::Scalar::lit(f64::from(k)) * dt;
         let now = memory.unwrap_or_else(|| method.begin(&problem, t, &state));
         let step = Step { t, end, dt, state: &state, full: false };
         let attempt = method.attempt(&problem, &step, &now);
-        let next = Accepted::new(&problem, end, &displaced(&state, &attempt.displacement));
+        let reached = displaced(&state, &attempt.displacement);
+        let next = Accepted::new(&problem, end, &reached);
+        let found = Doubt::at(&problem, end, &reached, &next.state);
+        if found.stops(doubt) {
+            return Err(IntegrationError::Ambiguous { time: t.greatest() });
+        }
+        doubt = found;
         if !is_finite(&magnitude(&next.state)) {
             return Err(cause(&problem, t, &state, dt));
         }
@@ -230,7 +237,8 @@ macro_rules! inherent {
             /// # Errors
             /// [`NonFinite`](crate::IntegrationError::NonFinite) as soon as the state is infinite or NaN (in any lane);
             /// [`NoConvergence`](crate::IntegrationError::NoConvergence) where an implicit method finds no solution;
-            /// [`DeadCentre`](crate::IntegrationError::DeadCentre) and
+            /// [`DeadCentre`](crate::IntegrationError::DeadCentre),
+            /// [`Ambiguous`](crate::IntegrationError::Ambiguous) and
             /// [`OpenLoops`](crate::IntegrationError::OpenLoops) of loops.
             pub fn integrate<S: $crate::System $(+ $bound)?>(
                 system: &S,

@@ -83,6 +83,12 @@ impl<'a, S: System> Problem<'a, S> {
         self.system.opening(t, state, self.input)
     }
 
+    /// How unclear it is which motion goes on: see [`System::ambiguity`].
+    #[inline]
+    pub fn ambiguity(&self, t: S::Scalar, state: &S::State) -> S::Scalar {
+        self.system.ambiguity(t, state, self.input)
+    }
+
     /// A coordinate without inertia: see [`System::without_inertia`].
     #[inline]
     pub fn without_inertia(&self, t: S::Scalar, state: &S::State) -> Option<&'static str> {

@@ -1,10 +1,11 @@
 //! The loop over steps: [`Run`], one attempt at a time.
 
 use super::control::Control;
+use super::doubt::Doubt;
 use super::error::IntegrationError;
 use super::integrator::{Integrator, Statistics, Steps};
 use super::interval::Interval;
-use super::method::Method;
+use super::method::{Attempt, Method};
 use super::outlook::{Outlook, Reached, STUCK, cause, check_start};
 use super::problem::{Problem, Step};
 use super::slope::{SlopeOf, advanced, displaced, is_finite, magnitude, owed};
@@ -13,6 +14,8 @@ use crate::{Real, System, Tangent};
 /// At most so many events with a jump interrupt one step of given length: whatever a function does, a step is bounded work.
 /// Steps chosen by error are bounded by their number.
 const INTERRUPTIONS: u32 = 10_000;
+/// A step of this share of the longest that ends too near to a pose in which motions cross leads to nothing.
+const CREEPING: f64 = 1e-3;
 
 /// What an observer makes of an accepted step.
 pub(super) enum Verdict<Z> {
@@ -46,6 +49,8 @@ pub(super) struct Run<'a, S: System, M: Method<S>> {
     interruptions: u32,
     accepted: u32,
     rejected: u32,
+    /// Motions that cross near the state.
+    doubt: Doubt,
     /// Dead centres around the state.
     outlook: Outlook,
     /// `[s]` length of the last step and of the longest, without a sign.
@@ -114,6 +119,7 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
             interruptions: 0,
             accepted: 0,
             rejected: 0,
+            doubt: Doubt::None,
             outlook: Outlook::unknown(),
             last: 0.0,
             longest: 0.0,
@@ -225,8 +231,17 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
         } else if !attempt.converged {
             return Err(self.explained(stopped(!is_finite(&magnitude(&next)), self.t), length));
         }
-        let Reached { end: next, outlook } = Reached::new(self.problem, step.end, &next);
+        let end = next;
+        let Reached { end: next, outlook } = Reached::new(self.problem, step.end, &end);
         let rest = if self.settings.compensated { owed(&next.state, &rest) } else { rest };
+        let doubt = Doubt::at(self.problem, step.end, &end, &next.state);
+        let stops = if self.control.is_some() { doubt != Doubt::None } else { doubt.stops(self.doubt) };
+        if stops {
+            let error = IntegrationError::Ambiguous { time: self.t };
+            // Steps that creep up to the pose would never come over it.
+            let creeps = length.abs() < CREEPING * self.longest;
+            return if creeps { Err(error) } else { self.refuse(error, length, &attempt) };
+        }
         if !is_finite(&magnitude(&next.state)) {
             return Err(self.explained(IntegrationError::NonFinite { time: self.t }, length));
         }
@@ -234,11 +249,7 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
         let passed = passed.map(|coordinate| self.dead_centre(coordinate));
         let open = outlook.open().map(|residual| IntegrationError::OpenLoops { time: self.t, residual, remedy: STUCK });
         if let Some(error) = passed.or(open) {
-            let Some(control) = &mut self.control else { return Err(error) };
-            control.refuse(length);
-            self.rejected += 1;
-            self.memory = method.repeat(&self.memory, &attempt);
-            return if control.is_too_short(self.t, control.step()) { Err(error) } else { Ok(()) };
+            return self.refuse(error, length, &attempt);
         }
         let verdict = observe(&Interval::new(
             (method, self.problem, &self.memory),
@@ -249,6 +260,7 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
             self.settings.compensated.then_some(&self.rest),
         ))?;
         self.accepted += 1;
+        self.doubt = doubt;
         self.last = length.abs();
         self.longest = Real::max(self.longest, self.last);
         self.outlook = outlook;
@@ -288,6 +300,20 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
         Ok(())
     }
 
+    /// A shorter step in place of one whose end is not to be kept, or the error where there is none.
+    fn refuse(
+        &mut self,
+        error: IntegrationError,
+        length: f64,
+        attempt: &Attempt<S, M::Details>,
+    ) -> Result<(), IntegrationError> {
+        let Some(control) = &mut self.control else { return Err(error) };
+        control.refuse(length);
+        self.rejected += 1;
+        self.memory = self.settings.method.repeat(&self.memory, attempt);
+        if control.is_too_short(self.t, control.step()) { Err(error) } else { Ok(()) }
+    }
+
     fn dead_centre(&self, coordinate: &'static str) -> IntegrationError {
         IntegrationError::DeadCentre { time: self.t, coordinate }
     }
@@ -310,6 +336,7 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
     /// A state that no step led to.
     fn jump(&mut self, time: f64, state: S::State) {
         self.outlook = Outlook::at(self.problem, S::Scalar::lit(time), &state);
+        self.doubt = Doubt::None;
         self.t = time;
         self.state = state;
         self.rest = SlopeOf::<S>::zero();

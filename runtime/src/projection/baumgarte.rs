@@ -4,6 +4,7 @@
 //! `Phi'' = 0` the accelerations keep `Phi'' + 2 a Phi' + a^2 Phi = 0`, critically damped, so what steps leave open
 //! closes like `exp(-a t)`. The exact motion is not changed, since all that is added vanishes with `Phi` and `Phi'`.
 
+use super::clarity::ambiguity;
 use super::handed_on::{handed_on, watched};
 use super::{ByMass, Plain, Weighting};
 use crate::linear::Square;
@@ -99,6 +100,11 @@ impl<S: Constrained, W: Weighting<S>> System for WithBaumgarte<S, W> {
     #[inline]
     fn reached(&self, t: S::Scalar, state: &S::State) {
         self.system.reached(t, state);
+    }
+
+    #[inline]
+    fn ambiguity(&self, t: S::Scalar, state: &S::State, _input: &S::Input) -> S::Scalar {
+        ambiguity(&self.system, t, state)
     }
 
     watched!();

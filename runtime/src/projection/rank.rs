@@ -66,6 +66,11 @@ impl<S: Constrained> System for WithRank<S> {
         self.least.set(Some((Real::select(lower, now, least), Real::select(lower, t, when))));
     }
 
+    #[inline]
+    fn ambiguity(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> S::Scalar {
+        self.system.ambiguity(t, state, input)
+    }
+
     watched!();
 }
 

@@ -1,11 +1,16 @@
 //! A projection after each step of any integrator: [`WithProjection`].
 
+use super::clarity::ambiguity;
 use super::handed_on::{handed_on, watched};
 use super::{ByMass, Mask, Plain, Projection, Weighting, finite};
+use crate::tangent::greatest;
 use crate::{
     Canonical, Constrained, Differentiable, ExtraOf, Impulsive, Jacobian, PositionOf, Real, Separable, StateSpace,
-    System, Tangent, VelocityOf,
+    System, Tangent, VelocityOf, all, any,
 };
+
+/// What a projection may change velocities by, as a share of them, where motions cross.
+const TURNED: f64 = 0.125;
 
 /// A system whose states are projected at the end of every accepted step, whatever the integrator.
 ///
@@ -16,7 +21,8 @@ use crate::{
 ///
 /// A step has no place for an error, so where a projection fails, in one lane or in all, the velocities become NaN
 /// there, and `integrate` ends in [`IntegrationError::NonFinite`](crate::IntegrationError). Loops over
-/// [`Projection::project`] say why. [`WithRank`](super::WithRank) around it tells of singular poses.
+/// [`Projection::project`] say why. Where it may have led to another motion, or rounding decides which one goes on, it is
+/// [`IntegrationError::Ambiguous`](crate::IntegrationError). [`WithRank`](super::WithRank) around it tells of singular poses.
 #[derive(Clone, Copy, Debug)]
 pub struct WithProjection<S, W = Plain> {
     /// The system.
@@ -73,9 +79,14 @@ impl<S: Constrained, W: Weighting<S>> System for WithProjection<S, W> {
             return system.accepted(t, &projection.project_fixed_by(weighting, system, t, state).state, input);
         }
         let run = projection.run(weighting, system, t, state);
-        let good: Mask<S> = run.closed & run.motion.consistent & finite::<S>(&run.motion.state);
-        let (q, v, x) = run.motion.state.split();
+        let good: Mask<S> = run.closed & run.motion.consistent & finite::<S>(&run.motion.state) & !run.unclear;
+        let (q, v, x) = if any(run.unclear) {
+            state.split() // so that `ambiguity` finds it again
+        } else {
+            run.motion.state.split()
+        };
         let v = v.map(&mut |v| Real::select(good, v, S::Scalar::lit(f64::NAN)));
+        let v = unturned(system, t, &state.join(q, v, x), &state.split().1);
         system.accepted(t, &state.join(q, v, x), input)
     }
 
@@ -84,7 +95,35 @@ impl<S: Constrained, W: Weighting<S>> System for WithProjection<S, W> {
         self.system.reached(t, state);
     }
 
+    /// As [`ambiguity`] says, and infinite where the projection may have led to another motion.
+    fn ambiguity(&self, t: S::Scalar, state: &S::State, _input: &S::Input) -> S::Scalar {
+        let Self { system, projection, weighting, fixed } = self;
+        if *fixed {
+            return S::Scalar::lit(0.0);
+        }
+        let (q, v, x) = state.split();
+        if all(Real::is_finite(greatest(&v))) {
+            return ambiguity(system, t, state);
+        }
+        let unclear = projection.run(weighting, system, t, &state.join(q, Tangent::zero(), x)).unclear;
+        Real::select(unclear, S::Scalar::lit(f64::INFINITY), S::Scalar::lit(0.0))
+    }
+
     watched!();
+}
+
+/// The projected velocities of `state`, or those of `before` where rounding decides in which direction a projection turns
+/// them: a mechanism goes straight on through a pose in which motions cross.
+fn unturned<S: Constrained>(system: &S, t: S::Scalar, state: &S::State, before: &VelocityOf<S>) -> VelocityOf<S> {
+    let one = S::Scalar::lit(1.0);
+    let (_, v, _) = state.split();
+    let change = greatest(&v.add_scaled(-one, before));
+    let turned = Real::gt(change, S::Scalar::lit(TURNED) * greatest(before));
+    if !any(turned) {
+        return v;
+    }
+    let turned = turned & Real::ge(ambiguity(system, t, state), one);
+    v.zip(before, &mut |v, before| Real::select(turned, before, v))
 }
 
 handed_on!(WithProjection<S, W>, [W: Weighting<S>], Constrained, Impulsive, Differentiable, Canonical, Separable);

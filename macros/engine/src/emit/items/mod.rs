@@ -11,6 +11,7 @@ mod missing;
 mod model;
 mod parts;
 pub(super) mod separable;
+mod singular;
 mod space;
 mod state;
 mod structs;

@@ -5,6 +5,7 @@ use quote::quote;
 
 use crate::emit::arguments::{Arguments, input_type};
 use crate::emit::blocks::groups_argument;
+use crate::emit::items::singular;
 use crate::emit::{Context, functions, names, results};
 use crate::optimize::program::FunctionKind;
 
@@ -31,6 +32,7 @@ pub(super) fn item(context: &Context<'_>) -> TokenStream {
     let margins = margins(context);
     let opening = opening(context);
     let constrained = constrained(context);
+    let ambiguity = constrained.is_some().then(|| singular::ambiguity(context));
     quote! {
         impl<T: Real> #krate::System for Model<T> {
             type Scalar = T;
@@ -43,6 +45,7 @@ pub(super) fn item(context: &Context<'_>) -> TokenStream {
             #accepted
             #margins
             #opening
+            #ambiguity
         }
         #constrained
     }

@@ -1,0 +1,78 @@
+//! Whether the constraints tell which motion goes on.
+//!
+//! Where constraints come to depend on each other, as in a parallelogram that lies flat, motions cross: the one that a
+//! mechanism is in goes on smoothly, and the other one turns off. Of a residual `c` that is left there, however small, the
+//! crossing becomes two branches of a hyperbola that avoid each other, and a run that follows them turns off sharply,
+//! where the mechanism goes straight on. A step that leads over the pose does what the mechanism does; one that ends so
+//! near to it that rounding decides about the branch does not.
+//!
+//! The measure needs no unit and no derivative: the displacement that makes up for a residual of rounding grows like the
+//! inverse of the distance from the pose, and turns where that distance is no longer large beside it. So the displacement
+//! is asked for twice, at the position and displaced by it; what it changes by, as a share of itself, is the share of
+//! that distance that rounding is.
+
+use super::{Mask, closeness, greatest, ones};
+use crate::{Configuration, Constrained, PositionOf, Real, StateSpace, Tangent, VelocityOf, any};
+
+/// The residual of rounding, as a share of the least tolerance of a projection.
+const ROUNDING: f64 = 0.25;
+/// A displacement of this many roots of the rounding unit is measured; below it no pose is near.
+const NOTICED: f64 = 0.1;
+/// The change that leaves no doubt, inverted.
+const DOUBT: f64 = 16.0;
+/// A second correction of a projection is at most this share of the first, as far as it isn't rounding: Newton's method
+/// has started near its solution, and that is the one of the branch.
+const CONTRACTION: f64 = 0.25;
+
+/// How unclear it is at a position which motion goes on, in each lane: zero far from a pose in which constraints come to
+/// depend on each other and motions cross, and one where what is left of the residual, or rounding, decides about it.
+///
+/// It is what generated models with constraints, and projections of them, say of themselves as [`System::ambiguity`](crate::System::ambiguity).
+pub fn ambiguity<S: Constrained>(system: &S, t: S::Scalar, state: &S::State) -> S::Scalar {
+    let zero = S::Scalar::lit(0.0);
+    let (q, _, _) = state.split();
+    let open = greatest(&system.constraints(t, &q));
+    let residual = Real::max(open, S::Scalar::lit(ROUNDING) * closeness::<S>(0.0, &q));
+    let first = probe(system, t, &q, residual);
+    let size = greatest(&first);
+    let is_near = Real::gt(size, noticed::<S>(&q));
+    if !any(is_near) {
+        return zero;
+    }
+    let other = probe(system, t, &q.displace(&first), residual);
+    let change = greatest(&other.add_scaled(S::Scalar::lit(-1.0), &first));
+    Real::select(is_near, S::Scalar::lit(DOUBT) * change / size, zero)
+}
+
+/// Whether the corrections of a position, the first and the second, leave the branch open.
+pub(super) fn is_unclear<S: Constrained>(
+    system: &S,
+    t: S::Scalar,
+    q: &PositionOf<S>,
+    [first, second]: [S::Scalar; 2],
+) -> Mask<S> {
+    let doubtful = Real::gt(first, noticed::<S>(q)) & Real::gt(second, S::Scalar::lit(CONTRACTION) * first);
+    if !any(doubtful) {
+        return doubtful;
+    }
+    let rounding = greatest(&probe(system, t, q, closeness::<S>(0.0, q)));
+    doubtful & Real::gt(second, rounding)
+}
+
+/// The displacement from which on another correction is worth its cost.
+pub(super) fn noticed<S: Constrained>(q: &PositionOf<S>) -> S::Scalar {
+    let one = S::Scalar::lit(1.0);
+    S::Scalar::lit(NOTICED) * Real::sqrt(S::Scalar::epsilon()) * (one + greatest(&q.magnitude()))
+}
+
+/// The displacement for a residual of this size, in no direction that a mechanism is likely to be built in.
+fn probe<S: Constrained>(system: &S, t: S::Scalar, q: &PositionOf<S>, size: S::Scalar) -> VelocityOf<S> {
+    let mut random = 1_u32;
+    let residual = S::Residual::zero().map(&mut |_| {
+        random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        // Between a half and one, of either sign.
+        let number = 0.5 + f64::from(random >> 8) / f64::from(1 << 25);
+        size * S::Scalar::lit(if random & 0x80 == 0 { number } else { -number })
+    });
+    system.correction(t, q, &residual, &ones()).0
+}
