@@ -122,3 +122,46 @@ fn rows_that_hold_at_the_default_alone() {
     assert_eq!(rows(&text("")), (2, 3));
     assert_eq!(rows(&text(".rotated(X, tilt)")), (5, 0));
 }
+
+/// The same planar loop in planes of all kinds: the axes in which its equations are chosen and those in which they are
+/// written need not be the same, and what moves in the plane must not notice.
+#[test]
+fn loops_in_any_plane() {
+    let accelerations = |turn: &str, last: &str| {
+        let text = format!(
+            "pub mod machine {{ formulation {{ constraints: Multipliers }} emit forward_dynamics;
+            body c {{ mass: 1.0, com: 0.5 * X, inertia: diag(0.1, 0.1, 0.1) }}
+            body k {{ mass: 3.5, com: 1.75 * X, inertia: diag(0.1, 0.3, 0.3) }}
+            body r {{ mass: 3.0, com: 1.5 * X, inertia: diag(0.1, 0.2, 0.2) }}
+            joint crank: Revolute {{ parent: ground{turn}, child: c, axis: Z }}
+            joint coupler: Revolute {{ parent: c.at(X), child: k, axis: Z }}
+            joint rocker: Revolute {{ parent: k.at(3.5 * X), child: r, axis: Z }}
+            #[cut] joint pin: {last} {{ parent: r.at(3.0 * X), child: ground{turn}.at([4.0, 0.3, 0.0]){} }} }}",
+            if last == "Ball" { "" } else { ", axis: Z" }
+        );
+        let mut diagnostics = Diagnostics::default();
+        let source = parse(text.parse().expect("tokens"), &mut diagnostics);
+        let models = check(&source, &mut diagnostics);
+        assert!(diagnostics.is_empty(), "{}", diagnostics.to_tokens());
+        let Ok((structure, derivation)) = mechanics::of(&models[0]) else { panic!("refused: {text}") };
+        assert_eq!(structure.rows.len(), 2, "{:?}", structure.notes);
+        let found = &derivation.functions[0].candidates[0].1;
+        let value = |id: SymbolId| 0.2 + 0.6 * (mix(mix(0xCA5E) ^ id.0 as u64) >> 11) as f64 / (1_u64 << 53) as f64;
+        let field = Real { symbols: &value };
+        Evaluator::new(&derivation.graph, field).run(&found[..3])
+    };
+    for last in ["Revolute", "Ball"] {
+        let flat = accelerations("", last);
+        for turn in [
+            ".rotated(X, deg(90))",
+            ".oriented([[0, 0, 1], [1, 0, 0], [0, 1, 0]])",
+            ".rotated([1, 2, 2], 0.7)",
+            ".rotated(Y, 0.3)",
+        ] {
+            let turned = accelerations(turn, last);
+            let worst =
+                flat.iter().zip(&turned).fold(0.0_f64, |worst, (a, b)| worst.max((a - b).abs() / (1.0 + a.abs())));
+            assert!(worst < 1e-9, "{last} {turn}: {turned:?} for {flat:?}");
+        }
+    }
+}

@@ -18,6 +18,7 @@ mod ranked;
 mod reduction;
 pub mod singular;
 mod tape;
+mod written;
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -34,6 +35,8 @@ use configurations::{Effort, Found};
 use linear::Elimination;
 use problem::{Problem, Source};
 use ranked::Ranked;
+
+pub(super) use written::Writings;
 
 /// How far parameters are moved to see what holds at their defaults alone; relative to one and their size.
 const OFF: f64 = 1e-2;

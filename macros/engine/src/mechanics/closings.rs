@@ -114,6 +114,18 @@ pub fn is_length(model: &Model, closing: Closing, index: usize) -> bool {
     index < lengths
 }
 
+/// Whether an equation is one of three components of the way between a joint's frames, in the axes of the [`Writing`]; all
+/// others say the same in any axes.
+pub(super) fn is_component(model: &Model, closing: Closing, index: usize) -> bool {
+    let Closing::Cut(joint) = closing else { return false };
+    let kind = model.joints.get(joint.0).map(|joint| &joint.kind);
+    let whole = matches!(
+        kind,
+        Some(JointKind::Fixed | JointKind::Ball(_) | JointKind::Universal { .. } | JointKind::Revolute { .. })
+    );
+    whole && index < 3
+}
+
 /// Everything that gives equations, in source order: joints, then constraints.
 pub fn closings(model: &Model) -> Vec<Closing> {
     let cuts = model.cuts.iter().map(|&joint| Closing::Cut(joint));

@@ -18,7 +18,7 @@ use crate::model::types::{BodyRef, Coordinate, Joint, JointId, JointKind, Model,
 use crate::optimize::program::FunctionKind;
 use crate::symbolic::graph::{Graph, Scalar};
 
-use super::analysis::Complaint;
+use super::analysis::{Complaint, Writings};
 use super::branches::Branch;
 use super::closings::Writing;
 use super::equations::Method;
@@ -320,8 +320,13 @@ impl<'m> Deriving<'m> {
             return Ok(());
         }
         let residual = self.model.emit.contains(&Request::Residual);
+        let structure = Rc::clone(&self.structure);
+        let writings = Writings::new(self.model, &structure);
         let mut least = None;
         for writing in Writing::ALL {
+            if !writings.will_do(writing) {
+                continue;
+            }
             self.writing = writing;
             let found = self.written(&[None], |e, reduction| {
                 if residual {

@@ -122,6 +122,15 @@ impl Problem {
 
     /// With parameters that are off their defaults by about this much.
     pub(super) fn with(model: &Model, off: f64) -> Problem {
+        Problem::made(model, off, Writing::PLAIN)
+    }
+
+    /// With equations of loops in other axes.
+    pub(super) fn written(model: &Model, writing: Writing) -> Problem {
+        Problem::made(model, 0.0, writing)
+    }
+
+    fn made(model: &Model, off: f64, writing: Writing) -> Problem {
         let mut graph = Graph::new();
         let symbols = Symbols::new(&mut graph, model);
         let mut e = Equations::new(model, graph, symbols, WAY, &[]);
@@ -133,7 +142,7 @@ impl Problem {
         for closing in closings(model) {
             let rod = e.rod_length(closing);
             rods.extend(rod);
-            let residuals = e.residuals(closing, Writing::PLAIN);
+            let residuals = e.residuals(closing, writing);
             for (index, residual) in residuals.into_iter().enumerate() {
                 measures.push(match closing {
                     Closing::Constraint(_) if rod.is_some() => Measure::Rod(rods.len() - 1),
@@ -253,6 +262,25 @@ impl Problem {
         list
     }
 
+    /// The place of a closing's row.
+    pub(super) fn equation_of(&self, row: Row) -> Option<usize> {
+        self.equations.iter().position(|one| one.source == Source::Row(row))
+    }
+
+    /// Of unit length over all columns. Gradients that vanish, as a cosine's does at one, stay zero and don't become noise.
+    pub(super) fn unit_row(&self, row: &[(usize, f64)]) -> Vec<f64> {
+        let mut dense = vec![0.0; self.columns.len()];
+        for &(column, entry) in row {
+            if let Some(slot) = dense.get_mut(column) {
+                *slot += entry;
+            }
+        }
+        let norm = dense.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let factor = if norm > 1e-7 { 1.0 / norm } else { 0.0 };
+        dense.iter_mut().for_each(|x| *x *= factor);
+        dense
+    }
+
     /// Closings that move nothing, and are closed with axes that point the wrong way.
     pub(super) fn reversed(&self) -> Vec<Closing> {
         let mut values = Values::default();
@@ -319,6 +347,17 @@ impl Problem {
                 *slot = value;
             }
         }
+    }
+
+    /// Where joints have these positions.
+    pub(super) fn at(&self, positions: &[Vec<f64>]) -> Point {
+        let mut point = Point(self.defaults.clone());
+        for (&symbol, &value) in self.positions.iter().flatten().zip(positions.iter().flatten()) {
+            if let Some(slot) = point.0.get_mut(symbol) {
+                *slot = value;
+            }
+        }
+        point
     }
 
     /// By joint the components of its position.
