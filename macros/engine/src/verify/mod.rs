@@ -24,6 +24,7 @@ use crate::model::types::Model;
 use crate::optimize::program::{Compiled, Doubt, Function, FunctionKind, Part, Unchecked};
 use crate::optimize::{self, Plain, Refusal};
 use crate::symbolic::graph::Scalar;
+use crate::symbolic::lower::Lowering;
 
 use laws::{Laws, Outcome};
 use programs::{Subject, Verdict};
@@ -36,30 +37,31 @@ const ATTEMPTS: usize = 8;
 /// As often again for what has no clear value at any of these, from where the model stands by default and with numbers of other sizes.
 const FURTHER: usize = 16;
 
-/// A function that was given back as derived has lost digits where it misses its bound by less than this: it is refused only
-/// where it misses it by more. (Components of a vector that a turn has mixed are the worst case met, at 80 times the bound.)
-const LOST_DIGITS: f64 = 1e4;
-
 /// Compiles a derivation, and checks what comes of it.
 pub fn compile(model: &Model, structure: &Structure, derivation: &Derivation) -> Result<Compiled, Refusal> {
     let mut compiled = optimize::compile(derivation)?;
-    let mut found = judge(model, structure, derivation, &compiled, 1.0);
-    if found.broken.is_none() && found.is_wrong() {
-        let plain = Plain { functions: &found.wrong, checks: found.wrong_checks };
-        compiled = optimize::compile_with(derivation, plain)?;
-        found = judge(model, structure, derivation, &compiled, LOST_DIGITS);
+    let (mut functions, mut checks) = (Vec::new(), false);
+    loop {
+        let plain = Plain { functions: &functions, checks };
+        let found = judge(model, structure, derivation, &compiled, plain);
+        if let Some((a, b)) = found.broken {
+            return Err(Refusal::Contradiction(a, b));
+        }
+        // What is wrong as it was derived has nothing to fall back on.
+        if let Some(&kind) = found.wrong.iter().find(|kind| functions.contains(kind)) {
+            return Err(Refusal::Wrong(kind));
+        }
+        if checks && found.wrong_checks {
+            return Err(Refusal::WrongChecks);
+        }
+        if found.wrong.is_empty() && !found.wrong_checks {
+            compiled.unchecked = found.unchecked;
+            return Ok(compiled);
+        }
+        functions.extend(found.wrong);
+        checks |= found.wrong_checks;
+        compiled = optimize::compile_with(derivation, Plain { functions: &functions, checks })?;
     }
-    if let Some((a, b)) = found.broken {
-        return Err(Refusal::Contradiction(a, b));
-    }
-    if let Some(&kind) = found.wrong.first() {
-        return Err(Refusal::Wrong(kind));
-    }
-    if found.wrong_checks {
-        return Err(Refusal::WrongChecks);
-    }
-    compiled.unchecked = found.unchecked;
-    Ok(compiled)
 }
 
 /// What the check has found.
@@ -75,15 +77,9 @@ pub struct Found {
     pub unchecked: Vec<Unchecked>,
 }
 
-impl Found {
-    fn is_wrong(&self) -> bool {
-        self.wrong_checks || !self.wrong.is_empty()
-    }
-}
-
 /// Compares all programs of a model with their derived equations.
 pub fn check(model: &Model, structure: &Structure, derivation: &Derivation, compiled: &Compiled) -> Found {
-    judge(model, structure, derivation, compiled, 1.0)
+    judge(model, structure, derivation, compiled, Plain::default())
 }
 
 /// States that were drawn, by number and attempt; nothing where loops don't close.
@@ -138,17 +134,30 @@ impl Drawn<'_> {
     }
 }
 
-/// The same, with as many times the bound.
-fn judge(model: &Model, structure: &Structure, derivation: &Derivation, compiled: &Compiled, slack: f64) -> Found {
+/// The same of programs that are optimised, or plain as derived.
+fn judge(
+    model: &Model,
+    structure: &Structure,
+    derivation: &Derivation,
+    compiled: &Compiled,
+    plain: Plain<'_>,
+) -> Found {
     let states = States::new(model, structure, &derivation.symbols);
-    let tapes: Vec<Tape> = compiled.functions.iter().map(|function| tape_of(derivation, function)).collect();
+    let tapes: Vec<Tape> =
+        compiled.functions.iter().map(|function| Tape::new(&derivation.graph, of(derivation, function))).collect();
     let closing = compiled.functions.iter().zip(&tapes).find(|(function, _)| function.kind == FunctionKind::Guess);
+    let lowered: Vec<Option<Tape>> = compiled
+        .functions
+        .iter()
+        .map(|function| plain.functions.contains(&function.kind).then(|| lowered(derivation, of(derivation, function))))
+        .collect();
     let mut drawn = Drawn { states: &states, closing: closing.map(|pair| pair.1), list: HashMap::new() };
     let mut found = Found::default();
-    for (function, tape) in compiled.functions.iter().zip(&tapes) {
+    for ((function, tape), lowered) in compiled.functions.iter().zip(&tapes).zip(&lowered) {
         let residual = closing.is_some()
             && matches!(function.kind, FunctionKind::ForwardDynamics | FunctionKind::Guess | FunctionKind::Margins);
-        let subject = Subject { tape, prelude: Some(&compiled.prelude), program: &function.program, residual, slack };
+        let (lowered, prelude) = (lowered.as_ref(), Some(&compiled.prelude));
+        let subject = Subject { tape, lowered, prelude, program: &function.program, residual };
         // A parameter of zero shows nothing of what it multiplies: where one state must do, parameters are not at their defaults.
         let numbers: &[usize] = match tape.nodes.len() {
             0..=2_000 => &[0, 1, 2],
@@ -161,7 +170,7 @@ fn judge(model: &Model, structure: &Structure, derivation: &Derivation, compiled
             Verdict::Unclear(doubt) => found.unchecked.push(Unchecked { part: Part::Function(function.kind), doubt }),
         }
     }
-    check_checks(derivation, compiled, slack, &mut drawn, &mut found);
+    check_checks(derivation, compiled, plain, &mut drawn, &mut found);
     let functions: Vec<(FunctionKind, &Tape)> =
         compiled.functions.iter().map(|function| function.kind).zip(&tapes).collect();
     let laws = Laws { model, structure, states: &states, functions: &functions };
@@ -183,13 +192,21 @@ fn judge(model: &Model, structure: &Structure, derivation: &Derivation, compiled
 }
 
 /// The tests of parameters.
-fn check_checks(derivation: &Derivation, compiled: &Compiled, slack: f64, drawn: &mut Drawn<'_>, found: &mut Found) {
+fn check_checks(
+    derivation: &Derivation,
+    compiled: &Compiled,
+    plain: Plain<'_>,
+    drawn: &mut Drawn<'_>,
+    found: &mut Found,
+) {
     if compiled.checks.list.is_empty() {
         return;
     }
     let roots: Vec<Scalar> = derivation.checks.iter().flat_map(|test| test.values.iter().copied()).collect();
     let tape = Tape::new(&derivation.graph, &roots);
-    let subject = Subject { tape: &tape, prelude: None, program: &compiled.checks.program, residual: false, slack };
+    let lowered = plain.checks.then(|| lowered(derivation, &roots));
+    let program = &compiled.checks.program;
+    let subject = Subject { tape: &tape, lowered: lowered.as_ref(), prelude: None, program, residual: false };
     match drawn.compare(&subject, &[0, 1]) {
         Verdict::Right => {}
         Verdict::Wrong(_) => found.wrong_checks = true,
@@ -197,9 +214,15 @@ fn check_checks(derivation: &Derivation, compiled: &Compiled, slack: f64, drawn:
     }
 }
 
-/// The derived equations of a function.
-fn tape_of(derivation: &Derivation, function: &Function) -> Tape {
+/// Results of a function as they were derived.
+fn of<'d>(derivation: &'d Derivation, function: &Function) -> &'d [Scalar] {
     let derived = derivation.functions.iter().find(|derived| derived.kind == function.kind);
-    let roots = derived.and_then(|derived| derived.candidates.get(function.candidate));
-    Tape::new(&derivation.graph, roots.map_or(&[], |(_, roots)| roots))
+    derived.and_then(|derived| derived.candidates.get(function.candidate)).map_or(&[], |(_, roots)| roots)
+}
+
+/// The operations of equations that stand as they were derived, component by component.
+fn lowered(derivation: &Derivation, roots: &[Scalar]) -> Tape {
+    let mut lowering = Lowering::new(&derivation.graph);
+    let roots = lowering.run(roots);
+    Tape::new(&lowering.to, &roots)
 }

@@ -39,27 +39,44 @@ pub(super) enum Verdict {
 /// A function, its program and what is left out of the comparison.
 pub(super) struct Subject<'a> {
     pub tape: &'a Tape,
+    /// Of a program that is written as derived, its own operations: vectors component by component, and one form for equal
+    /// expressions, which may be worse than another. These must have the values of the equations; the program must
+    /// have the values of these, within the error that they make.
+    pub lowered: Option<&'a Tape>,
     /// What computes the fields of the model, where the program reads them.
     pub prelude: Option<&'a Program>,
     pub program: &'a Program,
     /// Whether the last result is what an iteration has left: nothing but rounding.
     pub residual: bool,
-    /// As many times [`WORST`] a result may be off.
-    pub slack: f64,
 }
 
 impl Subject<'_> {
     pub(super) fn compare(&self, states: &States<'_>, state: &State) -> Verdict {
         let symbol = |id: SymbolId| state.value(id);
         let exact: Trace<'_, Doubled> = Trace::new(self.tape, &symbol);
-        let plain: Trace<'_, f64> = Trace::new(self.tape, &symbol);
-        let derived = exact.roots();
-        let own: Vec<f64> = plain.roots();
         let deficient = exact.deficient();
         let look = |symbol| states.value(state, symbol);
         let nothing = Reads { symbol: &look, fields: &[], deficient: &[] };
         let fields = self.prelude.map_or_else(Vec::new, |prelude| machine::run(prelude, &nothing));
         let results = machine::run(self.program, &Reads { symbol: &look, fields: &fields, deficient: &deficient });
+        // What a system of lesser rank leaves open depends on the order of pivots, which others may take otherwise.
+        match self.lowered.filter(|_| deficient.is_empty()) {
+            None => self.judge(&exact, &symbol, &results),
+            Some(lowered) => {
+                let between: Trace<'_, Doubled> = Trace::new(lowered, &symbol);
+                let values: Vec<f64> = between.roots().iter().map(|x| x.high).collect();
+                match self.judge(&exact, &symbol, &values) {
+                    Verdict::Right => self.judge(&between, &symbol, &results),
+                    other => other,
+                }
+            }
+        }
+    }
+
+    /// Results against exact values, within the error that their operations make.
+    fn judge(&self, exact: &Trace<'_, Doubled>, symbol: &dyn Fn(SymbolId) -> Doubled, results: &[f64]) -> Verdict {
+        let derived = exact.roots();
+        let own: Vec<f64> = Trace::<f64>::new(exact.tape, symbol).roots();
         if results.len() != derived.len() {
             return Verdict::Wrong(results.len().min(derived.len()));
         }
@@ -83,9 +100,8 @@ impl Subject<'_> {
         if lost > POOR * largest {
             return Verdict::Unclear(Doubt::Rounding);
         }
-        let mut weights = vec![0.0; derived.len()];
-        let mut suspects: Vec<(f64, usize)> = Vec::new();
-        for (at, (exact, result)) in derived.iter().zip(&results).take(count).enumerate() {
+        let mut suspects: Vec<(f64, usize, f64)> = Vec::new();
+        for (at, (exact, result)) in derived.iter().zip(results).take(count).enumerate() {
             if !result.is_finite() {
                 return wrong(at);
             }
@@ -94,35 +110,22 @@ impl Subject<'_> {
             let scale = scales[at].max(f64::MIN_POSITIVE / f64::EPSILON);
             let ratio = error.abs() / (f64::EPSILON * scale);
             if ratio > PLAIN {
-                weights[at] = error.signum() / scale;
-                suspects.push((ratio, at));
+                suspects.push((ratio, at, error.signum() / scale));
             }
         }
-        if suspects.is_empty() {
-            return Verdict::Right;
+        // Each for itself: of a sum large bounds would hide what is wrong beside them, and bounds that cancel would accuse.
+        if suspects.len() * exact.tape.nodes.len() > CLOSELY {
+            return Verdict::Unclear(Doubt::Rounding);
         }
         suspects.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let total: f64 = suspects.iter().map(|s| s.0).sum();
-        let worst = WORST * self.slack;
-        let bound = exact.slopes::<f64>(&weights, 0).bound;
-        if !bound.is_finite() {
-            return Verdict::Unclear(Doubt::Rounding);
-        }
-        if total > worst * bound {
-            return wrong(suspects[0].1);
-        }
-        // Of a sum large bounds may hide what is wrong beside them.
-        if suspects.len() * self.tape.nodes.len() > CLOSELY {
-            return Verdict::Unclear(Doubt::Rounding);
-        }
-        for &(ratio, at) in &suspects {
+        for &(ratio, at, weight) in &suspects {
             let mut single = vec![0.0; derived.len()];
-            single[at] = weights[at];
+            single[at] = weight;
             let bound = exact.slopes::<f64>(&single, 0).bound;
             if !bound.is_finite() {
                 return Verdict::Unclear(Doubt::Rounding);
             }
-            if ratio > worst * bound {
+            if ratio > WORST * bound {
                 return wrong(at);
             }
         }
