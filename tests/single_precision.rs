@@ -50,6 +50,12 @@ fn decides(function: &str) -> bool {
     controls.iter().any(|name| function.contains(name))
 }
 
+/// Whether a function of the projection or the assembly converts its tolerance, or the residual of a failure: not arithmetic.
+fn converts((function, text): &(String, String)) -> bool {
+    let closes = ["closed_linkage", "projection"].iter().any(|name| function.contains(name));
+    closes && ["cvtsd2ss", "cvtss2sd"].iter().any(|mnemonic| text.trim_start_matches('v').starts_with(mnemonic))
+}
+
 #[test]
 fn doubles_are_found_where_there_are_some() {
     let assembly = "one:\n\tmovsd\t(%rdi), %xmm0\n\taddss\t%xmm0, %xmm1\ntwo:\n\tcvtss2sd\t%xmm0, %xmm0\n\tvfmadd231sd\t%xmm1, \
@@ -91,6 +97,7 @@ fn steps_in_single_precision_hold_no_double() {
     let (instructions, found) = doubles(&assembly);
     // What decides about steps and iterations does so in double precision, by some operations for each of them.
     let (deciding, found): (Vec<_>, Vec<_>) = found.into_iter().partition(|(function, _)| decides(function));
+    let found: Vec<_> = found.into_iter().filter(|found| !converts(found)).collect();
     println!(
         "{steps} functions, {instructions} instructions, {} of double precision, and {} that decide",
         found.len(),

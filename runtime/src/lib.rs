@@ -96,6 +96,7 @@ pub mod linear;
 pub mod projection;
 pub mod rotation;
 mod scalar;
+mod shake;
 mod simulate;
 mod system;
 mod tangent;

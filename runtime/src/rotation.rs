@@ -18,6 +18,13 @@ const SMALL: f64 = 0.25;
 /// Below this square of a sine, three terms of the arcsine's series are exact to rounding in `f64`.
 const TINY: f64 = 1e-6;
 
+/// A polynomial with the coefficients in rising order, by Horner's rule. A macro, so that each coefficient is a literal of the
+/// scalar's: an array of `f64` would be converted number by number wherever the compiler leaves the loop rolled.
+macro_rules! horner {
+    ($x:expr, [$last:expr] $(,)?) => { T::lit($last) };
+    ($x:expr, [$first:expr, $($rest:expr),+ $(,)?] $(,)?) => { horner!($x, [$($rest),+]) * $x + T::lit($first) };
+}
+
 /// `q * exp(d)`: the rotation `q` followed by one about the axis `d`, in child axes, by the angle `|d|`.
 ///
 /// One Newton step brings the quaternion back to unit length, so that the error does not add up over steps.
@@ -98,7 +105,7 @@ pub fn dexp_inv<T: Real>(d: &Vector3<T>, v: &Vector3<T>) -> Vector3<T> {
     let a2 = square(d);
     let small = Real::lt(a2, T::lit(SMALL));
     // 1 - x cot x = x^2/3 + x^4/45 + 2 x^6/945 + ..., by powers of a^2 = 4 x^2
-    let series = horner(
+    let series = horner!(
         a2,
         [
             1.0 / 12.0,
@@ -141,7 +148,7 @@ pub fn compose<T: Real>(first: &Vector3<T>, second: &Vector3<T>) -> Vector3<T> {
     // 2 asin(s) / s = 2 + s^2/3 + 3 s^4/20 + ..
     let sine2 = square(&u);
     let small = Real::lt(sine2, T::lit(TINY)) & Real::gt(w, T::lit(0.0));
-    let series = horner(sine2, [2.0, 1.0 / 3.0, 3.0 / 20.0]);
+    let series = horner!(sine2, [2.0, 1.0 / 3.0, 3.0 / 20.0]);
     let sine = Real::sqrt(Real::select(small, T::lit(1.0), sine2));
     let closed = T::lit(2.0) * Real::atan2(sine, w) / sine;
     let scale = Real::select(small, series, closed);
@@ -170,11 +177,11 @@ fn exponential<T: Real>(d: &Vector3<T>) -> (T, [T; 3]) {
     let a2 = square(d);
     let small = Real::lt(a2, T::lit(SMALL));
     let x2 = T::lit(0.25) * a2;
-    let cos_series = horner(
+    let cos_series = horner!(
         x2,
         [1.0, -1.0 / 2.0, 1.0 / 24.0, -1.0 / 720.0, 1.0 / 40_320.0, -1.0 / 3_628_800.0, 1.0 / 479_001_600.0],
     );
-    let sin_series = horner(
+    let sin_series = horner!(
         x2,
         [0.5, -1.0 / 12.0, 1.0 / 240.0, -1.0 / 10_080.0, 1.0 / 725_760.0, -1.0 / 79_833_600.0, 1.0 / 12_454_041_600.0],
     );
@@ -188,10 +195,4 @@ fn exponential<T: Real>(d: &Vector3<T>) -> (T, [T; 3]) {
 #[inline]
 fn square<T: Real>(d: &Vector3<T>) -> T {
     d.x * d.x + d.y * d.y + d.z * d.z
-}
-
-/// A polynomial in `x` with the coefficients in rising order, by Horner's rule.
-#[inline]
-fn horner<T: Real, const N: usize>(x: T, coefficients: [f64; N]) -> T {
-    coefficients.iter().rev().fold(T::lit(0.0), |sum, &c| sum * x + T::lit(c))
 }

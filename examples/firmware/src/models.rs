@@ -1,4 +1,4 @@
-//! The models of the examples, and two that emit only what the scenes call: leaner than the examples of their names (the
+//! The models of the examples, and some that emit only what the scenes call: leaner than the examples of their names (the
 //! pendulum here does not integrate the heat of its friction), so that what is counted is the mechanics.
 
 use multibody::multibody;
@@ -59,6 +59,49 @@ multibody! {
         joint track: Prismatic { parent: ground, child: cart, axis: X }
         joint hinge: Revolute { parent: cart, child: pole, axis: Z }
         force motor: Effort { joint: track, value: push }
+        emit forward_dynamics;
+    }
+
+    /// Four rotors on a hull whose centre of mass is not where they meet.
+    pub(crate) mod quadrotor {
+        const ARM = 0.17;
+        /// [m] drag moment of a rotor over its thrust
+        const DRAG = 0.016;
+        /// [kg]
+        param mass = 1.0;
+        /// [m]
+        param com: Vec3 = [0.003, -0.002, 0.011];
+        /// [N] of each rotor
+        input thrust: [Scalar; 4];
+        world { gravity: -9.81 * Z }
+        body hull { mass: mass, com: com, inertia: inertia(0.0082, 0.0085, 0.0149, 1e-4, -5e-5, 8e-5) }
+        joint float: Free { parent: ground, child: hull, coordinates: Quaternion }
+        force lift: Force { at: hull, value: (thrust[0] + thrust[1] + thrust[2] + thrust[3]) * Z, axes: hull }
+        force turn: Torque {
+            at: hull,
+            value: [
+                ARM * (thrust[1] - thrust[3]),
+                ARM * (thrust[2] - thrust[0]),
+                DRAG * (thrust[0] - thrust[1] + thrust[2] - thrust[3]),
+            ],
+            axes: hull,
+        }
+        force air: Force { at: hull, value: -0.1 * hull.velocity, axes: ground }
+        emit forward_dynamics;
+    }
+
+    /// A spatial four-bar without a formula: the coupler turns about its length as the ball at its end lets it.
+    pub(crate) mod spatial_four_bar {
+        world { gravity: -9.81 * Z }
+        body crank { mass: 0.5, com: 0.1 * X, inertia: rod(0.5, 0.2, X) }
+        body coupler { mass: 1.0, com: 0.4 * X, inertia: diag(0.001, 0.05, 0.05) }
+        body rocker { mass: 0.8, com: 0.3 * X, inertia: rod(0.8, 0.6, X) }
+        joint shaft: Revolute { parent: ground, child: crank, axis: Z }
+        joint wrist: Universal { parent: crank.at(0.2 * X), child: coupler, axes: [Z, Y] }
+        joint pivot: Revolute { parent: ground.at([0.7, 0.1, 0.0]).rotated(X, 0.5), child: rocker, axis: Z }
+        #[cut]
+        joint ball: Ball { parent: coupler.at(0.8 * X), child: rocker.at(0.6 * X) }
+        formulation { constraints: Reduced }
         emit forward_dynamics;
     }
 }

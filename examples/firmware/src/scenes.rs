@@ -2,12 +2,18 @@
 
 mod cart_pole;
 mod double_pendulum;
+mod newton;
 mod panda;
+mod projection;
+mod quadrotor;
 mod stewart;
 
 pub use cart_pole::CartPole;
 pub use double_pendulum::DoublePendulum;
+pub use newton::Newton;
 pub use panda::Panda;
+pub use projection::Projected;
+pub use quadrotor::Quadrotor;
 pub use stewart::Stewart;
 
 use crate::Scalar;

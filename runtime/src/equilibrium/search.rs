@@ -5,6 +5,7 @@ use super::error::EquilibriumError;
 use super::least::{Row, least};
 use super::{Equilibrium, Found, Free};
 use crate::linear::{Square, residue};
+use crate::shake::shaking;
 use crate::tangent::{greatest, unit, unpack};
 use crate::{Configuration, Differentiable, ExtraOf, Real, StateSpace, System, Tangent, VelocityOf, all, any};
 
@@ -486,16 +487,6 @@ fn next<T>(place: &mut usize, value: impl FnOnce(usize) -> T) -> T {
     let here = *place;
     *place += 1;
     value(here)
-}
-
-/// Numbers between plus and minus `size` for all positions, velocities and states that are free.
-fn shaking<T: Real, V: Tangent<T>>(free: &V, random: &mut u32, size: T) -> V {
-    free.map(&mut |weight| {
-        // Knuth's linear congruence; its upper bits are good enough for a direction.
-        *random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        let number = f64::from(*random >> 8) / f64::from(1 << 23) - 1.0;
-        Real::select(Real::gt(weight, T::lit(0.0)), size * T::lit(number), T::lit(0.0))
-    })
 }
 
 /// Accelerations and rates, each divided by what it could be.

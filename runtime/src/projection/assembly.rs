@@ -7,6 +7,7 @@
 //! same in every run. All counts are bounded, and lanes go on alone.
 
 use super::{AssemblyError, Mask, Motion, Weights, at_rounding, closeness, finite, greatest, negative, never};
+use crate::shake::shaking;
 use crate::{Configuration, Constrained, Real, StateSpace, System, Tangent, VelocityOf, all, any};
 
 /// Residual at which a loop is closed, unless rounding is greater.
@@ -61,8 +62,9 @@ pub fn assemble<S: Constrained>(
         return Err(AssemblyError::NotFinite);
     }
     if !all(motion.consistent) {
-        let rank = least::<S>(motion.consistent, motion.rank);
-        return Err(AssemblyError::CannotMove { rate: motion.worst_rate(), rank, equations: search.residual.len() });
+        let equations = search.residual.len();
+        let rank = least::<S>(motion.consistent, motion.rank, equations);
+        return Err(AssemblyError::CannotMove { rate: motion.worst_rate(), rank, equations });
     }
     let residual = greatest(&search.residual);
     Ok(Assembled { state: motion.state, rank: motion.rank, residual, iterations: search.iterations })
@@ -144,7 +146,8 @@ impl<'a, S: Constrained> Search<'a, S> {
         self.given_up = self.given_up | (stalled & Real::ge(self.shakes, S::Scalar::lit(SHAKES)));
         let shaken = stalled & !self.given_up;
         let moved = d.map(&mut |d| Real::select(Real::eq(factor, zero), zero, factor * d));
-        let moved = moved.zip(&self.shaking(), &mut |d, shaking| Real::select(shaken, shaking, d));
+        let shaking = shaking(self.free, &mut self.random, self.shake);
+        let moved = moved.zip(&shaking, &mut |d, shaking| Real::select(shaken, shaking, d));
         self.shakes += Real::select(shaken, one, zero);
         self.shake *= Real::select(shaken, S::Scalar::lit(4.0), one);
 
@@ -175,18 +178,6 @@ impl<'a, S: Constrained> Search<'a, S> {
         (taken, open)
     }
 
-    /// A displacement of all free coordinates by numbers between plus and minus [`Search::shake`].
-    fn shaking(&mut self) -> VelocityOf<S> {
-        let (zero, shake) = (S::Scalar::lit(0.0), self.shake);
-        let random = &mut self.random;
-        self.free.map(&mut |weight| {
-            // Knuth's linear congruence; its upper bits are good enough for a direction.
-            *random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            let number = f64::from(*random >> 8) / f64::from(1 << 23) - 1.0;
-            Real::select(Real::gt(weight, zero), shake * S::Scalar::lit(number), zero)
-        })
-    }
-
     /// Why there is a lane without a position, if there is one.
     fn check(&self) -> Result<(), AssemblyError> {
         let (q, _, _) = self.state.split();
@@ -201,8 +192,9 @@ impl<'a, S: Constrained> Search<'a, S> {
         let best = Real::select(Real::lt(size, self.best), size, self.best);
         let residual = Real::select(closed, S::Scalar::lit(0.0), best).greatest();
         if any(!closed & Real::gt(self.shakes, S::Scalar::lit(0.0))) {
-            let rank = least::<S>(closed, self.rank);
-            return Err(AssemblyError::CannotClose { residual, rank, equations: self.residual.len() });
+            let equations = self.residual.len();
+            let rank = least::<S>(closed, self.rank, equations);
+            return Err(AssemblyError::CannotClose { residual, rank, equations });
         }
         Err(AssemblyError::NoConvergence { residual, iterations: self.iterations })
     }
@@ -213,8 +205,13 @@ fn squares<T: Real, V: Tangent<T>>(v: &V) -> T {
     v.fold(T::lit(0.0), &mut |sum, x| sum + x * x)
 }
 
-/// The least rank of the lanes that are not among `good`.
-fn least<S: System>(good: Mask<S>, rank: S::Scalar) -> usize {
-    let rank = Real::select(good, S::Scalar::lit(f64::from(u32::MAX)), rank);
-    -(-rank).greatest() as usize
+/// The least rank of the lanes that are not among `good`, of `equations`; counted in the scalar's own arithmetic.
+fn least<S: System>(good: Mask<S>, rank: S::Scalar, equations: usize) -> usize {
+    let mut counted = S::Scalar::lit(0.0);
+    let more = |_: &usize| {
+        let more = good | Real::gt(rank, counted);
+        counted += S::Scalar::lit(1.0);
+        all(more)
+    };
+    (0..equations).take_while(more).count()
 }

@@ -6,9 +6,9 @@
 #![deny(warnings)]
 
 use multibody::{
-    Composition4, Composition6, Dop853, DormandPrince, Euler, GaussLegendre4, GaussLegendre6, GeneralisedAlpha,
-    ImplicitMidpoint, IntegrationError, Integrator, Radau, Rk4, SemiImplicitEuler, SymplecticGauss6,
-    SymplecticMidpoint, Verlet, multibody,
+    AssemblyError, Composition4, Composition6, Dop853, DormandPrince, Euler, GaussLegendre4, GaussLegendre6,
+    GeneralisedAlpha, ImplicitMidpoint, IntegrationError, Integrator, Projection, ProjectionError, Radau, Rk4,
+    SemiImplicitEuler, SymplecticGauss6, SymplecticMidpoint, Verlet, assemble, multibody,
 };
 
 multibody! {
@@ -50,6 +50,23 @@ multibody! {
         joint free: Free { parent: ground, child: hull }
         force engine: Force { at: hull.at(-0.5 * X), value: [filtered, thrust.y, thrust.z], axes: hull }
         emit forward_dynamics;
+    }
+}
+
+multibody! {
+    /// A four-bar whose loop stays open to drift.
+    pub mod linkage {
+        world { gravity: -9.81 * Y }
+        body crank { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
+        body coupler { mass: 2.0, com: X, inertia: rod(2.0, 2.0, X) }
+        body rocker { mass: 1.5, com: 0.75 * X, inertia: rod(1.5, 1.5, X) }
+        joint shaft: Revolute { parent: ground, child: crank, axis: Z }
+        joint knee: Revolute { parent: crank.at(X), child: coupler, axis: Z }
+        joint pivot: Revolute { parent: ground.at(2 * X), child: rocker, axis: Z }
+        #[cut]
+        joint pin: Revolute { parent: coupler.at(2 * X), child: rocker.at(1.5 * X), axis: Z }
+        formulation { constraints: Multipliers }
+        emit forward_dynamics, impulse;
     }
 }
 
@@ -116,6 +133,32 @@ controlled! {
     controlled_double_adaptive:
         Integrator::adaptive(DormandPrince, 1e-4, 1e-4), of double_pendulum with double_pendulum::Input<f32>;
     controlled_satellite_adaptive: Integrator::adaptive(Dop853, 1e-4, 1e-4), of satellite with satellite::Input<f32>;
+}
+
+/// A first state.
+///
+/// # Errors
+/// Where the search fails.
+#[inline(never)]
+pub fn closed_linkage_assembled(
+    model: &linkage::Model<f32>,
+    state: &linkage::State<f32>,
+    free: &linkage::Velocity<f32>,
+) -> Result<linkage::State<f32>, AssemblyError> {
+    Ok(assemble(model, 0.0, state, free)?.state)
+}
+
+/// A state brought back.
+///
+/// # Errors
+/// Where it is too far.
+#[inline(never)]
+pub fn closed_linkage_projected(
+    model: &linkage::Model<f32>,
+    projection: Projection,
+    state: &linkage::State<f32>,
+) -> Result<linkage::State<f32>, ProjectionError> {
+    Ok(projection.project_by_mass(model, 0.0, state)?.state)
 }
 
 /// The model alone.

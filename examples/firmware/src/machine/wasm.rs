@@ -1,7 +1,7 @@
 //! A WebAssembly module: one function for each scene, that gives the hash; a panic would be an import that is not there.
 
 use crate::report::digest;
-use crate::scenes::{CartPole, DoublePendulum, Panda, Stewart};
+use crate::scenes::{CartPole, DoublePendulum, Newton, Panda, Projected, Quadrotor, Stewart};
 
 macro_rules! exports {
     ($($name:ident = $scene:ty;)+) => {
@@ -20,6 +20,9 @@ exports! {
     cart_pole = CartPole;
     panda = Panda;
     stewart = Stewart;
+    quadrotor = Quadrotor;
+    newton = Newton;
+    projection = Projected;
 }
 
 /// There is nothing to print on.
