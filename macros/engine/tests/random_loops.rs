@@ -3,7 +3,7 @@
 //!
 //! Chains and trees of all joint kinds with oblique frames, planar and spatial, with one loop or two, closed by all joint
 //! kinds at a random configuration. The frame that closes a loop is written as a matrix of sixteen digits. `LOOPS=5000
-//! cargo test --release --test random_loops -- --nocapture` looks at as many.
+//! cargo test --release --test random_loops -- --nocapture` looks at as many, from the one that `FIRST` names.
 
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
@@ -204,22 +204,103 @@ impl Mechanism {
         list
     }
 
-    /// By central differences, and whether the rank is clear.
-    fn freedoms(&self) -> Option<usize> {
-        let count = self.q.len();
-        let columns: Vec<Vec<f64>> = (0..count)
-            .map(|k| {
-                let step = 1e-5;
-                let at = |way: f64| {
-                    let mut q = self.q.clone();
-                    q[k] += way;
-                    self.open(&q)
-                };
-                at(step).iter().zip(at(-step)).map(|(a, b)| (a - b) / (2.0 * step)).collect()
+    /// Whether an equation that follows from the others where the loop is closed does not follow from them on another branch:
+    /// left out, it would be broken there and nobody told.
+    fn has_open_branch(&self) -> bool {
+        let mut random = Random(77);
+        let all = |q: &[f64]| self.open(q);
+        let count = self.open(&self.q).len();
+        let rank_without = |left_out: usize| rank(self.columns(&self.q, &|q| without(all(q), left_out)));
+        let whole = rank_without(count);
+        let follows: Vec<usize> = (0..count).filter(|&row| rank_without(row) == whole).collect();
+        (0..20).any(|_| {
+            let start: Vec<f64> = self.q.iter().map(|x| x + random.next()).collect();
+            follows.iter().any(|&row| {
+                let found = self.descended(start.clone(), &|q| without(all(q), row));
+                found.is_some_and(|q| self.open(&q)[row].abs() > 1e-3)
             })
-            .collect();
-        rank(columns).map(|rank| count - rank)
+        })
     }
+
+    /// Where some equations vanish, by damped steps from a point; nothing if they don't.
+    fn descended(&self, mut q: Vec<f64>, chosen: &dyn Fn(&[f64]) -> Vec<f64>) -> Option<Vec<f64>> {
+        let size = |rows: &[f64]| rows.iter().map(|x| x * x).sum::<f64>();
+        let mut damping = 1e-3;
+        for _ in 0..200 {
+            let rows = chosen(&q);
+            if size(&rows) < 1e-22 {
+                return Some(q);
+            }
+            let columns = self.columns(&q, chosen);
+            let normal: Vec<Vec<f64>> = (0..rows.len())
+                .map(|i| {
+                    let entry = |j: usize| columns.iter().map(|c| c[i] * c[j]).sum::<f64>();
+                    (0..rows.len()).map(|j| entry(j) + if i == j { damping } else { 0.0 }).collect()
+                })
+                .collect();
+            let weights = solved(normal, rows.clone());
+            let step = columns.iter().map(|c| c.iter().zip(&weights).map(|(a, b)| a * b).sum::<f64>());
+            let next: Vec<f64> = q.iter().zip(step).map(|(x, d)| x - d.clamp(-0.5, 0.5)).collect();
+            if size(&chosen(&next)) < size(&rows) {
+                (q, damping) = (next, (0.3 * damping).max(1e-12));
+            } else {
+                damping *= 10.0;
+                if damping > 1e12 {
+                    return None;
+                }
+            }
+        }
+        None
+    }
+
+    /// Slopes by central differences, coordinate by coordinate.
+    fn columns(&self, at: &[f64], of: &dyn Fn(&[f64]) -> Vec<f64>) -> Vec<Vec<f64>> {
+        let step = 1e-5;
+        let slope = |k: usize| {
+            let moved = |way: f64| {
+                let mut q = at.to_vec();
+                q[k] += way;
+                of(&q)
+            };
+            moved(step).iter().zip(moved(-step)).map(|(a, b)| (a - b) / (2.0 * step)).collect()
+        };
+        (0..at.len()).map(slope).collect()
+    }
+
+    /// Where it is closed, if the rank is clear.
+    fn freedoms(&self) -> Option<usize> {
+        let columns = self.columns(&self.q, &|q| self.open(q));
+        rank(columns).map(|rank| self.q.len() - rank)
+    }
+}
+
+/// A list without one of its entries.
+fn without(mut list: Vec<f64>, place: usize) -> Vec<f64> {
+    if place < list.len() {
+        list.remove(place);
+    }
+    list
+}
+
+/// By elimination with pivots.
+fn solved(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
+    let n = b.len();
+    for k in 0..n {
+        let pivot = (k..n).max_by(|&i, &j| a[i][k].abs().total_cmp(&a[j][k].abs())).unwrap_or(k);
+        a.swap(k, pivot);
+        b.swap(k, pivot);
+        for i in k + 1..n {
+            let factor = a[i][k] / a[k][k];
+            let (above, below) = a.split_at_mut(i);
+            below[0].iter_mut().zip(&above[k]).for_each(|(x, y)| *x -= factor * y);
+            b[i] -= factor * b[k];
+        }
+    }
+    for k in (0..n).rev() {
+        let rest: f64 = (k + 1..n).map(|j| a[k][j] * b[j]).sum();
+        b[k] = (b[k] - rest) / a[k][k];
+    }
+    b
 }
 
 /// Gaussian elimination with full pivoting; nothing where a pivot is neither large nor small.
@@ -424,8 +505,9 @@ fn freedoms_are_those_of_the_closures() {
     let wanted: u64 = std::env::var("LOOPS").ok().and_then(|text| text.parse().ok()).unwrap_or(400);
     let bound = if std::env::var("LOOPS").is_ok() { Duration::MAX } else { Duration::from_secs(45) };
     let start = Instant::now();
-    let (mut looked, mut unclear, mut unsure, mut wrong, mut refused) = (0, 0, 0, Vec::new(), Vec::new());
-    for seed in 0..wanted {
+    let (mut looked, mut unclear, mut elusive, mut wrong, mut refused) = (0, 0, 0, Vec::new(), Vec::new());
+    let first: u64 = std::env::var("FIRST").ok().and_then(|text| text.parse().ok()).unwrap_or(0);
+    for seed in first..first + wanted {
         if start.elapsed() > bound {
             break;
         }
@@ -443,8 +525,14 @@ fn freedoms_are_those_of_the_closures() {
             match found(&mechanism, formulation) {
                 Ok(count) if count == freedoms => {}
                 Err(message) if freedoms == 0 && message.contains("leaves no freedom") => {}
-                // Honest, though not always needed: frames that were typed are no more exact than their digits.
-                Err(message) if formulation.contains("Reduced") && message.contains("is not known") => unsure += 1,
+                // Left out, such an equation would never be looked at again.
+                Err(message)
+                    if formulation.contains("Reduced")
+                        && message.contains("is not known")
+                        && mechanism.has_open_branch() =>
+                {
+                    elusive += 1;
+                }
                 // Nothing counts the turns of such a screw.
                 Err(message) if formulation.contains("Reduced") && message.contains("whole turns only") => {}
                 Ok(count) => wrong.push(format!("{seed} {formulation}: {count} for {freedoms}\n{}", mechanism.text)),
@@ -455,7 +543,7 @@ fn freedoms_are_those_of_the_closures() {
         }
     }
     println!(
-        "{looked} mechanisms, {unclear} too near to a singular one, {} wrong, {} refused, {:?}",
+        "{looked} mechanisms, {unclear} too near to a singular one, {elusive} elusive, {} wrong, {} refused, {:?}",
         wrong.len(),
         refused.len(),
         start.elapsed()
@@ -464,6 +552,5 @@ fn freedoms_are_those_of_the_closures() {
         println!("{text}");
     }
     assert!(wrong.is_empty() && refused.is_empty());
-    assert!(50 * unsure <= looked, "{unsure} of {looked} reduced models refused for want of a clear rank");
     assert!(looked >= 100 || wanted < 300, "{looked} in {:?}", start.elapsed());
 }

@@ -63,6 +63,11 @@ impl Analysis<'_> {
         if found.configurations.iter().any(|configuration| configuration.closed) {
             return Some(found);
         }
+        // A narrow way to the closed loop is missed by most starts.
+        let harder = configurations(problem, &group.equations, &group.columns, Effort::patient(group.equations.len()));
+        if harder.configurations.iter().any(|configuration| configuration.closed) {
+            return Some(harder);
+        }
         let without: Vec<usize> =
             group.equations.iter().copied().filter(|&k| formula_of(problem, k).is_none()).collect();
         if without.len() < group.equations.len() {
@@ -82,8 +87,16 @@ impl Analysis<'_> {
                 let own = |&k: &usize| row_of(problem, k).is_some_and(|row| row.closing == closing);
                 let equations: Vec<usize> = group.equations.iter().copied().filter(own).collect();
                 let columns = columns_of(problem, &equations);
-                let alone = configurations(problem, &equations, &columns, Effort::ONE);
-                if !alone.configurations.iter().any(|configuration| configuration.closed) {
+                let closes = |effort: Effort| {
+                    let alone = configurations(problem, &equations, &columns, effort);
+                    let closed = alone.configurations.iter().any(|configuration| configuration.closed);
+                    (closed, alone)
+                };
+                let (mut closed, mut alone) = closes(Effort::ONE);
+                if !closed {
+                    (closed, alone) = closes(Effort::patient(equations.len()));
+                }
+                if !closed {
                     blamed = Some((closing, equations, alone.gap));
                     break;
                 }

@@ -72,6 +72,13 @@ impl Effort {
         Effort { wanted, starts: (8_000_000 / cube).clamp(4, 48), wide }
     }
 
+    /// Before equations are said to be such as cannot be closed: many more starts, of which one that
+    /// closes is enough.
+    pub(super) fn patient(equations: usize) -> Effort {
+        let cube = equations.max(1).saturating_pow(3);
+        Effort { wanted: 1, starts: (32_000_000 / cube).clamp(48, 400), wide: 1 }
+    }
+
     /// To see whether equations can be closed at all.
     pub(super) const ONE: Effort = Effort { wanted: 1, starts: 24, wide: 1 };
 }
