@@ -93,6 +93,7 @@ pub mod integrators;
 #[doc = include_str!("../docs/language.md")]
 pub mod language {}
 pub mod linear;
+mod opening;
 pub mod projection;
 pub mod rotation;
 mod scalar;
@@ -119,6 +120,7 @@ pub use integrators::{
 #[doc(hidden)]
 pub use multibody_macros::multibody as __multibody;
 pub use nalgebra;
+pub use opening::{Open, Opening};
 pub use projection::{
     Assembled, AssemblyError, Projected, Projection, ProjectionError, WithBaumgarte, WithProjection, WithRank,
     ambiguity, assemble,
@@ -126,7 +128,7 @@ pub use projection::{
 pub use scalar::{Real, all, any};
 pub use simba;
 pub use simulate::{simulate, simulate_stiff};
-pub use system::{ExtraOf, Margin, Opening, PositionOf, StateSpace, System, VelocityOf};
+pub use system::{ExtraOf, Margin, PositionOf, StateSpace, System, VelocityOf};
 pub use tangent::Tangent;
 pub use verify::{Agreement, Verifiable, verify, verify_at};
 

@@ -4,7 +4,7 @@
 //! says what it is made of. `System` adds the one function that the mechanics decide. A wrapper, such as a controller
 //! around a model, borrows the state of its model and writes that one function.
 
-use crate::{Configuration, Real, Tangent};
+use crate::{Configuration, Opening, Real, Tangent};
 
 /// A state made of a position, a velocity, and the model's own states where it has any.
 ///
@@ -37,25 +37,6 @@ pub struct Margin<T> {
     pub root: T,
     /// The rate of the square of the root along the motion, which is finite in the dead centre too.
     pub rate: T,
-}
-
-/// How far the loops of a state are open: what [`System::opening`] tells.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Opening<T> {
-    /// The greatest residual, in m or rad.
-    pub residual: T,
-    /// The greatest residual that a motion may start with.
-    pub tolerance: T,
-    /// What closes the loops, for the message of [`IntegrationError::OpenLoops`](crate::IntegrationError).
-    pub remedy: &'static str,
-}
-
-impl<T: Real> Opening<T> {
-    /// Of a system whose loops can't be open.
-    #[inline]
-    pub fn none() -> Self {
-        Self { residual: T::lit(0.0), tolerance: T::lit(0.0), remedy: "" }
-    }
 }
 
 /// The position type of a system.
@@ -173,7 +154,8 @@ pub trait System {
         Self::Scalar::lit(0.0)
     }
 
-    /// How far the loops are open at a state that a motion is to start from; integrators refuse more than the tolerance.
+    /// How far the loops are open at a state that a motion is to start from, by its positions, its velocities or the
+    /// parameters; integrators refuse more than the tolerance.
     /// By default nothing is open. Wrappers hand the call on.
     #[inline]
     fn opening(&self, _t: Self::Scalar, _state: &Self::State, _input: &Self::Input) -> Opening<Self::Scalar> {

@@ -42,7 +42,7 @@ pub enum IntegrationError {
     OpenLoops {
         /// `[s]` the time.
         time: f64,
-        /// The greatest residual, in m or rad.
+        /// The greatest residual: at a start in rad, or in lengths of the mechanism's size; in a run in m or rad.
         residual: f64,
         /// What closes them.
         remedy: &'static str,
@@ -54,6 +54,24 @@ pub enum IntegrationError {
     Ambiguous {
         /// `[s]` the time reached.
         time: f64,
+    },
+    /// The loops of a start are closed, but its velocities open them.
+    OpenVelocities {
+        /// `[s]` the time.
+        time: f64,
+        /// `[1/s]` how fast, in rad or lengths of the mechanism's size.
+        rate: f64,
+        /// What gives velocities that keep them closed.
+        remedy: &'static str,
+    },
+    /// An equation of the loops that was left out, since the declared parameters make it hold, does not hold with these.
+    UnfitParameters {
+        /// Its name: a constraint, or a joint with a direction.
+        equation: &'static str,
+        /// What is left of it, in rad or lengths of the mechanism's size.
+        residual: f64,
+        /// What makes it hold.
+        remedy: &'static str,
     },
     /// The mass matrix is singular: nothing that moves with this coordinate has inertia, so no equation gives its
     /// acceleration.
@@ -96,7 +114,24 @@ impl fmt::Display for IntegrationError {
                  take `constraints: Multipliers` with projection, or a coordinate that goes through, or shorter steps"
             ),
             Self::OpenLoops { time, residual, remedy } => {
-                write!(f, "at t = {time} s the loops are open by {residual:e} (m or rad): {remedy}")
+                write!(
+                    f,
+                    "at t = {time} s the loops are open by {residual:e} (rad, or lengths of the mechanism): {remedy}"
+                )
+            }
+            Self::OpenVelocities { time, rate, remedy } => {
+                write!(
+                    f,
+                    "at t = {time} s the velocities open the loops, by {rate:e} (rad, or lengths of the mechanism) per \
+                     second: {remedy}"
+                )
+            }
+            Self::UnfitParameters { equation, residual, remedy } => {
+                write!(
+                    f,
+                    "with these parameters `{equation}` does not hold, by {residual:e} (rad, or lengths of the mechanism): \
+                     {remedy}"
+                )
             }
             Self::Ambiguous { time } => write!(
                 f,

@@ -19,7 +19,7 @@ use super::error::IntegrationError;
 use super::method::Accepted;
 use super::problem::Problem;
 use super::slope::{SlopeOf, displaced, is_finite, magnitude};
-use crate::{Margin, Real, System, Tangent, all, any};
+use crate::{Margin, Open, Real, System, Tangent, all, any};
 
 /// No dead centre may lie within so many lengths of a step. With one, methods of first order creep up to it and never arrive.
 const LENGTHS: f64 = 2.0;
@@ -281,11 +281,15 @@ pub(super) fn check_start<S: System>(
         return Ok(()); // what is not finite is told as such
     }
     let opening = problem.opening(t, state);
-    if any(Real::gt(opening.residual, opening.tolerance) | Real::ne(opening.residual, opening.residual)) {
-        let (time, residual) = (t.greatest(), opening.residual.greatest());
-        return Err(IntegrationError::OpenLoops { time, residual, remedy: opening.remedy });
+    if !opening.is_open() {
+        return Ok(());
     }
-    Ok(())
+    let (time, residual, remedy) = (t.greatest(), opening.residual.greatest(), opening.remedy);
+    Err(match opening.what {
+        Open::Positions => IntegrationError::OpenLoops { time, residual, remedy },
+        Open::Velocities => IntegrationError::OpenVelocities { time, rate: residual, remedy },
+        Open::Equation(equation) => IntegrationError::UnfitParameters { equation, residual, remedy },
+    })
 }
 
 /// The coordinate of the first root whose sign is another one.

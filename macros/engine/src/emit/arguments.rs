@@ -45,9 +45,10 @@ impl Arguments {
             FunctionKind::Impulse => Arguments { impulse: true, ..position },
             FunctionKind::MomentumVelocity => Arguments { momentum: true, ..position },
             FunctionKind::InverseDynamics | FunctionKind::InverseDerivatives => Arguments { accel: true, ..all },
-            FunctionKind::Constraints | FunctionKind::ConstraintJacobian | FunctionKind::DeadCentres => {
-                Arguments { time: true, ..position }
-            }
+            FunctionKind::Constraints
+            | FunctionKind::ConstraintJacobian
+            | FunctionKind::DeadCentres
+            | FunctionKind::Granted => Arguments { time: true, ..position },
             FunctionKind::ConstraintRate
             | FunctionKind::ConstraintBias
             | FunctionKind::Guess

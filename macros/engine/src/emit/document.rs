@@ -239,6 +239,10 @@ pub(super) fn function(layout: &Layout<'_>, function: &Function) -> Vec<String> 
              closed form, the determinant of what Newton's method solves), each followed by the rate of its square; then \
              the greatest residual of Newton's method, if it closes loops."
         }
+        FunctionKind::Granted => {
+            "What equations leave that hold for parameters like the declared ones only, and were left out for them, each in \
+             units of a movement by a radian or by the mechanism's size. Integrations start where they hold."
+        }
         FunctionKind::DeadCentres => {
             "Distances from dead centres, in the order of `DEAD_CENTRES`. Of a loop's solution: its square root, a product \
              of lengths, zero where two solutions meet and NaN where the loop cannot be closed. Of roll, pitch and yaw: \

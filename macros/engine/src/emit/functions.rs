@@ -37,6 +37,7 @@ pub fn name(kind: FunctionKind) -> Cow<'static, str> {
         FunctionKind::Guess => "close",
         FunctionKind::DeadCentres => "dead_centres",
         FunctionKind::Margins => "margins",
+        FunctionKind::Granted => "granted",
         FunctionKind::Impulse => "impulse",
         FunctionKind::Momentum => "momentum",
         FunctionKind::MomentumRate => "momentum_rate",

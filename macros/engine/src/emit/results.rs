@@ -56,6 +56,7 @@ pub(super) fn count(layout: &Layout<'_>, kind: FunctionKind) -> usize {
         FunctionKind::Guess => layout.structure.guesses() + 1,
         FunctionKind::DeadCentres => layout.structure.dead_centres.len(),
         FunctionKind::Margins => margins(layout),
+        FunctionKind::Granted => layout.structure.granted.len(),
         FunctionKind::ForwardDerivatives | FunctionKind::InverseDerivatives => {
             differentiated(layout, kind) * (2 * dof + states + inputs)
         }
@@ -105,6 +106,7 @@ pub(super) fn ty(layout: &Layout<'_>, kind: FunctionKind) -> TokenStream {
         | FunctionKind::MomentumVelocity => quote!(Velocity<T>),
         FunctionKind::DeadCentres => vector_type(layout, layout.structure.dead_centres.len()),
         FunctionKind::Margins => vector_type(layout, margins(layout)),
+        FunctionKind::Granted => vector_type(layout, layout.structure.granted.len()),
     }
 }
 
@@ -156,6 +158,7 @@ pub(super) fn value(layout: &Layout<'_>, kind: FunctionKind, results: Vec<TokenS
         | FunctionKind::ConstraintBias
         | FunctionKind::DeadCentres
         | FunctionKind::Margins
+        | FunctionKind::Granted
         | FunctionKind::Residual => vector(layout, results),
     }
 }

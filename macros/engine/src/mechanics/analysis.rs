@@ -16,6 +16,7 @@ mod problem;
 mod rank;
 mod ranked;
 mod reduction;
+mod scales;
 pub mod singular;
 mod tape;
 mod written;
@@ -74,6 +75,7 @@ pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
     analysis.assign(&mut structure);
     if let Some(problem) = &problem {
         structure.closed = closed::closed(problem, &analysis.samples, &structure);
+        structure.measure(problem, &analysis.samples);
     }
     analysis.check_quaternions(&structure);
     if analysis.complaints.is_empty() { Ok(structure) } else { Err(analysis.complaints) }
@@ -219,7 +221,8 @@ impl<'m> Analysis<'m> {
 
     /// Rows that are redundant at the parameters' defaults may not be so elsewhere: a tilt whose default is zero. They are
     /// looked at once more with parameters a little off. Where the loop doesn't close any more its rows stay, so that
-    /// assembly and the pivoted solve see them; without multipliers the report says what is taken for granted.
+    /// assembly and the pivoted solve see them; without multipliers the report says what is granted, and it is
+    /// looked at where a motion starts.
     fn with_other_parameters(
         &self,
         problem: &Problem,
@@ -258,9 +261,10 @@ impl<'m> Analysis<'m> {
                 .map(|row| format!("`{}`", row_name(self.model, row.closing, row.index)))
                 .collect();
             let names = names.join(", ");
-            structure
-                .notes
-                .push(format!("hold only for parameters like the declared ones, and are taken for granted: {names}"));
+            structure.granted.extend(needed.iter().filter_map(|&k| row_of(problem, group.equations[k])));
+            structure.notes.push(format!(
+                "hold only for parameters like the declared ones, and are looked at where a motion starts: {names}"
+            ));
             return independent;
         }
         structure.wavering.extend(needed.iter().filter_map(|&k| row_of(problem, group.equations[k])));

@@ -56,6 +56,23 @@ impl Equations<'_> {
         residuals.get(row.index).copied().unwrap_or(Scalar::ZERO)
     }
 
+    /// What is left of equations that were left out for the declared parameters, over their scales.
+    pub(super) fn granted(&mut self, reduction: &Reduction) -> Vec<Scalar> {
+        let rows = self.granted_residuals();
+        self.finish(reduction, &rows)
+    }
+
+    /// The same on the tree.
+    pub(super) fn granted_residuals(&mut self) -> Vec<Scalar> {
+        let structure = Rc::clone(&self.structure);
+        let rows = structure.granted.iter().map(|&row| {
+            let residual = self.row(row);
+            let inverse = self.g.decimal(1.0 / structure.scale(row));
+            self.g.mul(inverse, residual)
+        });
+        rows.collect()
+    }
+
     /// Efforts that the accelerations take beside all declared forces: of the state, then of driven coordinates, in the
     /// order of the tree.
     pub(super) fn projected_efforts(&mut self, reduction: &Reduction) -> Vec<Scalar> {

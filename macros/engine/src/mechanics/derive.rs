@@ -116,6 +116,10 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
         let kind = FunctionKind::Margins;
         functions.push(Derived { kind, candidates: deriving.candidates(kind)? });
     }
+    if model.emit.contains(&Request::ForwardDynamics) && !structure.granted.is_empty() {
+        let kind = FunctionKind::Granted;
+        functions.push(Derived { kind, candidates: deriving.candidates(kind)? });
+    }
     let checks = deriving.checks()?;
     let Deriving { graph, symbols, notes, dead_centres, .. } = deriving;
     Ok(Derivation { graph, symbols: symbols.table, symbol_names, functions, notes, dead_centres, checks })
@@ -206,6 +210,7 @@ impl<'m> Deriving<'m> {
                 | FunctionKind::ConstraintBias
                 | FunctionKind::Margins
                 | FunctionKind::Guess => Ok(Vec::new()),
+                FunctionKind::Granted => self.granted(),
                 FunctionKind::DeadCentres => self.only("closed forms", |e| {
                     let pitches = gimbals::pitches(e.model, &e.structure);
                     Ok(gimbals::cosines(&mut e.g, &e.symbols, &pitches))
@@ -272,10 +277,20 @@ impl<'m> Deriving<'m> {
                 let reduction = e.reduce()?;
                 Ok(e.margins(&reduction))
             }),
+            FunctionKind::Granted => self.granted(),
             FunctionKind::Impulse | FunctionKind::MomentumVelocity => self.constrained_jumps(),
             FunctionKind::Momentum => self.reduced_momenta(),
             FunctionKind::MomentumRate => self.reduced_momentum_rates(),
         }
+    }
+
+    /// What equations leave that were left out for the declared parameters.
+    fn granted(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        self.only("equations that were left out", |e| {
+            e.at_guess = true;
+            let reduction = e.reduce()?;
+            Ok(e.granted(&reduction))
+        })
     }
 
     /// Whether loops are solved in a way that ends in dead centres.

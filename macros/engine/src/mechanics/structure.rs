@@ -4,6 +4,8 @@
 //! read. A mechanism with loops is an open tree whose coordinates obey equations. Coordinates of the tree are the state,
 //! or follow a drive, or are found from the others in an order of steps; equations that no step solves keep multipliers.
 
+use std::collections::BTreeMap;
+
 use crate::model::types::{Closing, ConstraintId, Coordinate, JointId, Model};
 
 use super::closings::is_length;
@@ -25,6 +27,12 @@ pub struct Structure {
     pub independent: Vec<Row>,
     /// Equations that follow from the others everywhere.
     pub dropped: Vec<Row>,
+    /// Those among them that hold for parameters like the declared ones only.
+    pub granted: Vec<Row>,
+    /// The residuals that amount to one: to a movement by a radian, or by the mechanism's size.
+    pub scales: BTreeMap<Row, f64>,
+    /// By coordinate of the state what counts as one: the mechanism's size for travels.
+    pub units: Vec<f64>,
     /// How dependent coordinates are found, in this order.
     pub steps: Vec<Step>,
     /// What is there several times.

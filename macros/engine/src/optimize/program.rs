@@ -278,6 +278,8 @@ pub enum FunctionKind {
     /// Of each of `Structure::margins` what vanishes in its dead centre, and the rate of its square; then, with iterations,
     /// the greatest residual at the guess.
     Margins,
+    /// Of each of `Structure::granted` the residual over its scale, at the guess.
+    Granted,
     /// Partial derivatives of the accelerations and of the rates of own states, R of them: R x DOF by displacements of the
     /// position, R x DOF by velocities, R x own states, R x scalars of inputs, each row by row.
     ForwardDerivatives,

@@ -10,11 +10,12 @@ use quote::quote;
 
 use crate::emit::blocks::{body, each_leaf};
 use crate::emit::expressions::Names;
+use crate::emit::items::system;
 use crate::emit::layout::Layout;
 use crate::emit::places::RESERVED;
-use crate::emit::{Context, literals, lower, names, numeric, range};
+use crate::emit::{Context, functions, literals, lower, names, numeric, range};
 use crate::model::types::{Body, ConstraintKind, Expr, ForceKind, Model, ParamId};
-use crate::optimize::program::{Condition, Expression, Symbol};
+use crate::optimize::program::{Condition, Expression, FunctionKind, Symbol};
 
 /// Expands to `impl<T: Real> Params<T> { pub fn check(&self) -> Result<(), ParamError> { .. } }`.
 pub(super) fn item(context: &Context<'_>) -> TokenStream {
@@ -100,6 +101,7 @@ pub(super) fn item(context: &Context<'_>) -> TokenStream {
         }
     }
     checks.extend(derived(context));
+    checks.extend(iterated(context));
     let params = names::ident("params");
     let open = reads.then(|| quote!(let #params = self;));
     quote! {
@@ -167,6 +169,43 @@ fn derived(context: &Context<'_>) -> TokenStream {
     }
     let statements = body.statements;
     quote!(#statements #tests)
+}
+
+/// Expands to the test of equations that parameters make hold, where Newton's method closes the loops at the default position.
+fn iterated(context: &Context<'_>) -> Option<TokenStream> {
+    let layout = &context.layout;
+    let krate = layout.krate();
+    let close = functions::arguments(context.function(FunctionKind::Guess)?);
+    let (passed, arguments) = system::call_granted(context)?;
+    if context.hollow || close.has_input() || arguments.has_input() {
+        return None;
+    }
+    let closing = close.pass();
+    let [t, state] = ["t", "state"].map(names::ident);
+    let messages = system::granted_names(layout).into_iter().map(|name| unfit(&name));
+    Some(quote! {
+        {
+            let model = Model::new(self);
+            let (#t, #state) = (T::lit(0.0), &State::<T>::default());
+            let closed = model.close(#closing);
+            let #state = &closed.state;
+            let left = model.granted(#passed);
+            let messages = [#(#messages),*];
+            // Where Newton's method finds no solution nothing is known.
+            if #krate::all(Real::lt(closed.residual, Real::sqrt(T::epsilon()))) {
+                for (&left, what) in left.as_slice().iter().zip(messages) {
+                    if !#krate::all(Real::lt(Real::abs(left), Real::sqrt(T::epsilon()))) {
+                        return Err(#krate::ParamError { what });
+                    }
+                }
+            }
+        }
+    })
+}
+
+/// What is said of an equation that parameters don't make hold.
+fn unfit(name: &str) -> String {
+    format!("`{name}` does not hold with these parameters")
 }
 
 /// An expression that parameters change.

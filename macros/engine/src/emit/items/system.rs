@@ -6,7 +6,10 @@ use quote::quote;
 use crate::emit::arguments::{Arguments, input_type};
 use crate::emit::blocks::groups_argument;
 use crate::emit::items::singular;
-use crate::emit::{Context, functions, names, results};
+use crate::emit::layout::Layout;
+use crate::emit::{Context, functions, literals, names, results};
+use crate::mechanics::closings::row_name;
+use crate::mechanics::structure::Means;
 use crate::optimize::program::FunctionKind;
 
 /// Expands to `impl<T: Real> System for Model<T> { .. }` where forward dynamics has been derived.
@@ -108,42 +111,118 @@ fn margins(context: &Context<'_>) -> Option<TokenStream> {
     })
 }
 
-/// Expands to `fn opening(..) -> Opening<T>`, which tells how far the loops of a start are open, where they can be.
+/// Expands to `fn opening(..) -> Opening<T>`, which tells how far the loops of a start are open, where they can be: by what
+/// Newton's method leaves, by equations with multipliers and their rates, by equations that parameters make hold.
 fn opening(context: &Context<'_>) -> Option<TokenStream> {
     let layout = &context.layout;
     let krate = layout.krate();
     let ty = input_type(layout);
-    let [time, state] = ["t", "state"].map(names::ident);
-    let (arguments, residual, tolerance, remedy) = if let Some(close) = context.function(FunctionKind::Guess) {
-        let arguments = functions::arguments(close);
-        let passed = arguments.pass();
-        (
-            arguments,
-            quote!(self.close(#passed).residual),
-            quote!(T::lit(1e-8)),
-            "Newton's method finds no solution from the guess of the state: set `guess` nearer to one, such as the \
-             default, or one that `close` has found",
-        )
-    } else {
-        let constraints = context.function(FunctionKind::Constraints).filter(|_| layout.rows() > 0)?;
-        let arguments = functions::arguments(constraints);
-        if arguments != Arguments::least(FunctionKind::Constraints) {
-            return None;
-        }
-        (
-            arguments,
-            quote!(self.constraints(#time, &#state.q).amax()),
-            quote!(T::lit(1e-4)),
-            "close them with `multibody::assemble` or `Projection::project`",
-        )
-    };
-    let [t, input] = named(arguments);
+    let mut reads = [false; 2];
+    let parts = [iterated(context, &mut reads), constrained_start(context, &mut reads), granted(context, &mut reads)];
+    let mut parts = parts.into_iter().flatten();
+    let first = parts.next()?;
+    let [t, state, input] = ["t", "state", "input"].map(names::ident);
+    let [time, inputs] = [(reads[0], &t), (reads[1], &input)]
+        .map(|(read, name)| if read { name.clone() } else { names::ident(&format!("_{name}")) });
     Some(quote! {
-        fn opening(&self, #t: T, #state: &State<T>, #input: &#ty) -> #krate::Opening<T> {
-            let tolerance = Real::max(#tolerance, T::lit(1e4) * T::epsilon());
-            #krate::Opening { residual: #residual, tolerance, remedy: #remedy }
+        fn opening(&self, #time: T, #state: &State<T>, #inputs: &#ty) -> #krate::Opening<T> {
+            #first #(let opening = opening.or(|| { #parts opening });)*
+            opening
         }
     })
+}
+
+/// Expands to `let closed = ..; let opening = ..;` of loops that Newton's method closes; the state is the closed one then.
+fn iterated(context: &Context<'_>, reads: &mut [bool; 2]) -> Option<TokenStream> {
+    let layout = &context.layout;
+    let krate = layout.krate();
+    let arguments = functions::arguments(context.function(FunctionKind::Guess)?);
+    reads[0] |= arguments.has_time();
+    reads[1] |= arguments.has_input();
+    let (passed, state) = (arguments.pass(), names::ident("state"));
+    let rows = layout.structure.steps.iter().filter_map(|step| match &step.means {
+        Means::Newton { rows, .. } => Some(rows),
+        _ => None,
+    });
+    let scales: Vec<f64> = rows.flatten().map(|&row| layout.structure.scale(row)).collect();
+    let [least, greatest] = [scales.iter().fold(f64::MAX, |a, &b| a.min(b)), scales.iter().fold(0.0, |a, &b| b.max(a))]
+        .map(literals::number);
+    Some(quote! {
+        let closed = self.close(#passed);
+        let #state = &closed.state;
+        let opening = #krate::Opening::of_iterations(closed.residual, [T::lit(#least), T::lit(#greatest)]);
+    })
+}
+
+/// Expands to `let opening = ..;` of equations with multipliers.
+fn constrained_start(context: &Context<'_>, reads: &mut [bool; 2]) -> Option<TokenStream> {
+    let layout = &context.layout;
+    for kind in [FunctionKind::Constraints, FunctionKind::ConstraintRate] {
+        if functions::arguments(context.function(kind)?) != Arguments::least(kind) {
+            return None;
+        }
+    }
+    if layout.rows() == 0 {
+        return None;
+    }
+    reads[0] = true;
+    let krate = layout.krate();
+    let structure = layout.structure;
+    let [t, state] = ["t", "state"].map(names::ident);
+    let numbers = |list: Vec<f64>| {
+        let list = list.into_iter().map(literals::number);
+        quote!([#(T::lit(#list)),*])
+    };
+    let scales = numbers(structure.rows.iter().map(|&row| structure.scale(row)).collect());
+    let positions = quote! {
+        let scales = #scales;
+        let opening = #krate::Opening::of_positions(self.constraints(#t, &#state.q).as_slice(), &scales);
+    };
+    if layout.dof() == 0 {
+        return Some(positions);
+    }
+    let units = numbers(structure.units.clone());
+    let velocities = results::vector_type(layout, layout.dof());
+    Some(quote! {
+        #positions
+        let opening = opening.or(|| {
+            let velocities: #velocities = #state.v.into();
+            let rest = State { v: ::core::default::Default::default(), ..*#state };
+            #krate::Opening::of_velocities(
+                self.constraint_rate(#t, #state).as_slice(),
+                self.constraint_rate(#t, &rest).as_slice(),
+                &scales,
+                velocities.as_slice(),
+                &#units,
+            )
+        });
+    })
+}
+
+/// Expands to `let opening = ..;` of equations that hold for parameters like the declared ones only.
+fn granted(context: &Context<'_>, reads: &mut [bool; 2]) -> Option<TokenStream> {
+    let layout = &context.layout;
+    let krate = layout.krate();
+    let (passed, arguments) = call_granted(context)?;
+    reads[0] |= arguments.has_time();
+    reads[1] |= arguments.has_input();
+    let names = granted_names(layout);
+    Some(quote! {
+        let opening = #krate::Opening::of_equations(self.granted(#passed).as_slice(), &[#(#names),*]);
+    })
+}
+
+/// The arguments of `granted`, from where `t`, `state` and `input` are known.
+pub(super) fn call_granted(context: &Context<'_>) -> Option<(TokenStream, Arguments)> {
+    let arguments = functions::arguments(context.function(FunctionKind::Granted)?);
+    let [t, state] = ["t", "state"].map(names::ident);
+    let passed = if arguments.has_state() { arguments.pass() } else { quote!(#t, &#state.q) };
+    Some((passed, arguments))
+}
+
+/// What errors call the equations of `granted`.
+pub(super) fn granted_names(layout: &Layout<'_>) -> Vec<String> {
+    layout.structure.granted.iter().map(|row| row_name(layout.model, row.closing, row.index)).collect()
 }
 
 /// Expands to `impl<T: Real> Constrained for Model<T> { .. }` where constraint equations are left that depend on what the

@@ -34,6 +34,7 @@ impl Analysis<'_> {
                 rounding.push(format!("`{}`", row_name(self.model, row.closing, row.index)));
             }
             if adjustable {
+                structure.granted.push(row);
                 let name = row_name(self.model, row.closing, row.index);
                 structure.notes.push(format!("`{name}` depends on parameters alone: it must hold by their choice"));
             }

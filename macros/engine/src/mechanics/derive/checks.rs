@@ -110,11 +110,16 @@ impl Equations<'_> {
 
     fn tests_of_loops(&mut self, reduction: &Reduction) -> Vec<Test> {
         let model = self.model;
-        if !matches!(model.handling, Handling::Reduced) {
-            return Vec::new();
-        }
         let structure = std::rc::Rc::clone(&self.structure);
+        let unfit =
+            |row: Row| format!("`{}` does not hold with these parameters", row_name(model, row.closing, row.index));
         let mut tests = Vec::new();
+        for (&row, residual) in structure.granted.iter().zip(self.granted_residuals()) {
+            tests.push(Test { what: unfit(row), condition: Condition::Small, values: vec![residual] });
+        }
+        if !matches!(model.handling, Handling::Reduced) {
+            return tests;
+        }
         let mut written: Vec<Scalar> = Vec::new();
         for step in &structure.steps {
             let Means::Solve(item) = step.means else { continue };
@@ -139,10 +144,12 @@ impl Equations<'_> {
             let residuals = self.equations_of(closing);
             for (index, &residual) in residuals.iter().enumerate() {
                 let row = Row { closing, index };
-                let granted = structure.dropped.contains(&row) && !matches!(closing, Closing::Constraint(_));
-                if granted || self.g.depends_on(residual, &written) {
-                    let what = format!("`{}` does not hold with these parameters", row_name(model, closing, index));
-                    tests.push(Test { what, condition: Condition::Small, values: vec![residual] });
+                let dropped = structure.dropped.contains(&row) && !matches!(closing, Closing::Constraint(_));
+                if structure.granted.contains(&row) {
+                    continue;
+                }
+                if dropped || self.g.depends_on(residual, &written) {
+                    tests.push(Test { what: unfit(row), condition: Condition::Small, values: vec![residual] });
                 }
             }
         }
