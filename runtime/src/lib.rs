@@ -84,6 +84,7 @@ pub mod emitted;
 #[doc = include_str!("../docs/embedded.md")]
 pub mod embedded {}
 pub mod equilibrium;
+mod feedback;
 #[doc = include_str!("../docs/generated.md")]
 pub mod generated {}
 pub mod impact;
@@ -110,6 +111,7 @@ pub use coordinates::{Cylindrical, FreeRollPitchYaw, Planar, Pose, RollPitchYaw,
 pub use cost::Cost;
 pub use differentiable::{Derivatives, Differentiable, Jacobian};
 pub use equilibrium::{Equilibrium, EquilibriumError, Free, constrained_equilibrium, equilibrium, trim};
+pub use feedback::Feedback;
 pub use impulsive::Impulsive;
 pub use inertia::{ParamError, inertia_violation, is_held};
 pub use integrators::{

@@ -50,8 +50,10 @@ pub type ExtraOf<S> = <<S as System>::State as StateSpace>::Extra;
 
 /// A mechanical system that can be integrated in time.
 ///
-/// Generated models with forward dynamics implement it. A feedback law that is to be evaluated at every stage of a step, not held over the
-/// step as an input is, is a wrapper:
+/// Generated models with forward dynamics implement it. A feedback law that is to be evaluated at every stage of a step, not
+/// held over the step as an input is, is a [`Feedback`](crate::Feedback) around the model. Other wrappers implement the
+/// trait; around a model with loops they have to hand on every function of it, as all of the crate do, since without them
+/// integrators don't see open loops, dead centres and crossing motions. A controller around a system without loops:
 ///
 /// ```
 /// use multibody::{ExtraOf, Real, Rk4, StateSpace, System, VelocityOf};

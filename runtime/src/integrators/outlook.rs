@@ -18,7 +18,8 @@
 use super::error::IntegrationError;
 use super::method::Accepted;
 use super::problem::Problem;
-use super::slope::{SlopeOf, displaced, is_finite, magnitude};
+use super::slope::{Slope, SlopeOf, displaced, is_finite, magnitude};
+use crate::tangent::greatest;
 use crate::{Margin, Open, Real, System, Tangent, all, any};
 
 /// No dead centre may lie within so many lengths of a step. With one, methods of first order creep up to it and never arrive.
@@ -34,6 +35,41 @@ const ROUNDING: f64 = 1e-3;
 /// A state that is no longer finite is blamed on a dead centre within so many steps.
 const BLAMED: f64 = 8.0;
 
+/// So many roots of a system are told apart; a model has fewer, since it has at most 200 coordinates. Of further ones two
+/// changes of sign at once can go unseen, where one can't.
+const ROOTS: usize = 256;
+/// So many roots are held to be compared.
+const HELD: usize = 16;
+/// Coordinates up to this one have their rounding judged by the tolerance..
+const TURN: f64 = core::f64::consts::TAU;
+/// ..and what the rounding of greater ones changes a root's square by may be this share of it.
+const ROUNDED: f64 = 1e-2;
+
+/// The signs of roots, in the order in which they are told.
+#[derive(Clone, Copy, Default, PartialEq)]
+pub(super) struct Signs {
+    /// Which are negative, and which positive, in any lane; of roots that share a place, whether an odd number is.
+    bits: [[u64; 2]; ROOTS / 64],
+    count: usize,
+}
+
+impl Signs {
+    #[inline]
+    fn push<T: Real>(&mut self, root: T) {
+        let zero = T::lit(0.0);
+        if let Some([negative, positive]) = self.bits.get_mut(self.count / 64 % (ROOTS / 64)) {
+            *negative ^= u64::from(any(Real::lt(root, zero))) << (self.count % 64);
+            *positive ^= u64::from(any(Real::gt(root, zero))) << (self.count % 64);
+        }
+        self.count += 1;
+    }
+
+    /// Whether the root is negative, and whether it is positive.
+    fn at(&self, root: usize) -> Option<[bool; 2]> {
+        self.bits.get(root / 64 % (ROOTS / 64)).map(|bits| bits.map(|bits| bits >> (root % 64) & 1 == 1))
+    }
+}
+
 /// A rate `[1/s]` with the coordinate that has it.
 type Rate = (f64, &'static str);
 
@@ -45,8 +81,8 @@ pub(super) struct Outlook {
     rises: Rate,
     /// A root that is zero or NaN.
     lost: Option<&'static str>,
-    /// Which of the first roots are negative, and which positive, in any lane.
-    signs: Option<[u64; 2]>,
+    /// Which roots are negative, and which positive, in any lane.
+    signs: Option<Signs>,
     /// The residual that Newton's method has left, if it is too great.
     open: Option<f64>,
 }
@@ -60,10 +96,12 @@ impl Outlook {
     /// At a state that [`System::accepted`] gave.
     #[inline]
     pub(super) fn at<S: System>(problem: &Problem<'_, S>, t: S::Scalar, state: &S::State) -> Self {
-        let mut found = Self { signs: Some([0; 2]), ..Self::unknown() };
-        let mut bit = 1_u64;
+        let mut found = Self { signs: Some(Signs::default()), ..Self::unknown() };
         let zero = S::Scalar::lit(0.0);
         let residual = problem.margins(t, state, &mut |margin: Margin<S::Scalar>| {
+            if let Some(signs) = &mut found.signs {
+                signs.push(margin.root);
+            }
             let square = margin.root * margin.root;
             if !all(Real::gt(square, zero) & Real::is_finite(square)) || any(Real::ne(margin.rate, margin.rate)) {
                 found.lost = found.lost.or(Some(margin.coordinate));
@@ -76,11 +114,6 @@ impl Outlook {
                     *known = (rate, margin.coordinate);
                 }
             }
-            if let Some([negative, positive]) = &mut found.signs {
-                *negative |= if any(Real::lt(margin.root, zero)) { bit } else { 0 };
-                *positive |= if any(Real::gt(margin.root, zero)) { bit } else { 0 };
-            }
-            bit <<= 1;
         });
         if !all(is_closed(residual)) {
             found.open = Some(residual.greatest());
@@ -108,7 +141,7 @@ impl Outlook {
     ) -> Option<&'static str> {
         let passed = match (self.signs, before.signs) {
             (Some(signs), Some(others)) if signs != others => {
-                Some(changed(problem, S::Scalar::lit(t), state, signs, others))
+                Some(changed(problem, S::Scalar::lit(t), state, &signs, &others))
             }
             _ => None,
         };
@@ -131,7 +164,7 @@ impl Outlook {
     pub(super) const fn name_ahead(&self, length: f64) -> &'static str {
         match self.lost {
             Some(name) => name,
-            None if length > 0.0 => self.falls.1,
+            None if (length > 0.0 || self.rises.1.is_empty()) && !self.falls.1.is_empty() => self.falls.1,
             None => self.rises.1,
         }
     }
@@ -151,7 +184,8 @@ impl Outlook {
     }
 
     /// How much an error of the step to `end`, and the rounding of its coordinates, change roots and their rates, in units of
-    /// a relative tolerance; the square root of the rounding unit is the least one.
+    /// a relative tolerance; the square root of the rounding unit is the least one. Coordinates that have turned many times
+    /// are rounded by more than that anywhere, which no step makes less and no dead centre causes: more is allowed to them.
     pub(super) fn spread<S: System>(
         problem: &Problem<'_, S>,
         (t, length): (S::Scalar, f64),
@@ -159,31 +193,57 @@ impl Outlook {
         error: &SlopeOf<S>,
         tolerance: f64,
     ) -> f64 {
+        let (zero, turn) = (S::Scalar::lit(0.0), S::Scalar::lit(TURN));
         let rounding = S::Scalar::lit(ROUNDINGS) * S::Scalar::epsilon();
-        let error = error.zip(&magnitude(end), &mut |error, size| {
-            let rounding = rounding * Real::abs(size);
-            -(error + Real::select(Real::lt(error, S::Scalar::lit(0.0)), -rounding, rounding))
-        });
-        let other = displaced(end, &error);
-        let [one, other] = [*end, other].map(|state| problem.accepted(t, &state));
-        let length = S::Scalar::lit(length);
-        let (mut worst, mut count) = (0.0_f64, 0_u32);
-        problem.margins(t, &one, &mut |a| {
-            let mut at = 0_u32;
-            problem.margins(t, &other, &mut |b| {
-                if at == count {
-                    let square = a.root * a.root;
-                    let change = Real::abs(square - b.root * b.root);
-                    let rate = Real::abs(length * (a.rate - b.rate));
-                    let share = (Real::max(change, rate) / square).greatest();
-                    // NaN counts as more than any number.
-                    worst = if share <= worst { worst } else { share };
-                }
-                at += 1;
-            });
+        let sizes = magnitude(end).map(&mut |size| Real::abs(size));
+        let far = any(Real::gt(greatest(&sizes.q), turn));
+        let near = Slope { q: sizes.q.map(&mut |size| Real::min(size, turn)), ..sizes };
+        let change = |displacement: &SlopeOf<S>| {
+            let pair = [*end, displaced(end, displacement)].map(|state| problem.accepted(t, &state));
+            change(problem, t, S::Scalar::lit(length), &pair)
+        };
+        let error = change(&error.zip(&near, &mut |error, size| {
+            let rounding = rounding * size;
+            -(error + Real::select(Real::lt(error, zero), -rounding, rounding))
+        }));
+        let error = error / Real::max(tolerance, Real::sqrt(S::Scalar::epsilon()).greatest());
+        if !far {
+            return error;
+        }
+        let rounding = change(&sizes.scale(rounding)) / ROUNDED;
+        // NaN counts as more than any number.
+        if rounding <= error || error.is_nan() { error } else { rounding }
+    }
+}
+
+/// The greatest change of a root's square, and of its rate over the length, from one state to the other, as a share of the
+/// square; NaN if one is NaN. Roots are held a few at a time, so that nothing is evaluated for each of them.
+fn change<S: System>(problem: &Problem<'_, S>, t: S::Scalar, length: S::Scalar, [one, other]: &[S::State; 2]) -> f64 {
+    let (mut worst, mut first) = (0.0_f64, 0);
+    loop {
+        let mut held = [[S::Scalar::lit(1.0), S::Scalar::lit(0.0)]; HELD];
+        let mut count = 0;
+        problem.margins(t, one, &mut |margin| {
+            if let Some(held) = usize::checked_sub(count, first).and_then(|at| held.get_mut(at)) {
+                *held = [margin.root, margin.rate];
+            }
             count += 1;
         });
-        worst / Real::max(tolerance, Real::sqrt(S::Scalar::epsilon()).greatest())
+        let mut at = 0;
+        problem.margins(t, other, &mut |margin| {
+            if let Some([root, rate]) = usize::checked_sub(at, first).and_then(|at| held.get(at)) {
+                let square = *root * *root;
+                let change = Real::abs(square - margin.root * margin.root);
+                let rate = Real::abs(length * (*rate - margin.rate));
+                let share = (Real::max(change, rate) / square).greatest();
+                worst = if share <= worst || worst.is_nan() { worst } else { share };
+            }
+            at += 1;
+        });
+        first += HELD;
+        if first >= count {
+            return worst;
+        }
     }
 }
 
@@ -207,7 +267,7 @@ pub(super) struct Soundness<T: Real> {
     /// What Newton's method has left.
     residual: T,
     /// Which roots are negative, and which positive, in any lane.
-    signs: [u64; 2],
+    signs: Signs,
 }
 
 impl<T: Real> Soundness<T> {
@@ -216,7 +276,7 @@ impl<T: Real> Soundness<T> {
         let zero = T::lit(0.0);
         let mut mask = Real::le(zero, zero);
         let mut coordinate = None;
-        let (mut signs, mut bit) = ([0; 2], 1_u64);
+        let mut signs = Signs::default();
         let residual = problem.margins(t, state, &mut |margin| {
             let square = margin.root * margin.root;
             let far = Real::lt(Real::abs(margin.rate * dt) * T::lit(LENGTHS), square);
@@ -224,10 +284,7 @@ impl<T: Real> Soundness<T> {
                 coordinate = coordinate.or(Some(margin.coordinate));
             }
             mask = mask & far;
-            let [negative, positive] = &mut signs;
-            *negative |= if any(Real::lt(margin.root, zero)) { bit } else { 0 };
-            *positive |= if any(Real::gt(margin.root, zero)) { bit } else { 0 };
-            bit <<= 1;
+            signs.push(margin.root);
         });
         Self { mask: mask & is_closed(residual), coordinate, residual, signs }
     }
@@ -237,16 +294,16 @@ impl<T: Real> Soundness<T> {
     pub(super) fn check<S: System<Scalar = T>>(
         &self,
         t: T,
-        before: Option<[u64; 2]>,
+        before: Option<Signs>,
         problem: &Problem<'_, S>,
         state: &S::State,
-    ) -> Result<[u64; 2], IntegrationError> {
+    ) -> Result<Signs, IntegrationError> {
         let passed = before.filter(|before| *before != self.signs);
         if all(self.mask) && passed.is_none() {
             return Ok(self.signs);
         }
         let time = t.greatest();
-        let coordinate = self.coordinate.or_else(|| Some(changed(problem, t, state, self.signs, passed?)));
+        let coordinate = self.coordinate.or_else(|| Some(changed(problem, t, state, &self.signs, &passed?)));
         Err(match coordinate {
             Some(coordinate) => IntegrationError::DeadCentre { time, coordinate },
             None => IntegrationError::OpenLoops { time, residual: self.residual.greatest(), remedy: STUCK },
@@ -297,19 +354,17 @@ fn changed<S: System>(
     problem: &Problem<'_, S>,
     t: S::Scalar,
     state: &S::State,
-    [negative, positive]: [u64; 2],
-    others: [u64; 2],
+    signs: &Signs,
+    others: &Signs,
 ) -> &'static str {
-    let [other_negative, other_positive] = others;
-    let which = ((negative ^ other_negative) | (positive ^ other_positive)).trailing_zeros();
-    let (mut at, mut name) = (0, "");
+    let (mut at, mut name) = (0, None);
     problem.margins(t, state, &mut |margin| {
-        if at == which {
-            name = margin.coordinate;
+        if signs.at(at) != others.at(at) {
+            name = name.or(Some(margin.coordinate));
         }
         at += 1;
     });
-    name
+    name.unwrap_or_default()
 }
 
 /// What Newton's method says of a run in which it stops converging.
