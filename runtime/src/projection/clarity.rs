@@ -67,12 +67,13 @@ pub(super) fn noticed<S: Constrained>(q: &PositionOf<S>) -> S::Scalar {
 
 /// The displacement for a residual of this size, in no direction that a mechanism is likely to be built in.
 fn probe<S: Constrained>(system: &S, t: S::Scalar, q: &PositionOf<S>, size: S::Scalar) -> VelocityOf<S> {
-    let mut random = 1_u32;
+    // Steps of the golden section around a circle, between a half and one and of either sign.
+    let (half, one) = (S::Scalar::lit(0.5), S::Scalar::lit(1.0));
+    let mut turn = S::Scalar::lit(0.3);
     let residual = S::Residual::zero().map(&mut |_| {
-        random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        // Between a half and one, of either sign.
-        let number = 0.5 + f64::from(random >> 8) / f64::from(1 << 25);
-        size * S::Scalar::lit(if random & 0x80 == 0 { number } else { -number })
+        turn += S::Scalar::lit(0.618_034);
+        turn = Real::select(Real::ge(turn, one), turn - one, turn);
+        size * Real::select(Real::lt(turn, half), turn + half, -turn)
     });
     system.correction(t, q, &residual, &ones()).0
 }
