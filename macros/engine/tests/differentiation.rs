@@ -277,6 +277,22 @@ fn kinks_take_the_branch_of_the_value() {
     assert_eq!(values(&g, &slopes, &[3.0, 1.0]), [1.0, 1.0, 0.0, 0.0]);
 }
 
+/// A power that is zero stays so as its exponent moves; of one at a base of zero that isn't, the slope is as infinite as it is.
+#[test]
+fn powers_of_zero_have_slopes() {
+    let mut g = Graph::new();
+    let (x, y) = (g.symbol(), g.symbol());
+    let power = g.call(Call::Powf, &[x, y]);
+    let slopes = [[Scalar::ZERO, Scalar::ONE], [Scalar::ONE, Scalar::ONE]]
+        .map(|[dx, dy]| g.derivative(power, &[(x, dx), (y, dy)]));
+    assert_eq!(values(&g, &slopes, &[0.0, 2.5]), [0.0, 0.0]);
+    assert_eq!(values(&g, &slopes, &[0.0, 1.0]), [0.0, 1.0]);
+    assert!(values(&g, &slopes, &[0.0, 0.0]).iter().all(|slope| !slope.is_finite()));
+    assert!(values(&g, &slopes, &[-1.0, 1.5]).iter().all(|slope| slope.is_nan()));
+    let logarithm = 2f64.ln();
+    assert_eq!(values(&g, &slopes[..1], &[2.0, 1.0]), [2.0 * logarithm]);
+}
+
 /// Written by hand in a graph of their own, so that no print can find them.
 #[test]
 fn rules_are_exact() {

@@ -247,7 +247,7 @@ impl Differentiator {
         g.call(Call::Select, &[mask, a, b])
     }
 
-    /// b a^(b - 1) da + a^b ln(a) db
+    /// b a^(b - 1) da + a^b ln(a) db, with no logarithm where the power is zero, which it stays.
     fn power_rule(&self, g: &mut Graph, power: Scalar, base: Scalar, exponent: Scalar) -> Scalar {
         let (da, db) = (self.of(base), self.of(exponent));
         let mut terms = Vec::with_capacity(2);
@@ -257,6 +257,8 @@ impl Differentiator {
             terms.push(g.product(&[exponent, lower, da]));
         }
         if db != Scalar::ZERO {
+            let none = g.call(Call::Equal, &[power, Scalar::ZERO]);
+            let base = self.choose(g, none, Scalar::ONE, base);
             let logarithm = g.call(Call::Ln, &[base]);
             terms.push(g.product(&[power, logarithm, db]));
         }
