@@ -1,6 +1,7 @@
 //! Many models in a row, and what became of them.
 
 use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
 use crate::mechanism::Mechanism;
@@ -100,8 +101,12 @@ pub fn run(family: &dyn Family, plan: Plan) -> Tally {
             break;
         }
         let mechanism = family.draw(seed);
-        let verdict = family.check(&mechanism, seed);
         tally.models += 1;
+        // Panics of the engine are verdicts; this one is the oracle's own, and must not end the run without a word.
+        let Ok(verdict) = catch_unwind(AssertUnwindSafe(|| family.check(&mechanism, seed))) else {
+            tally.classes.entry("the oracle panicked: run this seed with --panics".to_owned()).or_default().push(seed);
+            continue;
+        };
         let mut class = verdict.class();
         match &verdict {
             Verdict::Right(numbers) => {
@@ -115,7 +120,7 @@ pub fn run(family: &dyn Family, plan: Plan) -> Tally {
         seen.push(seed);
         if seen.len() <= plan.shown {
             let fails = |m: &Mechanism| {
-                let other = family.check(m, seed);
+                let Ok(other) = catch_unwind(AssertUnwindSafe(|| family.check(m, seed))) else { return false };
                 let excused = |said: &[String]| family.excuses(m, seed, said) != class.starts_with("true");
                 other.class() == verdict.class() && !matches!(&other, Verdict::Refused(said) if excused(said))
             };
