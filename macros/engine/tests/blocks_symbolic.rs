@@ -47,11 +47,13 @@ fn sines_and_cosines_of_given_angles() {
                     (g.mul(two, a.0), -2.0 * a.1)
                 }
                 _ => {
+                    // As typed, or exact.
                     let quarters = [0, 1, 2, -1][rng.below(4)];
+                    let x = if quarters == 0 { 0.3 } else { quarters as f64 * std::f64::consts::FRAC_PI_2 };
                     let (pi, two, count) = (g.pi(), g.integer(2), g.integer(quarters));
                     let turned = g.mul(count, pi);
-                    let literal = if quarters == 0 { g.decimal(0.3) } else { g.div(turned, two) };
-                    let x = if quarters == 0 { 0.3 } else { quarters as f64 * std::f64::consts::FRAC_PI_2 };
+                    let typed = quarters == 0 || rng.chance(50);
+                    let literal = if typed { g.decimal(x) } else { g.div(turned, two) };
                     (g.sub(a.0, literal), a.1 - x)
                 }
             });
@@ -98,6 +100,7 @@ fn given_angles_fold() {
     let (zero, one) = (Scalar::ZERO, Scalar::ONE);
     let (pi, two) = (g.pi(), g.integer(2));
     assert_eq!((g.angle(one, zero), g.angle(zero, -one)), (zero, -g.div(pi, two)));
+    assert_eq!(g.decimal(-std::f64::consts::FRAC_PI_2), -g.div(pi, two));
 }
 
 /// Two ways to the same point, by a seed of the test's own.

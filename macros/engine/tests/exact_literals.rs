@@ -13,6 +13,7 @@ use std::fmt::Write;
 use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::model;
 use multibody_engine::optimize::program::{Compiled, FunctionKind, Symbol};
+use multibody_engine::symbolic::graph::{Call, Graph, Scalar};
 use multibody_engine::syntax;
 use rng::Rng;
 
@@ -239,4 +240,55 @@ fn chains_hold_no_dust() {
         }
     }
     assert!(with_dust.is_empty(), "{} of {count}: {with_dust:#?}", with_dust.len());
+}
+
+/// What rounding has left of a zero in an axis is one, with any number of places.
+#[test]
+fn an_axis_with_the_rest_of_a_zero() {
+    let text = |axis: &str| {
+        format!(
+            "world {{ gravity: -9.81 * Z }}
+            body b0 {{ mass: 1.0, com: [0.1, 0.2, 0.3], inertia: diag(0.1, 0.12, 0.15) }}
+            body b1 {{ mass: 1.0, com: [0.3, 0.2, 0.1], inertia: diag(0.1, 0.12, 0.15) }}
+            joint j0: Revolute {{ parent: ground, child: b0, axis: X }}
+            joint j1: Revolute {{ parent: b0.at(X), child: b1, axis: {axis} }}
+            emit forward_dynamics, inverse_dynamics, mass_matrix, bias, energy;"
+        )
+    };
+    let plain = compiled(&text("Y"));
+    for axis in ["[0, 1, 6.1e-17]", "[0, 1, 6.123233995736766e-17]", "[1e-25, 1, 0]", "[1e-300, 3, -2e-20]"] {
+        let text = text(axis);
+        assert_eq!(judge(&text, 2, 1), 0, "{axis}");
+        for (a, b) in plain.functions.iter().zip(&compiled(&text).functions) {
+            assert_eq!(a.after, b.after, "{axis} {:?}", a.kind);
+        }
+    }
+    // Small ones are as good as others where all are.
+    for axis in ["[1e-25, 2e-25, 0]", "[1e-25, 1e-25, 1e-25]"] {
+        assert_eq!(judge(&text(axis), 2, 1), 0, "{axis}");
+    }
+}
+
+/// Roots that aren't exact are numbers, whose cancellation is told from what is left.
+#[test]
+fn roots_of_any_number() {
+    let mut g = Graph::new();
+    let (one, two, three) = (Scalar::ONE, g.integer(2), g.integer(3));
+    let root = g.sqrt(two);
+    // sqrt(3 + 2 sqrt(2)) = 1 + sqrt(2)
+    let double = g.mul(two, root);
+    let square = g.add(three, double);
+    let nested = g.sqrt(square);
+    assert!(g.literal(nested).is_some_and(|n| !n.is_exact() && n.is_sharp()));
+    assert_eq!(g.sum(&[nested, -root, -one]), Scalar::ZERO);
+    // sqrt(e) = exp(1 / 2)
+    let (half, e) = (g.decimal(0.5), g.call(Call::Exp, &[one]));
+    let roots = [g.sqrt(e), g.call(Call::Exp, &[half])];
+    assert_eq!(g.sub(roots[0], roots[1]), Scalar::ZERO);
+    // What is left of a cancellation is nothing to divide by.
+    let nearly = g.decimal(2.414_213_562_373_095);
+    let rest = g.sub(nested, nearly);
+    assert!(g.literal(rest).is_some_and(|n| !n.is_zero() && !n.is_sharp()));
+    let negative = g.sqrt(-two);
+    assert!(g.literal(negative).is_none());
 }

@@ -8,6 +8,8 @@
 use crate::symbolic::graph::{Call, Graph, Rotation, RotationNode, Scalar, Vector};
 use crate::symbolic::number::Number;
 
+use super::typed;
+
 /// An axis of any direction as a coordinate axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Axis {
@@ -86,6 +88,7 @@ pub(super) fn about(g: &mut Graph, axis: [Scalar; 3], angle: Scalar) -> Rotation
 /// The coordinate axis behind a direction. An axis in a coordinate plane is one turn away from it, any other direction
 /// is Rz(azimuth) Ry(inclination) Z.
 pub(super) fn axis(g: &mut Graph, direction: [Scalar; 3]) -> Axis {
+    let direction = typed::direction(g, direction);
     let nonzero: Vec<usize> = (0..3).filter(|&k| direction[k] != Scalar::ZERO).collect();
     if let [k] = nonzero[..]
         && let Some(n) = g.literal(direction[k])
@@ -131,8 +134,8 @@ fn towards(
         }
     }
     let length = length(g);
-    if g.literal(length).is_none() {
-        // A length with a root that nothing is known of: by its angle the turn is one on the circle all the same.
+    if !g.literal(length).is_some_and(Number::is_exact) {
+        // A length with a root that is not exact: by its angle the turn is one on the circle all the same.
         let angle = g.call(Call::Atan2, &[y, x]);
         return g.axis_rotation(axis, angle);
     }

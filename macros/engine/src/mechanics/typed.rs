@@ -17,8 +17,27 @@ type Matrix = [[f64; 3]; 3];
 /// How far the entries of a matrix with sixteen digits lie from those of the rotation that was meant.
 const ROUNDED: f64 = 1e-15;
 
+/// What a component of a direction is to its largest where it is the rounding of a zero.
+const DUST: f64 = 2.0 * f64::EPSILON;
+
 /// Largest denominator of a simple axis.
 const MOST_OF_AN_AXIS: i64 = 60;
+
+/// A direction without what rounding has left of a zero: `[0, 1, 6.1e-17]` is Y. No direction in double precision differs by
+/// less than that.
+pub(super) fn direction(g: &Graph, components: [Scalar; 3]) -> [Scalar; 3] {
+    let sizes = components.map(|c| g.literal(c).map(|n| n.value().abs()));
+    let largest = sizes.iter().flatten().fold(0.0_f64, |most, &x| most.max(x));
+    // Beside a parameter, which may be small, nothing is.
+    if sizes.iter().any(Option::is_none) {
+        return components;
+    }
+    let mut list = components.iter().zip(sizes).map(|(&c, size)| match size {
+        Some(x) if x <= DUST * largest => Scalar::ZERO,
+        _ => c,
+    });
+    std::array::from_fn(|_| list.next().unwrap_or(Scalar::ZERO))
+}
 
 /// The rotation that is meant by a matrix, row by row.
 pub(super) fn oriented(g: &mut Graph, rows: [[Scalar; 3]; 3]) -> Rotation {

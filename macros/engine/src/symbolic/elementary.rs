@@ -127,6 +127,14 @@ pub(super) fn root(n: Number) -> Option<Root> {
     same.then(|| Root { number, large: Vec::new() })
 }
 
+/// The square root of a positive literal that has no exact one.
+pub(super) fn opaque_root(n: Number) -> Option<Number> {
+    let value = n.doubled().sqrt();
+    let noise = n.noise() / value.high + 4.0 * ROUNDING * value.high;
+    let is_number = value.high > 0.0 && value.is_finite() && noise.is_finite();
+    is_number.then(|| Number::opaque(value, noise, 0x59, &[n]))
+}
+
 /// The simple fraction of pi that an angle seems to be; what it is taken for must be proven.
 fn part_of_pi(angle: Doubled) -> Option<(i64, i64)> {
     let ratio = angle / Doubled::PI;

@@ -115,7 +115,7 @@ fn proportions(g: &mut Graph, constants: &Constants, base: &[Scalar], row: &[Sca
                 return Some(Scalar::ZERO);
             }
             let (first, rest) = (below.first()?, above.iter().find(|part| part.0 == below[0].0)?);
-            g.literal(first.1)?;
+            g.literal(first.1).filter(|n| n.is_sharp())?;
             let ratio = g.div(rest.1, first.1);
             (g.mul(ratio, b) == r).then_some(ratio)
         })
@@ -298,8 +298,10 @@ fn merge(g: &mut Graph, parts: Vec<(Scalar, Vec<Scalar>)>) -> Vec<(Scalar, Vec<S
 
 /// The literal by which a vector is another one's multiple.
 fn multiple(g: &mut Graph, vector: &[Scalar], base: &[Scalar]) -> Option<Scalar> {
-    let plain = |g: &Graph, c: &Scalar| g.literal(*c).is_some_and(|n| !n.is_zero());
-    let column = base.iter().position(|c| plain(g, c)).or_else(|| base.iter().position(|&c| c != Scalar::ZERO))?;
+    let plain = |g: &Graph, c: &Scalar| g.literal(*c).is_some_and(|n| !n.is_zero() && n.is_sharp());
+    // Of literals of which cancellation has left little nothing is known to be a multiple.
+    let other = |g: &Graph, c: &Scalar| *c != Scalar::ZERO && g.literal(*c).is_none();
+    let column = base.iter().position(|c| plain(g, c)).or_else(|| base.iter().position(|c| other(g, c)))?;
     let factor = g.div(vector[column], base[column]);
     g.literal(factor)?;
     base.iter().zip(vector).all(|(&b, &v)| g.mul(factor, b) == v).then_some(factor)

@@ -250,16 +250,18 @@ impl Number {
 
     /// The length of a vector of rational numbers, whatever their number of digits.
     pub fn length(list: &[Number]) -> Option<Root> {
-        let rationals: Option<Vec<(i64, i64)>> = list.iter().map(|n| n.rational()).collect();
+        let large = list.iter().copied().max_by(|a, b| a.value().abs().total_cmp(&b.value().abs()))?;
+        let direct = list.iter().all(|n| n.rational().is_some());
+        // Decimals with more places than an integer holds are rational to each other.
+        let unit = if direct || large.is_zero() { Number::ONE } else { large.abs() };
+        let fraction = |&n: &Number| match (n / unit).abs() {
+            zero if zero.is_zero() => Some((0, 1)),
+            ratio => ratio.fraction(),
+        };
+        let rationals: Option<Vec<(u128, u128)>> = list.iter().map(fraction).collect();
         let rationals = rationals?;
-        let common = rationals.iter().try_fold(1_u128, |common, &(_, d)| {
-            let d = u128::from(d.unsigned_abs());
-            common.checked_mul(d / gcd(common, d))
-        })?;
-        let integers: Option<Vec<u128>> = rationals
-            .iter()
-            .map(|&(n, d)| u128::from(n.unsigned_abs()).checked_mul(common / u128::from(d.unsigned_abs())))
-            .collect();
+        let common = rationals.iter().try_fold(1_u128, |common, &(_, d)| common.checked_mul(d / gcd(common, d)))?;
+        let integers: Option<Vec<u128>> = rationals.iter().map(|&(n, d)| n.checked_mul(common / d)).collect();
         let integers = integers?;
         let shared = integers.iter().fold(0, |shared, &n| gcd(n, shared));
         if shared == 0 {
@@ -273,7 +275,7 @@ impl Number {
         let value = Doubled::integer(i128::try_from(square).ok()?).sqrt();
         let noise = 4.0 * value.high * ROUNDING;
         let root = Number::known(value, noise, radical.image(), radical.image(), true);
-        let number = root * Number::whole(shared)? / Number::whole(common)?;
+        let number = root * unit * Number::whole(shared)? / Number::whole(common)?;
         Some(Root { number, large: radical.large().collect() })
     }
 

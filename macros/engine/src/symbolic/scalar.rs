@@ -12,9 +12,12 @@ use super::number::{Number, Root};
 use super::radical::gcd;
 
 impl Graph {
-    /// A literal, read as the decimal that the user wrote.
+    /// A literal, read as the decimal that the user wrote. One with all digits of a multiple of pi / 2 means that, wherever it
+    /// stands: in a sum of angles its digits would leave a remainder that is no quarter turn.
     pub fn decimal(&mut self, x: f64) -> Scalar {
-        self.number(Number::decimal(x))
+        let n = Number::decimal(x);
+        let quarters = elementary::quarters(n).filter(|_| n.is_rounded_decimal());
+        self.number(quarters.map_or(n, |quarters| Number::ratio(quarters, 2) * Number::pi()))
     }
 
     pub fn integer(&mut self, n: i64) -> Scalar {
@@ -267,12 +270,17 @@ impl Graph {
         if x == Scalar::ZERO || x == Scalar::ONE {
             return x;
         }
-        if let Some(root) = self.literal(x).and_then(elementary::root).and_then(|root| self.admitted(root)) {
+        let literal = self.literal(x);
+        if let Some(root) = literal.and_then(elementary::root).and_then(|root| self.admitted(root)) {
             return self.number(root);
         }
         let print = Print::opaque(0x59, &[self.print(x)]);
         if let Some(found) = self.find(print) {
             return found;
+        }
+        // A root that isn't exact is a number all the same: what cancels against it lies below its rounding.
+        if let Some(root) = literal.and_then(elementary::opaque_root) {
+            return self.number(root);
         }
         self.insert_scalar(ScalarNode::Sqrt(x), print)
     }
@@ -289,7 +297,7 @@ impl Graph {
     }
 
     /// A root of a literal. Radicands too large to be taken apart may share factors, and then the signs of their roots
-    /// are not known to agree: such a root stays a node that no rule looks into.
+    /// are not known to agree: such a root is opaque.
     fn admitted(&mut self, root: Root) -> Option<Number> {
         let apart = |&a: &u128| self.radicands.iter().all(|&b| a == b || gcd(a, b) == 1);
         if !root.large.iter().all(apart) {
