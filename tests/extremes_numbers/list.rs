@@ -36,6 +36,7 @@ const REACHED: &[(&str, &str)] = &[
     ("epsilon", "a constant"),
     ("none", "of a system whose loops can't be open"),
     ("granted", "of a model: at the start of every integration"),
+    ("ambiguity", "of a model with constraints: at the end of every step that is kept"),
     ("is_open", "of an opening: at the start of every integration"),
     ("or", "of an opening: at the start of every integration"),
     ("of_positions", "an opening: at the start of every integration"),
