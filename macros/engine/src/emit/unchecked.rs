@@ -13,7 +13,8 @@ pub(super) fn lines(context: &Context<'_>) -> Vec<String> {
     let mut lines: Vec<String> = ["", "## Not checked in numbers", ""].map(String::from).into();
     lines.push(
         "Every function is compared with its derived equations in numbers, and with other functions, before it is \
-         written. Of these no state was found at which that says something:"
+         written. Of these no state was found at which that says something, or none with parameters beside their \
+         defaults:"
             .to_string(),
     );
     lines.push(String::new());

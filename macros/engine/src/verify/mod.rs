@@ -27,7 +27,7 @@ use crate::symbolic::graph::Scalar;
 use crate::symbolic::lower::Lowering;
 
 use laws::{Laws, Outcome};
-use programs::{Subject, Verdict};
+use programs::{CLOSELY, Subject, Verdict};
 use states::{State, States};
 use tape::Tape;
 
@@ -101,28 +101,32 @@ impl Drawn<'_> {
         self.list.entry((number, attempt)).or_insert_with(draw).as_ref()
     }
 
-    /// Compares at these states: one that is clear of each number, and one at all in the end.
+    /// Compares at these states: one that is clear of each number, and one at all in the end, with parameters that are not at
+    /// their defaults, which may be zero and hide what they multiply.
     fn compare(&mut self, subject: &Subject<'_>, numbers: &[usize]) -> Verdict {
-        let (mut checked, mut doubt) = (false, None);
+        let constant = self.states.has_no_parameters();
+        let (mut anywhere, mut enough, mut doubt) = (false, false, None);
         let usual = numbers.iter().map(|&number| (number, 0..ATTEMPTS));
         // Another number has parameters elsewhere.
-        let further = [0, 1].map(|number| (number, ATTEMPTS..ATTEMPTS + FURTHER));
+        let further = [1, 0].map(|number| (number, ATTEMPTS..ATTEMPTS + FURTHER));
         let lonely = numbers.iter().all(|&number| number != 0).then_some((0, 0..ATTEMPTS));
         for (last, (number, attempts)) in
             usual.map(|of| (false, of)).chain(lonely.into_iter().chain(further).map(|of| (true, of)))
         {
-            if last && checked {
-                break;
+            if last && (enough || (anywhere && number == 0)) {
+                continue;
             }
+            let mut closely = CLOSELY;
             for attempt in attempts {
                 let states = self.states;
-                let verdict = match self.get(number, attempt) {
-                    Some(state) => subject.compare(states, state),
-                    None => Verdict::Unclear(Doubt::Open),
+                let (verdict, moved) = match self.get(number, attempt) {
+                    Some(state) => (subject.compare(states, state, &mut closely), !state.defaults),
+                    None => (Verdict::Unclear(Doubt::Open), false),
                 };
                 match verdict {
                     Verdict::Right => {
-                        checked = true;
+                        anywhere = true;
+                        enough |= moved || constant;
                         break;
                     }
                     Verdict::Wrong(_) => return verdict,
@@ -130,7 +134,7 @@ impl Drawn<'_> {
                 }
             }
         }
-        if checked { Verdict::Right } else { Verdict::Unclear(doubt.unwrap_or(Doubt::Open)) }
+        if enough { Verdict::Right } else { Verdict::Unclear(doubt.unwrap_or(Doubt::Open)) }
     }
 }
 

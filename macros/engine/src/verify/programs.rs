@@ -23,8 +23,9 @@ pub(super) const WORST: f64 = 4.0;
 /// Results that keep fewer digits than this are not worth a comparison.
 const POOR: f64 = 1e-6;
 
-/// Operations of sweeps, at most, with which results are looked at one by one; beyond that the state is too poor.
-const CLOSELY: usize = 200_000_000;
+/// Operations of sweeps, at most, with which the results of a function are looked at one by one at one state and what is drawn
+/// in its place; the worst result of each is looked at whatever it takes.
+pub(super) const CLOSELY: usize = 200_000_000;
 
 /// What a comparison says.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +52,8 @@ pub(super) struct Subject<'a> {
 }
 
 impl Subject<'_> {
-    pub(super) fn compare(&self, states: &States<'_>, state: &State) -> Verdict {
+    /// What is left of `closely`, operations with which results are looked at one by one, is given back.
+    pub(super) fn compare(&self, states: &States<'_>, state: &State, closely: &mut usize) -> Verdict {
         let symbol = |id: SymbolId| state.value(id);
         let exact: Trace<'_, Doubled> = Trace::new(self.tape, &symbol);
         let deficient = exact.deficient();
@@ -61,12 +63,12 @@ impl Subject<'_> {
         let results = machine::run(self.program, &Reads { symbol: &look, fields: &fields, deficient: &deficient });
         // What a system of lesser rank leaves open depends on the order of pivots, which others may take otherwise.
         match self.lowered.filter(|_| deficient.is_empty()) {
-            None => self.judge(&exact, &symbol, &results),
+            None => self.judge(&exact, &symbol, &results, closely),
             Some(lowered) => {
                 let between: Trace<'_, Doubled> = Trace::new(lowered, &symbol);
                 let values: Vec<f64> = between.roots().iter().map(|x| x.high).collect();
-                match self.judge(&exact, &symbol, &values) {
-                    Verdict::Right => self.judge(&between, &symbol, &results),
+                match self.judge(&exact, &symbol, &values, closely) {
+                    Verdict::Right => self.judge(&between, &symbol, &results, closely),
                     other => other,
                 }
             }
@@ -74,7 +76,13 @@ impl Subject<'_> {
     }
 
     /// Results against exact values, within the error that their operations make.
-    fn judge(&self, exact: &Trace<'_, Doubled>, symbol: &dyn Fn(SymbolId) -> Doubled, results: &[f64]) -> Verdict {
+    fn judge(
+        &self,
+        exact: &Trace<'_, Doubled>,
+        symbol: &dyn Fn(SymbolId) -> Doubled,
+        results: &[f64],
+        closely: &mut usize,
+    ) -> Verdict {
         let derived = exact.roots();
         let own: Vec<f64> = Trace::<f64>::new(exact.tape, symbol).roots();
         if results.len() != derived.len() {
@@ -114,21 +122,60 @@ impl Subject<'_> {
             }
         }
         // Each for itself: of a sum large bounds would hide what is wrong beside them, and bounds that cancel would accuse.
-        if suspects.len() * exact.tape.nodes.len() > CLOSELY {
-            return Verdict::Unclear(Doubt::Rounding);
-        }
         suspects.sort_by(|a, b| b.0.total_cmp(&a.0));
-        for &(ratio, at, weight) in &suspects {
+        let cost = exact.tape.nodes.len().max(1);
+        let count = (*closely / cost).max(1).min(suspects.len());
+        *closely = closely.saturating_sub(count * cost);
+        let mut open = count < suspects.len();
+        for &(ratio, at, weight) in &suspects[..count] {
             let mut single = vec![0.0; derived.len()];
             single[at] = weight;
             let bound = exact.slopes::<f64>(&single, 0).bound;
             if !bound.is_finite() {
-                return Verdict::Unclear(Doubt::Rounding);
-            }
-            if ratio > WORST * bound {
+                open = true;
+            } else if ratio > WORST * bound {
                 return wrong(at);
             }
         }
-        Verdict::Right
+        if open { Verdict::Unclear(Doubt::Rounding) } else { Verdict::Right }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::symbolic::graph::Graph;
+
+    /// What is accepted of sines of large angles that are off by these shares of a rounding of the angle.
+    fn verdict(shares: &[f64], mut closely: usize) -> Verdict {
+        let mut g = Graph::new();
+        let x = g.symbol();
+        let (steep, mut roots, mut results) = (134_217_728.0, Vec::new(), Vec::new());
+        for (k, share) in shares.iter().enumerate() {
+            // Powers of two have no rounding, so the equations as derived are better than their bound.
+            let times = steep * f64::powi(2.0, k as i32);
+            let factor = g.decimal(times);
+            let angle = g.mul(factor, x);
+            roots.push(g.sin(angle));
+            results.push((0.3 * times * (1.0 + share * f64::EPSILON)).sin());
+        }
+        let tape = Tape::new(&g, &roots);
+        let program = Program::default();
+        let subject = Subject { tape: &tape, lowered: None, prelude: None, program: &program, residual: false };
+        let symbol = |_: SymbolId| Doubled::new(0.3);
+        let exact: Trace<'_, Doubled> = Trace::new(&tape, &symbol);
+        subject.judge(&exact, &symbol, &results, &mut closely)
+    }
+
+    /// More suspects than there is time for are no excuse for the worst of them.
+    #[test]
+    fn the_worst_is_always_looked_at() {
+        let most = usize::MAX;
+        assert_eq!(verdict(&[1.0, 1.0, 1.0], most), Verdict::Right);
+        assert_eq!(verdict(&[1.0, 1.0, 1.0], 0), Verdict::Unclear(Doubt::Rounding));
+        for closely in [most, 0] {
+            assert_eq!(verdict(&[1.0, 1e4, 1.0], closely), Verdict::Wrong(1));
+            assert!(matches!(verdict(&[1e4, 1e4, 1e4], closely), Verdict::Wrong(_)));
+        }
     }
 }

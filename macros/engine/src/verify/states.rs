@@ -99,6 +99,11 @@ impl<'m> States<'m> {
         self.place(symbol).and_then(|at| state.values.get(at)).copied().unwrap_or(f64::NAN)
     }
 
+    /// Whether nothing depends on how states with parameters at their defaults differ from others.
+    pub(super) fn has_no_parameters(&self) -> bool {
+        self.model.params.is_empty()
+    }
+
     /// State number `number`, drawn for the time `attempt`: nearer to where loops close each time, then near the default
     /// position with numbers of other sizes.
     pub(super) fn draw(&self, number: usize, attempt: usize) -> State {

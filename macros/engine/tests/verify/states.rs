@@ -56,6 +56,14 @@ fn what_is_never_finite_is_said() {
     assert!(!emit::report(&clear.model, &clear.structure, &compiled).contains("Not checked"));
 }
 
+/// Where parameters are zero nothing shows of what they multiply: a function that is clear there alone is not checked.
+#[test]
+fn defaults_alone_are_said() {
+    let case = arm("param extra = 0.0; output o = sqrt(-extra * extra) + j;");
+    let unchecked = Unchecked { part: Part::Function(FunctionKind::Outputs), doubt: Doubt::NotFinite };
+    assert_eq!(case.check(&case.compiled).unchecked, [unchecked]);
+}
+
 /// A term times a parameter that is zero by default contradicts other functions all the same.
 #[test]
 fn parameters_of_zero() {
