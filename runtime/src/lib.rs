@@ -95,6 +95,8 @@ pub mod integrators;
 pub mod language {}
 pub mod linear;
 mod opening;
+#[doc(hidden)]
+pub mod pivots;
 pub mod projection;
 pub mod rotation;
 mod scalar;

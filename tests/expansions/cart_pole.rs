@@ -771,6 +771,15 @@ pub mod cart_pole {
         ) -> (Velocity<T>, ()) {
             (self.forward_dynamics(t, state, input), ())
         }
+        fn without_inertia(
+            &self,
+            _t: T,
+            state: &State<T>,
+            _input: &Input<T>,
+        ) -> Option<&'static str> {
+            let matrix = self.mass_matrix(&state.q);
+            ::multibody::pivots::without_inertia(&matrix, &["track", "hinge"])
+        }
     }
     impl<T: Real> ::multibody::Verifiable<2> for Model<T> {
         fn free_motion(

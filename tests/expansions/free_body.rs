@@ -818,6 +818,25 @@ pub mod free_body {
         fn derivative(&self, t: T, state: &State<T>, input: &()) -> (Velocity<T>, ()) {
             (self.forward_dynamics(t, state, input), ())
         }
+        fn without_inertia(
+            &self,
+            _t: T,
+            state: &State<T>,
+            _input: &(),
+        ) -> Option<&'static str> {
+            let matrix = self.mass_matrix(&state.q);
+            ::multibody::pivots::without_inertia(
+                &matrix,
+                &[
+                    "free.linear.x",
+                    "free.linear.y",
+                    "free.linear.z",
+                    "free.angular.x",
+                    "free.angular.y",
+                    "free.angular.z",
+                ],
+            )
+        }
     }
     impl<T: Real> ::multibody::Verifiable<6> for Model<T> {
         fn free_motion(

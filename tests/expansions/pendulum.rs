@@ -604,6 +604,15 @@ pub mod pendulum {
         fn derivative(&self, t: T, state: &State<T>, input: &()) -> (Velocity<T>, ()) {
             (self.forward_dynamics(t, state, input), ())
         }
+        fn without_inertia(
+            &self,
+            _t: T,
+            state: &State<T>,
+            _input: &(),
+        ) -> Option<&'static str> {
+            let matrix = self.mass_matrix(&state.q);
+            ::multibody::pivots::without_inertia(&matrix, &["hinge"])
+        }
     }
     impl<T: Real> ::multibody::Separable for Model<T> {}
     impl<T: Real> ::multibody::Verifiable<1> for Model<T> {

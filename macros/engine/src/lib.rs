@@ -116,6 +116,11 @@ impl Trouble {
                 format!("`Params::check` of `{}` does not have the values of its equations", model.name),
                 REPORT,
             ),
+            Trouble::Refused(Refusal::WrongInertia) => diagnostics.error_help(
+                span,
+                format!("the mass matrix of `{}` does not have the values of its equations", model.name),
+                REPORT,
+            ),
             Trouble::Refused(Refusal::Misfit(kind)) => diagnostics.error_help(
                 span,
                 format!(

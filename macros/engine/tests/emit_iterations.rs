@@ -108,6 +108,7 @@ fn case(k: usize) -> (Model, Compiled, f64) {
         notes: Vec::new(),
         dead_centres: Vec::new(),
         checks: Vec::new(),
+        inertia: Default::default(),
     })
     .unwrap();
     assert!(compiled.sound);

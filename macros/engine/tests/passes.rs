@@ -176,6 +176,7 @@ fn derivation(
         notes: Vec::new(),
         dead_centres: Vec::new(),
         checks: Vec::new(),
+        inertia: Default::default(),
     }
 }
 

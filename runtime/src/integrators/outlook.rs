@@ -20,7 +20,7 @@ use super::method::Accepted;
 use super::problem::Problem;
 use super::slope::{Slope, SlopeOf, displaced, is_finite, magnitude};
 use crate::tangent::greatest;
-use crate::{Margin, Open, Real, System, Tangent, all, any};
+use crate::{Configuration, Margin, Open, Real, StateSpace, System, Tangent, all, any};
 
 /// No dead centre may lie within so many lengths of a step. With one, methods of first order creep up to it and never arrive.
 const LENGTHS: f64 = 2.0;
@@ -318,11 +318,19 @@ pub(super) fn cause<S: System>(
     state: &S::State,
     dt: S::Scalar,
 ) -> IntegrationError {
-    let (time, dt) = (t.greatest(), dt * S::Scalar::lit(BLAMED));
-    if let Some(coordinate) = Soundness::at(problem, t, &problem.accepted(t, state), dt).coordinate {
+    let (time, blamed) = (t.greatest(), dt * S::Scalar::lit(BLAMED));
+    if let Some(coordinate) = Soundness::at(problem, t, &problem.accepted(t, state), blamed).coordinate {
         return IntegrationError::DeadCentre { time, coordinate };
     }
-    match problem.without_inertia(t, state) {
+    // Where the step began, and about where most methods look within it.
+    let (q, v, x) = state.split();
+    let without_inertia = |share: f64| {
+        let ahead = dt * S::Scalar::lit(share);
+        let near = state.join(q.displace(&v.scale(ahead)), v, x);
+        problem.without_inertia(t + ahead, &problem.accepted(t + ahead, &near))
+    };
+    let found = problem.without_inertia(t, state).or_else(|| without_inertia(0.5)).or_else(|| without_inertia(1.0));
+    match found {
         Some(coordinate) => IntegrationError::NoInertia { time, coordinate },
         None => IntegrationError::NonFinite { time },
     }

@@ -4,12 +4,17 @@
 //! lose digits. Products of literals are literals once a program is written, so looking at these is enough.
 
 use super::Context;
+use crate::optimize::program::Inertia;
 
 /// Numbers in order, each once, without signs.
 pub(super) fn beyond_single(context: &Context<'_>) -> Vec<f64> {
     let compiled = context.compiled;
     let programs = compiled.functions.iter().map(|function| &function.program);
-    let programs = programs.chain([&compiled.prelude, &compiled.checks.program]);
+    let inertia = match &compiled.inertia {
+        Inertia::Own(program) => Some(program),
+        Inertia::Regular | Inertia::Requested => None,
+    };
+    let programs = programs.chain([&compiled.prelude, &compiled.checks.program]).chain(inertia);
     let mut list: Vec<f64> = programs.flat_map(|program| program.literals()).map(f64::abs).collect();
     list.retain(|&x| is_beyond(x));
     list.sort_by(f64::total_cmp);

@@ -26,6 +26,7 @@ fn item(unchecked: &Unchecked) -> String {
     let what = match unchecked.part {
         Part::Function(kind) => format!("`{}`", functions::name(kind)),
         Part::Checks => "`Params::check`".to_string(),
+        Part::Inertia => "`System::without_inertia`".to_string(),
         Part::Law(between) => between.to_string(),
     };
     format!("- {what}: {}", reason(unchecked.doubt))

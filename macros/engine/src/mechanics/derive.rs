@@ -8,6 +8,7 @@
 mod checks;
 mod derivatives;
 mod impulses;
+mod inertia;
 mod motion;
 mod ways;
 
@@ -121,8 +122,9 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
         functions.push(Derived { kind, candidates: deriving.candidates(kind)? });
     }
     let checks = deriving.checks()?;
+    let inertia = deriving.inertia()?;
     let Deriving { graph, symbols, notes, dead_centres, .. } = deriving;
-    Ok(Derivation { graph, symbols: symbols.table, symbol_names, functions, notes, dead_centres, checks })
+    Ok(Derivation { graph, symbols: symbols.table, symbol_names, functions, notes, dead_centres, checks, inertia })
 }
 
 /// What to derive, each once, in a fixed order.

@@ -64,7 +64,7 @@ mod world;
 pub use derive::{MOST_FREEDOMS, derive, freedoms};
 
 use crate::model::types::{Coordinate, Model};
-use crate::optimize::program::{Condition, FunctionKind, Symbol};
+use crate::optimize::program::{Condition, FunctionKind, Inertia, Symbol};
 use crate::symbolic::graph::{Graph, Scalar};
 
 use analysis::Complaint;
@@ -93,6 +93,8 @@ pub struct Derivation {
     pub dead_centres: Vec<Coordinate>,
     /// For `Params::check`.
     pub checks: Vec<Test>,
+    /// For `System::without_inertia`: entries row by row.
+    pub inertia: Inertia<Vec<Scalar>>,
 }
 
 /// What must hold of parameters.

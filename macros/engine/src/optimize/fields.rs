@@ -20,6 +20,34 @@ pub struct Gathered {
     pub names: Vec<String>,
 }
 
+impl Gathered {
+    /// Adds what a program reads of parameters that no field holds yet: parameters themselves, so that `Model::new` has
+    /// nothing more to compute.
+    pub fn take_parameters(&mut self, dag: &Dag) {
+        let mut taken = Names::default();
+        for name in &self.names {
+            taken.unique(name);
+        }
+        let mut seen = vec![false; dag.nodes.len()];
+        let mut stack: Vec<Id> = dag.roots.iter().rev().map(|root| root.1).collect();
+        while let Some(id) = stack.pop() {
+            let print = dag.nodes[id].print.canonical();
+            if std::mem::replace(&mut seen[id], true) || self.fields.contains_key(&print) {
+                continue;
+            }
+            let node = &dag.nodes[id];
+            if let (Kind::Symbol(symbol), Stage::Parameter) = (&node.kind, node.stage) {
+                self.fields.insert(print, (FieldId(self.prelude.roots.len()), node.print));
+                let adopted = self.prelude.adopt(dag, id, &mut HashMap::new());
+                self.prelude.roots.push(adopted);
+                self.names.push(taken.unique(&dag.symbol_name(*symbol)));
+            } else {
+                stack.extend(dag.operands(&node.kind));
+            }
+        }
+    }
+}
+
 /// Gathers the fields of all functions.
 pub fn gather(functions: &[&Dag], symbols: &[Symbol]) -> Gathered {
     let mut names = Names::default();

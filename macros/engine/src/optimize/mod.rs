@@ -23,7 +23,7 @@ use crate::symbolic::graph::Scalar;
 use crate::symbolic::lower::Lowering;
 
 use dag::Dag;
-use program::{Checks, Compiled, Cost, Function, FunctionKind};
+use program::{Checks, Compiled, Cost, Function, FunctionKind, Inertia, Program};
 
 /// Most operations that one function may have before optimisation. Passes take about a second for ten thousand in an
 /// unoptimised build, and rustc takes longer.
@@ -40,6 +40,8 @@ pub enum Refusal {
     Wrong(FunctionKind),
     /// The tests of parameters do not have the values of their equations: an error of this compiler.
     WrongChecks,
+    /// The mass matrix of `System::without_inertia` does not have the values of its equations: an error of this compiler.
+    WrongInertia,
     /// A function does not give as many numbers as its type holds: an error of this compiler.
     Misfit(FunctionKind),
     /// The equations of two functions contradict each other: an error of this compiler.
@@ -100,7 +102,12 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>) -> Result<Compile
         chosen.extend(best.map(|(_, chosen)| chosen));
     }
     let dags: Vec<&Dag> = chosen.iter().map(|c| &c.dag).collect();
-    let fields::Gathered { mut prelude, fields, names } = fields::gather(&dags, &derivation.symbols);
+    let mut gathered = fields::gather(&dags, &derivation.symbols);
+    let inertia = inertia(derivation);
+    if let Inertia::Own(dag) = &inertia {
+        gathered.take_parameters(dag);
+    }
+    let fields::Gathered { mut prelude, fields, names } = gathered;
     prelude.symbol_names.clone_from(&derivation.symbol_names);
     if plain.functions.is_empty() {
         sound &= simplify(&mut prelude);
@@ -118,12 +125,39 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>) -> Result<Compile
         })
         .collect();
     let prelude = schedule::schedule(&prelude, &schedule::Fields::new());
+    let inertia = match inertia {
+        Inertia::Own(dag) => own(schedule::schedule(&dag, &fields)),
+        Inertia::Requested => Inertia::Requested,
+        Inertia::Regular => Inertia::Regular,
+    };
     let checks = checks(derivation, plain.checks, &mut sound);
     let finite = |program: &program::Program| program.literals().all(f64::is_finite);
     if !finite(&prelude) || !functions.iter().all(|f| finite(&f.program)) {
         return Err(Refusal::NotFinite);
     }
-    Ok(Compiled { fields: names, prelude, prelude_cost, functions, checks, sound, unchecked: Vec::new() })
+    Ok(Compiled { fields: names, prelude, prelude_cost, functions, checks, inertia, sound, unchecked: Vec::new() })
+}
+
+/// The mass matrix as it was derived: it is computed where a motion has ended, so no pass is worth its time.
+fn inertia(derivation: &Derivation) -> Inertia<Dag> {
+    let entries = match &derivation.inertia {
+        Inertia::Own(entries) => entries,
+        Inertia::Requested => return Inertia::Requested,
+        Inertia::Regular => return Inertia::Regular,
+    };
+    let mut lowering = Lowering::new(&derivation.graph);
+    let roots = lowering.run(entries);
+    if lowering.to.len() > MOST_OPERATIONS {
+        return Inertia::Regular;
+    }
+    let mut dag = Dag::import(&lowering.to, &roots, &derivation.symbols);
+    dag.symbol_names.clone_from(&derivation.symbol_names);
+    Inertia::Own(dag)
+}
+
+/// Nothing is said by numbers that are not finite.
+fn own(program: Program) -> Inertia<Program> {
+    if program.literals().all(f64::is_finite) { Inertia::Own(program) } else { Inertia::Regular }
 }
 
 /// Tests of parameters as a program of their own: what they compute is no field of the model.

@@ -324,6 +324,8 @@ pub struct Compiled {
     pub functions: Vec<Function>,
     /// What `Params::check` computes from parameters.
     pub checks: Checks,
+    /// What `System::without_inertia` looks at: entries row by row. It reads fields.
+    pub inertia: Inertia<Program>,
     /// Whether every rewrite passed the identity test. Where one didn't, the function stands as it was derived: right, but
     /// dearer than need be. The tests see to it that this never happens.
     pub sound: bool,
@@ -343,6 +345,8 @@ pub enum Part {
     Function(FunctionKind),
     /// The program of `Params::check`.
     Checks,
+    /// The mass matrix of `System::without_inertia`.
+    Inertia,
     /// What two functions must have in common, in words.
     Law(&'static str),
 }
@@ -359,6 +363,18 @@ pub enum Doubt {
     Rounding,
     /// Loops don't close.
     Open,
+}
+
+/// The mass matrix, where it may become singular.
+#[derive(Clone, Debug, Default)]
+pub enum Inertia<P> {
+    /// It is regular wherever it is finite, or nothing is to be said of it.
+    #[default]
+    Regular,
+    /// The function that the model asks for gives it.
+    Requested,
+    /// No function gives it.
+    Own(P),
 }
 
 /// Tests of parameters.

@@ -21,7 +21,7 @@ use std::collections::HashMap;
 use crate::mechanics::Derivation;
 use crate::mechanics::structure::Structure;
 use crate::model::types::Model;
-use crate::optimize::program::{Compiled, Doubt, Function, FunctionKind, Part, Unchecked};
+use crate::optimize::program::{Compiled, Doubt, Function, FunctionKind, Inertia, Part, Unchecked};
 use crate::optimize::{self, Plain, Refusal};
 use crate::symbolic::graph::Scalar;
 use crate::symbolic::lower::Lowering;
@@ -54,6 +54,9 @@ pub fn compile(model: &Model, structure: &Structure, derivation: &Derivation) ->
         if checks && found.wrong_checks {
             return Err(Refusal::WrongChecks);
         }
+        if found.wrong_inertia {
+            return Err(Refusal::WrongInertia);
+        }
         if found.wrong.is_empty() && !found.wrong_checks {
             compiled.unchecked = found.unchecked;
             return Ok(compiled);
@@ -71,6 +74,8 @@ pub struct Found {
     pub wrong: Vec<FunctionKind>,
     /// Whether the program of `Params::check` is one.
     pub wrong_checks: bool,
+    /// Whether the mass matrix of `System::without_inertia` is one; it stands as it was derived.
+    pub wrong_inertia: bool,
     /// Two functions whose derived equations contradict each other.
     pub broken: Option<(FunctionKind, FunctionKind)>,
     /// What has no clear value at any state that was tried.
@@ -175,6 +180,7 @@ fn judge(
         }
     }
     check_checks(derivation, compiled, plain, &mut drawn, &mut found);
+    check_inertia(derivation, compiled, &mut drawn, &mut found);
     let functions: Vec<(FunctionKind, &Tape)> =
         compiled.functions.iter().map(|function| function.kind).zip(&tapes).collect();
     let laws = Laws { model, structure, states: &states, functions: &functions };
@@ -215,6 +221,20 @@ fn check_checks(
         Verdict::Right => {}
         Verdict::Wrong(_) => found.wrong_checks = true,
         Verdict::Unclear(doubt) => found.unchecked.push(Unchecked { part: Part::Checks, doubt }),
+    }
+}
+
+/// The mass matrix of `System::without_inertia`.
+fn check_inertia(derivation: &Derivation, compiled: &Compiled, drawn: &mut Drawn<'_>, found: &mut Found) {
+    let (Inertia::Own(roots), Inertia::Own(program)) = (&derivation.inertia, &compiled.inertia) else { return };
+    let tape = Tape::new(&derivation.graph, roots);
+    let lowered = lowered(derivation, roots);
+    let subject =
+        Subject { tape: &tape, lowered: Some(&lowered), prelude: Some(&compiled.prelude), program, residual: false };
+    match drawn.compare(&subject, &[0, 1]) {
+        Verdict::Right => {}
+        Verdict::Wrong(_) => found.wrong_inertia = true,
+        Verdict::Unclear(doubt) => found.unchecked.push(Unchecked { part: Part::Inertia, doubt }),
     }
 }
 

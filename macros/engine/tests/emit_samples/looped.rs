@@ -158,6 +158,7 @@ pub fn looped() -> (Model, Structure, Compiled) {
     let function = |kind, results| derived(kind, program(&[], vec![], results));
     let compiled = Compiled {
         checks: Default::default(),
+        inertia: Default::default(),
         sound: true,
         unchecked: Vec::new(),
         functions: vec![

@@ -246,6 +246,7 @@ pub fn pendulum() -> (Model, Compiled) {
         ),
         prelude_cost: Cost { mul: 4, div: 2, ..Cost::default() },
         checks: Default::default(),
+        inertia: Default::default(),
         sound: true,
         unchecked: Vec::new(),
         functions: vec![
@@ -403,6 +404,7 @@ fn everything_read(model: &Model) -> Compiled {
         prelude: program(&[], vec![], vec![sum(&params)]),
         prelude_cost: Cost::default(),
         checks: Default::default(),
+        inertia: Default::default(),
         sound: true,
         unchecked: Vec::new(),
         functions: vec![
@@ -435,6 +437,7 @@ pub fn nothing() -> (Model, Compiled) {
     let none = || program(&[], vec![], vec![]);
     let compiled = Compiled {
         checks: Default::default(),
+        inertia: Default::default(),
         sound: true,
         unchecked: Vec::new(),
         functions: vec![
@@ -465,6 +468,7 @@ pub fn long(count: usize) -> (Model, Compiled) {
     }
     let compiled = Compiled {
         checks: Default::default(),
+        inertia: Default::default(),
         sound: true,
         unchecked: Vec::new(),
         functions: vec![derived(

@@ -381,6 +381,7 @@ fn a_leg_costs_what_it_should() {
                 notes: Vec::new(),
                 dead_centres: Vec::new(),
                 checks: Vec::new(),
+                inertia: Default::default(),
             };
             let compiled = multibody_engine::optimize::compile(&derivation).expect("compiled");
             let cost = compiled.functions[0].after;

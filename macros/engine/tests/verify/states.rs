@@ -1,6 +1,6 @@
 //! States at which programs and laws are judged: what the usual ones don't show.
 
-use multibody_engine::optimize::program::{Doubt, Expression, FunctionKind, Part, Unchecked};
+use multibody_engine::optimize::program::{Doubt, Expression, FunctionKind, Inertia, Part, Unchecked};
 use multibody_engine::{emit, optimize, verify};
 
 use crate::breaks::{Case, each};
@@ -135,6 +135,45 @@ fn tests_of_parameters() {
         }
     }
     assert!(told > 0, "{:?}", case.compiled.checks);
+}
+
+/// The mass matrix of `System::without_inertia` is compared too, where it may be singular; literals prove where it is not.
+#[test]
+fn matrices_that_may_be_singular() {
+    let own = |case: &Case| matches!(case.compiled.inertia, Inertia::Own(_));
+    let case = arm(
+        "param mass = 2.0; body b { mass: 3.0 * mass, com: X } joint k: Revolute { parent: a.at(X), child: b, axis: Z }",
+    );
+    let found = case.check(&case.compiled);
+    assert!(own(&case) && !found.wrong_inertia && found.unchecked.is_empty(), "{found:?}");
+    // Nothing but parameters is kept for it: `Model::new` has no more to compute.
+    let mut compiled = case.compiled.clone();
+    let Inertia::Own(program) = &mut compiled.inertia else { panic!() };
+    assert!(replace(program, 3.0, 3.000_001) > 0, "{program:?}");
+    let found = case.check(&compiled);
+    assert!(found.wrong_inertia && found.wrong.is_empty(), "{found:?}");
+    let mut regular = case.derivation;
+    regular.inertia = Inertia::Regular;
+    assert_eq!(optimize::compile(&regular).unwrap().prelude_cost, case.compiled.prelude_cost);
+    let heavy = "body b { mass: 3, com: X, inertia: diag(1, 1, 1) }";
+    let point = "body b { mass: 3, com: X }";
+    let revolute = "joint k: Revolute { parent: a.at(X), child: b, axis: Z }";
+    let geared = "joint k: Revolute { parent: a.at(X), child: b, axis: Z, armature: 0.01 }";
+    for (parts, singular) in [
+        ([heavy, revolute, ""], false),
+        ([heavy, "joint k: Ball { parent: a.at(X), child: b }", ""], false),
+        ([heavy, "joint k: Ball { parent: a.at(X), child: b, coordinates: RollPitchYaw }", ""], true),
+        ([point, "joint k: Universal { parent: a, child: b, axes: [Y, Z] }", ""], true),
+        ([point, geared, ""], false),
+        ([point, revolute, ""], true),
+        ([heavy, revolute, "emit inverse_dynamics;"], false),
+        ([point, revolute, "emit inverse_dynamics;"], false),
+    ] {
+        let case = arm(&parts.join(" "));
+        assert_eq!(own(&case), singular, "{parts:?}");
+    }
+    let case = arm(&[point, revolute, "emit forward_dynamics, mass_matrix;"].join(" "));
+    assert!(matches!(case.compiled.inertia, Inertia::Requested));
 }
 
 /// Functions that lose digits as they were derived already: what they do lose is known, and no error.

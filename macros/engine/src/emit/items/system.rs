@@ -35,6 +35,7 @@ pub(super) fn item(context: &Context<'_>) -> TokenStream {
     let margins = margins(context);
     let opening = opening(context);
     let constrained = constrained(context);
+    let without_inertia = singular::without_inertia(context);
     let ambiguity = constrained.is_some().then(|| singular::ambiguity(context));
     quote! {
         impl<T: Real> #krate::System for Model<T> {
@@ -49,6 +50,7 @@ pub(super) fn item(context: &Context<'_>) -> TokenStream {
             #margins
             #opening
             #ambiguity
+            #without_inertia
         }
         #constrained
     }
