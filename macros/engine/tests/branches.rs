@@ -230,6 +230,38 @@ fn what_no_coordinate_counts_is_refused_or_said() {
     assert!(refused.contains("up to whole turns only"), "{refused}");
 }
 
+/// Wheels coupled by their measured angles: Newton's method could go to another tooth, unless from one tooth to the next
+/// all wheels go round whole times.
+#[test]
+fn teeth_that_no_coordinate_counts_are_refused() {
+    let wheels = |constraint: &str, formulation: &str| {
+        machine(&format!(
+            "body a {{ mass: 1.0, com: 0.5 * X, inertia: diag(0.01, 0.01, 0.02) }}
+            body b {{ mass: 2.0, com: 0.5 * X, inertia: diag(0.01, 0.01, 0.02) }}
+            joint one: Revolute {{ parent: ground, child: a, axis: Z }}
+            joint two: Revolute {{ parent: a.at(X), child: b, axis: Z }}
+            constraint gear = {constraint};
+            formulation {{ {formulation} }}"
+        ))
+    };
+    let absolute = |handling: &str| format!("coordinates: Absolute(RollPitchYaw), constraints: {handling}");
+    for constraint in
+        ["47.0 * one - 13.0 * two", "one - 2.0 * two", "two / 3.0 - one / 2.0", "one - sin(one) - 3 * two"]
+    {
+        let refused = wheels(constraint, &absolute("Reduced")).err().unwrap_or_else(|| panic!("{constraint} is taken"));
+        assert!(refused.contains("another tooth"), "{refused}");
+        for formulation in [absolute("Multipliers").as_str(), "constraints: Reduced"] {
+            assert!(wheels(constraint, formulation).is_ok(), "{constraint} {formulation}");
+        }
+    }
+    for constraint in
+        ["two - 2.0 * one", "3.0 * (two - 2.0 * one)", "two - one", "47.0 * two - 0.3 * sin(t)", "two + one"]
+    {
+        let taken = wheels(constraint, &absolute("Reduced"));
+        assert!(taken.is_ok(), "{constraint}: {}", taken.err().unwrap_or_default());
+    }
+}
+
 /// Which root belongs to the branch depends on the crank, and the user says where the crank stays.
 #[test]
 fn assumptions_choose_the_root() {

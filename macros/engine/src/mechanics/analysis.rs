@@ -19,6 +19,7 @@ mod reduction;
 mod scales;
 pub mod singular;
 mod tape;
+mod teeth;
 mod written;
 
 use std::collections::{BTreeMap, HashMap, HashSet};

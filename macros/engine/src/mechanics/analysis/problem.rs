@@ -49,6 +49,8 @@ pub(super) struct Column {
     pub coordinate: Coordinate,
     /// Part of a quaternion: no scalar of its own.
     pub turns: bool,
+    /// A length, no angle.
+    pub travels: bool,
     /// What counts as one.
     pub(super) unit: f64,
 }
@@ -555,7 +557,12 @@ fn columns(model: &Model, e: &Equations<'_>) -> (Vec<Mover>, Vec<Quaternion>, Ve
         let turns = model.joints.get(joint).is_some_and(has_quaternion) && velocities.len() >= 3;
         let straight = velocities.len() - if turns { 3 } else { 0 };
         for index in 0..velocities.len() {
-            columns.push(Column { coordinate: Coordinate { joint: id, index }, turns: index >= straight, unit: 1.0 });
+            columns.push(Column {
+                coordinate: Coordinate { joint: id, index },
+                turns: index >= straight,
+                travels: false,
+                unit: 1.0,
+            });
         }
         if turns {
             quaternions.push(Quaternion { symbol: usize::MAX, column: first + straight });
@@ -576,7 +583,7 @@ fn columns(model: &Model, e: &Equations<'_>) -> (Vec<Mover>, Vec<Quaternion>, Ve
     for link in &e.mechanism.tree.links {
         if let (Motion::Prismatic(_), Some(column)) = (link.motion, columns.get_mut(link.freedom)) {
             // Negative: in units of the size, which is not known yet.
-            column.unit = -1.0;
+            (column.travels, column.unit) = (true, -1.0);
         }
     }
     (movers, quaternions, columns)

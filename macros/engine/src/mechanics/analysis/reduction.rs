@@ -7,7 +7,7 @@
 
 use std::collections::HashMap;
 
-use crate::model::types::{BodyRef, Closing, Coordinate, JointId, Model, SolveHow};
+use crate::model::types::{BodyRef, Closing, ConstraintId, Coordinate, JointId, Model, SolveHow};
 
 use super::super::closings::{coordinate_name, is_uncounted, row_count};
 use super::super::structure::{Means, Row, Step};
@@ -21,7 +21,7 @@ use super::singular::{add, dot};
 use super::{Complaint, Group, row_of};
 
 /// A pivot below this is none.
-const PIVOT: f64 = 1e-7;
+pub(super) const PIVOT: f64 = 1e-7;
 
 /// A column counts as well determined if this much of it stands across those chosen before.
 const WELL: [f64; 3] = [2e-2, 1e-3, 1e-6];
@@ -46,7 +46,7 @@ struct Item {
     unknowns: Vec<usize>,
 }
 
-type Matrix = Vec<Vec<f64>>;
+pub(super) type Matrix = Vec<Vec<f64>>;
 
 impl Reduction<'_> {
     pub(super) fn steps(&self) -> Result<Vec<Step>, Vec<Complaint>> {
@@ -56,7 +56,7 @@ impl Reduction<'_> {
         let mut columns: Vec<usize> = (0..self.group.columns.len()).collect();
         columns.retain(|&k| !self.driven.contains_key(&self.coordinate(k)));
         for one in self.eliminations {
-            let row = self.row_of_constraint(one);
+            let row = self.row_of_constraint(one.constraint);
             let (Some(row), Some(column)) = (row, self.column(one.unknown)) else { continue };
             matrices.iter_mut().for_each(|matrix| eliminate(matrix, row, column));
             rows.retain(|&k| k != row);
@@ -97,20 +97,20 @@ impl Reduction<'_> {
         })
     }
 
-    fn coordinate(&self, column: usize) -> Coordinate {
+    pub(super) fn coordinate(&self, column: usize) -> Coordinate {
         self.problem.columns[self.group.columns[column]].coordinate
     }
 
-    fn column(&self, coordinate: Coordinate) -> Option<usize> {
+    pub(super) fn column(&self, coordinate: Coordinate) -> Option<usize> {
         (0..self.group.columns.len()).find(|&k| self.coordinate(k) == coordinate)
     }
 
-    fn row_of_constraint(&self, one: &Elimination) -> Option<usize> {
-        let own = |&k: &usize| self.row(k).is_some_and(|row| row.closing == Closing::Constraint(one.constraint));
+    pub(super) fn row_of_constraint(&self, id: ConstraintId) -> Option<usize> {
+        let own = |&k: &usize| self.row(k).is_some_and(|row| row.closing == Closing::Constraint(id));
         self.kept.iter().copied().find(own)
     }
 
-    fn row(&self, place: usize) -> Option<Row> {
+    pub(super) fn row(&self, place: usize) -> Option<Row> {
         row_of(self.problem, self.group.equations[place])
     }
 
@@ -364,6 +364,7 @@ impl Reduction<'_> {
                 }
             }
         }
+        self.check_teeth(&steps)?;
         Ok(steps)
     }
 
@@ -412,7 +413,7 @@ fn norm(v: &[f64]) -> f64 {
 }
 
 /// Takes a column out of all other rows.
-fn eliminate(matrix: &mut Matrix, row: usize, column: usize) {
+pub(super) fn eliminate(matrix: &mut Matrix, row: usize, column: usize) {
     let pivot = matrix[row].clone();
     if pivot[column].abs() <= PIVOT {
         return;

@@ -34,8 +34,8 @@ const MOST: i64 = 1000;
 pub(in super::super) enum Turns {
     /// Nothing.
     None,
-    /// They are whole turns of the expression times this fraction.
-    Whole(i64, i64),
+    /// They are whole turns of the expression times this fraction; last the number of angles that have a share.
+    Whole(i64, i64, usize),
     /// Something that can't be told from motion, for this angle.
     Lost(Coordinate),
 }
@@ -48,7 +48,7 @@ impl Equations<'_> {
             return Scalar::ZERO;
         };
         let phi = self.scalar(value);
-        let Turns::Whole(n, d) = self.turns(id) else { return phi };
+        let Turns::Whole(n, d, _) = self.turns(id) else { return phi };
         let g = &mut self.g;
         let (factor, inverse) = (g.number(Number::ratio(n, d)), g.number(Number::ratio(d, n)));
         let whole = g.mul(factor, phi);
@@ -99,7 +99,7 @@ impl Equations<'_> {
         let far = |&&(_, (n, d)): &&(Coordinate, (i64, i64))| (n / common * (least / d)).abs() > MOST;
         match (shares.first(), shares.iter().find(far)) {
             (None, _) => Turns::None,
-            (_, None) => Turns::Whole(least, common),
+            (_, None) => Turns::Whole(least, common, shares.len()),
             (_, Some(&(coordinate, _))) => Turns::Lost(coordinate),
         }
     }
@@ -134,15 +134,33 @@ pub(in super::super) fn complaints(model: &Model) -> Vec<Complaint> {
     if candidates.is_empty() {
         return Vec::new();
     }
-    let mut graph = Graph::new();
-    let symbols = Symbols::new(&mut graph, model);
-    let way = Way { style: Style::Nested, method: Method::Composite, axes: None, writing: Writing::PLAIN };
-    let mut e = Equations::new(model, graph, symbols, way, &[]);
+    let mut e = equations(model);
     let lost = candidates.into_iter().filter_map(|id| match e.turns(id) {
         Turns::Lost(coordinate) => Some((id, coordinate)),
         Turns::None | Turns::Whole(..) => None,
     });
     lost.map(|(id, coordinate)| complaint(model, id, coordinate)).collect()
+}
+
+/// Of constraints, where they vanish for every whole number of turns of a multiple of themselves: how much (rad) lies
+/// between one solution and the next, and how many angles count in it.
+pub(in super::super) fn periods(model: &Model, constraints: &[ConstraintId]) -> Vec<(ConstraintId, f64, usize)> {
+    if constraints.is_empty() {
+        return Vec::new();
+    }
+    let mut e = equations(model);
+    let period = |&id: &ConstraintId| match e.turns(id) {
+        Turns::Whole(n, d, angles) => Some((id, std::f64::consts::TAU * d as f64 / n as f64, angles)),
+        Turns::None | Turns::Lost(_) => None,
+    };
+    constraints.iter().filter_map(period).collect()
+}
+
+fn equations(model: &Model) -> Equations<'_> {
+    let mut graph = Graph::new();
+    let symbols = Symbols::new(&mut graph, model);
+    let way = Way { style: Style::Nested, method: Method::Composite, axes: None, writing: Writing::PLAIN };
+    Equations::new(model, graph, symbols, way, &[])
 }
 
 fn complaint(model: &Model, id: ConstraintId, coordinate: Coordinate) -> Complaint {
