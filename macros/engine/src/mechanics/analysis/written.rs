@@ -5,10 +5,10 @@
 //! these, and the places of those that were kept may hold the very one that says nothing. So the kept equations must have
 //! the rank there that they have here, at every closed configuration that was found.
 
-use crate::model::types::{Closing, Model};
+use crate::model::types::{Closing, Coordinate, JointId, Model};
 
 use super::super::closings::{Writing, is_component};
-use super::super::structure::{Row, Structure};
+use super::super::structure::{Closed, Means, Role, Row, Structure};
 use super::problem::Problem;
 use super::rank;
 use super::tape::Values;
@@ -18,7 +18,7 @@ pub(in super::super) struct Writings<'m> {
     model: &'m Model,
     structure: &'m Structure,
     /// Ranks in the axes of the analysis at closed configurations; nothing where any axes will do.
-    ranks: Option<Vec<usize>>,
+    ranks: Option<Vec<Vec<usize>>>,
 }
 
 impl<'m> Writings<'m> {
@@ -33,31 +33,66 @@ impl<'m> Writings<'m> {
     pub(in super::super) fn will_do(&self, writing: Writing) -> bool {
         let Some(ranks) = &self.ranks else { return true };
         // Without a closed configuration nothing is known of other axes.
-        writing == Writing::PLAIN || (!ranks.is_empty() && *ranks == self.ranks_in(writing))
+        writing == Writing::PLAIN || (!self.structure.closed.is_empty() && *ranks == self.ranks_in(writing))
     }
 
     /// Whether some components of a way are kept and others are not. All three say the same in any axes.
     fn is_partial(&self) -> bool {
-        let mut counts: Vec<(Closing, usize)> = Vec::new();
-        for row in self.structure.rows.iter().filter(|row| is_component(self.model, row.closing, row.index)) {
-            match counts.iter_mut().find(|one| one.0 == row.closing) {
-                Some(one) => one.1 += 1,
-                None => counts.push((row.closing, 1)),
+        self.systems().iter().any(|(rows, _)| {
+            let mut counts: Vec<(Closing, usize)> = Vec::new();
+            for row in rows.iter().filter(|row| is_component(self.model, row.closing, row.index)) {
+                match counts.iter_mut().find(|one| one.0 == row.closing) {
+                    Some(one) => one.1 += 1,
+                    None => counts.push((row.closing, 1)),
+                }
             }
-        }
-        counts.iter().any(|one| one.1 < 3)
+            counts.iter().any(|one| one.1 < 3)
+        })
     }
 
-    fn ranks_in(&self, writing: Writing) -> Vec<usize> {
+    /// Rows that are written in axes, with the coordinates in which they must be regular: all rows in what no drive gives,
+    /// and those that Newton's method solves in its unknowns.
+    fn systems(&self) -> Vec<(Vec<Row>, Vec<Coordinate>)> {
+        let mut systems = vec![(self.structure.rows.clone(), self.moved())];
+        for step in &self.structure.steps {
+            if let Means::Newton { rows, .. } = &step.means {
+                systems[0].0.extend(rows);
+                systems.push((rows.clone(), step.unknowns.clone()));
+            }
+        }
+        systems
+    }
+
+    /// Coordinates that no drive gives.
+    fn moved(&self) -> Vec<Coordinate> {
+        let joints = self.structure.roles.iter().enumerate();
+        let all = joints.flat_map(|(joint, roles)| {
+            let coordinate = move |index: usize| Coordinate { joint: JointId(joint), index };
+            let free = roles.iter().enumerate().filter(|(_, role)| !matches!(role, Role::Driven(_)));
+            free.map(move |(index, _)| coordinate(index))
+        });
+        all.collect()
+    }
+
+    /// By system, at every closed configuration.
+    fn ranks_in(&self, writing: Writing) -> Vec<Vec<usize>> {
         let problem = Problem::written(self.model, writing);
-        let place = |row: &Row| problem.equation_of(*row);
-        let equations: Vec<usize> = self.structure.rows.iter().filter_map(place).collect();
-        let (all, mut values) = ((0..equations.len()).collect::<Vec<_>>(), Values::default());
-        let rank = |closed: &super::super::structure::Closed| {
-            let at = problem.linearise(&problem.at(&closed.positions), &equations, &mut values);
-            let jacobian: Vec<Vec<f64>> = at.rows.iter().map(|row| problem.unit_row(row)).collect();
-            rank::of(&jacobian, &all)
-        };
-        self.structure.closed.iter().map(rank).collect()
+        let mut values = Values::default();
+        let mut ranks = Vec::new();
+        for (rows, coordinates) in self.systems() {
+            let equations: Vec<usize> = rows.iter().filter_map(|row| problem.equation_of(*row)).collect();
+            let all: Vec<usize> = (0..equations.len()).collect();
+            let counts = |entry: &&(usize, f64)| {
+                problem.columns.get(entry.0).is_some_and(|column| coordinates.contains(&column.coordinate))
+            };
+            let rank = |closed: &Closed| {
+                let at = problem.linearise(&problem.at(&closed.positions), &equations, &mut values);
+                let own = at.rows.iter().map(|row| row.iter().filter(counts).copied().collect::<Vec<_>>());
+                let jacobian: Vec<Vec<f64>> = own.map(|row| problem.unit_row(&row)).collect();
+                rank::of(&jacobian, &all)
+            };
+            ranks.push(self.structure.closed.iter().map(rank).collect());
+        }
+        ranks
     }
 }
