@@ -36,7 +36,7 @@ fn reason(doubt: Doubt) -> &'static str {
     match doubt {
         Doubt::NotFinite => "some value is not finite",
         Doubt::Comparison => "numbers that are compared are equal but for rounding",
-        Doubt::Rank => "the rank of a system of equations hangs on rounding",
+        Doubt::Rank => "the rank of a system of equations is less than its size, or hangs on rounding",
         Doubt::Rounding => "rounding leaves too few digits",
         Doubt::Open => "no configuration was found in which the loops are closed",
     }

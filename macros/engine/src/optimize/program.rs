@@ -357,7 +357,7 @@ pub enum Doubt {
     NotFinite,
     /// Two numbers that are compared are equal but for rounding.
     Comparison,
-    /// The rank of a system hangs on rounding.
+    /// The rank of a system is less than its size, or hangs on rounding.
     Rank,
     /// Rounding leaves few digits.
     Rounding,

@@ -16,6 +16,8 @@ pub(super) struct Reads<'a> {
     pub symbol: &'a dyn Fn(Symbol) -> f64,
     pub fields: &'a [f64],
     pub deficient: &'a [Pivots],
+    /// No more of each iteration.
+    pub rounds: usize,
 }
 
 /// Results of a program.
@@ -68,7 +70,7 @@ impl Machine<'_> {
             }
             Statement::Iterate { count, unknowns, start, body, next, residual } => {
                 let mut values = self.values(start);
-                for _ in 0..*count {
+                for _ in 0..self.reads.rounds.min(*count) {
                     unknowns.iter().zip(&values).for_each(|(&local, &x)| self.set(local, x));
                     self.run(body);
                     let size = self.value(&residual.1);

@@ -139,7 +139,23 @@ impl Drawn<'_> {
                 }
             }
         }
-        if enough { Verdict::Right } else { Verdict::Unclear(doubt.unwrap_or(Doubt::Open)) }
+        match enough {
+            true if subject.residual => self.compare_residual(subject),
+            true => Verdict::Right,
+            false => Verdict::Unclear(doubt.unwrap_or(Doubt::Open)),
+        }
+    }
+
+    /// At one open guess.
+    fn compare_residual(&self, subject: &Subject<'_>) -> Verdict {
+        let mut doubt = Doubt::Open;
+        for attempt in 0..ATTEMPTS {
+            match subject.compare_residual(self.states, &self.states.open(1, attempt)) {
+                Verdict::Unclear(why) => doubt = why,
+                other => return other,
+            }
+        }
+        Verdict::Unclear(doubt)
     }
 }
 
@@ -196,7 +212,10 @@ fn judge(
             return found;
         }
     }
-    let unclear = |law: &laws::Law| Unchecked { part: Part::Law(law.between), doubt: Doubt::Rounding };
+    let unclear = |open: &laws::Pending| Unchecked {
+        part: Part::Law(open.law.between),
+        doubt: open.doubt.unwrap_or(Doubt::Open),
+    };
     found.unchecked.extend(pending.iter().map(unclear));
     found
 }

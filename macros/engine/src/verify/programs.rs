@@ -5,6 +5,8 @@
 //! enough to tell, than what one rounding of each of their operations can do at worst. Both come from the derived equations:
 //! the operations of the program under test, and the size of its coefficients, excuse nothing.
 
+use std::ops::Range;
+
 use super::arithmetic::Arithmetic;
 use super::machine::{self, Reads};
 use super::states::{State, States};
@@ -47,98 +49,119 @@ pub(super) struct Subject<'a> {
     /// What computes the fields of the model, where the program reads them.
     pub prelude: Option<&'a Program>,
     pub program: &'a Program,
-    /// Whether the last result is what an iteration has left: nothing but rounding.
+    /// Whether the last result is what an iteration has left: nothing but rounding where loops are closed.
     pub residual: bool,
 }
 
 impl Subject<'_> {
     /// What is left of `closely`, operations with which results are looked at one by one, is given back.
     pub(super) fn compare(&self, states: &States<'_>, state: &State, closely: &mut usize) -> Verdict {
+        let count = self.tape.roots.len().saturating_sub(usize::from(self.residual));
+        self.compare_roots(states, state, 0..count, usize::MAX, closely)
+    }
+
+    /// What iterations leave, where they have left something: after one round from a guess at which loops are open.
+    pub(super) fn compare_residual(&self, states: &States<'_>, state: &State) -> Verdict {
+        let count = self.tape.roots.len();
+        self.compare_roots(states, state, count.saturating_sub(1)..count, 1, &mut 0)
+    }
+
+    fn compare_roots(
+        &self,
+        states: &States<'_>,
+        state: &State,
+        which: Range<usize>,
+        rounds: usize,
+        closely: &mut usize,
+    ) -> Verdict {
         let symbol = |id: SymbolId| state.value(id);
-        let exact: Trace<'_, Doubled> = Trace::new(self.tape, &symbol);
+        let exact: Trace<'_, Doubled> = Trace::rounds(self.tape, &symbol, rounds);
         let deficient = exact.deficient();
         let look = |symbol| states.value(state, symbol);
-        let nothing = Reads { symbol: &look, fields: &[], deficient: &[] };
+        let nothing = Reads { symbol: &look, fields: &[], deficient: &[], rounds };
         let fields = self.prelude.map_or_else(Vec::new, |prelude| machine::run(prelude, &nothing));
-        let results = machine::run(self.program, &Reads { symbol: &look, fields: &fields, deficient: &deficient });
+        let reads = Reads { symbol: &look, fields: &fields, deficient: &deficient, rounds };
+        let results = machine::run(self.program, &reads);
+        let own = |tape| Trace::<f64>::rounds(tape, &symbol, rounds).roots();
         // What a system of lesser rank leaves open depends on the order of pivots, which others may take otherwise.
         match self.lowered.filter(|_| deficient.is_empty()) {
-            None => self.judge(&exact, &symbol, &results, closely),
+            None => judge(&exact, &own(self.tape), &results, which, closely),
             Some(lowered) => {
-                let between: Trace<'_, Doubled> = Trace::new(lowered, &symbol);
+                let between: Trace<'_, Doubled> = Trace::rounds(lowered, &symbol, rounds);
                 let values: Vec<f64> = between.roots().iter().map(|x| x.high).collect();
-                match self.judge(&exact, &symbol, &values, closely) {
-                    Verdict::Right => self.judge(&between, &symbol, &results, closely),
+                match judge(&exact, &own(self.tape), &values, which.clone(), closely) {
+                    Verdict::Right => judge(&between, &own(lowered), &results, which, closely),
                     other => other,
                 }
             }
         }
     }
+}
 
-    /// Results against exact values, within the error that their operations make.
-    fn judge(
-        &self,
-        exact: &Trace<'_, Doubled>,
-        symbol: &dyn Fn(SymbolId) -> Doubled,
-        results: &[f64],
-        closely: &mut usize,
-    ) -> Verdict {
-        let derived = exact.roots();
-        let own: Vec<f64> = Trace::<f64>::new(exact.tape, symbol).roots();
-        if results.len() != derived.len() {
-            return Verdict::Wrong(results.len().min(derived.len()));
-        }
-        let doubt = match (exact.kink, exact.unclear) {
-            (true, _) => Some(Doubt::Comparison),
-            (_, true) => Some(Doubt::Rank),
-            _ => None,
-        };
-        let wrong = |at: usize| doubt.map_or(Verdict::Wrong(at), Verdict::Unclear);
-        let count = derived.len() - usize::from(self.residual);
-        let mut scales = Vec::with_capacity(count);
-        let (mut largest, mut lost) = (0.0_f64, 0.0_f64);
-        for (exact, own) in derived.iter().zip(&own).take(count) {
-            if !exact.high.is_finite() || !own.is_finite() {
-                return Verdict::Unclear(Doubt::NotFinite);
-            }
-            let error = (Doubled::of(*own).sub(*exact)).high.abs();
-            (largest, lost) = (largest.max(exact.high.abs()), lost.max(error));
-            scales.push(exact.high.abs().max(error / f64::EPSILON));
-        }
-        if lost > POOR * largest {
-            return Verdict::Unclear(Doubt::Rounding);
-        }
-        let mut suspects: Vec<(f64, usize, f64)> = Vec::new();
-        for (at, (exact, result)) in derived.iter().zip(results).take(count).enumerate() {
-            if !result.is_finite() {
-                return wrong(at);
-            }
-            let error = Doubled::of(*result).sub(*exact).high;
-            // Below what single numbers can hold there are no relative errors.
-            let scale = scales[at].max(f64::MIN_POSITIVE / f64::EPSILON);
-            let ratio = error.abs() / (f64::EPSILON * scale);
-            if ratio > PLAIN {
-                suspects.push((ratio, at, error.signum() / scale));
-            }
-        }
-        // Each for itself: of a sum large bounds would hide what is wrong beside them, and bounds that cancel would accuse.
-        suspects.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let cost = exact.tape.nodes.len().max(1);
-        let count = (*closely / cost).max(1).min(suspects.len());
-        *closely = closely.saturating_sub(count * cost);
-        let mut open = count < suspects.len();
-        for &(ratio, at, weight) in &suspects[..count] {
-            let mut single = vec![0.0; derived.len()];
-            single[at] = weight;
-            let bound = exact.slopes::<f64>(&single, 0).bound;
-            if !bound.is_finite() {
-                open = true;
-            } else if ratio > WORST * bound {
-                return wrong(at);
-            }
-        }
-        if open { Verdict::Unclear(Doubt::Rounding) } else { Verdict::Right }
+/// Results with these numbers against exact values, within the error that the operations of these make; `own` are their values in
+/// double precision.
+fn judge(
+    exact: &Trace<'_, Doubled>,
+    own: &[f64],
+    results: &[f64],
+    which: Range<usize>,
+    closely: &mut usize,
+) -> Verdict {
+    let derived = exact.roots();
+    if results.len() != derived.len() {
+        return Verdict::Wrong(results.len().min(derived.len()));
     }
+    let doubt = match (exact.kink, exact.unclear) {
+        (true, _) => Some(Doubt::Comparison),
+        (_, true) => Some(Doubt::Rank),
+        _ => None,
+    };
+    let wrong = |at: usize| doubt.map_or(Verdict::Wrong(at), Verdict::Unclear);
+    let mut scales = vec![0.0; derived.len()];
+    let (mut largest, mut lost) = (0.0_f64, 0.0_f64);
+    for at in which.clone() {
+        let (exact, own) = (derived[at], own[at]);
+        if !exact.high.is_finite() || !own.is_finite() {
+            return Verdict::Unclear(Doubt::NotFinite);
+        }
+        let error = (Doubled::of(own).sub(exact)).high.abs();
+        (largest, lost) = (largest.max(exact.high.abs()), lost.max(error));
+        scales[at] = exact.high.abs().max(error / f64::EPSILON);
+    }
+    if lost > POOR * largest {
+        return Verdict::Unclear(Doubt::Rounding);
+    }
+    let mut suspects: Vec<(f64, usize, f64)> = Vec::new();
+    for at in which {
+        let (exact, result) = (derived[at], results[at]);
+        if !result.is_finite() {
+            return wrong(at);
+        }
+        let error = Doubled::of(result).sub(exact).high;
+        // Below what single numbers can hold there are no relative errors.
+        let scale = scales[at].max(f64::MIN_POSITIVE / f64::EPSILON);
+        let ratio = error.abs() / (f64::EPSILON * scale);
+        if ratio > PLAIN {
+            suspects.push((ratio, at, error.signum() / scale));
+        }
+    }
+    // Each for itself: of a sum large bounds would hide what is wrong beside them, and bounds that cancel would accuse.
+    suspects.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let cost = exact.tape.nodes.len().max(1);
+    let count = (*closely / cost).max(1).min(suspects.len());
+    *closely = closely.saturating_sub(count * cost);
+    let mut open = count < suspects.len();
+    for &(ratio, at, weight) in &suspects[..count] {
+        let mut single = vec![0.0; derived.len()];
+        single[at] = weight;
+        let bound = exact.slopes::<f64>(&single, 0).bound;
+        if !bound.is_finite() {
+            open = true;
+        } else if ratio > WORST * bound {
+            return wrong(at);
+        }
+    }
+    if open { Verdict::Unclear(Doubt::Rounding) } else { Verdict::Right }
 }
 
 #[cfg(test)]
@@ -160,11 +183,10 @@ mod tests {
             results.push((0.3 * times * (1.0 + share * f64::EPSILON)).sin());
         }
         let tape = Tape::new(&g, &roots);
-        let program = Program::default();
-        let subject = Subject { tape: &tape, lowered: None, prelude: None, program: &program, residual: false };
         let symbol = |_: SymbolId| Doubled::new(0.3);
         let exact: Trace<'_, Doubled> = Trace::new(&tape, &symbol);
-        subject.judge(&exact, &symbol, &results, &mut closely)
+        let own = Trace::<f64>::new(&tape, &symbol).roots();
+        judge(&exact, &own, &results, 0..results.len(), &mut closely)
     }
 
     /// More suspects than there is time for are no excuse for the worst of them.

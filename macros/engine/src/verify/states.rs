@@ -151,6 +151,18 @@ impl<'m> States<'m> {
         state
     }
 
+    /// The same with guesses at which loops are open, without a solution.
+    pub(super) fn open(&self, number: usize, attempt: usize) -> State {
+        let mut state = self.draw(number, attempt);
+        let mut random = Random(0x09E2 + attempt as u64);
+        for &at in self.table.lists[11].iter().flatten() {
+            if let Some(x) = state.values.get_mut(at) {
+                *x += 0.3 * random.next();
+            }
+        }
+        state
+    }
+
     /// Guesses of Newton's method.
     fn start(&self, state: &mut State, held: &dyn Fn(usize, usize) -> Option<f64>) {
         for step in &self.structure.steps {

@@ -25,6 +25,7 @@ pub(super) struct Trace<'t, T> {
     pub corner: bool,
     /// Whether the rank of a system is.
     pub unclear: bool,
+    rounds: usize,
 }
 
 #[derive(Clone)]
@@ -50,6 +51,11 @@ pub(super) struct Pivots {
 
 impl<'t, T: Arithmetic> Trace<'t, T> {
     pub(super) fn new(tape: &'t Tape, symbol: &dyn Fn(SymbolId) -> Doubled) -> Trace<'t, T> {
+        Trace::rounds(tape, symbol, usize::MAX)
+    }
+
+    /// With no more than so many rounds of each iteration.
+    pub(super) fn rounds(tape: &'t Tape, symbol: &dyn Fn(SymbolId) -> Doubled, rounds: usize) -> Trace<'t, T> {
         let mut trace = Trace {
             tape,
             values: vec![T::ONE; tape.nodes.len()],
@@ -57,6 +63,7 @@ impl<'t, T: Arithmetic> Trace<'t, T> {
             kink: false,
             corner: false,
             unclear: false,
+            rounds,
         };
         trace.run(0, tape.nodes.len(), symbol);
         trace
@@ -172,7 +179,7 @@ impl<'t, T: Arithmetic> Trace<'t, T> {
         let (start, next) = tape.blocks[block].operands.split_at(unknowns.len());
         let mut values = self.list(start);
         let mut residual = T::ZERO;
-        for _ in 0..*count {
+        for _ in 0..self.rounds.min(*count) {
             for (&node, &value) in unknowns.iter().zip(&values) {
                 self.values[node] = value;
             }

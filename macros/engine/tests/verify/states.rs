@@ -1,6 +1,7 @@
 //! States at which programs and laws are judged: what the usual ones don't show.
 
 use multibody_engine::optimize::program::{Doubt, Expression, FunctionKind, Inertia, Part, Unchecked};
+use multibody_engine::symbolic::graph::Scalar;
 use multibody_engine::{emit, optimize, verify};
 
 use crate::breaks::{Case, each};
@@ -229,4 +230,73 @@ fn lost_digits_are_no_errors() {
         let refused = verify::compile(&case.model, &case.structure, &case.derivation).err();
         assert_eq!(refused, None, "{}", case.model.name);
     }
+}
+
+/// What an iteration leaves is rounding where loops close, and is compared where they are open: it is all that tells of open loops.
+#[test]
+fn residuals_of_open_loops() {
+    let case = Case::new(
+        "pub mod newton {
+            param reach = 1.0;
+            world { gravity: -9.81 * Y }
+            formulation { constraints: Reduced, independent: [crank] }
+            body arm { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
+            body link { mass: 3.5, com: [1.7, 0.2, 0.0], inertia: diag(0.1, 3.0, 3.1) }
+            body lever { mass: 3.0, com: 1.5 * X, inertia: rod(3.0, 3.0, X) }
+            joint crank: Revolute { parent: ground, child: arm, axis: Z }
+            joint coupler: Revolute { parent: arm.at(reach * X), child: link, axis: Z }
+            joint rocker: Revolute { parent: ground.at(4.0 * X), child: lever, axis: Z }
+            #[cut]
+            joint pin: Revolute { parent: link.at(3.5 * X), child: lever.at(3.0 * X), axis: Z }
+            emit forward_dynamics;
+        }",
+    );
+    assert_eq!(case.check(&case.compiled).unchecked, []);
+    let kinds = [FunctionKind::ForwardDynamics, FunctionKind::Guess, FunctionKind::Margins];
+    for kind in kinds {
+        let mut compiled = case.compiled.clone();
+        let function = compiled.functions.iter_mut().find(|f| f.kind == kind).unwrap();
+        let last = function.program.results.last_mut().unwrap();
+        *last = Expression::Product(vec![Expression::Literal(1e-3), last.clone()]);
+        let found = case.check(&compiled);
+        assert_eq!(found.wrong, [kind]);
+    }
+}
+
+/// A law that is never judged is no law that holds, and the reason is the one that there was.
+#[test]
+fn laws_without_a_value() {
+    let case = arm("input load;
+        force motor: Effort { joint: j, value: ln(-1.0 - load * load) }
+        emit forward_dynamics, inverse_dynamics, mass_matrix, bias, energy;");
+    let list = case.check(&case.compiled).unchecked;
+    assert!(list.iter().any(|open| matches!(open.part, Part::Law(_))), "{list:?}");
+    assert!(list.iter().all(|open| open.doubt == Doubt::NotFinite), "{list:?}");
+
+    let mut case = Case::new(
+        "pub mod pinned {
+            formulation { constraints: Multipliers }
+            body crank { mass: 0.4, com: 0.2 * X, inertia: diag(0.01, 0.02, 0.025) }
+            body coupler { mass: 0.6, com: 0.4 * X, inertia: diag(0.02, 0.03, 0.04) }
+            body follower { mass: 0.5, com: 0.3 * X, inertia: diag(0.01, 0.02, 0.025) }
+            joint a: Revolute { parent: ground, child: crank, axis: Z }
+            joint b: Revolute { parent: crank.at(0.4 * X), child: coupler, axis: Z }
+            joint c: Revolute { parent: ground.at(0.9 * X), child: follower, axis: Z }
+            #[cut]
+            joint d: Revolute { parent: coupler.at(0.8 * X), child: follower.at(0.6 * X), axis: Z }
+            emit forward_dynamics, impulse;
+        }",
+    );
+    assert_eq!(case.check(&case.compiled).unchecked, []);
+    // As if equations followed from others everywhere.
+    for function in &mut case.derivation.functions {
+        if matches!(function.kind, FunctionKind::ForwardDynamics | FunctionKind::Impulse) {
+            let results = function.candidates.iter_mut().map(|candidate| &mut candidate.1);
+            results.for_each(|results| *results.last_mut().unwrap() = Scalar::ZERO);
+        }
+    }
+    let compiled = optimize::compile(&case.derivation).unwrap();
+    let list = case.check(&compiled).unchecked;
+    assert_eq!(list.len(), 2, "{list:?}");
+    assert!(list.iter().all(|open| matches!(open.part, Part::Law(_)) && open.doubt == Doubt::Rank), "{list:?}");
 }

@@ -214,7 +214,7 @@ impl At<'_, '_> {
         let found = self.values(fd)?;
         let rank = found.get(n + states + rows).map_or(0.0, |rank| rank.high);
         if rank < rows as f64 {
-            return Some(None);
+            return self.deficient();
         }
         let jacobian = self.values(g)?;
         let (mut sum, mut weights, mut back) = (Sum::default(), vec![0.0; rows * n], vec![0.0; found.len()]);

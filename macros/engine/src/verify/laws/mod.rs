@@ -20,7 +20,7 @@ use super::trace::{Slopes, Trace};
 use crate::mechanics::structure::{Role, Structure};
 use crate::mechanics::symbols::has_quaternion;
 use crate::model::types::{Coordinate, Model};
-use crate::optimize::program::{FunctionKind, Symbol};
+use crate::optimize::program::{Doubt, FunctionKind, Symbol};
 use crate::symbolic::doubled::Doubled;
 use crate::symbolic::graph::SymbolId;
 
@@ -41,6 +41,12 @@ pub(super) struct Law {
     /// In words.
     pub between: &'static str,
     judge: fn(&mut At<'_, '_>) -> Judged,
+}
+
+/// A law that has had no clear value yet, and why.
+pub(super) struct Pending {
+    pub law: Law,
+    pub doubt: Option<Doubt>,
 }
 
 /// The functions of one model.
@@ -84,33 +90,36 @@ struct At<'a, 's> {
     state: &'s State,
     traces: Vec<Option<Trace<'a, Doubled>>>,
     random: Random,
-    doubtful: bool,
+    /// Why what was read here says nothing.
+    doubt: Option<Doubt>,
 }
 
 impl<'a> Laws<'a> {
     /// One file for each family.
-    pub(super) fn all(&self) -> Vec<Law> {
+    pub(super) fn all(&self) -> Vec<Pending> {
         let families =
             [energies::LAWS, dynamics::LAWS, derivatives::LAWS, momenta::LAWS, constraints::LAWS, outputs::LAWS];
-        families.concat()
+        families.concat().into_iter().map(|law| Pending { law, doubt: None }).collect()
     }
 
     /// The laws that are pending, at one state; those that have no clear value there stay.
-    pub(super) fn judge(&'a self, state: &State, pending: &mut Vec<Law>) -> Outcome {
+    pub(super) fn judge(&'a self, state: &State, pending: &mut Vec<Pending>) -> Outcome {
         let traces = self.functions.iter().map(|_| None).collect();
-        let mut at = At { laws: self, state, traces, random: Random(0x1A35), doubtful: false };
+        let mut at = At { laws: self, state, traces, random: Random(0x1A35), doubt: None };
         let mut broken = None;
-        pending.retain(|law| {
-            at.doubtful = false;
-            match (law.judge)(&mut at) {
-                Some(Some(_)) if at.doubtful => true,
+        pending.retain_mut(|Pending { law, doubt }| {
+            at.doubt = None;
+            let open = match (law.judge)(&mut at) {
+                Some(Some(_)) if at.doubt.is_some() => at.doubt,
                 Some(Some(functions)) => {
                     broken = broken.or(Some(functions));
-                    false
+                    None
                 }
-                Some(None) => false,
-                None => true,
-            }
+                Some(None) => None,
+                None => at.doubt.or(Some(Doubt::NotFinite)),
+            };
+            *doubt = doubt.or(open);
+            open.is_some()
         });
         broken.map_or(Outcome::Hold, |(a, b)| Outcome::Broken(a, b))
     }
@@ -145,7 +154,7 @@ impl<'a> At<'a, '_> {
             other.map_or_else(|| state.value(id), |&(_, x)| x)
         };
         let trace = Trace::new(tape, &symbol);
-        self.doubtful |= is_doubtful(&trace);
+        self.doubt = self.doubt.or(doubt_of(&trace));
         Some(trace)
     }
 
@@ -156,8 +165,14 @@ impl<'a> At<'a, '_> {
             self.traces[at] = self.with(kind, &[]);
         }
         let trace = self.traces[at].as_ref();
-        self.doubtful |= trace.is_some_and(is_doubtful);
+        self.doubt = self.doubt.or(trace.and_then(doubt_of));
         trace
+    }
+
+    /// What a system of lesser rank leaves open says nothing of its equations.
+    fn deficient(&mut self) -> Judged {
+        self.doubt = self.doubt.or(Some(Doubt::Rank));
+        None
     }
 
     fn values(&mut self, kind: FunctionKind) -> Option<Vec<Doubled>> {
@@ -236,9 +251,13 @@ impl<'a> At<'a, '_> {
     }
 }
 
-/// Whether rounding decides what a function is, or which slopes it has.
-fn is_doubtful(trace: &Trace<'_, Doubled>) -> bool {
-    trace.kink || trace.corner || trace.unclear
+/// Why rounding decides what a function is, or which slopes it has.
+fn doubt_of(trace: &Trace<'_, Doubled>) -> Option<Doubt> {
+    match (trace.kink || trace.corner, trace.unclear) {
+        (true, _) => Some(Doubt::Comparison),
+        (_, true) => Some(Doubt::Rank),
+        _ => None,
+    }
 }
 
 fn velocity(c: Coordinate) -> Symbol {

@@ -146,7 +146,7 @@ impl At<'_, '_> {
         }
         let (n, r, jumps) = (self.dof(), self.weights(rows), self.values(jump)?);
         if jumps.get(n + rows).map_or(0.0, |rank| rank.high) < rows as f64 {
-            return Some(None);
+            return self.deficient();
         }
         let (mut sum, mut weights, mut back) = (Sum::default(), vec![0.0; rows * n], vec![0.0; jumps.len()]);
         for (at, &x) in self.values(g)?.iter().enumerate() {
