@@ -3,7 +3,8 @@
 //! In: the tape of a function, its program, a state. Out: a [`Verdict`]. A result is right if it is no further from the
 //! exact value than a few errors that the derived equations make themselves in double precision at this state, or, if that is not
 //! enough to tell, than what one rounding of each of their operations can do at worst. Both come from the derived equations:
-//! the operations of the program under test, and the size of its coefficients, excuse nothing.
+//! the operations of the program under test, and the size of its coefficients, excuse nothing; what is written as derived
+//! may lose [`FORMS`] times as much.
 
 use std::ops::Range;
 
@@ -21,6 +22,10 @@ const PLAIN: f64 = 64.0;
 
 /// As many times the greatest error by one rounding of every operation it may be off at all.
 pub(super) const WORST: f64 = 4.0;
+
+/// As many times all this a program may be off that stands as it was derived: the form in which its operations are written may
+/// lose more digits than the equations do.
+const FORMS: f64 = 1e4;
 
 /// Results that keep fewer digits than this are not worth a comparison.
 const POOR: f64 = 1e-6;
@@ -44,7 +49,7 @@ pub(super) struct Subject<'a> {
     pub tape: &'a Tape,
     /// Of a program that is written as derived, its own operations: vectors component by component, and one form for equal
     /// expressions, which may be worse than another. These must have the values of the equations; the program must
-    /// have the values of these, within the error that they make.
+    /// have the values of these, within the error that they make, and those of the equations within a multiple of theirs.
     pub lowered: Option<&'a Tape>,
     /// What computes the fields of the model, where the program reads them.
     pub prelude: Option<&'a Program>,
@@ -85,26 +90,32 @@ impl Subject<'_> {
         let own = |tape| Trace::<f64>::rounds(tape, &symbol, rounds).roots();
         // What a system of lesser rank leaves open depends on the order of pivots, which others may take otherwise.
         match self.lowered.filter(|_| deficient.is_empty()) {
-            None => judge(&exact, &own(self.tape), &results, which, closely),
+            None => judge(&exact, &own(self.tape), &results, which, 1.0, closely),
             Some(lowered) => {
                 let between: Trace<'_, Doubled> = Trace::rounds(lowered, &symbol, rounds);
                 let values: Vec<f64> = between.roots().iter().map(|x| x.high).collect();
-                match judge(&exact, &own(self.tape), &values, which.clone(), closely) {
-                    Verdict::Right => judge(&between, &own(lowered), &results, which, closely),
-                    other => other,
+                let derived = own(self.tape);
+                let mut verdict = judge(&exact, &derived, &values, which.clone(), 1.0, closely);
+                if verdict == Verdict::Right {
+                    verdict = judge(&between, &own(lowered), &results, which.clone(), 1.0, closely);
                 }
+                if verdict == Verdict::Right {
+                    verdict = judge(&exact, &derived, &results, which, FORMS, closely);
+                }
+                verdict
             }
         }
     }
 }
 
 /// Results with these numbers against exact values, within the error that the operations of these make; `own` are their values in
-/// double precision.
+/// double precision. They may be off by so many `times` what is allowed else.
 fn judge(
     exact: &Trace<'_, Doubled>,
     own: &[f64],
     results: &[f64],
     which: Range<usize>,
+    times: f64,
     closely: &mut usize,
 ) -> Verdict {
     let derived = exact.roots();
@@ -141,7 +152,7 @@ fn judge(
         // Below what single numbers can hold there are no relative errors.
         let scale = scales[at].max(f64::MIN_POSITIVE / f64::EPSILON);
         let ratio = error.abs() / (f64::EPSILON * scale);
-        if ratio > PLAIN {
+        if ratio > times * PLAIN {
             suspects.push((ratio, at, error.signum() / scale));
         }
     }
@@ -157,7 +168,7 @@ fn judge(
         let bound = exact.slopes::<f64>(&single, 0).bound;
         if !bound.is_finite() {
             open = true;
-        } else if ratio > WORST * bound {
+        } else if ratio > times * WORST * bound {
             return wrong(at);
         }
     }
@@ -186,7 +197,7 @@ mod tests {
         let symbol = |_: SymbolId| Doubled::new(0.3);
         let exact: Trace<'_, Doubled> = Trace::new(&tape, &symbol);
         let own = Trace::<f64>::new(&tape, &symbol).roots();
-        judge(&exact, &own, &results, 0..results.len(), &mut closely)
+        judge(&exact, &own, &results, 0..results.len(), 1.0, &mut closely)
     }
 
     /// More suspects than there is time for are no excuse for the worst of them.

@@ -300,3 +300,30 @@ fn laws_without_a_value() {
     assert_eq!(list.len(), 2, "{list:?}");
     assert!(list.iter().all(|open| matches!(open.part, Part::Law(_)) && open.doubt == Doubt::Rank), "{list:?}");
 }
+
+/// What a function that stands as it was derived loses by the form in which its operations are written has a limit too.
+#[test]
+fn forms_that_lose_digits_are_refused() {
+    // u (u + 2 c) after (u + c)^2 - c^2, which is the same node unless it is made anew.
+    for (c, refused) in [(1e3, false), (1e8, true)] {
+        let mut case = arm("input u; output bad = u; output good = j; output same = u + 1.0;");
+        let at = case.derivation.functions.iter().position(|f| f.kind == FunctionKind::Outputs).unwrap();
+        let g = &mut case.derivation.graph;
+        let [u, ..] = case.derivation.functions[at].candidates[0].1[..] else { panic!() };
+        let literal = g.decimal(c);
+        let shifted = g.add(u, literal);
+        let (square, less) = (g.mul(shifted, shifted), g.mul(literal, literal));
+        let bad = g.sub(square, less);
+        g.forget();
+        let twice = g.decimal(2.0 * c);
+        let shifted = g.add(u, twice);
+        let good = g.mul(u, shifted);
+        assert_ne!(bad, good);
+        for candidate in &mut case.derivation.functions[at].candidates {
+            candidate.1 = vec![bad, good, good];
+        }
+        let compiled = verify::compile(&case.model, &case.structure, &case.derivation);
+        println!("{c:e} {:?}", compiled.as_ref().err());
+        assert_eq!(compiled.is_err(), refused, "{c:e}");
+    }
+}
