@@ -23,8 +23,8 @@ const DUST: f64 = 2.0 * f64::EPSILON;
 /// Largest denominator of a simple axis.
 const MOST_OF_AN_AXIS: i64 = 60;
 
-/// A direction without what rounding has left of a zero: `[0, 1, 6.1e-17]` is Y. No direction in double precision differs by
-/// less than that.
+/// A direction without what rounding has left of a zero: `[0, 1, 6.1e-17]` is Y. What was typed so small on purpose, as in
+/// `[1, 1e-17, 0]`, is a zero too; either way the axis turns by less than 1e-15 rad, the rounding of its largest component.
 pub(super) fn direction(g: &Graph, components: [Scalar; 3]) -> [Scalar; 3] {
     let sizes = components.map(|c| g.literal(c).map(|n| n.value().abs()));
     let largest = sizes.iter().flatten().fold(0.0_f64, |most, &x| most.max(x));
