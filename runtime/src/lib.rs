@@ -124,6 +124,8 @@ pub use integrators::{
 #[doc(hidden)]
 pub use multibody_macros::multibody as __multibody;
 pub use nalgebra;
+#[doc(hidden)]
+pub use opening::Gauge;
 pub use opening::{Open, Opening};
 pub use projection::{
     Assembled, AssemblyError, Projected, Projection, ProjectionError, WithBaumgarte, WithProjection, WithRank,

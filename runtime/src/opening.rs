@@ -8,6 +8,12 @@ const CLOSED: f64 = 1e-4;
 /// The same of what Newton's method leaves.
 const CONVERGED: f64 = 1e-8;
 
+/// So many roundings of what equations read open them.
+const ROUNDINGS: f64 = 16.0;
+
+/// The least scale of an equation beside its declared one.
+const SMALLEST: f64 = 1e-3;
+
 /// `[1/s]` rates below this are those of a mechanism at rest.
 const REST: f64 = 1e-8;
 
@@ -23,6 +29,57 @@ pub struct Opening<T> {
     pub what: Open,
     /// What closes the loops, for the message of [`IntegrationError`](crate::IntegrationError).
     pub remedy: &'static str,
+}
+
+/// By what residuals of equations with multipliers are judged at a start.
+#[derive(Clone, Copy, Debug)]
+pub struct Gauge<'a, T> {
+    /// The derivatives of the equations by the velocities there, column by column.
+    pub jacobian: &'a [T],
+    /// By equation the residual that amounts to one, a radian or the mechanism's size, at the declared parameters.
+    pub scales: &'a [T],
+    /// By equation the first of those that are judged together, such as the three that hold two points together.
+    pub kinds: &'a [usize],
+    /// By coordinate what amounts to one.
+    pub units: &'a [T],
+}
+
+impl<T: Real> Gauge<'_, T> {
+    fn declared(&self, row: usize) -> T {
+        self.scales.get(row).copied().unwrap_or(T::lit(1.0))
+    }
+
+    /// The residual that amounts to one where the start is, with its parameters; at least a share of that at the declared
+    /// ones, since derivatives vanish in some poses.
+    fn scale(&self, row: usize) -> T {
+        let declared = self.declared(row);
+        if self.units.is_empty() {
+            return declared;
+        }
+        let here = self.of_kind(row, &|row| {
+            self.entries(row)
+                .zip(self.units)
+                .fold(T::lit(0.0), |most, (entry, &unit)| Real::max(most, Real::abs(entry) * unit))
+        });
+        Real::max(here, T::lit(SMALLEST) * declared)
+    }
+
+    /// The derivatives of an equation.
+    fn entries(&self, row: usize) -> impl Iterator<Item = T> {
+        self.jacobian.iter().skip(row).step_by(self.scales.len().max(1)).copied()
+    }
+
+    /// How much an equation reads of values of these sizes.
+    fn reads(&self, row: usize, values: &[T]) -> T {
+        self.entries(row).zip(values).fold(T::lit(0.0), |sum, (entry, &value)| sum + Real::abs(entry * value))
+    }
+
+    /// The greatest over the equations that are judged together with this one.
+    fn of_kind(&self, row: usize, value: &dyn Fn(usize) -> T) -> T {
+        let kind = self.kinds.get(row);
+        let own = (0..self.scales.len()).filter(|&other| self.kinds.get(other) == kind);
+        own.fold(T::lit(0.0), |most, other| Real::max(most, value(other)))
+    }
 }
 
 /// What of a state is open.
@@ -56,26 +113,38 @@ impl<T: Real> Opening<T> {
         if self.is_open() { self } else { next() }
     }
 
-    /// Of equations with multipliers, from their residuals and what amounts to one in each.
-    pub fn of_positions(residuals: &[T], scales: &[T]) -> Self {
+    /// Of equations with multipliers, from their residuals and the sizes of the coordinates, whose rounding opens them.
+    pub fn of_positions(residuals: &[T], gauge: &Gauge<'_, T>, sizes: &[T]) -> Self {
+        let roundings = T::lit(ROUNDINGS) * T::epsilon();
+        let rows = residuals.iter().enumerate().map(|(row, &residual)| {
+            let scale = gauge.scale(row);
+            let rounding = roundings * (scale + gauge.declared(row) + gauge.reads(row, sizes));
+            (Real::abs(residual) / scale, share::<T>() + rounding / scale)
+        });
+        let (residual, tolerance) = worst(rows);
         Self {
-            residual: greatest(residuals, scales),
-            tolerance: Real::max(T::lit(CLOSED), T::lit(1e3) * T::epsilon()),
+            residual,
+            tolerance,
             what: Open::Positions,
             remedy: "close them with `multibody::assemble` or `Projection::project`",
         }
     }
 
-    /// The same of their rates, beside those at rest and the velocities, with what amounts to one in each coordinate.
-    pub fn of_velocities(rates: &[T], at_rest: &[T], scales: &[T], velocities: &[T], units: &[T]) -> Self {
-        let speed = greatest(velocities, units) + greatest(at_rest, scales);
-        let share = Real::max(T::lit(CLOSED), T::lit(1e3) * T::epsilon());
-        Self {
-            residual: greatest(rates, scales),
-            tolerance: share * speed + Real::max(T::lit(REST), T::lit(16.0) * T::epsilon()),
-            what: Open::Velocities,
-            remedy: "give velocities that keep them closed, from `multibody::assemble` or `Projection::project`",
-        }
+    /// The same of their rates, beside those at rest and the velocities. What counts as fast is what the equation reads, and
+    /// those that belong with it: something else that is fast adds no more than its rounding.
+    pub fn of_velocities(rates: &[T], at_rest: &[T], gauge: &Gauge<'_, T>, velocities: &[T]) -> Self {
+        let roundings = T::lit(ROUNDINGS) * T::epsilon();
+        let speed = greatest(velocities, gauge.units);
+        let least = Real::max(T::lit(REST), roundings * (T::lit(1.0) + speed));
+        let rest = |row: usize| Real::abs(at_rest.get(row).copied().unwrap_or(T::lit(0.0)));
+        let rows = rates.iter().enumerate().map(|(row, &rate)| {
+            let scale = gauge.scale(row);
+            let fast = gauge.of_kind(row, &|other| gauge.reads(other, velocities) + rest(other));
+            (Real::abs(rate) / scale, share::<T>() * fast / scale + least)
+        });
+        let (residual, tolerance) = worst(rows);
+        let remedy = "give velocities that keep them closed, from `multibody::assemble` or `Projection::project`";
+        Self { residual, tolerance, what: Open::Velocities, remedy }
     }
 
     /// Of what Newton's method leaves of equations, with the least and the greatest that amounts to one in them.
@@ -96,10 +165,23 @@ impl<T: Real> Opening<T> {
             residual: Real::abs(*residual),
             what: Open::Equation(name),
             remedy: "choose the parameters so that it holds, or hold the loops by multipliers",
-            ..Self::of_positions(&[], &[])
+            tolerance: share(),
         });
         each.fold(Self::none(), |first, next| first.or(|| next))
     }
+}
+
+/// A share that a motion may start open by.
+fn share<T: Real>() -> T {
+    Real::max(T::lit(CLOSED), T::lit(1e3) * T::epsilon())
+}
+
+/// Of residuals with their tolerances the one that is the greatest beside its own, or no number, lane by lane.
+fn worst<T: Real>(rows: impl Iterator<Item = (T, T)>) -> (T, T) {
+    rows.fold((T::lit(0.0), share()), |(worst, its), (residual, tolerance)| {
+        let worse = Real::gt(residual * its, worst * tolerance) | Real::ne(residual, residual);
+        (Real::select(worse, residual, worst), Real::select(worse, tolerance, its))
+    })
 }
 
 /// The greatest size over its unit; no number where one is none.

@@ -60,6 +60,30 @@ multibody! {
     }
 }
 
+multibody! {
+    /// Bars of any size beside a flywheel, on a sledge.
+    pub mod beside {
+        param unit = 1.0;
+        world { gravity: -9.81 * unit * Y }
+        body sledge { mass: 1.0 }
+        body crank { mass: 0.5, com: 0.2 * unit * X, inertia: rod(0.5, 0.4 * unit, X) }
+        body rocker { mass: 0.8, com: 0.4 * unit * X, inertia: rod(0.8, 0.8 * unit, X) }
+        body third { mass: 0.8, com: 0.4 * unit * X, inertia: rod(0.8, 0.9 * unit, X) }
+        body fourth { mass: 0.8, com: 0.4 * unit * X, inertia: rod(0.8, 0.9 * unit, X) }
+        body wheel { mass: 1.0, inertia: diag(0.1, 0.1, 0.2) }
+        joint rail: Prismatic { parent: ground, child: sledge, axis: X }
+        joint spin: Revolute { parent: ground, child: wheel, axis: Z }
+        joint a: Revolute { parent: sledge, child: crank, axis: Z }
+        joint b: Revolute { parent: sledge.at(unit * X), child: rocker, axis: Z }
+        joint c: Revolute { parent: crank.at(0.4 * unit * X), child: third, axis: Z }
+        joint d: Revolute { parent: rocker.at(0.8 * unit * X), child: fourth, axis: Z }
+        #[cut]
+        joint e: Revolute { parent: third.at(0.9 * unit * X), child: fourth.at(0.9 * unit * X), axis: Z }
+        constraint link: Rod { between: [crank.at(0.4 * unit * X), rocker.at(0.8 * unit * X)], length: unit }
+        formulation { constraints: Multipliers }
+    }
+}
+
 /// Four bars with a guide on the rocker, which takes no freedom as long as it sits at the rocker's end.
 macro_rules! cranks {
     ($($name:ident { $($items:tt)* })*) => {
@@ -154,6 +178,45 @@ fn a_start_is_judged_in_the_size_of_its_mechanism() {
     starts_by_size!(metre, f64);
     starts_by_size!(kilometre, f64);
     starts_by_size!(metre, f32);
+}
+
+macro_rules! starts_beside {
+    ($scalar:ty, $sizes:expr) => {
+        for unit in $sizes {
+            let model = beside::Model::<$scalar>::new(&beside::Params { unit });
+            let mut guess = beside::State::<$scalar>::default();
+            (guess.q.a, guess.q.b, guess.q.c, guess.q.d, guess.v.a) = (1.0, 1.7, 1.2, -2.5, 0.7);
+            let free = beside::Velocity { rail: 0.0, spin: 0.0, a: 0.0, b: 1.0, c: 1.0, d: 1.0 };
+            let mut start = multibody::assemble(&model, 0.0, &guess, &free).expect("bars that close").state;
+            let run = |start: &beside::State<$scalar>| {
+                Integrator::fixed(Rk4, 1e-6).integrate(&model, 0.0, 2e-6, start, &(), |_, _| ()).map(drop)
+            };
+            assert_eq!(run(&start), Ok(()));
+            // What else is fast or far makes no difference.
+            (start.v.spin, start.v.rail) = (1e4, 1.0);
+            assert_eq!(run(&start), Ok(()));
+            let mut fast = start;
+            fast.v.b += 0.05;
+            let told = run(&fast);
+            assert!(matches!(told, Err(IntegrationError::OpenVelocities { .. })), "{unit}: {told:?}");
+            let mut open = start;
+            (open.q.d, open.q.rail) = (start.q.d + 0.01, 1e4);
+            let told = run(&open);
+            assert!(matches!(told, Err(IntegrationError::OpenLoops { .. })), "{unit}: {told:?}");
+            // Many turns on, and far away, it is closed as far as coordinates can tell.
+            let turns = 1000.0 * (std::f64::consts::TAU as $scalar);
+            let mut far = start;
+            far.q.rail = 1e4;
+            (far.q.a, far.q.b) = (start.q.a + turns, start.q.b - turns);
+            assert_eq!(run(&far), Ok(()));
+        }
+    };
+}
+
+#[test]
+fn a_start_is_judged_by_what_its_loops_read() {
+    starts_beside!(f64, [1e-3, 1.0, 1e3]);
+    starts_beside!(f32, [1.0]);
 }
 
 #[test]

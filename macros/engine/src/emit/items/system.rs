@@ -8,8 +8,8 @@ use crate::emit::blocks::groups_argument;
 use crate::emit::items::singular;
 use crate::emit::layout::Layout;
 use crate::emit::{Context, functions, literals, names, results};
-use crate::mechanics::closings::row_name;
-use crate::mechanics::structure::Means;
+use crate::mechanics::closings::{is_length, row_name};
+use crate::mechanics::structure::{Means, Row};
 use crate::optimize::program::FunctionKind;
 
 /// Expands to `impl<T: Real> System for Model<T> { .. }` where forward dynamics has been derived.
@@ -159,7 +159,7 @@ fn iterated(context: &Context<'_>, reads: &mut [bool; 2]) -> Option<TokenStream>
 /// Expands to `let opening = ..;` of equations with multipliers.
 fn constrained_start(context: &Context<'_>, reads: &mut [bool; 2]) -> Option<TokenStream> {
     let layout = &context.layout;
-    for kind in [FunctionKind::Constraints, FunctionKind::ConstraintRate] {
+    for kind in [FunctionKind::Constraints, FunctionKind::ConstraintRate, FunctionKind::ConstraintJacobian] {
         if functions::arguments(context.function(kind)?) != Arguments::least(kind) {
             return None;
         }
@@ -169,33 +169,45 @@ fn constrained_start(context: &Context<'_>, reads: &mut [bool; 2]) -> Option<Tok
     }
     reads[0] = true;
     let krate = layout.krate();
-    let structure = layout.structure;
+    let (structure, rows) = (layout.structure, &layout.structure.rows);
     let [t, state] = ["t", "state"].map(names::ident);
     let numbers = |list: Vec<f64>| {
         let list = list.into_iter().map(literals::number);
         quote!([#(T::lit(#list)),*])
     };
-    let scales = numbers(structure.rows.iter().map(|&row| structure.scale(row)).collect());
-    let positions = quote! {
-        let scales = #scales;
-        let opening = #krate::Opening::of_positions(self.constraints(#t, &#state.q).as_slice(), &scales);
-    };
+    let scales = numbers(rows.iter().map(|&row| structure.scale(row)).collect());
+    let kind = |row: &Row| (row.closing, is_length(layout.model, row.closing, row.index));
+    let kinds = rows.iter().map(|row| {
+        let first = rows.iter().position(|other| kind(other) == kind(row)).unwrap_or_default();
+        Literal::usize_unsuffixed(first)
+    });
+    let kinds = quote!([#(#kinds),*]);
     if layout.dof() == 0 {
-        return Some(positions);
+        return Some(quote! {
+            let gauge = #krate::Gauge { jacobian: &[], scales: &#scales, kinds: &#kinds, units: &[] };
+            let opening = #krate::Opening::of_positions(self.constraints(#t, &#state.q).as_slice(), &gauge, &[]);
+        });
     }
     let units = numbers(structure.units.clone());
     let velocities = results::vector_type(layout, layout.dof());
     Some(quote! {
-        #positions
+        let jacobian = self.constraint_jacobian(#t, &#state.q);
+        let gauge =
+            #krate::Gauge { jacobian: jacobian.as_slice(), scales: &#scales, kinds: &#kinds, units: &#units };
+        let sizes: #velocities = #krate::Configuration::magnitude(&#state.q).into();
+        let opening = #krate::Opening::of_positions(
+            self.constraints(#t, &#state.q).as_slice(),
+            &gauge,
+            sizes.as_slice(),
+        );
         let opening = opening.or(|| {
             let velocities: #velocities = #state.v.into();
             let rest = State { v: ::core::default::Default::default(), ..*#state };
             #krate::Opening::of_velocities(
                 self.constraint_rate(#t, #state).as_slice(),
                 self.constraint_rate(#t, &rest).as_slice(),
-                &scales,
+                &gauge,
                 velocities.as_slice(),
-                &#units,
             )
         });
     })
