@@ -104,7 +104,13 @@ impl<T: Real> Opening<T> {
     /// Whether it is more than a motion may start with, or no number, in any lane.
     #[inline]
     pub fn is_open(&self) -> bool {
-        any(Real::gt(self.residual, self.tolerance) | Real::ne(self.residual, self.residual))
+        any(self.open_lanes())
+    }
+
+    /// The same lane by lane.
+    #[inline]
+    pub fn open_lanes(&self) -> T::Mask {
+        Real::gt(self.residual, self.tolerance) | Real::ne(self.residual, self.residual)
     }
 
     /// This where something is open, else the next.
@@ -161,13 +167,18 @@ impl<T: Real> Opening<T> {
     /// Of equations that hold for parameters like the declared ones only, in units of a movement, with their names: the
     /// first that does not hold.
     pub fn of_equations(residuals: &[T], names: &[&'static str]) -> Self {
-        let each = residuals.iter().zip(names).map(|(residual, &name)| Self {
-            residual: Real::abs(*residual),
+        let each = residuals.iter().zip(names).map(|(&residual, &name)| Self::of_equation(residual, name));
+        each.fold(Self::none(), |first, next| first.or(|| next))
+    }
+
+    /// Of one of them.
+    pub fn of_equation(residual: T, name: &'static str) -> Self {
+        Self {
+            residual: Real::abs(residual),
+            tolerance: share(),
             what: Open::Equation(name),
             remedy: "choose the parameters so that it holds, or hold the loops by multipliers",
-            tolerance: share(),
-        });
-        each.fold(Self::none(), |first, next| first.or(|| next))
+        }
     }
 }
 

@@ -116,7 +116,8 @@ impl fmt::Display for IntegrationError {
             Self::OpenLoops { time, residual, remedy } => {
                 write!(
                     f,
-                    "at t = {time} s the loops are open by {residual:e} (rad, or lengths of the mechanism): {remedy}"
+                    "at t = {time} s the loops are open by {residual:e} (at a start in rad, or lengths of the mechanism; in a \
+                     run in m or rad): {remedy}"
                 )
             }
             Self::OpenVelocities { time, rate, remedy } => {

@@ -42,7 +42,7 @@ use super::equations::{Equations, Method, Style, Way};
 use super::symbols::Symbols;
 
 pub(super) use names::path;
-pub use names::{coordinate_name, row_name};
+pub use names::{coordinate_name, row_name, unfit};
 pub use wrenches::Held;
 
 /// In which axes a closing is written.

@@ -14,6 +14,7 @@ use crate::emit::items::system;
 use crate::emit::layout::Layout;
 use crate::emit::places::RESERVED;
 use crate::emit::{Context, functions, literals, lower, names, numeric, range};
+use crate::mechanics::closings::unfit;
 use crate::model::types::{Body, ConstraintKind, Expr, ForceKind, Model, ParamId};
 use crate::optimize::program::{Condition, Expression, FunctionKind, Symbol};
 
@@ -171,7 +172,8 @@ fn derived(context: &Context<'_>) -> TokenStream {
     quote!(#statements #tests)
 }
 
-/// Expands to the test of equations that parameters make hold, where Newton's method closes the loops at the default position.
+/// Expands to the test of equations that parameters make hold, where Newton's method closes the loops at the default
+/// position, lane by lane: where it finds no solution nothing is known. Both are judged as at a start.
 fn iterated(context: &Context<'_>) -> Option<TokenStream> {
     let layout = &context.layout;
     let krate = layout.krate();
@@ -182,7 +184,9 @@ fn iterated(context: &Context<'_>) -> Option<TokenStream> {
     }
     let closing = close.pass();
     let [t, state] = ["t", "state"].map(names::ident);
-    let messages = system::granted_names(layout).into_iter().map(|name| unfit(&name));
+    let names = system::granted_names(layout);
+    let messages = names.iter().map(|name| unfit(name));
+    let opening = system::iterations(layout);
     Some(quote! {
         {
             let model = Model::new(self);
@@ -190,22 +194,15 @@ fn iterated(context: &Context<'_>) -> Option<TokenStream> {
             let closed = model.close(#closing);
             let #state = &closed.state;
             let left = model.granted(#passed);
-            let messages = [#(#messages),*];
-            // Where Newton's method finds no solution nothing is known.
-            if #krate::all(Real::lt(closed.residual, Real::sqrt(T::epsilon()))) {
-                for (&left, what) in left.as_slice().iter().zip(messages) {
-                    if !#krate::all(Real::lt(Real::abs(left), Real::sqrt(T::epsilon()))) {
-                        return Err(#krate::ParamError { what });
-                    }
+            let unknown = #opening.open_lanes();
+            for (&left, (name, what)) in left.as_slice().iter().zip([#((#names, #messages)),*]) {
+                let open = #krate::Opening::of_equation(left, name).open_lanes();
+                if !#krate::all(!open | unknown) {
+                    return Err(#krate::ParamError { what });
                 }
             }
         }
     })
-}
-
-/// What is said of an equation that parameters don't make hold.
-fn unfit(name: &str) -> String {
-    format!("`{name}` does not hold with these parameters")
 }
 
 /// An expression that parameters change.

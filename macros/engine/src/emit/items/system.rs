@@ -137,11 +137,21 @@ fn opening(context: &Context<'_>) -> Option<TokenStream> {
 /// Expands to `let closed = ..; let opening = ..;` of loops that Newton's method closes; the state is the closed one then.
 fn iterated(context: &Context<'_>, reads: &mut [bool; 2]) -> Option<TokenStream> {
     let layout = &context.layout;
-    let krate = layout.krate();
     let arguments = functions::arguments(context.function(FunctionKind::Guess)?);
     reads[0] |= arguments.has_time();
     reads[1] |= arguments.has_input();
     let (passed, state) = (arguments.pass(), names::ident("state"));
+    let opening = iterations(layout);
+    Some(quote! {
+        let closed = self.close(#passed);
+        let #state = &closed.state;
+        let opening = #opening;
+    })
+}
+
+/// Expands to the `Opening` of what Newton's method has left in `closed`.
+pub(super) fn iterations(layout: &Layout<'_>) -> TokenStream {
+    let krate = layout.krate();
     let rows = layout.structure.steps.iter().filter_map(|step| match &step.means {
         Means::Newton { rows, .. } => Some(rows),
         _ => None,
@@ -149,11 +159,7 @@ fn iterated(context: &Context<'_>, reads: &mut [bool; 2]) -> Option<TokenStream>
     let scales: Vec<f64> = rows.flatten().map(|&row| layout.structure.scale(row)).collect();
     let [least, greatest] = [scales.iter().fold(f64::MAX, |a, &b| a.min(b)), scales.iter().fold(0.0, |a, &b| b.max(a))]
         .map(literals::number);
-    Some(quote! {
-        let closed = self.close(#passed);
-        let #state = &closed.state;
-        let opening = #krate::Opening::of_iterations(closed.residual, [T::lit(#least), T::lit(#greatest)]);
-    })
+    quote!(#krate::Opening::of_iterations(closed.residual, [T::lit(#least), T::lit(#greatest)]))
 }
 
 /// Expands to `let opening = ..;` of equations with multipliers.

@@ -10,6 +10,11 @@ use super::super::symbols::has_quaternion;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
+/// What is said of an equation that parameters don't make hold, by its name.
+pub fn unfit(name: &str) -> String {
+    format!("`{name}` does not hold with these parameters")
+}
+
 /// Name of an equation.
 pub fn row_name(model: &Model, closing: Closing, index: usize) -> String {
     match closing {

@@ -13,7 +13,7 @@ use crate::symbolic::graph::{Scalar, SymbolId};
 use crate::symbolic::linear_algebra::Factors;
 
 use super::super::Test;
-use super::super::closings::{closings, coordinate_name, row_name};
+use super::super::closings::{closings, coordinate_name, row_name, unfit};
 use super::super::equations::Equations;
 use super::super::reduction::{Map, Reduction};
 use super::super::structure::{Means, Row};
@@ -111,11 +111,10 @@ impl Equations<'_> {
     fn tests_of_loops(&mut self, reduction: &Reduction) -> Vec<Test> {
         let model = self.model;
         let structure = std::rc::Rc::clone(&self.structure);
-        let unfit =
-            |row: Row| format!("`{}` does not hold with these parameters", row_name(model, row.closing, row.index));
+        let message = |row: Row| unfit(&row_name(model, row.closing, row.index));
         let mut tests = Vec::new();
         for (&row, residual) in structure.granted.iter().zip(self.granted_residuals()) {
-            tests.push(Test { what: unfit(row), condition: Condition::Small, values: vec![residual] });
+            tests.push(Test { what: message(row), condition: Condition::Small, values: vec![residual] });
         }
         if !matches!(model.handling, Handling::Reduced) {
             return tests;
@@ -149,7 +148,7 @@ impl Equations<'_> {
                     continue;
                 }
                 if dropped || self.g.depends_on(residual, &written) {
-                    tests.push(Test { what: unfit(row), condition: Condition::Small, values: vec![residual] });
+                    tests.push(Test { what: message(row), condition: Condition::Small, values: vec![residual] });
                 }
             }
         }
