@@ -20,10 +20,10 @@ const REST: f64 = 1e-8;
 /// How far the loops of a state are open: what [`System::opening`](crate::System::opening) tells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Opening<T> {
-    /// The greatest residual, as a movement: in rad, or in lengths of the mechanism's size at the declared parameters.
+    /// The residual that is the greatest beside its tolerance, as a movement: in rad, or in lengths of the mechanism's size.
     /// Of velocities it is that by second.
     pub residual: T,
-    /// The greatest residual that a motion may start with.
+    /// How great it may be where a motion starts.
     pub tolerance: T,
     /// What is open.
     pub what: Open,
