@@ -139,7 +139,8 @@ pub trait System {
     fn reached(&self, _t: Self::Scalar, _state: &Self::State) {}
 
     /// How far the loops are from each of their dead centres, and how fast they come nearer, at a state that
-    /// [`System::accepted`] gave. Returns the greatest residual that Newton's method has left in a loop.
+    /// [`System::accepted`] gave. Returns the greatest residual that Newton's method has left in a loop, over the greatest of
+    /// those that amount to a radian or to the mechanism's size.
     ///
     /// Where two solutions of a loop meet, the coordinates of a reduced model end: the mechanism goes on with the other
     /// solution, a step that jumps over comes back with the same one, and nothing in accelerations or energy tells.

@@ -117,6 +117,19 @@ cranks! {
 }
 
 multibody! {
+    /// A slider of ten kilometres, closed by Newton's method.
+    pub mod vast {
+        let unit = 10000.0;
+        body crank { mass: 0.5, com: 0.2 * unit * X, inertia: rod(0.5, 0.4 * unit, X) }
+        body block { mass: 0.8 }
+        joint a: Revolute { parent: ground, child: crank, axis: Z }
+        joint rail: Prismatic { parent: ground.at(unit * X), child: block, axis: X }
+        constraint link: Rod { between: [crank.at(0.4 * unit * X), block], length: unit }
+        formulation { constraints: Reduced, independent: [a] }
+    }
+}
+
+multibody! {
     /// A hinge that closes a loop in a plane only where a parameter is zero.
     pub mod tilted {
         param lift = 0.0;
@@ -217,6 +230,18 @@ macro_rules! starts_beside {
 fn a_start_is_judged_by_what_its_loops_read() {
     starts_beside!(f64, [1e-3, 1.0, 1e3]);
     starts_beside!(f32, [1.0]);
+}
+
+/// What Newton's method leaves is told in the mechanism's size too.
+#[test]
+fn a_run_is_judged_in_the_size_of_its_mechanism() {
+    let model = vast::Model::<f64>::default();
+    let mut state = vast::State::<f64>::default();
+    (state.q.a, state.guess.rail) = (0.7, 4000.0 + 10.0);
+    let state = multibody::System::accepted(&model, 0.0, &state, &());
+    let off = vast::State { guess: vast::Guess { rail: state.guess.rail + 10.0 }, ..state };
+    let [closed, open] = [state, off].map(|state| multibody::System::margins(&model, 0.0, &state, &(), &mut |_| ()));
+    assert!(closed < 1e-12 && open > 1e-4 && open < 1e-2, "{closed} {open}");
 }
 
 #[test]

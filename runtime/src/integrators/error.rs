@@ -42,7 +42,8 @@ pub enum IntegrationError {
     OpenLoops {
         /// `[s]` the time.
         time: f64,
-        /// The greatest residual: at a start in rad, or in lengths of the mechanism's size; in a run in m or rad.
+        /// The greatest residual: in rad, or in lengths of the mechanism's size; in a run over the greatest unit of the
+        /// equations, as [`System::margins`](crate::System::margins) tells.
         residual: f64,
         /// What closes them.
         remedy: &'static str,
@@ -116,8 +117,8 @@ impl fmt::Display for IntegrationError {
             Self::OpenLoops { time, residual, remedy } => {
                 write!(
                     f,
-                    "at t = {time} s the loops are open by {residual:e} (at a start in rad, or lengths of the mechanism; in a \
-                     run in m or rad): {remedy}"
+                    "at t = {time} s the loops are open by {residual:e} (rad, or lengths of the mechanism; in a run over \
+                     the greater unit): {remedy}"
                 )
             }
             Self::OpenVelocities { time, rate, remedy } => {

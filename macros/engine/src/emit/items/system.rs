@@ -94,7 +94,13 @@ fn margins(context: &Context<'_>) -> Option<TokenStream> {
     });
     let residual = if layout.structure.guesses() > 0 {
         let last = Literal::usize_unsuffixed(2 * count);
-        quote!(margins[#last])
+        let [_, greatest] = scales(layout);
+        if greatest == 1.0 {
+            quote!(margins[#last])
+        } else {
+            let greatest = literals::number(greatest);
+            quote!(margins[#last] / T::lit(#greatest))
+        }
     } else {
         quote!(T::lit(0.0))
     };
@@ -152,14 +158,18 @@ fn iterated(context: &Context<'_>, reads: &mut [bool; 2]) -> Option<TokenStream>
 /// Expands to the `Opening` of what Newton's method has left in `closed`.
 pub(super) fn iterations(layout: &Layout<'_>) -> TokenStream {
     let krate = layout.krate();
+    let [least, greatest] = scales(layout).map(literals::number);
+    quote!(#krate::Opening::of_iterations(closed.residual, [T::lit(#least), T::lit(#greatest)]))
+}
+
+/// The least and the greatest residual that amounts to one in the equations that Newton's method solves.
+fn scales(layout: &Layout<'_>) -> [f64; 2] {
     let rows = layout.structure.steps.iter().filter_map(|step| match &step.means {
         Means::Newton { rows, .. } => Some(rows),
         _ => None,
     });
     let scales: Vec<f64> = rows.flatten().map(|&row| layout.structure.scale(row)).collect();
-    let [least, greatest] = [scales.iter().fold(f64::MAX, |a, &b| a.min(b)), scales.iter().fold(0.0, |a, &b| b.max(a))]
-        .map(literals::number);
-    quote!(#krate::Opening::of_iterations(closed.residual, [T::lit(#least), T::lit(#greatest)]))
+    [scales.iter().fold(f64::MAX, |a, &b| a.min(b)), scales.iter().fold(0.0, |a, &b| b.max(a))]
 }
 
 /// Expands to `let opening = ..;` of equations with multipliers.
