@@ -64,6 +64,13 @@ pub trait Constrained: System {
     /// `G v + dPhi/dt`: the rate of [`Constrained::constraints`] along a motion.
     fn constraint_rate(&self, t: Self::Scalar, state: &Self::State) -> Self::Residual;
 
+    /// Whether a fall of the equations' rank says that motions cross there. It doesn't where equations follow from others
+    /// wherever the loops are closed, and are independent beside that, such as those of a third parallel bar whose length is a
+    /// parameter: they come to depend on each other at the end of every step. Generated models know.
+    fn tells_crossings(&self) -> bool {
+        true
+    }
+
     /// The displacement `d` with `G d = residual` for which the sum of `d^2 / weight` is least, and the rank of the
     /// equations. A coordinate of weight zero is held.
     ///
@@ -89,6 +96,10 @@ impl<S: Constrained + ?Sized> Constrained for &S {
     #[inline]
     fn constraint_rate(&self, t: S::Scalar, state: &S::State) -> S::Residual {
         (**self).constraint_rate(t, state)
+    }
+    #[inline]
+    fn tells_crossings(&self) -> bool {
+        (**self).tells_crossings()
     }
     #[inline]
     fn correction(

@@ -304,10 +304,10 @@ impl Projection {
             // In the pose itself what is within the tolerance is rounding, and no displacement makes it good.
             let settled = settled | (close & Real::gt(greatest(&d), polishing::<S>(&q, size)));
             closed = closed | (close & settled);
+            let d = d.map(&mut |d| Real::select(settled, S::Scalar::lit(0.0), d));
             if let Some(correction) = corrections.get_mut(iterations as usize) {
                 *correction = greatest(&d);
             }
-            let d = d.map(&mut |d| Real::select(settled, S::Scalar::lit(0.0), d));
             q = q.displace(&d);
             residual = system.constraints(t, &q);
             iterations += 1;

@@ -110,7 +110,7 @@ fn turns_far_away_are_no_dead_centre_in_single_precision() {
     for (turns, tolerance) in [(0_u16, 1e-5), (200, 1e-3), (200, 1e-5), (1000, 1e-4)] {
         let angle = f32::from(turns) * core::f32::consts::TAU;
         let start = rocker::State { q: rocker::Position { a: angle }, v: rocker::Velocity { a: 6.0 } };
-        let run = Integrator::adaptive(Dop853, 1e-3, 1e-3).integrate(
+        let run = Integrator::adaptive(Dop853, tolerance, tolerance).integrate(
             &rocker::Model::<f32>::default(),
             0.0,
             5.0,

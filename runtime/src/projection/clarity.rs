@@ -30,12 +30,15 @@ const CONTRACTION: f64 = 0.25;
 /// It is what generated models with constraints, and projections of them, say of themselves as [`System::ambiguity`](crate::System::ambiguity).
 pub fn ambiguity<S: Constrained>(system: &S, t: S::Scalar, state: &S::State) -> S::Scalar {
     let zero = S::Scalar::lit(0.0);
+    if !system.tells_crossings() {
+        return zero;
+    }
     let (q, _, _) = state.split();
     let open = greatest(&system.constraints(t, &q));
     let residual = Real::max(open, S::Scalar::lit(ROUNDING) * closeness::<S>(0.0, &q));
     let first = probe(system, t, &q, residual);
     let size = greatest(&first);
-    let is_near = Real::gt(size, noticed::<S>(&q));
+    let is_near = !Real::le(size, noticed::<S>(&q)); // what isn't a number is no better
     if !any(is_near) {
         return zero;
     }
@@ -52,8 +55,8 @@ pub(super) fn is_unclear<S: Constrained>(
     [first, second]: [S::Scalar; 2],
 ) -> Mask<S> {
     let doubtful = Real::gt(first, noticed::<S>(q)) & Real::gt(second, S::Scalar::lit(CONTRACTION) * first);
-    if !any(doubtful) {
-        return doubtful;
+    if !any(doubtful) || !system.tells_crossings() {
+        return doubtful & !doubtful;
     }
     let rounding = greatest(&probe(system, t, q, closeness::<S>(0.0, q)));
     doubtful & Real::gt(second, rounding)

@@ -18,6 +18,10 @@ macro_rules! handed_on {
                 self.system.constraint_rate(t, state)
             }
             #[inline]
+            fn tells_crossings(&self) -> bool {
+                self.system.tells_crossings()
+            }
+            #[inline]
             fn correction(
                 &self,
                 t: S::Scalar,

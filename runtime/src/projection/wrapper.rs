@@ -98,11 +98,8 @@ impl<S: Constrained, W: Weighting<S>> System for WithProjection<S, W> {
     /// As [`ambiguity`] says, and infinite where the projection may have led to another motion.
     fn ambiguity(&self, t: S::Scalar, state: &S::State, _input: &S::Input) -> S::Scalar {
         let Self { system, projection, weighting, fixed } = self;
-        if *fixed {
-            return S::Scalar::lit(0.0);
-        }
         let (q, v, x) = state.split();
-        if all(Real::is_finite(greatest(&v))) {
+        if *fixed || all(Real::is_finite(greatest(&v))) {
             return ambiguity(system, t, state);
         }
         let unclear = projection.run(weighting, system, t, &state.join(q, Tangent::zero(), x)).unclear;

@@ -23,11 +23,12 @@ impl Scene for Projected {
         }
     }
     fn start(&self) -> State<Scalar> {
+        // It hangs and swings, away from the flat poses.
         let mut state = State::default();
-        state.q.crank = 1.0;
-        (state.q.middle, state.q.last) = (1.0, 1.0);
-        (state.q.coupler1, state.q.coupler2) = (-1.0, -1.0);
-        state.v.crank = 3.0;
+        state.q.crank = -1.0;
+        (state.q.middle, state.q.last) = (-1.0, -1.0);
+        (state.q.coupler1, state.q.coupler2) = (1.0, 1.0);
+        state.v.crank = 0.3;
         self.call(&state)
     }
     /// A step of a millisecond.

@@ -145,12 +145,13 @@ impl<'m> Analysis<'m> {
             let ranked = ranked::ranked(&mut found, &rows, &formulas);
             looked.push(Looked { group, rows, found, ranked });
         }
-        let locked = checks::locked(problem, &looked);
+        let locked = checks::locked(problem, &looked, reduced);
         for (number, one) in looked.into_iter().enumerate() {
             let Looked { group, rows, found, ranked } = one;
             let staying = self.with_other_parameters(problem, &group, &rows, &ranked, structure);
             self.drop_redundant(problem, &group, &rows, &staying, &ranked, structure);
             let Ranked { rank, ref independent, ref kept, .. } = ranked;
+            structure.redundant |= staying.len() > ranked.least;
             // Without formulas: what follows from the rows before it. With them: what needs no step of its own.
             if kept.len() > rank {
                 self.complain_formulas(problem, &group);

@@ -23,6 +23,9 @@ pub struct Structure {
     pub rows: Vec<Row>,
     /// Those among them that vanish or follow from others at the parameters' defaults, and not with others.
     pub wavering: Vec<Row>,
+    /// Whether more of them are kept than are independent on some branch of closed loops: their rank falls there everywhere, so a
+    /// fall tells of no crossing of motions.
+    pub redundant: bool,
     /// Equations that don't follow from others, those with multipliers among them: the loops hold by their forces.
     pub independent: Vec<Row>,
     /// Equations that follow from the others everywhere.

@@ -419,7 +419,7 @@ impl Case {
     }
 
     fn along(&self, point: &Point, h: f64, [v, a]: &[Vec<f64>; 2]) -> Point {
-        let mean: Vec<f64> = v.iter().zip(a).map(|(v, a)| v + 0.51 * h * a).collect();
+        let mean: Vec<f64> = v.iter().zip(a).map(|(v, a)| v + 0.5 * h * a).collect();
         self.displaced(point, h, &mean, a, &[])
     }
 }

@@ -273,6 +273,13 @@ fn constrained(context: &Context<'_>) -> Option<TokenStream> {
     let groups = layout.structure.row_groups(layout.model);
     let least_norm = names::ident(if groups.is_empty() { "least_norm" } else { "least_norm_in_groups" });
     let groups = groups_argument(&groups);
+    let crossings = layout.structure.redundant.then(|| {
+        quote! {
+            fn tells_crossings(&self) -> bool {
+                false
+            }
+        }
+    });
     Some(quote! {
         impl<T: Real> #krate::Constrained for Model<T> {
             type Residual = #residual;
@@ -284,6 +291,8 @@ fn constrained(context: &Context<'_>) -> Option<TokenStream> {
             fn constraint_rate(&self, t: T, state: &State<T>) -> #residual {
                 self.constraint_rate(t, state)
             }
+
+            #crossings
 
             fn correction(
                 &self,

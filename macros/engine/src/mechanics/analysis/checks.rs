@@ -222,8 +222,9 @@ impl Analysis<'_> {
 
 /// Groups of what can't move at all. Equations of one closing may fall into several groups, some of which fix all their
 /// coordinates: a body in absolute coordinates on a hinge stays at its place and turns. So what hangs together is taken
-/// together: groups that share a closing or a joint, with all coordinates of these joints. What time prescribes moves.
-pub(super) fn locked(problem: &Problem, looked: &[Looked]) -> Vec<usize> {
+/// together: groups that share a closing or a joint, with all coordinates of these joints. What time prescribes moves. Multipliers
+/// go with branches of any rank, so what moves on one of them is not locked; a reduced model has that of the greatest.
+pub(super) fn locked(problem: &Problem, looked: &[Looked], reduced: bool) -> Vec<usize> {
     let mut root: Vec<usize> = (0..looked.len()).collect();
     let (mut by_closing, mut by_joint) = (BTreeMap::new(), BTreeMap::new());
     for (number, one) in looked.iter().enumerate() {
@@ -242,7 +243,7 @@ pub(super) fn locked(problem: &Problem, looked: &[Looked]) -> Vec<usize> {
     for (number, one) in looked.iter().enumerate() {
         let part = parts.entry(super::find(&mut root, number)).or_default();
         part.0.extend(joints(problem, one));
-        part.1 += one.ranked.rank;
+        part.1 += if reduced { one.ranked.rank } else { one.ranked.least };
         part.2 |= one.group.equations.iter().any(|&k| problem.equations[k].timed);
     }
     let mut is_locked = |number: &usize| {

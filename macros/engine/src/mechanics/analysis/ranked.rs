@@ -11,6 +11,8 @@ use super::rank;
 
 pub(super) struct Ranked {
     pub rank: usize,
+    /// The least at any: a coupler on three equal parallel bars moves, though it can also be put together so that it can't.
+    pub least: usize,
     /// Rows that carry the rank.
     pub independent: Vec<usize>,
     /// Rows that multipliers keep, before other parameters are looked at.
@@ -30,6 +32,7 @@ pub(super) fn ranked(found: &mut Found, rows: &[usize], formulas: &[usize]) -> R
     let closed = found.configurations.iter().any(|configuration| configuration.closed);
     let ranks: Vec<usize> = found.configurations.iter().map(|c| rank::of(&c.jacobian, rows)).collect();
     let greatest = ranks.iter().copied().max().unwrap_or(0);
+    let least = ranks.iter().copied().min().unwrap_or(0);
     let beside = found.beside.iter().map(|jacobian| rank::of(jacobian, rows)).max().unwrap_or(0);
     let everywhere: Vec<&[Vec<f64>]> = found.configurations.iter().map(|c| c.jacobian.as_slice()).collect();
     let union = rank::kept(&everywhere, rows);
@@ -59,7 +62,7 @@ pub(super) fn ranked(found: &mut Found, rows: &[usize], formulas: &[usize]) -> R
         rank::kept(&regular, &all)
     };
     let evidence = evidence(configurations, count, &ranks, beside);
-    Ranked { rank: greatest, independent, staying, kept, agreed, elusive: beside > greatest, evidence }
+    Ranked { rank: greatest, least, independent, staying, kept, agreed, elusive: beside > greatest, evidence }
 }
 
 fn evidence(configurations: &[Configuration], count: usize, ranks: &[usize], beside: usize) -> String {
