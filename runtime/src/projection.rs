@@ -73,9 +73,9 @@
 //! on smoothly, but a residual, however small, makes the other motion turn off before it. Steps lead over such a pose; one
 //! that ends so near that rounding decides which motion goes on ends in
 //! [`IntegrationError::Ambiguous`](crate::IntegrationError::Ambiguous), or is tried shorter where steps are chosen by error.
-//! [`ambiguity`] tells how near a position is. Projections of a fixed number of corrections and single steps are not
-//! watched. Where stages of a given step come near, its error grows, as everywhere near such a pose: in `f32` within
-//! hundredths of a radian.
+//! [`ambiguity`] tells how near a position is. Not watched are single steps, and mechanisms of which
+//! [`Constrained::tells_crossings`] is false. Where stages of a given step come near, its error grows, as everywhere near
+//! such a pose: in `f32` within hundredths of a radian.
 //!
 //! # Lanes
 //! Every lane is iterated as if it were alone: lanes that have converged stay where they are while others go on. An
@@ -92,6 +92,7 @@ mod wrapper;
 
 pub use assembly::{Assembled, assemble};
 pub use baumgarte::WithBaumgarte;
+pub(crate) use clarity::TURNED;
 pub use clarity::ambiguity;
 pub use error::{AssemblyError, ProjectionError};
 pub use rank::{WithRank, rank};
@@ -117,8 +118,8 @@ const POLISHING: f64 = 100.0;
 /// or weighted coordinate by coordinate, or by the mass matrix. See the [module](self) for an example.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection {
-    /// `[m]` or `[rad]`: greatest residual that a position may be left with. That of velocities, per second, is this times one plus the
-    /// greatest velocity.
+    /// `[m]` or `[rad]`: greatest residual that a position may be left with. That of velocities, per second, is this times
+    /// one plus the greatest velocity.
     pub tolerance: f64,
     /// Greatest number of Newton's iterations; with [`Projection::project_fixed`] exactly this many.
     pub iterations: u32,

@@ -119,6 +119,11 @@ fn loosely<S: multibody::Constrained>(model: S) -> WithProjection<S> {
     WithProjection::new(model, Projection { tolerance: 1e-6, ..Projection::default() })
 }
 
+/// By two corrections whatever the numbers.
+fn twice<S: multibody::Constrained>(model: S) -> WithProjection<S> {
+    WithProjection::fixed(model, Projection { iterations: 2, ..Projection::default() })
+}
+
 fn pulled<S: multibody::Constrained>(model: S) -> WithBaumgarte<S, multibody::projection::Plain> {
     WithBaumgarte::plain(model, 10.0)
 }
@@ -163,6 +168,7 @@ fn fixed_steps_lead_over_flat_poses() {
         assert_eq!(tally!(f64, Integrator::fixed(Rk4, step), 1e-4, projected).told, 0);
         assert_eq!(tally!(f64, Integrator::fixed(Dop853, step), 1e-4, projected).told, 0);
         tally!(f64, Integrator::fixed(SemiImplicitEuler, step), 5.0 * step, projected);
+        assert!(tally!(f64, Integrator::fixed(Rk4, step), 1e-3, twice).right >= 8);
     }
 }
 

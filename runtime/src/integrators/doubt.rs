@@ -2,11 +2,9 @@
 
 use super::problem::Problem;
 use super::slope::{is_finite, magnitude};
+use crate::projection::TURNED;
 use crate::tangent::greatest;
 use crate::{Real, StateSpace, System, Tangent, any};
-
-/// What a projection may change velocities by, as a share of them, where motions cross: more, and it has turned them.
-const TURNED: f64 = 0.125;
 
 /// The end of a step where motions cross.
 #[derive(Clone, Copy, PartialEq)]

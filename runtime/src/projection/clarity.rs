@@ -23,6 +23,8 @@ const DOUBT: f64 = 16.0;
 /// A second correction of a projection is at most this share of the first, as far as it isn't rounding: Newton's method
 /// has started near its solution, and that is the one of the branch.
 const CONTRACTION: f64 = 0.25;
+/// What a projection may change velocities by, as a share of them, where motions cross: more, and it has turned them.
+pub(crate) const TURNED: f64 = 0.125;
 
 /// How unclear it is at a position which motion goes on, in each lane: zero far from a pose in which constraints come to
 /// depend on each other and motions cross, and one where what is left of the residual, or rounding, decides about it.

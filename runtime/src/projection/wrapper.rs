@@ -1,6 +1,6 @@
 //! A projection after each step of any integrator: [`WithProjection`].
 
-use super::clarity::ambiguity;
+use super::clarity::{TURNED, ambiguity};
 use super::handed_on::{handed_on, watched};
 use super::{ByMass, Mask, Plain, Projection, Weighting, finite};
 use crate::tangent::greatest;
@@ -8,9 +8,6 @@ use crate::{
     Canonical, Constrained, Differentiable, ExtraOf, Impulsive, Jacobian, PositionOf, Real, Separable, StateSpace,
     System, Tangent, VelocityOf, all, any,
 };
-
-/// What a projection may change velocities by, as a share of them, where motions cross.
-const TURNED: f64 = 0.125;
 
 /// A system whose states are projected at the end of every accepted step, whatever the integrator.
 ///

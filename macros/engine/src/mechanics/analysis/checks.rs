@@ -222,8 +222,9 @@ impl Analysis<'_> {
 
 /// Groups of what can't move at all. Equations of one closing may fall into several groups, some of which fix all their
 /// coordinates: a body in absolute coordinates on a hinge stays at its place and turns. So what hangs together is taken
-/// together: groups that share a closing or a joint, with all coordinates of these joints. What time prescribes moves. Multipliers
-/// go with branches of any rank, so what moves on one of them is not locked; a reduced model has that of the greatest.
+/// together: groups that share a closing or a joint, with all coordinates of these joints. What time prescribes moves.
+/// Multipliers go with branches of any rank, so what moves on one of them is not locked; a reduced model has that of the
+/// greatest.
 pub(super) fn locked(problem: &Problem, looked: &[Looked], reduced: bool) -> Vec<usize> {
     let mut root: Vec<usize> = (0..looked.len()).collect();
     let (mut by_closing, mut by_joint) = (BTreeMap::new(), BTreeMap::new());
