@@ -6,6 +6,7 @@
 
 use crate::model::types::{Body, BodyRef, Frame, FrameStep, Joint, JointId};
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
+use crate::symbolic::rotations;
 
 use super::chain::Chain;
 use super::constants;
@@ -30,10 +31,10 @@ impl Place {
 
     /// A frame that is placed in this one.
     pub fn then(&self, g: &mut Graph, rotation: Rotation, offset: Vector) -> Place {
-        let moved = constants::rotate(g, self.rotation, offset);
+        let moved = rotations::rotate(g, self.rotation, offset);
         Place {
             link: self.link,
-            rotation: constants::compose(g, self.rotation, rotation),
+            rotation: rotations::compose(g, self.rotation, rotation),
             offset: g.add_vectors(self.offset, moved),
         }
     }
@@ -146,7 +147,7 @@ impl Equations<'_> {
         }
         // The child frame, R and p in the body, is the chain's end: the body is R^T and -R^T p in that.
         let (rotation, offset) = self.steps(&joint.child);
-        let back = constants::rotate(&mut self.g, rotation.transpose(), offset);
+        let back = rotations::rotate(&mut self.g, rotation.transpose(), offset);
         let place = end.then(&mut self.g, rotation.transpose(), -back);
         if let BodyRef::Body(body) = joint.child.body
             && let Some(slot) = mechanism.bodies.get_mut(body.0)

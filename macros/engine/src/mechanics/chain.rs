@@ -9,6 +9,7 @@
 
 use crate::model::types::{Expr, Joint, JointId, JointKind, Orientation};
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
+use crate::symbolic::rotations;
 
 use super::build::{Mechanism, Place};
 use super::constants::{self, Axis};
@@ -49,7 +50,7 @@ impl<'a> Chain<'a> {
         links.push(Link {
             name,
             parent: self.end.link,
-            rotation: constants::compose(g, self.end.rotation, step.axis.turn),
+            rotation: rotations::compose(g, self.end.rotation, step.axis.turn),
             offset: self.end.offset,
             motion: step.motion,
             freedom: step.freedom,

@@ -7,8 +7,8 @@
 use std::collections::HashMap;
 
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
+use crate::symbolic::rotations;
 
-use super::constants;
 use super::tree::{Link, Motion, Tree};
 
 /// R = base * turn about a coordinate axis.
@@ -68,7 +68,7 @@ impl Columns {
                 break state;
             }
             if at == self.root {
-                let r = constants::rows(g, self.turn);
+                let r = rotations::rows(g, self.turn);
                 let base = [0, 1, 2].map(|j| g.vector([r[0][j], r[1][j], r[2][j]]));
                 let state = Turned { base, axis: 2, angle: Scalar::ZERO, origin: Vector::ZERO };
                 self.known.insert(at, state);
@@ -162,10 +162,10 @@ impl Turned {
         if r == Rotation::IDENTITY {
             return *self;
         }
-        let rows = constants::rows(g, r);
+        let rows = rotations::rows(g, r);
         let keeps_axis = rows[self.axis][self.axis] == Scalar::ONE;
         let (columns, angle) = if keeps_axis { (self.base, self.angle) } else { (self.columns(g), Scalar::ZERO) };
-        let turned = constants::transpose(&rows).map(|column| {
+        let turned = rotations::transpose(&rows).map(|column| {
             let column = g.vector(column);
             combine(g, &columns, column)
         });

@@ -8,6 +8,7 @@
 use crate::model::types::{Closing, ConstraintKind, JointId, JointKind, Solve};
 use crate::solve::{Cycle, Segment};
 use crate::symbolic::graph::{Rotation, Scalar, Vector};
+use crate::symbolic::rotations;
 
 use super::build::Place;
 use super::constants;
@@ -97,7 +98,7 @@ impl Equations<'_> {
     }
 
     fn inverse(&mut self, rotation: Rotation, offset: Vector, cycle: &mut Vec<Segment>) {
-        let back = constants::rotate(&mut self.g, rotation.transpose(), offset);
+        let back = rotations::rotate(&mut self.g, rotation.transpose(), offset);
         cycle.push(Segment::Fixed { rotation: rotation.transpose(), offset: -back });
     }
 

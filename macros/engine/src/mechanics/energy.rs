@@ -7,9 +7,10 @@
 use crate::model::types::ForceKind;
 use crate::symbolic::graph::{Graph, Rotation, RotationNode, Scalar, Vector};
 
-use super::equations::{Equations, LinkVelocity};
+use super::equations::Equations;
 use super::inertia::Inertia;
 use super::tree::{Link, Motion, Tree};
+use super::velocities::LinkVelocity;
 
 impl Equations<'_> {
     /// J

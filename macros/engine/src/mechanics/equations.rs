@@ -27,6 +27,7 @@ use super::structure::{Row, Structure};
 use super::symbols::Symbols;
 use super::tree::Tree;
 use super::values::Value;
+use super::velocities::LinkVelocity;
 
 /// How the motion of frames is written: the two cost differently, and neither wins always.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,9 +57,6 @@ pub struct Way {
     /// In which axes loops are closed.
     pub writing: Writing,
 }
-
-/// Angular velocity, and velocity of the origin, in link axes.
-pub type LinkVelocity = (Vector, Vector);
 
 /// One derivation.
 pub struct Equations<'m> {

@@ -7,6 +7,7 @@ use std::rc::Rc;
 
 use crate::model::types::{Coordinate, Expr, ExprNode};
 use crate::symbolic::graph::{Call, Rotation, Scalar, Vector};
+use crate::symbolic::rotations;
 
 use super::constants;
 use super::equations::Equations;
@@ -128,20 +129,20 @@ impl Equations<'_> {
                     let angle = self.known(&angles[k]).scalar();
                     self.g.axis_rotation(k, angle)
                 });
-                let rotation = constants::compose(&mut self.g, turns[1], turns[2]);
-                let rotation = constants::compose(&mut self.g, turns[0], rotation);
+                let rotation = rotations::compose(&mut self.g, turns[1], turns[2]);
+                let rotation = rotations::compose(&mut self.g, turns[0], rotation);
                 self.rotation_value(rotation)
             }
             ExprNode::Compose(a, b) => {
                 let [a, b] = [a, b].map(|e| self.known_rotation(e));
-                let rotation = constants::compose(&mut self.g, a, b);
+                let rotation = rotations::compose(&mut self.g, a, b);
                 self.rotation_value(rotation)
             }
             ExprNode::Pose(position, orientation) => {
                 let position = self.known_vector(position);
                 let rows = match self.known(orientation) {
                     Value::Rotation(rows) => *rows,
-                    _ => constants::rows(&mut self.g, Rotation::IDENTITY),
+                    _ => rotations::rows(&mut self.g, Rotation::IDENTITY),
                 };
                 Value::Pose(position, super::orientation::of_rows(&mut self.g, &rows))
             }
@@ -204,7 +205,7 @@ impl Equations<'_> {
     }
 
     fn rotation_value(&mut self, rotation: Rotation) -> Value {
-        Value::Rotation(Rc::new(constants::rows(&mut self.g, rotation)))
+        Value::Rotation(Rc::new(rotations::rows(&mut self.g, rotation)))
     }
 
     fn known_rotation(&mut self, expr: &Expr) -> Rotation {

@@ -7,10 +7,10 @@ use std::rc::Rc;
 
 use crate::model::types::{Expr, ExprNode, FrameQuantity, JointId};
 use crate::symbolic::graph::{Rotation, Scalar, Vector};
+use crate::symbolic::rotations;
 
 use super::build::Place;
 use super::climb::Climb;
-use super::constants;
 use super::equations::{Equations, Style};
 use super::values::Value;
 use super::world;
@@ -104,17 +104,17 @@ impl Equations<'_> {
             Style::Nested => {
                 let link = self.rotation(place.link);
                 let rotation = self.g.compose(link, place.rotation);
-                constants::rows(&mut self.g, rotation)
+                rotations::rows(&mut self.g, rotation)
             }
             Style::World => {
                 let mechanism = Rc::clone(&self.mechanism);
-                let rows = constants::rows(&mut self.g, place.rotation);
-                let columns = constants::transpose(&rows).map(|column| {
+                let rows = rotations::rows(&mut self.g, place.rotation);
+                let columns = rotations::transpose(&rows).map(|column| {
                     let column = self.g.vector(column);
                     let column = self.world.rotate(&mut self.g, &mechanism.tree, place.link, column);
                     self.g.components(column)
                 });
-                constants::transpose(&columns)
+                rotations::transpose(&columns)
             }
         }
     }

@@ -16,12 +16,12 @@
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
-use super::equations::{Equations, LinkVelocity};
+use super::equations::Equations;
 use super::kinematics::{LinkMotion, motions};
 use super::newton_euler::{Wrench, efforts, inertial_wrench, to_parent, transmitted};
 use super::reduction::Reduction;
 use super::tree::Tree;
-use super::velocities::velocities;
+use super::velocities::{LinkVelocity, velocities};
 
 /// How efforts of gravity are found.
 #[derive(Clone, Copy, PartialEq, Eq)]

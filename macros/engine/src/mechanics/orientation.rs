@@ -8,9 +8,9 @@
 
 use crate::symbolic::graph::{Call, Graph, Rotation, RotationNode, Scalar, Vector};
 use crate::symbolic::number::Number;
+use crate::symbolic::rotations;
 
 use super::build::Place;
-use super::constants;
 use super::equations::Equations;
 use super::tree::Motion;
 
@@ -53,7 +53,7 @@ impl Equations<'_> {
                 Motion::Ball(quaternion) => g.quaternion_rotation(quaternion),
             };
             let slot = if turns[1] == Rotation::IDENTITY { 0 } else { 2 };
-            turns[slot] = constants::compose(g, turns[slot], link.rotation);
+            turns[slot] = rotations::compose(g, turns[slot], link.rotation);
             if moving == Rotation::IDENTITY {
                 continue;
             }
@@ -71,7 +71,7 @@ impl Equations<'_> {
             turns[1] = both;
         }
         let slot = if turns[1] == Rotation::IDENTITY { 0 } else { 2 };
-        turns[slot] = constants::compose(g, turns[slot], place.rotation);
+        turns[slot] = rotations::compose(g, turns[slot], place.rotation);
         Some(turns.into_iter().filter(|&r| r != Rotation::IDENTITY).collect())
     }
 
@@ -88,7 +88,7 @@ impl Equations<'_> {
                 q
             }
             _ => {
-                let rows = constants::rows(g, rotation);
+                let rows = rotations::rows(g, rotation);
                 return of_rows(g, &rows);
             }
         };

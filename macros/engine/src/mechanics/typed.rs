@@ -9,8 +9,9 @@
 
 use crate::symbolic::graph::{Graph, Rotation, Scalar};
 use crate::symbolic::number::Number;
+use crate::symbolic::rotations::{self, compose};
 
-use super::constants::{self, compose};
+use super::constants;
 
 type Matrix = [[f64; 3]; 3];
 
@@ -51,7 +52,7 @@ pub(super) fn oriented(g: &mut Graph, rows: [[Scalar; 3]; 3]) -> Rotation {
     // Fewer digits are further from any rotation.
     let reach = ROUNDED + 2.0 * defect(&m);
     let is_near = |g: &mut Graph, r: Rotation| {
-        let rows = constants::rows(g, r);
+        let rows = rotations::rows(g, r);
         let near = |(s, x): (&Scalar, &f64)| g.literal(*s).is_some_and(|n| (n.value() - x).abs() <= reach);
         rows.iter().flatten().zip(m.iter().flatten()).all(near)
     };

@@ -4,8 +4,10 @@
 
 use crate::symbolic::graph::{Graph, Vector};
 
-use super::equations::LinkVelocity;
 use super::tree::Tree;
+
+/// Angular velocity, and velocity of the origin, in link axes.
+pub(crate) type LinkVelocity = (Vector, Vector);
 
 pub(super) fn velocities(g: &mut Graph, tree: &Tree) -> Vec<LinkVelocity> {
     let mut list: Vec<LinkVelocity> = Vec::with_capacity(tree.links.len());

@@ -21,6 +21,7 @@ pub mod modular;
 pub mod number;
 pub mod pivoted;
 pub mod radical;
+pub(crate) mod rotations;
 mod scalar;
 pub mod signs;
 pub mod substitute;

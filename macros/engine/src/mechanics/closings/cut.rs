@@ -4,6 +4,7 @@
 
 use crate::model::types::{Expr, JointId, JointKind};
 use crate::symbolic::graph::{Scalar, Vector};
+use crate::symbolic::rotations;
 
 use super::super::build::Place;
 use super::super::constants::{self, Axis};
@@ -120,7 +121,7 @@ impl Equations<'_> {
     }
 
     fn turn_end(&mut self, end: &mut Place, axis: &Axis) {
-        end.rotation = constants::compose(&mut self.g, end.rotation, axis.turn);
+        end.rotation = rotations::compose(&mut self.g, end.rotation, axis.turn);
     }
 
     /// Turns both frames so that the axis is a coordinate axis, or the opposite of one: no equation minds.

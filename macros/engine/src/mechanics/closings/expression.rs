@@ -13,9 +13,9 @@ use std::rc::Rc;
 
 use crate::model::types::{Closing, ConstraintId, ConstraintKind, Coordinate, Expr, FrameQuantity, JointId};
 use crate::symbolic::graph::{Scalar, Vector};
+use crate::symbolic::rotations::{self, transpose};
 
 use super::super::build::Place;
-use super::super::constants::transpose;
 use super::super::equations::Equations;
 use super::super::newton_euler::Wrench;
 use super::super::reduction::Map;
@@ -208,7 +208,7 @@ impl Equations<'_> {
 
     /// The axes of a frame.
     fn read_columns(&mut self, place: &Place) -> [[Scalar; 3]; 3] {
-        let rows = super::super::constants::rows(&mut self.g, place.rotation);
+        let rows = rotations::rows(&mut self.g, place.rotation);
         let Some(link) = self.read_link(place.link) else { return transpose(&rows) };
         let g = &mut self.g;
         transpose(&rows).map(|local| {

@@ -8,10 +8,10 @@
 use std::rc::Rc;
 
 use crate::symbolic::graph::{Rotation, Scalar, Vector};
+use crate::symbolic::rotations;
 
 use super::super::build::Place;
 use super::super::climb::Climb;
-use super::super::constants;
 use super::super::equations::{Equations, Style};
 use super::super::tree::Motion;
 use super::{Axes, Writing};
@@ -82,7 +82,7 @@ impl Equations<'_> {
         let to = view.place;
         if point.link == to.link {
             let way = self.g.sub_vectors(point.offset, to.offset);
-            return constants::rotate(&mut self.g, to.rotation.transpose(), way);
+            return rotations::rotate(&mut self.g, to.rotation.transpose(), way);
         }
         let mut seen = if view.shares(false) {
             self.world.point(&mut self.g, tree, point.link, point.offset)
@@ -143,7 +143,7 @@ impl Equations<'_> {
             return self.g.rotate(turns, v);
         }
         let seen = if link == to.link {
-            return constants::rotate(&mut self.g, to.rotation.transpose(), v);
+            return rotations::rotate(&mut self.g, to.rotation.transpose(), v);
         } else if view.shares(false) {
             self.world.rotate(&mut self.g, tree, link, v)
         } else {
@@ -206,6 +206,6 @@ impl Equations<'_> {
     /// A coordinate axis of a frame, in its link's axes.
     pub(super) fn axis_in_link(&mut self, place: &Place, axis: usize) -> Vector {
         let unit = self.g.along(axis, Scalar::ONE);
-        constants::rotate(&mut self.g, place.rotation, unit)
+        rotations::rotate(&mut self.g, place.rotation, unit)
     }
 }
