@@ -3,7 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use multibody_engine::diagnostics::Diagnostics;
-use multibody_engine::mechanics::structure::Structure;
+use multibody_engine::mechanics::loops::structure::Structure;
 use multibody_engine::model::types::{JointId, Model};
 use multibody_engine::optimize::Refusal;
 use multibody_engine::optimize::program::{Compiled, FunctionKind, Symbol};

@@ -1,6 +1,6 @@
 //! Closed loops in all formulations, against the plain tree with multipliers for all equations.
 
-use multibody_engine::mechanics::structure::Means;
+use multibody_engine::mechanics::loops::structure::Means;
 use multibody_engine::optimize::program::{FunctionKind, Symbol};
 
 use super::{At, Findings, Verdict};

@@ -1,10 +1,12 @@
 //! The compiler behind `multibody!`, an ordinary library so that tests, benches and fuzzers can link it.
 //!
-//! Stages flow one way: `syntax -> model -> (symbolic <- mechanics <- solve) -> optimize -> verify -> emit`. `symbolic` knows no
-//! mechanics; `mechanics` knows no tokens; `emit` decides nothing about equations. The public items here serve the
-//! project's own tests and tools; users call the macro.
+//! Stages flow one way: `syntax -> model -> mechanics -> optimize -> verify -> emit`; `mechanics` stands on `solve`,
+//! `dynamics` and `symbolic`, in this order. `symbolic` knows no mechanics; `dynamics` knows trees of links and no model;
+//! `mechanics` knows no tokens; `emit` decides nothing about equations. The public items here serve the project's own tests
+//! and tools; users call the macro.
 
 pub mod diagnostics;
+pub mod dynamics;
 pub mod emit;
 pub mod mechanics;
 pub mod model;
@@ -21,7 +23,7 @@ use proc_macro2::TokenStream;
 
 use diagnostics::Diagnostics;
 use mechanics::analysis::Complaint;
-use mechanics::structure::Structure;
+use mechanics::loops::structure::Structure;
 use model::Soundness;
 use model::types::Model;
 use optimize::program::{Compiled, FunctionKind};

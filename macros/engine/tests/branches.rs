@@ -10,7 +10,7 @@ mod interpreter;
 mod rng;
 
 use multibody_engine::diagnostics::Diagnostics;
-use multibody_engine::mechanics::structure::Structure;
+use multibody_engine::mechanics::loops::structure::Structure;
 use multibody_engine::model::check;
 use multibody_engine::model::types::{Model, Type};
 use multibody_engine::optimize::program::{Compiled, Condition, FunctionKind, Symbol};

@@ -10,7 +10,7 @@ mod parsed;
 use emit_samples::*;
 use looped_sample::looped;
 use multibody_engine::emit::report;
-use multibody_engine::mechanics::structure::Structure;
+use multibody_engine::mechanics::loops::structure::Structure;
 use multibody_engine::model::types::{Coordinate, InstanceId, JointId, JointKind, Orientation};
 use syn::{Item, ItemMod};
 

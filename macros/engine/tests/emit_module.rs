@@ -5,7 +5,7 @@ mod emit_samples;
 mod parsed;
 
 use emit_samples::*;
-use multibody_engine::mechanics::structure::Structure;
+use multibody_engine::mechanics::loops::structure::Structure;
 use multibody_engine::model::types::{Model, Type};
 use multibody_engine::optimize::program::{Compiled, FunctionKind};
 use proc_macro2::{TokenStream, TokenTree};

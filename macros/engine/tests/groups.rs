@@ -5,7 +5,7 @@
 mod support;
 
 use multibody_engine::emit::report;
-use multibody_engine::mechanics::groups::{Group, Repeated, find};
+use multibody_engine::mechanics::loops::groups::{Group, Repeated, find};
 use multibody_engine::model::types::Model;
 use multibody_engine::optimize::compile;
 use multibody_engine::optimize::program::Cost;

@@ -6,8 +6,8 @@ mod expressions;
 mod rng;
 
 use expressions::Expression;
-use multibody_engine::mechanics::articulated_inertia::ArticulatedInertia;
-use multibody_engine::mechanics::inertia::Inertia;
+use multibody_engine::dynamics::articulated_inertia::ArticulatedInertia;
+use multibody_engine::dynamics::inertia::Inertia;
 use multibody_engine::symbolic::evaluate::{Evaluator, Field};
 use multibody_engine::symbolic::graph::{Call, Graph, Rotation, Scalar};
 use multibody_engine::symbolic::identity::{Draw, Modular, Verdict, close, identical};

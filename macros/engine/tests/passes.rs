@@ -17,7 +17,7 @@ mod rng;
 use arms::{ARMS, Arm, load};
 use expressions::{Expression, SYMBOLS};
 use multibody_engine::diagnostics::Diagnostics;
-use multibody_engine::mechanics::regroup::regroup;
+use multibody_engine::dynamics::regroup::regroup;
 use multibody_engine::mechanics::{Derivation, Derived, of};
 use multibody_engine::model;
 use multibody_engine::model::types::{InputId, JointId, ParamId};

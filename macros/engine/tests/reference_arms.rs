@@ -7,7 +7,7 @@ mod arms;
 mod formulations;
 
 use arms::{ARMS, Arm, flat, load, read};
-use multibody_engine::mechanics::regroup::regroup;
+use multibody_engine::dynamics::regroup::regroup;
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
 use multibody_engine::symbolic::graph::{Scalar, SymbolId};
 

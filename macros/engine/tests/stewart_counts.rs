@@ -3,13 +3,13 @@
 
 use std::path::PathBuf;
 
-use multibody_engine::mechanics::inertia::Inertia;
+use multibody_engine::dynamics::inertia::Inertia;
+use multibody_engine::dynamics::tree::{Link, Motion, Tree};
 use multibody_engine::mechanics::strut::carrier::{Axes, Carrier};
 use multibody_engine::mechanics::strut::detect::{Chain, detect};
 use multibody_engine::mechanics::strut::inverse::{forces, ways};
 use multibody_engine::mechanics::strut::triple::{self, Triple};
 use multibody_engine::mechanics::strut::{self, motion};
-use multibody_engine::mechanics::tree::{Link, Motion, Tree};
 use multibody_engine::model::types::{JointId, ParamId};
 use multibody_engine::optimize::dag::Dag;
 use multibody_engine::optimize::program::{Cost, Symbol};

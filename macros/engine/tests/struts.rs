@@ -9,14 +9,14 @@ mod formulations;
 #[path = "common/rng.rs"]
 mod rng;
 
-use multibody_engine::mechanics::inertia::Inertia;
+use multibody_engine::dynamics::inertia::Inertia;
+use multibody_engine::dynamics::tree::{Link, Motion, Tree};
 use multibody_engine::mechanics::strut::carrier::{Axes, Carrier};
 use multibody_engine::mechanics::strut::detect::{Chain, detect};
 use multibody_engine::mechanics::strut::forward::{self, accelerations};
 use multibody_engine::mechanics::strut::inverse::{Arms, Gather, Way, forces};
 use multibody_engine::mechanics::strut::motion::{coordinates, moves};
 use multibody_engine::mechanics::strut::triple::{self, Triple, sub};
-use multibody_engine::mechanics::tree::{Link, Motion, Tree};
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
 use multibody_engine::symbolic::graph::{Graph, Rotation, Scalar, SymbolId};
 use multibody_engine::symbolic::inputs::Known;

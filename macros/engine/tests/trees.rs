@@ -14,10 +14,10 @@ mod rng;
 
 use std::cell::Cell;
 
-use multibody_engine::mechanics::floating::seats;
-use multibody_engine::mechanics::parallel::{Axes, share_axes};
-use multibody_engine::mechanics::regroup::regroup;
-use multibody_engine::mechanics::tree::{Motion, Tree};
+use multibody_engine::dynamics::floating_bases::seats;
+use multibody_engine::dynamics::regroup::regroup;
+use multibody_engine::dynamics::shared_axes::{Axes, share_axes};
+use multibody_engine::dynamics::tree::{Motion, Tree};
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
 use multibody_engine::symbolic::graph::{Graph, Scalar, ScalarNode, SymbolId};
 use multibody_engine::symbolic::identity::{Draw, Modular, Verdict, identical};

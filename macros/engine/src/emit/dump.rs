@@ -8,12 +8,12 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
-use proc_macro2::TokenStream;
-
-use super::{names, report, source};
-use crate::mechanics::structure::Structure;
+use crate::mechanics::loops::structure::Structure;
 use crate::model::types::Model;
 use crate::optimize::program::Compiled;
+
+use super::{names, report, source};
+use proc_macro2::TokenStream;
 
 /// Name of the environment variable.
 const VARIABLE: &str = "MULTIBODY_DUMP";

@@ -7,8 +7,12 @@
 use std::collections::HashSet;
 
 use crate::mechanics::analysis::driven_by;
-use crate::mechanics::closings::{closings, row_count};
-use crate::mechanics::structure::{Means, Row, Step, Structure};
+use crate::mechanics::loops::constraints::closings;
+use crate::mechanics::loops::constraints::row_count;
+use crate::mechanics::loops::structure::Means;
+use crate::mechanics::loops::structure::Row;
+use crate::mechanics::loops::structure::Step;
+use crate::mechanics::loops::structure::Structure;
 use crate::model::types::{Coordinate, Handling, Model};
 
 /// As many equations are made up.

@@ -6,15 +6,16 @@
 //!
 //! A part's structs have the union of the fields of its instances, so that one type serves them all.
 
-use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 use syn::Path;
+
+use crate::mechanics::loops::structure::Structure;
+use crate::model::types::{InstanceId, JointId, Model, PartTypeId, Place};
 
 use super::joints::{self, Piece};
 use super::leaf::Leaf;
 use super::{document, names};
-use crate::mechanics::structure::Structure;
-use crate::model::types::{InstanceId, JointId, Model, PartTypeId, Place};
+use proc_macro2::{Ident, Literal, TokenStream};
 
 /// The kinds of generated structs with fields of the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

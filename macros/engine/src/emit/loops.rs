@@ -3,14 +3,17 @@
 //!
 //! In: the layout with the model's structure, and the program of the Jacobian. Out: lines of text.
 
+use crate::mechanics::loops::constraints::row_name;
+use crate::mechanics::loops::structure::Means;
+use crate::mechanics::loops::structure::Row;
+use crate::mechanics::loops::structure::Step;
+use crate::model::types::{Closing, ConstraintId, ConstraintKind, Coordinate, DriveTarget, JointId, Place, SolveHow};
+use crate::optimize::program::{Expression, FunctionKind};
+
 use super::layout::{Group, Layout};
 use super::leaf::Leaf;
 use super::report::{Row as Line, frame, general, row, section, text};
 use super::{Context, document, formula};
-use crate::mechanics::closings::row_name;
-use crate::mechanics::structure::{Means, Row, Step};
-use crate::model::types::{Closing, ConstraintId, ConstraintKind, Coordinate, DriveTarget, JointId, Place, SolveHow};
-use crate::optimize::program::{Expression, FunctionKind};
 
 impl Layout<'_> {
     /// Names of the components of a velocity, in order: `legs[0].gimbal.first`.

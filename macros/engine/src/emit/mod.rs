@@ -34,13 +34,14 @@ mod text;
 mod unchecked;
 mod values;
 
-use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use self::layout::Layout;
-use crate::mechanics::structure::Structure;
+use crate::mechanics::loops::structure::Structure;
 use crate::model::types::Model;
 use crate::optimize::program::{Compiled, Function, FunctionKind};
+
+use self::layout::Layout;
+use proc_macro2::{Ident, TokenStream};
 
 pub use self::functions::name as function_name;
 pub use self::report::report;

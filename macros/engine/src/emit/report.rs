@@ -4,13 +4,14 @@
 //! in force, the functions with their methods and operation counts. Rows of an array of parts that say the same stand
 //! once.
 
+use crate::mechanics::loops::structure::Structure;
+use crate::model::types::{Body, BodyRef, Docs, ExprNode, Frame, JointId, JointKind, Model, Orientation, Place, Type};
+use crate::optimize::program::{Compiled, FunctionKind};
+
 use super::document::{code, cost, kind, values};
 use super::items::separable::is_separable;
 use super::layout::Layout;
 use super::{Context, context, document, functions, joints, literals, loops, names, range, unchecked};
-use crate::mechanics::structure::Structure;
-use crate::model::types::{Body, BodyRef, Docs, ExprNode, Frame, JointId, JointKind, Model, Orientation, Place, Type};
-use crate::optimize::program::{Compiled, FunctionKind};
 
 /// The report as a Markdown document.
 pub fn report(model: &Model, structure: &Structure, compiled: &Compiled) -> String {

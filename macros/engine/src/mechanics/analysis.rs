@@ -24,18 +24,24 @@ mod written;
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use proc_macro2::Span;
-
 use crate::model::types::{Closing, Coordinate, DriveTarget, Handling, JointId, JointKind, Model};
 
-use super::closings::{closings, coordinate_name, row_count, row_name, turns};
-use super::groups;
-use super::structure::{Means, Role, Row, Step, Structure};
-
+use super::loops::constraints::closings;
+use super::loops::constraints::coordinate_name;
+use super::loops::constraints::row_count;
+use super::loops::constraints::row_name;
+use super::loops::constraints::turns;
+use super::loops::groups;
+use super::loops::structure::Means;
+use super::loops::structure::Role;
+use super::loops::structure::Row;
+use super::loops::structure::Step;
+use super::loops::structure::Structure;
 use closed::Sampled;
 use configurations::{Effort, Found};
 use linear::Elimination;
 use problem::{Problem, Source};
+use proc_macro2::Span;
 use ranked::Ranked;
 
 pub(super) use written::Writings;

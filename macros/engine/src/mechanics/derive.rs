@@ -15,21 +15,23 @@ mod ways;
 use std::collections::HashMap;
 use std::rc::Rc;
 
+use crate::dynamics::shared_axes::Axes;
 use crate::model::types::{BodyRef, Coordinate, Joint, JointId, JointKind, Model, Request};
 use crate::optimize::program::FunctionKind;
 use crate::symbolic::graph::{Graph, Scalar};
 
 use super::analysis::{Complaint, Writings};
-use super::branches::Branch;
-use super::closings::Writing;
 use super::equations::Method;
-use super::gimbals;
-use super::names;
-use super::parallel::Axes;
-use super::reduction::Reduction;
-use super::structure::{Role, Structure};
+use super::loops::branches::Branch;
+use super::loops::constraints::Writing;
+use super::loops::reduction::Reduction;
+use super::loops::structure::Role;
+use super::loops::structure::Structure;
+use super::results::euler_singularities;
 use super::strut::inverse;
-use super::symbols::{Symbols, freedoms_of};
+use super::translate::names;
+use super::translate::symbols::Symbols;
+use super::translate::symbols::freedoms_of;
 use super::{Derivation, Derived};
 
 /// Own axes for every link, or common ones for parallel hinges.
@@ -214,8 +216,8 @@ impl<'m> Deriving<'m> {
                 | FunctionKind::Guess => Ok(Vec::new()),
                 FunctionKind::Granted => self.granted(),
                 FunctionKind::DeadCentres => self.only("closed forms", |e| {
-                    let pitches = gimbals::pitches(e.model, &e.structure);
-                    Ok(gimbals::cosines(&mut e.g, &e.symbols, &pitches))
+                    let pitches = euler_singularities::pitches(e.model, &e.structure);
+                    Ok(euler_singularities::cosines(&mut e.g, &e.symbols, &pitches))
                 }),
                 FunctionKind::Impulse | FunctionKind::MomentumVelocity => self.jumps(),
                 FunctionKind::Momentum => self.momenta(),
@@ -270,8 +272,8 @@ impl<'m> Deriving<'m> {
             }),
             FunctionKind::DeadCentres => self.equations("closed forms", |e, reduction| {
                 let mut roots: Vec<Scalar> = reduction.dead_centres.iter().map(|centre| centre.1).collect();
-                let pitches = gimbals::pitches(e.model, &e.structure);
-                roots.extend(gimbals::cosines(&mut e.g, &e.symbols, &pitches));
+                let pitches = euler_singularities::pitches(e.model, &e.structure);
+                roots.extend(euler_singularities::cosines(&mut e.g, &e.symbols, &pitches));
                 Ok(e.finish(reduction, &roots))
             }),
             FunctionKind::Margins => self.only("closed forms, determinants", |e| {
@@ -309,7 +311,7 @@ impl<'m> Deriving<'m> {
 
     /// Solutions are checked once, whatever is derived.
     fn check(&mut self) -> Result<(), Vec<Complaint>> {
-        let pitches = gimbals::pitches(self.model, &self.structure);
+        let pitches = euler_singularities::pitches(self.model, &self.structure);
         if self.is_open() {
             self.dead_centres = pitches;
             return Ok(());

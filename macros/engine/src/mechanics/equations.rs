@@ -6,28 +6,34 @@
 use std::collections::HashMap;
 use std::rc::Rc;
 
+use crate::dynamics::columns::Columns;
+use crate::dynamics::floating_bases::seats;
+use crate::dynamics::newton_euler::Wrench;
+use crate::dynamics::regroup::regroup;
+use crate::dynamics::regroup::regroup_but;
+use crate::dynamics::shared_axes::Axes;
+use crate::dynamics::shared_axes::Shared;
+use crate::dynamics::shared_axes::share_axes;
+use crate::dynamics::tree::Tree;
+use crate::dynamics::velocities::LinkVelocity;
 use crate::model::types::{Closing, ExprNode, JointId, Model};
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
-use super::branches::Branch;
-use super::build::Mechanism;
-use super::closings::Writing;
-use super::closings::expression::{Slopes, StandIns};
-use super::closings::turns::Turns;
-use super::columns::Columns;
-use super::constrained::Solved;
-use super::floating::seats;
-use super::forces::Loads;
-use super::newton_euler::Wrench;
-use super::parallel::{Axes, Shared, share_axes};
-use super::reduction::{Map, Reduction};
-use super::regroup::{regroup, regroup_but};
-use super::rotors::Rotor;
-use super::structure::{Row, Structure};
-use super::symbols::Symbols;
-use super::tree::Tree;
-use super::values::Value;
-use super::velocities::LinkVelocity;
+use super::loops::branches::Branch;
+use super::loops::constraints::Writing;
+use super::loops::constraints::expression::Slopes;
+use super::loops::constraints::expression::StandIns;
+use super::loops::constraints::turns::Turns;
+use super::loops::reduction::Map;
+use super::loops::reduction::Reduction;
+use super::loops::rotors::Rotor;
+use super::loops::structure::Row;
+use super::loops::structure::Structure;
+use super::results::constrained::Solved;
+use super::translate::build::Mechanism;
+use super::translate::forces::Loads;
+use super::translate::symbols::Symbols;
+use super::translate::values::Value;
 
 /// How the motion of frames is written: the two cost differently, and neither wins always.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,7 +100,7 @@ pub struct Equations<'m> {
     pub(super) branches: HashMap<usize, Branch>,
     /// Multipliers whose forces act beside the declared ones.
     pub(super) multiplied: Vec<(Row, Scalar)>,
-    /// Inverse dynamics by [`super::gathered`].
+    /// Inverse dynamics by [`crate::dynamics::lumped`].
     pub(super) gathered: bool,
     /// Multipliers of the equations by which dependent coordinates are found, where reactions have asked for them.
     pub(super) holding: Option<Rc<[(Row, Scalar)]>>,
@@ -197,7 +203,8 @@ impl<'m> Equations<'m> {
             return Rc::clone(velocities);
         }
         let mechanism = Rc::clone(&self.mechanism);
-        let velocities: Rc<[LinkVelocity]> = super::velocities::velocities(&mut self.g, &mechanism.tree).into();
+        let velocities: Rc<[LinkVelocity]> =
+            crate::dynamics::velocities::velocities(&mut self.g, &mechanism.tree).into();
         self.velocities = Some(Rc::clone(&velocities));
         velocities
     }

@@ -1,65 +1,17 @@
-//! From the checked model to equations on the graph.
+//! Stage `mechanics`: from the checked model to equations on the graph.
 //!
-//! [`build`] makes the tree of links, the recursions walk it, and [`derive()`] tells which functions are made of them.
-//! User expressions are translated by `expressions`.
+//! Rooms: [`translate`] makes the tree of links and the values of expressions, [`loops`] says which coordinates follow and
+//! how, [`analysis`] decides that in numbers beforehand, `results` has one file per thing that functions give, [`strut`] the
+//! short way for bodies on struts; [`derive()`] tells which functions are made, and in which ways. [`equations`] is the
+//! state that they share.
 
-mod actuation;
 pub mod analysis;
-pub mod articulated;
-pub mod articulated_inertia;
-mod branches;
-pub mod build;
-mod chain;
-mod climb;
-pub mod closings;
-mod columns;
-pub mod composite;
-mod constants;
-mod constrained;
-mod cycles;
 mod derive;
-mod drives;
-mod dynamics;
-mod energy;
 pub mod equations;
-mod expressions;
-pub mod floating;
-mod forces;
-mod frames;
-mod functions;
-mod gathered;
-mod gimbals;
-pub mod groups;
-mod holding;
-pub mod inertia;
-mod jacobian;
-mod jumps;
-pub mod kinematics;
-mod kinks;
-mod linearisation;
-mod margins;
-mod momentum;
-mod names;
-mod needs;
-pub mod newton_euler;
-mod orientation;
-pub mod parallel;
-mod reactions;
-mod reduction;
-pub mod regroup;
-mod rotors;
-mod saddle;
-mod springs;
-pub mod structure;
+pub mod loops;
+mod results;
 pub mod strut;
-pub mod symbols;
-pub mod time;
-pub mod tree;
-mod typed;
-mod values;
-mod velocities;
-mod verification;
-mod world;
+pub mod translate;
 
 pub use derive::{MOST_FREEDOMS, derive, freedoms};
 
@@ -68,7 +20,7 @@ use crate::optimize::program::{Condition, FunctionKind, Inertia, Symbol};
 use crate::symbolic::graph::{Graph, Scalar};
 
 use analysis::Complaint;
-use structure::Structure;
+use loops::structure::Structure;
 
 /// Structure and equations of a model.
 pub fn of(model: &Model) -> Result<(Structure, Derivation), Vec<Complaint>> {

@@ -4,7 +4,7 @@
 //! doesn't matter: an axis passes through its own revolute joint, a direction through a prismatic one. Unknown symbols
 //! therefore never get into what is measured.
 
-use crate::mechanics::tree::Motion;
+use crate::dynamics::tree::Motion;
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
 /// One element of the cycle. Left is the parent's side.

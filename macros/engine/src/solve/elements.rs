@@ -5,7 +5,7 @@
 //! axes keep a direction and move points in planes, axes through one point keep the point, sliding along an axis keeps
 //! the line (Woernle 1988, Hiller and Woernle 1987: the characteristic pair of joints).
 
-use crate::mechanics::tree::Motion;
+use crate::dynamics::tree::Motion;
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
 use super::chain::{Kind, Link, Way, is_along, unit};

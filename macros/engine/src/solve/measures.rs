@@ -5,7 +5,7 @@
 //! directions, distance of points, distance of a point from a plane, moment of two lines, distance of a point from a
 //! line. All but the last are linear in cosine and sine of a turning motion.
 
-use crate::mechanics::tree::Motion;
+use crate::dynamics::tree::Motion;
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
 use super::chain::{Kind, Link, Way};

@@ -17,7 +17,7 @@ mod primitives;
 
 use std::fmt;
 
-use crate::mechanics::tree::Motion;
+use crate::dynamics::tree::Motion;
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
 use chain::Link;

@@ -5,7 +5,7 @@
 //! the rest of the cycle, and both must agree (Woernle 1988). With one group alone its points and directions are known
 //! on both sides of the unknown: the triangular part.
 
-use crate::mechanics::tree::Motion;
+use crate::dynamics::tree::Motion;
 use crate::symbolic::graph::{Graph, Scalar, ScalarNode, Vector};
 
 use super::chain::{Link, Way};

@@ -6,7 +6,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::mechanics::tree::Motion;
+use crate::dynamics::tree::Motion;
 use crate::optimize::program::Cost;
 use crate::symbolic::graph::{Graph, Rotation, RotationNode, Scalar, Vector};
 use crate::symbolic::lower::Lowering;

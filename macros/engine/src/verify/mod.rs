@@ -19,7 +19,7 @@ mod trace;
 use std::collections::HashMap;
 
 use crate::mechanics::Derivation;
-use crate::mechanics::structure::Structure;
+use crate::mechanics::loops::structure::Structure;
 use crate::model::types::Model;
 use crate::optimize::program::{Compiled, Doubt, Function, FunctionKind, Inertia, Part, Unchecked};
 use crate::optimize::{self, Plain, Refusal};

@@ -4,15 +4,17 @@
 //! derivation. Out: numbers for all symbols, always the same: parameters at their defaults in the first state and near them in others,
 //! coordinates of loops at or near a closed configuration, everything else at random.
 
-use super::ATTEMPTS;
-use super::tape::Tape;
-use super::trace::Trace;
-use crate::mechanics::structure::{Means, Structure};
-use crate::mechanics::symbols::has_quaternion;
+use crate::mechanics::loops::structure::Means;
+use crate::mechanics::loops::structure::Structure;
+use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::types::{Coordinate, Model};
 use crate::optimize::program::Symbol;
 use crate::symbolic::doubled::Doubled;
 use crate::symbolic::graph::SymbolId;
+
+use super::ATTEMPTS;
+use super::tape::Tape;
+use super::trace::Trace;
 
 /// How far parameters are moved, relative to their size.
 const AROUND: f64 = 0.02;

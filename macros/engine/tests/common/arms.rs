@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use multibody_engine::mechanics::inertia::Inertia;
-use multibody_engine::mechanics::tree::{Link, Motion, Tree};
+use multibody_engine::dynamics::inertia::Inertia;
+use multibody_engine::dynamics::tree::{Link, Motion, Tree};
 use multibody_engine::symbolic::graph::{Graph, Scalar};
 use serde_json::Value;
 

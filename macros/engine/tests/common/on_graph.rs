@@ -1,7 +1,7 @@
 //! A random mechanism as a tree on a graph of its own.
 
-use multibody_engine::mechanics::inertia::Inertia;
-use multibody_engine::mechanics::tree::{Link, Motion, Tree};
+use multibody_engine::dynamics::inertia::Inertia;
+use multibody_engine::dynamics::tree::{Link, Motion, Tree};
 use multibody_engine::symbolic::graph::{Graph, Scalar};
 use multibody_engine::symbolic::number::Number;
 

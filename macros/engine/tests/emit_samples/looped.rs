@@ -3,7 +3,7 @@
 
 #![allow(dead_code, unreachable_pub)]
 
-use multibody_engine::mechanics::structure::{Means, Role, Row, Step, Structure};
+use multibody_engine::mechanics::loops::structure::{Means, Role, Row, Step, Structure};
 use multibody_engine::model::types::*;
 use multibody_engine::optimize::program::{Compiled, Expression, FunctionKind, Symbol};
 use proc_macro2::Span;

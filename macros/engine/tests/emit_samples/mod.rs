@@ -4,7 +4,7 @@
 
 use std::rc::Rc;
 
-use multibody_engine::mechanics::structure::Structure;
+use multibody_engine::mechanics::loops::structure::Structure;
 use multibody_engine::model::types::*;
 use multibody_engine::optimize::program::{
     Call, Compiled, Cost, Expression, FieldId, Function as Derived, FunctionKind, Local, Program, Statement, Symbol,

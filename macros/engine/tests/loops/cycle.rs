@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use multibody_engine::mechanics::tree::Motion;
+use multibody_engine::dynamics::tree::Motion;
 use multibody_engine::optimize::program::Cost;
 use multibody_engine::solve::{Failure, Segment, Solution, Solved, Value, solve};
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};

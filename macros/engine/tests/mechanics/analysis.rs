@@ -1,8 +1,8 @@
 //! What the analysis says about loops whose structure is known.
 
 use multibody_engine::mechanics::analysis::{Complaint, analyse};
-use multibody_engine::mechanics::closings::{coordinate_name, row_name};
-use multibody_engine::mechanics::structure::{Means, Role, Row, Structure};
+use multibody_engine::mechanics::loops::constraints::{coordinate_name, row_name};
+use multibody_engine::mechanics::loops::structure::{Means, Role, Row, Structure};
 use multibody_engine::model::types::{Coordinate, JointId, Model};
 
 use super::support::{Random, case, model_with};
@@ -44,7 +44,7 @@ fn coordinates(model: &Model, list: &[Coordinate]) -> Vec<String> {
 
 /// Each step as its means and unknowns.
 fn steps(model: &Model, structure: &Structure) -> Vec<String> {
-    let step = |step: &multibody_engine::mechanics::structure::Step| {
+    let step = |step: &multibody_engine::mechanics::loops::structure::Step| {
         let means = match &step.means {
             Means::Linear(_) => "linear".to_owned(),
             Means::Solve(k) => format!("solve {k}"),

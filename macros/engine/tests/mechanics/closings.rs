@@ -2,9 +2,9 @@
 //! at all times, its equations leave free what the joint leaves free and nothing else, and multipliers act as the
 //! transposed Jacobian.
 
-use multibody_engine::mechanics::closings::{Axes, Held, Writing, closings, row_count, row_name};
 use multibody_engine::mechanics::equations::{Equations, Method, Style, Way};
-use multibody_engine::mechanics::symbols::Symbols;
+use multibody_engine::mechanics::loops::constraints::{Axes, Held, Writing, closings, row_count, row_name};
+use multibody_engine::mechanics::translate::symbols::Symbols;
 use multibody_engine::model::types::{BodyId, BodyRef, Closing, Coordinate, JointId, Model};
 use multibody_engine::optimize::program::Symbol;
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};

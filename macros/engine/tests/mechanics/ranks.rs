@@ -1,8 +1,8 @@
 //! Which equations the analysis keeps: collapsed branches, equations of rounding, bodies that stay at their place.
 
 use multibody_engine::mechanics::analysis::{Complaint, analyse};
-use multibody_engine::mechanics::closings::row_name;
-use multibody_engine::mechanics::structure::Structure;
+use multibody_engine::mechanics::loops::constraints::row_name;
+use multibody_engine::mechanics::loops::structure::Structure;
 use multibody_engine::model::types::Model;
 
 use super::support::model_of;
@@ -46,7 +46,7 @@ fn scissor(stages: usize, formulation: &str) -> String {
 fn collapsed_scissors_drop_nothing() {
     for stages in 2..=6 {
         let (model, structure) = sound(&scissor(stages, "constraints: Multipliers"));
-        let kept = |row: &&multibody_engine::mechanics::structure::Row| !structure.dropped.contains(row);
+        let kept = |row: &&multibody_engine::mechanics::loops::structure::Row| !structure.dropped.contains(row);
         assert_eq!(structure.rows.len(), 2 * stages, "{:?}", structure.notes);
         assert_eq!(structure.rows.iter().filter(kept).count(), 2 * stages);
         assert!(structure.rows.iter().all(|row| {

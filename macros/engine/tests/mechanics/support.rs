@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::mechanics::Derivation;
-use multibody_engine::mechanics::structure::Structure;
+use multibody_engine::mechanics::loops::structure::Structure;
 use multibody_engine::model::check;
 use multibody_engine::model::types::{Joint, JointKind, Model, Orientation};
 use multibody_engine::optimize::program::{FunctionKind, Symbol};

@@ -49,7 +49,7 @@ const MODELS: [&str; 3] = [
 
 pub(crate) struct Case {
     pub(crate) model: Model,
-    pub(crate) structure: mechanics::structure::Structure,
+    pub(crate) structure: mechanics::loops::structure::Structure,
     pub(crate) derivation: Derivation,
     pub(crate) compiled: Compiled,
 }

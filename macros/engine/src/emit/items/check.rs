@@ -5,7 +5,6 @@
 //! the default position. A body whose inertia no body can have at the declared values already carries
 //! `#[allow(unphysical_inertia)]`, since the checker refuses it otherwise; its inertia is not checked here.
 
-use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::emit::blocks::{body, each_leaf};
@@ -14,9 +13,11 @@ use crate::emit::items::system;
 use crate::emit::layout::Layout;
 use crate::emit::places::RESERVED;
 use crate::emit::{Context, functions, literals, lower, names, numeric, range};
-use crate::mechanics::closings::unfit;
+use crate::mechanics::loops::constraints::unfit;
 use crate::model::types::{Body, ConstraintKind, Expr, ForceKind, Model, ParamId};
 use crate::optimize::program::{Condition, Expression, FunctionKind, Symbol};
+
+use proc_macro2::TokenStream;
 
 /// Expands to `impl<T: Real> Params<T> { pub fn check(&self) -> Result<(), ParamError> { .. } }`.
 pub(super) fn item(context: &Context<'_>) -> TokenStream {

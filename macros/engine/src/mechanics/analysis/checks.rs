@@ -5,17 +5,19 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use proc_macro2::Span;
-
+use crate::mechanics::loops::constraints::coordinate_name;
+use crate::mechanics::loops::constraints::path;
+use crate::mechanics::loops::constraints::row_name;
+use crate::mechanics::loops::structure::Role;
+use crate::mechanics::loops::structure::Structure;
+use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::types::{Closing, JointId, Model};
 
-use super::super::closings::{coordinate_name, path, row_name};
-use super::super::structure::{Role, Structure};
-use super::super::symbols::has_quaternion;
 use super::configurations::{Effort, Found, configurations};
 use super::measure::Gap;
 use super::problem::Problem;
 use super::{Analysis, Group, Looked, columns_of, driven_by, formula_of, rank, row_of};
+use proc_macro2::Span;
 
 impl Analysis<'_> {
     /// Equations without coordinates: they hold, or nothing can make them.

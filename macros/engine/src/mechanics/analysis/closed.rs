@@ -5,11 +5,12 @@
 //! zero) as was found: with all of the state there if the loops close so, and else with what the least steps from there
 //! reach. One that is regular is preferred, so that Newton's method starts well from it. The others are spread at random.
 
+use crate::mechanics::loops::structure::Closed;
+
 use super::configurations::{Configuration, Search};
 use super::problem::{Point, Problem, Random};
 use super::tape::Values;
 use super::{Group, Role, Structure};
-use crate::mechanics::structure::Closed;
 
 /// How far starts are from where coordinates stand by default.
 const AMPLITUDES: [f64; 9] = [0.0, 0.05, 0.15, 0.3, 0.3, 0.6, 0.6, 1.0, 1.0];

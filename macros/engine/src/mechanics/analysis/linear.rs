@@ -6,14 +6,15 @@
 
 use std::collections::HashSet;
 
+use crate::mechanics::loops::constraints::Writing;
+use crate::mechanics::loops::constraints::turns::Turns;
+use crate::mechanics::translate::symbols::Symbols;
+use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::types::{Closing, ConstraintId, ConstraintKind, Coordinate, Model};
 use crate::optimize::program::Symbol;
 use crate::symbolic::graph::{Graph, ScalarNode};
 
-use super::super::closings::Writing;
-use super::super::closings::turns::Turns;
 use super::super::equations::{Equations, Method, Style, Way};
-use super::super::symbols::{Symbols, has_quaternion};
 
 /// A constraint that is linear in the coordinates.
 pub(super) struct Coupling {

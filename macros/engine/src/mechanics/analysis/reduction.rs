@@ -7,10 +7,14 @@
 
 use std::collections::HashMap;
 
+use crate::mechanics::loops::constraints::coordinate_name;
+use crate::mechanics::loops::constraints::is_uncounted;
+use crate::mechanics::loops::constraints::row_count;
+use crate::mechanics::loops::structure::Means;
+use crate::mechanics::loops::structure::Row;
+use crate::mechanics::loops::structure::Step;
 use crate::model::types::{BodyRef, Closing, ConstraintId, Coordinate, JointId, Model, SolveHow};
 
-use super::super::closings::{coordinate_name, is_uncounted, row_count};
-use super::super::structure::{Means, Row, Step};
 use super::blocks::{components, matching};
 use super::checks::thing;
 use super::configurations::Configuration;

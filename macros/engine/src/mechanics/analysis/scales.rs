@@ -6,10 +6,12 @@
 
 use std::collections::BTreeMap;
 
+use crate::mechanics::loops::structure::Row;
+use crate::mechanics::loops::structure::Structure;
+
 use super::closed::Sampled;
 use super::problem::{Problem, Source};
 use super::tape::Values;
-use crate::mechanics::structure::{Row, Structure};
 
 /// Slopes below this share of the usual ones are those of a singular pose.
 const SINGULAR: f64 = 1e-6;

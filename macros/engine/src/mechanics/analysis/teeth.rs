@@ -9,10 +9,11 @@
 
 use std::f64::consts::TAU;
 
+use crate::mechanics::loops::constraints::turns;
+use crate::mechanics::loops::structure::Means;
+use crate::mechanics::loops::structure::Step;
 use crate::model::types::{Closing, ConstraintId};
 
-use super::super::closings::turns;
-use super::super::structure::{Means, Step};
 use super::Complaint;
 use super::checks::thing;
 use super::configurations::Configuration;

@@ -5,10 +5,15 @@
 //! these, and the places of those that were kept may hold the very one that says nothing. So the kept equations must have
 //! the rank there that they have here, at every closed configuration that was found.
 
+use crate::mechanics::loops::constraints::Writing;
+use crate::mechanics::loops::constraints::is_component;
+use crate::mechanics::loops::structure::Closed;
+use crate::mechanics::loops::structure::Means;
+use crate::mechanics::loops::structure::Role;
+use crate::mechanics::loops::structure::Row;
+use crate::mechanics::loops::structure::Structure;
 use crate::model::types::{Closing, Coordinate, JointId, Model};
 
-use super::super::closings::{Writing, is_component};
-use super::super::structure::{Closed, Means, Role, Row, Structure};
 use super::problem::Problem;
 use super::rank;
 use super::tape::Values;

@@ -4,8 +4,8 @@
 
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::{Equations, Method};
-use crate::mechanics::linearisation::Accumulation;
-use crate::mechanics::reduction::Reduction;
+use crate::mechanics::loops::reduction::Reduction;
+use crate::mechanics::results::linearisation::Accumulation;
 use crate::symbolic::graph::Scalar;
 
 use super::{Candidate, Deriving};

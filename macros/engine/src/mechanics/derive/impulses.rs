@@ -2,19 +2,18 @@
 //!
 //! In: what the model asks for. Out: candidates, or complaints about mechanisms whose equations these functions can't hold.
 
-use proc_macro2::Span;
-
 use crate::mechanics::analysis::Complaint;
-use crate::mechanics::closings::path;
 use crate::mechanics::equations::{Equations, Method, Style, Way};
-use crate::mechanics::momentum::Weight;
-use crate::mechanics::reduction::Reduction;
-use crate::mechanics::symbols::has_quaternion;
+use crate::mechanics::loops::constraints::path;
+use crate::mechanics::loops::reduction::Reduction;
+use crate::mechanics::results::momentum::Weight;
+use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::types::{Coordinate, Model, Request};
 use crate::optimize::program::FunctionKind;
 use crate::symbolic::graph::{Graph, Scalar};
 
 use super::{COMPOSITE, Candidate, Deriving, METHODS, MOST_COMPOSITE, Names, articulates, floats, freedoms};
+use proc_macro2::Span;
 
 type Candidates = Result<Vec<Candidate>, Vec<Complaint>>;
 

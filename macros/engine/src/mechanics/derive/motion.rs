@@ -5,11 +5,11 @@
 use std::rc::Rc;
 
 use crate::mechanics::analysis::Complaint;
-use crate::mechanics::constrained::Solved;
 use crate::mechanics::equations::{Equations, Method, Style, Way};
-use crate::mechanics::needs::Needs;
+use crate::mechanics::results::constrained::Solved;
 use crate::mechanics::strut::forward;
-use crate::mechanics::values::width;
+use crate::mechanics::translate::dependencies::Needs;
+use crate::mechanics::translate::values::width;
 use crate::model::types::Output;
 use crate::symbolic::graph::Scalar;
 

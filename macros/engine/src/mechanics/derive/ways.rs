@@ -5,13 +5,13 @@
 
 use std::rc::Rc;
 
+use crate::dynamics::lumped;
+use crate::dynamics::shared_axes::Axes;
 use crate::mechanics::analysis::Complaint;
-use crate::mechanics::closings;
 use crate::mechanics::equations::{Equations, Method, Style, Way};
-use crate::mechanics::gathered;
-use crate::mechanics::parallel::Axes;
-use crate::mechanics::reduction::Reduction;
-use crate::mechanics::symbols::Symbols;
+use crate::mechanics::loops::constraints;
+use crate::mechanics::loops::reduction::Reduction;
+use crate::mechanics::translate::symbols::Symbols;
 use crate::model::types::JointId;
 use crate::symbolic::graph::{Graph, Rotation, Scalar};
 use crate::symbolic::lower::Lowering;
@@ -35,7 +35,7 @@ impl<'m> Deriving<'m> {
     ) -> Result<Option<Candidate>, Vec<Complaint>> {
         self.maybe(|e| {
             e.gathered = true;
-            if !gathered::differs(&e.mechanism.tree) {
+            if !lumped::differs(&e.mechanism.tree) {
                 return Ok(None);
             }
             Ok(Some((GATHERED, f(e)?)))
@@ -108,12 +108,12 @@ impl<'m> Deriving<'m> {
         let mut candidates = Vec::new();
         for &axes in axes {
             let name = match self.writing.axes {
-                closings::Axes::Parent => "loops in the axes of the parent's frame",
-                closings::Axes::Child => "loops in the axes of the child's frame",
-                closings::Axes::World => "loops in world axes",
-                closings::Axes::Common => "loops in the axes of what carries both sides",
-                closings::Axes::ParentBase => "loops in the axes in which the parent's side stands",
-                closings::Axes::ChildBase => "loops in the axes in which the child's side stands",
+                constraints::Axes::Parent => "loops in the axes of the parent's frame",
+                constraints::Axes::Child => "loops in the axes of the child's frame",
+                constraints::Axes::World => "loops in world axes",
+                constraints::Axes::Common => "loops in the axes of what carries both sides",
+                constraints::Axes::ParentBase => "loops in the axes in which the parent's side stands",
+                constraints::Axes::ChildBase => "loops in the axes in which the child's side stands",
             };
             let way = Way { style: Style::Nested, method: Method::Composite, axes, writing: self.writing };
             let found = self.candidate(name, way, &[], &mut |e: &mut Equations<'m>| {

@@ -5,8 +5,8 @@
 //! own axes come in as columns: units in the body's axes, columns of the rotation in the world's, so that one set of
 //! equations serves both. Which axes and point are cheapest is for the count to tell.
 
-use crate::mechanics::inertia::Inertia;
-use crate::mechanics::tree::Tree;
+use crate::dynamics::inertia::Inertia;
+use crate::dynamics::tree::Tree;
 use crate::symbolic::graph::{Graph, Scalar};
 
 use super::Strut;

@@ -12,7 +12,7 @@
 //! so mu is a mass at the pin and joins the body's moments, and mu/L^2 (d, r x d) (d, r x d)^T is taken off the body's
 //! 6x6 inertia. What is left is positive definite, and factored as L^T D L without exchanges.
 
-use crate::mechanics::inertia::Inertia;
+use crate::dynamics::inertia::Inertia;
 use crate::symbolic::graph::{Graph, Scalar};
 use crate::symbolic::linear_algebra::solve_symmetric;
 
@@ -192,7 +192,7 @@ fn take(g: &mut Graph, n: &[Triple; 3], r: &Triple, taken: &mut [Vec<Vec<Scalar>
 /// Moment of the body's own motion: the sum of r x U r.
 fn axial(g: &mut Graph, spin: &[Triple; 3], inertia: &Inertia) -> Triple {
     let product = |g: &mut Graph, i: usize, j: usize| {
-        let column = [0, 1, 2].map(|l| inertia.second[crate::mechanics::inertia::entry(l, j)]);
+        let column = [0, 1, 2].map(|l| inertia.second[crate::dynamics::inertia::entry(l, j)]);
         dot(g, &spin[i], &column)
     };
     [0, 1, 2].map(|i| {

@@ -8,11 +8,13 @@
 
 use std::rc::Rc;
 
-use crate::mechanics::branches::Branch;
+use crate::dynamics::tree::Motion;
+use crate::dynamics::tree::Tree;
 use crate::mechanics::equations::Equations;
-use crate::mechanics::reduction::Reduction;
-use crate::mechanics::structure::{Means, Role};
-use crate::mechanics::tree::{Motion, Tree};
+use crate::mechanics::loops::branches::Branch;
+use crate::mechanics::loops::reduction::Reduction;
+use crate::mechanics::loops::structure::Means;
+use crate::mechanics::loops::structure::Role;
 use crate::model::types::{Closing, Comparison, ExprNode, Joint, JointKind, SolveHow};
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 use crate::symbolic::inputs::Known;

@@ -13,16 +13,18 @@ mod forces;
 mod momenta;
 mod outputs;
 
-use super::programs::WORST;
-use super::states::{Random, State, States};
-use super::tape::{Op, Tape};
-use super::trace::{Slopes, Trace};
-use crate::mechanics::structure::{Role, Structure};
-use crate::mechanics::symbols::has_quaternion;
+use crate::mechanics::loops::structure::Role;
+use crate::mechanics::loops::structure::Structure;
+use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::types::{Coordinate, Model};
 use crate::optimize::program::{Doubt, FunctionKind, Symbol};
 use crate::symbolic::doubled::Doubled;
 use crate::symbolic::graph::SymbolId;
+
+use super::programs::WORST;
+use super::states::{Random, State, States};
+use super::tape::{Op, Tape};
+use super::trace::{Slopes, Trace};
 
 /// A sum of numbers with 31 digits that cancel is zero below this share of them.
 const EXACT: f64 = 1e-24;

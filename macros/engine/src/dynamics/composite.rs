@@ -1,0 +1,88 @@
+//! Stage `dynamics`: composite rigid bodies (Walker and Orin 1982; Featherstone 2008, chapter 6).
+//!
+//! In: a tree. Out: its mass matrix. The composite of a subtree is the sum of its links' moments; a unit acceleration of
+//! a joint gives the composite the force s x h + m v and a moment, whose projections on the joints towards the ground
+//! are a row of the matrix. Entries between branches are zero and stay so.
+
+use crate::symbolic::graph::{Graph, Scalar, Vector};
+
+use super::inertia::Inertia;
+use super::newton_euler::Wrench;
+use super::newton_euler::to_parent;
+use super::tree::Motion;
+use super::tree::Tree;
+
+/// The symmetric mass matrix.
+pub fn mass_matrix(g: &mut Graph, tree: &Tree) -> Vec<Vec<Scalar>> {
+    let composites = composites(g, tree);
+    let n = tree.freedoms();
+    let mut matrix = vec![vec![Scalar::ZERO; n]; n];
+    for (index, link) in tree.links.iter().enumerate() {
+        for (column, twist) in tree.twists(link) {
+            let mut wrench = unit_wrench(g, &composites[index], &twist);
+            let mut at = index;
+            loop {
+                let ancestor = &tree.links[at];
+                for (row, effort) in tree.project(g, ancestor, wrench.moment, wrench.force) {
+                    matrix[row][column] = effort;
+                    matrix[column][row] = effort;
+                }
+                let Some(parent) = ancestor.parent else { break };
+                wrench = to_parent(g, tree, at, &wrench);
+                at = parent;
+            }
+            matrix[column][column] = g.add(matrix[column][column], link.armature);
+        }
+    }
+    for (i, row) in matrix.iter().enumerate() {
+        for (j, &entry) in row.iter().enumerate().skip(i) {
+            g.name(entry, || format!("m_{}_{}", i + 1, j + 1));
+        }
+    }
+    matrix
+}
+
+/// Moments of each link's subtree about the link's origin.
+fn composites(g: &mut Graph, tree: &Tree) -> Vec<Inertia> {
+    let mut composites: Vec<Inertia> = tree.links.iter().map(|link| link.inertia).collect();
+    for index in (0..tree.links.len()).rev() {
+        let link = &tree.links[index];
+        let Some(parent) = link.parent else { continue };
+        let turned = match link.motion {
+            Motion::Revolute(axis) | Motion::Screw(axis, _) => composites[index].turn(g, axis, link.q),
+            Motion::Prismatic(_) => composites[index],
+            Motion::Ball(quaternion) => {
+                let r = g.quaternion_rotation(quaternion);
+                composites[index].rotate(g, r)
+            }
+        };
+        let placed = turned.rotate(g, link.rotation);
+        let origin = tree.origin(g, link);
+        let origin = g.components(origin);
+        let shifted = placed.shift(g, origin);
+        composites[parent] = composites[parent].add(g, &shifted);
+    }
+    composites
+}
+
+/// The wrench that gives a body at rest this unit acceleration (angular, linear).
+fn unit_wrench(g: &mut Graph, inertia: &Inertia, twist: &[Scalar; 6]) -> Wrench {
+    let angular = g.vector([twist[0], twist[1], twist[2]]);
+    let linear = g.vector([twist[3], twist[4], twist[5]]);
+    let first = g.vector(inertia.first);
+    let swing = g.cross(angular, first);
+    let push = g.scale(inertia.mass, linear);
+    let lever = g.cross(first, linear);
+    let rows = [0, 1, 2].map(|i| {
+        let terms = [0, 1, 2].map(|j| {
+            if twist[j] == Scalar::ZERO {
+                return Scalar::ZERO;
+            }
+            let entry = inertia.tensor(g, i, j);
+            g.mul(entry, twist[j])
+        });
+        g.sum(&terms)
+    });
+    let turn: Vector = g.vector(rows);
+    Wrench { moment: g.add_vectors(turn, lever), force: g.add_vectors(push, swing) }
+}

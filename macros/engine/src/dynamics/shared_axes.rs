@@ -1,0 +1,153 @@
+//! Stage `dynamics`: common axes for links that turn about parallel ones.
+//!
+//! In: a tree, regrouped. Out: the same tree, written in other axes: links whose hinges are parallel keep their origins,
+//! but get axes that don't turn against each other, so that vectors and inertias pass from one to the next without being
+//! turned; each link's own inertia and offsets turn instead, by the sum of the angles. The recursions take components at
+//! one instant and never differentiate them, so any axes will do. A planar chain costs one sine and cosine per absolute
+//! angle and has nothing else left to turn.
+
+use crate::symbolic::graph::{Graph, Rotation, Scalar};
+
+use super::inertia::Inertia;
+use super::newton_euler::Wrench;
+use super::tree::Link;
+use super::tree::Motion;
+use super::tree::Tree;
+
+/// Whose axes the links of a group take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axes {
+    /// Those of what the first link hangs on: best for chains of parallel hinges that end there.
+    Base,
+    /// Those of the last link: best where more hangs on it.
+    Tip,
+}
+
+/// A tree in common axes.
+pub struct Shared {
+    pub tree: Tree,
+    /// From each link's own axes to those it is written in now: for wrenches that are given in link axes.
+    pub turns: Vec<Rotation>,
+}
+
+impl Shared {
+    /// Every link in its own axes.
+    pub fn own(tree: &Tree) -> Shared {
+        Shared { tree: tree.clone(), turns: vec![Rotation::IDENTITY; tree.links.len()] }
+    }
+
+    /// Wrenches given in link axes, in those of the tree.
+    pub fn turn(&self, g: &mut Graph, wrenches: &[Wrench]) -> Vec<Wrench> {
+        let pairs = wrenches.iter().zip(&self.turns);
+        pairs.map(|(w, &r)| Wrench { moment: g.rotate(r, w.moment), force: g.rotate(r, w.force) }).collect()
+    }
+}
+
+/// A link's place among its parallel neighbours.
+#[derive(Clone, Copy)]
+struct Member {
+    axis: usize,
+    /// First link of the group.
+    head: usize,
+    /// Whether its axis points along the head's or against.
+    reversed: bool,
+    /// Nothing before the group turns: angular velocities have the one axis.
+    planar: bool,
+    /// Sum of the angles from the base, about the head's axis.
+    total: Scalar,
+}
+
+/// Writes a tree in common axes; `None` if no two neighbours are parallel.
+pub fn share_axes(g: &mut Graph, tree: &Tree, axes: Axes) -> Option<Shared> {
+    let members = members(g, tree);
+    let joined = |(index, member): (usize, &Option<Member>)| member.is_some_and(|m| m.head != index);
+    if !members.iter().enumerate().any(joined) {
+        return None;
+    }
+    let references = references(&members, axes);
+    // How far each link has turned against its new axes.
+    let mut angles = Vec::with_capacity(members.len());
+    for member in &members {
+        let angle = member.map_or(Scalar::ZERO, |m| {
+            let rest = g.sub(m.total, references[m.head]);
+            if m.reversed { -rest } else { rest }
+        });
+        angles.push((member.map_or(0, |m| m.axis), angle));
+    }
+    let turns: Vec<Rotation> = angles.iter().map(|&(axis, angle)| g.axis_rotation(axis, angle)).collect();
+    let mut tree = tree.clone();
+    for (index, link) in tree.links.iter_mut().enumerate() {
+        if let Some(parent) = link.parent {
+            link.offset = g.rotate(turns[parent], link.offset);
+        }
+        match members[index] {
+            Some(m) if m.head != index => link.q = Scalar::ZERO,
+            member => {
+                if let Some(parent) = link.parent {
+                    link.rotation = g.compose(turns[parent], link.rotation);
+                }
+                if member.is_some() {
+                    link.q = g.sub(link.q, angles[index].1);
+                }
+            }
+        }
+        let (axis, angle) = angles[index];
+        if angle != Scalar::ZERO {
+            let planar = members[index].is_some_and(|m| m.planar);
+            link.inertia =
+                if planar { turn_planar(g, &link.inertia, axis, angle) } else { link.inertia.turn(g, axis, angle) };
+        }
+    }
+    Some(Shared { tree, turns })
+}
+
+fn members(g: &mut Graph, tree: &Tree) -> Vec<Option<Member>> {
+    let mut members: Vec<Option<Member>> = Vec::with_capacity(tree.links.len());
+    for (index, link) in tree.links.iter().enumerate() {
+        let Motion::Revolute(axis) = link.motion else {
+            members.push(None);
+            continue;
+        };
+        let parent = link.parent.and_then(|p| members[p]);
+        let joined = parent.and_then(|parent| join(g, link, axis, parent));
+        let planar =
+            || std::iter::successors(link.parent, |&p| tree.links[p].parent).all(|p| is_straight(&tree.links[p]));
+        let alone = || Member { axis, head: index, reversed: false, planar: planar(), total: link.q };
+        members.push(Some(joined.unwrap_or_else(alone)));
+    }
+    members
+}
+
+fn is_straight(link: &Link) -> bool {
+    matches!(link.motion, Motion::Prismatic(_))
+}
+
+/// In the plane only the moment of inertia about the axis counts, which no turn changes.
+fn turn_planar(g: &mut Graph, inertia: &Inertia, axis: usize, angle: Scalar) -> Inertia {
+    let mut second = [Scalar::ZERO; 6];
+    second[(axis + 1) % 3] = inertia.tensor(g, axis, axis);
+    let flat = Inertia { second: [Scalar::ZERO; 6], ..*inertia };
+    Inertia { second, ..flat.turn(g, axis, angle) }
+}
+
+/// The member that a link is, if its axis is its parent's or the opposite.
+fn join(g: &mut Graph, link: &Link, axis: usize, parent: Member) -> Option<Member> {
+    let along = g.rotation_rows(link.rotation)[parent.axis][axis];
+    if along.positive() != Scalar::ONE {
+        return None;
+    }
+    let reversed = parent.reversed != along.is_negative();
+    let total = g.add(parent.total, if reversed { -link.q } else { link.q });
+    Some(Member { axis, head: parent.head, reversed, planar: parent.planar, total })
+}
+
+/// The angle of each group's new axes, at the position of its head.
+fn references(members: &[Option<Member>], axes: Axes) -> Vec<Scalar> {
+    let mut references = vec![Scalar::ZERO; members.len()];
+    if axes == Axes::Tip {
+        for member in members.iter().flatten() {
+            references[member.head] = member.total;
+        }
+    }
+    references
+}

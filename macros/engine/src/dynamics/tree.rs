@@ -1,0 +1,167 @@
+//! Stage `dynamics`: the kinematic tree that all recursions walk.
+//!
+//! In: links. Out: a [`Tree`] of links, parents before children. Every joint of the language is
+//! a chain of four primitive motions, with massless links between: a revolute or prismatic motion along a coordinate
+//! axis, a screw, and a ball with a quaternion. A link's frame stands at its joint, moves with the link and is oriented so
+//! that the motion's axis is a coordinate axis.
+
+use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
+
+use super::inertia::Inertia;
+
+/// How a link moves against its parent. The axis is a coordinate axis of both frames.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Motion {
+    Revolute(usize),
+    Prismatic(usize),
+    /// Axis, and metres per radian.
+    Screw(usize, Scalar),
+    /// Orientation is a unit quaternion w, i, j, k; velocity is the angular velocity in the link's axes.
+    Ball([Scalar; 4]),
+}
+
+impl Motion {
+    pub fn freedoms(self) -> usize {
+        if matches!(self, Motion::Ball(_)) { 3 } else { 1 }
+    }
+}
+
+/// One moving frame with what is fixed to it.
+#[derive(Clone, Debug)]
+pub struct Link {
+    pub name: String,
+    /// `None`: the ground.
+    pub parent: Option<usize>,
+    /// The joint frame in the parent's link frame; constant.
+    pub rotation: Rotation,
+    /// m, in the parent's axes; constant.
+    pub offset: Vector,
+    pub motion: Motion,
+    /// Position in the vector of velocity coordinates of the first freedom.
+    pub freedom: usize,
+    /// The coordinate of a motion that has one.
+    pub q: Scalar,
+    pub inertia: Inertia,
+    /// Added to the diagonal of the mass matrix.
+    pub armature: Scalar,
+}
+
+/// The mechanism as recursions see it.
+#[derive(Clone, Debug, Default)]
+pub struct Tree {
+    pub links: Vec<Link>,
+    /// Velocity and acceleration symbols in the order of the generated structs.
+    pub velocity: Vec<Scalar>,
+    pub acceleration: Vec<Scalar>,
+    /// In world axes, m/s^2.
+    pub gravity: Option<[Scalar; 3]>,
+    /// What is fixed to the ground: it only counts in the potential energy.
+    pub ground: Option<Inertia>,
+}
+
+impl Tree {
+    pub fn freedoms(&self) -> usize {
+        self.velocity.len()
+    }
+
+    /// Rotation from the link's to its parent's axes.
+    pub fn rotation(&self, g: &mut Graph, link: &Link) -> Rotation {
+        let turn = match link.motion {
+            Motion::Revolute(axis) | Motion::Screw(axis, _) => g.axis_rotation(axis, link.q),
+            Motion::Prismatic(_) => Rotation::IDENTITY,
+            Motion::Ball(quaternion) => g.quaternion_rotation(quaternion),
+        };
+        g.compose(link.rotation, turn)
+    }
+
+    /// The same in two steps, so that vectors pass the constant placement and the motion one after the other.
+    pub fn to_parent(&self, g: &mut Graph, link: &Link, v: Vector) -> Vector {
+        let turned = self.turn(g, link, v, false);
+        g.rotate(link.rotation, turned)
+    }
+
+    /// Components in the link's axes of a vector given in the parent's.
+    pub fn to_link(&self, g: &mut Graph, link: &Link, v: Vector) -> Vector {
+        let placed = g.rotate(link.rotation.transpose(), v);
+        self.turn(g, link, placed, true)
+    }
+
+    fn turn(&self, g: &mut Graph, link: &Link, v: Vector, back: bool) -> Vector {
+        let r = match link.motion {
+            Motion::Revolute(axis) | Motion::Screw(axis, _) => g.axis_rotation(axis, link.q),
+            Motion::Prismatic(_) => return v,
+            Motion::Ball(quaternion) => g.quaternion_rotation(quaternion),
+        };
+        g.rotate(if back { r.transpose() } else { r }, v)
+    }
+
+    /// The link's origin in its parent's frame.
+    pub fn origin(&self, g: &mut Graph, link: &Link) -> Vector {
+        match self.travel(g, link) {
+            Some(travel) => g.add_vectors(link.offset, travel),
+            None => link.offset,
+        }
+    }
+
+    /// What a prismatic or screw motion adds to the offset, in the parent's axes.
+    fn travel(&self, g: &mut Graph, link: &Link) -> Option<Vector> {
+        let (axis, length) = match link.motion {
+            Motion::Prismatic(axis) => (axis, link.q),
+            Motion::Screw(axis, pitch) => (axis, g.mul(pitch, link.q)),
+            _ => return None,
+        };
+        let along = g.along(axis, length);
+        Some(g.rotate(link.rotation, along))
+    }
+
+    /// Angular and linear part of the unit twists of a link's freedoms, in link axes.
+    pub fn twists(&self, link: &Link) -> Vec<(usize, [Scalar; 6])> {
+        let unit = |k: usize| {
+            let mut twist = [Scalar::ZERO; 6];
+            twist[k] = Scalar::ONE;
+            twist
+        };
+        match link.motion {
+            Motion::Revolute(axis) => vec![(link.freedom, unit(axis))],
+            Motion::Prismatic(axis) => vec![(link.freedom, unit(axis + 3))],
+            Motion::Screw(axis, pitch) => {
+                let mut twist = unit(axis);
+                twist[axis + 3] = pitch;
+                vec![(link.freedom, twist)]
+            }
+            Motion::Ball(_) => (0..3).map(|k| (link.freedom + k, unit(k))).collect(),
+        }
+    }
+
+    /// Sum of a link's unit twists times the given coordinates (velocities or accelerations): angular, linear.
+    pub fn joint_motion(&self, g: &mut Graph, link: &Link, coordinates: &[Scalar]) -> (Vector, Vector) {
+        let x = coordinates[link.freedom];
+        match link.motion {
+            Motion::Revolute(axis) => (g.along(axis, x), Vector::ZERO),
+            Motion::Prismatic(axis) => (Vector::ZERO, g.along(axis, x)),
+            Motion::Screw(axis, pitch) => {
+                let travel = g.mul(pitch, x);
+                (g.along(axis, x), g.along(axis, travel))
+            }
+            Motion::Ball(_) => {
+                let w = [0, 1, 2].map(|k| coordinates[link.freedom + k]);
+                (g.vector(w), Vector::ZERO)
+            }
+        }
+    }
+
+    /// Efforts on a link's freedoms from the moment and force at its origin, in link axes.
+    pub fn project(&self, g: &mut Graph, link: &Link, moment: Vector, force: Vector) -> Vec<(usize, Scalar)> {
+        match link.motion {
+            Motion::Revolute(axis) => vec![(link.freedom, g.component(moment, axis))],
+            Motion::Prismatic(axis) => vec![(link.freedom, g.component(force, axis))],
+            Motion::Screw(axis, pitch) => {
+                let along = g.component(force, axis);
+                let push = g.mul(pitch, along);
+                let turn = g.component(moment, axis);
+                vec![(link.freedom, g.add(turn, push))]
+            }
+            Motion::Ball(_) => (0..3).map(|k| (link.freedom + k, g.component(moment, k))).collect(),
+        }
+    }
+}

@@ -1,0 +1,188 @@
+//! Stage `mechanics`: the equations of what closes loops.
+//!
+//! In: a closing (a joint that is cut, a rod, a user's expression), and how it is to be written. Out: its residuals, which
+//! vanish where the loop is closed. The equations of a joint are parts of the way d from the parent's to the child's
+//! point, and cosines of angles between axes of the child and axes of the parent that are perpendicular when it is
+//! closed (Haug 1989, chapter 9):
+//!
+//! | joint | rows |
+//! |---|---|
+//! | Ball | d |
+//! | Universal | d, second axis . first axis |
+//! | Revolute | d, child's axis . both parent's axes across it |
+//! | Prismatic | d . both parent's axes across the travel, three axes of the child . the next one of the parent |
+//! | Cylindrical | d . both axes across, child's axis . both axes across |
+//! | Screw | those of Cylindrical, travel - pitch * angle |
+//! | Planar | d . axis, child's axis . both axes across |
+//! | Fixed | d, three axes of the child . the next one of the parent |
+//!
+//! The angle of a screw counts its turns (`winding`), and so does the one that a Prismatic or Fixed joint holds where a
+//! screw stands in its loop. Where an orientation alone gives it, up to whole turns, the
+//! equation is pitch * sin(travel / pitch - angle): it holds on every turn of the thread, so a motion stays on its own,
+//! and nothing tells on which it began. Solved from a guess such an equation could skip a turn: *Reduced* refuses it.
+//!
+//! A rod is (d . d - length^2) / 2, an expression is itself; where it counts the turns of measured angles, and so does a
+//! drive of one, it is taken up to whole turns (`turns`). Cosines vanish on a further branch too, where axes point the
+//! other way: [`Equations::alignments`] tells the branches apart. The axes in which d and the cosines are worked out
+//! don't matter for what the equations say, but for what they cost: [`Writing`].
+
+mod cut;
+pub(in crate::mechanics) mod expression;
+pub(in crate::mechanics) mod measured;
+mod names;
+pub(in crate::mechanics) mod turns;
+mod view;
+mod winding;
+mod wrenches;
+
+use crate::mechanics::equations::Equations;
+use crate::mechanics::equations::Method;
+use crate::mechanics::equations::Style;
+use crate::mechanics::equations::Way;
+use crate::mechanics::translate::symbols::Symbols;
+use crate::model::types::{Closing, ConstraintId, ConstraintKind, JointId, JointKind, Model};
+use crate::symbolic::graph::{Graph, Scalar};
+
+pub(in crate::mechanics) use names::path;
+pub use names::{coordinate_name, row_name, unfit};
+pub use wrenches::Held;
+
+/// In which axes a closing is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Axes {
+    /// Those of the joint's parent frame, or the first frame of a rod.
+    Parent,
+    /// Those of the joint's child frame, or the second frame of a rod.
+    Child,
+    World,
+    /// Those of the last link that carries both.
+    Common,
+    /// Those of the frame on which the first joint of the parent's side stands: for a leg its frame on the ground, turned
+    /// by its heading. Where the parent itself carries both, this is `Parent`.
+    ParentBase,
+    /// The same of the child's side.
+    ChildBase,
+}
+
+/// How a closing is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Writing {
+    pub axes: Axes,
+    /// [`Style::World`]: points are taken in world axes from rotations that all closings share, but for the side on whose
+    /// base the equations are written; it pays for a body that many loops hang on, and gives planar loops absolute
+    /// angles. [`Style::Nested`]: each point passes joint by joint.
+    pub style: Style,
+}
+
+impl Writing {
+    /// What derivation tries.
+    pub const ALL: [Writing; 12] = {
+        let axes = [Axes::Parent, Axes::ParentBase, Axes::ChildBase, Axes::World, Axes::Common, Axes::Child];
+        let mut all = [Writing { axes: Axes::Parent, style: Style::Nested }; 12];
+        let mut k = 0;
+        while k < 12 {
+            let style = if k % 2 == 0 { Style::Nested } else { Style::World };
+            all[k] = Writing { axes: axes[k / 2], style };
+            k += 1;
+        }
+        all
+    };
+    /// As good as any where cost is of no concern.
+    pub const PLAIN: Writing = Writing { axes: Axes::Common, style: Style::Nested };
+}
+
+/// Number of equations that a closing gives.
+pub fn row_count(model: &Model, closing: Closing) -> usize {
+    match closing {
+        Closing::Cut(joint) => model.joints.get(joint.0).map_or(0, |joint| joint_rows(&joint.kind)),
+        Closing::Constraint(id) => usize::from(model.constraints.get(id.0).is_some()),
+    }
+}
+
+fn joint_rows(kind: &JointKind) -> usize {
+    6 - kind.freedoms().min(6)
+}
+
+/// Whether the equation of a cut joint is a length (m), and not a cosine.
+pub fn is_length(model: &Model, closing: Closing, index: usize) -> bool {
+    let Closing::Cut(joint) = closing else { return false };
+    let lengths = match model.joints.get(joint.0).map(|joint| &joint.kind) {
+        Some(JointKind::Prismatic { .. } | JointKind::Cylindrical { .. }) => 2,
+        Some(JointKind::Screw { .. }) if index == 4 => 5,
+        Some(JointKind::Screw { .. }) => 2,
+        Some(JointKind::Planar { .. }) => 1,
+        _ => 3,
+    };
+    index < lengths
+}
+
+/// Whether an equation is one of three components of the way between a joint's frames, in the axes of the [`Writing`]; all
+/// others say the same in any axes.
+pub(in crate::mechanics) fn is_component(model: &Model, closing: Closing, index: usize) -> bool {
+    let Closing::Cut(joint) = closing else { return false };
+    let kind = model.joints.get(joint.0).map(|joint| &joint.kind);
+    let whole = matches!(
+        kind,
+        Some(JointKind::Fixed | JointKind::Ball(_) | JointKind::Universal { .. } | JointKind::Revolute { .. })
+    );
+    whole && index < 3
+}
+
+/// Everything that gives equations, in source order: joints, then constraints.
+pub fn closings(model: &Model) -> Vec<Closing> {
+    let cuts = model.cuts.iter().map(|&joint| Closing::Cut(joint));
+    let constraints = (0..model.constraints.len()).map(|k| Closing::Constraint(ConstraintId(k)));
+    cuts.chain(constraints).collect()
+}
+
+/// Whether a cut screw knows its angle up to whole turns only.
+pub(in crate::mechanics) fn is_uncounted(model: &Model, joint: JointId) -> bool {
+    if !matches!(model.joints.get(joint.0).map(|joint| &joint.kind), Some(JointKind::Screw { .. })) {
+        return false;
+    }
+    let mut graph = Graph::new();
+    let symbols = Symbols::new(&mut graph, model);
+    let way = Way { style: Style::Nested, method: Method::Composite, axes: None, writing: Writing::PLAIN };
+    Equations::new(model, graph, symbols, way, &[]).turns_unknown(joint)
+}
+
+impl Equations<'_> {
+    /// The equations of a closing, [`row_count`] of them: lengths in metres (half squares of lengths for a rod), cosines.
+    pub fn residuals(&mut self, closing: Closing, writing: Writing) -> Vec<Scalar> {
+        match closing {
+            Closing::Cut(joint) => self.cut(joint).map_or_else(Vec::new, |cut| self.cut_residuals(&cut, writing)),
+            Closing::Constraint(id) => {
+                let model = self.model;
+                let Some(constraint) = model.constraints.get(id.0) else { return Vec::new() };
+                match &constraint.kind {
+                    ConstraintKind::Value(_) => vec![self.expression_residual(id)],
+                    ConstraintKind::Rod { between, length } => {
+                        let ends = [self.place(&between[0]), self.place(&between[1])];
+                        let length = self.scalar(length);
+                        let way = self.way_in(&ends, writing);
+                        let g = &mut self.g;
+                        let (square, target) = (g.dot(way, way), g.mul(length, length));
+                        let (half, rest) = (g.decimal(0.5), g.sub(square, target));
+                        vec![g.mul(half, rest)]
+                    }
+                }
+            }
+        }
+    }
+
+    /// Time derivatives of the residuals, in terms of the velocity symbols.
+    pub fn residual_rates(&mut self, closing: Closing, writing: Writing) -> Vec<Scalar> {
+        let residuals = self.residuals(closing, writing);
+        self.time_derivative(&residuals)
+    }
+
+    /// Cosines that are one where a joint is closed as it was meant, and minus one (or anything else) on the branches
+    /// that the equations cannot tell from it.
+    pub fn alignments(&mut self, closing: Closing) -> Vec<Scalar> {
+        match closing {
+            Closing::Cut(joint) => self.cut(joint).map_or_else(Vec::new, |cut| self.cut_alignments(&cut)),
+            // Their equations vanish nowhere else.
+            Closing::Constraint(_) => Vec::new(),
+        }
+    }
+}

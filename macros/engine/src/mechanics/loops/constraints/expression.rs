@@ -1,0 +1,262 @@
+//! Stage `mechanics`: what an expression that is held at zero does to the bodies.
+//!
+//! In: an expression phi of positions. Out: what acts per unit of its multiplier, by virtual work. Every frame that phi reads
+//! belongs to a link, and the origin o and the rotation R of each of these links stand for themselves, as symbols; so do the
+//! coordinates that phi reads. Then dphi = f . do + m . dtheta for a link whose origin moves by do and that turns by dtheta,
+//! in world axes, with f = dphi/do and m the sum of R_j x dphi/dR_j over the columns of R; and dphi = e dq for a coordinate.
+//! The wrench -lambda (f, m) acts on the link, the effort -lambda e on the coordinate, between the two bodies of its joint.
+//! As efforts on the coordinates of the tree all of this is -lambda times the partial derivatives of phi, but only wrenches
+//! on bodies load the joints that carry them.
+
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use crate::dynamics::newton_euler::Wrench;
+use crate::mechanics::equations::Equations;
+use crate::mechanics::translate::build::Place;
+use crate::mechanics::translate::symbols::Symbols;
+use crate::mechanics::translate::values::Value;
+use crate::model::types::{Closing, ConstraintId, ConstraintKind, Coordinate, Expr, FrameQuantity, JointId};
+use crate::symbolic::graph::{Scalar, Vector};
+use crate::symbolic::rotations::{self, transpose};
+
+use super::super::reduction::Map;
+use super::super::structure::Row;
+
+/// Symbols that stand for what an expression reads.
+#[derive(Default)]
+pub(in crate::mechanics) struct StandIns {
+    /// By link: origin and columns of the rotation, in world axes.
+    links: BTreeMap<usize, Link>,
+    /// Measured coordinates, of joints that close loops.
+    measured: BTreeMap<Coordinate, Scalar>,
+    /// What each stands for.
+    pub(in crate::mechanics) map: Map,
+    /// What is read by the expression at hand; nothing while quantities mean themselves.
+    read: Option<Read>,
+}
+
+#[derive(Clone, Copy)]
+struct Link {
+    origin: [Scalar; 3],
+    columns: [[Scalar; 3]; 3],
+}
+
+#[derive(Default)]
+struct Read {
+    links: BTreeMap<usize, Link>,
+    coordinates: BTreeMap<Coordinate, Scalar>,
+}
+
+/// What acts per unit of minus the multiplier.
+#[derive(Default)]
+pub(in crate::mechanics) struct Slopes {
+    /// By link, about its origin in world axes.
+    pub wrenches: Vec<(usize, Wrench)>,
+    pub efforts: Vec<(Coordinate, Scalar)>,
+}
+
+impl Equations<'_> {
+    /// Whether quantities stand for themselves.
+    pub(in crate::mechanics) fn stands_apart(&self) -> bool {
+        self.stand_ins.read.is_some()
+    }
+
+    pub(in crate::mechanics) fn slopes(&mut self, id: ConstraintId) -> Rc<Slopes> {
+        if let Some(known) = self.slopes.get(&id.0) {
+            return Rc::clone(known);
+        }
+        let slopes = Rc::new(self.find_slopes(id));
+        self.slopes.insert(id.0, Rc::clone(&slopes));
+        slopes
+    }
+
+    fn find_slopes(&mut self, id: ConstraintId) -> Slopes {
+        let model = self.model;
+        let Some(constraint) = model.constraints.get(id.0) else { return Slopes::default() };
+        let ConstraintKind::Value(value) = &constraint.kind else { return Slopes::default() };
+        if let Some(coordinate) = constraint.drive {
+            return Slopes { efforts: vec![(coordinate, Scalar::ONE)], ..Slopes::default() };
+        }
+        let (phi, read) = self.read(value);
+        let mut slopes = Slopes::default();
+        for (&coordinate, &symbol) in &read.coordinates {
+            let slope = self.g.derivative(phi, &[(symbol, Scalar::ONE)]);
+            let slope = self.put_in_stand_ins(&[slope])[0];
+            if slope != Scalar::ZERO {
+                slopes.efforts.push((coordinate, slope));
+            }
+        }
+        for (&index, link) in &read.links {
+            let force = self.g.gradient(phi, &link.origin);
+            let entries = self.g.gradient(phi, &link.columns.concat());
+            let columns = link.columns.concat();
+            let all = self.put_in_stand_ins(&[force, entries, columns].concat());
+            let g = &mut self.g;
+            let vectors: Vec<Vector> = all.chunks(3).map(|c| g.vector([c[0], c[1], c[2]])).collect();
+            let [force, slopes_of @ .., a, b, c] = &vectors[..] else { continue };
+            let turns: Vec<Vector> = [a, b, c].into_iter().zip(slopes_of).map(|(&r, &d)| g.cross(r, d)).collect();
+            let wrench = Wrench { moment: g.sum_vectors(&turns), force: *force };
+            if (wrench.moment, wrench.force) != (Vector::ZERO, Vector::ZERO) {
+                slopes.wrenches.push((index, wrench));
+            }
+        }
+        slopes
+    }
+
+    /// An expression in symbols for what it reads.
+    fn read(&mut self, value: &Expr) -> (Scalar, Read) {
+        let memo = std::mem::take(&mut self.memo);
+        self.stand_ins.read = Some(Read::default());
+        let phi = self.scalar(value);
+        let read = self.stand_ins.read.take().unwrap_or_default();
+        self.memo = memo;
+        (phi, read)
+    }
+
+    /// An expression in symbols for what it reads, and those of coordinates.
+    pub(super) fn standing_apart(&mut self, value: &Expr) -> (Scalar, Vec<(Coordinate, Scalar)>) {
+        let (phi, read) = self.read(value);
+        (phi, read.coordinates.into_iter().collect())
+    }
+
+    /// Efforts of expressions with multipliers on a joint that closes a loop.
+    pub(in crate::mechanics) fn expression_efforts(
+        &mut self,
+        joint: JointId,
+        multiplied: &[(Row, Scalar)],
+    ) -> Vec<Scalar> {
+        let mut efforts: Vec<Scalar> = Vec::new();
+        for &(row, multiplier) in multiplied {
+            let Closing::Constraint(id) = row.closing else { continue };
+            for &(coordinate, slope) in &self.slopes(id).efforts {
+                if coordinate.joint != joint {
+                    continue;
+                }
+                efforts.resize(efforts.len().max(coordinate.index + 1), Scalar::ZERO);
+                if let Some(effort) = efforts.get_mut(coordinate.index) {
+                    let term = self.g.mul(multiplier, slope);
+                    *effort = self.g.sub(*effort, term);
+                }
+            }
+        }
+        efforts
+    }
+
+    /// What the symbols stand for in their places.
+    pub(in crate::mechanics) fn put_in_stand_ins(&mut self, roots: &[Scalar]) -> Vec<Scalar> {
+        if self.stand_ins.map.is_empty() { roots.to_vec() } else { self.g.substitute(roots, &self.stand_ins.map) }
+    }
+
+    /// A new symbol for a value. It is replaced in all results, those included that merely look as if they read it.
+    fn stand_in(&mut self, value: Scalar) -> Scalar {
+        let symbol = self.g.symbol();
+        self.g.mark(symbol, Symbols::STAND_INS);
+        self.stand_ins.map.extend(self.g.symbol_id(symbol).map(|id| (id, value)));
+        symbol
+    }
+
+    /// A coordinate that an expression reads.
+    pub(in crate::mechanics) fn read_coordinate(&mut self, coordinate: Coordinate) -> Scalar {
+        let Coordinate { joint, index } = coordinate;
+        let symbol = match Symbols::of(&self.symbols.positions, joint).get(index) {
+            Some(&symbol) => symbol,
+            None => match self.stand_ins.measured.get(&coordinate) {
+                Some(&symbol) => symbol,
+                None => {
+                    let value = self.meaning_itself(|e| e.measured_position(coordinate));
+                    let symbol = self.stand_in(value);
+                    self.stand_ins.measured.insert(coordinate, symbol);
+                    symbol
+                }
+            },
+        };
+        if let Some(read) = &mut self.stand_ins.read {
+            read.coordinates.insert(coordinate, symbol);
+        }
+        symbol
+    }
+
+    /// A quantity of a frame that an expression reads.
+    pub(in crate::mechanics) fn read_place(&mut self, place: &Place, quantity: FrameQuantity) -> Value {
+        let columns = self.read_columns(place);
+        let rows = transpose(&columns);
+        match quantity {
+            FrameQuantity::Rotation => Value::Rotation(Rc::new(rows)),
+            FrameQuantity::Pose => {
+                let position = self.read_position(place);
+                Value::Pose(position, crate::mechanics::translate::orientation::of_rows(&mut self.g, &rows))
+            }
+            // Expressions that are held have no other quantity.
+            _ => Value::Vector(self.read_position(place)),
+        }
+    }
+
+    /// Components of a world vector in the axes of a frame that an expression reads.
+    pub(in crate::mechanics) fn read_express(&mut self, place: &Place, v: Vector) -> Vector {
+        let columns = self.read_columns(place).map(|column| self.g.vector(column));
+        let components = columns.map(|column| self.g.dot(column, v));
+        self.g.vector(components)
+    }
+
+    fn read_position(&mut self, place: &Place) -> Vector {
+        let Some(link) = self.read_link(place.link) else { return place.offset };
+        let offset = self.g.components(place.offset);
+        let mut terms = vec![self.g.vector(link.origin)];
+        for (column, x) in link.columns.into_iter().zip(offset) {
+            let column = self.g.vector(column);
+            terms.push(self.g.scale(x, column));
+        }
+        self.g.sum_vectors(&terms)
+    }
+
+    /// The axes of a frame.
+    fn read_columns(&mut self, place: &Place) -> [[Scalar; 3]; 3] {
+        let rows = rotations::rows(&mut self.g, place.rotation);
+        let Some(link) = self.read_link(place.link) else { return transpose(&rows) };
+        let g = &mut self.g;
+        transpose(&rows).map(|local| {
+            std::array::from_fn(|i| {
+                let terms: Vec<Scalar> = (0..3).map(|j| g.mul(link.columns[j][i], local[j])).collect();
+                g.sum(&terms)
+            })
+        })
+    }
+
+    fn read_link(&mut self, link: Option<usize>) -> Option<Link> {
+        let index = link?;
+        let found = match self.stand_ins.links.get(&index) {
+            Some(&found) => found,
+            None => {
+                let place = Place { link, ..Place::GROUND };
+                let (origin, rows) = self.meaning_itself(|e| {
+                    let origin = match e.of_place(&place, FrameQuantity::Position) {
+                        Value::Vector(v) => e.g.components(v),
+                        _ => [Scalar::ZERO; 3],
+                    };
+                    (origin, e.frame_rows(&place))
+                });
+                let columns = transpose(&rows);
+                let origin = origin.map(|value| self.stand_in(value));
+                let columns = columns.map(|column| column.map(|value| self.stand_in(value)));
+                let found = Link { origin, columns };
+                self.stand_ins.links.insert(index, found);
+                found
+            }
+        };
+        if let Some(read) = &mut self.stand_ins.read {
+            read.links.insert(index, found);
+        }
+        Some(found)
+    }
+
+    /// Works something out with quantities that mean themselves.
+    fn meaning_itself<T>(&mut self, f: impl FnOnce(&mut Self) -> T) -> T {
+        let read = self.stand_ins.read.take();
+        let memo = std::mem::take(&mut self.memo);
+        let result = f(self);
+        self.memo = memo;
+        self.stand_ins.read = read;
+        result
+    }
+}

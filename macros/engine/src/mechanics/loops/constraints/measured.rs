@@ -1,0 +1,295 @@
+//! Stage `mechanics`: coordinates of joints that close loops, measured between their frames.
+//!
+//! In: a joint between two bodies that have coordinates of their own, such as absolute ones. Out: its coordinates, their
+//! rates and accelerations, so that a spring, a motor or a coupling on it is the same whatever the coordinates. With d the
+//! way from the parent's point to the child's and w the angular velocity of the child relative to the parent, a travel
+//! along n, fixed to the parent, is n . d at the rate n . (d' - w_P x d), and an angle that turns x away from u about n
+//! is that of the point (u . x, (n x u) . x), between minus and plus a half turn. The angle of a screw is its travel over
+//! its pitch, which counts turns. The rate of an angle is a . w, where the a of all angles of the joint are dual to
+//! their axes; an effort on it is the moment along the same a.
+
+use std::rc::Rc;
+
+use crate::dynamics::point_kinematics::Climb;
+use crate::mechanics::equations::Equations;
+use crate::mechanics::translate::build::Place;
+use crate::mechanics::translate::symbols::Symbols;
+use crate::model::types::{Coordinate, JointId, JointKind, Order, Orientation};
+use crate::symbolic::differentiate::Differentiator;
+use crate::symbolic::graph::{Call, Scalar, Vector};
+
+use super::Writing;
+
+/// What a coordinate's rate is taken from the relative motion with, and its effort acts along; in the axes of the parent's
+/// link.
+#[derive(Clone, Copy)]
+pub(in crate::mechanics) enum Dual {
+    Slides(Vector),
+    Turns(Vector),
+}
+
+/// How an angle is measured: by a direction of one frame against two of the other.
+struct Angle {
+    u: (Place, Vector),
+    /// n x u
+    v: (Place, Vector),
+    x: (Place, Vector),
+}
+
+impl Equations<'_> {
+    /// A coordinate of the tree, or one that is measured.
+    pub(in crate::mechanics) fn coordinate(&mut self, coordinate: Coordinate, order: Order) -> Scalar {
+        let Coordinate { joint, index } = coordinate;
+        if order == Order::Position && self.stands_apart() {
+            return self.read_coordinate(coordinate);
+        }
+        if self.model.cuts.contains(&joint) {
+            return match order {
+                Order::Position => self.measured_position(coordinate),
+                Order::Rate => self.measured_rate(coordinate),
+                Order::Acceleration => self.measured_acceleration(coordinate),
+            };
+        }
+        let found = match order {
+            Order::Position => Symbols::of(&self.symbols.positions, joint).get(index).copied(),
+            Order::Rate => Symbols::of(&self.symbols.velocities, joint).get(index).copied(),
+            Order::Acceleration => {
+                let freedom = self.freedom(coordinate);
+                self.accelerations().get(freedom).copied()
+            }
+        };
+        found.unwrap_or(Scalar::ZERO)
+    }
+
+    pub(in crate::mechanics) fn measured_position(&mut self, Coordinate { joint, index }: Coordinate) -> Scalar {
+        let model = self.model;
+        let Some(joint) = model.joints.get(joint.0) else { return Scalar::ZERO };
+        let ends = [self.place(&joint.parent), self.place(&joint.child)];
+        match (&joint.kind, index) {
+            (JointKind::Screw { axis, pitch }, _) => {
+                let pitch = self.scalar(pitch);
+                if pitch != Scalar::ZERO {
+                    let along = self.along(axis, 0, Scalar::ONE);
+                    let travel = self.travel(&ends, along);
+                    return self.g.div(travel, pitch);
+                }
+            }
+            (JointKind::Prismatic { axis } | JointKind::Cylindrical { axis }, 0) => {
+                let along = self.along(axis, 0, Scalar::ONE);
+                return self.travel(&ends, along);
+            }
+            (JointKind::Planar { axis }, 0 | 1) => {
+                let along = self.along(axis, index + 1, Scalar::ONE);
+                return self.travel(&ends, along);
+            }
+            (JointKind::Free(_), 0..3) => {
+                let along = self.g.along(index, Scalar::ONE);
+                return self.travel(&ends, along);
+            }
+            (JointKind::Ball(Orientation::RollPitchYaw), _) => return self.roll_pitch_yaw_between(&ends, index),
+            (JointKind::Free(Orientation::RollPitchYaw), 3..) => {
+                return self.roll_pitch_yaw_between(&ends, index - 3);
+            }
+            _ => {}
+        }
+        match self.angle_of(&joint.kind, &ends, index) {
+            Some(angle) => {
+                let [cos, sin] = self.point_of(&ends, &angle);
+                self.g.call(Call::Atan2, &[sin, cos])
+            }
+            None => Scalar::ZERO,
+        }
+    }
+
+    /// Whether a measured coordinate is an angle that is known up to whole turns. A pitch is none: it never passes a
+    /// quarter.
+    pub(super) fn is_angle(&mut self, Coordinate { joint, index }: Coordinate) -> bool {
+        let model = self.model;
+        match (model.joints.get(joint.0).map(|joint| &joint.kind), index) {
+            (Some(JointKind::Screw { pitch, .. }), _) => self.scalar(pitch) == Scalar::ZERO,
+            (Some(JointKind::Revolute { .. }), 0)
+            | (Some(JointKind::Cylindrical { .. }), 1)
+            | (Some(JointKind::Planar { .. }), 2)
+            | (Some(JointKind::Universal { .. }), 0 | 1)
+            | (Some(JointKind::Ball(Orientation::RollPitchYaw)), 0 | 2)
+            | (Some(JointKind::Free(Orientation::RollPitchYaw)), 3 | 5) => true,
+            _ => false,
+        }
+    }
+
+    /// A component of the way along a direction of the parent's frame.
+    fn travel(&mut self, ends: &[Place; 2], along: Vector) -> Scalar {
+        let view = self.view(ends, Writing::PLAIN);
+        let way = self.see_way(&view, ends);
+        let along = self.g.rotate(ends[0].rotation, along);
+        let along = self.see_vector(&view, ends[0].link, along);
+        self.g.dot(way, along)
+    }
+
+    fn angle_of(&mut self, kind: &JointKind, ends: &[Place; 2], index: usize) -> Option<Angle> {
+        let [parent, child] = *ends;
+        match (kind, index) {
+            (JointKind::Revolute { axis } | JointKind::Screw { axis, .. }, 0)
+            | (JointKind::Cylindrical { axis }, 1)
+            | (JointKind::Planar { axis }, 2) => {
+                let flipped = self.axis(axis).flipped;
+                let [u, v] = [1, 2].map(|next| self.along(axis, next, Scalar::ONE));
+                let v = if flipped { -v } else { v };
+                Some(Angle { u: (parent, u), v: (parent, v), x: (child, u) })
+            }
+            (JointKind::Universal { axes }, 0 | 1) => {
+                let [first, second] = [0, 1].map(|k| self.along(&axes[k], 0, Scalar::ONE));
+                let v = self.g.cross(first, second);
+                Some(if index == 0 {
+                    Angle { u: (parent, second), v: (parent, v), x: (child, second) }
+                } else {
+                    // The parent's axis as the child sees it turns the other way round.
+                    Angle { u: (child, first), v: (child, v), x: (parent, first) }
+                })
+            }
+            _ => None,
+        }
+    }
+
+    fn point_of(&mut self, ends: &[Place; 2], angle: &Angle) -> [Scalar; 2] {
+        let view = self.view(ends, Writing::PLAIN);
+        let [u, v, x] = [&angle.u, &angle.v, &angle.x].map(|(place, direction)| {
+            let direction = self.g.rotate(place.rotation, *direction);
+            self.see_vector(&view, place.link, direction)
+        });
+        [self.g.dot(u, x), self.g.dot(v, x)]
+    }
+
+    /// An axis of the child along one of the parent's.
+    fn cosine_between(&mut self, ends: &[Place; 2], child: usize, parent: usize) -> Scalar {
+        let view = self.view(ends, Writing::PLAIN);
+        let (c, p) = (self.see_axis(&view, &ends[1], child), self.see_axis(&view, &ends[0], parent));
+        self.g.dot(c, p)
+    }
+
+    /// Angles of Rz(yaw) Ry(pitch) Rx(roll).
+    fn roll_pitch_yaw_between(&mut self, ends: &[Place; 2], index: usize) -> Scalar {
+        let [sin, cos] = match index {
+            0 => [self.cosine_between(ends, 1, 2), self.cosine_between(ends, 2, 2)],
+            1 => {
+                let [x, y] = [0, 1].map(|k| self.cosine_between(ends, 0, k));
+                let squares = [self.g.mul(x, x), self.g.mul(y, y)];
+                let square = self.g.sum(&squares);
+                [-self.cosine_between(ends, 0, 2), self.g.sqrt(square)]
+            }
+            _ => [self.cosine_between(ends, 0, 1), self.cosine_between(ends, 0, 0)],
+        };
+        self.g.call(Call::Atan2, &[sin, cos])
+    }
+
+    pub(in crate::mechanics) fn dual(&mut self, Coordinate { joint, index }: Coordinate) -> Option<Dual> {
+        let model = self.model;
+        let joint = model.joints.get(joint.0)?;
+        let [parent, child] = [self.place(&joint.parent), self.place(&joint.child)];
+        let (dual, of_child): (fn(Vector) -> Dual, Option<usize>) = match (&joint.kind, index) {
+            (JointKind::Prismatic { .. } | JointKind::Cylindrical { .. }, 0) | (JointKind::Planar { .. }, 0 | 1) => {
+                (Dual::Slides, None)
+            }
+            (JointKind::Free(_), 0..3) => (Dual::Slides, None),
+            (JointKind::Ball(Orientation::Quaternion), _) => (Dual::Turns, Some(index)),
+            (JointKind::Free(Orientation::Quaternion), _) => (Dual::Turns, Some(index - 3)),
+            _ => (Dual::Turns, None),
+        };
+        let direction = match (&joint.kind, index) {
+            (JointKind::Revolute { axis } | JointKind::Prismatic { axis } | JointKind::Screw { axis, .. }, 0)
+            | (JointKind::Cylindrical { axis }, 0 | 1) => self.along(axis, 0, Scalar::ONE),
+            (JointKind::Planar { axis }, 0..3) => self.along(axis, (index + 1) % 3, Scalar::ONE),
+            (JointKind::Universal { axes }, 0) => self.along(&axes[0], 0, Scalar::ONE),
+            (JointKind::Universal { axes }, 1) => {
+                let own = self.along(&axes[1], 0, Scalar::ONE);
+                let own = self.g.rotate(child.rotation, own);
+                return Some(Dual::Turns(self.between(child.link, parent.link, own)));
+            }
+            (JointKind::Free(_), 0..3) => self.g.along(index, Scalar::ONE),
+            (JointKind::Ball(Orientation::RollPitchYaw), 0..3) => self.gimbal(&[parent, child], index),
+            (JointKind::Free(Orientation::RollPitchYaw), 3..6) => self.gimbal(&[parent, child], index - 3),
+            _ => {
+                let own = self.axis_in_link(&child, of_child?);
+                return Some(dual(self.between(child.link, parent.link, own)));
+            }
+        };
+        Some(dual(self.g.rotate(parent.rotation, direction)))
+    }
+
+    /// With c the child's x axis in the parent's, the axes of roll, pitch and yaw are c, (-c_y, c_x, 0) / k and z, with
+    /// k^2 = c_x^2 + c_y^2; these are dual to them.
+    fn gimbal(&mut self, ends: &[Place; 2], index: usize) -> Vector {
+        let [x, y, z] = [0, 1, 2].map(|k| self.cosine_between(ends, 0, k));
+        let g = &mut self.g;
+        let squares = [g.mul(x, x), g.mul(y, y)];
+        let square = g.sum(&squares);
+        let flat = g.vector([x, y, Scalar::ZERO]);
+        let inverse = g.reciprocal(square);
+        match index {
+            0 => g.scale(inverse, flat),
+            1 => {
+                let root = g.sqrt(square);
+                let inverse = g.reciprocal(root);
+                let across = g.vector([-y, x, Scalar::ZERO]);
+                g.scale(inverse, across)
+            }
+            _ => {
+                let tilt = g.mul(z, inverse);
+                let (back, up) = (g.scale(tilt, flat), g.along(2, Scalar::ONE));
+                g.sub_vectors(up, back)
+            }
+        }
+    }
+
+    fn measured_rate(&mut self, coordinate: Coordinate) -> Scalar {
+        let model = self.model;
+        let (Some(dual), Some(joint)) = (self.dual(coordinate), model.joints.get(coordinate.joint.0)) else {
+            return Scalar::ZERO;
+        };
+        let ends = [self.place(&joint.parent), self.place(&joint.child)];
+        let (common, [way, rate], [parent, child]) = self.motion_between(&ends);
+        let g = &mut self.g;
+        let (direction, motion) = match dual {
+            Dual::Slides(direction) => {
+                let carried = g.cross(parent, way);
+                (direction, g.sub_vectors(rate, carried))
+            }
+            Dual::Turns(direction) => (direction, g.sub_vectors(child, parent)),
+        };
+        let direction = self.between(ends[0].link, common, direction);
+        self.g.dot(direction, motion)
+    }
+
+    /// The way between two frames and its rate, and their angular velocities, in the axes of the last link that carries both,
+    /// as that link sees them.
+    fn motion_between(&mut self, ends: &[Place; 2]) -> (Option<usize>, [Vector; 2], [Vector; 2]) {
+        let mechanism = Rc::clone(&self.mechanism);
+        let common = self.common(ends[0].link, ends[1].link);
+        let [from, to] = [0, 1].map(|k| {
+            let mut climb = Climb::new(&mechanism.tree, ends[k].offset, 1, &[]);
+            climb.up_to(&mut self.g, ends[k].link, common);
+            (climb.local(&mut self.g), climb.angular)
+        });
+        let way = [0, 1].map(|k| self.g.sub_vectors(to.0[k], from.0[k]));
+        (common, way, [from.1, to.1])
+    }
+
+    fn measured_acceleration(&mut self, coordinate: Coordinate) -> Scalar {
+        let rate = self.measured_rate(coordinate);
+        let accelerations = self.accelerations();
+        let mut seeds = self.seeds(1);
+        seeds.extend(self.symbols.velocities.concat().into_iter().zip(accelerations.iter().copied()));
+        Differentiator::new(&seeds).scalar(&mut self.g, rate)
+    }
+
+    /// The child's angular velocity relative to the parent, in the axes of the joint's child frame.
+    pub(in crate::mechanics) fn measured_angular_velocity(&mut self, joint: JointId) -> Vector {
+        let model = self.model;
+        let Some(joint) = model.joints.get(joint.0) else { return Vector::ZERO };
+        let ends = [self.place(&joint.parent), self.place(&joint.child)];
+        let (common, _, [parent, child]) = self.motion_between(&ends);
+        let angular = self.g.sub_vectors(child, parent);
+        let angular = self.between(common, ends[1].link, angular);
+        self.g.rotate(ends[1].rotation.transpose(), angular)
+    }
+}

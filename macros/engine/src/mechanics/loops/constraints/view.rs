@@ -1,0 +1,213 @@
+//! Stage `mechanics`: points and directions as another frame sees them.
+//!
+//! In: a frame on the tree to look from. Out: components in its axes. A point climbs from its link to the last link that
+//! carries both and descends to the frame, turn by turn (Horner's scheme); or it is taken in world axes from the rotations
+//! that all closings share. Where the frame is the one that a chain's first joint stands on, the chain ends there and
+//! never passes the constant placement.
+
+use std::rc::Rc;
+
+use crate::dynamics::point_kinematics::Climb;
+use crate::dynamics::tree::Motion;
+use crate::mechanics::equations::Equations;
+use crate::mechanics::equations::Style;
+use crate::mechanics::translate::build::Place;
+use crate::symbolic::graph::{Rotation, Scalar, Vector};
+use crate::symbolic::rotations;
+
+use super::Axes;
+use super::Writing;
+
+/// A frame to look from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View {
+    pub place: Place,
+    /// The link whose joint stands in this very frame.
+    first: Option<usize>,
+    style: Style,
+}
+
+impl View {
+    /// Whether a side's point comes from the shared world rotations.
+    pub(super) fn shares(&self, carried: bool) -> bool {
+        self.style == Style::World && self.place.link.is_none() && !carried
+    }
+}
+
+impl Equations<'_> {
+    /// The frame that a writing means for a closing between two frames.
+    pub(super) fn view(&mut self, ends: &[Place; 2], writing: Writing) -> View {
+        let common = self.common(ends[0].link, ends[1].link);
+        let (place, first) = match writing.axes {
+            Axes::Parent => (ends[0], None),
+            Axes::Child => (ends[1], None),
+            Axes::World => (Place::GROUND, None),
+            Axes::Common => (Place { link: common, ..Place::GROUND }, None),
+            Axes::ParentBase => self.base_of(&ends[0], common),
+            Axes::ChildBase => self.base_of(&ends[1], common),
+        };
+        View { place, first, style: writing.style }
+    }
+
+    /// The frame that the first joint beyond `common` stands in, on the way to a frame.
+    fn base_of(&self, end: &Place, common: Option<usize>) -> (Place, Option<usize>) {
+        let mut at = end.link;
+        while let Some(link) = at.and_then(|index| self.mechanism.tree.links.get(index)) {
+            if at == common {
+                break;
+            }
+            if link.parent == common {
+                return (Place { link: common, rotation: link.rotation, offset: link.offset }, at);
+            }
+            at = link.parent;
+        }
+        (*end, None)
+    }
+
+    /// Whether a link hangs on the joint that stands in the view's frame.
+    pub(super) fn hangs_on(&self, view: &View, link: Option<usize>) -> bool {
+        view.first.is_some() && self.common(link, view.first) == view.first
+    }
+
+    /// A frame's origin, from the view's origin in its axes.
+    pub(super) fn see_point(&mut self, view: &View, point: &Place) -> Vector {
+        let mechanism = Rc::clone(&self.mechanism);
+        let tree = &mechanism.tree;
+        if self.hangs_on(view, point.link) {
+            let mut climb = Climb::new(tree, point.offset, 0, &[]);
+            climb.up_to(&mut self.g, point.link, view.first);
+            if let Some(link) = view.first.and_then(|index| tree.links.get(index)) {
+                climb.leave(&mut self.g, link);
+            }
+            return climb.local(&mut self.g)[0];
+        }
+        let to = view.place;
+        if point.link == to.link {
+            let way = self.g.sub_vectors(point.offset, to.offset);
+            return rotations::rotate(&mut self.g, to.rotation.transpose(), way);
+        }
+        let mut seen = if view.shares(false) {
+            self.world.point(&mut self.g, tree, point.link, point.offset)
+        } else {
+            let common = self.common(point.link, to.link);
+            let mut climb = Climb::new(tree, point.offset, 0, &[]);
+            climb.up_to(&mut self.g, point.link, common);
+            let seen = climb.local(&mut self.g)[0];
+            self.descend(common, to.link, seen)
+        };
+        seen = self.g.sub_vectors(seen, to.offset);
+        self.g.rotate(to.rotation.transpose(), seen)
+    }
+
+    /// A point as a link further out sees it.
+    fn descend(&mut self, from: Option<usize>, to: Option<usize>, mut point: Vector) -> Vector {
+        let mechanism = Rc::clone(&self.mechanism);
+        let tree = &mechanism.tree;
+        let mut path = Vec::new();
+        let mut at = to;
+        while let (true, Some(index)) = (at != from, at) {
+            path.push(index);
+            at = tree.links.get(index).and_then(|link| link.parent);
+        }
+        let g = &mut self.g;
+        for link in path.into_iter().rev().filter_map(|index| tree.links.get(index)) {
+            let arm = g.sub_vectors(point, link.offset);
+            point = g.rotate(link.rotation.transpose(), arm);
+            let travel = match link.motion {
+                Motion::Prismatic(axis) => g.along(axis, link.q),
+                Motion::Screw(axis, pitch) => {
+                    let length = g.mul(pitch, link.q);
+                    g.along(axis, length)
+                }
+                Motion::Revolute(_) | Motion::Ball(_) => Vector::ZERO,
+            };
+            point = g.sub_vectors(point, travel);
+            let turn = match link.motion {
+                Motion::Revolute(axis) | Motion::Screw(axis, _) => g.axis_rotation(axis, link.q),
+                Motion::Prismatic(_) => Rotation::IDENTITY,
+                Motion::Ball(quaternion) => g.quaternion_rotation(quaternion),
+            };
+            point = g.rotate(turn.transpose(), point);
+        }
+        point
+    }
+
+    /// A vector of a link's axes in the view's.
+    pub(super) fn see_vector(&mut self, view: &View, link: Option<usize>, v: Vector) -> Vector {
+        if v == Vector::ZERO {
+            return v;
+        }
+        let mechanism = Rc::clone(&self.mechanism);
+        let tree = &mechanism.tree;
+        let to = view.place;
+        if self.hangs_on(view, link) {
+            let turns = self.turns_from(view.first, link);
+            return self.g.rotate(turns, v);
+        }
+        let seen = if link == to.link {
+            return rotations::rotate(&mut self.g, to.rotation.transpose(), v);
+        } else if view.shares(false) {
+            self.world.rotate(&mut self.g, tree, link, v)
+        } else {
+            self.between(link, to.link, v)
+        };
+        self.g.rotate(to.rotation.transpose(), seen)
+    }
+
+    /// Rotation from a link's axes to those of the frame that the joint of `first` stands in.
+    fn turns_from(&mut self, first: Option<usize>, link: Option<usize>) -> Rotation {
+        let mechanism = Rc::clone(&self.mechanism);
+        let tree = &mechanism.tree;
+        let mut path = Vec::new();
+        let mut at = link;
+        while let Some(index) = at {
+            path.push(index);
+            if at == first {
+                break;
+            }
+            at = tree.links.get(index).and_then(|link| link.parent);
+        }
+        let mut rotation = Rotation::IDENTITY;
+        for index in path.into_iter().rev() {
+            let Some(link) = tree.links.get(index) else { continue };
+            let mut turn = link.clone();
+            turn.rotation = Rotation::IDENTITY;
+            if Some(index) != first {
+                rotation = self.g.compose(rotation, link.rotation);
+            }
+            let turn = tree.rotation(&mut self.g, &turn);
+            rotation = self.g.compose(rotation, turn);
+        }
+        rotation
+    }
+
+    /// A vector of the view's axes in a link's.
+    pub(super) fn unsee(&mut self, view: &View, v: Vector, link: Option<usize>) -> Vector {
+        if v == Vector::ZERO {
+            return v;
+        }
+        if self.hangs_on(view, link) {
+            let turns = self.turns_from(view.first, link);
+            return self.g.rotate(turns.transpose(), v);
+        }
+        let v = self.g.rotate(view.place.rotation, v);
+        self.between(view.place.link, link, v)
+    }
+
+    /// The way from the first frame's origin to the second's, in the axes of a writing.
+    pub(super) fn way_in(&mut self, ends: &[Place; 2], writing: Writing) -> Vector {
+        let view = self.view(ends, writing);
+        self.see_way(&view, ends)
+    }
+
+    pub(super) fn see_way(&mut self, view: &View, ends: &[Place; 2]) -> Vector {
+        let [from, to] = [self.see_point(view, &ends[0]), self.see_point(view, &ends[1])];
+        self.g.sub_vectors(to, from)
+    }
+
+    /// A coordinate axis of a frame, in its link's axes.
+    pub(super) fn axis_in_link(&mut self, place: &Place, axis: usize) -> Vector {
+        let unit = self.g.along(axis, Scalar::ONE);
+        rotations::rotate(&mut self.g, place.rotation, unit)
+    }
+}

@@ -1,0 +1,181 @@
+//! Stage `mechanics`: loops as cycles for the stage `solve`.
+//!
+//! In: a `solve` item. Out: its loop as a [`Cycle`], walked once around: from the last link that carries both ends out to
+//! the closing's parent frame, through the closing, and back from its child frame. Motions that are known stay as they
+//! are, unknown ones keep the symbols of their coordinates as placeholders. A motion that is walked against its sense is
+//! the same motion about the opposite axis: turned by half a turn before and after.
+
+use crate::dynamics::tree::Link;
+use crate::dynamics::tree::Motion;
+use crate::mechanics::equations::Equations;
+use crate::mechanics::translate::build::Place;
+use crate::mechanics::translate::directions;
+use crate::model::types::{Closing, ConstraintKind, JointId, JointKind, Solve};
+use crate::solve::{Cycle, Segment};
+use crate::symbolic::graph::{Rotation, Scalar, Vector};
+use crate::symbolic::rotations;
+
+impl Equations<'_> {
+    /// Once around the loop of a closing.
+    pub(super) fn cycle(&mut self, closing: Closing, item: &Solve) -> Cycle {
+        let segments = self.segments(closing, item);
+        let winding = match closing {
+            Closing::Cut(id) => self.cycle_winding(id),
+            Closing::Constraint(_) => None,
+        };
+        Cycle { segments, winding }
+    }
+
+    /// The sum of all angles of a loop that counts turns. That of a screw which closes it stands there as its coordinate.
+    fn cycle_winding(&mut self, id: JointId) -> Option<Scalar> {
+        let sum = self.counted_turns(id)?;
+        let screw = matches!(self.model.joints.get(id.0)?.kind, JointKind::Screw { .. });
+        // The first of the closing's own coordinates, see `closing_motions`.
+        let own = if screw { self.symbols.unwanted(0) } else { Scalar::ZERO };
+        Some(self.g.sub(sum, own))
+    }
+
+    fn segments(&mut self, closing: Closing, item: &Solve) -> Vec<Segment> {
+        let model = self.model;
+        let mut cycle = Vec::new();
+        match closing {
+            Closing::Cut(id) => {
+                let Some(joint) = model.joints.get(id.0) else { return cycle };
+                let (from, to) = (self.place(&joint.parent), self.place(&joint.child));
+                let common = self.common(from.link, to.link);
+                self.outwards_to(&from, common, item, &mut cycle);
+                self.closing_motions(&joint.kind, &mut cycle);
+                self.back_from(&to, common, item, &mut cycle);
+            }
+            Closing::Constraint(id) => {
+                let Some(ConstraintKind::Rod { between, length }) = model.constraints.get(id.0).map(|c| &c.kind) else {
+                    return cycle;
+                };
+                let (from, to) = (self.place(&between[0]), self.place(&between[1]));
+                let length = self.scalar(length);
+                let common = self.common(from.link, to.link);
+                self.outwards_to(&from, common, item, &mut cycle);
+                cycle.push(self.unwanted(Motion::Ball([Scalar::ZERO; 4]), 0));
+                let offset = self.g.along(0, length);
+                cycle.push(Segment::Fixed { rotation: Rotation::IDENTITY, offset });
+                cycle.push(self.unwanted(Motion::Ball([Scalar::ZERO; 4]), 3));
+                self.back_from(&to, common, item, &mut cycle);
+            }
+        }
+        cycle
+    }
+
+    /// The links from the common carrier (excluded) to a place's link, outwards.
+    fn links_between(&self, link: Option<usize>, common: Option<usize>) -> Vec<usize> {
+        let mut path = Vec::new();
+        let mut at = link;
+        while let (true, Some(index)) = (at != common, at) {
+            path.push(index);
+            at = self.mechanism.tree.links.get(index).and_then(|link| link.parent);
+        }
+        path.reverse();
+        path
+    }
+
+    fn outwards_to(&mut self, place: &Place, common: Option<usize>, item: &Solve, cycle: &mut Vec<Segment>) {
+        let mechanism = std::rc::Rc::clone(&self.mechanism);
+        for index in self.links_between(place.link, common) {
+            let Some(link) = mechanism.tree.links.get(index) else { continue };
+            cycle.push(Segment::Fixed { rotation: link.rotation, offset: link.offset });
+            self.motion(link, false, item, cycle);
+        }
+        cycle.push(Segment::Fixed { rotation: place.rotation, offset: place.offset });
+    }
+
+    fn back_from(&mut self, place: &Place, common: Option<usize>, item: &Solve, cycle: &mut Vec<Segment>) {
+        let mechanism = std::rc::Rc::clone(&self.mechanism);
+        self.inverse(place.rotation, place.offset, cycle);
+        for index in self.links_between(place.link, common).into_iter().rev() {
+            let Some(link) = mechanism.tree.links.get(index) else { continue };
+            self.motion(link, true, item, cycle);
+            self.inverse(link.rotation, link.offset, cycle);
+        }
+    }
+
+    fn inverse(&mut self, rotation: Rotation, offset: Vector, cycle: &mut Vec<Segment>) {
+        let back = rotations::rotate(&mut self.g, rotation.transpose(), offset);
+        cycle.push(Segment::Fixed { rotation: rotation.transpose(), offset: -back });
+    }
+
+    /// A link's motion, or its inverse.
+    fn motion(&mut self, link: &Link, back: bool, item: &Solve, cycle: &mut Vec<Segment>) {
+        let unknown = item.unknowns.iter().any(|&u| {
+            let symbol = self.coordinate_symbols(u)[0];
+            symbol.index() == link.q.index() && symbol != Scalar::ZERO
+        });
+        if unknown {
+            let against = back != link.q.is_negative();
+            let axis = match link.motion {
+                Motion::Revolute(axis) | Motion::Prismatic(axis) | Motion::Screw(axis, _) => axis,
+                Motion::Ball(_) => 0,
+            };
+            let half = against.then(|| {
+                let pi = self.g.pi();
+                self.g.axis_rotation((axis + 1) % 3, pi)
+            });
+            let turn = half.map(|rotation| Segment::Fixed { rotation, offset: Vector::ZERO });
+            cycle.extend(turn);
+            cycle.push(Segment::Unknown { motion: link.motion, symbol: link.q.positive(), wanted: true });
+            cycle.extend(turn);
+            return;
+        }
+        let mut still = link.clone();
+        (still.rotation, still.offset) = (Rotation::IDENTITY, Vector::ZERO);
+        let rotation = self.mechanism.tree.rotation(&mut self.g, &still);
+        let offset = self.mechanism.tree.origin(&mut self.g, &still);
+        if back {
+            // The travel lies on the axis of the turn, so it needs no turning back.
+            cycle.push(Segment::Fixed { rotation: rotation.transpose(), offset: -offset });
+        } else {
+            cycle.push(Segment::Fixed { rotation, offset });
+        }
+    }
+
+    /// The motions of what closes the loop, from its parent frame to its child frame.
+    fn closing_motions(&mut self, kind: &JointKind, cycle: &mut Vec<Segment>) {
+        let mut axes: Vec<(directions::Axis, Option<Scalar>, bool)> = Vec::new();
+        match kind {
+            JointKind::Fixed | JointKind::Free(_) => {}
+            JointKind::Revolute { axis } => axes.push((self.axis(axis), None, true)),
+            JointKind::Prismatic { axis } => axes.push((self.axis(axis), None, false)),
+            JointKind::Screw { axis, pitch } => {
+                let pitch = self.scalar(pitch);
+                axes.push((self.axis(axis), Some(pitch), true));
+            }
+            JointKind::Cylindrical { axis } => {
+                let axis = self.axis(axis);
+                axes.extend([(axis, None, false), (axis, None, true)]);
+            }
+            JointKind::Universal { axes: pair } => {
+                axes.extend(pair.each_ref().map(|axis| (self.axis(axis), None, true)));
+            }
+            JointKind::Planar { axis } => {
+                let axis = self.axis(axis);
+                let along = |k: usize| directions::Axis { index: (axis.index + k) % 3, flipped: false, ..axis };
+                axes.extend([(along(1), None, false), (along(2), None, false), (axis, None, true)]);
+            }
+            JointKind::Ball(_) => cycle.push(self.unwanted(Motion::Ball([Scalar::ZERO; 4]), 0)),
+        }
+        for (number, (axis, pitch, turns)) in axes.into_iter().enumerate() {
+            let motion = match (pitch, turns) {
+                (Some(pitch), _) => Motion::Screw(axis.index, pitch),
+                (None, true) => Motion::Revolute(axis.index),
+                (None, false) => Motion::Prismatic(axis.index),
+            };
+            let place = |rotation| Segment::Fixed { rotation, offset: Vector::ZERO };
+            cycle.push(place(axis.turn));
+            cycle.push(self.unwanted(motion, number));
+            cycle.push(place(axis.turn.transpose()));
+        }
+    }
+
+    /// An unknown that nobody asks for.
+    fn unwanted(&self, motion: Motion, number: usize) -> Segment {
+        Segment::Unknown { motion, symbol: self.symbols.unwanted(number), wanted: false }
+    }
+}

@@ -1,0 +1,12 @@
+//! Room `loops`: which coordinates follow from others, and how: equations of what closes loops, their solutions, and what
+//! takes the place of dependent coordinates.
+
+pub(super) mod branches;
+pub mod constraints;
+pub(super) mod drives;
+pub mod groups;
+pub(super) mod loop_equations;
+pub(super) mod reduction;
+pub(super) mod rotors;
+pub mod structure;
+pub(super) mod verification;

@@ -1,0 +1,370 @@
+//! Stage `mechanics`: what takes the place of coordinates that are not in the state.
+//!
+//! In: a derivation on the tree, the structure. Out: a [`Reduction`]: positions, rates and accelerations of driven and
+//! dependent coordinates as expressions, and the maps that put them in. All recursions see symbols for every coordinate of
+//! the tree; this is what these symbols are replaced by in the end.
+//!
+//! A dependent coordinate x obeys E(x, known) = 0 with a known inverse slope 1 / (dE/dx). Differentiating by time,
+//! dE/dx x' + E'|x = 0, and once more, dE/dx x'' + E''|(x'' = 0) = 0: both need no second solution, only derivatives of
+//! the equation. Several unknowns of one iteration obey the same with the matrix dE/dx, by pivoted solves.
+
+use std::collections::HashMap;
+
+use crate::mechanics::analysis::Complaint;
+use crate::mechanics::equations::Equations;
+use crate::mechanics::translate::symbols::Symbols;
+use crate::model::types::{Closing, Coordinate, JointId, SolveHow};
+use crate::optimize::program::Symbol;
+use crate::solve::Value as Solved;
+use crate::symbolic::differentiate::Differentiator;
+use crate::symbolic::graph::{BlockKind, Graph, Scalar, SymbolId};
+
+use super::constraints::coordinate_name;
+use super::structure::Means;
+use super::structure::Role;
+use super::structure::Step;
+
+/// Expressions by the symbol that they replace.
+pub(in crate::mechanics) type Map = HashMap<SymbolId, Scalar>;
+
+/// Definitions of all coordinates outside the state.
+#[derive(Clone, Default)]
+pub(in crate::mechanics) struct Reduction {
+    /// Positions, velocities and accelerations, in symbols of the state and time.
+    pub(in crate::mechanics) map: Map,
+    /// Positions that linear couplings give, in terms of other coordinates of the tree.
+    coupled: Map,
+    /// Rates of the dependents, in velocities of the state and of driven coordinates; positions are symbols of the tree.
+    pub(in crate::mechanics) rates: Vec<(usize, Scalar)>,
+    /// Roots that vanish in dead centres, with the unknowns they belong to.
+    pub dead_centres: Vec<(Coordinate, Scalar)>,
+    /// Sentences for the report.
+    pub notes: Vec<String>,
+    /// Largest residual of all iterations.
+    pub residuals: Vec<Scalar>,
+    /// Unknowns that iterations have found, in the order of the guess.
+    pub guesses: Vec<Scalar>,
+    /// Of each iteration the derivatives of its equations by its unknowns, row by row, on the tree.
+    pub matrices: Vec<Vec<Scalar>>,
+}
+
+/// A dependent coordinate before it is put in: expressions on the tree.
+pub(in crate::mechanics) struct Definition {
+    pub coordinate: Coordinate,
+    pub position: Scalar,
+    pub rate: Scalar,
+    pub acceleration: Scalar,
+}
+
+impl Equations<'_> {
+    /// Works out all definitions.
+    pub(in crate::mechanics) fn reduce(&mut self) -> Result<Reduction, Vec<Complaint>> {
+        let structure = std::rc::Rc::clone(&self.structure);
+        let mut reduction = Reduction::default();
+        self.drive(&mut reduction);
+        let mut rates = Map::new();
+        for step in &structure.steps {
+            let definitions = self.step(step, &mut reduction)?;
+            if matches!(step.means, Means::Linear(_)) {
+                let pairs: Vec<(Scalar, Scalar)> =
+                    definitions.iter().map(|d| (self.coordinate_symbols(d.coordinate)[0], d.position)).collect();
+                let coupled = self.map(&pairs);
+                reduction.coupled.extend(coupled);
+            }
+            self.define(&definitions, &mut reduction, &mut rates);
+        }
+        self.close(&mut reduction, &rates);
+        self.defined = std::rc::Rc::new(reduction.map.clone());
+        Ok(reduction)
+    }
+
+    /// Couplings stand first, in terms of coordinates that later steps find: these are put into what was defined before.
+    fn close(&mut self, reduction: &mut Reduction, rates: &Map) {
+        if reduction.coupled.is_empty() {
+            return;
+        }
+        // A coupling may lead to another: as many rounds as there are couplings.
+        for _ in 0..=reduction.coupled.len() {
+            let open: Vec<(SymbolId, Scalar)> = reduction.map.iter().map(|(&id, &value)| (id, value)).collect();
+            let mut open: Vec<(SymbolId, Scalar)> =
+                open.into_iter().filter(|&(_, value)| Symbols::is_unfinished(&self.g, value)).collect();
+            open.sort_unstable_by_key(|entry| entry.0);
+            let values: Vec<Scalar> = open.iter().map(|entry| entry.1).collect();
+            let values = self.finish(reduction, &values);
+            reduction.map.extend(open.into_iter().map(|entry| entry.0).zip(values));
+        }
+        for _ in 0..=reduction.coupled.len() {
+            for at in 0..reduction.rates.len() {
+                let rate = reduction.rates[at].1;
+                reduction.rates[at].1 = self.g.substitute(&[rate], rates)[0];
+            }
+        }
+    }
+
+    /// Adds the definitions of one step to the maps: first all positions, which rates are written with, then all rates, which
+    /// accelerations are written with.
+    fn define(&mut self, definitions: &[Definition], reduction: &mut Reduction, rates: &mut Map) {
+        let orders: [fn(&Definition) -> Scalar; 3] = [|d| d.position, |d| d.rate, |d| d.acceleration];
+        for (order, value) in orders.into_iter().enumerate() {
+            for definition in definitions {
+                let symbol = self.coordinate_symbols(definition.coordinate)[order];
+                let value = self.g.substitute(&[value(definition)], &reduction.map)[0];
+                reduction.map.extend(self.g.symbol_id(symbol).map(|id| (id, value)));
+            }
+        }
+        for definition in definitions {
+            let symbol = self.coordinate_symbols(definition.coordinate)[1];
+            let projected = self.g.substitute(&[definition.rate], rates)[0];
+            rates.extend(self.g.symbol_id(symbol).map(|id| (id, projected)));
+            reduction.rates.push((self.freedom(definition.coordinate), projected));
+        }
+    }
+
+    /// Position, velocity and acceleration symbols of a coordinate whose rate is its velocity.
+    pub(in crate::mechanics) fn coordinate_symbols(&self, coordinate: Coordinate) -> [Scalar; 3] {
+        let Coordinate { joint, index } = coordinate;
+        let symbols = &self.symbols;
+        [&symbols.positions, &symbols.velocities, &symbols.accelerations]
+            .map(|lists| Symbols::of(lists, joint).get(index).copied().unwrap_or(Scalar::ZERO))
+    }
+
+    /// Place of a coordinate among all of the tree.
+    pub(in crate::mechanics) fn freedom(&self, coordinate: Coordinate) -> usize {
+        self.symbols.first.get(coordinate.joint.0).copied().unwrap_or(0) + coordinate.index
+    }
+
+    /// A map from symbols to what replaces them.
+    pub(in crate::mechanics) fn map(&self, pairs: &[(Scalar, Scalar)]) -> Map {
+        pairs.iter().filter_map(|&(symbol, value)| Some((self.g.symbol_id(symbol)?, value))).collect()
+    }
+
+    pub(in crate::mechanics) fn step(
+        &mut self,
+        step: &Step,
+        reduction: &mut Reduction,
+    ) -> Result<Vec<Definition>, Vec<Complaint>> {
+        match &step.means {
+            Means::Linear(id) => {
+                let residual = self.equations_of(Closing::Constraint(*id));
+                let (Some(&residual), Some(&unknown)) = (residual.first(), step.unknowns.first()) else {
+                    return Ok(Vec::new());
+                };
+                let symbol = self.coordinate_symbols(unknown)[0];
+                let slope = self.g.derivative(residual, &[(symbol, Scalar::ONE)]);
+                let off = self.map(&[(symbol, Scalar::ZERO)]);
+                let rest = self.g.substitute(&[residual], &off)[0];
+                let inverse = self.g.reciprocal(slope);
+                let position = -self.g.mul(inverse, rest);
+                Ok(vec![self.implicit(unknown, position, residual, inverse)])
+            }
+            Means::Solve(item) => {
+                let model = self.model;
+                let Some(solve) = model.solves.get(*item) else { return Ok(Vec::new()) };
+                match &solve.how {
+                    SolveHow::Formulas(formulas) => {
+                        let pairs: Vec<_> = step.unknowns.iter().zip(formulas).collect();
+                        let definitions = pairs.into_iter().map(|(&unknown, formula)| {
+                            let position = self.scalar(formula);
+                            let symbol = self.coordinate_symbols(unknown)[0];
+                            let equation = self.g.sub(symbol, position);
+                            self.implicit(unknown, position, equation, Scalar::ONE)
+                        });
+                        Ok(definitions.collect())
+                    }
+                    SolveHow::From { .. } => {
+                        let found = self.closed_form(*item, reduction)?;
+                        let mut definitions = Vec::with_capacity(found.len());
+                        for (unknown, solved) in found {
+                            let position = match solved.value {
+                                Solved::Angle { cos, sin } => self.g.angle(cos, sin),
+                                Solved::Length(x) => x,
+                            };
+                            if let Some(root) = solved.root {
+                                reduction.dead_centres.push((unknown, root));
+                            }
+                            reduction.notes.push(format!("`{}`: {}", coordinate_name(self.model, unknown), solved.how));
+                            definitions.push(self.implicit(unknown, position, solved.equation, solved.inverse_slope));
+                        }
+                        Ok(definitions)
+                    }
+                }
+            }
+            Means::Newton { .. } => Ok(self.iterate(step, reduction)),
+        }
+    }
+
+    /// Rate and acceleration from an equation with a known slope.
+    fn implicit(&mut self, coordinate: Coordinate, position: Scalar, equation: Scalar, inverse: Scalar) -> Definition {
+        let [_, velocity, acceleration] = self.coordinate_symbols(coordinate);
+        let (first, second) = self.implicit_rates(equation, &[(velocity, acceleration)]);
+        let rate = -self.g.mul(inverse, first);
+        let acceleration = -self.g.mul(inverse, second);
+        Definition { coordinate, position, rate, acceleration }
+    }
+
+    /// First derivative by time of an equation with the unknowns at rest, and second one with their accelerations zero.
+    pub(in crate::mechanics) fn implicit_rates(
+        &mut self,
+        equation: Scalar,
+        unknowns: &[(Scalar, Scalar)],
+    ) -> (Scalar, Scalar) {
+        let seeds = self.seeds(1);
+        let rate = Differentiator::new(&seeds).scalar(&mut self.g, equation);
+        let rest: Vec<(Scalar, Scalar)> = unknowns.iter().map(|u| (u.0, Scalar::ZERO)).collect();
+        let rest = self.map(&rest);
+        let first = self.g.substitute(&[rate], &rest)[0];
+        let all = self.seeds(2);
+        let second = Differentiator::new(&all).scalar(&mut self.g, rate);
+        let rest: Vec<(Scalar, Scalar)> = unknowns.iter().map(|u| (u.1, Scalar::ZERO)).collect();
+        let rest = self.map(&rest);
+        let second = self.g.substitute(&[second], &rest)[0];
+        (first, second)
+    }
+
+    /// Newton's method on the equations of a step, from the guess, a fixed number of times.
+    fn iterate(&mut self, step: &Step, reduction: &mut Reduction) -> Vec<Definition> {
+        let Means::Newton { rows, guess } = &step.means else { return Vec::new() };
+        let size = step.unknowns.len();
+        let symbols: Vec<[Scalar; 3]> = step.unknowns.iter().map(|&u| self.coordinate_symbols(u)).collect();
+        let equations: Vec<Scalar> = rows.iter().map(|row| self.row(*row)).collect();
+        // A coupled coordinate may depend on the unknowns: it moves with them.
+        let equations = self.g.substitute(&equations, &reduction.coupled);
+        // What later steps find stands in them in form alone, as a point turned there and back: any value will do.
+        let later = self.later_unknowns(step);
+        let equations = self.g.substitute(&equations, &later);
+        let mut matrix = Vec::with_capacity(size * size);
+        for &equation in &equations {
+            for symbol in &symbols {
+                matrix.push(self.g.derivative(equation, &[(symbol[0], Scalar::ONE)]));
+            }
+        }
+        // Inside the loop the unknowns are symbols of its own; known coordinates are put in, so that the loop reads values.
+        let inner: Vec<Scalar> = (0..size).map(|k| self.symbols.unknown(guess + k)).collect();
+        let mut map = reduction.map.clone();
+        let own: Vec<(Scalar, Scalar)> = symbols.iter().zip(&inner).map(|(symbol, &own)| (symbol[0], own)).collect();
+        map.extend(self.map(&own));
+        let values = self.g.substitute(&equations, &map);
+        let entries = self.g.substitute(&matrix, &map);
+        let step_by = self.solve_block(size, &entries, &values);
+        let next: Vec<Scalar> = inner.iter().zip(&step_by).map(|(&x, &d)| self.g.sub(x, d)).collect();
+        let g = &mut self.g;
+        let residual = values.iter().fold(Scalar::ZERO, |worst, &value| {
+            let size = g.call(crate::symbolic::graph::Call::Abs, &[value]);
+            if worst == Scalar::ZERO { size } else { g.call(crate::symbolic::graph::Call::Max, &[worst, size]) }
+        });
+        let ids = inner.iter().filter_map(|&s| g.symbol_id(s));
+        let kind = BlockKind::Iterate { unknowns: ids.collect(), count: ITERATIONS };
+        let start: Vec<Scalar> = (0..size).map(|k| self.symbols.guess(guess + k)).collect();
+        let (outputs, residual): (Vec<Scalar>, Scalar) = if self.at_guess {
+            let known: Vec<(Scalar, Scalar)> = inner.iter().copied().zip(start.iter().copied()).collect();
+            let known = self.map(&known);
+            (start, self.g.substitute(&[residual], &known)[0])
+        } else {
+            let operands: Vec<Scalar> = start.into_iter().chain(next).chain([residual]).collect();
+            let mut outputs = self.g.block_outputs(kind, &operands);
+            let residual = outputs.pop().unwrap_or(Scalar::ZERO);
+            (outputs, residual)
+        };
+        reduction.residuals.push(residual);
+        reduction.matrices.push(matrix.clone());
+        reduction.guesses.extend(&outputs);
+        // Rates: J x' = -E', with everything on the tree.
+        let unknowns: Vec<(Scalar, Scalar)> = symbols.iter().map(|s| (s[1], s[2])).collect();
+        let derivatives: Vec<(Scalar, Scalar)> =
+            equations.iter().map(|&equation| self.implicit_rates(equation, &unknowns)).collect();
+        let first: Vec<Scalar> = derivatives.iter().map(|d| -d.0).collect();
+        let second: Vec<Scalar> = derivatives.iter().map(|d| -d.1).collect();
+        let rates = self.solve_rates(size, &matrix, &first);
+        let accelerations = self.solve_rates(size, &matrix, &second);
+        let mut definitions = Vec::with_capacity(size);
+        for (k, &coordinate) in step.unknowns.iter().enumerate() {
+            let symbol = Symbol::Position { joint: coordinate.joint, component: coordinate.index };
+            let name = crate::mechanics::translate::names::symbol(self.model, symbol);
+            let position = self.g.name(outputs[k], || name);
+            definitions.push(Definition { coordinate, position, rate: rates[k], acceleration: accelerations[k] });
+        }
+        definitions
+    }
+
+    /// Rates from a right-hand side that is linear in them. Solved directly the same matrix is factored anew for rates,
+    /// accelerations, the transposed map and every column of it; a small one is inverted once, column by column.
+    fn solve_rates(&mut self, size: usize, matrix: &[Scalar], rhs: &[Scalar]) -> Vec<Scalar> {
+        if size > 3 + self.structure.freedoms() {
+            return self.solve_block(size, matrix, rhs);
+        }
+        let unit = |at: usize| (0..size).map(|k| if k == at { Scalar::ONE } else { Scalar::ZERO }).collect();
+        let units: Vec<Vec<Scalar>> = (0..size).map(unit).collect();
+        let columns: Vec<Vec<Scalar>> = units.iter().map(|unit| self.solve_block(size, matrix, unit)).collect();
+        let row = |g: &mut Graph, row: usize| {
+            let terms: Vec<Scalar> = columns.iter().zip(rhs).map(|(column, &r)| g.mul(column[row], r)).collect();
+            g.sum(&terms)
+        };
+        (0..size).map(|k| row(&mut self.g, k)).collect()
+    }
+
+    /// Unknowns of the steps behind this one, at zero.
+    fn later_unknowns(&self, step: &Step) -> Map {
+        let behind = self.structure.steps.iter().skip_while(|other| other.unknowns != step.unknowns).skip(1);
+        let unknowns = behind.flat_map(|other| other.unknowns.iter().copied());
+        let pairs: Vec<(Scalar, Scalar)> =
+            unknowns.map(|unknown| (self.coordinate_symbols(unknown)[0], Scalar::ZERO)).collect();
+        self.map(&pairs)
+    }
+
+    /// A pivoted solve; its rank is left aside.
+    pub(in crate::mechanics) fn solve_block(&mut self, size: usize, matrix: &[Scalar], rhs: &[Scalar]) -> Vec<Scalar> {
+        let operands: Vec<Scalar> = matrix.iter().chain(rhs).copied().collect();
+        let mut outputs =
+            self.g.block_outputs(BlockKind::Solve { size, symmetric: false, groups: [].into() }, &operands);
+        outputs.truncate(size);
+        outputs
+    }
+
+    /// Puts all definitions into results.
+    pub(in crate::mechanics) fn finish(&mut self, reduction: &Reduction, roots: &[Scalar]) -> Vec<Scalar> {
+        let roots = self.put_in_stand_ins(roots);
+        if reduction.map.is_empty() { roots } else { self.g.substitute(&roots, &reduction.map) }
+    }
+
+    /// Efforts on the coordinates of the tree as efforts on those of the state and on driven ones: the transposed velocity
+    /// map, by reverse accumulation through the rates, so that what several dependents share is passed on once.
+    pub(in crate::mechanics) fn project(&mut self, reduction: &Reduction, efforts: &[Scalar]) -> Vec<Scalar> {
+        let mut projected = efforts.to_vec();
+        if reduction.rates.is_empty() {
+            return projected;
+        }
+        let (outputs, weights): (Vec<Scalar>, Vec<Scalar>) = reduction
+            .rates
+            .iter()
+            .map(|&(freedom, rate)| (rate, efforts.get(freedom).copied().unwrap_or(Scalar::ZERO)))
+            .unzip();
+        let velocities: Vec<Scalar> = self.symbols.velocities.concat();
+        let dependent: Vec<usize> = reduction.rates.iter().map(|rate| rate.0).collect();
+        let free: Vec<usize> = (0..velocities.len()).filter(|k| !dependent.contains(k)).collect();
+        let inputs: Vec<Scalar> = free.iter().map(|&k| velocities[k]).collect();
+        let weighted: Vec<(Scalar, Scalar)> = outputs.into_iter().zip(weights).collect();
+        let back = self.g.transpose_linear(&weighted, &inputs);
+        for (&freedom, effort) in free.iter().zip(back) {
+            projected[freedom] = self.g.add(projected[freedom], effort);
+        }
+        projected
+    }
+
+    /// Coordinates of a role, as places among those of the tree.
+    pub(in crate::mechanics) fn freedoms_of(&self, wanted: impl Fn(Role) -> bool) -> Vec<usize> {
+        let mut list = Vec::new();
+        for (k, velocities) in self.symbols.velocities.iter().enumerate() {
+            for index in 0..velocities.len() {
+                let coordinate = Coordinate { joint: JointId(k), index };
+                if wanted(self.structure.role(coordinate)) {
+                    list.push(self.freedom(coordinate));
+                }
+            }
+        }
+        list
+    }
+}
+
+/// Rounds of Newton's method: from a guess of the last step, quadratic convergence needs three; a few more serve coarse
+/// guesses. The residual tells whether they were enough.
+const ITERATIONS: usize = 6;

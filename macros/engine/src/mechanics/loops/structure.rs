@@ -1,0 +1,188 @@
+//! Stage `mechanics`: what becomes of every coordinate and of every constraint equation.
+//!
+//! In: nothing. Out: the types that [`crate::mechanics::analysis`] fills before anything is derived, and that derivation and `emit`
+//! read. A mechanism with loops is an open tree whose coordinates obey equations. Coordinates of the tree are the state,
+//! or follow a drive, or are found from the others in an order of steps; equations that no step solves keep multipliers.
+
+use std::collections::BTreeMap;
+
+use crate::mechanics::translate::symbols::has_quaternion;
+use crate::model::types::{Closing, ConstraintId, Coordinate, JointId, Model};
+
+use super::constraints::is_length;
+use super::groups::Group;
+
+/// The split of one model's coordinates and equations.
+#[derive(Clone, Debug, Default)]
+pub struct Structure {
+    /// By joint and velocity coordinate; nothing for joints that close loops.
+    pub roles: Vec<Vec<Role>>,
+    /// What generated structs hold, in their order.
+    pub state: Vec<Coordinate>,
+    /// Equations that keep a multiplier, in the order of multipliers.
+    pub rows: Vec<Row>,
+    /// Those among them that vanish or follow from others at the parameters' defaults, and not with others.
+    pub wavering: Vec<Row>,
+    /// Whether more of them are kept than are independent on some branch of closed loops: their rank falls there everywhere, so a
+    /// fall tells of no crossing of motions.
+    pub redundant: bool,
+    /// Equations that don't follow from others, those with multipliers among them: the loops hold by their forces.
+    pub independent: Vec<Row>,
+    /// Equations that follow from the others everywhere.
+    pub dropped: Vec<Row>,
+    /// Those among them that hold for parameters like the declared ones only.
+    pub granted: Vec<Row>,
+    /// The residuals that amount to one: to a movement by a radian, or by the mechanism's size.
+    pub scales: BTreeMap<Row, f64>,
+    /// By coordinate of the state what counts as one: the mechanism's size for travels.
+    pub units: Vec<f64>,
+    /// How dependent coordinates are found, in this order.
+    pub steps: Vec<Step>,
+    /// What is there several times.
+    pub groups: Vec<Group>,
+    /// Unknowns whose closed forms have a root, and pitches; known once they are derived.
+    pub dead_centres: Vec<Coordinate>,
+    /// Configurations in which all loops are closed, parameters at their defaults. The first is the one nearest to where
+    /// coordinates stand by default; where they are reduced it has the state there if the loops close so. Empty where
+    /// there is no loop, and where none was found. What is in no loop is random in the others.
+    pub closed: Vec<Closed>,
+    /// Sentences for the report: choices that were made for the user.
+    pub notes: Vec<String>,
+}
+
+/// A configuration in which all loops are closed.
+#[derive(Clone, Debug)]
+pub struct Closed {
+    /// By joint the components of its position, those of a quaternion from its real part on; nothing for joints that close
+    /// loops.
+    pub positions: Vec<Vec<f64>>,
+    /// Greatest residual of any equation, in units of its gradient.
+    pub residual: f64,
+}
+
+impl Closed {
+    /// The value of a coordinate that is a number; nothing for a part of a quaternion.
+    pub fn value(&self, model: &Model, coordinate: Coordinate) -> Option<f64> {
+        let joint = model.joints.get(coordinate.joint.0)?;
+        if has_quaternion(joint) && coordinate.index + 3 >= joint.kind.freedoms() {
+            return None;
+        }
+        self.positions.get(coordinate.joint.0)?.get(coordinate.index).copied()
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    State,
+    /// By the drive with this number in the model.
+    Driven(usize),
+    /// By the step with this number.
+    Dependent(usize),
+}
+
+/// One scalar equation of what closes a loop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Row {
+    pub closing: Closing,
+    /// Among those that this closing gives, see [`super::constraints`].
+    pub index: usize,
+}
+
+/// Coordinates found together.
+#[derive(Clone, Debug)]
+pub struct Step {
+    pub unknowns: Vec<Coordinate>,
+    pub means: Means,
+}
+
+#[derive(Clone, Debug)]
+pub enum Means {
+    /// A linear coupling, eliminated exactly: one unknown.
+    Linear(ConstraintId),
+    /// By the `solve` item with this number in the model.
+    Solve(usize),
+    /// By Newton's method on these equations, as many as unknowns. The place of the first unknown in the guess.
+    Newton { rows: Vec<Row>, guess: usize },
+}
+
+impl Structure {
+    /// Every coordinate is the state, and nothing holds them together: what a model without loops and drives has.
+    pub fn open(model: &Model) -> Structure {
+        let mut structure = Structure::default();
+        for (index, joint) in model.joints.iter().enumerate() {
+            let id = JointId(index);
+            let freedoms = if model.cuts.contains(&id) { 0 } else { joint.kind.freedoms() };
+            structure.roles.push(vec![Role::State; freedoms]);
+            structure.state.extend((0..freedoms).map(|index| Coordinate { joint: id, index }));
+        }
+        structure
+    }
+
+    /// The same mechanism with its loops solved by all `solve` items, as `emit kinematics` needs it whatever becomes of the
+    /// constraint equations elsewhere.
+    pub fn solved(&self, model: &Model) -> Structure {
+        if self.steps.iter().any(|step| matches!(step.means, Means::Solve(_))) {
+            return self.clone();
+        }
+        let mut solved = self.clone();
+        solved.rows.clear();
+        for (number, solve) in model.solves.iter().enumerate() {
+            let step = solved.steps.len();
+            for unknown in &solve.unknowns {
+                let roles = solved.roles.get_mut(unknown.joint.0);
+                if let Some(role) = roles.and_then(|roles| roles.get_mut(unknown.index)) {
+                    *role = Role::Dependent(step);
+                }
+            }
+            solved.steps.push(Step { unknowns: solve.unknowns.clone(), means: Means::Solve(number) });
+        }
+        let role = |coordinate: &Coordinate| solved.role(*coordinate) == Role::State;
+        solved.state = self.state.iter().copied().filter(role).collect();
+        solved
+    }
+
+    pub fn with_notes(mut self, notes: Vec<String>) -> Structure {
+        self.notes.extend(notes);
+        self
+    }
+
+    /// Which of the equations with multipliers belong together: lengths, or cosines, of one closing, by equal numbers.
+    /// Where one of them vanishes in a singular pose, the others tell that what is left of it is rounding. Empty where
+    /// each stands for itself.
+    pub fn row_groups(&self, model: &Model) -> Box<[usize]> {
+        let own = |row: &Row| (row.closing, is_length(model, row.closing, row.index));
+        // One that vanishes but for a parameter is compared with whatever else its closing keeps: what a parameter of
+        // rounding leaves of it is far below that, in any unit.
+        let group = |row: &Row| {
+            let steady = |other: &&Row| other.closing == row.closing && !self.wavering.contains(other);
+            let other = if self.wavering.contains(row) { self.rows.iter().find(steady) } else { None };
+            own(other.unwrap_or(row))
+        };
+        let first = |row: &Row| self.rows.iter().position(|other| group(other) == group(row)).unwrap_or(0);
+        let groups: Box<[usize]> = self.rows.iter().map(first).collect();
+        let alone = groups.iter().enumerate().all(|(k, &group)| k == group);
+        if alone { Box::default() } else { groups }
+    }
+
+    /// Number of coordinates in the state.
+    pub fn freedoms(&self) -> usize {
+        self.state.len()
+    }
+
+    pub fn role(&self, coordinate: Coordinate) -> Role {
+        let roles = self.roles.get(coordinate.joint.0);
+        roles.and_then(|roles| roles.get(coordinate.index)).copied().unwrap_or(Role::State)
+    }
+
+    /// Number of unknowns that Newton's method finds: the size of the guess in `State`.
+    pub fn guesses(&self) -> usize {
+        let newton = |step: &&Step| matches!(step.means, Means::Newton { .. });
+        self.steps.iter().filter(newton).map(|step| step.unknowns.len()).sum()
+    }
+
+    /// These unknowns, by their place in the guess.
+    pub fn guessed(&self) -> Vec<Coordinate> {
+        let newton = |step: &&Step| matches!(step.means, Means::Newton { .. });
+        self.steps.iter().filter(newton).flat_map(|step| step.unknowns.iter().copied()).collect()
+    }
+}

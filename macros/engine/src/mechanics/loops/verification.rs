@@ -1,0 +1,112 @@
+//! Stage `mechanics`: whether solutions close their loops.
+//!
+//! In: definitions of all dependent coordinates. Out: complaints about formulas that a user wrote and that leave a gap.
+//! With the definitions put in, every equation that no iteration solves must vanish: exactly, by the normal form of the
+//! graph, or, for formulas over rounded decimals and for roots, to 1e-12 (relative to one plus the largest term) at random
+//! configurations in double precision. An equation is asked for once the last of its unknowns is found: what a user wrote
+//! may close a loop together with a closed form.
+
+use crate::mechanics::analysis::Complaint;
+use crate::mechanics::equations::Equations;
+use crate::model::types::{Closing, JointId, Kinematics, SolveHow};
+use crate::symbolic::graph::Scalar;
+
+use super::constraints::coordinate_name;
+use super::reduction::Reduction;
+use super::structure::Means;
+
+const TOLERANCE: f64 = 1e-12;
+
+impl Equations<'_> {
+    /// Values, rates and accelerations of the coordinates to find; they may depend on the given ones alone.
+    pub(in crate::mechanics) fn kinematics(
+        &mut self,
+        wanted: &Kinematics,
+        reduction: &Reduction,
+    ) -> Result<Vec<Scalar>, Vec<Complaint>> {
+        let symbols: Vec<[Scalar; 3]> = wanted.find.iter().map(|&c| self.coordinate_symbols(c)).collect();
+        let roots: Vec<Scalar> = (0..3).flat_map(|order| symbols.iter().map(move |s| s[order])).collect();
+        let found = self.finish(reduction, &roots);
+        let joints = self.symbols.positions.iter().enumerate();
+        let others: Vec<Scalar> = joints
+            .filter(|(k, _)| !wanted.given.contains(&JointId(*k)))
+            .flat_map(|(_, positions)| positions.iter().copied())
+            .collect();
+        match found.iter().position(|&s| self.g.depends_on(s, &others)) {
+            None => Ok(found),
+            Some(at) => {
+                let coordinate = wanted.find.get(at % wanted.find.len().max(1));
+                let name = coordinate.map_or_else(String::new, |&c| coordinate_name(self.model, c));
+                Err(vec![Complaint {
+                    span: wanted.span,
+                    message: format!("`{name}` does not follow from what is given"),
+                    help: Some("give more coordinates, or write a `solve` item for its loop".to_owned()),
+                }])
+            }
+        }
+    }
+
+    fn closing_name(&self, closing: Closing) -> String {
+        let place = match closing {
+            Closing::Cut(id) => self.model.joints.get(id.0).map(|joint| &joint.place),
+            Closing::Constraint(id) => self.model.constraints.get(id.0).map(|constraint| &constraint.place),
+        };
+        place.map_or_else(String::new, |place| super::constraints::path(self.model, place))
+    }
+
+    /// Complaints at the `solve` items whose unknowns stand in equations that stay open.
+    pub(in crate::mechanics) fn verify(&mut self, reduction: &mut Reduction) -> Result<(), Vec<Complaint>> {
+        let (model, structure) = (self.model, std::rc::Rc::clone(&self.structure));
+        let mut complaints = Vec::new();
+        let step_unknowns: Vec<Vec<Scalar>> = structure
+            .steps
+            .iter()
+            .map(|step| step.unknowns.iter().map(|&u| self.coordinate_symbols(u)[0]).collect())
+            .collect();
+        let item_of = |step: usize| match structure.steps.get(step)?.means {
+            Means::Solve(item) => model.solves.get(item),
+            _ => None,
+        };
+        let written = |step: usize| item_of(step).is_some_and(|item| matches!(item.how, SolveHow::Formulas(_)));
+        let mut concerned = vec![false; structure.steps.len()];
+        for closing in super::constraints::closings(model) {
+            let residuals = self.equations_of(closing);
+            let speaks = |list: &Vec<Scalar>| residuals.iter().any(|&r| self.g.depends_on(r, list));
+            let steps: Vec<usize> = (0..step_unknowns.len()).filter(|&step| speaks(&step_unknowns[step])).collect();
+            steps.iter().for_each(|&step| concerned[step] = true);
+            // It must be closed once the last of its unknowns is found, by whichever of them were written by the user.
+            let Some(last) = steps.last().copied().filter(|&last| item_of(last).is_some()) else { continue };
+            let blamed = steps.iter().copied().rfind(|&step| written(step)).unwrap_or(last);
+            let Some(item) = item_of(blamed) else { continue };
+            let roots = self.finish(reduction, &residuals);
+            if roots.iter().all(|&root| root == Scalar::ZERO) {
+                continue;
+            }
+            let samples = self.samples(&roots, &reduction.map);
+            let worst = samples.into_iter().flatten().fold(0.0_f64, |worst, gap| worst.max(gap.abs()));
+            let name = self.closing_name(closing);
+            if worst > if written(last) { TOLERANCE } else { 1e-8 } {
+                complaints.push(Complaint {
+                    span: item.span,
+                    message: format!("this solution does not close its loop: `{name}` stays open by up to {worst:.1e}"),
+                    help: Some(
+                        "the formulas must satisfy every equation of the loop, for all values of what they depend on"
+                            .to_owned(),
+                    ),
+                });
+            } else if written(blamed) {
+                reduction
+                    .notes
+                    .push(format!("`{name}` closes to {worst:.0e} at random configurations (numerical check)"));
+            }
+        }
+        for step in (0..structure.steps.len()).filter(|&step| written(step) && !concerned[step]) {
+            complaints.extend(item_of(step).map(|item| Complaint {
+                span: item.span,
+                message: "this solution closes no loop: no equation concerns what it solves for".to_owned(),
+                help: Some("leave it out, or declare the joint or constraint that it satisfies".to_owned()),
+            }));
+        }
+        if complaints.is_empty() { Ok(()) } else { Err(complaints) }
+    }
+}

@@ -1,0 +1,102 @@
+//! Stage `mechanics`: inputs that produce a motion.
+//!
+//! In: efforts beside all declared forces, on the state and on driven coordinates; the inputs to solve for. Out: these
+//! inputs. The efforts are linear in the inputs and in the multipliers of the loops, e = e0 + A u, and all of them must
+//! vanish: A u = -e0. The system is solved
+//! with pivots in the runtime, which reports its rank: a rank below the number of inputs means that they cannot produce
+//! every motion at this configuration.
+
+use crate::mechanics::analysis::Complaint;
+use crate::mechanics::equations::Equations;
+use crate::mechanics::loops::reduction::Reduction;
+use crate::mechanics::loops::structure::Role;
+use crate::symbolic::graph::{BlockKind, Scalar};
+
+impl Equations<'_> {
+    /// The inputs that are asked for, then the rank of their system.
+    pub(in crate::mechanics) fn actuate(&mut self, reduction: &Reduction) -> Result<Vec<Scalar>, Vec<Complaint>> {
+        let model = self.model;
+        self.multiplied = self.rows_with_multipliers();
+        let efforts = self.projected_efforts(reduction);
+        let mut rows: Vec<usize> = self.freedoms_of(|role| matches!(role, Role::State));
+        rows.extend(self.freedoms_of(|role| matches!(role, Role::Driven(_))));
+        let efforts: Vec<Scalar> = rows.iter().map(|&freedom| efforts[freedom]).collect();
+        let efforts = self.finish(reduction, &efforts);
+        let inputs: Vec<Scalar> = model
+            .solve_for
+            .iter()
+            .filter_map(|wanted| self.symbols.inputs.get(wanted.input.0)?.get(wanted.element).copied())
+            .collect();
+        let multipliers = self.symbols.multipliers.clone();
+        let (wanted, size) = (inputs.len(), inputs.len() + multipliers.len());
+        let inputs: Vec<Scalar> = inputs.into_iter().chain(multipliers).collect();
+        let span = model.solve_for.first().map_or_else(proc_macro2::Span::call_site, |wanted| wanted.span);
+        let refuse = |message: String, help: &str| Err(vec![Complaint { span, message, help: Some(help.to_owned()) }]);
+        if rows.len() != size {
+            let few = if rows.len() > size { "too few" } else { "too many" };
+            return refuse(
+                format!(
+                    "{few} inputs to solve for: {wanted} where {} are needed",
+                    (rows.len() + wanted).saturating_sub(size)
+                ),
+                "name as many scalar inputs as there are freedoms: coordinates in the state and driven ones, less the \
+                 equations that keep multipliers",
+            );
+        }
+        let mut matrix = Vec::with_capacity(size * size);
+        for &effort in &efforts {
+            for &input in &inputs {
+                matrix.push(self.g.derivative(effort, &[(input, Scalar::ONE)]));
+            }
+        }
+        let depends = |g: &crate::symbolic::graph::Graph, s: Scalar| g.depends_on(s, &inputs);
+        if matrix.iter().any(|&entry| depends(&self.g, entry)) {
+            return refuse(
+                "the equations are not linear in the inputs to solve for".to_owned(),
+                "let the forces depend on these inputs linearly",
+            );
+        }
+        let holds: Vec<Vec<bool>> =
+            matrix.chunks(size.max(1)).map(|row| row.iter().map(|&entry| entry != Scalar::ZERO).collect()).collect();
+        if structural_rank(&holds) < size {
+            return refuse(
+                "these inputs cannot produce every motion: their forces don't reach all equations".to_owned(),
+                "solve for inputs that act on every coordinate of the state and on every driven one",
+            );
+        }
+        let off: Vec<(Scalar, Scalar)> = inputs.iter().map(|&input| (input, Scalar::ZERO)).collect();
+        let off = self.map(&off);
+        let rest = self.g.substitute(&efforts, &off);
+        let operands: Vec<Scalar> = matrix.into_iter().chain(rest.into_iter().map(|e| -e)).collect();
+        let mut outputs =
+            self.g.block_outputs(BlockKind::Solve { size, symmetric: false, groups: [].into() }, &operands);
+        outputs.drain(wanted..size);
+        for (&input, &output) in inputs.iter().zip(&outputs) {
+            let name = self.g.name_of(input).map(str::to_owned);
+            if let Some(name) = name {
+                self.g.name(output, || name);
+            }
+        }
+        Ok(outputs)
+    }
+}
+
+/// Most entries of a pattern that lie in different rows and columns (augmenting paths).
+fn structural_rank(holds: &[Vec<bool>]) -> usize {
+    let columns = holds.first().map_or(0, Vec::len);
+    let mut taken: Vec<Option<usize>> = vec![None; columns];
+    (0..holds.len()).filter(|&row| place(row, holds, &mut taken, &mut vec![false; columns])).count()
+}
+
+fn place(row: usize, holds: &[Vec<bool>], taken: &mut [Option<usize>], seen: &mut [bool]) -> bool {
+    for column in 0..taken.len() {
+        if !holds[row][column] || std::mem::replace(&mut seen[column], true) {
+            continue;
+        }
+        if taken[column].is_none_or(|other| place(other, holds, taken, seen)) {
+            taken[column] = Some(row);
+            return true;
+        }
+    }
+    false
+}

@@ -1,0 +1,338 @@
+//! Stage `mechanics`: equations of motion under constraints.
+//!
+//! In: the tree's inverse dynamics and mass matrix, definitions of dependent coordinates, equations that keep multipliers.
+//! Out: accelerations of the state, multipliers, efforts. Velocities of the tree are v = S u + s(t), so efforts project by
+//! S^T and the mass matrix is S^T M S (the projection of Kane and Maggi). What is left of the equations, G u' = -gamma,
+//! gives multipliers ([`crate::dynamics::saddle`]).
+
+use std::collections::HashSet;
+use std::rc::Rc;
+
+use crate::dynamics::saddle::Saddle;
+use crate::dynamics::saddle::Solution;
+use crate::mechanics::equations::Equations;
+use crate::mechanics::loops::reduction::Map;
+use crate::mechanics::loops::reduction::Reduction;
+use crate::mechanics::loops::structure::Role;
+use crate::mechanics::loops::structure::Row;
+use crate::model::types::{Closing, Coordinate, Handling};
+use crate::symbolic::differentiate::Differentiator;
+use crate::symbolic::graph::{Call, Scalar};
+
+/// Accelerations with what comes beside them.
+pub(in crate::mechanics) struct Solved {
+    /// Of the state.
+    pub accelerations: Vec<Scalar>,
+    pub multipliers: Vec<Scalar>,
+    pub rank: Option<Scalar>,
+}
+
+/// Constraint equations as the multipliers see them, by row.
+pub(in crate::mechanics) struct Rows {
+    /// Coefficients of the velocities of the state.
+    pub jacobian: Vec<Vec<Scalar>>,
+    /// What is left of the second derivative by time where the accelerations of the state are zero.
+    pub bias: Vec<Scalar>,
+}
+
+impl Equations<'_> {
+    /// Places of the state's coordinates among those of the tree.
+    pub(in crate::mechanics) fn state(&self) -> Vec<usize> {
+        self.structure.state.iter().map(|&coordinate| self.freedom(coordinate)).collect()
+    }
+
+    /// Equations of a closing, written once.
+    pub(in crate::mechanics) fn equations_of(&mut self, closing: Closing) -> Rc<[Scalar]> {
+        if let Some(known) = self.closed.get(&closing) {
+            return Rc::clone(known);
+        }
+        let writing = self.writing;
+        let residuals: Rc<[Scalar]> = self.residuals(closing, writing).into();
+        self.closed.insert(closing, Rc::clone(&residuals));
+        residuals
+    }
+
+    /// One constraint equation on the tree.
+    pub(in crate::mechanics) fn row(&mut self, row: Row) -> Scalar {
+        let residuals = self.equations_of(row.closing);
+        residuals.get(row.index).copied().unwrap_or(Scalar::ZERO)
+    }
+
+    /// What is left of equations that were left out for the declared parameters, over their scales.
+    pub(in crate::mechanics) fn granted(&mut self, reduction: &Reduction) -> Vec<Scalar> {
+        let rows = self.granted_residuals();
+        self.finish(reduction, &rows)
+    }
+
+    /// The same on the tree.
+    pub(in crate::mechanics) fn granted_residuals(&mut self) -> Vec<Scalar> {
+        let structure = Rc::clone(&self.structure);
+        let rows = structure.granted.iter().map(|&row| {
+            let residual = self.row(row);
+            let inverse = self.g.decimal(1.0 / structure.scale(row));
+            self.g.mul(inverse, residual)
+        });
+        rows.collect()
+    }
+
+    /// Efforts that the accelerations take beside all declared forces: of the state, then of driven coordinates, in the
+    /// order of the tree.
+    pub(super) fn projected_efforts(&mut self, reduction: &Reduction) -> Vec<Scalar> {
+        let efforts = self.inverse_dynamics();
+        self.project(reduction, &efforts)
+    }
+
+    /// Inverse dynamics in the coordinates of the state, without multipliers.
+    pub(in crate::mechanics) fn reduced_efforts(&mut self, reduction: &Reduction, accelerations: bool) -> Vec<Scalar> {
+        let mut efforts = self.projected_efforts(reduction);
+        efforts = self.state().into_iter().map(|freedom| efforts[freedom]).collect();
+        if !accelerations {
+            // Dependents' accelerations hold those of the state: they are put in before these are set to zero.
+            efforts = self.finish(reduction, &efforts);
+            let rest = self.rest();
+            efforts = self.g.substitute(&efforts, &rest);
+        }
+        self.finish(reduction, &efforts)
+    }
+
+    /// Accelerations of the state set to zero.
+    fn rest(&self) -> Map {
+        let state = &self.structure.state;
+        let pairs: Vec<(Scalar, Scalar)> =
+            state.iter().map(|&coordinate| (self.coordinate_symbols(coordinate)[2], Scalar::ZERO)).collect();
+        self.map(&pairs)
+    }
+
+    /// S^T M S.
+    pub(in crate::mechanics) fn reduced_mass_matrix(&mut self, reduction: &Reduction) -> Vec<Vec<Scalar>> {
+        let n = self.symbols.freedoms;
+        let entries = self.mass_matrix();
+        let matrix: Vec<&[Scalar]> = entries.chunks(n.max(1)).collect();
+        let state = self.state();
+        let map = self.velocity_map(reduction, &state);
+        // M S, column by column, then S^T of it; rows of S are those of the tree.
+        let g = &mut self.g;
+        let size = state.len();
+        let mut reduced = vec![vec![Scalar::ZERO; size]; size];
+        let columns: Vec<Vec<Scalar>> = (0..size)
+            .map(|j| {
+                (0..n)
+                    .map(|i| {
+                        let terms: Vec<Scalar> = (0..n).map(|k| g.mul(matrix[i][k], map[k][j])).collect();
+                        g.sum(&terms)
+                    })
+                    .collect()
+            })
+            .collect();
+        for i in 0..size {
+            for j in i..size {
+                let terms: Vec<Scalar> = (0..n).map(|k| g.mul(map[k][i], columns[j][k])).collect();
+                reduced[i][j] = g.sum(&terms);
+                reduced[j][i] = reduced[i][j];
+            }
+        }
+        let flat = self.finish(reduction, &reduced.concat());
+        flat.chunks(size.max(1)).map(<[Scalar]>::to_vec).collect()
+    }
+
+    /// S, a row per coordinate of the tree.
+    pub(super) fn velocity_map(&mut self, reduction: &Reduction, state: &[usize]) -> Vec<Vec<Scalar>> {
+        let n = self.symbols.freedoms;
+        let mut map = vec![vec![Scalar::ZERO; state.len()]; n];
+        let velocities: Vec<Scalar> = self.symbols.velocities.concat();
+        for (j, &freedom) in state.iter().enumerate() {
+            map[freedom][j] = Scalar::ONE;
+            let mut along = Differentiator::new(&[(velocities[freedom], Scalar::ONE)]);
+            for &(dependent, rate) in &reduction.rates {
+                map[dependent][j] = along.scalar(&mut self.g, rate);
+            }
+        }
+        map
+    }
+
+    /// Equations of the multipliers, in the state.
+    fn rows(&mut self, reduction: &Reduction) -> Rows {
+        let structure = Rc::clone(&self.structure);
+        let state = structure.state.clone();
+        let mut jacobian = Vec::with_capacity(structure.rows.len());
+        let mut bias = Vec::with_capacity(structure.rows.len());
+        for &row in &structure.rows {
+            let residual = self.row(row);
+            let (rate, second) = self.implicit_rates(residual, &[]);
+            let rate = self.finish(reduction, &[rate])[0];
+            let mut columns = Vec::with_capacity(state.len());
+            // A loop concerns few coordinates of a large mechanism.
+            let read: HashSet<usize> = self.g.reachable_scalars(&[rate]).into_iter().collect();
+            for &coordinate in &state {
+                let velocity = self.coordinate_symbols(coordinate)[1];
+                if !read.contains(&velocity.index()) {
+                    columns.push(Scalar::ZERO);
+                    continue;
+                }
+                let column = self.g.derivative(rate, &[(velocity, Scalar::ONE)]);
+                columns.push(column);
+            }
+            jacobian.push(columns);
+            let mut rest = self.finish(reduction, &[second])[0];
+            let still = self.rest();
+            rest = self.g.substitute(&[rest], &still)[0];
+            let stabilised = self.stabilising(residual, rate, reduction);
+            bias.push(self.g.add(rest, stabilised));
+        }
+        Rows { jacobian, bias }
+    }
+
+    /// Baumgarte's terms.
+    fn stabilising(&mut self, residual: Scalar, rate: Scalar, reduction: &Reduction) -> Scalar {
+        let model = self.model;
+        let Handling::Stabilised { rate: damping, position } = &model.handling else { return Scalar::ZERO };
+        let (damping, stiffness) = (self.scalar(damping), self.scalar(position));
+        let residual = self.finish(reduction, &[residual])[0];
+        let terms = [self.g.mul(damping, rate), self.g.mul(stiffness, residual)];
+        self.g.sum(&terms)
+    }
+
+    /// Forward dynamics.
+    pub(in crate::mechanics) fn solve_constrained(&mut self, reduction: &Reduction) -> Solved {
+        self.system(reduction).2
+    }
+
+    /// The system that accelerations and multipliers solve, its rows, and its solution.
+    pub(in crate::mechanics) fn system(&mut self, reduction: &Reduction) -> (Saddle, Rows, Solved) {
+        let matrix = self.reduced_mass_matrix(reduction);
+        let bias = self.reduced_efforts(reduction, false);
+        let rhs: Vec<Scalar> = bias.iter().map(|&b| -b).collect();
+        let rows = self.rows(reduction);
+        let held: Vec<Scalar> = rows.bias.iter().map(|&gamma| -gamma).collect();
+        let (saddle, solved) = self.solve_rows(matrix, &rhs, rows.jacobian.clone(), &held);
+        (saddle, rows, solved)
+    }
+
+    /// The jump of velocities under an impulse: the same system with the impulse for the forces, and given rates of the
+    /// equations.
+    pub(in crate::mechanics) fn constrained_jump(&mut self, reduction: &Reduction) -> Solved {
+        let matrix = self.reduced_mass_matrix(reduction);
+        let jacobian = self.rows(reduction).jacobian;
+        let (impulses, rates) = (self.symbols.impulses.clone(), self.symbols.rates.clone());
+        self.solve_rows(matrix, &impulses, jacobian, &rates).1
+    }
+
+    /// M a + G^T lambda = rhs, G a = held.
+    fn solve_rows(
+        &mut self,
+        matrix: Vec<Vec<Scalar>>,
+        rhs: &[Scalar],
+        jacobian: Vec<Vec<Scalar>>,
+        held: &[Scalar],
+    ) -> (Saddle, Solved) {
+        let order = self.state_elimination();
+        let groups = self.structure.row_groups(self.model);
+        let saddle = Saddle::new(&mut self.g, matrix, (jacobian, groups), &order);
+        let Solution { unknowns: accelerations, multipliers, rank } = saddle.solve(&mut self.g, rhs, held);
+        for (k, &multiplier) in multipliers.iter().enumerate() {
+            self.g.name(multiplier, || format!("multiplier_{}", k + 1));
+        }
+        (saddle, Solved { accelerations, multipliers, rank })
+    }
+
+    /// Elimination of the state's coordinates from the leaves inwards; by place in the state.
+    fn state_elimination(&self) -> Vec<usize> {
+        let state = self.state();
+        let order = self.mechanism.elimination(self.method == crate::mechanics::equations::Method::Floating);
+        order.into_iter().filter_map(|freedom| state.iter().position(|&k| k == freedom)).collect()
+    }
+
+    /// Residuals of the equations with multipliers.
+    pub(in crate::mechanics) fn constraints(&mut self, reduction: &Reduction) -> Vec<Scalar> {
+        let structure = Rc::clone(&self.structure);
+        let rows: Vec<Scalar> = structure.rows.iter().map(|&row| self.row(row)).collect();
+        self.finish(reduction, &rows)
+    }
+
+    /// Row by row.
+    pub(in crate::mechanics) fn constraint_jacobian(&mut self, reduction: &Reduction) -> Vec<Scalar> {
+        self.rows(reduction).jacobian.concat()
+    }
+
+    pub(in crate::mechanics) fn constraint_rate(&mut self, reduction: &Reduction) -> Vec<Scalar> {
+        let structure = Rc::clone(&self.structure);
+        let mut rates = Vec::with_capacity(structure.rows.len());
+        for &row in &structure.rows {
+            let residual = self.row(row);
+            rates.push(self.implicit_rates(residual, &[]).0);
+        }
+        self.finish(reduction, &rates)
+    }
+
+    pub(in crate::mechanics) fn constraint_bias(&mut self, reduction: &Reduction) -> Vec<Scalar> {
+        self.rows(reduction).bias
+    }
+
+    /// Accelerations of all coordinates of the tree: those of the state as symbols too, for which [`Self::put_in_all`] puts
+    /// in what the multipliers' system gives.
+    pub(super) fn tree_accelerations(&mut self) -> Rc<[Scalar]> {
+        let accelerations: Rc<[Scalar]> = self.symbols.accelerations.concat().into();
+        self.accelerations = Some(Rc::clone(&accelerations));
+        if let Some(reduction) = self.reduction.clone() {
+            let solved = self.solve_constrained(&reduction);
+            self.solved = Some(Rc::new(solved));
+            // From here on loads are those that reactions see: with the multipliers' forces.
+            self.loads = None;
+            self.multiplied = self.rows_with_multipliers();
+        }
+        accelerations
+    }
+
+    /// Puts definitions into results, and the accelerations that were found.
+    pub(in crate::mechanics) fn put_in_all(
+        &mut self,
+        reduction: &Reduction,
+        solved: &Solved,
+        roots: &[Scalar],
+    ) -> Vec<Scalar> {
+        let roots = self.finish(reduction, roots);
+        let state = self.structure.state.clone();
+        let accelerations = state.iter().map(|&coordinate| self.coordinate_symbols(coordinate)[2]);
+        let symbols = accelerations.chain(self.symbols.multipliers.iter().copied());
+        let values = solved.accelerations.iter().chain(&solved.multipliers).copied();
+        let pairs: Vec<(Scalar, Scalar)> = symbols.zip(values).collect();
+        let map = self.map(&pairs);
+        self.g.substitute(&roots, &map)
+    }
+
+    /// The greatest residual of all iterations.
+    pub(in crate::mechanics) fn worst_residual(&mut self, reduction: &Reduction) -> Scalar {
+        let g = &mut self.g;
+        let mut residuals = reduction.residuals.iter().copied();
+        let first = residuals.next().unwrap_or(Scalar::ZERO);
+        residuals.fold(first, |worst, r| g.call(Call::Max, &[worst, r]))
+    }
+
+    /// What a drive exerts on its coordinate beside all declared forces.
+    pub(in crate::mechanics) fn drive_effort(&mut self, coordinate: Coordinate) -> Scalar {
+        let (false, Some(reduction)) = (self.loading, self.reduction.clone()) else { return Scalar::ZERO };
+        // Multipliers and the accelerations of the state are found first: both are in the efforts.
+        self.accelerations();
+        let efforts = self.projected_efforts(&reduction);
+        efforts.get(self.freedom(coordinate)).copied().unwrap_or(Scalar::ZERO)
+    }
+
+    pub(super) fn rows_with_multipliers(&self) -> Vec<(Row, Scalar)> {
+        self.structure.rows.iter().copied().zip(self.symbols.multipliers.iter().copied()).collect()
+    }
+
+    /// Dynamic rows with the multipliers' forces, then the equations.
+    pub(in crate::mechanics) fn residual(&mut self, reduction: &Reduction) -> Vec<Scalar> {
+        self.multiplied = self.rows_with_multipliers();
+        let mut rows = self.reduced_efforts(reduction, true);
+        rows.extend(self.constraints(reduction));
+        rows
+    }
+
+    /// Whether coordinates follow from others, or equations keep multipliers.
+    pub(in crate::mechanics) fn is_constrained(&self) -> bool {
+        !self.structure.steps.is_empty()
+            || !self.structure.rows.is_empty()
+            || self.structure.roles.iter().flatten().any(|role| matches!(role, Role::Driven(_)))
+    }
+}

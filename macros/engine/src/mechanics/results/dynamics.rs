@@ -1,0 +1,120 @@
+//! Stage `mechanics`: equations of motion.
+//!
+//! In: the tree, declared forces. Out: inverse dynamics, bias, mass matrix and accelerations in the user's coordinates, so
+//! that M a + bias = effort, where the bias holds gravity, velocity terms and minus the declared forces.
+
+use std::rc::Rc;
+
+use crate::dynamics::articulated;
+use crate::dynamics::composite;
+use crate::dynamics::floating_bases::seats;
+use crate::dynamics::kinematics::motions;
+use crate::dynamics::lumped;
+use crate::dynamics::newton_euler::efforts;
+use crate::dynamics::newton_euler::transmitted;
+use crate::dynamics::regroup::regroup_but;
+use crate::mechanics::equations::Equations;
+use crate::mechanics::equations::Method;
+use crate::symbolic::graph::Scalar;
+use crate::symbolic::linear_algebra::solve_symmetric;
+
+impl Equations<'_> {
+    /// Efforts that the accelerations take beside all declared forces.
+    pub(in crate::mechanics) fn inverse_dynamics(&mut self) -> Vec<Scalar> {
+        let mechanism = Rc::clone(&self.mechanism);
+        let list = self.efforts(&mechanism.tree.acceleration);
+        let mut efforts = mechanism.sign(&list);
+        let accelerations = self.symbols.accelerations.concat();
+        self.add_rotor_efforts(&mut efforts, &accelerations);
+        efforts
+    }
+
+    pub(in crate::mechanics) fn bias(&mut self) -> Vec<Scalar> {
+        let mechanism = Rc::clone(&self.mechanism);
+        let still = vec![Scalar::ZERO; mechanism.tree.freedoms()];
+        let list = self.efforts(&still);
+        let mut efforts = mechanism.sign(&list);
+        self.add_rotor_efforts(&mut efforts, &still);
+        efforts
+    }
+
+    /// In the tree's coordinates.
+    fn efforts(&mut self, acceleration: &[Scalar]) -> Vec<Scalar> {
+        if self.gathered {
+            return self.gathered_efforts(acceleration);
+        }
+        let shared = self.shared();
+        let tree = &shared.tree;
+        let loads = self.loads();
+        let base = self.base();
+        let g = &mut self.g;
+        let motions = motions(g, tree, &tree.velocity, acceleration, base);
+        let applied = shared.turn(g, &loads.applied);
+        let wrenches = transmitted(g, tree, &motions, &applied);
+        let needed = efforts(g, tree, &wrenches, acceleration);
+        let rest = needed.iter().zip(&loads.efforts).map(|(&needed, &given)| g.sub(needed, given));
+        rest.take(self.symbols.freedoms).collect()
+    }
+
+    /// The same over groups of links.
+    fn gathered_efforts(&mut self, acceleration: &[Scalar]) -> Vec<Scalar> {
+        let tree = regroup_but(&mut self.g, &self.mechanism.tree, true, &[]);
+        let loads = self.loads();
+        let base = self.base();
+        let g = &mut self.g;
+        let needed = lumped::efforts(g, &tree, acceleration, base, &loads.applied, &loads.world);
+        let rest = needed.iter().zip(&loads.efforts).map(|(&needed, &given)| g.sub(needed, given));
+        rest.take(self.symbols.freedoms).collect()
+    }
+
+    /// Row by row.
+    pub(in crate::mechanics) fn mass_matrix(&mut self) -> Vec<Scalar> {
+        let mechanism = Rc::clone(&self.mechanism);
+        let shared = self.shared();
+        let matrix = composite::mass_matrix(&mut self.g, &shared.tree);
+        let mut entries = Vec::new();
+        for (row, &flip) in matrix.iter().zip(&mechanism.flipped) {
+            let row = mechanism.sign(row);
+            entries.extend(row.iter().take(mechanism.flipped.len()).map(|&entry| if flip { -entry } else { entry }));
+        }
+        self.add_rotors(&mut entries);
+        entries
+    }
+
+    /// Of the user's coordinates.
+    pub(in crate::mechanics) fn accelerations(&mut self) -> Rc<[Scalar]> {
+        if let Some(accelerations) = &self.accelerations {
+            return Rc::clone(accelerations);
+        }
+        if self.loading {
+            // Forces that depend on accelerations are refused by the checker.
+            return vec![Scalar::ZERO; self.symbols.freedoms].into();
+        }
+        if self.is_constrained() {
+            return self.tree_accelerations();
+        }
+        let mechanism = Rc::clone(&self.mechanism);
+        let shared = self.shared();
+        let tree = &shared.tree;
+        let list = match self.method {
+            Method::Composite | Method::Floating => {
+                let matrix = composite::mass_matrix(&mut self.g, tree);
+                let bias = self.efforts(&vec![Scalar::ZERO; tree.freedoms()]);
+                let order = mechanism.elimination(self.method == Method::Floating);
+                let rhs: Vec<Scalar> = bias.iter().map(|&b| -b).collect();
+                solve_symmetric(&mut self.g, &matrix, &order, &rhs)
+            }
+            Method::Articulated => {
+                let loads = self.loads();
+                let base = self.base();
+                let g = &mut self.g;
+                let applied = shared.turn(g, &loads.applied);
+                let seats = seats(&mechanism.tree);
+                articulated::forward_dynamics(g, tree, &seats, &tree.velocity, base, &applied, &loads.efforts)
+            }
+        };
+        let accelerations: Rc<[Scalar]> = mechanism.sign(&list).into();
+        self.accelerations = Some(Rc::clone(&accelerations));
+        accelerations
+    }
+}

@@ -1,0 +1,249 @@
+//! Stage `mechanics`: partial derivatives of the equations of motion.
+//!
+//! In: the derivation, definitions of dependent coordinates. Out: the derivatives of inverse and of forward dynamics by
+//! displacements of the position, velocities, own states and inputs. With the residual F(x, z) = (M a + bias + G^T l,
+//! G a + gamma) and z = (a, l), forward dynamics is F(x, z(x)) = 0, so that dz/dx = -(dF/dz)^-1 dF/dx at fixed z: the
+//! matrix is the one that forward dynamics has factorised, and nothing is differentiated through the solution
+//! (Carpentier and Mansard 2018). Rates of own states depend on neither a nor l.
+//!
+//! Dependent positions are not differentiated through their closed form either: they move by the velocity map, whatever
+//! found them, and so an iteration's results have derivatives too.
+
+use std::collections::HashMap;
+
+use crate::dynamics::saddle::Saddle;
+use crate::mechanics::equations::Equations;
+use crate::mechanics::loops::reduction::Reduction;
+use crate::mechanics::translate::time::Seeds;
+use crate::symbolic::differentiate::Differentiator;
+use crate::symbolic::graph::{Scalar, ScalarNode};
+
+use super::constrained::Solved;
+use super::kinks;
+
+/// From which side derivatives are accumulated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::mechanics) enum Accumulation {
+    /// Column by column, along each direction.
+    Forward,
+    /// Row by row, back from each result.
+    Reverse,
+    /// Row by row, back from all equations at once, each weighted by an entry of the inverse matrix: accelerations come
+    /// without solving for every column.
+    Weighted,
+}
+
+/// A sum of expressions with weights.
+type Weighted = Vec<(Scalar, Scalar)>;
+
+/// Directions, one per column, in the order of [`crate::optimize::program::FunctionKind::ForwardDerivatives`].
+struct Directions {
+    columns: Vec<Seeds>,
+    /// Numbers of positions, velocities, own states and inputs.
+    counts: [usize; 4],
+}
+
+impl Equations<'_> {
+    /// Derivatives of the efforts, matrix by matrix, each row by row.
+    pub(in crate::mechanics) fn inverse_derivatives(
+        &mut self,
+        reduction: &Reduction,
+        accumulation: Accumulation,
+    ) -> Vec<Scalar> {
+        let efforts = self.reduced_efforts(reduction, true);
+        let directions = self.directions(reduction);
+        let columns = self.partials(&efforts, &directions.columns, accumulation);
+        kinks::guarded(&mut self.g, &efforts, &directions.matrices(&columns))
+    }
+
+    /// Derivatives of the accelerations and of the rates of own states, in the same order.
+    pub(in crate::mechanics) fn forward_derivatives(
+        &mut self,
+        reduction: &Reduction,
+        accumulation: Accumulation,
+    ) -> Vec<Scalar> {
+        let (mut saddle, rows, solved) = self.system(reduction);
+        let directions = self.directions(reduction);
+        // Positions and velocities move while accelerations and multipliers stay: these are symbols for now.
+        if !rows.bias.is_empty() {
+            self.loads = None;
+            self.multiplied = self.rows_with_multipliers();
+        }
+        let mut residual = self.reduced_efforts(reduction, true);
+        let freedoms = residual.len();
+        let state = self.structure.state.clone();
+        let accelerations: Vec<Scalar> = state.iter().map(|&at| self.coordinate_symbols(at)[2]).collect();
+        for (row, &gamma) in rows.jacobian.iter().zip(&rows.bias) {
+            let mut terms: Vec<Scalar> = row.iter().zip(&accelerations).map(|(&c, &a)| self.g.mul(c, a)).collect();
+            terms.push(gamma);
+            residual.push(self.g.sum(&terms));
+        }
+        let model = self.model;
+        saddle.invert(&mut self.g);
+        let mut columns = match accumulation {
+            Accumulation::Weighted => self.weighted(&saddle, &residual, &directions.columns, freedoms),
+            accumulation => self.partials(&residual, &directions.columns, accumulation),
+        };
+        self.settle(&mut columns, &solved);
+        if accumulation != Accumulation::Weighted {
+            self.solve_columns(&saddle, freedoms, &mut columns);
+        }
+        // The checker lets no rate depend on accelerations or reactions.
+        let rates: Vec<Scalar> = model.states.iter().map(|state| self.scalar(&state.rate)).collect();
+        let rates = self.finish(reduction, &rates);
+        let values = [residual, rates.clone()].concat();
+        let rates = self.partials(&rates, &directions.columns, Accumulation::Forward);
+        for (column, rates) in columns.iter_mut().zip(rates) {
+            column.extend(rates);
+        }
+        kinks::guarded(&mut self.g, &values, &directions.matrices(&columns))
+    }
+
+    /// -(dF/dz)^-1 dF/dx, column by column; a column holds what the matrix has to solve.
+    fn solve_columns(&mut self, saddle: &Saddle, freedoms: usize, columns: &mut [Vec<Scalar>]) {
+        for column in columns {
+            let negative: Vec<Scalar> = column.iter().map(|&entry| -entry).collect();
+            let (efforts, equations) = negative.split_at(freedoms);
+            *column = saddle.solve(&mut self.g, efforts, equations).unknowns;
+        }
+    }
+
+    /// The same, row by row: the matrix is symmetric, so a column of its inverse is a row of weights for the equations.
+    fn weighted(
+        &mut self,
+        saddle: &Saddle,
+        residual: &[Scalar],
+        columns: &[Seeds],
+        freedoms: usize,
+    ) -> Vec<Vec<Scalar>> {
+        let mut results = Vec::with_capacity(freedoms);
+        for row in 0..freedoms {
+            let mut unit = vec![Scalar::ZERO; residual.len()];
+            unit[row] = Scalar::ONE;
+            let (efforts, equations) = unit.split_at(freedoms);
+            let weights = saddle.solve(&mut self.g, efforts, equations);
+            let weights = weights.unknowns.into_iter().chain(weights.multipliers).map(|weight| -weight);
+            results.push(residual.iter().copied().zip(weights).collect());
+        }
+        self.backward(&results, columns)
+    }
+
+    /// Puts in the accelerations and multipliers that were found.
+    fn settle(&mut self, columns: &mut [Vec<Scalar>], solved: &Solved) {
+        let state = self.structure.state.clone();
+        let accelerations = state.iter().map(|&coordinate| self.coordinate_symbols(coordinate)[2]);
+        let symbols = accelerations.chain(self.symbols.multipliers.iter().copied());
+        let values = solved.accelerations.iter().chain(&solved.multipliers).copied();
+        let pairs: Vec<(Scalar, Scalar)> = symbols.zip(values).collect();
+        let map = self.map(&pairs);
+        let flat = self.g.substitute(&columns.concat(), &map);
+        let mut flat = flat.into_iter();
+        for column in columns {
+            column.iter_mut().zip(flat.by_ref()).for_each(|(entry, value)| *entry = value);
+        }
+    }
+
+    fn directions(&mut self, reduction: &Reduction) -> Directions {
+        let state = self.structure.state.clone();
+        let places = self.state();
+        let map = if reduction.rates.is_empty() { Vec::new() } else { self.velocity_map(reduction, &places) };
+        let mut columns = Vec::new();
+        for (at, &coordinate) in state.iter().enumerate() {
+            let mut seeds = self.direction(coordinate);
+            for (dependent, symbol) in self.dependents(reduction) {
+                let Some(&value) = self.g.symbol_id(symbol).and_then(|id| reduction.map.get(&id)) else { continue };
+                let slope = self.finish(reduction, &[map[dependent][at]])[0];
+                self.follow_dependent(value, slope, &mut seeds);
+            }
+            columns.push(seeds);
+        }
+        let velocities: Vec<Scalar> = state.iter().map(|&at| self.coordinate_symbols(at)[1]).collect();
+        let (states, inputs) = (self.symbols.states.clone(), self.symbols.inputs.concat());
+        let counts = [state.len(), state.len(), states.len(), inputs.len()];
+        columns.extend(velocities.into_iter().chain(states).chain(inputs).map(|symbol| vec![(symbol, Scalar::ONE)]));
+        Directions { columns, counts }
+    }
+
+    /// Places of dependent coordinates in the tree, and their positions.
+    fn dependents(&self, reduction: &Reduction) -> Vec<(usize, Scalar)> {
+        let steps = self.structure.steps.iter();
+        let unknowns = steps.flat_map(|step| step.unknowns.iter().copied());
+        let found = |freedom: &usize| reduction.rates.iter().any(|rate| rate.0 == *freedom);
+        unknowns
+            .map(|unknown| (self.freedom(unknown), self.coordinate_symbols(unknown)[0]))
+            .filter(|(freedom, _)| found(freedom))
+            .collect()
+    }
+
+    /// How a dependent position moves: an angle with its cosine and sine.
+    fn follow_dependent(&mut self, value: Scalar, slope: Scalar, seeds: &mut Seeds) {
+        let mut moves = |node: Scalar, slope: Scalar, is_plain: bool| {
+            if !is_plain && !seeds.iter().any(|seed| seed.0.index() == node.index()) {
+                let slope = if node == node.positive() { slope } else { -slope };
+                seeds.push((node.positive(), slope));
+            }
+        };
+        let plain = |node: &ScalarNode| matches!(node, ScalarNode::Literal(_) | ScalarNode::Symbol(_));
+        let g = &mut self.g;
+        moves(value, slope, plain(g.node(value)));
+        if let ScalarNode::Angle(..) = *g.node(value) {
+            let (cos, sin) = (g.cos(value), g.sin(value));
+            let (by_cos, by_sin) = (-g.mul(sin, slope), g.mul(cos, slope));
+            moves(cos, by_cos, plain(g.node(cos)));
+            moves(sin, by_sin, plain(g.node(sin)));
+        }
+    }
+
+    /// Derivatives of results, column by column. Seeds may stand at any nodes: what is behind them is not visited.
+    fn partials(&mut self, results: &[Scalar], columns: &[Seeds], accumulation: Accumulation) -> Vec<Vec<Scalar>> {
+        let g = &mut self.g;
+        if accumulation == Accumulation::Forward {
+            return columns.iter().map(|seeds| Differentiator::new(seeds).scalars(g, results)).collect();
+        }
+        let results: Vec<Weighted> = results.iter().map(|&result| vec![(result, Scalar::ONE)]).collect();
+        self.backward(&results, columns)
+    }
+
+    /// Derivatives of weighted sums, column by column.
+    fn backward(&mut self, results: &[Weighted], columns: &[Seeds]) -> Vec<Vec<Scalar>> {
+        let g = &mut self.g;
+        let mut nodes: Vec<Scalar> = Vec::new();
+        let mut places: HashMap<usize, usize> = HashMap::new();
+        for &(node, _) in columns.iter().flatten() {
+            places.entry(node.index()).or_insert_with(|| {
+                nodes.push(node.positive());
+                nodes.len() - 1
+            });
+        }
+        let mut entries = vec![Vec::with_capacity(results.len()); columns.len()];
+        for result in results {
+            let adjoints = g.transpose_linear(result, &nodes);
+            for (entries, seeds) in entries.iter_mut().zip(columns) {
+                let terms: Vec<Scalar> = seeds
+                    .iter()
+                    .map(|&(node, slope)| {
+                        let slope = if node == node.positive() { slope } else { -slope };
+                        g.mul(adjoints[places[&node.index()]], slope)
+                    })
+                    .collect();
+                entries.push(g.sum(&terms));
+            }
+        }
+        entries
+    }
+}
+
+impl Directions {
+    /// A matrix for positions, velocities, own states and inputs, each row by row.
+    fn matrices(&self, columns: &[Vec<Scalar>]) -> Vec<Scalar> {
+        let mut entries = Vec::new();
+        let mut from = 0;
+        for count in self.counts {
+            let matrix = columns.get(from..from + count).unwrap_or_default();
+            let rows = columns.first().map_or(0, Vec::len);
+            entries.extend((0..rows).flat_map(|row| matrix.iter().map(move |column| column[row])));
+            from += count;
+        }
+        entries
+    }
+}

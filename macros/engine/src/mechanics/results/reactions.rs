@@ -1,0 +1,145 @@
+//! Stage `mechanics`: what joints transmit.
+//!
+//! In: the tree with its original inertias, accelerations, forces, multipliers. Out: force and moment that the parent exerts
+//! on the child at the joint's child frame; the efforts of the joint itself are part of them. For joints of the tree by the
+//! Newton-Euler recursion, on which the multipliers' forces act like declared ones, for joints that close loops from their
+//! multipliers. Equations that follow from others have none: how an over-constrained loop shares its load among them is
+//! not determined by rigid bodies.
+
+use std::rc::Rc;
+
+use crate::dynamics::kinematics::motions;
+use crate::dynamics::newton_euler::Wrench;
+use crate::dynamics::newton_euler::transmitted;
+use crate::mechanics::equations::Equations;
+use crate::mechanics::loops::structure::Row;
+use crate::mechanics::translate::build::Place;
+use crate::mechanics::translate::values::Value;
+use crate::model::types::{Closing, Coordinate, ForceKind, JointId};
+use crate::symbolic::graph::{Scalar, Vector};
+
+impl Equations<'_> {
+    /// In the axes of a frame.
+    pub(in crate::mechanics) fn reaction(&mut self, joint: JointId, axes: &Place) -> Value {
+        if self.model.cuts.contains(&joint) {
+            let [force, moment] = self.closing_reaction(joint, axes);
+            return Value::Pair(force, moment);
+        }
+        let wrenches = self.wrenches();
+        let link = self.mechanism.joints.get(joint.0).and_then(|joint| joint.child).and_then(|child| child.link);
+        let Some(&wrench) = link.and_then(|index| wrenches.get(index)) else {
+            return Value::Pair(Vector::ZERO, Vector::ZERO);
+        };
+        let [force, moment] = self.turned_to(axes, link, [wrench.force, wrench.moment]);
+        Value::Pair(force, moment)
+    }
+
+    /// Vectors in a link's axes, in those of a frame.
+    fn turned_to(&mut self, axes: &Place, link: Option<usize>, vectors: [Vector; 2]) -> [Vector; 2] {
+        vectors.map(|v| {
+            let v = self.between(link, axes.link, v);
+            self.g.rotate(axes.rotation.transpose(), v)
+        })
+    }
+
+    /// Of a joint that closes a loop.
+    fn closing_reaction(&mut self, joint: JointId, axes: &Place) -> [Vector; 2] {
+        if self.loading {
+            // Forces that depend on reactions are refused by the checker.
+            return [Vector::ZERO; 2];
+        }
+        self.accelerations();
+        let mut multiplied = self.rows_with_multipliers();
+        multiplied.extend(self.holding_multipliers().iter().copied());
+        let held_across = self.expression_efforts(joint, &multiplied);
+        multiplied.retain(|(row, _)| row.closing == Closing::Cut(joint));
+        let held = self.by_closing(&multiplied);
+        let mut parts: Vec<[Vector; 2]> = held.iter().map(|one| self.cut_reaction(joint, one, axes)).collect();
+        let mut declared = self.efforts_across(joint);
+        let accelerations = self.accelerations();
+        for rotor in self.rotors().iter().filter(|rotor| rotor.joint == joint) {
+            let push = self.rotor_effort(rotor, &accelerations);
+            declared.resize(declared.len().max(1), Scalar::ZERO);
+            declared[0] = self.g.sub(declared[0], push);
+        }
+        for (efforts, held) in [(declared, false), (held_across, true)] {
+            if let Some((ends, Wrench { moment, force })) = self.across(joint, &efforts, held) {
+                parts.push(self.turned_to(axes, ends[0].link, [force, moment]));
+            }
+        }
+        [0, 1].map(|k| {
+            let list: Vec<Vector> = parts.iter().map(|part| part[k]).collect();
+            self.g.sum_vectors(&list)
+        })
+    }
+
+    /// Whether a drive holds a measured coordinate to its course.
+    pub(in crate::mechanics) fn is_held(&self, coordinate: Coordinate) -> bool {
+        self.model.constraints.iter().any(|constraint| constraint.drive == Some(coordinate))
+    }
+
+    /// What a drive exerts on a measured coordinate beside all declared forces: less its multiplier.
+    pub(in crate::mechanics) fn holding_effort(&mut self, coordinate: Coordinate) -> Scalar {
+        if self.loading {
+            return Scalar::ZERO;
+        }
+        self.accelerations();
+        let mut multiplied = self.rows_with_multipliers();
+        multiplied.extend(self.holding_multipliers().iter().copied());
+        let drives = |row: &Row| match row.closing {
+            Closing::Constraint(id) => self.model.constraints.get(id.0).is_some_and(|c| c.drive == Some(coordinate)),
+            Closing::Cut(_) => false,
+        };
+        multiplied.iter().find(|(row, _)| drives(row)).map_or(Scalar::ZERO, |&(_, multiplier)| -multiplier)
+    }
+
+    /// Sums of the declared efforts on a joint that closes a loop.
+    fn efforts_across(&mut self, joint: JointId) -> Vec<Scalar> {
+        let model = self.model;
+        let mut sums: Vec<Scalar> = Vec::new();
+        self.loading = true;
+        for force in &model.forces {
+            match &force.kind {
+                ForceKind::Effort { joint: at, values } if *at == joint => {
+                    sums.resize(sums.len().max(values.len()), Scalar::ZERO);
+                    for (sum, value) in sums.iter_mut().zip(values) {
+                        let value = self.scalar(value);
+                        *sum = self.g.add(*sum, value);
+                    }
+                }
+                ForceKind::JointSpring { joint: at, coordinate, stiffness, damping, rest } if *at == joint => {
+                    sums.resize(sums.len().max(coordinate + 1), Scalar::ZERO);
+                    let spring = self.joint_spring(joint, *coordinate, [stiffness, damping, rest]);
+                    let effort = spring.effort(&mut self.g);
+                    sums[*coordinate] = self.g.add(sums[*coordinate], effort);
+                }
+                _ => {}
+            }
+        }
+        self.loading = false;
+        sums
+    }
+
+    /// Of all joints of the tree, at the links' origins in their axes.
+    fn wrenches(&mut self) -> Rc<[Wrench]> {
+        if let Some(wrenches) = &self.transmitted {
+            return Rc::clone(wrenches);
+        }
+        let mechanism = Rc::clone(&self.mechanism);
+        let tree = &mechanism.tree;
+        let user = self.accelerations();
+        let mut acceleration = mechanism.sign(&user);
+        acceleration.resize(tree.freedoms(), Scalar::ZERO);
+        let loads = self.loads();
+        let mut loads = self.with_rotors(loads, &user);
+        let holding = self.holding_multipliers();
+        if !holding.is_empty() {
+            loads = self.held_by(&loads, &holding);
+        }
+        let base = self.base();
+        let motions = motions(&mut self.g, tree, &tree.velocity, &acceleration, base);
+        let wrenches: Rc<[Wrench]> = transmitted(&mut self.g, tree, &motions, &loads.applied).into();
+        self.transmitted = Some(Rc::clone(&wrenches));
+        wrenches
+    }
+}

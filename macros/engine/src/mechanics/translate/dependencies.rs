@@ -1,0 +1,51 @@
+//! Stage `mechanics`: what expressions ask for.
+//!
+//! In: typed expressions. Out: [`Needs`], which tell how much of the mechanics has to be derived for them.
+
+use std::collections::HashSet;
+use std::rc::Rc;
+
+use crate::model::types::{Expr, ExprNode, JointId, JointKind, Model, Order};
+
+/// What expressions ask for.
+#[derive(Default)]
+pub(in crate::mechanics) struct Needs {
+    pub frames: bool,
+    pub accelerations: bool,
+    reactions: Vec<JointId>,
+}
+
+impl Needs {
+    pub(in crate::mechanics) fn of<'m>(roots: impl Iterator<Item = &'m Expr>) -> Needs {
+        let mut needs = Needs::default();
+        let mut seen = HashSet::new();
+        let mut stack: Vec<&Expr> = roots.collect();
+        while let Some(expr) = stack.pop() {
+            if !seen.insert(Rc::as_ptr(&expr.node)) {
+                continue;
+            }
+            match &*expr.node {
+                ExprNode::OfFrame(_, quantity) => {
+                    use crate::model::types::FrameQuantity::{Acceleration, AngularAcceleration};
+                    needs.frames = true;
+                    needs.accelerations |= matches!(quantity, Acceleration | AngularAcceleration);
+                }
+                ExprNode::Power(_) | ExprNode::Express { .. } => needs.frames = true,
+                ExprNode::Coordinate { order: Order::Acceleration, .. } => needs.accelerations = true,
+                ExprNode::Reaction { joint, .. } => {
+                    needs.accelerations = true;
+                    needs.reactions.push(*joint);
+                }
+                _ => {}
+            }
+            stack.extend(super::expressions::operands(&expr.node));
+        }
+        needs
+    }
+
+    /// `Fixed` joints whose reactions are asked for.
+    pub(in crate::mechanics) fn kept(&self, model: &Model) -> Vec<JointId> {
+        let fixed = |id: &JointId| model.joints.get(id.0).is_some_and(|joint| matches!(joint.kind, JointKind::Fixed));
+        self.reactions.iter().copied().filter(fixed).collect()
+    }
+}

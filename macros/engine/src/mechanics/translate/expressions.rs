@@ -1,0 +1,268 @@
+//! Stage `mechanics`: typed expressions become nodes of the graph.
+//!
+//! In: expressions of the checked model, a tree with shared branches. Out: [`Value`]s. Each shared branch is translated
+//! once, and operands go first on a stack of their own, so that a long chain of `let` items needs no deep recursion.
+
+use std::rc::Rc;
+
+use crate::mechanics::equations::Equations;
+use crate::mechanics::loops::structure::Role;
+use crate::model::types::{Coordinate, Expr, ExprNode};
+use crate::symbolic::graph::{Call, Rotation, Scalar, Vector};
+use crate::symbolic::rotations;
+
+use super::directions;
+use super::values::Part;
+use super::values::Value;
+
+impl Equations<'_> {
+    /// The value of an expression.
+    pub(in crate::mechanics) fn value(&mut self, expr: &Expr) -> Value {
+        let mut stack = vec![expr];
+        while let Some(&top) = stack.last() {
+            let key = Rc::as_ptr(&top.node);
+            if !self.memo.contains_key(&key) {
+                let before = stack.len();
+                let open = |e: &&Expr| !self.memo.contains_key(&Rc::as_ptr(&e.node));
+                stack.extend(operands(&top.node).into_iter().filter(open));
+                if stack.len() > before {
+                    continue;
+                }
+                let value = self.node(&top.node);
+                self.memo.insert(key, value);
+            }
+            stack.pop();
+        }
+        self.known(expr)
+    }
+
+    pub(in crate::mechanics) fn scalar(&mut self, expr: &Expr) -> Scalar {
+        self.value(expr).scalar()
+    }
+
+    pub(in crate::mechanics) fn vector(&mut self, expr: &Expr) -> Vector {
+        let value = self.value(expr);
+        value.vector(&mut self.g)
+    }
+
+    /// The value of an operand, which is there when its user is translated.
+    fn known(&self, expr: &Expr) -> Value {
+        self.memo.get(&Rc::as_ptr(&expr.node)).cloned().unwrap_or(Value::ZERO)
+    }
+
+    fn known_vector(&mut self, expr: &Expr) -> Vector {
+        self.known(expr).vector(&mut self.g)
+    }
+
+    fn node(&mut self, node: &ExprNode) -> Value {
+        match node {
+            ExprNode::Number(x) => Value::Scalar(self.g.decimal(*x)),
+            ExprNode::Pi => Value::Scalar(self.g.pi()),
+            ExprNode::Time => Value::Scalar(self.symbols.time),
+            ExprNode::Param(id) => {
+                let list = self.symbols.params.get(id.0).cloned().unwrap_or_default();
+                let ty = self.model.params.get(id.0).map(|param| &param.ty);
+                self.shaped(&list, ty)
+            }
+            ExprNode::Input(id) => {
+                let list = self.symbols.inputs.get(id.0).cloned().unwrap_or_default();
+                let ty = self.model.inputs.get(id.0).map(|input| &input.ty);
+                self.shaped(&list, ty)
+            }
+            ExprNode::State(id) => Value::Scalar(self.symbols.states.get(id.0).copied().unwrap_or(Scalar::ZERO)),
+            &ExprNode::Coordinate { joint, index, order } => {
+                Value::Scalar(self.coordinate(Coordinate { joint, index }, order))
+            }
+            &ExprNode::RelativeAngularVelocity(joint) => Value::Vector(self.relative_angular_velocity(joint)),
+            &ExprNode::Effort { joint, index } => {
+                let coordinate = Coordinate { joint, index };
+                Value::Scalar(match self.structure.role(coordinate) {
+                    Role::Driven(_) => self.drive_effort(coordinate),
+                    _ if self.is_held(coordinate) => self.holding_effort(coordinate),
+                    _ => self.effort(joint, index),
+                })
+            }
+            ExprNode::OfFrame(frame, quantity) => {
+                let place = self.place(frame);
+                if self.stands_apart() { self.read_place(&place, *quantity) } else { self.of_place(&place, *quantity) }
+            }
+            ExprNode::Jacobian { frame, axes } => {
+                let (place, axes) = (self.place(frame), self.place(axes));
+                self.jacobian(&place, &axes)
+            }
+            ExprNode::Reaction { joint, axes } => {
+                let axes = self.place(axes);
+                self.reaction(*joint, &axes)
+            }
+            ExprNode::Power(force) => Value::Scalar(self.power(*force)),
+            ExprNode::Kinetic => Value::Scalar(self.kinetic()),
+            ExprNode::Potential => Value::Scalar(self.potential()),
+            ExprNode::Express { frame, vector } => {
+                let place = self.place(frame);
+                Value::Vector(if self.stands_apart() {
+                    let v = self.known_vector(vector);
+                    self.read_express(&place, v)
+                } else {
+                    self.express(&place, vector)
+                })
+            }
+            _ => self.operation(node),
+        }
+    }
+
+    /// Nodes whose operands are known.
+    fn operation(&mut self, node: &ExprNode) -> Value {
+        match node {
+            ExprNode::Vec3(components) => {
+                let components = [0, 1, 2].map(|k| self.known(&components[k]).scalar());
+                Value::Vector(self.g.vector(components))
+            }
+            ExprNode::Identity => self.rotation_value(Rotation::IDENTITY),
+            ExprNode::RotationAbout { axis, angle } => {
+                let axis = self.known_vector(axis);
+                let axis = self.g.components(axis);
+                let angle = self.known(angle).scalar();
+                let rotation = directions::about(&mut self.g, axis, angle);
+                self.rotation_value(rotation)
+            }
+            ExprNode::RollPitchYaw(angles) => {
+                let turns = [2, 1, 0].map(|k| {
+                    let angle = self.known(&angles[k]).scalar();
+                    self.g.axis_rotation(k, angle)
+                });
+                let rotation = rotations::compose(&mut self.g, turns[1], turns[2]);
+                let rotation = rotations::compose(&mut self.g, turns[0], rotation);
+                self.rotation_value(rotation)
+            }
+            ExprNode::Compose(a, b) => {
+                let [a, b] = [a, b].map(|e| self.known_rotation(e));
+                let rotation = rotations::compose(&mut self.g, a, b);
+                self.rotation_value(rotation)
+            }
+            ExprNode::Pose(position, orientation) => {
+                let position = self.known_vector(position);
+                let rows = match self.known(orientation) {
+                    Value::Rotation(rows) => *rows,
+                    _ => rotations::rows(&mut self.g, Rotation::IDENTITY),
+                };
+                Value::Pose(position, super::orientation::of_rows(&mut self.g, &rows))
+            }
+            ExprNode::Array(list) => Value::Array(list.iter().map(|e| self.known(e)).collect()),
+            ExprNode::Index(array, index) => match self.known(array) {
+                Value::Array(list) => list.get(*index).cloned().unwrap_or(Value::ZERO),
+                Value::Vector(v) => Value::Scalar(self.g.component(v, (*index).min(2))),
+                _ => Value::ZERO,
+            },
+            ExprNode::Component(vector, axis) => {
+                let vector = self.known_vector(vector);
+                Value::Scalar(self.g.component(vector, (*axis).min(2)))
+            }
+            ExprNode::Linear(pair) => match self.known(pair) {
+                Value::Pair(first, _) | Value::Pose(first, _) => Value::Vector(first),
+                _ => Value::ZERO,
+            },
+            ExprNode::Angular(pair) => match self.known(pair) {
+                Value::Pair(_, second) => Value::Vector(second),
+                _ => Value::ZERO,
+            },
+            ExprNode::Neg(a) => self.known(a).map(&mut self.g, &mut |_, part| match part {
+                Part::Scalar(s) => Part::Scalar(-s),
+                Part::Vector(v) => Part::Vector(-v),
+            }),
+            ExprNode::Add(a, b) => self.both(a, b, |g, x, y| g.add(x, y), |g, x, y| g.add_vectors(x, y)),
+            ExprNode::Sub(a, b) => self.both(a, b, |g, x, y| g.sub(x, y), |g, x, y| g.sub_vectors(x, y)),
+            ExprNode::Mul(a, b) => match (self.known(a), self.known(b)) {
+                (Value::Scalar(x), y) | (y, Value::Scalar(x)) => self.scaled(x, &y),
+                _ => Value::ZERO,
+            },
+            ExprNode::Div(a, b) => {
+                let divisor = self.known(b).scalar();
+                let factor = self.g.reciprocal(divisor);
+                let dividend = self.known(a);
+                self.scaled(factor, &dividend)
+            }
+            ExprNode::Call(function, arguments) => {
+                let arguments: Vec<Value> = arguments.iter().map(|e| self.known(e)).collect();
+                super::functions::call(&mut self.g, *function, &arguments)
+            }
+            ExprNode::Compare(comparison, a, b) => {
+                let (a, b) = (self.known(a).scalar(), self.known(b).scalar());
+                Value::Scalar(super::functions::compare(&mut self.g, *comparison, a, b))
+            }
+            ExprNode::And(a, b) => self.mask(Call::And, &[a, b]),
+            ExprNode::Or(a, b) => self.mask(Call::Or, &[a, b]),
+            ExprNode::Not(a) => self.mask(Call::Not, &[a]),
+            ExprNode::Select(condition, a, b) => {
+                let mask = self.known(condition).scalar();
+                let choose = move |g: &mut crate::symbolic::graph::Graph, x, y| g.call(Call::Select, &[mask, x, y]);
+                self.both(a, b, choose, move |g, x, y| {
+                    let (x, y) = (g.components(x), g.components(y));
+                    let chosen = [0, 1, 2].map(|k| choose(g, x[k], y[k]));
+                    g.vector(chosen)
+                })
+            }
+            _ => Value::ZERO,
+        }
+    }
+
+    fn rotation_value(&mut self, rotation: Rotation) -> Value {
+        Value::Rotation(Rc::new(rotations::rows(&mut self.g, rotation)))
+    }
+
+    fn known_rotation(&mut self, expr: &Expr) -> Rotation {
+        match self.known(expr) {
+            Value::Rotation(rows) => self.g.matrix_rotation(*rows),
+            _ => Rotation::IDENTITY,
+        }
+    }
+
+    fn both(
+        &mut self,
+        a: &Expr,
+        b: &Expr,
+        mut scalars: impl FnMut(&mut crate::symbolic::graph::Graph, Scalar, Scalar) -> Scalar,
+        mut vectors: impl FnMut(&mut crate::symbolic::graph::Graph, Vector, Vector) -> Vector,
+    ) -> Value {
+        let (a, b) = (self.known(a), self.known(b));
+        a.zip(&b, &mut self.g, &mut scalars, &mut vectors)
+    }
+
+    fn scaled(&mut self, factor: Scalar, value: &Value) -> Value {
+        value.map(&mut self.g, &mut |g, part| match part {
+            Part::Scalar(s) => Part::Scalar(g.mul(factor, s)),
+            Part::Vector(v) => Part::Vector(g.scale(factor, v)),
+        })
+    }
+
+    fn mask(&mut self, call: Call, operands: &[&Expr]) -> Value {
+        let operands: Vec<Scalar> = operands.iter().map(|e| self.known(e).scalar()).collect();
+        Value::Scalar(self.g.call(call, &operands))
+    }
+}
+
+/// What must be translated before a node; frames hold parameters alone and are translated with it.
+pub(in crate::mechanics) fn operands(node: &ExprNode) -> Vec<&Expr> {
+    match node {
+        ExprNode::Express { vector, .. } => vec![vector],
+        ExprNode::RotationAbout { axis, angle } => vec![axis, angle],
+        ExprNode::RollPitchYaw(angles) => angles.iter().collect(),
+        ExprNode::Compose(a, b) | ExprNode::Pose(a, b) => vec![a, b],
+        ExprNode::Vec3(list) => list.iter().collect(),
+        ExprNode::Array(list) | ExprNode::Call(_, list) => list.iter().collect(),
+        ExprNode::Index(a, _)
+        | ExprNode::Component(a, _)
+        | ExprNode::Linear(a)
+        | ExprNode::Angular(a)
+        | ExprNode::Neg(a)
+        | ExprNode::Not(a) => vec![a],
+        ExprNode::Add(a, b)
+        | ExprNode::Sub(a, b)
+        | ExprNode::Mul(a, b)
+        | ExprNode::Div(a, b)
+        | ExprNode::Compare(_, a, b)
+        | ExprNode::And(a, b)
+        | ExprNode::Or(a, b) => vec![a, b],
+        ExprNode::Select(m, a, b) => vec![m, a, b],
+        _ => Vec::new(),
+    }
+}

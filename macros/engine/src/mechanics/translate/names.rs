@@ -1,0 +1,105 @@
+//! Stage `mechanics`: readable names for generated code, in snake case.
+//!
+//! In: places in the generated structs. Out: names of links, such as `legs_2_gimbal`, and of symbols, such as `elbow`,
+//! `elbow_rate`, `feet_0_x`.
+
+use crate::model::types::{JointId, JointKind, Model, Orientation, Place, Type};
+use crate::optimize::program::Symbol;
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// A leaf's name with the part instances that it stands in.
+pub(in crate::mechanics) fn path(model: &Model, place: &Place) -> String {
+    let mut parts = vec![plain(&place.field)];
+    let mut at = model.instances.get(place.instance.0);
+    while let Some(instance) = at {
+        let Some(parent) = instance.parent else { break };
+        let index = instance.index.map_or(String::new(), |(index, _)| format!("_{index}"));
+        parts.push(format!("{}{index}", plain(&instance.field)));
+        at = model.instances.get(parent.0);
+    }
+    parts.reverse();
+    parts.join("_")
+}
+
+fn plain(name: &proc_macro2::Ident) -> String {
+    let text = name.to_string();
+    text.strip_prefix("r#").unwrap_or(&text).to_lowercase()
+}
+
+/// Name of a symbol.
+pub(in crate::mechanics) fn symbol(model: &Model, symbol: Symbol) -> String {
+    let known = match symbol {
+        Symbol::Time => Some("t".to_owned()),
+        Symbol::Param { param, element } => {
+            model.params.get(param.0).map(|param| path(model, &param.place) + &suffix(&param.ty, element))
+        }
+        Symbol::Input { input, element } => {
+            model.inputs.get(input.0).map(|input| path(model, &input.place) + &suffix(&input.ty, element))
+        }
+        Symbol::State { state } => model.states.get(state.0).map(|state| path(model, &state.place)),
+        Symbol::Position { joint, component } => of_joint(model, joint, |kind| position(kind, component)),
+        Symbol::Velocity { joint, component } => of_joint(model, joint, |kind| rate(kind, component, "rate")),
+        Symbol::Acceleration { joint, component } => of_joint(model, joint, |kind| rate(kind, component, "accel")),
+        Symbol::Impulse { joint, component } => of_joint(model, joint, |kind| rate(kind, component, "impulse")),
+        Symbol::Momentum { joint, component } => of_joint(model, joint, |kind| rate(kind, component, "momentum")),
+        Symbol::Rate { row } => Some(format!("rate_{row}")),
+        Symbol::Multiplier { row } => Some(format!("multiplier_{row}")),
+        Symbol::Guess { index } => Some(format!("guess_{index}")),
+        Symbol::Unknown { index } => Some(format!("unknown_{index}")),
+    };
+    known.unwrap_or_default()
+}
+
+fn of_joint(model: &Model, joint: JointId, suffix: impl Fn(&JointKind) -> String) -> Option<String> {
+    model.joints.get(joint.0).map(|joint| path(model, &joint.place) + &suffix(&joint.kind))
+}
+
+/// `_2_x` for an element of an array of `Vec3`.
+fn suffix(ty: &Type, element: usize) -> String {
+    match ty {
+        Type::Vec3 => format!("_{}", AXES.get(element).unwrap_or(&"x")),
+        Type::Array(inner, _) => {
+            let width = inner.scalars().max(1);
+            format!("_{}{}", element / width, suffix(inner, element % width))
+        }
+        _ => String::new(),
+    }
+}
+
+/// `_first` and the like; nothing for joints of one coordinate.
+fn coordinate(kind: &JointKind, index: usize) -> String {
+    let names: &[&str] = match kind {
+        JointKind::Fixed | JointKind::Revolute { .. } | JointKind::Prismatic { .. } | JointKind::Screw { .. } => &[],
+        JointKind::Cylindrical { .. } => &["travel", "angle"],
+        JointKind::Universal { .. } => &["first", "second"],
+        JointKind::Planar { .. } => &["x", "y", "angle"],
+        JointKind::Ball(_) => &["roll", "pitch", "yaw"],
+        JointKind::Free(_) => &["x", "y", "z", "roll", "pitch", "yaw"],
+    };
+    names.get(index).map_or(String::new(), |name| format!("_{name}"))
+}
+
+fn position(kind: &JointKind, component: usize) -> String {
+    let first = match kind {
+        JointKind::Ball(Orientation::Quaternion) => 0,
+        JointKind::Free(Orientation::Quaternion) => 3,
+        _ => return coordinate(kind, component),
+    };
+    match component.checked_sub(first).and_then(|k| ["w", "i", "j", "k"].get(k)) {
+        Some(name) => format!("_{name}"),
+        None => coordinate(kind, component),
+    }
+}
+
+fn rate(kind: &JointKind, component: usize, what: &str) -> String {
+    let first = match kind {
+        JointKind::Ball(Orientation::Quaternion) => 0,
+        JointKind::Free(Orientation::Quaternion) => 3,
+        _ => return format!("{}_{what}", coordinate(kind, component)),
+    };
+    match component.checked_sub(first).and_then(|k| AXES.get(k)) {
+        Some(axis) => format!("_angular_{what}_{axis}"),
+        None => format!("{}_{what}", coordinate(kind, component)),
+    }
+}
