@@ -194,7 +194,7 @@ fn nothing_is_made_that_is_not_asked_for() {
     assert_eq!(kinds("emit energy; output p = b.position;"), [KineticEnergy, PotentialEnergy, Outputs]);
     assert_eq!(kinds(ALL), [ForwardDynamics, InverseDynamics, MassMatrix, Bias]);
     let (model, compiled) = of(&two_links("world { gravity: g }", "emit bias;"));
-    let text = emit(&model, &mechanics::structure::Structure::open(&model), &compiled).to_string();
+    let text = emit(&model, &mechanics::loops::structure::Structure::open(&model), &compiled).to_string();
     assert!(text.contains("fn bias"));
     // What tells callers of a function that it was not asked for has a type parameter.
     for name in ["forward_dynamics", "mass_matrix", "inverse_dynamics", "outputs", "kinetic_energy"] {

@@ -58,7 +58,7 @@ fn ten_thousand_statements() {
     let angle = derivation.symbols.iter().copied().find(|s| matches!(s, Symbol::Position { .. })).unwrap();
     let (program, expected) = program(angle, 0.3);
     compiled.functions[0].program = program;
-    let module = source(&emit(&model, &mechanics::structure::Structure::open(&model), &compiled));
+    let module = source(&emit(&model, &mechanics::loops::structure::Structure::open(&model), &compiled));
 
     let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("statements");
     write(
