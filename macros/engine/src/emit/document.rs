@@ -3,13 +3,20 @@
 //! In: the user's `///` text and units, operation counts. Out: lines of Markdown, which become `#[doc]` attributes. Every
 //! public item has some: a crate that denies `missing_docs` accepts it.
 
+pub(super) mod formula;
+pub(super) mod loops;
+pub(super) mod report;
+mod unchecked;
+
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::layout::{Group, Layout};
-use super::{Context, literals, names};
 use crate::model::types::{Docs, Joint, JointKind, Param, PartTypeId, State};
 use crate::optimize::program::{Compiled, Cost, Function, FunctionKind};
+
+use super::layout::{Group, Layout};
+use super::print::literals;
+use super::{Context, names};
 
 /// Expands to one `#[doc = ".."]` per line.
 pub(super) fn attributes(lines: &[String]) -> TokenStream {

@@ -8,12 +8,13 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
+use proc_macro2::TokenStream;
+
 use crate::mechanics::loops::structure::Structure;
 use crate::model::types::Model;
 use crate::optimize::program::Compiled;
 
 use super::{names, report, source};
-use proc_macro2::TokenStream;
 
 /// Name of the environment variable.
 const VARIABLE: &str = "MULTIBODY_DUMP";

@@ -6,16 +6,21 @@
 //!
 //! A part's structs have the union of the fields of its instances, so that one type serves them all.
 
+pub(super) mod joints;
+pub(super) mod leaf;
+pub(super) mod places;
+pub(super) mod values;
+
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 use syn::Path;
 
 use crate::mechanics::loops::structure::Structure;
 use crate::model::types::{InstanceId, JointId, Model, PartTypeId, Place};
 
-use super::joints::{self, Piece};
-use super::leaf::Leaf;
+use self::joints::Piece;
+use self::leaf::Leaf;
 use super::{document, names};
-use proc_macro2::{Ident, Literal, TokenStream};
 
 /// The kinds of generated structs with fields of the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,39 +1,25 @@
 //! Stage `emit`: the optimised programs as a Rust module.
 //!
 //! In: the checked [`Model`], its [`Structure`] and the [`Compiled`] programs. Out: tokens, and on request
-//! (`MULTIBODY_DUMP`) files. Nothing about the equations is decided here. The code needs no `#[allow]` in the user's crate: names that the user chose count as
-//! generated, so that lints of style and dead code don't apply, and what lints check even there is kept: every public
-//! item is documented, no function has more than six arguments, no literal looks like a constant of `core`.
+//! (`MULTIBODY_DUMP`) files. Nothing about the equations is decided here. The code needs no `#[allow]` in the user's crate:
+//! names that the user chose count as generated, so that lints of style and dead code don't apply, and what lints check even
+//! there is kept: every public item is documented, no function has more than six arguments, no literal looks like a constant
+//! of `core`.
 //!
-//! `layout` knows which field of which struct holds what, `values` builds them, `expressions` and `blocks` print programs, `items` has one
-//! file per generated thing, `document` and `report` write its documentation, `skeleton` stands in after errors.
+//! Rooms: `layout` knows which field of which struct holds what, `print` writes programs, `methods` the functions of
+//! `Model`, `items` has one file per other generated thing, `document` writes documentation and the report, `broken` what
+//! stands in after errors.
 
-mod arguments;
-mod blocks;
+mod broken;
 mod document;
 mod dump;
-mod expressions;
-mod formula;
-mod functions;
-mod guesses;
 mod items;
-mod joints;
 mod layout;
-mod leaf;
-mod literals;
-mod loops;
-mod lower;
+mod methods;
 mod names;
-mod numeric;
-mod places;
-mod range;
-mod report;
-mod results;
-mod skeleton;
-mod text;
-mod unchecked;
-mod values;
+mod print;
 
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use crate::mechanics::loops::structure::Structure;
@@ -41,12 +27,11 @@ use crate::model::types::Model;
 use crate::optimize::program::{Compiled, Function, FunctionKind};
 
 use self::layout::Layout;
-use proc_macro2::{Ident, TokenStream};
 
-pub use self::functions::name as function_name;
-pub use self::report::report;
-pub use self::skeleton::skeleton;
-pub use self::text::source;
+pub use self::broken::skeleton::skeleton;
+pub use self::document::report::report;
+pub use self::methods::functions::name as function_name;
+pub use self::print::text::source;
 
 /// What every generated item is printed from.
 struct Context<'a> {
@@ -77,7 +62,7 @@ pub fn emit(model: &Model, structure: &Structure, compiled: &Compiled) -> TokenS
 /// the wrong places.
 pub fn misfit(model: &Model, structure: &Structure, compiled: &Compiled) -> Option<FunctionKind> {
     let layout = Layout::new(model, structure);
-    let fits = |function: &&Function| function.program.results.len() == results::count(&layout, function.kind);
+    let fits = |function: &&Function| function.program.results.len() == methods::results::count(&layout, function.kind);
     compiled.functions.iter().find(|function| !fits(function)).map(|function| function.kind)
 }
 
@@ -97,7 +82,7 @@ fn module(context: &Context<'_>) -> TokenStream {
     let docs = document::attributes(&if context.hollow {
         vec!["Stands in for a model that has errors.".to_string()]
     } else {
-        report::lines(context)
+        document::report::lines(context)
     });
     let items = items::all(context);
     quote! {

@@ -7,18 +7,19 @@ use std::collections::BTreeSet;
 use proc_macro2::Span;
 use syn::Path;
 
+use crate::syntax::tree::{self, ItemKind};
+
 use super::checker::{Checker, ScopeId, Subject, Task};
 use super::docs;
 use super::expand::root;
-use super::loops::Driven;
-use super::requests::Requested;
-use super::solves::Solved;
+use super::items::loops::Driven;
+use super::items::requests::Requested;
+use super::items::solves::Solved;
 use super::topology::Topology;
 use super::types::{
     Body, Constraint, Coordinate, Drive, Expr, Force, Handling, Input, Joint, Kinematics, Model, Output, Param,
     Request, Solve, State, Type,
 };
-use crate::syntax::tree::{self, ItemKind};
 
 /// What the items have given so far; `None` for those with mistakes.
 #[derive(Default)]

@@ -8,8 +8,10 @@ use std::rc::Rc;
 
 use proc_macro2::{Ident, Span};
 
-use super::coordinates::Coordinates;
-use super::evaluate::Evaluator;
+use crate::syntax::tree;
+
+use super::checks::evaluate::Evaluator;
+use super::items::coordinates::Coordinates;
 use super::names::Shape;
 use super::report::Report;
 use super::typed::{FrameValue, Typed};
@@ -17,7 +19,6 @@ use super::types::{
     BodyId, ConstraintId, Docs, ForceId, InputId, Instance, InstanceId, JointId, ParamId, PartType, Place, StateId,
     Type,
 };
-use crate::syntax::tree;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ScopeId(pub(super) usize);

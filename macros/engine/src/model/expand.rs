@@ -9,20 +9,21 @@ use std::rc::Rc;
 use proc_macro2::Ident;
 use syn::Expr;
 
+use crate::rust_keywords::is_keyword;
+use crate::syntax::tree::{self, ItemKind};
+
 use super::checker::{
     Checker, Context, InputSlot, JointSlot, Lazy, Meaning, Named, NamedId, ParamSlot, Role, Scope, ScopeId, Slot,
     Subject, Symbol, Task,
 };
-use super::coordinates::Coordinates;
 use super::docs;
-use super::fields::field;
+use super::items::coordinates::Coordinates;
+use super::items::fields::field;
 use super::names::{self, Shape};
 use super::typed::{FrameValue, Uses};
 use super::types::{
     BodyId, BodyRef, ConstraintId, ForceId, Frame, InputId, Instance, InstanceId, JointId, ParamId, Place, StateId,
 };
-use crate::rust_keywords::is_keyword;
-use crate::syntax::tree::{self, ItemKind};
 
 /// Bound on the items of one model once its parts are expanded.
 pub(super) const MAX_ITEMS: usize = 10_000;
@@ -74,7 +75,7 @@ impl<'a> Checker<'a, '_> {
             part_type: None,
             docs: docs::docs(&module.attrs),
         });
-        match super::coordinates::of_formulation(module) {
+        match super::items::coordinates::of_formulation(module) {
             Some(said) => self.coordinates = said,
             // What hangs on what is not known then.
             None => self.lost = true,

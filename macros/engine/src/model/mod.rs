@@ -2,40 +2,23 @@
 //!
 //! In: all modules of one `multibody!` call. Out: one [`types::Model`] per module without ports. Modules with ports are
 //! parts; they are expanded where they are used, and a part that nobody uses is checked by itself. All mistakes are
-//! reported in one go. Of a model with a mistake an outline is left (`outline`, `supposed`), from which emission makes
-//! what stands beside the error.
+//! reported in one go. Of a model with a mistake an outline is left (`broken`), from which emission makes what stands beside
+//! the error.
 
 mod arborescence;
 mod assemble;
-mod bodies;
+mod broken;
 mod checker;
-mod configuration;
-mod coordinates;
+pub(crate) mod checks;
 mod docs;
-pub(crate) mod evaluate;
 mod expand;
 mod expressions;
-mod fields;
-mod forces;
-mod inertia;
-mod joints;
-mod loops;
-mod mass_matrix;
-mod massless;
-mod matrix3;
+mod items;
 mod names;
-mod outline;
-mod parts;
 mod report;
-mod requests;
-mod solves;
-mod spatial;
-mod supposed;
 mod topology;
 mod typed;
 pub mod types;
-mod values;
-mod world;
 
 use std::collections::{BTreeMap, BTreeSet};
 

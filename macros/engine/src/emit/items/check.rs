@@ -5,19 +5,23 @@
 //! the default position. A body whose inertia no body can have at the declared values already carries
 //! `#[allow(unphysical_inertia)]`, since the checker refuses it otherwise; its inertia is not checked here.
 
+mod lower;
+mod numeric;
+
+use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::emit::blocks::{body, each_leaf};
-use crate::emit::expressions::Names;
 use crate::emit::items::system;
 use crate::emit::layout::Layout;
-use crate::emit::places::RESERVED;
-use crate::emit::{Context, functions, literals, lower, names, numeric, range};
+use crate::emit::layout::places::RESERVED;
+use crate::emit::methods::functions;
+use crate::emit::print::blocks::{body, each_leaf};
+use crate::emit::print::expressions::Names;
+use crate::emit::print::{literals, range};
+use crate::emit::{Context, names};
 use crate::mechanics::loops::constraints::unfit;
 use crate::model::types::{Body, ConstraintKind, Expr, ForceKind, Model, ParamId};
 use crate::optimize::program::{Condition, Expression, FunctionKind, Symbol};
-
-use proc_macro2::TokenStream;
 
 /// Expands to `impl<T: Real> Params<T> { pub fn check(&self) -> Result<(), ParamError> { .. } }`.
 pub(super) fn item(context: &Context<'_>) -> TokenStream {

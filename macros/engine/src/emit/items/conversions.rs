@@ -4,9 +4,10 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
+use crate::emit::layout::places::RESERVED;
 use crate::emit::layout::{Group, Layout};
-use crate::emit::places::RESERVED;
-use crate::emit::{Context, names, results};
+use crate::emit::methods::results;
+use crate::emit::{Context, names};
 use crate::model::types::{InstanceId, Place};
 
 /// Expands to the conversions; a model without coordinates has none.

@@ -4,10 +4,12 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::structs::compares_by_hand;
-use crate::emit::layout::{Entry, Field, FieldKind, Group, Layout};
-use crate::emit::{Context, leaf, literals};
+use crate::emit::Context;
+use crate::emit::layout::{Entry, Field, FieldKind, Group, Layout, leaf};
+use crate::emit::print::literals;
 use crate::model::types::{InstanceId, PartTypeId};
+
+use super::structs::compares_by_hand;
 
 /// Expands to the impls for the model's structs.
 pub(super) fn items(context: &Context<'_>) -> TokenStream {

@@ -4,12 +4,14 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::space;
-use crate::emit::arguments::input_type;
 use crate::emit::layout::{FieldKind, Group, Layout};
-use crate::emit::{Context, names, results};
+use crate::emit::methods::arguments::input_type;
+use crate::emit::methods::results;
+use crate::emit::{Context, names};
 use crate::model::types::{InstanceId, PartTypeId};
 use crate::optimize::program::FunctionKind;
+
+use super::space;
 
 /// Expands to `impl<T: Real> Differentiable for Model<T> { .. }` where forward dynamics and its derivatives have been
 /// derived.

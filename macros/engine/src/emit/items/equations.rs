@@ -4,7 +4,8 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use crate::emit::{Context, loops};
+use crate::emit::Context;
+use crate::emit::document::loops;
 use crate::optimize::program::FunctionKind;
 
 /// Expands to `pub const COORDINATES: &[&str] = &["shoulder", "elbow"];` and, where loops are held by equations, to the

@@ -3,8 +3,9 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::emit::arguments::input_type;
-use crate::emit::{Context, document, functions, names, results};
+use crate::emit::methods::arguments::input_type;
+use crate::emit::methods::{functions, results};
+use crate::emit::{Context, document, names};
 use crate::optimize::program::FunctionKind;
 
 /// Expands to the impls where the functions have been derived, and to `Model::velocity` where `Model::impulse` is the same.

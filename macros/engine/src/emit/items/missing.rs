@@ -7,9 +7,10 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::emit::arguments::Arguments;
 use crate::emit::layout::Group;
-use crate::emit::{Context, document, functions, names};
+use crate::emit::methods::arguments::Arguments;
+use crate::emit::methods::functions;
+use crate::emit::{Context, document, names};
 use crate::optimize::program::FunctionKind;
 
 /// Functions with the words of `emit`, and the traits of the runtime's `emitted` that speak of them.

@@ -3,12 +3,13 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::emit::blocks::{body, each_leaf_of};
-use crate::emit::expressions::Names;
 use crate::emit::layout::Group;
-use crate::emit::leaf::initialiser;
-use crate::emit::places::RESERVED;
-use crate::emit::{Context, document, functions, names};
+use crate::emit::layout::leaf::initialiser;
+use crate::emit::layout::places::RESERVED;
+use crate::emit::methods::functions;
+use crate::emit::print::blocks::{body, each_leaf_of};
+use crate::emit::print::expressions::Names;
+use crate::emit::{Context, document, names};
 use crate::optimize::program::{Expression, FunctionKind};
 
 /// Expands to `pub struct Model<T = f64> { .. }`, `impl<T: Real> Model<T> { .. }` and `Default`.

@@ -5,8 +5,9 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::emit::places::Root;
-use crate::emit::{Context, functions};
+use crate::emit::Context;
+use crate::emit::layout::places::Root;
+use crate::emit::methods::functions;
 use crate::optimize::program::FunctionKind;
 
 /// Expands to `impl<T: Real> Separable for Model<T> {}` where it holds.

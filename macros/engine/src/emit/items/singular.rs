@@ -3,11 +3,13 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::emit::arguments::{Arguments, input_type};
-use crate::emit::blocks::body;
-use crate::emit::expressions::Names;
-use crate::emit::places::RESERVED;
-use crate::emit::{Context, functions, leaf, names, results};
+use crate::emit::layout::leaf;
+use crate::emit::layout::places::RESERVED;
+use crate::emit::methods::arguments::{Arguments, input_type};
+use crate::emit::methods::{functions, results};
+use crate::emit::print::blocks::body;
+use crate::emit::print::expressions::Names;
+use crate::emit::{Context, names};
 use crate::optimize::program::{FunctionKind, Inertia, Program};
 
 /// Expands to `fn ambiguity(..) -> T`, which tells where rounding would decide which of two motions goes on. For models

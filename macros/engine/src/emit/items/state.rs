@@ -4,10 +4,12 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::structs::compares_by_hand;
 use crate::emit::layout::Group;
-use crate::emit::{Context, document, names, results};
+use crate::emit::methods::results;
+use crate::emit::{Context, document, names};
 use crate::optimize::program::FunctionKind;
+
+use super::structs::compares_by_hand;
 
 /// Expands to `pub struct State<T = f64> { pub q: Position<T>, pub v: Velocity<T> }` and its impls, and to the others.
 pub(super) fn items(context: &Context<'_>) -> TokenStream {

@@ -1,19 +1,18 @@
 //! Stage `emit`: `System`, by which integrators run the model.
 
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
-use crate::emit::arguments::{Arguments, input_type};
-use crate::emit::blocks::groups_argument;
 use crate::emit::items::singular;
 use crate::emit::layout::Layout;
-use crate::emit::{Context, functions, literals, names, results};
-use crate::mechanics::loops::constraints::is_length;
-use crate::mechanics::loops::constraints::row_name;
-use crate::mechanics::loops::structure::Means;
-use crate::mechanics::loops::structure::Row;
+use crate::emit::methods::arguments::{Arguments, input_type};
+use crate::emit::methods::{functions, results};
+use crate::emit::print::blocks::groups_argument;
+use crate::emit::print::literals;
+use crate::emit::{Context, names};
+use crate::mechanics::loops::constraints::{is_length, row_name};
+use crate::mechanics::loops::structure::{Means, Row};
 use crate::optimize::program::FunctionKind;
-
-use proc_macro2::{Ident, Literal, TokenStream};
 
 /// Expands to `impl<T: Real> System for Model<T> { .. }` where forward dynamics has been derived.
 pub(super) fn item(context: &Context<'_>) -> TokenStream {

@@ -3,8 +3,9 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use crate::emit::arguments::{Arguments, input_type};
-use crate::emit::{Context, functions, names};
+use crate::emit::methods::arguments::{Arguments, input_type};
+use crate::emit::methods::functions;
+use crate::emit::{Context, names};
 use crate::optimize::program::{Function, FunctionKind};
 
 /// Expands to `impl<T: Real> Verifiable<2> for Model<T> { .. }` where the functions that it compares have been derived.

@@ -8,7 +8,7 @@ use syn::spanned::Spanned;
 use syn::{Expr, ExprMethodCall};
 
 use crate::model::checker::{Checker, Context, Meaning};
-use crate::model::evaluate::{cross, dot};
+use crate::model::checks::evaluate::{cross, dot};
 use crate::model::typed::{Allowed, Class, FrameValue, Typed, type_text};
 use crate::model::types::{BodyRef, Expr as Checked, ExprNode, FrameStep, Type};
 

@@ -6,15 +6,14 @@
 use std::collections::HashMap;
 
 use crate::mechanics::analysis::driven_by;
-use crate::model::evaluate::{Evaluator, Value};
+use crate::model::checks::evaluate::{Evaluator, Value};
 use crate::model::types::{
     BodyId, BodyRef, Closing, ConstraintKind, Coordinate, DriveTarget, Expr, ForceKind, Frame, FrameStep, JointId,
     JointKind, Model, ParamId, SolveHow, Type,
 };
 use crate::symbolic::fingerprint::mix;
 
-use super::Forest;
-use super::Loop;
+use super::{Forest, Loop};
 
 pub(super) struct Shapes<'m> {
     model: &'m Model,

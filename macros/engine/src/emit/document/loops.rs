@@ -1,0 +1,216 @@
+//! Stage `emit`: closed loops in words: names of coordinates and equations, the picture of the constraint Jacobian, and
+//! what the report says of them.
+//!
+//! In: the layout with the model's structure, and the program of the Jacobian. Out: lines of text.
+
+use crate::emit::layout::leaf::Leaf;
+use crate::emit::layout::{Group, Layout};
+use crate::emit::{Context, document};
+use crate::mechanics::loops::constraints::row_name;
+use crate::mechanics::loops::structure::{Means, Row, Step};
+use crate::model::types::{Closing, ConstraintId, ConstraintKind, Coordinate, DriveTarget, JointId, Place, SolveHow};
+use crate::optimize::program::{Expression, FunctionKind};
+
+use super::formula;
+use super::report::Row as Line;
+use super::report::{frame, general, row, section, text};
+
+impl Layout<'_> {
+    /// Names of the components of a velocity, in order: `legs[0].gimbal.first`.
+    pub(in crate::emit) fn coordinates(&self) -> Vec<String> {
+        let entries = self.table(Group::Velocity).entries.iter();
+        let names = entries.flat_map(|entry| {
+            let place = Place { instance: entry.instance, field: entry.field.clone() };
+            let name = self.name(&place);
+            (0..entry.leaf.size()).map(move |component| format!("{name}{}", access(&entry.leaf, component)))
+        });
+        names.collect()
+    }
+
+    /// Name of any coordinate of a joint in the tree.
+    pub(in crate::emit) fn coordinate(&self, coordinate: Coordinate) -> String {
+        let Some(joint) = self.model.joints.get(coordinate.joint.0) else {
+            return String::new();
+        };
+        let leaf = Leaf::velocity(&joint.kind);
+        let access = leaf.map_or_else(String::new, |leaf| access(&leaf, coordinate.index));
+        format!("{}{access}", self.name(&joint.place))
+    }
+
+    /// Name of a constraint equation.
+    pub(in crate::emit) fn row(&self, row: Row) -> String {
+        row_name(self.model, row.closing, row.index)
+    }
+}
+
+/// `.first`, `.position.x`
+fn access(leaf: &Leaf, component: usize) -> String {
+    leaf.access(component).to_string().split_whitespace().collect()
+}
+
+/// The Jacobian, row by row: `x` where an entry is not always zero, `.` where it is. Nothing where it was not derived.
+pub(in crate::emit) fn picture(context: &Context<'_>) -> Option<Vec<String>> {
+    let jacobian = context.function(FunctionKind::ConstraintJacobian)?;
+    let dof = context.layout.dof().max(1);
+    let rows = jacobian
+        .program
+        .results
+        .chunks(dof)
+        .map(|row| row.iter().map(|entry| if is_zero(entry) { '.' } else { 'x' }).collect());
+    Some(rows.collect())
+}
+
+fn is_zero(entry: &Expression) -> bool {
+    match entry {
+        Expression::Literal(value) => *value == 0.0,
+        Expression::Neg(inner) => is_zero(inner),
+        _ => false,
+    }
+}
+
+/// The report's section; nothing for a model without loops and drives.
+pub(super) fn section_lines(context: &Context<'_>) -> Vec<String> {
+    let layout = &context.layout;
+    let (model, structure) = (layout.model, layout.structure);
+    let mut items = Vec::new();
+    items.extend(structure.steps.iter().map(|step| dependents(layout, step)));
+    items.extend(model.drives.iter().map(|drive| {
+        let target = match drive.target {
+            DriveTarget::Coordinate(coordinate) => layout.coordinate(coordinate),
+            DriveTarget::Position(joint) => format!("{}.position", joint_name(layout, joint)),
+            DriveTarget::Orientation(joint) => format!("{}.orientation", joint_name(layout, joint)),
+            DriveTarget::Pose(joint) => joint_name(layout, joint),
+        };
+        format!("{} is driven: {}", quoted(&target), quoted(&formula::text(layout, &drive.value)))
+    }));
+    let dropped = structure.dropped.iter().map(|row| quoted(&general(&layout.row(*row))));
+    items.extend(listed(dropped).map(|names| format!("left out, since they follow from the other equations: {names}")));
+    let assumed = model.assumptions.iter();
+    items.extend(assumed.map(|condition| format!("assumed: {}", quoted(&formula::text(layout, condition)))));
+    items.extend(structure.notes.iter().chain(&model.skipped).cloned());
+    let mut unique: Vec<String> = Vec::new();
+    for item in items {
+        let line = format!("- {}", item.replace('\n', " "));
+        if !unique.contains(&line) {
+            unique.push(line);
+        }
+    }
+    let mut lines = Vec::new();
+    let closings = closings(layout);
+    if closings.is_empty() && unique.is_empty() {
+        return lines;
+    }
+    section(&mut lines, "Loops", &["closed by", "kind", "between", "and", "equations", ""], closings.into_iter());
+    if lines.is_empty() {
+        lines.extend(["", "## Loops"].map(String::from));
+    }
+    let (coordinates, rows) = (structure.freedoms(), layout.rows());
+    lines.extend([
+        String::new(),
+        format!("{coordinates} velocity coordinates + {rows} constraint equations = {} equations.", coordinates + rows),
+    ]);
+    if !unique.is_empty() {
+        lines.push(String::new());
+        lines.extend(unique);
+    }
+    if let Some(picture) = picture(context).filter(|_| rows > 0) {
+        lines.extend(
+            ["", "The Jacobian of the equations, `.` where an entry is always zero:", "", "```text"].map(String::from),
+        );
+        let named = structure.rows.iter().zip(picture);
+        lines.extend(named.map(|(row, entries)| format!("{entries}  {}", layout.row(*row))));
+        lines.push("```".to_string());
+    }
+    lines
+}
+
+/// A row for each closing joint and constraint.
+fn closings(layout: &Layout<'_>) -> Vec<Line> {
+    let (model, structure) = (layout.model, layout.structure);
+    let count = |closing: Closing| {
+        let kept = structure.rows.iter().filter(|row| row.closing == closing).count();
+        let solved = structure.steps.iter().map(|step| match &step.means {
+            Means::Newton { rows, .. } => rows.iter().filter(|row| row.closing == closing).count(),
+            Means::Linear(constraint) => usize::from(closing == Closing::Constraint(*constraint)),
+            Means::Solve(_) => 0,
+        });
+        let solved: usize = solved.sum();
+        match (kept, solved) {
+            (0, 0) => "solved".to_string(),
+            (0, solved) => format!("{solved}, solved"),
+            (kept, 0) => kept.to_string(),
+            (kept, solved) => format!("{kept}, and {solved} solved"),
+        }
+    };
+    let cuts = model.cuts.iter().filter_map(|id| {
+        let joint = model.joints.get(id.0)?;
+        let (parent, child) = (frame(layout, &joint.parent), frame(layout, &joint.child));
+        let kind = document::kind(&joint.kind).to_string();
+        let cells = vec![kind, parent, child, count(Closing::Cut(*id)), text(&joint.docs)];
+        Some(row(layout, &joint.place, cells))
+    });
+    let constraints = model.constraints.iter().enumerate().map(|(number, constraint)| {
+        let (kind, parent, child) = match &constraint.kind {
+            ConstraintKind::Value(_) if constraint.drive.is_some() => ("drive", String::new(), String::new()),
+            ConstraintKind::Value(_) => ("expression", String::new(), String::new()),
+            ConstraintKind::Rod { between, .. } => {
+                let [a, b] = &**between;
+                ("rod", frame(layout, a), frame(layout, b))
+            }
+        };
+        let count = count(Closing::Constraint(ConstraintId(number)));
+        row(layout, &constraint.place, vec![kind.to_string(), parent, child, count, text(&constraint.docs)])
+    });
+    cuts.chain(constraints).collect()
+}
+
+/// What a step finds, and how.
+fn dependents(layout: &Layout<'_>, step: &Step) -> String {
+    let model = layout.model;
+    let unknowns = step.unknowns.iter().map(|unknown| quoted(&general(&layout.coordinate(*unknown))));
+    let unknowns = listed(unknowns).unwrap_or_default();
+    let closing = |closing: Closing| {
+        let place = match closing {
+            Closing::Cut(joint) => model.joints.get(joint.0).map(|joint| &joint.place),
+            Closing::Constraint(id) => model.constraints.get(id.0).map(|constraint| &constraint.place),
+        };
+        place.map_or_else(String::new, |place| quoted(&general(&layout.name(place))))
+    };
+    match &step.means {
+        Means::Linear(constraint) => {
+            format!("{unknowns}: linear in the others, by {}", closing(Closing::Constraint(*constraint)))
+        }
+        Means::Solve(number) => match model.solves.get(*number).map(|solve| &solve.how) {
+            Some(SolveHow::From { closing: from, branches }) => {
+                let branches = branches.iter().map(|branch| quoted(&formula::text(layout, branch)));
+                let branches = listed(branches).map_or_else(String::new, |branches| format!(", where {branches}"));
+                format!("{unknowns}: in closed form from {}{branches}", closing(*from))
+            }
+            _ => format!("{unknowns}: by the declared formulas"),
+        },
+        Means::Newton { rows, .. } => {
+            let rows = rows.iter().map(|row| quoted(&general(&layout.row(*row))));
+            format!("{unknowns}: by Newton's method on {}", listed(rows).unwrap_or_default())
+        }
+    }
+}
+
+fn joint_name(layout: &Layout<'_>, joint: JointId) -> String {
+    let joint = layout.model.joints.get(joint.0);
+    joint.map_or_else(String::new, |joint| layout.name(&joint.place))
+}
+
+fn quoted(text: &str) -> String {
+    format!("`{}`", document::code(text))
+}
+
+/// Each once, with commas between; nothing for none.
+fn listed(items: impl Iterator<Item = String>) -> Option<String> {
+    let mut unique: Vec<String> = Vec::new();
+    for item in items {
+        if !unique.contains(&item) {
+            unique.push(item);
+        }
+    }
+    (!unique.is_empty()).then(|| unique.join(", "))
+}

@@ -1,0 +1,44 @@
+//! Stage `emit`: what could not be checked in numbers, in the module's documentation.
+//!
+//! In: what stage `verify` has left open. Out: lines of Markdown, none where everything was checked.
+
+use crate::emit::Context;
+use crate::emit::methods::functions;
+use crate::optimize::program::{Doubt, Part, Unchecked};
+
+pub(in crate::emit) fn lines(context: &Context<'_>) -> Vec<String> {
+    let list = &context.compiled.unchecked;
+    if list.is_empty() {
+        return Vec::new();
+    }
+    let mut lines: Vec<String> = ["", "## Not checked in numbers", ""].map(String::from).into();
+    lines.push(
+        "Every function is compared with its derived equations in numbers, and with other functions, before it is \
+         written. Of these no state was found at which that says something, or none with parameters beside their \
+         defaults:"
+            .to_string(),
+    );
+    lines.push(String::new());
+    lines.extend(list.iter().map(item));
+    lines
+}
+
+fn item(unchecked: &Unchecked) -> String {
+    let what = match unchecked.part {
+        Part::Function(kind) => format!("`{}`", functions::name(kind)),
+        Part::Checks => "`Params::check`".to_string(),
+        Part::Inertia => "`System::without_inertia`".to_string(),
+        Part::Law(between) => between.to_string(),
+    };
+    format!("- {what}: {}", reason(unchecked.doubt))
+}
+
+fn reason(doubt: Doubt) -> &'static str {
+    match doubt {
+        Doubt::NotFinite => "some value is not finite",
+        Doubt::Comparison => "numbers that are compared are equal but for rounding",
+        Doubt::Rank => "the rank of a system of equations is less than its size, or hangs on rounding",
+        Doubt::Rounding => "rounding leaves too few digits",
+        Doubt::Open => "no configuration was found in which the loops are closed",
+    }
+}

@@ -1,0 +1,123 @@
+//! Stage `emit`: symbols of programs as paths into the generated structs.
+//!
+//! In: the layout. Out: for a symbol the tokens `q.legs[2].gimbal.first`, `params.feet[3].x`, `input.u`, `t`.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use crate::emit::names;
+use crate::optimize::program::Symbol;
+
+use super::{Entry, Group, Layout};
+
+/// The variable that a symbol's path starts with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(in crate::emit) enum Root {
+    Time,
+    Params,
+    Position,
+    Velocity,
+    States,
+    Guess,
+    Input,
+    Acceleration,
+    Multipliers,
+    Impulse,
+    Rates,
+    Momentum,
+}
+
+impl Root {
+    /// Nothing for what a program defines itself.
+    pub(in crate::emit) fn of(symbol: Symbol) -> Option<Root> {
+        Some(match symbol {
+            Symbol::Time => Root::Time,
+            Symbol::Param { .. } => Root::Params,
+            Symbol::Input { .. } => Root::Input,
+            Symbol::State { .. } => Root::States,
+            Symbol::Position { .. } => Root::Position,
+            Symbol::Velocity { .. } => Root::Velocity,
+            Symbol::Acceleration { .. } => Root::Acceleration,
+            Symbol::Multiplier { .. } => Root::Multipliers,
+            Symbol::Impulse { .. } => Root::Impulse,
+            Symbol::Rate { .. } => Root::Rates,
+            Symbol::Momentum { .. } => Root::Momentum,
+            Symbol::Guess { .. } => Root::Guess,
+            Symbol::Unknown { .. } => return None,
+        })
+    }
+
+    pub(in crate::emit) fn name(self) -> &'static str {
+        match self {
+            Root::Time => "t",
+            Root::Params => "params",
+            Root::Position => "q",
+            Root::Velocity => "v",
+            Root::States => "x",
+            Root::Guess => "guess",
+            Root::Input => "input",
+            Root::Acceleration => "accel",
+            Root::Multipliers => "multipliers",
+            Root::Impulse => "impulse",
+            Root::Rates => "rates",
+            Root::Momentum => "momentum",
+        }
+    }
+}
+
+/// Names that locals of programs can't have.
+pub(in crate::emit) const RESERVED: &[&str] = &[
+    "t",
+    "params",
+    "q",
+    "v",
+    "x",
+    "guess",
+    "input",
+    "accel",
+    "multipliers",
+    "impulse",
+    "rates",
+    "momentum",
+    "state",
+    "solved",
+    "scalar",
+];
+
+impl Layout<'_> {
+    /// Expands to the path of `symbol`.
+    pub(in crate::emit) fn symbol(&self, symbol: Symbol) -> TokenStream {
+        let root = Root::of(symbol).map(|root| names::ident(root.name()));
+        let path = self.path_of(symbol);
+        quote!(#root #path)
+    }
+
+    /// Expands to the path behind its variable: `.legs[2].force`.
+    pub(in crate::emit) fn path_of(&self, symbol: Symbol) -> TokenStream {
+        let place = match symbol {
+            Symbol::Time | Symbol::Unknown { .. } => None,
+            Symbol::Multiplier { row: index } | Symbol::Rate { row: index } => {
+                let index = Literal::usize_unsuffixed(index);
+                return quote!([#index]);
+            }
+            Symbol::Param { param, element } => self.entry(Group::Params, param.0, element),
+            Symbol::Input { input, element } => self.entry(Group::Input, input.0, element),
+            Symbol::Guess { index } => self.guessed(index),
+            Symbol::State { state } => self.entry(Group::States, state.0, 0),
+            Symbol::Position { joint, component } => self.joint(Group::Position, joint, component),
+            Symbol::Velocity { joint, component }
+            | Symbol::Acceleration { joint, component }
+            | Symbol::Impulse { joint, component }
+            | Symbol::Momentum { joint, component } => self.joint(Group::Velocity, joint, component),
+        };
+        let path = place.map(|(entry, component)| {
+            let (path, access) = (self.leaf_path(entry), entry.leaf.access(component));
+            quote!(#path #access)
+        });
+        path.unwrap_or_default()
+    }
+
+    fn entry(&self, group: Group, index: usize, component: usize) -> Option<(&Entry, usize)> {
+        Some((self.table(group).entries.get(index)?, component))
+    }
+}

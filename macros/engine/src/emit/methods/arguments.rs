@@ -1,0 +1,175 @@
+//! Stage `emit`: what a method of `Model` takes besides `&self`.
+//!
+//! In: a function's kind and the variables that its program reads. Out: the fewest arguments that both allow, declared and
+//! taken apart.
+
+use std::collections::BTreeSet;
+
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use crate::emit::layout::places::Root;
+use crate::emit::layout::{Group, Layout};
+use crate::emit::names;
+use crate::optimize::program::FunctionKind;
+
+use super::results::vector_type;
+
+/// Arguments in the order in which they stand.
+#[derive(Clone, Copy, PartialEq, Eq, Default)]
+pub(in crate::emit) struct Arguments {
+    time: bool,
+    /// The state, or else only its position.
+    state: bool,
+    input: bool,
+    accel: bool,
+    multipliers: bool,
+    /// With the rates of the constraint equations, if there are any.
+    impulse: bool,
+    momentum: bool,
+}
+
+impl Arguments {
+    /// What the function's meaning demands.
+    pub(in crate::emit) fn least(kind: FunctionKind) -> Arguments {
+        let position = Arguments::default();
+        let state = Arguments { state: true, ..position };
+        let all = Arguments { time: true, input: true, ..state };
+        match kind {
+            FunctionKind::MassMatrix | FunctionKind::PotentialEnergy => position,
+            FunctionKind::KineticEnergy | FunctionKind::Momentum => state,
+            FunctionKind::ForwardDynamics
+            | FunctionKind::ForwardDerivatives
+            | FunctionKind::Bias
+            | FunctionKind::Outputs
+            | FunctionKind::MomentumRate => all,
+            FunctionKind::Impulse => Arguments { impulse: true, ..position },
+            FunctionKind::MomentumVelocity => Arguments { momentum: true, ..position },
+            FunctionKind::InverseDynamics | FunctionKind::InverseDerivatives => Arguments { accel: true, ..all },
+            FunctionKind::Constraints
+            | FunctionKind::ConstraintJacobian
+            | FunctionKind::DeadCentres
+            | FunctionKind::Granted => Arguments { time: true, ..position },
+            FunctionKind::ConstraintRate
+            | FunctionKind::ConstraintBias
+            | FunctionKind::Guess
+            | FunctionKind::Margins => Arguments { time: true, ..state },
+            FunctionKind::Kinematics(_) => Arguments { time: true, accel: true, ..state },
+            FunctionKind::Residual => Arguments { accel: true, multipliers: true, ..all },
+        }
+    }
+
+    /// The fewest that the function's meaning and its program allow: a spring may stiffen with time, an input shift it.
+    pub(in crate::emit) fn of(kind: FunctionKind, roots: &BTreeSet<Root>) -> Arguments {
+        let mut needed = Arguments::least(kind);
+        for root in roots {
+            match root {
+                Root::Params | Root::Position | Root::Impulse | Root::Rates | Root::Momentum => {}
+                Root::Velocity | Root::States | Root::Guess => needed.state = true,
+                Root::Time if needed.time => {}
+                Root::Time if needed.impulse => needed.time = true,
+                Root::Acceleration if needed.accel => {}
+                Root::Multipliers => needed.multipliers = true,
+                Root::Time | Root::Input | Root::Acceleration => {
+                    needed = Arguments { time: true, state: true, input: true, ..needed };
+                    needed.accel |= *root == Root::Acceleration;
+                }
+            }
+        }
+        needed
+    }
+
+    /// Expands to `t: T, state: &State<T>, input: &Input<T>`; names of what isn't read start with `_`.
+    pub(in crate::emit) fn declare(self, layout: &Layout<'_>, roots: &BTreeSet<Root>) -> TokenStream {
+        self.declared(layout, roots, None)
+    }
+
+    /// The same, none of it read, with `A` for the type of the state or position: of a method that can't be called.
+    pub(in crate::emit) fn refused(self, layout: &Layout<'_>) -> TokenStream {
+        self.declared(layout, &BTreeSet::new(), Some(quote!(A)))
+    }
+
+    fn declared(self, layout: &Layout<'_>, roots: &BTreeSet<Root>, refused: Option<TokenStream>) -> TokenStream {
+        let named = |read: bool, name: &str| names::ident(&format!("{}{name}", if read { "" } else { "_" }));
+        let krate = layout.krate();
+        let mut list = Vec::new();
+        if self.time {
+            let t = named(roots.contains(&Root::Time), "t");
+            list.push(quote!(#t: T));
+        }
+        if self.state {
+            let state = named(OF_STATE.iter().any(|root| roots.contains(root)), "state");
+            let ty = refused.unwrap_or_else(|| quote!(State<T>));
+            list.push(quote!(#state: &#ty));
+        } else {
+            let q = named(roots.contains(&Root::Position), "q");
+            let ty = refused.unwrap_or_else(|| quote!(Position<T>));
+            list.push(quote!(#q: &#ty));
+        }
+        if self.input {
+            let (input, ty) = (named(roots.contains(&Root::Input), "input"), input_type(layout));
+            list.push(quote!(#input: &#ty));
+        }
+        if self.accel {
+            let accel = named(roots.contains(&Root::Acceleration), "accel");
+            list.push(quote!(#accel: &Velocity<T>));
+        }
+        if self.multipliers {
+            let multipliers = named(roots.contains(&Root::Multipliers), "multipliers");
+            let count = Literal::usize_unsuffixed(layout.structure.rows.len());
+            list.push(quote!(#multipliers: &#krate::nalgebra::SVector<T, #count>));
+        }
+        if self.impulse {
+            let impulse = named(roots.contains(&Root::Impulse), "impulse");
+            list.push(quote!(#impulse: &Velocity<T>));
+            if layout.rows() > 0 {
+                let rates = named(roots.contains(&Root::Rates), "rates");
+                let ty = vector_type(layout, layout.rows());
+                list.push(quote!(#rates: &#ty));
+            }
+        }
+        if self.momentum {
+            let momentum = named(roots.contains(&Root::Momentum), "momentum");
+            list.push(quote!(#momentum: &Velocity<T>));
+        }
+        quote!(#(#list),*)
+    }
+
+    /// Expands to `let q = &state.q;` for the parts of the state that are read.
+    pub(in crate::emit) fn open(self, roots: &BTreeSet<Root>) -> TokenStream {
+        if !self.state {
+            return TokenStream::new();
+        }
+        let state = names::ident("state");
+        let parts = OF_STATE.iter().filter(|root| roots.contains(root));
+        let parts = parts.map(|root| names::ident(root.name()));
+        quote!(#(let #parts = &#state.#parts;)*)
+    }
+
+    /// Expands to the arguments of a call from where all of `t`, `state` and `input` are known.
+    pub(in crate::emit) fn pass(self) -> TokenStream {
+        let [t, state, input] = ["t", "state", "input"].map(names::ident);
+        let (t, input) = (self.time.then(|| quote!(#t,)), self.input.then(|| quote!(, #input)));
+        quote!(#t #state #input)
+    }
+
+    pub(in crate::emit) fn has_time(self) -> bool {
+        self.time
+    }
+
+    /// Whether it takes the state, and not its position alone.
+    pub(in crate::emit) fn has_state(self) -> bool {
+        self.state
+    }
+
+    pub(in crate::emit) fn has_input(self) -> bool {
+        self.input
+    }
+}
+
+const OF_STATE: [Root; 4] = [Root::Position, Root::Velocity, Root::States, Root::Guess];
+
+/// Expands to `Input<T>` or `()`.
+pub(in crate::emit) fn input_type(layout: &Layout<'_>) -> TokenStream {
+    if layout.is_empty(Group::Input, None) { quote!(()) } else { quote!(Input<T>) }
+}

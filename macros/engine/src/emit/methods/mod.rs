@@ -1,0 +1,5 @@
+//! Room `methods`: the methods of `Model`: what they take, their bodies, what they give back.
+
+pub(super) mod arguments;
+pub(super) mod functions;
+pub(super) mod results;

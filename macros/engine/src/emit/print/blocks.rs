@@ -1,0 +1,340 @@
+//! Stage `emit`: statements, grouped into blocks (law 11).
+//!
+//! In: a program. Out: `let` statements. Every `let` opens a debug scope, and some thousands in a row overflow rustc's
+//! stack; more than [`MOST`] are therefore grouped into blocks that return their live values as a tuple,
+//! `let (a, b) = { ..; (a, b) };`, and very many into blocks of blocks. Values that nothing reads are left out.
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::quote;
+
+use crate::emit::layout::leaf;
+use crate::emit::names;
+use crate::optimize::program::{Expression, Local, Program, Statement};
+
+use super::expressions::Names;
+
+/// As many statements may stand in a row.
+const MOST: usize = 256;
+/// As many stand in a block, about.
+const BLOCK: usize = 128;
+
+/// A function's statements and results.
+pub(in crate::emit) struct Body {
+    pub(in crate::emit) statements: TokenStream,
+    /// One per result of the program.
+    pub(in crate::emit) results: Vec<TokenStream>,
+}
+
+/// Expands to a program's statements.
+pub(in crate::emit) fn body(program: &Program, names: &Names<'_>) -> Body {
+    let mut live = live_statements(program);
+    let mut read: Vec<&Expression> = program.results.iter().collect();
+    // `let a = x + y; a` says less than `x + y`.
+    if let (Some((Live { statement: Statement::Let { local, value }, .. }, rest)), [Expression::Local(result)]) =
+        (live.split_last(), &program.results[..])
+        && local == result
+        && rest.len() < MOST
+    {
+        read = vec![value];
+        live.pop();
+    }
+    let results = read.iter().map(|result| names.expression(result)).collect();
+    let statements = Blocks::new(names, &live, &read).all();
+    Body { statements, results }
+}
+
+/// `, &[0, 0, 2]`, the last argument of a function that compares equations in groups; nothing where each stands for itself.
+pub(in crate::emit) fn groups_argument(groups: &[usize]) -> Option<TokenStream> {
+    let numbers = groups.iter().map(|&group| Literal::usize_unsuffixed(group));
+    (!groups.is_empty()).then(|| quote!(, &[#(#numbers),*]))
+}
+
+/// Statements that something reads.
+fn live_statements(program: &Program) -> Vec<Live<'_>> {
+    let mut read = vec![false; program.locals.len()];
+    for result in &program.results {
+        each_local(result, &mut |local| set(&mut read, local, true));
+    }
+    live(&program.statements, &mut read)
+}
+
+/// A statement that something reads, and what lives inside it.
+struct Live<'a> {
+    statement: &'a Statement,
+    body: Vec<Live<'a>>,
+    /// Unknowns of an iteration that are read, by number.
+    unknowns: Vec<usize>,
+    /// Whether its residual is.
+    residual: bool,
+}
+
+/// Those that are read; what they read is marked.
+fn live<'a>(statements: &'a [Statement], read: &mut Vec<bool>) -> Vec<Live<'a>> {
+    let mut found = Vec::new();
+    for statement in statements.iter().rev() {
+        if !statement.defined().iter().any(|&local| get(read, local)) {
+            continue;
+        }
+        let mark = |expression: &Expression, read: &mut Vec<bool>| {
+            each_local(expression, &mut |local| set(read, local, true));
+        };
+        let mut entry = Live { statement, body: Vec::new(), unknowns: Vec::new(), residual: false };
+        if let Statement::Iterate { unknowns, start, body, next, residual, .. } = statement {
+            entry.residual = get(read, residual.0);
+            if entry.residual {
+                mark(&residual.1, read);
+            }
+            // A round reads what the one before has left: again until nothing more is read.
+            loop {
+                let now: Vec<usize> = (0..unknowns.len()).filter(|&k| get(read, unknowns[k])).collect();
+                now.iter().for_each(|&k| mark(&next[k], read));
+                entry.body = live(body, read);
+                let more = (0..unknowns.len()).any(|k| get(read, unknowns[k]) && !now.contains(&k));
+                if !more {
+                    entry.unknowns = now;
+                    break;
+                }
+            }
+            entry.unknowns.iter().for_each(|&k| mark(&start[k], read));
+        } else {
+            statement.expressions().for_each(|expression| mark(expression, read));
+        }
+        found.push(entry);
+    }
+    found.reverse();
+    found
+}
+
+impl Live<'_> {
+    /// What it reads, inside too.
+    fn expressions(&self) -> Vec<&Expression> {
+        match self.statement {
+            Statement::Iterate { start, next, residual, .. } => {
+                let each = self.unknowns.iter().flat_map(|&k| [&start[k], &next[k]]);
+                let residual = self.residual.then_some(&residual.1);
+                each.chain(residual).chain(self.body.iter().flat_map(Live::expressions)).collect()
+            }
+            statement => statement.expressions().collect(),
+        }
+    }
+
+    fn defined(&self) -> Vec<Local> {
+        match self.statement {
+            Statement::Iterate { unknowns, residual, .. } => {
+                let residual = self.residual.then_some(residual.0);
+                self.unknowns.iter().map(|&k| unknowns[k]).chain(residual).collect()
+            }
+            statement => statement.defined(),
+        }
+    }
+}
+
+struct Blocks<'a> {
+    names: &'a Names<'a>,
+    live: &'a [Live<'a>],
+    /// For each local, the number of the last live statement that reads it; what follows them counts as one more.
+    last_use: Vec<Option<usize>>,
+}
+
+impl<'a> Blocks<'a> {
+    /// `after` is what is read behind the statements.
+    fn new(names: &'a Names<'a>, live: &'a [Live<'a>], after: &[&Expression]) -> Self {
+        let mut last_use = vec![None; names.locals.len()];
+        for (number, statement) in live.iter().enumerate() {
+            for expression in statement.expressions() {
+                each_local(expression, &mut |local| set(&mut last_use, local, Some(number)));
+            }
+        }
+        for expression in after {
+            each_local(expression, &mut |local| set(&mut last_use, local, Some(live.len())));
+        }
+        Blocks { names, live, last_use }
+    }
+
+    fn all(&self) -> TokenStream {
+        let mut out = TokenStream::new();
+        self.print(0, self.live.len(), &mut out);
+        out
+    }
+
+    /// Statements `start..end`.
+    fn print(&self, start: usize, end: usize, out: &mut TokenStream) {
+        let count = end - start;
+        if count <= MOST {
+            for live in self.live.iter().skip(start).take(count) {
+                out.extend(self.statement(live));
+            }
+            return;
+        }
+        let mut size = BLOCK;
+        while count > size * BLOCK {
+            size *= BLOCK;
+        }
+        // Parts of equal size, so that the last one is no crumb.
+        let parts = count.div_ceil(size);
+        for part in 0..parts {
+            let (from, to) = (start + part * count / parts, start + (part + 1) * count / parts);
+            let mut inner = TokenStream::new();
+            self.print(from, to, &mut inner);
+            let values: Vec<&Ident> = self.leaving(from, to).collect();
+            out.extend(quote! {
+                let (#(#values,)*) = {
+                    #inner
+                    (#(#values,)*)
+                };
+            });
+        }
+    }
+
+    /// Locals that statements `from..to` define and later ones read.
+    fn leaving(&self, from: usize, to: usize) -> impl Iterator<Item = &Ident> {
+        let inside = self.live.iter().skip(from).take(to - from);
+        inside
+            .flat_map(Live::defined)
+            .filter(move |local| self.last_use(*local).is_some_and(|last| last >= to))
+            .filter_map(|local| self.names.locals.get(local.0))
+    }
+
+    fn last_use(&self, local: Local) -> Option<usize> {
+        self.last_use.get(local.0).copied().flatten()
+    }
+
+    fn name(&self, local: Local) -> TokenStream {
+        match self.names.locals.get(local.0) {
+            Some(name) if self.last_use(local).is_some() => quote!(#name),
+            _ => quote!(_),
+        }
+    }
+
+    /// Expands to `let a = ..;`, `let (sin_a, cos_a) = Real::sin_cos(..);`, a solve or a loop.
+    fn statement(&self, live: &Live<'_>) -> TokenStream {
+        match live.statement {
+            Statement::Let { local, value } => {
+                let (name, value) = (self.name(*local), self.names.expression(value));
+                quote!(let #name = #value;)
+            }
+            Statement::SinCos { sin, cos, angle } => {
+                let (sin, cos, angle) = (self.name(*sin), self.name(*cos), self.names.expression(angle));
+                quote!(let (#sin, #cos) = Real::sin_cos(#angle);)
+            }
+            Statement::Solve { size, symmetric, groups, matrix, rhs, results } => {
+                self.solve(*size, (*symmetric, groups), matrix, rhs, results)
+            }
+            Statement::Iterate { count, unknowns, start, next, residual, .. } => {
+                let locals: Vec<Local> = live.unknowns.iter().map(|&k| unknowns[k]).collect();
+                let (start, next) = [start, next].map(|list| live.unknowns.iter().map(|&k| &list[k]).collect()).into();
+                let residual = live.residual.then_some(residual);
+                self.iterate(*count, &locals, start, next, residual, &live.body)
+            }
+        }
+    }
+
+    /// Expands to `let ([x, y], rank) = ::multibody::linear::solve([[..], [..]], [..]);`.
+    fn solve(
+        &self,
+        size: usize,
+        (symmetric, groups): (bool, &[usize]),
+        matrix: &[Expression],
+        rhs: &[Expression],
+        results: &[Local],
+    ) -> TokenStream {
+        let krate = self.names.layout.krate();
+        let function = names::ident(match (symmetric, groups) {
+            (false, _) => "solve",
+            (true, []) => "solve_symmetric",
+            (true, _) => "solve_symmetric_in_groups",
+        });
+        let groups = groups_argument(groups);
+        let list = |list: &[Expression]| {
+            let list = list.iter().map(|e| leaf::element(self.names.expression(e)));
+            quote!([#(#list),*])
+        };
+        let rows = matrix.chunks(size.max(1)).map(list);
+        let rhs = list(rhs);
+        let names: Vec<TokenStream> = results.iter().map(|&local| self.name(local)).collect();
+        let (unknowns, rank) = names.split_at(size.min(names.len()));
+        quote!(let ([#(#unknowns),*], #(#rank)*) = #krate::linear::#function([#(#rows),*], #rhs #groups);)
+    }
+
+    /// Expands to a counted loop; all unknowns change at once.
+    fn iterate(
+        &self,
+        count: usize,
+        locals: &[Local],
+        start: Vec<&Expression>,
+        next: Vec<&Expression>,
+        residual: Option<&(Local, Expression)>,
+        body: &[Live<'_>],
+    ) -> TokenStream {
+        let names: Vec<&Ident> = locals.iter().filter_map(|local| self.names.locals.get(local.0)).collect();
+        let start = start.into_iter().map(|e| self.names.expression(e));
+        let mut after = next.clone();
+        let mut out = quote!(#(let mut #names = #start;)*);
+        let next: Vec<TokenStream> = next.into_iter().map(|e| self.names.expression(e)).collect();
+        let mut last = TokenStream::new();
+        if let Some((local, value)) = residual {
+            let name = self.names.locals.get(local.0);
+            after.push(value);
+            let value = self.names.expression(value);
+            out.extend(quote!(let mut #name = T::lit(0.0);));
+            last.extend(quote!(#name = #value;));
+        }
+        match (&names[..], &next[..]) {
+            ([], _) => {}
+            // By a tuple too: `x = x + step` alone is asked to be `x += step` in the user's crate.
+            ([name], [next]) => last.extend(quote!((#name,) = (#next,);)),
+            _ => last.extend(quote!((#(#names),*) = (#(#next),*);)),
+        }
+        let body = Blocks::new(self.names, body, &after).all();
+        let count = Literal::usize_unsuffixed(count);
+        out.extend(quote!(for _ in 0..#count { #body #last }));
+        out
+    }
+}
+
+fn get(list: &[bool], local: Local) -> bool {
+    list.get(local.0).copied().unwrap_or(false)
+}
+
+fn set<V>(list: &mut [V], local: Local, value: V) {
+    if let Some(place) = list.get_mut(local.0) {
+        *place = value;
+    }
+}
+
+fn each_local(expression: &Expression, visit: &mut dyn FnMut(Local)) {
+    each_leaf(expression, &mut |leaf| {
+        if let Expression::Local(local) = leaf {
+            visit(*local);
+        }
+    });
+}
+
+/// Every literal, symbol, field and local of an expression.
+pub(in crate::emit) fn each_leaf(expression: &Expression, visit: &mut dyn FnMut(&Expression)) {
+    match expression {
+        Expression::Literal(_) | Expression::Symbol(_) | Expression::Field(_) | Expression::Local(_) => {
+            visit(expression)
+        }
+        Expression::Neg(inner) => each_leaf(inner, visit),
+        Expression::Sum(terms) => {
+            for (_, term) in terms {
+                each_leaf(term, visit);
+            }
+        }
+        Expression::Product(list) | Expression::Call(_, list) => {
+            for item in list {
+                each_leaf(item, visit);
+            }
+        }
+        Expression::Quotient(above, below) => {
+            each_leaf(above, visit);
+            each_leaf(below, visit);
+        }
+    }
+}
+
+/// Every leaf of a program's live and dead expressions.
+pub(in crate::emit) fn each_leaf_of(program: &Program, visit: &mut dyn FnMut(&Expression)) {
+    program.expressions().for_each(|expression| each_leaf(expression, visit));
+}

@@ -1,0 +1,243 @@
+//! Stage `model`: typed expressions in f64, at the declared defaults of all params.
+//!
+//! In: expressions of literals and params. Out: their values; nothing for what changes in time.
+
+use std::collections::HashMap;
+use std::rc::Rc;
+
+use crate::model::types::{Comparison, Expr, ExprNode, Function, ParamId};
+
+/// A value at compile time.
+#[derive(Clone, Debug)]
+pub(crate) enum Value {
+    Scalar(f64),
+    Bool(bool),
+    Vec3([f64; 3]),
+    Array(Rc<[Value]>),
+}
+
+impl Value {
+    pub(crate) fn scalar(&self) -> Option<f64> {
+        match self {
+            Value::Scalar(x) => Some(*x),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn vector(&self) -> Option<[f64; 3]> {
+        match self {
+            Value::Vec3(v) => Some(*v),
+            _ => None,
+        }
+    }
+
+    /// All scalars in order, row by row.
+    pub(crate) fn flatten(&self, into: &mut Vec<f64>) {
+        match self {
+            Value::Scalar(x) => into.push(*x),
+            Value::Bool(b) => into.push(f64::from(u8::from(*b))),
+            Value::Vec3(v) => into.extend(v),
+            Value::Array(elements) => elements.iter().for_each(|e| e.flatten(into)),
+        }
+    }
+
+    pub(crate) fn is_finite(&self) -> bool {
+        match self {
+            Value::Scalar(x) => x.is_finite(),
+            Value::Bool(_) => true,
+            Value::Vec3(v) => v.iter().all(|x| x.is_finite()),
+            Value::Array(elements) => elements.iter().all(Value::is_finite),
+        }
+    }
+}
+
+impl From<Vec<Value>> for Value {
+    fn from(elements: Vec<Value>) -> Self {
+        Value::Array(elements.into())
+    }
+}
+
+/// Remembers every node that it has met: shared subtrees cost once.
+#[derive(Default)]
+pub(crate) struct Evaluator {
+    params: HashMap<usize, Value>,
+    /// By address of the node; the node is kept, so that the address stays its own.
+    memo: HashMap<*const ExprNode, (Rc<ExprNode>, Option<Value>)>,
+}
+
+impl Evaluator {
+    pub(crate) fn set_param(&mut self, id: ParamId, default: Value) {
+        self.params.insert(id.0, default);
+    }
+
+    pub(crate) fn param(&self, id: ParamId) -> Option<&Value> {
+        self.params.get(&id.0)
+    }
+
+    pub(crate) fn scalar(&mut self, expr: &Expr) -> Option<f64> {
+        self.value(expr)?.scalar()
+    }
+
+    pub(crate) fn vector(&mut self, expr: &Expr) -> Option<[f64; 3]> {
+        self.value(expr)?.vector()
+    }
+
+    pub(crate) fn value(&mut self, expr: &Expr) -> Option<Value> {
+        if let ExprNode::Number(x) = &*expr.node {
+            return Some(Value::Scalar(*x));
+        }
+        let key = Rc::as_ptr(&expr.node);
+        if let Some((_, value)) = self.memo.get(&key) {
+            return value.clone();
+        }
+        let value = self.compute(&expr.node);
+        self.memo.insert(key, (Rc::clone(&expr.node), value.clone()));
+        value
+    }
+
+    fn compute(&mut self, node: &ExprNode) -> Option<Value> {
+        match node {
+            ExprNode::Number(x) => Some(Value::Scalar(*x)),
+            ExprNode::Pi => Some(Value::Scalar(std::f64::consts::PI)),
+            ExprNode::Param(id) => self.params.get(&id.0).cloned(),
+            ExprNode::Vec3([x, y, z]) => {
+                let (x, y, z) = (self.scalar(x), self.scalar(y), self.scalar(z));
+                Some(Value::Vec3([x?, y?, z?]))
+            }
+            ExprNode::Array(elements) => {
+                let values: Option<Vec<Value>> = elements.iter().map(|e| self.value(e)).collect();
+                Some(values?.into())
+            }
+            ExprNode::Index(array, index) => match self.value(array)? {
+                Value::Array(elements) => elements.get(*index).cloned(),
+                _ => None,
+            },
+            ExprNode::Component(vector, index) => {
+                let vector = self.vector(vector)?;
+                vector.get(*index).map(|x| Value::Scalar(*x))
+            }
+            ExprNode::Neg(a) => Some(match self.value(a)? {
+                Value::Vec3(v) => Value::Vec3(v.map(|x| -x)),
+                other => Value::Scalar(-other.scalar()?),
+            }),
+            ExprNode::Add(a, b) => self.sum(a, b, 1.0),
+            ExprNode::Sub(a, b) => self.sum(a, b, -1.0),
+            ExprNode::Mul(a, b) => match (self.value(a)?, self.value(b)?) {
+                (Value::Scalar(s), Value::Vec3(v)) | (Value::Vec3(v), Value::Scalar(s)) => {
+                    Some(Value::Vec3(v.map(|x| s * x)))
+                }
+                (a, b) => Some(Value::Scalar(a.scalar()? * b.scalar()?)),
+            },
+            ExprNode::Div(a, b) => {
+                let divisor = self.scalar(b)?;
+                match self.value(a)? {
+                    Value::Vec3(v) => Some(Value::Vec3(v.map(|x| x / divisor))),
+                    other => Some(Value::Scalar(other.scalar()? / divisor)),
+                }
+            }
+            ExprNode::Call(function, arguments) => self.call(*function, arguments),
+            ExprNode::Compare(comparison, a, b) => {
+                let (a, b) = (self.scalar(a)?, self.scalar(b)?);
+                Some(Value::Bool(compare(*comparison, a, b)))
+            }
+            ExprNode::And(a, b) => Some(Value::Bool(self.truth(a)? && self.truth(b)?)),
+            ExprNode::Or(a, b) => Some(Value::Bool(self.truth(a)? || self.truth(b)?)),
+            ExprNode::Not(a) => Some(Value::Bool(!self.truth(a)?)),
+            ExprNode::Select(condition, yes, no) => {
+                if self.truth(condition)? {
+                    self.value(yes)
+                } else {
+                    self.value(no)
+                }
+            }
+            _ => None,
+        }
+    }
+
+    fn truth(&mut self, expr: &Expr) -> Option<bool> {
+        match self.value(expr)? {
+            Value::Bool(b) => Some(b),
+            _ => None,
+        }
+    }
+
+    fn sum(&mut self, a: &Expr, b: &Expr, sign: f64) -> Option<Value> {
+        match (self.value(a)?, self.value(b)?) {
+            (Value::Vec3([ax, ay, az]), Value::Vec3([bx, by, bz])) => {
+                Some(Value::Vec3([ax + sign * bx, ay + sign * by, az + sign * bz]))
+            }
+            (a, b) => Some(Value::Scalar(a.scalar()? + sign * b.scalar()?)),
+        }
+    }
+
+    fn call(&mut self, function: Function, arguments: &[Expr]) -> Option<Value> {
+        let (first, second) = (arguments.first()?, arguments.get(1));
+        match function {
+            Function::Dot | Function::Cross => {
+                let (a, b) = (self.vector(first)?, self.vector(second?)?);
+                Some(match function {
+                    Function::Dot => Value::Scalar(dot(a, b)),
+                    _ => Value::Vec3(cross(a, b)),
+                })
+            }
+            Function::Norm => {
+                let v = self.vector(first)?;
+                Some(Value::Scalar(dot(v, v).sqrt()))
+            }
+            _ => {
+                let x = self.scalar(first)?;
+                let y = match second {
+                    Some(second) => Some(self.scalar(second)?),
+                    None => None,
+                };
+                scalar_call(function, x, y).map(Value::Scalar)
+            }
+        }
+    }
+}
+
+fn scalar_call(function: Function, x: f64, y: Option<f64>) -> Option<f64> {
+    Some(match function {
+        Function::Sin => x.sin(),
+        Function::Cos => x.cos(),
+        Function::Tan => x.tan(),
+        Function::Asin => x.asin(),
+        Function::Acos => x.acos(),
+        Function::Atan => x.atan(),
+        Function::Atan2 => x.atan2(y?),
+        Function::Sinh => x.sinh(),
+        Function::Cosh => x.cosh(),
+        Function::Tanh => x.tanh(),
+        Function::Exp => x.exp(),
+        Function::Ln => x.ln(),
+        Function::Sqrt => x.sqrt(),
+        Function::Abs => x.abs(),
+        Function::Signum if x == 0.0 => 0.0,
+        Function::Signum => x.signum(),
+        Function::Min => x.min(y?),
+        Function::Max => x.max(y?),
+        Function::Hypot => x.hypot(y?),
+        Function::Powi | Function::Powf => x.powf(y?),
+        Function::Deg => x.to_radians(),
+        Function::Dot | Function::Cross | Function::Norm => return None,
+    })
+}
+
+fn compare(comparison: Comparison, a: f64, b: f64) -> bool {
+    match comparison {
+        Comparison::Less => a < b,
+        Comparison::LessEqual => a <= b,
+        Comparison::Greater => a > b,
+        Comparison::GreaterEqual => a >= b,
+        Comparison::Equal => a == b,
+        Comparison::NotEqual => a != b,
+    }
+}
+
+pub(crate) fn dot([ax, ay, az]: [f64; 3], [bx, by, bz]: [f64; 3]) -> f64 {
+    ax * bx + ay * by + az * bz
+}
+
+pub(crate) fn cross([ax, ay, az]: [f64; 3], [bx, by, bz]: [f64; 3]) -> [f64; 3] {
+    [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]
+}

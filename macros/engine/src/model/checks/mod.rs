@@ -1,0 +1,8 @@
+//! Room `checks`: what is refused of a model for its values, in numbers at the declared defaults.
+
+pub(super) mod configuration;
+pub(crate) mod evaluate;
+mod mass_matrix;
+mod massless;
+pub(super) mod matrix3;
+pub(super) mod spatial;

@@ -1,0 +1,175 @@
+//! Stage `model`: coordinates that are found from others.
+//!
+//! In: `solve (a, b) = (f, g);`, `solve (a, b) from closing { conditions }`. Out: the unknowns, and their formulas or what
+//! closes the loop. What another choice of coordinates has made void is said instead.
+
+use proc_macro2::Span;
+use syn::Expr;
+use syn::spanned::Spanned;
+
+use crate::model::checker::{Checker, Context, Meaning};
+use crate::model::expressions::source_text;
+use crate::model::names::Shape;
+use crate::model::topology::Topology;
+use crate::model::typed::Allowed;
+use crate::model::types::{Closing, Coordinate, Joint, Orientation, Solve, SolveHow, Type};
+use crate::syntax::tree::Solution;
+
+/// What a `solve` item gives.
+pub(in crate::model) enum Solved {
+    Item(Solve),
+    /// The sentence for the report.
+    Skipped(String),
+}
+
+impl<'a> Checker<'a, '_> {
+    pub(in crate::model) fn solve(
+        &mut self,
+        unknowns: &[Expr],
+        how: &Solution,
+        keyword: Span,
+        context: Context<'a>,
+        joints: Option<(&Topology, &[Joint])>,
+    ) -> Option<Solved> {
+        let uses = self.coordinate_uses.len();
+        let found: Vec<Option<Vec<Coordinate>>> = unknowns
+            .iter()
+            .map(|expr| Some(self.several_coordinates(expr, context)?.into_iter().map(|(c, _)| c).collect()))
+            .collect();
+        let lists: Option<Vec<Vec<Coordinate>>> = found.into_iter().collect();
+        let at = match how {
+            Solution::From { joint, .. } => joint.span(),
+            Solution::Formulas(_) => keyword,
+        };
+        let how = match how {
+            Solution::Formulas(formulas) => self.formulas(formulas, unknowns, lists.as_deref(), context),
+            Solution::From { joint, branches } => self.by_closing(joint, branches, context),
+        };
+        let (lists, how) = (lists?, how?);
+        let (topology, list) = joints?;
+        if let Some(why) = self.void(unknowns, &lists, &how, at, (topology, list))? {
+            // Its conditions may speak of coordinates that aren't there.
+            self.coordinate_uses.truncate(uses);
+            return Some(Solved::Skipped(why));
+        }
+        let mut all: Vec<Coordinate> = Vec::new();
+        for (expr, coordinates) in unknowns.iter().zip(lists) {
+            for coordinate in coordinates {
+                if all.contains(&coordinate) {
+                    let message = format!("{} is named twice", self.coordinate_name(coordinate));
+                    self.report.error(expr.span(), message);
+                    return None;
+                }
+                all.push(coordinate);
+            }
+        }
+        Some(Solved::Item(Solve { unknowns: all, how, span: keyword }))
+    }
+
+    /// One scalar for each coordinate.
+    fn formulas(
+        &mut self,
+        formulas: &[Expr],
+        unknowns: &[Expr],
+        lists: Option<&[Vec<Coordinate>]>,
+        context: Context<'a>,
+    ) -> Option<SolveHow> {
+        let values: Vec<_> = formulas
+            .iter()
+            .map(|expr| self.scalar(expr, context, Allowed::Positions).map(|value| value.expr))
+            .collect();
+        let lists = lists?;
+        for (expr, list) in unknowns.iter().zip(lists) {
+            let quaternion = list.iter().any(|coordinate| {
+                let shape = self.joints.get(coordinate.joint.0).and_then(|slot| slot.shape);
+                matches!(shape, Some(Shape::Ball(Orientation::Quaternion) | Shape::Free(Orientation::Quaternion)))
+            });
+            if quaternion {
+                self.report.help(
+                    expr.span(),
+                    format!("`{}` has a quaternion, for which there are no formulas", source_text(expr)),
+                    "write `coordinates: RollPitchYaw` on it",
+                );
+                return None;
+            }
+        }
+        let count: usize = lists.iter().map(Vec::len).sum();
+        if values.len() != count {
+            let plural = |n: usize| if n == 1 { "" } else { "s" };
+            let message = format!(
+                "{count} unknown coordinate{} but {} formula{}",
+                plural(count),
+                values.len(),
+                plural(values.len())
+            );
+            // At the first one too many, or at the last there is.
+            let at = formulas.get(count.min(formulas.len() - 1)).map_or_else(Span::call_site, Spanned::span);
+            self.report.help(at, message, "write one formula for each coordinate, in the order of the unknowns");
+            return None;
+        }
+        values.into_iter().collect::<Option<_>>().map(SolveHow::Formulas)
+    }
+
+    fn by_closing(&mut self, joint: &Expr, branches: &[Expr], context: Context<'a>) -> Option<SolveHow> {
+        let closing = match self.meaning(joint, context) {
+            Some(Meaning::Joint(id)) => Some(Closing::Cut(id)),
+            Some(Meaning::Constraint(id)) => Some(Closing::Constraint(id)),
+            Some(_) => {
+                self.report.help(
+                    joint.span(),
+                    "expected what closes the loop",
+                    "write the name of a joint that closes a loop, or of a constraint",
+                );
+                None
+            }
+            None => None,
+        };
+        let branches: Vec<_> = branches
+            .iter()
+            .map(|expr| self.typed(expr, context, &Type::Bool, Allowed::Positions).map(|condition| condition.expr))
+            .collect();
+        let branches = branches.into_iter().collect::<Option<_>>();
+        Some(SolveHow::From { closing: closing?, branches: branches? })
+    }
+
+    /// Why the item means nothing with these coordinates; an error where nobody has changed them.
+    fn void(
+        &mut self,
+        unknowns: &[Expr],
+        lists: &[Vec<Coordinate>],
+        how: &SolveHow,
+        at: Span,
+        (topology, joints): (&Topology, &[Joint]),
+    ) -> Option<Option<String>> {
+        let changed = self.coordinates.is_some();
+        let names: Vec<String> = lists.iter().flatten().map(|coordinate| self.coordinate_name(*coordinate)).collect();
+        let subject = format!("`solve` of {}", names.join(", "));
+        if let SolveHow::From { closing: Closing::Cut(id), .. } = how
+            && !topology.is_cut(*id)
+        {
+            let joint = joints.get(id.0)?;
+            if changed {
+                let name = self.path_text(&joint.place);
+                return Some(Some(format!("{subject}: with these coordinates the joint `{name}` lies in the tree")));
+            }
+            let message = format!("the joint `{}` closes no loop", joint.place.field);
+            self.report.help(at, message, "name a joint that closes the loop; `#[cut]` on a joint makes it one");
+            return None;
+        }
+        for (expr, list) in unknowns.iter().zip(lists) {
+            let cut = list.iter().find(|coordinate| topology.is_cut(coordinate.joint));
+            let Some(joint) = cut.and_then(|coordinate| joints.get(coordinate.joint.0)) else {
+                continue;
+            };
+            if changed {
+                let name = self.path_text(&joint.place);
+                let why = format!("{subject}: with these coordinates the joint `{name}` closes a loop and has none");
+                return Some(Some(why));
+            }
+            let id = cut?.joint;
+            self.refuse_cut_coordinate(id, expr.span(), joints);
+            return None;
+        }
+        Some(None)
+    }
+}
