@@ -36,7 +36,7 @@ const SHARE: f64 = 0.1;
 /// At a rate of its own every method keeps its order. One that is tied to the step costs order as steps become shorter,
 /// since what stages are off by is multiplied by a number that does not shrink: on a four-bar, halving such steps gained
 /// 2^1.1 to 2^1.4 with [`Rk4`](crate::Rk4), 2^3.4 to 2^4.0 with [`DormandPrince`](crate::DormandPrince), 2^3.3 with
-/// [`GaussLegendre4`](crate::GaussLegendre4) (`runtime/tests/handlings.rs`). Where the order matters, give the rate
+/// [`GaussLegendre4`](crate::GaussLegendre4) (`runtime/tests/loops/handlings.rs`). Where the order matters, give the rate
 /// ([`WithBaumgarte::new`]), or project.
 #[derive(Clone, Copy, Debug)]
 pub struct WithBaumgarte<S, W = ByMass> {

@@ -1,4 +1,4 @@
-//! Steps of generated models in single precision: `tests/single_precision.rs` reads the assembly that they become.
+//! Steps of generated models in single precision: `tests/generated/single_precision.rs` reads the assembly that they become.
 //!
 //! Sines and cosines are calls of the platform's library, and what they compute in is its own affair.
 

@@ -9,8 +9,16 @@ use multibody_engine::{model, syntax};
 use proc_macro2::{TokenStream, TokenTree};
 
 /// Places of models, from the root of the project.
-const PLACES: [&str; 6] =
-    ["tests/models", "tests/ui/pass", "examples/models", "examples", "runtime/tests", "README.md"];
+const PLACES: [&str; 8] = [
+    "tests/models",
+    "tests/ui/pass",
+    "examples/models",
+    "examples",
+    "runtime/tests/integrators",
+    "runtime/tests/loops",
+    "runtime/tests/numbers",
+    "README.md",
+];
 
 /// Calls with the files that they stand in.
 pub(crate) fn calls() -> Vec<(String, TokenStream)> {

@@ -1,0 +1,8 @@
+//! The checked model: names, parts, types, loops; what is said about mistakes.
+
+mod errors;
+mod loops;
+mod parts;
+mod robust;
+mod samples;
+mod support;

@@ -1,0 +1,12 @@
+//! The expression graph: normal form, lowering, derivatives, substitution, linear systems, the identity test.
+
+mod adjoints;
+mod blocks;
+mod differentiation;
+#[path = "../common/expressions.rs"]
+mod expressions;
+mod identity;
+mod inputs;
+#[path = "../common/rng.rs"]
+mod rng;
+mod substitution;

@@ -1,0 +1,12 @@
+//! Scalars, rotations, inertias, small linear systems.
+
+#[path = "../common/mod.rs"]
+mod common;
+#[cfg(feature = "num-dual")]
+mod dual;
+mod inertia;
+mod linear;
+mod rotation;
+mod scalar;
+#[cfg(feature = "reproducible")]
+mod trigonometry;

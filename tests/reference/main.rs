@@ -1,0 +1,11 @@
+//! Against truth from elsewhere: reference data of other programs, published solutions, plain arithmetic.
+
+mod closed_forms;
+mod derivatives;
+mod loops;
+mod motion;
+mod random_models;
+mod robots;
+mod simulate;
+mod stewart;
+mod stiff;
