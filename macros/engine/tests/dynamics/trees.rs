@@ -1,11 +1,11 @@
 //! Random trees of 1 to 12 bodies with random joints: the engine's recursions, by interpreting their graphs, against a
 //! plain recursive implementation, against each other, and exactly modulo a prime.
 
-use crate::formulations;
-use crate::plain;
 use std::cell::Cell;
 
+use crate::formulations;
 use crate::on_graph::{Derived, derive, point};
+use crate::plain;
 use crate::random::{Mechanism, State};
 use crate::rng::Rng;
 use multibody_engine::dynamics::floating_bases::seats;
