@@ -32,7 +32,11 @@ fn main() -> io::Result<()> {
         ("absolute", platform("absolute"), 10.0),
     ];
     let mut emitted = Vec::new();
+    let only: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
     for (name, text, bar) in &models {
+        if !only.is_empty() && !only.contains(&(*name).to_owned()) {
+            continue;
+        }
         let (times, code) = derive(text, name);
         let total: Duration = times.iter().sum();
         print!("  {name:<16}");
@@ -42,6 +46,9 @@ fn main() -> io::Result<()> {
         if !text.contains("mod leg") {
             emitted.push((*name, code));
         }
+    }
+    if !only.is_empty() {
+        return Ok(());
     }
     println!("\nSeconds of rustc, with the code less without (a crate for it is built first):\n");
     println!("  {:<16}{:>10}{:>10}", "model", "debug", "release");

@@ -23,6 +23,7 @@ struct Turned {
 }
 
 /// Rotations as columns, made on demand.
+#[derive(Clone)]
 pub(crate) struct Columns {
     root: Option<usize>,
     /// From the root link's axes to the wanted ones.

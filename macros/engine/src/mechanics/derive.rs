@@ -24,6 +24,7 @@ use super::analysis::{Complaint, Writings};
 use super::equations::Method;
 use super::loops::branches::Branch;
 use super::loops::constraints::Writing;
+use super::loops::known::Known;
 use super::loops::reduction::Reduction;
 use super::loops::structure::Role;
 use super::loops::structure::Structure;
@@ -92,6 +93,7 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
         graph,
         symbols,
         branches: HashMap::new(),
+        known: Known::default(),
         writing: Writing::PLAIN,
         notes: Vec::new(),
         dead_centres: Vec::new(),
@@ -169,6 +171,7 @@ struct Deriving<'m> {
     graph: Graph,
     symbols: Symbols,
     branches: HashMap<usize, Branch>,
+    known: Known<'m>,
     /// How equations of loops are written.
     writing: Writing,
     /// Sentences for the report.

@@ -24,6 +24,7 @@ use super::loops::constraints::Writing;
 use super::loops::constraints::expression::Slopes;
 use super::loops::constraints::expression::StandIns;
 use super::loops::constraints::turns::Turns;
+use super::loops::known::Known;
 use super::loops::reduction::Map;
 use super::loops::reduction::Reduction;
 use super::loops::rotors::Rotor;
@@ -65,6 +66,7 @@ pub struct Way {
 }
 
 /// One derivation.
+#[derive(Clone)]
 pub struct Equations<'m> {
     pub(super) model: &'m Model,
     pub g: Graph,
@@ -115,6 +117,12 @@ pub struct Equations<'m> {
     pub(super) loading: bool,
     /// What Newton's method finds stands in the guess already.
     pub(super) at_guess: bool,
+    /// `Fixed` joints with a link of their own.
+    pub(super) kept: Rc<[JointId]>,
+    /// Nodes that the graph had before anything was asked for.
+    pub(super) born: usize,
+    /// Of derivations before this one.
+    pub(super) known: Known<'m>,
 }
 
 impl<'m> Equations<'m> {
@@ -153,10 +161,14 @@ impl<'m> Equations<'m> {
             stand_ins: StandIns::default(),
             loading: false,
             at_guess: false,
+            kept: kept.into(),
+            born: 0,
+            known: Known::default(),
         };
         let mechanism = equations.build(kept);
         equations.rotations = vec![None; mechanism.tree.links.len()];
         equations.mechanism = Rc::new(mechanism);
+        equations.born = equations.g.size();
         equations
     }
 

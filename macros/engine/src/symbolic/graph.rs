@@ -200,6 +200,14 @@ impl Hasher for PassHasher {
 
 type PrintMap<K> = HashMap<K, u32, BuildHasherDefault<PassHasher>>;
 
+/// Nodes by value, as they are found when equal ones are asked for.
+#[derive(Clone)]
+pub struct Sharing {
+    scalars: PrintMap<Print>,
+    vectors: PrintMap<[Print; 3]>,
+    rotations: PrintMap<[Print; 9]>,
+}
+
 /// Expressions with shared subexpressions.
 #[derive(Clone)]
 pub struct Graph {
@@ -278,6 +286,30 @@ impl Graph {
         }
         self.vector_index.insert(vector_key(self.vector_prints[0]), 0);
         self.rotation_index.insert(rotation_key(&self.rotation_prints[0], false), 0);
+    }
+
+    /// What expressions are shared with now.
+    pub fn sharing(&self) -> Sharing {
+        Sharing {
+            scalars: self.scalar_index.clone(),
+            vectors: self.vector_index.clone(),
+            rotations: self.rotation_index.clone(),
+        }
+    }
+
+    /// Shares with what was shared with when this was taken, and with nothing made since.
+    pub fn share(&mut self, sharing: &Sharing) {
+        self.scalar_index.clone_from(&sharing.scalars);
+        self.vector_index.clone_from(&sharing.vectors);
+        self.rotation_index.clone_from(&sharing.rotations);
+        for &s in &self.symbols {
+            self.scalar_index.insert(self.prints[s.index()].canonical(), s.index() as u32);
+        }
+    }
+
+    /// Nodes of all kinds.
+    pub fn size(&self) -> usize {
+        self.order.len()
     }
 
     /// Marks a symbol that is to be replaced later (see [`Graph::substitute`]) with one of 128 bits. Expressions are looked up

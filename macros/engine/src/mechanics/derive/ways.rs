@@ -168,6 +168,7 @@ impl<'m> Deriving<'m> {
         let mut equations = Equations::new(self.model, graph, self.symbols.clone(), way, kept);
         equations.structure = Rc::clone(&self.structure);
         equations.branches = std::mem::take(&mut self.branches);
+        equations.known = std::mem::take(&mut self.known);
         let exists = way.axes.is_none() || equations.shared().turns.iter().any(|&turn| turn != Rotation::IDENTITY);
         let results = if exists { f(&mut equations) } else { Ok(Vec::new()) };
         let unfinished = |g: &Graph, results: &[Scalar]| results.iter().any(|&root| Symbols::is_unfinished(g, root));
@@ -179,6 +180,7 @@ impl<'m> Deriving<'m> {
         });
         self.graph = equations.g;
         self.branches = equations.branches;
+        self.known = equations.known;
         let results = results?;
         // A net: what a way has left unreplaced has no place in the generated structs.
         let finished = !unfinished(&self.graph, &results);

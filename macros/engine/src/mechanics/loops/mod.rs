@@ -5,6 +5,7 @@ pub(super) mod branches;
 pub mod constraints;
 pub(super) mod drives;
 pub mod groups;
+pub(super) mod known;
 pub(super) mod loop_equations;
 pub(super) mod reduction;
 pub(super) mod rotors;

@@ -58,7 +58,7 @@ pub(in crate::mechanics) struct Definition {
 
 impl Equations<'_> {
     /// Works out all definitions.
-    pub(in crate::mechanics) fn reduce(&mut self) -> Result<Reduction, Vec<Complaint>> {
+    pub(in crate::mechanics) fn define_all(&mut self) -> Result<Reduction, Vec<Complaint>> {
         let structure = std::rc::Rc::clone(&self.structure);
         let mut reduction = Reduction::default();
         self.drive(&mut reduction);

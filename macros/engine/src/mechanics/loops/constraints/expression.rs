@@ -24,7 +24,7 @@ use super::super::reduction::Map;
 use super::super::structure::Row;
 
 /// Symbols that stand for what an expression reads.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(in crate::mechanics) struct StandIns {
     /// By link: origin and columns of the rotation, in world axes.
     links: BTreeMap<usize, Link>,
@@ -42,7 +42,7 @@ struct Link {
     columns: [[Scalar; 3]; 3],
 }
 
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Read {
     links: BTreeMap<usize, Link>,
     coordinates: BTreeMap<Coordinate, Scalar>,
