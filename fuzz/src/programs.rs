@@ -2,11 +2,13 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::mechanics::loops::structure::Structure;
 use multibody_engine::model::types::{JointId, Model};
 use multibody_engine::optimize::Refusal;
-use multibody_engine::optimize::program::{Compiled, FunctionKind, Symbol};
+use multibody_engine::optimize::program::Compiled;
 use multibody_engine::{Trouble, compile, model, syntax};
 
 #[path = "../../macros/engine/tests/common/interpreter.rs"]

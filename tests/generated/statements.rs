@@ -4,8 +4,9 @@
 use std::path::Path;
 use std::process::Command;
 
+use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::emit::{emit, source};
-use multibody_engine::optimize::program::{Expression, Local, Program, Statement, Symbol};
+use multibody_engine::optimize::program::{Expression, Local, Program, Statement};
 use multibody_engine::{mechanics, optimize};
 use multibody_tests::support::data::path;
 use multibody_tests::support::engine::model_of;

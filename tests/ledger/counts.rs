@@ -5,7 +5,7 @@
 use std::fmt::Write;
 use std::sync::OnceLock;
 
-use multibody_engine::optimize::program::Cost;
+use multibody_engine::contracts::cost::Cost;
 use multibody_tests::models::{arms, motion, small};
 use multibody_tests::support::data::path;
 use multibody_tests::support::ledger::{Row, Written, all, flops};

@@ -4,11 +4,11 @@
 use std::sync::OnceLock;
 
 use multibody::nalgebra::{Matrix3, Vector3};
+use multibody_engine::contracts::cost::Cost;
 use multibody_engine::emit::emit;
 use multibody_engine::mechanics;
 use multibody_engine::model::types::Model;
 use multibody_engine::optimize;
-use multibody_engine::optimize::program::Cost;
 use multibody_tests::models::required as compiled;
 use multibody_tests::models::stewart::level;
 use multibody_tests::support::data::path;

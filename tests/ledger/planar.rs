@@ -3,9 +3,12 @@
 
 use std::collections::BTreeSet;
 
+use multibody_engine::contracts::cost::Cost;
+use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::emit::emit;
 use multibody_engine::model::types::Model;
-use multibody_engine::optimize::program::{Compiled, Cost, Expression, FunctionKind, Program, Symbol};
+use multibody_engine::optimize::program::{Compiled, Expression, Program};
 use multibody_engine::{mechanics, optimize};
 use multibody_tests::support::engine::model_of;
 

@@ -3,11 +3,11 @@
 use std::borrow::Cow;
 use std::fmt;
 
+use multibody_engine::contracts::cost::Cost;
 use multibody_engine::emit::function_name;
 use multibody_engine::mechanics;
 use multibody_engine::model::types::Model;
 use multibody_engine::optimize;
-use multibody_engine::optimize::program::Cost;
 
 use super::engine::{calls, literal, models};
 

@@ -1,7 +1,8 @@
 //! Closed loops in all formulations, against the plain tree with multipliers for all equations.
 
+use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics::loops::structure::Means;
-use multibody_engine::optimize::program::{FunctionKind, Symbol};
 
 use super::{At, Findings, Verdict};
 use crate::algebra::{V3, apply, dot, norm, quaternion, transposed};

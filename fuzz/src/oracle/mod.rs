@@ -5,8 +5,8 @@ pub mod tree;
 
 use std::fmt;
 
+use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::optimize::Refusal;
-use multibody_engine::optimize::program::Symbol;
 
 use crate::mechanism::expression::Point;
 use crate::programs::Values;

@@ -1,6 +1,6 @@
 //! Open chains and trees: all functions against the plain recursion, and against each other.
 
-use multibody_engine::optimize::program::FunctionKind;
+use multibody_engine::contracts::function::FunctionKind;
 use nalgebra::{DMatrix, DVector};
 
 use super::{At, Findings, Verdict};

@@ -5,6 +5,7 @@
 //! `mechanics` knows no tokens; `emit` decides nothing about equations. The public items here serve the project's own tests
 //! and tools; users call the macro.
 
+pub mod contracts;
 pub mod diagnostics;
 pub mod dynamics;
 pub mod emit;
@@ -21,12 +22,14 @@ use std::collections::HashSet;
 
 use proc_macro2::TokenStream;
 
+use crate::contracts::function::FunctionKind;
+
 use diagnostics::Diagnostics;
 use mechanics::analysis::Complaint;
 use mechanics::loops::structure::Structure;
 use model::Soundness;
 use model::types::Model;
-use optimize::program::{Compiled, FunctionKind};
+use optimize::program::Compiled;
 use optimize::{Excess, Refusal};
 
 /// Tokens of a `multibody!` call to tokens of its modules, and of everything that is wrong. A model without a mistake is

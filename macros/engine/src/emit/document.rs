@@ -11,8 +11,10 @@ mod unchecked;
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use crate::contracts::cost::Cost;
+use crate::contracts::function::FunctionKind;
 use crate::model::types::{Docs, Joint, JointKind, Param, PartTypeId, State};
-use crate::optimize::program::{Compiled, Cost, Function, FunctionKind};
+use crate::optimize::program::{Compiled, Function};
 
 use super::layout::{Group, Layout};
 use super::print::literals;

@@ -22,9 +22,10 @@ mod print;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
+use crate::contracts::function::FunctionKind;
 use crate::mechanics::loops::structure::Structure;
 use crate::model::types::Model;
-use crate::optimize::program::{Compiled, Function, FunctionKind};
+use crate::optimize::program::{Compiled, Function};
 
 use self::layout::Layout;
 

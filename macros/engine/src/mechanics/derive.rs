@@ -15,9 +15,9 @@ mod ways;
 use std::collections::HashMap;
 use std::rc::Rc;
 
+use crate::contracts::function::FunctionKind;
 use crate::dynamics::shared_axes::Axes;
 use crate::model::types::{BodyRef, Coordinate, Joint, JointId, JointKind, Model, Request};
-use crate::optimize::program::FunctionKind;
 use crate::symbolic::graph::{Graph, Scalar};
 
 use super::analysis::{Complaint, Writings};
@@ -26,13 +26,11 @@ use super::loops::branches::Branch;
 use super::loops::constraints::Writing;
 use super::loops::known::Known;
 use super::loops::reduction::Reduction;
-use super::loops::structure::Role;
-use super::loops::structure::Structure;
+use super::loops::structure::{Role, Structure};
 use super::results::euler_singularities;
 use super::strut::inverse;
 use super::translate::names;
-use super::translate::symbols::Symbols;
-use super::translate::symbols::freedoms_of;
+use super::translate::symbols::{Symbols, freedoms_of};
 use super::{Derivation, Derived};
 
 /// Own axes for every link, or common ones for parallel hinges.

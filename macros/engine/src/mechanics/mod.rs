@@ -15,8 +15,9 @@ pub mod translate;
 
 pub use derive::{MOST_FREEDOMS, derive, freedoms};
 
+use crate::contracts::function::FunctionKind;
+use crate::contracts::symbol::Symbol;
 use crate::model::types::{Coordinate, Model};
-use crate::optimize::program::{Condition, FunctionKind, Inertia, Symbol};
 use crate::symbolic::graph::{Graph, Scalar};
 
 use analysis::Complaint;
@@ -64,4 +65,26 @@ pub struct Derived {
     pub kind: FunctionKind,
     /// Name of the method and results in the order that [`FunctionKind`] documents.
     pub candidates: Vec<(&'static str, Vec<Scalar>)>,
+}
+
+/// The mass matrix, where it may become singular.
+#[derive(Clone, Debug, Default)]
+pub enum Inertia<P> {
+    /// It is regular wherever it is finite, or nothing is to be said of it.
+    #[default]
+    Regular,
+    /// The function that the model asks for gives it.
+    Requested,
+    /// No function gives it.
+    Own(P),
+}
+
+/// What must hold of values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Condition {
+    Finite,
+    /// The first value is above rounding of the second.
+    Pivot,
+    /// Below the square root of the rounding unit.
+    Small,
 }

@@ -8,11 +8,13 @@ use std::collections::HashMap;
 use std::hash::BuildHasherDefault;
 use std::ops::{Add, Mul, Neg};
 
+use crate::contracts::call::Call;
+use crate::contracts::cost::Cost;
+use crate::contracts::symbol::Symbol;
 use crate::symbolic::fingerprint::{Point, Print};
-use crate::symbolic::graph::{BlockKind, Call, PassHasher, SymbolId};
+use crate::symbolic::graph::{BlockKind, PassHasher, SymbolId};
 use crate::symbolic::number::Number;
 
-use super::program::{Cost, Symbol};
 use super::stage::Stage;
 
 /// Position of a node.

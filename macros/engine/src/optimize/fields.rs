@@ -5,9 +5,12 @@
 
 use std::collections::HashMap;
 
+use crate::contracts::call::Call;
+use crate::contracts::symbol::Symbol;
+
 use super::dag::{Dag, Id, Kind, ONE};
 use super::names::Names;
-use super::program::{Call, FieldId, Symbol};
+use super::program::FieldId;
 use super::schedule::Fields;
 use super::stage::Stage;
 

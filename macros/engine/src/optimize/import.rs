@@ -5,11 +5,12 @@
 use std::collections::HashMap;
 use std::ops::{Div, Mul, Neg};
 
-use crate::symbolic::graph::{BlockId, Call, Graph, Scalar, ScalarNode};
+use crate::contracts::call::Call;
+use crate::contracts::symbol::Symbol;
+use crate::symbolic::graph::{BlockId, Graph, Scalar, ScalarNode};
 use crate::symbolic::number::Number;
 
 use super::dag::{Block, Dag, Id, Kind, ONE};
-use super::program::Symbol;
 
 impl Dag {
     /// Takes over the roots of a graph of scalars. `symbols` tells what each of its symbols is.

@@ -5,7 +5,6 @@
 pub mod angles;
 pub mod balance;
 pub mod common;
-mod cost;
 pub mod dag;
 pub mod factor;
 pub mod fields;
@@ -18,12 +17,14 @@ pub mod program;
 pub mod schedule;
 pub mod stage;
 
-use crate::mechanics::Derivation;
+use crate::contracts::cost::Cost;
+use crate::contracts::function::FunctionKind;
+use crate::mechanics::{Derivation, Inertia};
 use crate::symbolic::graph::Scalar;
 use crate::symbolic::lower::Lowering;
 
 use dag::Dag;
-use program::{Checks, Compiled, Cost, Function, FunctionKind, Inertia, Program};
+use program::{Checks, Compiled, Function, Program};
 
 /// Most operations that one function may have before optimisation. Passes take about a second for ten thousand in an
 /// unoptimised build, and rustc takes longer.

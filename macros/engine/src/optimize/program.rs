@@ -4,65 +4,11 @@
 //! list of statements in single-assignment form; expressions that are used once and need no name stand inside the
 //! statement that uses them.
 
-use crate::model::types::{InputId, JointId, ParamId, StateId};
-
-/// What a symbol of the graph stands for in the generated structs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Symbol {
-    Time,
-    /// Scalar number `element` of a flattened param.
-    Param {
-        param: ParamId,
-        element: usize,
-    },
-    Input {
-        input: InputId,
-        element: usize,
-    },
-    State {
-        state: StateId,
-    },
-    /// Component of a joint's position. Ball with quaternion: w, i, j, k. Free: x, y, z, then w, i, j, k or roll, pitch,
-    /// yaw. Else in the order of the coordinates.
-    Position {
-        joint: JointId,
-        component: usize,
-    },
-    /// Component of a joint's velocity. Free: linear, then angular (or rates of roll, pitch, yaw).
-    Velocity {
-        joint: JointId,
-        component: usize,
-    },
-    Acceleration {
-        joint: JointId,
-        component: usize,
-    },
-    /// Of a constraint equation: an argument of the residual.
-    Multiplier {
-        row: usize,
-    },
-    /// An argument of the jump of velocities, and of velocities from momenta.
-    Impulse {
-        joint: JointId,
-        component: usize,
-    },
-    Momentum {
-        joint: JointId,
-        component: usize,
-    },
-    /// Of a constraint equation: how fast it is to change in a jump.
-    Rate {
-        row: usize,
-    },
-    /// Where Newton's method starts: a component of the guess in `State`.
-    Guess {
-        index: usize,
-    },
-    /// An unknown inside an iteration; it is printed as a local.
-    Unknown {
-        index: usize,
-    },
-}
+use crate::contracts::call::Call;
+use crate::contracts::cost::Cost;
+use crate::contracts::function::FunctionKind;
+use crate::contracts::symbol::Symbol;
+use crate::mechanics::{Condition, Inertia};
 
 /// Index into [`Program::locals`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -71,54 +17,6 @@ pub struct Local(pub usize);
 /// Index into [`Compiled::fields`]: a value that depends on parameters alone and is stored in `Model`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct FieldId(pub usize);
-
-/// Functions that generated code calls on the scalar trait, with their usual meaning and number of arguments.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Call {
-    Tan,
-    Asin,
-    Acos,
-    Atan,
-    Atan2,
-    Sinh,
-    Cosh,
-    Tanh,
-    Exp,
-    Ln,
-    Powf,
-    Sqrt,
-    Abs,
-    Signum,
-    Min,
-    Max,
-    /// Comparisons give a mask.
-    Less,
-    LessEqual,
-    Equal,
-    And,
-    Or,
-    Not,
-    /// Mask, then, else.
-    Select,
-    /// The rounding unit of the scalar, of no arguments.
-    Epsilon,
-    /// No number: the result of what has none, of no arguments.
-    Nan,
-}
-
-impl Call {
-    /// Whether the result is a mask: the scalar's own kind of truth, which is no number and has no place in a field.
-    pub fn is_mask(self) -> bool {
-        use Call::{And, Equal, Less, LessEqual, Not, Or};
-        matches!(self, Less | LessEqual | Equal | And | Or | Not)
-    }
-
-    /// Work of one instruction or two, as additions are.
-    pub fn is_comparison(self) -> bool {
-        use Call::{Abs, And, Equal, Less, LessEqual, Not, Or, Signum};
-        matches!(self, Less | LessEqual | Equal | And | Or | Not | Abs | Signum)
-    }
-}
 
 /// An expression over symbols, fields and locals.
 #[derive(Clone, Debug, PartialEq)]
@@ -231,73 +129,6 @@ impl Program {
     }
 }
 
-/// Operations by the counting rule: sign changes and factors of one are free; `min`, `max` and a selection count as
-/// additions.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Cost {
-    pub add: u32,
-    pub mul: u32,
-    pub div: u32,
-    pub sqrt: u32,
-    pub sincos: u32,
-    /// Comparisons, what is done with masks, absolute values and signs.
-    pub compare: u32,
-    /// Any other function.
-    pub other: u32,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum FunctionKind {
-    /// Accelerations in the order of velocity coordinates, then the rates of the user's states; with constraints the
-    /// multipliers and the rank of their system; with iterations the greatest residual of the loops.
-    ForwardDynamics,
-    /// Efforts in the order of velocity coordinates; with `solve_for` the inputs found, then the rank of their system.
-    InverseDynamics,
-    /// DOF x DOF, row by row.
-    MassMatrix,
-    /// DOF
-    Bias,
-    KineticEnergy,
-    PotentialEnergy,
-    /// Residuals of the constraint equations.
-    Constraints,
-    /// Equations x DOF, row by row.
-    ConstraintJacobian,
-    /// Time derivatives of the residuals.
-    ConstraintRate,
-    /// What is left of the second time derivatives of the residuals where accelerations are zero.
-    ConstraintBias,
-    /// DOF dynamic rows M a + bias + G^T lambda, then the residuals of the constraint equations.
-    Residual,
-    /// Of the model's kinematics number k: values, then rates, then accelerations.
-    Kinematics(usize),
-    /// The unknowns of all iterations, then the greatest residual.
-    Guess,
-    /// Roots in closed forms of loops that vanish where two solutions meet.
-    DeadCentres,
-    /// Of each of `Structure::margins` what vanishes in its dead centre, and the rate of its square; then, with iterations,
-    /// the greatest residual at the guess.
-    Margins,
-    /// Of each of `Structure::granted` the residual over its scale, at the guess.
-    Granted,
-    /// Partial derivatives of the accelerations and of the rates of own states, R of them: R x DOF by displacements of the
-    /// position, R x DOF by velocities, R x own states, R x scalars of inputs, each row by row.
-    ForwardDerivatives,
-    /// The same of the efforts, DOF of them.
-    InverseDerivatives,
-    /// The jump of the velocities; with constraints the multipliers and the rank of their system.
-    Impulse,
-    /// Momenta, by velocity coordinate.
-    Momentum,
-    /// Their rates.
-    MomentumRate,
-    /// Velocities that belong to momenta.
-    MomentumVelocity,
-    /// Output after output, flattened: `Vec3` 3, `Rotation` 9 row by row, `Pose` x, y, z, w, i, j, k, `Twist` and
-    /// `Wrench` 6, `Jacobian` 6 x DOF row by row, arrays element by element.
-    Outputs,
-}
-
 /// One generated function.
 #[derive(Clone, Debug)]
 pub struct Function {
@@ -365,18 +196,6 @@ pub enum Doubt {
     Open,
 }
 
-/// The mass matrix, where it may become singular.
-#[derive(Clone, Debug, Default)]
-pub enum Inertia<P> {
-    /// It is regular wherever it is finite, or nothing is to be said of it.
-    #[default]
-    Regular,
-    /// The function that the model asks for gives it.
-    Requested,
-    /// No function gives it.
-    Own(P),
-}
-
 /// Tests of parameters.
 #[derive(Clone, Debug, Default)]
 pub struct Checks {
@@ -384,14 +203,4 @@ pub struct Checks {
     pub program: Program,
     /// What is wrong where a test fails, the test, and how many values it takes.
     pub list: Vec<(String, Condition, usize)>,
-}
-
-/// What must hold of values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Condition {
-    Finite,
-    /// The first value is above rounding of the second.
-    Pivot,
-    /// Below the square root of the rounding unit.
-    Small,
 }

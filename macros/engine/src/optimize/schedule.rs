@@ -7,13 +7,15 @@
 
 use std::collections::{HashMap, HashSet};
 
+use crate::contracts::call::Call;
+use crate::contracts::symbol::Symbol;
 use crate::symbolic::fingerprint::Print;
-use crate::symbolic::graph::{BlockKind, Call, SymbolId};
+use crate::symbolic::graph::{BlockKind, SymbolId};
 use crate::symbolic::number::Number;
 
 use super::dag::{Block, Dag, Id, Kind, ONE};
 use super::names::Names;
-use super::program::{Expression, FieldId, Local, Program, Statement, Symbol};
+use super::program::{Expression, FieldId, Local, Program, Statement};
 use super::stage::Stage;
 
 /// Operands that one expression may hold before a part of it becomes a statement.

@@ -5,10 +5,10 @@
 
 use std::ops::{Mul, Neg};
 
+use crate::contracts::symbol::Symbol;
 use crate::symbolic::number::Number;
 
 use super::dag::{Dag, Id, Kind, ONE};
-use super::program::Symbol;
 
 /// The stage of a node is the latest among its operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -6,8 +6,8 @@
 
 use std::collections::{HashMap, HashSet};
 
+use crate::contracts::cost::Cost;
 use crate::dynamics::tree::Motion;
-use crate::optimize::program::Cost;
 use crate::symbolic::graph::{Graph, Rotation, RotationNode, Scalar, Vector};
 use crate::symbolic::lower::Lowering;
 

@@ -4,9 +4,10 @@
 //! an n-ary product n - 1 products, a reciprocal one quotient, sine and cosine of an angle one sincos, a
 //! block what it does, and the body of an iteration once.
 
-use crate::optimize::program::Cost;
+use crate::contracts::call::Call;
+use crate::contracts::cost::Cost;
 
-use super::graph::{AnyNode, Call, Graph, Scalar, ScalarNode};
+use super::graph::{AnyNode, Graph, Scalar, ScalarNode};
 
 impl Graph {
     /// Cost of these scalars, shared work counted once. Vectors must have been lowered.

@@ -10,8 +10,10 @@
 
 use std::collections::HashMap;
 
+use crate::contracts::call::Call;
+
 use super::graph::{
-    AnyNode, BlockId, BlockKind, Call, Graph, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode,
+    AnyNode, BlockId, BlockKind, Graph, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode,
 };
 
 impl Graph {

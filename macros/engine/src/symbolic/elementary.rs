@@ -7,10 +7,11 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use crate::contracts::call::Call;
+
 use super::check::Check;
 use super::doubled::{Doubled, ROUNDING};
 use super::fingerprint::{Print, mix, reconstruct};
-use super::graph::Call;
 use super::modular::{Point, Residue, TURN};
 use super::number::{Number, Root};
 

@@ -6,8 +6,10 @@
 
 use std::collections::HashMap;
 
+use crate::contracts::call::Call;
+
 use super::graph::{
-    AnyNode, BlockId, BlockKind, Call, Graph, Rotation, RotationNode, Scalar, ScalarNode, SymbolId, Vector, VectorNode,
+    AnyNode, BlockId, BlockKind, Graph, Rotation, RotationNode, Scalar, ScalarNode, SymbolId, Vector, VectorNode,
 };
 use super::number::Number;
 

@@ -14,6 +14,8 @@ use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 use std::ops::Neg;
 
+use crate::contracts::call::Call;
+
 use super::fingerprint::Print;
 use super::number::Number;
 
@@ -92,9 +94,6 @@ impl Rotation {
 /// A symbol of the graph, numbered by its owner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SymbolId(pub usize);
-
-/// Functions that no rule looks into. The last ones work with masks, which are scalars of the graph too.
-pub use crate::optimize::program::Call;
 
 /// Scalar nodes. Operands of products, roots and angles are positive edges.
 #[derive(Clone, Debug, PartialEq)]

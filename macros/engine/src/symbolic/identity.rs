@@ -12,10 +12,12 @@
 
 use std::cell::Cell;
 
+use crate::contracts::call::Call;
+
 use super::check::{self as field, Check, PRIME};
 use super::elementary::{literal_point, multiple};
 use super::evaluate::{Evaluator, Field, Real};
-use super::graph::{Call, Graph, Scalar, SymbolId};
+use super::graph::{Graph, Scalar, SymbolId};
 use super::modular::{self, mix};
 use super::number::Number;
 

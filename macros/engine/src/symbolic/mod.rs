@@ -4,6 +4,7 @@
 
 pub mod adjoint;
 pub mod check;
+mod cost;
 pub mod count;
 pub mod dependence;
 pub mod differentiate;

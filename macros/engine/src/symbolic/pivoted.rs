@@ -5,7 +5,9 @@
 //! cost is the same for every input and nothing branches; it is all counted where it stands. Of the remaining rows the
 //! one with the largest entry gives the pivot. Pivots below the threshold count as zero: their unknowns are zero.
 
-use super::graph::{Call, Graph, Scalar};
+use crate::contracts::call::Call;
+
+use super::graph::{Graph, Scalar};
 
 /// A pivot of this many rounding units of the first one is none: 1e-13 in double precision.
 const UNITS: i64 = 450;

@@ -5,9 +5,11 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::contracts::call::Call;
+
 use super::elementary;
 use super::fingerprint::{Print, mix, reconstruct};
-use super::graph::{Block, BlockId, BlockKind, Call, Graph, Scalar, ScalarNode, SymbolId, Vector, VectorNode};
+use super::graph::{Block, BlockId, BlockKind, Graph, Scalar, ScalarNode, SymbolId, Vector, VectorNode};
 use super::number::{Number, Root};
 use super::radical::gcd;
 

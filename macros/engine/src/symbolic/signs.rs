@@ -4,7 +4,9 @@
 //! is enough that a sum has no negative term and a product an even number of negative factors; roots are taken for
 //! positive, since where one vanishes two branches meet. What isn't seen is not proven: the answer is never wrong.
 
-use super::graph::{Call, Graph, Scalar, ScalarNode};
+use crate::contracts::call::Call;
+
+use super::graph::{Graph, Scalar, ScalarNode};
 
 /// How deep an expression is looked into.
 const DEEPEST: usize = 64;

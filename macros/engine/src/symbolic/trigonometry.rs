@@ -7,9 +7,11 @@
 use std::collections::BTreeMap;
 use std::ops::Add;
 
+use crate::contracts::call::Call;
+
 use super::elementary::{literal_point, multiple, quarters, sin_cos};
 use super::fingerprint::{Point, Print, reconstruct};
-use super::graph::{Call, Graph, Scalar, ScalarNode};
+use super::graph::{Graph, Scalar, ScalarNode};
 use super::number::Number;
 
 /// Whole multiples of a given point that are written out.

@@ -2,9 +2,9 @@
 //!
 //! In: operations. Out: their values in double precision, or to 31 digits ([`Doubled`]).
 
+use crate::contracts::call::Call;
 use crate::symbolic::doubled::Doubled;
 use crate::symbolic::evaluate::call_f64;
-use crate::symbolic::graph::Call;
 use crate::symbolic::number::Number;
 
 /// What evaluation asks of a number.

@@ -3,10 +3,13 @@
 //! In: a program and the values that it reads. Out: its results. Where a system has lesser rank than size, its solution is
 //! one of many, and rounding chooses among them: then pivots are taken in the order that the derived equations took.
 
+use crate::contracts::call::Call;
+use crate::contracts::symbol::Symbol;
+use crate::optimize::program::{Expression, Local, Program, Statement};
+use crate::symbolic::evaluate::call_f64;
+
 use super::linear::{solve, solve_symmetric};
 use super::trace::Pivots;
-use crate::optimize::program::{Call, Expression, Local, Program, Statement, Symbol};
-use crate::symbolic::evaluate::call_f64;
 
 /// Matrices of one system differ by rounding alone.
 const SAME: f64 = 1e-6;

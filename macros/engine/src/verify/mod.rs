@@ -18,10 +18,11 @@ mod trace;
 
 use std::collections::HashMap;
 
-use crate::mechanics::Derivation;
+use crate::contracts::function::FunctionKind;
 use crate::mechanics::loops::structure::Structure;
+use crate::mechanics::{Derivation, Inertia};
 use crate::model::types::Model;
-use crate::optimize::program::{Compiled, Doubt, Function, FunctionKind, Inertia, Part, Unchecked};
+use crate::optimize::program::{Compiled, Doubt, Function, Part, Unchecked};
 use crate::optimize::{self, Plain, Refusal};
 use crate::symbolic::graph::Scalar;
 use crate::symbolic::lower::Lowering;

@@ -4,11 +4,10 @@
 //! derivation. Out: numbers for all symbols, always the same: parameters at their defaults in the first state and near them in others,
 //! coordinates of loops at or near a closed configuration, everything else at random.
 
-use crate::mechanics::loops::structure::Means;
-use crate::mechanics::loops::structure::Structure;
+use crate::contracts::symbol::Symbol;
+use crate::mechanics::loops::structure::{Means, Structure};
 use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::types::{Coordinate, Model};
-use crate::optimize::program::Symbol;
 use crate::symbolic::doubled::Doubled;
 use crate::symbolic::graph::SymbolId;
 

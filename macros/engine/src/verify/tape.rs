@@ -7,8 +7,9 @@
 
 use std::collections::HashMap;
 
+use crate::contracts::call::Call;
 use crate::symbolic::graph::{
-    AnyNode, BlockId, BlockKind, Call, Graph, Rotation, RotationNode, Scalar, ScalarNode, SymbolId, Vector, VectorNode,
+    AnyNode, BlockId, BlockKind, Graph, Rotation, RotationNode, Scalar, ScalarNode, SymbolId, Vector, VectorNode,
 };
 use crate::symbolic::number::Number;
 

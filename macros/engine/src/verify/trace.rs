@@ -5,11 +5,13 @@
 //! in it: the sum of |slope| |value| over all operations (Bauer 1974). A solved system counts with what elimination leaves of its
 //! equations; an iteration that has converged counts with its last round, whose start makes no difference.
 
+use crate::contracts::call::Call;
+use crate::symbolic::doubled::Doubled;
+use crate::symbolic::graph::SymbolId;
+
 use super::arithmetic::{Arithmetic, slopes};
 use super::linear::{self, Solved};
 use super::tape::{Edge, Op, Tape, Work};
-use crate::symbolic::doubled::Doubled;
-use crate::symbolic::graph::{Call, SymbolId};
 
 /// Two numbers that are compared count as equal within this share of their size.
 const NEAR: f64 = 1e-9;

@@ -1,7 +1,8 @@
 //! Random expressions as plain trees: values without a graph, for comparison with what its constructors make.
 
+use multibody_engine::contracts::call::Call;
 use multibody_engine::symbolic::evaluate::Field;
-use multibody_engine::symbolic::graph::{Call, Graph, Scalar, SymbolId, Vector};
+use multibody_engine::symbolic::graph::{Graph, Scalar, SymbolId, Vector};
 use multibody_engine::symbolic::identity::Modular;
 use multibody_engine::symbolic::number::Number;
 

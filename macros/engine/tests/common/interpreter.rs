@@ -1,6 +1,8 @@
 //! Programs as numbers: statement by statement in double precision.
 
-use multibody_engine::optimize::program::{Call, Expression, FieldId, Local, Program, Statement, Symbol};
+use multibody_engine::contracts::call::Call;
+use multibody_engine::contracts::symbol::Symbol;
+use multibody_engine::optimize::program::{Expression, FieldId, Local, Program, Statement};
 use multibody_engine::symbolic::evaluate::{call_f64, solve_f64};
 
 /// Results of a program.

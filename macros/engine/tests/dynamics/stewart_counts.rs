@@ -3,6 +3,8 @@
 
 use std::path::PathBuf;
 
+use multibody_engine::contracts::cost::Cost;
+use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::dynamics::inertia::Inertia;
 use multibody_engine::dynamics::tree::{Link, Motion, Tree};
 use multibody_engine::mechanics::strut::carrier::{Axes, Carrier};
@@ -12,7 +14,6 @@ use multibody_engine::mechanics::strut::triple::{self, Triple};
 use multibody_engine::mechanics::strut::{self, motion};
 use multibody_engine::model::types::{JointId, ParamId};
 use multibody_engine::optimize::dag::Dag;
-use multibody_engine::optimize::program::{Cost, Symbol};
 use multibody_engine::optimize::simplify;
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
 use multibody_engine::symbolic::graph::{Graph, Rotation, Scalar, SymbolId, Vector};

@@ -2,7 +2,8 @@
 
 use crate::parsed;
 use crate::samples::*;
-use multibody_engine::optimize::program::{Call, Expression};
+use multibody_engine::contracts::call::Call;
+use multibody_engine::optimize::program::Expression;
 
 fn a() -> Expression {
     field(0)

@@ -4,11 +4,13 @@ use crate::parsed;
 use std::process::Command;
 
 use crate::samples::*;
+use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::emit::source;
 use multibody_engine::mechanics::{Derivation, Derived};
 use multibody_engine::model::types::{JointId, Model};
 use multibody_engine::optimize::compile;
-use multibody_engine::optimize::program::{Compiled, FunctionKind, Local, Program, Statement, Symbol};
+use multibody_engine::optimize::program::{Compiled, Local, Program, Statement};
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
 use multibody_engine::symbolic::graph::{BlockKind, Graph, Scalar, SymbolId};
 

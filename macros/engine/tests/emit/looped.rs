@@ -3,9 +3,11 @@
 
 #![allow(dead_code, unreachable_pub)]
 
+use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics::loops::structure::{Means, Role, Row, Step, Structure};
 use multibody_engine::model::types::*;
-use multibody_engine::optimize::program::{Compiled, Expression, FunctionKind, Symbol};
+use multibody_engine::optimize::program::{Compiled, Expression};
 use proc_macro2::Span;
 
 use super::samples::{

@@ -2,9 +2,10 @@
 
 use crate::parsed;
 use crate::samples::*;
+use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::mechanics::loops::structure::Structure;
 use multibody_engine::model::types::{Model, Type};
-use multibody_engine::optimize::program::{Compiled, FunctionKind};
+use multibody_engine::optimize::program::Compiled;
 use proc_macro2::{TokenStream, TokenTree};
 use syn::{Attribute, ImplItem, Item, Visibility};
 

@@ -2,8 +2,9 @@
 
 #![allow(dead_code, unreachable_pub)]
 
+use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::model::types::Model;
-use multibody_engine::optimize::program::{Compiled, Expression, FunctionKind, Program, Statement};
+use multibody_engine::optimize::program::{Compiled, Expression, Program, Statement};
 use syn::{ImplItem, Item, ItemMod};
 
 use crate::samples::{derived, emit, pendulum};

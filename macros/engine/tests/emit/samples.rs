@@ -4,10 +4,14 @@
 
 use std::rc::Rc;
 
+use multibody_engine::contracts::call::Call;
+use multibody_engine::contracts::cost::Cost;
+use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics::loops::structure::Structure;
 use multibody_engine::model::types::*;
 use multibody_engine::optimize::program::{
-    Call, Compiled, Cost, Expression, FieldId, Function as Derived, FunctionKind, Local, Program, Statement, Symbol,
+    Compiled, Expression, FieldId, Function as Derived, Local, Program, Statement,
 };
 use proc_macro2::{Ident, Span, TokenStream};
 use syn::parse_quote;

@@ -1,9 +1,10 @@
 //! One mechanism in several formulations: the same motion in each, found from a closed configuration in relative
 //! coordinates, and what bodies and joints do in it.
 
+use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics::loops::structure::Means;
 use multibody_engine::model::types::{BodyRef, Coordinate, JointId, JointKind, Orientation};
-use multibody_engine::optimize::program::{FunctionKind, Symbol};
 
 use super::support::*;
 

@@ -1,6 +1,6 @@
 //! Energy and power: what forces put in is what the mechanism's energy gains.
 
-use multibody_engine::optimize::program::FunctionKind;
+use multibody_engine::contracts::function::FunctionKind;
 
 use super::support::*;
 

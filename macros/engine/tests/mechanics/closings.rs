@@ -2,11 +2,11 @@
 //! at all times, its equations leave free what the joint leaves free and nothing else, and multipliers act as the
 //! transposed Jacobian.
 
+use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics::equations::{Equations, Method, Style, Way};
 use multibody_engine::mechanics::loops::constraints::{Axes, Held, Writing, closings, row_count, row_name};
 use multibody_engine::mechanics::translate::symbols::Symbols;
 use multibody_engine::model::types::{BodyId, BodyRef, Closing, Coordinate, JointId, Model};
-use multibody_engine::optimize::program::Symbol;
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
 use multibody_engine::symbolic::graph::{Graph, Scalar, SymbolId};
 
@@ -356,8 +356,8 @@ fn second_derivatives_follow_the_motion() {
 /// with parameters.
 #[test]
 fn a_leg_costs_what_it_should() {
+    use multibody_engine::contracts::function::FunctionKind;
     use multibody_engine::mechanics::{Derivation, Derived};
-    use multibody_engine::optimize::program::FunctionKind;
     for (foot, heading) in [("[-2.12, 1.374, 0.0]", "-0.75"), ("foot", "heading")] {
         let text = format!(
             "param foot = [-2.12, 1.374, 0.0]; param heading = -0.75; {}

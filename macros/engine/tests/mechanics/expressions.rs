@@ -1,7 +1,8 @@
 //! User expressions: every function, operator and shape against f64.
 
+use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::model::types::{InputId, StateId};
-use multibody_engine::optimize::program::{FunctionKind, Symbol};
 
 use super::support::*;
 

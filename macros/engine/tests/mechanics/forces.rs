@@ -1,6 +1,6 @@
 //! Forces one by one: each changes the bias by minus its Jacobian's transpose times itself.
 
-use multibody_engine::optimize::program::FunctionKind;
+use multibody_engine::contracts::function::FunctionKind;
 
 use super::support::*;
 
@@ -46,8 +46,8 @@ fn transposed(case: &Case, point: &Point, jacobian: &str, force: [f64; 3], momen
 }
 
 fn input(case: &Case, point: &Point) -> [f64; 3] {
+    use multibody_engine::contracts::symbol::Symbol;
     use multibody_engine::model::types::InputId;
-    use multibody_engine::optimize::program::Symbol;
     assert_eq!(case.model.inputs.len(), 1);
     [0, 1, 2].map(|element| point.get(Symbol::Input { input: InputId(0), element }))
 }

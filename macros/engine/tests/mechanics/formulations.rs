@@ -1,7 +1,7 @@
 //! Accelerations, reactions, powers and measured coordinates are the same in every formulation.
 
+use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::mechanics::analysis::analyse;
-use multibody_engine::optimize::program::FunctionKind;
 
 use super::alike::Mechanism;
 use super::support::*;

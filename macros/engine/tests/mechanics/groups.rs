@@ -1,10 +1,10 @@
 //! What is found several times in a mechanism, and that sharing changes no result.
 
+use multibody_engine::contracts::cost::Cost;
 use multibody_engine::emit::report;
 use multibody_engine::mechanics::loops::groups::{Group, Repeated, find};
 use multibody_engine::model::types::Model;
 use multibody_engine::optimize::compile;
-use multibody_engine::optimize::program::Cost;
 
 use crate::support::{model_of, model_with};
 

@@ -1,7 +1,7 @@
 //! Jacobians of frames in the velocities of the state: every column is what the twist gains where that velocity alone is
 //! one, in open trees, beside drives, couplings and loops, in all formulations; and outputs behind them stay in place.
 
-use multibody_engine::optimize::program::Symbol;
+use multibody_engine::contracts::symbol::Symbol;
 
 use super::support::*;
 

@@ -1,6 +1,6 @@
 //! Every joint kind against plain matrices: place and orientation of the child, and its velocity by differences.
 
-use multibody_engine::optimize::program::Symbol;
+use multibody_engine::contracts::symbol::Symbol;
 
 use super::support::*;
 
@@ -115,7 +115,7 @@ fn velocities(kind: &str, case: &Case, point: &Point) {
 }
 
 fn dynamics(kind: &str, case: &Case, point: &Point) {
-    use multibody_engine::optimize::program::FunctionKind::*;
+    use multibody_engine::contracts::function::FunctionKind::*;
     let n = case.dof();
     let accelerations = case.eval(ForwardDynamics, point);
     let bias = case.eval(Bias, point);

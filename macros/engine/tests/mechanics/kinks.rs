@@ -1,7 +1,8 @@
 //! Where functions have kinks and lines no length: derivatives that exist are given, springs between points that are one do
 //! nothing, the sign of zero is zero.
 
-use multibody_engine::optimize::program::{FunctionKind, Symbol};
+use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::symbol::Symbol;
 
 use super::support::*;
 

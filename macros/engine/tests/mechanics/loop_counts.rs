@@ -1,8 +1,9 @@
 //! Operations of machines with closed loops, from text to program: the Stewart-Gough platform beside published counts,
 //! and machines that the same rules must serve.
 
+use multibody_engine::contracts::cost::Cost;
+use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::diagnostics::Diagnostics;
-use multibody_engine::optimize::program::{Cost, FunctionKind};
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
 use multibody_engine::symbolic::graph::SymbolId;
 use multibody_engine::{mechanics, model, optimize, syntax};

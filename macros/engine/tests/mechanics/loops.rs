@@ -1,7 +1,8 @@
 //! Reactions in closed loops: Newton's and Euler's laws for every body with all that acts on it, eliminated coordinates
 //! against multipliers, and efforts of drives.
 
-use multibody_engine::optimize::program::{FunctionKind, Symbol};
+use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::symbol::Symbol;
 
 use super::support::*;
 

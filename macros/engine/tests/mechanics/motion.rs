@@ -1,6 +1,7 @@
 //! The same motion in other coordinates and other frames.
 
-use multibody_engine::optimize::program::{FunctionKind, Symbol};
+use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::symbol::Symbol;
 
 use super::support::*;
 

@@ -8,7 +8,7 @@
 use std::collections::HashMap;
 use std::time::{Duration, Instant};
 
-use multibody_engine::optimize::program::FunctionKind;
+use multibody_engine::contracts::function::FunctionKind;
 
 use super::alike::Mechanism;
 use super::support::*;
@@ -383,7 +383,7 @@ fn laws(what: &str, sample: &Sample, now: &HashMap<String, Vec<f64>>) {
 
 /// Columns of Jacobians against twists.
 fn columns(what: &str, case: &Case, point: &Point, sample: &Sample) {
-    use multibody_engine::optimize::program::Symbol;
+    use multibody_engine::contracts::symbol::Symbol;
     let state = case.structure.state.clone();
     let moved = |column: Option<usize>| {
         let mut point = point.clone();

@@ -42,7 +42,7 @@ fn cantilever() {
     );
     let mut point = case.rest();
     let input = multibody_engine::model::types::InputId(0);
-    point.set(multibody_engine::optimize::program::Symbol::Input { input, element: 0 }, 5.0);
+    point.set(multibody_engine::contracts::symbol::Symbol::Input { input, element: 0 }, 5.0);
     close("weld", &case.output("at_weld", &point), &[0.0, 5.0, 30.0, 0.0, 0.0, 0.0], 1e-12);
     close("wall", &case.output("at_wall", &point), &[0.0, 5.0, 50.0, -0.7, -40.0, 5.0], 1e-12);
 }

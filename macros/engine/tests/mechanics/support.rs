@@ -2,12 +2,13 @@
 
 use std::collections::HashMap;
 
+use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::mechanics::Derivation;
 use multibody_engine::mechanics::loops::structure::Structure;
 use multibody_engine::model::check;
 use multibody_engine::model::types::{Joint, JointKind, Model, Orientation};
-use multibody_engine::optimize::program::{FunctionKind, Symbol};
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
 use multibody_engine::symbolic::graph::SymbolId;
 use multibody_engine::syntax::parse;

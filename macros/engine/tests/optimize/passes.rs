@@ -6,13 +6,14 @@ use crate::expressions::{Expression, SYMBOLS};
 use crate::formulations;
 use crate::rebuild::rebuild;
 use crate::rng::Rng;
+use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::dynamics::regroup::regroup;
 use multibody_engine::mechanics::{Derivation, Derived, of};
 use multibody_engine::model;
 use multibody_engine::model::types::{InputId, JointId, ParamId};
 use multibody_engine::optimize::dag::{Dag, Kind};
-use multibody_engine::optimize::program::{FunctionKind, Symbol};
 use multibody_engine::optimize::{
     angles, balance, common, compile, factor, fields, flatten, linear, multiples, simplify, stage,
 };

@@ -5,11 +5,14 @@ use crate::interpreter;
 use std::collections::HashMap;
 
 use crate::rng::Rng;
+use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::diagnostics::Diagnostics;
+use multibody_engine::mechanics::Condition;
 use multibody_engine::mechanics::loops::structure::Structure;
 use multibody_engine::model::check;
 use multibody_engine::model::types::{Model, Type};
-use multibody_engine::optimize::program::{Compiled, Condition, FunctionKind, Symbol};
+use multibody_engine::optimize::program::Compiled;
 use multibody_engine::syntax::parse;
 use multibody_engine::{Trouble, compile};
 

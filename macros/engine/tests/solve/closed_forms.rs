@@ -7,7 +7,7 @@
 use crate::cycle::{Cycle, Outcome};
 use crate::reference;
 use crate::rng::Rng;
-use multibody_engine::optimize::program::Cost;
+use multibody_engine::contracts::cost::Cost;
 use multibody_engine::solve::{Failure, three_spheres};
 use multibody_engine::symbolic::graph::Scalar;
 

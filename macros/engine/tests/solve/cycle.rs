@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
+use multibody_engine::contracts::cost::Cost;
 use multibody_engine::dynamics::tree::Motion;
-use multibody_engine::optimize::program::Cost;
 use multibody_engine::solve::{Failure, Segment, Solution, Solved, Value, solve};
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
 use multibody_engine::symbolic::graph::{Graph, Rotation, Scalar, ScalarNode};

@@ -114,7 +114,7 @@ fn what_is_not_linear_is_transposed() {
         let quotient = g.div(root, y);
         let angle = g.angle(x, y);
         let square = g.product(&[z, z, q[2]]);
-        let tangent = g.call(multibody_engine::symbolic::graph::Call::Atan2, &[z, z]);
+        let tangent = g.call(multibody_engine::contracts::call::Call::Atan2, &[z, z]);
         let system = [x, q[3], q[2], y, z, s];
         let solved = g.block_outputs(BlockKind::Solve { size: 2, symmetric: false, groups: [].into() }, &system);
         let mut weighted = Vec::new();

@@ -1,9 +1,10 @@
 //! Symbolic derivatives against dual numbers and finite differences, and exactly against each other.
 
 use crate::rng::Rng;
+use multibody_engine::contracts::call::Call;
 use multibody_engine::symbolic::differentiate::Differentiator;
 use multibody_engine::symbolic::evaluate::{Evaluator, Field, Real, call_f64};
-use multibody_engine::symbolic::graph::{BlockKind, Call, Graph, Rotation, Scalar, SymbolId, Vector};
+use multibody_engine::symbolic::graph::{BlockKind, Graph, Rotation, Scalar, SymbolId, Vector};
 use multibody_engine::symbolic::identity::{Verdict, identical};
 use multibody_engine::symbolic::lower::Lowering;
 use multibody_engine::symbolic::number::Number;

@@ -2,10 +2,11 @@
 
 use crate::expressions::{self, Expression};
 use crate::rng::Rng;
+use multibody_engine::contracts::call::Call;
 use multibody_engine::dynamics::articulated_inertia::ArticulatedInertia;
 use multibody_engine::dynamics::inertia::Inertia;
 use multibody_engine::symbolic::evaluate::{Evaluator, Field};
-use multibody_engine::symbolic::graph::{Call, Graph, Rotation, Scalar};
+use multibody_engine::symbolic::graph::{Graph, Rotation, Scalar};
 use multibody_engine::symbolic::identity::{Draw, Modular, Verdict, close, identical};
 use multibody_engine::symbolic::lower::Lowering;
 use multibody_engine::symbolic::number::Number;

@@ -3,8 +3,9 @@
 use std::collections::HashMap;
 
 use crate::rng::Rng;
+use multibody_engine::contracts::call::Call;
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
-use multibody_engine::symbolic::graph::{BlockKind, Call, Graph, Rotation, Scalar, SymbolId, Vector};
+use multibody_engine::symbolic::graph::{BlockKind, Graph, Rotation, Scalar, SymbolId, Vector};
 use multibody_engine::symbolic::identity::{Verdict, close, identical};
 use multibody_engine::symbolic::substitute::Substitution;
 

@@ -1,8 +1,9 @@
 //! Errors that are put into compiled programs one at a time, and into derived equations.
 
+use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::mechanics::{self, Derivation};
 use multibody_engine::model::types::Model;
-use multibody_engine::optimize::program::{Compiled, Expression, FunctionKind, Program, Statement};
+use multibody_engine::optimize::program::{Compiled, Expression, Program, Statement};
 use multibody_engine::optimize::{self, program::Local};
 use multibody_engine::verify;
 

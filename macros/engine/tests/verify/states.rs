@@ -1,6 +1,8 @@
 //! States at which programs and laws are judged: what the usual ones don't show.
 
-use multibody_engine::optimize::program::{Doubt, Expression, FunctionKind, Inertia, Part, Unchecked};
+use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::mechanics::Inertia;
+use multibody_engine::optimize::program::{Doubt, Expression, Part, Unchecked};
 use multibody_engine::symbolic::graph::Scalar;
 use multibody_engine::{emit, optimize, verify};
 

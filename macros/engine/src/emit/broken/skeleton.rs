@@ -6,10 +6,12 @@
 
 use proc_macro2::TokenStream;
 
+use crate::contracts::cost::Cost;
+use crate::contracts::function::FunctionKind;
 use crate::emit::{context, module};
 use crate::mechanics;
 use crate::model::{Checked, Soundness};
-use crate::optimize::program::{Compiled, Cost, Function, FunctionKind, Program};
+use crate::optimize::program::{Compiled, Function, Program};
 
 use super::guesses;
 

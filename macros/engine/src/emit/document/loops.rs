@@ -3,13 +3,14 @@
 //!
 //! In: the layout with the model's structure, and the program of the Jacobian. Out: lines of text.
 
+use crate::contracts::function::FunctionKind;
 use crate::emit::layout::leaf::Leaf;
 use crate::emit::layout::{Group, Layout};
 use crate::emit::{Context, document};
 use crate::mechanics::loops::constraints::row_name;
 use crate::mechanics::loops::structure::{Means, Row, Step};
 use crate::model::types::{Closing, ConstraintId, ConstraintKind, Coordinate, DriveTarget, JointId, Place, SolveHow};
-use crate::optimize::program::{Expression, FunctionKind};
+use crate::optimize::program::Expression;
 
 use super::formula;
 use super::report::Row as Line;

@@ -4,6 +4,7 @@
 //! in force, the functions with their methods and operation counts. Rows of an array of parts that say the same stand
 //! once.
 
+use crate::contracts::function::FunctionKind;
 use crate::emit::items::separable::is_separable;
 use crate::emit::layout::{Layout, joints};
 use crate::emit::methods::functions;
@@ -11,7 +12,7 @@ use crate::emit::print::{literals, range};
 use crate::emit::{Context, context, document, names};
 use crate::mechanics::loops::structure::Structure;
 use crate::model::types::{Body, BodyRef, Docs, ExprNode, Frame, JointId, JointKind, Model, Orientation, Place, Type};
-use crate::optimize::program::{Compiled, FunctionKind};
+use crate::optimize::program::Compiled;
 
 use super::{code, cost, kind, loops, unchecked, values};
 

@@ -11,6 +11,8 @@ mod numeric;
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use crate::contracts::function::FunctionKind;
+use crate::contracts::symbol::Symbol;
 use crate::emit::items::system;
 use crate::emit::layout::Layout;
 use crate::emit::layout::places::RESERVED;
@@ -19,9 +21,10 @@ use crate::emit::print::blocks::{body, each_leaf};
 use crate::emit::print::expressions::Names;
 use crate::emit::print::{literals, range};
 use crate::emit::{Context, names};
+use crate::mechanics::Condition;
 use crate::mechanics::loops::constraints::unfit;
 use crate::model::types::{Body, ConstraintKind, Expr, ForceKind, Model, ParamId};
-use crate::optimize::program::{Condition, Expression, FunctionKind, Symbol};
+use crate::optimize::program::Expression;
 
 /// Expands to `impl<T: Real> Params<T> { pub fn check(&self) -> Result<(), ParamError> { .. } }`.
 pub(super) fn item(context: &Context<'_>) -> TokenStream {

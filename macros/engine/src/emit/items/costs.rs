@@ -6,9 +6,9 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use syn::Path;
 
+use crate::contracts::cost::Cost;
 use crate::emit::Context;
 use crate::emit::methods::functions;
-use crate::optimize::program::Cost;
 
 /// Expands to `pub const DOF: usize = 2;`, `pub const COSTS: &[Cost] = &[..];` and `pub const DERIVED: &[Cost] = &[..];`.
 pub(super) fn items(context: &Context<'_>) -> TokenStream {

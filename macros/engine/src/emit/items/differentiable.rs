@@ -4,12 +4,12 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use crate::contracts::function::FunctionKind;
 use crate::emit::layout::{FieldKind, Group, Layout};
 use crate::emit::methods::arguments::input_type;
 use crate::emit::methods::results;
 use crate::emit::{Context, names};
 use crate::model::types::{InstanceId, PartTypeId};
-use crate::optimize::program::FunctionKind;
 
 use super::space;
 

@@ -4,9 +4,9 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use crate::contracts::function::FunctionKind;
 use crate::emit::Context;
 use crate::emit::document::loops;
-use crate::optimize::program::FunctionKind;
 
 /// Expands to `pub const COORDINATES: &[&str] = &["shoulder", "elbow"];` and, where loops are held by equations, to the
 /// others.

@@ -3,10 +3,10 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use crate::contracts::function::FunctionKind;
 use crate::emit::methods::arguments::input_type;
 use crate::emit::methods::{functions, results};
 use crate::emit::{Context, document, names};
-use crate::optimize::program::FunctionKind;
 
 /// Expands to the impls where the functions have been derived, and to `Model::velocity` where `Model::impulse` is the same.
 pub(super) fn items(context: &Context<'_>) -> TokenStream {

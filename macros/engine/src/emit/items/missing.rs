@@ -7,11 +7,11 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use crate::contracts::function::FunctionKind;
 use crate::emit::layout::Group;
 use crate::emit::methods::arguments::Arguments;
 use crate::emit::methods::functions;
 use crate::emit::{Context, document, names};
-use crate::optimize::program::FunctionKind;
 
 /// Functions with the words of `emit`, and the traits of the runtime's `emitted` that speak of them.
 const WORDS: [(FunctionKind, &str, &str); 14] = [

@@ -3,6 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use crate::contracts::function::FunctionKind;
 use crate::emit::layout::Group;
 use crate::emit::layout::leaf::initialiser;
 use crate::emit::layout::places::RESERVED;
@@ -10,7 +11,7 @@ use crate::emit::methods::functions;
 use crate::emit::print::blocks::{body, each_leaf_of};
 use crate::emit::print::expressions::Names;
 use crate::emit::{Context, document, names};
-use crate::optimize::program::{Expression, FunctionKind};
+use crate::optimize::program::Expression;
 
 /// Expands to `pub struct Model<T = f64> { .. }`, `impl<T: Real> Model<T> { .. }` and `Default`.
 pub(super) fn items(context: &Context<'_>) -> TokenStream {

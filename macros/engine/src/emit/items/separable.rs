@@ -5,10 +5,10 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use crate::contracts::function::FunctionKind;
 use crate::emit::Context;
 use crate::emit::layout::places::Root;
 use crate::emit::methods::functions;
-use crate::optimize::program::FunctionKind;
 
 /// Expands to `impl<T: Real> Separable for Model<T> {}` where it holds.
 pub(super) fn item(context: &Context<'_>) -> TokenStream {

@@ -3,6 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use crate::contracts::function::FunctionKind;
 use crate::emit::layout::leaf;
 use crate::emit::layout::places::RESERVED;
 use crate::emit::methods::arguments::{Arguments, input_type};
@@ -10,7 +11,8 @@ use crate::emit::methods::{functions, results};
 use crate::emit::print::blocks::body;
 use crate::emit::print::expressions::Names;
 use crate::emit::{Context, names};
-use crate::optimize::program::{FunctionKind, Inertia, Program};
+use crate::mechanics::Inertia;
+use crate::optimize::program::Program;
 
 /// Expands to `fn ambiguity(..) -> T`, which tells where rounding would decide which of two motions goes on. For models
 /// that implement `Constrained`.

@@ -4,10 +4,10 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
+use crate::contracts::function::FunctionKind;
 use crate::emit::layout::Group;
 use crate::emit::methods::results;
 use crate::emit::{Context, document, names};
-use crate::optimize::program::FunctionKind;
 
 use super::structs::compares_by_hand;
 

@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
+use crate::contracts::function::FunctionKind;
 use crate::emit::items::singular;
 use crate::emit::layout::Layout;
 use crate::emit::methods::arguments::{Arguments, input_type};
@@ -12,7 +13,6 @@ use crate::emit::print::literals;
 use crate::emit::{Context, names};
 use crate::mechanics::loops::constraints::{is_length, row_name};
 use crate::mechanics::loops::structure::{Means, Row};
-use crate::optimize::program::FunctionKind;
 
 /// Expands to `impl<T: Real> System for Model<T> { .. }` where forward dynamics has been derived.
 pub(super) fn item(context: &Context<'_>) -> TokenStream {

@@ -3,10 +3,11 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use crate::contracts::function::FunctionKind;
 use crate::emit::methods::arguments::{Arguments, input_type};
 use crate::emit::methods::functions;
 use crate::emit::{Context, names};
-use crate::optimize::program::{Function, FunctionKind};
+use crate::optimize::program::Function;
 
 /// Expands to `impl<T: Real> Verifiable<2> for Model<T> { .. }` where the functions that it compares have been derived.
 pub(super) fn item(context: &Context<'_>) -> Option<TokenStream> {

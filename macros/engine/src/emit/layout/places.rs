@@ -5,8 +5,8 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use crate::contracts::symbol::Symbol;
 use crate::emit::names;
-use crate::optimize::program::Symbol;
 
 use super::{Entry, Group, Layout};
 

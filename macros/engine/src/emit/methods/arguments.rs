@@ -8,10 +8,10 @@ use std::collections::BTreeSet;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use crate::contracts::function::FunctionKind;
 use crate::emit::layout::places::Root;
 use crate::emit::layout::{Group, Layout};
 use crate::emit::names;
-use crate::optimize::program::FunctionKind;
 
 use super::results::vector_type;
 

@@ -8,11 +8,12 @@ use std::collections::BTreeSet;
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use crate::contracts::function::FunctionKind;
 use crate::emit::layout::places::{RESERVED, Root};
 use crate::emit::print::blocks::{body, each_leaf_of};
 use crate::emit::print::expressions::Names;
 use crate::emit::{Context, document, names};
-use crate::optimize::program::{Expression, Function, FunctionKind, Program};
+use crate::optimize::program::{Expression, Function, Program};
 
 use super::arguments::Arguments;
 use super::results;

@@ -6,10 +6,11 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use crate::contracts::function::FunctionKind;
+use crate::contracts::symbol::Symbol;
 use crate::emit::layout::{Group, Layout, leaf};
 use crate::emit::names;
 use crate::model::types::{InstanceId, SolveFor};
-use crate::optimize::program::{FunctionKind, Symbol};
 
 impl Layout<'_> {
     /// Number of equations that keep a multiplier.

@@ -7,9 +7,10 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
+use crate::contracts::call::Call;
 use crate::emit::layout::Layout;
 use crate::emit::names;
-use crate::optimize::program::{Call, Expression};
+use crate::optimize::program::Expression;
 
 use super::literals;
 

@@ -4,7 +4,7 @@
 //! lose digits. Products of literals are literals once a program is written, so looking at these is enough.
 
 use crate::emit::Context;
-use crate::optimize::program::Inertia;
+use crate::mechanics::Inertia;
 
 /// Numbers in order, each once, without signs.
 pub(in crate::emit) fn beyond_single(context: &Context<'_>) -> Vec<f64> {

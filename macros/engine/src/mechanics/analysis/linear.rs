@@ -6,12 +6,11 @@
 
 use std::collections::HashSet;
 
+use crate::contracts::symbol::Symbol;
 use crate::mechanics::loops::constraints::Writing;
 use crate::mechanics::loops::constraints::turns::Turns;
-use crate::mechanics::translate::symbols::Symbols;
-use crate::mechanics::translate::symbols::has_quaternion;
+use crate::mechanics::translate::symbols::{Symbols, has_quaternion};
 use crate::model::types::{Closing, ConstraintId, ConstraintKind, Coordinate, Model};
-use crate::optimize::program::Symbol;
 use crate::symbolic::graph::{Graph, ScalarNode};
 
 use super::super::equations::{Equations, Method, Style, Way};

@@ -5,16 +5,13 @@
 //! coordinates of the tree; travels count in units of the mechanism's size, so that they compare with angles. Where time has
 //! a say each start has a time of its own: what holds at time zero alone does not hold.
 
+use crate::contracts::symbol::Symbol;
 use crate::dynamics::tree::Motion;
-use crate::mechanics::loops::constraints::Writing;
-use crate::mechanics::loops::constraints::closings;
-use crate::mechanics::loops::constraints::is_length;
+use crate::mechanics::loops::constraints::{Writing, closings, is_length};
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::loops::structure::Row;
-use crate::mechanics::translate::symbols::Symbols;
-use crate::mechanics::translate::symbols::has_quaternion;
+use crate::mechanics::translate::symbols::{Symbols, has_quaternion};
 use crate::model::types::{Closing, ConstraintKind, Coordinate, Handling, JointId, Model, SolveHow};
-use crate::optimize::program::Symbol;
 use crate::symbolic::graph::{Graph, Scalar};
 use crate::symbolic::lower::Lowering;
 

@@ -4,8 +4,9 @@
 //! values, and backwards for the gradient of one root over the nodes that it needs (reverse accumulation, Griewank and
 //! Walther 2008, chapter 3). The sampling of closed configurations runs it some thousand times in an unoptimised build.
 
+use crate::contracts::call::Call;
 use crate::symbolic::evaluate::call_f64;
-use crate::symbolic::graph::{Call, Graph, Scalar, ScalarNode};
+use crate::symbolic::graph::{Graph, Scalar, ScalarNode};
 
 #[derive(Clone, Copy, Debug)]
 enum Op {

@@ -6,18 +6,13 @@
 //! parameters already (a loop that can't be closed at zero, a singular position) it says nothing and is left out, and so
 //! is what no parameter changes.
 
-use crate::mechanics::loops::constraints::closings;
-use crate::mechanics::loops::constraints::coordinate_name;
-use crate::mechanics::loops::constraints::row_name;
-use crate::mechanics::loops::constraints::unfit;
-use crate::mechanics::loops::reduction::Map;
-use crate::mechanics::loops::reduction::Reduction;
-use crate::mechanics::loops::structure::Means;
-use crate::mechanics::loops::structure::Row;
-use crate::mechanics::translate::symbols::freedoms_of;
-use crate::mechanics::translate::symbols::has_quaternion;
+use crate::contracts::symbol::Symbol;
+use crate::mechanics::Condition;
+use crate::mechanics::loops::constraints::{closings, coordinate_name, row_name, unfit};
+use crate::mechanics::loops::reduction::{Map, Reduction};
+use crate::mechanics::loops::structure::{Means, Row};
+use crate::mechanics::translate::symbols::{freedoms_of, has_quaternion};
 use crate::model::types::{Closing, Coordinate, Handling, JointId, SolveHow};
-use crate::optimize::program::{Condition, Symbol};
 use crate::symbolic::evaluate::{Evaluator, Real};
 use crate::symbolic::graph::{Scalar, SymbolId};
 use crate::symbolic::linear_algebra::Factors;

@@ -2,6 +2,9 @@
 //!
 //! In: what the model asks for. Out: candidates, or complaints about mechanisms whose equations these functions can't hold.
 
+use proc_macro2::Span;
+
+use crate::contracts::function::FunctionKind;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::{Equations, Method, Style, Way};
 use crate::mechanics::loops::constraints::path;
@@ -9,11 +12,9 @@ use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::results::momentum::Weight;
 use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::types::{Coordinate, Model, Request};
-use crate::optimize::program::FunctionKind;
 use crate::symbolic::graph::{Graph, Scalar};
 
 use super::{COMPOSITE, Candidate, Deriving, METHODS, MOST_COMPOSITE, Names, articulates, floats, freedoms};
-use proc_macro2::Span;
 
 type Candidates = Result<Vec<Candidate>, Vec<Complaint>>;
 

@@ -5,8 +5,8 @@
 //! hold what is idle: then a pivot says nothing. Lengths and masses that are parameters may be zero, whatever
 //! `Params::check` says of them, so they prove nothing.
 
+use crate::mechanics::Inertia;
 use crate::model::types::{Body, BodyRef, Expr, Joint, JointKind, Orientation, Request};
-use crate::optimize::program::Inertia;
 use crate::symbolic::graph::Scalar;
 use crate::symbolic::linear_algebra::Factors;
 

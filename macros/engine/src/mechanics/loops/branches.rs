@@ -14,20 +14,20 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
+use crate::contracts::call::Call;
+use crate::contracts::symbol::Symbol;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::model::types::{Closing, Coordinate, Expr, JointKind, Solve, SolveHow};
-use crate::optimize::program::Symbol;
 use crate::solve::{self, Cycle, Failure, Plan, Solved, of_signs};
 use crate::symbolic::evaluate::{Evaluator, Real};
 use crate::symbolic::fingerprint::mix;
-use crate::symbolic::graph::{Call, Scalar, SymbolId};
+use crate::symbolic::graph::{Scalar, SymbolId};
 use crate::symbolic::lower::Lowering;
 use crate::symbolic::signs::is_proven;
 
 use super::constraints::coordinate_name;
-use super::reduction::Map;
-use super::reduction::Reduction;
+use super::reduction::{Map, Reduction};
 
 /// Configurations with real solutions at which conditions are tried, and random ones among which these are sought; more
 /// where few of them are as the user assumes.

@@ -10,19 +10,17 @@
 
 use std::collections::HashMap;
 
+use crate::contracts::symbol::Symbol;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::symbols::Symbols;
 use crate::model::types::{Closing, Coordinate, JointId, SolveHow};
-use crate::optimize::program::Symbol;
 use crate::solve::Value as Solved;
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::{BlockKind, Graph, Scalar, SymbolId};
 
 use super::constraints::coordinate_name;
-use super::structure::Means;
-use super::structure::Role;
-use super::structure::Step;
+use super::structure::{Means, Role, Step};
 
 /// Expressions by the symbol that they replace.
 pub(in crate::mechanics) type Map = HashMap<SymbolId, Scalar>;
@@ -249,8 +247,8 @@ impl Equations<'_> {
         let next: Vec<Scalar> = inner.iter().zip(&step_by).map(|(&x, &d)| self.g.sub(x, d)).collect();
         let g = &mut self.g;
         let residual = values.iter().fold(Scalar::ZERO, |worst, &value| {
-            let size = g.call(crate::symbolic::graph::Call::Abs, &[value]);
-            if worst == Scalar::ZERO { size } else { g.call(crate::symbolic::graph::Call::Max, &[worst, size]) }
+            let size = g.call(crate::contracts::call::Call::Abs, &[value]);
+            if worst == Scalar::ZERO { size } else { g.call(crate::contracts::call::Call::Max, &[worst, size]) }
         });
         let ids = inner.iter().filter_map(|&s| g.symbol_id(s));
         let kind = BlockKind::Iterate { unknowns: ids.collect(), count: ITERATIONS };

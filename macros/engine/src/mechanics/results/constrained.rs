@@ -8,16 +8,14 @@
 use std::collections::HashSet;
 use std::rc::Rc;
 
-use crate::dynamics::saddle::Saddle;
-use crate::dynamics::saddle::Solution;
+use crate::contracts::call::Call;
+use crate::dynamics::saddle::{Saddle, Solution};
 use crate::mechanics::equations::Equations;
-use crate::mechanics::loops::reduction::Map;
-use crate::mechanics::loops::reduction::Reduction;
-use crate::mechanics::loops::structure::Role;
-use crate::mechanics::loops::structure::Row;
+use crate::mechanics::loops::reduction::{Map, Reduction};
+use crate::mechanics::loops::structure::{Role, Row};
 use crate::model::types::{Closing, Coordinate, Handling};
 use crate::symbolic::differentiate::Differentiator;
-use crate::symbolic::graph::{Call, Scalar};
+use crate::symbolic::graph::Scalar;
 
 /// Accelerations with what comes beside them.
 pub(in crate::mechanics) struct Solved {

@@ -9,7 +9,8 @@
 
 use std::collections::HashSet;
 
-use crate::symbolic::graph::{Call, Graph, Scalar, ScalarNode};
+use crate::contracts::call::Call;
+use crate::symbolic::graph::{Graph, Scalar, ScalarNode};
 use crate::symbolic::substitute::Substitution;
 
 /// Far below any length or speed, and a normal number in single precision, as its reciprocal is.

@@ -36,7 +36,7 @@ pub(in crate::mechanics) enum Accumulation {
 /// A sum of expressions with weights.
 type Weighted = Vec<(Scalar, Scalar)>;
 
-/// Directions, one per column, in the order of [`crate::optimize::program::FunctionKind::ForwardDerivatives`].
+/// Directions, one per column, in the order of [`crate::contracts::function::FunctionKind::ForwardDerivatives`].
 struct Directions {
     columns: Vec<Seeds>,
     /// Numbers of positions, velocities, own states and inputs.

@@ -12,13 +12,12 @@
 
 use std::collections::HashMap;
 
+use crate::contracts::call::Call;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Reduction;
-use crate::mechanics::loops::structure::Means;
-use crate::mechanics::loops::structure::Role;
-use crate::mechanics::loops::structure::Structure;
+use crate::mechanics::loops::structure::{Means, Role, Structure};
 use crate::model::types::Coordinate;
-use crate::symbolic::graph::{Call, Graph, Scalar};
+use crate::symbolic::graph::{Graph, Scalar};
 
 /// Equations whose determinant is written out.
 const MOST_MINORS: usize = 8;

@@ -4,7 +4,8 @@
 //! is reached by turns about coordinate axes, whose sines and cosines are quotients of its components and lengths, so that
 //! it is exact as they are, and a rotation times its transpose is one.
 
-use crate::symbolic::graph::{Call, Graph, Rotation, Scalar};
+use crate::contracts::call::Call;
+use crate::symbolic::graph::{Graph, Rotation, Scalar};
 use crate::symbolic::number::Number;
 use crate::symbolic::rotations::compose;
 

@@ -5,15 +5,15 @@
 
 use std::rc::Rc;
 
+use crate::contracts::call::Call;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::structure::Role;
 use crate::model::types::{Coordinate, Expr, ExprNode};
-use crate::symbolic::graph::{Call, Rotation, Scalar, Vector};
+use crate::symbolic::graph::{Rotation, Scalar, Vector};
 use crate::symbolic::rotations;
 
 use super::directions;
-use super::values::Part;
-use super::values::Value;
+use super::values::{Part, Value};
 
 impl Equations<'_> {
     /// The value of an expression.

@@ -2,9 +2,10 @@
 //!
 //! In: values of arguments. Out: nodes; what the graph has rules for (sine, root, product) is said in its own terms.
 
+use crate::contracts::call::Call;
 use crate::mechanics::equations::Equations;
 use crate::model::types::{Comparison, Function, Type};
-use crate::symbolic::graph::{Call, Graph, Scalar, ScalarNode};
+use crate::symbolic::graph::{Graph, Scalar, ScalarNode};
 
 use super::values::Value;
 

@@ -3,8 +3,8 @@
 //! In: places in the generated structs. Out: names of links, such as `legs_2_gimbal`, and of symbols, such as `elbow`,
 //! `elbow_rate`, `feet_0_x`.
 
+use crate::contracts::symbol::Symbol;
 use crate::model::types::{JointId, JointKind, Model, Orientation, Place, Type};
-use crate::optimize::program::Symbol;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 

@@ -6,9 +6,10 @@
 //! one is selected whose pivot is at least 1/2, so there is one root and one reciprocal and no cancellation (after
 //! Shepperd 1978).
 
+use crate::contracts::call::Call;
 use crate::dynamics::tree::Motion;
 use crate::mechanics::equations::Equations;
-use crate::symbolic::graph::{Call, Graph, Rotation, RotationNode, Scalar, Vector};
+use crate::symbolic::graph::{Graph, Rotation, RotationNode, Scalar, Vector};
 use crate::symbolic::number::Number;
 use crate::symbolic::rotations;
 

@@ -4,12 +4,11 @@
 //! velocities and accelerations, in this order, whatever is derived later: the same symbol has the same number, and the
 //! same print, in every graph of one model. Joints that close loops have no coordinates.
 
-use crate::mechanics::loops::structure::Role;
-use crate::mechanics::loops::structure::Structure;
+use crate::contracts::symbol::Symbol;
+use crate::mechanics::loops::structure::{Role, Structure};
 use crate::model::types::{
     Coordinate, InputId, Joint, JointId, JointKind, Model, Orientation, ParamId, Request, StateId,
 };
-use crate::optimize::program::Symbol;
 use crate::symbolic::graph::{Graph, Scalar};
 
 /// Handles of all symbols, by what they stand for.

@@ -1,9 +1,11 @@
 //! Stage `verify`: constraint equations, their Jacobian, their rates, and what is left of their second derivatives.
 
-use super::{At, Judged, Law, Sum, judged};
+use crate::contracts::function::FunctionKind;
+use crate::contracts::symbol::Symbol;
 use crate::model::types::Handling;
-use crate::optimize::program::{FunctionKind, Symbol};
 use crate::symbolic::doubled::Doubled;
+
+use super::{At, Judged, Law, Sum, judged};
 
 pub(super) const LAWS: &[Law] = &[
     Law { between: "the constraints and their Jacobian", judge: |at| at.jacobian() },

@@ -1,9 +1,11 @@
 //! Stage `verify`: derivatives are the slopes of what they are derivatives of.
 
-use super::{At, Judged, Law, Sum, judged, velocity};
+use crate::contracts::function::FunctionKind;
+use crate::contracts::symbol::Symbol;
 use crate::model::types::{InputId, StateId};
-use crate::optimize::program::{FunctionKind, Symbol};
 use crate::symbolic::doubled::Doubled;
+
+use super::{At, Judged, Law, Sum, judged, velocity};
 
 pub(super) const LAWS: &[Law] = &[
     Law {

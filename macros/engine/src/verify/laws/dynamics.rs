@@ -1,8 +1,10 @@
 //! Stage `verify`: inverse dynamics, forward dynamics and the residual of the equations.
 
-use super::{At, Judged, Law, Sum, acceleration, judged};
-use crate::optimize::program::{FunctionKind, Symbol};
+use crate::contracts::function::FunctionKind;
+use crate::contracts::symbol::Symbol;
 use crate::symbolic::doubled::Doubled;
+
+use super::{At, Judged, Law, Sum, acceleration, judged};
 
 pub(super) const LAWS: &[Law] = &[
     Law { between: "the mass matrix and inverse dynamics", judge: |at| at.inertia() },

@@ -1,10 +1,11 @@
 //! Stage `verify`: energies and the mass matrix.
 
-use super::forces;
-use super::{At, Judged, Law, Sum, acceleration, judged, velocity};
+use crate::contracts::function::FunctionKind;
+use crate::contracts::symbol::Symbol;
 use crate::model::types::InputId;
-use crate::optimize::program::{FunctionKind, Symbol};
 use crate::symbolic::doubled::Doubled;
+
+use super::{At, Judged, Law, Sum, acceleration, forces, judged, velocity};
 
 pub(super) const LAWS: &[Law] = &[
     Law { between: "the mass matrix and kinetic energy", judge: |at| at.energy() },

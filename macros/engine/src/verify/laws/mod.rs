@@ -13,11 +13,12 @@ mod forces;
 mod momenta;
 mod outputs;
 
-use crate::mechanics::loops::structure::Role;
-use crate::mechanics::loops::structure::Structure;
+use crate::contracts::function::FunctionKind;
+use crate::contracts::symbol::Symbol;
+use crate::mechanics::loops::structure::{Role, Structure};
 use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::types::{Coordinate, Model};
-use crate::optimize::program::{Doubt, FunctionKind, Symbol};
+use crate::optimize::program::Doubt;
 use crate::symbolic::doubled::Doubled;
 use crate::symbolic::graph::SymbolId;
 

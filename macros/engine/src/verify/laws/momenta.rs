@@ -1,8 +1,10 @@
 //! Stage `verify`: momenta, their rates, and jumps of velocities.
 
-use super::{At, Judged, Law, Sum, judged, momentum, velocity};
-use crate::optimize::program::{FunctionKind, Symbol};
+use crate::contracts::function::FunctionKind;
+use crate::contracts::symbol::Symbol;
 use crate::symbolic::doubled::Doubled;
+
+use super::{At, Judged, Law, Sum, judged, momentum, velocity};
 
 pub(super) const LAWS: &[Law] = &[
     Law { between: "momenta and the mass matrix", judge: |at| at.momenta() },

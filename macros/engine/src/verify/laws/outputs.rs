@@ -4,10 +4,12 @@
 
 use std::rc::Rc;
 
-use super::{At, Judged, Law, Sum, judged};
+use crate::contracts::function::FunctionKind;
+use crate::contracts::symbol::Symbol;
 use crate::model::types::{BodyRef, Expr, ExprNode, Frame, FrameQuantity, FrameStep, Model, Type};
-use crate::optimize::program::{FunctionKind, Symbol};
 use crate::symbolic::doubled::Doubled;
+
+use super::{At, Judged, Law, Sum, judged};
 
 pub(super) const LAWS: &[Law] = &[
     Law { between: "positions and velocities of outputs", judge: |at| at.speeds() },

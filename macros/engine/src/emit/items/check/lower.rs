@@ -5,8 +5,10 @@
 
 use std::f64::consts::PI;
 
+use crate::contracts::call::Call;
+use crate::contracts::symbol::Symbol;
 use crate::model::types::{Comparison, Expr, ExprNode, Function, Model};
-use crate::optimize::program::{Call, Expression, Symbol};
+use crate::optimize::program::Expression;
 
 /// The expression of a scalar.
 pub(in crate::emit) fn scalar(model: &Model, expr: &Expr) -> Option<Expression> {

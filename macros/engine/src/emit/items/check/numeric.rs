@@ -2,8 +2,10 @@
 //!
 //! In: expressions over parameters. Out: numbers, or nothing where there is anything else in them.
 
+use crate::contracts::call::Call;
+use crate::contracts::symbol::Symbol;
 use crate::model::types::Model;
-use crate::optimize::program::{Call, Expression, Symbol};
+use crate::optimize::program::Expression;
 
 /// The expression's value.
 pub(in crate::emit) fn value(model: &Model, expression: &Expression) -> Option<f64> {

@@ -10,13 +10,14 @@
 
 use std::rc::Rc;
 
+use crate::contracts::call::Call;
 use crate::dynamics::point_kinematics::Climb;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::build::Place;
 use crate::mechanics::translate::symbols::Symbols;
 use crate::model::types::{Coordinate, JointId, JointKind, Order, Orientation};
 use crate::symbolic::differentiate::Differentiator;
-use crate::symbolic::graph::{Call, Scalar, Vector};
+use crate::symbolic::graph::{Scalar, Vector};
 
 use super::Writing;
 

@@ -15,21 +15,17 @@
 use std::collections::HashSet;
 use std::rc::Rc;
 
+use crate::contracts::call::Call;
 use crate::mechanics::analysis::Complaint;
-use crate::mechanics::equations::Equations;
-use crate::mechanics::equations::Method;
-use crate::mechanics::equations::Style;
-use crate::mechanics::equations::Way;
+use crate::mechanics::equations::{Equations, Method, Style, Way};
 use crate::mechanics::translate::expressions::operands;
 use crate::mechanics::translate::symbols::Symbols;
 use crate::model::types::{Closing, ConstraintId, ConstraintKind, Coordinate, Expr, ExprNode, Model, Order};
 use crate::symbolic::evaluate::{Evaluator, Real};
-use crate::symbolic::graph::{Call, Graph, Scalar, SymbolId};
+use crate::symbolic::graph::{Graph, Scalar, SymbolId};
 use crate::symbolic::number::Number;
 
-use super::Writing;
-use super::coordinate_name;
-use super::row_name;
+use super::{Writing, coordinate_name, row_name};
 
 /// Greatest numerator and denominator of a share: with more, turns lie so close that which of them is meant is lost.
 const MOST: i64 = 1000;

@@ -9,10 +9,11 @@
 
 use std::rc::Rc;
 
+use crate::contracts::call::Call;
 use crate::dynamics::tree::Motion;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::build::Place;
-use crate::symbolic::graph::{Call, Scalar};
+use crate::symbolic::graph::Scalar;
 
 use super::view::View;
 

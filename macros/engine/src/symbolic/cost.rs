@@ -1,35 +1,17 @@
-//! Stage `optimize`: what work costs.
+//! Stage `symbolic`: what a block costs.
 //!
-//! In: operations. Out: one number by which candidates are compared, and the operations of a block.
+//! In: a block. Out: its operations.
 //!
 //! A linear solve is counted as the runtime does it, for every input alike: scaling, the search of a pivot (a comparison
 //! and two or three selections per candidate, 1 add each), exchanges by selections (two per pair), elimination (the
 //! n^3 / 3 of the textbook) and substitution. An iteration is counted with the operations of its body, once, whatever the
 //! number of rounds: what is compared is the work of one round.
 
-use crate::symbolic::graph::BlockKind;
+use crate::contracts::cost::Cost;
 
-use super::program::Cost;
+use super::graph::BlockKind;
 
 impl Cost {
-    /// What choices between candidates compare: additions, products, selections, comparisons 1, quotients and roots 8,
-    /// sincos and other functions 20.
-    pub fn weight(&self) -> u32 {
-        self.add + self.mul + self.compare + 8 * (self.div + self.sqrt) + 20 * (self.sincos + self.other)
-    }
-
-    pub(crate) fn plus(self, other: Cost) -> Cost {
-        Cost {
-            add: self.add + other.add,
-            mul: self.mul + other.mul,
-            div: self.div + other.div,
-            sqrt: self.sqrt + other.sqrt,
-            sincos: self.sincos + other.sincos,
-            compare: self.compare + other.compare,
-            other: self.other + other.other,
-        }
-    }
-
     /// Of a block without what its operands cost.
     pub(crate) fn of_block(kind: &BlockKind) -> Cost {
         match kind {
