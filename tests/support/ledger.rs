@@ -5,9 +5,8 @@ use std::fmt;
 
 use multibody_engine::contracts::cost::Cost;
 use multibody_engine::emit::function_name;
-use multibody_engine::mechanics;
 use multibody_engine::model::types::Model;
-use multibody_engine::optimize;
+use multibody_engine::{mechanics, optimize};
 
 use super::engine::{calls, literal, models};
 

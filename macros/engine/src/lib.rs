@@ -1,9 +1,26 @@
 //! The compiler behind `multibody!`, an ordinary library so that tests, benches and fuzzers can link it.
 //!
-//! Stages flow one way: `syntax -> model -> mechanics -> optimize -> verify -> emit`; `mechanics` stands on `solve`,
-//! `dynamics` and `symbolic`, in this order. `symbolic` knows no mechanics; `dynamics` knows trees of links and no model;
-//! `mechanics` knows no tokens; `emit` decides nothing about equations. The public items here serve the project's own tests
-//! and tools; users call the macro.
+//! Stages flow one way. Each line names a stage and all that it may read; `tests/stages` holds the sources to it. What stands
+//! behind `::` is the only part that is open. The public items here serve the project's own tests and tools; users call the
+//! macro.
+//!
+//! ```text
+//! rust_keywords:
+//! diagnostics:
+//! syntax: diagnostics
+//! model: syntax diagnostics rust_keywords
+//! contracts: model
+//! symbolic: contracts::call contracts::cost
+//! dynamics: symbolic contracts::call contracts::cost
+//! solve: dynamics symbolic contracts::call contracts::cost
+//! mechanics: solve dynamics symbolic contracts model
+//! optimize: mechanics symbolic contracts rust_keywords
+//! verify: optimize mechanics symbolic contracts model
+//! emit: optimize mechanics contracts model rust_keywords
+//! ```
+//!
+//! So `symbolic` knows no mechanics; `dynamics` knows trees of links and no model; behind `model` only
+//! `emit` writes tokens; `emit` reads programs and never the graph: it decides nothing about equations and counts none.
 
 pub mod contracts;
 pub mod diagnostics;

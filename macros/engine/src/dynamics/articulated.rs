@@ -16,12 +16,8 @@ use crate::symbolic::graph::{Graph, Scalar, Vector};
 use super::articulated_inertia::ArticulatedInertia;
 use super::floating_bases::Seat;
 use super::kinematics::motions;
-use super::newton_euler::Wrench;
-use super::newton_euler::inertial_wrench;
-use super::newton_euler::to_parent;
-use super::tree::Link;
-use super::tree::Motion;
-use super::tree::Tree;
+use super::newton_euler::{Wrench, inertial_wrench, to_parent};
+use super::tree::{Link, Motion, Tree};
 
 /// What is eliminated.
 #[derive(Clone, Copy)]

@@ -7,8 +7,7 @@
 
 use crate::symbolic::graph::{Graph, Rotation, RotationNode, Scalar};
 
-use super::inertia::Inertia;
-use super::inertia::entry;
+use super::inertia::{Inertia, entry};
 
 /// J and M stand as xx, yy, zz, xy, xz, yz.
 #[derive(Clone, Copy, Debug)]

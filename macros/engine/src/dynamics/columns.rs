@@ -9,9 +9,7 @@ use std::collections::HashMap;
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 use crate::symbolic::rotations;
 
-use super::tree::Link;
-use super::tree::Motion;
-use super::tree::Tree;
+use super::tree::{Link, Motion, Tree};
 
 /// R = base * turn about a coordinate axis.
 #[derive(Clone, Copy, Debug)]

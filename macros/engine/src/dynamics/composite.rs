@@ -7,10 +7,8 @@
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
 use super::inertia::Inertia;
-use super::newton_euler::Wrench;
-use super::newton_euler::to_parent;
-use super::tree::Motion;
-use super::tree::Tree;
+use super::newton_euler::{Wrench, to_parent};
+use super::tree::{Motion, Tree};
 
 /// The symmetric mass matrix.
 pub fn mass_matrix(g: &mut Graph, tree: &Tree) -> Vec<Vec<Scalar>> {

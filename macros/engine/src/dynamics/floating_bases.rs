@@ -8,9 +8,7 @@
 
 use crate::symbolic::graph::{Rotation, Scalar};
 
-use super::tree::Link;
-use super::tree::Motion;
-use super::tree::Tree;
+use super::tree::{Link, Motion, Tree};
 
 /// A link that is carried by translations in every direction in which its rotation could turn them.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -6,8 +6,7 @@
 
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
-use super::tree::Motion;
-use super::tree::Tree;
+use super::tree::{Motion, Tree};
 
 /// Motion of one link, in its own axes at its origin.
 #[derive(Clone, Copy, Debug)]

@@ -12,14 +12,9 @@
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
 use super::inertia::Inertia;
-use super::kinematics::Field;
-use super::kinematics::LinkMotion;
-use super::kinematics::motions;
-use super::newton_euler::Wrench;
-use super::newton_euler::spin_moment;
-use super::newton_euler::to_parent;
-use super::tree::Motion;
-use super::tree::Tree;
+use super::kinematics::{Field, LinkMotion, motions};
+use super::newton_euler::{Wrench, spin_moment, to_parent};
+use super::tree::{Motion, Tree};
 
 /// A link against the first of its group, in the group's axes.
 #[derive(Clone, Copy)]

@@ -3,17 +3,20 @@
 //!
 //! [`tree`] is what all recursions walk. Kinematics: [`kinematics`] and [`velocities`] in link axes, [`columns`] and
 //! [`world`] in those of one link or the world, [`point_kinematics`] for single points. Dynamics: [`newton_euler`],
-//! [`lumped`] (the same over links that turn together), [`composite`], [`articulated`]; [`regroup`], [`shared_axes`] and
+//! [`lumped`] (the same over links that turn together), [`composite`], [`articulated`], [`momentum`],
+//! [`energy`]; [`regroup`], [`shared_axes`] and
 //! [`floating_bases`] say how a tree is written so that they cost less; [`saddle`] solves systems with constraints.
 
 pub mod articulated;
 pub mod articulated_inertia;
 pub mod columns;
 pub mod composite;
+pub mod energy;
 pub mod floating_bases;
 pub mod inertia;
 pub mod kinematics;
 pub mod lumped;
+pub mod momentum;
 pub mod newton_euler;
 pub mod point_kinematics;
 pub mod regroup;

@@ -8,10 +8,8 @@
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
 use super::inertia::entry;
-use super::kinematics::Field;
-use super::kinematics::LinkMotion;
-use super::tree::Link;
-use super::tree::Tree;
+use super::kinematics::{Field, LinkMotion};
+use super::tree::{Link, Tree};
 
 /// Moment about a link's origin and force, in link axes.
 #[derive(Clone, Copy, Debug)]

@@ -7,9 +7,7 @@
 
 use crate::symbolic::graph::{Graph, Rotation, RotationNode, Scalar, Vector};
 
-use super::tree::Link;
-use super::tree::Motion;
-use super::tree::Tree;
+use super::tree::{Link, Motion, Tree};
 
 /// A piece of the way to the point, and how it moves: d = R x, d' = R x' + w x d and so on.
 #[derive(Clone, Copy, Debug)]

@@ -12,8 +12,7 @@
 use crate::symbolic::graph::{Graph, Scalar};
 
 use super::inertia::Inertia;
-use super::tree::Motion;
-use super::tree::Tree;
+use super::tree::{Motion, Tree};
 
 /// Regroups from the leaves to the ground.
 pub fn regroup(g: &mut Graph, tree: &Tree) -> Tree {

@@ -10,9 +10,7 @@ use crate::symbolic::graph::{Graph, Rotation, Scalar};
 
 use super::inertia::Inertia;
 use super::newton_euler::Wrench;
-use super::tree::Link;
-use super::tree::Motion;
-use super::tree::Tree;
+use super::tree::{Link, Motion, Tree};
 
 /// Whose axes the links of a group take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

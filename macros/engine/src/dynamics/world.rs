@@ -8,9 +8,7 @@ use std::rc::Rc;
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
 use super::columns::Columns;
-use super::tree::Link;
-use super::tree::Motion;
-use super::tree::Tree;
+use super::tree::{Link, Motion, Tree};
 
 /// In world axes.
 #[derive(Clone, Copy, Debug)]

@@ -26,17 +26,9 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use crate::model::types::{Closing, Coordinate, DriveTarget, Handling, JointId, JointKind, Model};
 
-use super::loops::constraints::closings;
-use super::loops::constraints::coordinate_name;
-use super::loops::constraints::row_count;
-use super::loops::constraints::row_name;
-use super::loops::constraints::turns;
+use super::loops::constraints::{closings, coordinate_name, row_count, row_name, turns};
 use super::loops::groups;
-use super::loops::structure::Means;
-use super::loops::structure::Role;
-use super::loops::structure::Row;
-use super::loops::structure::Step;
-use super::loops::structure::Structure;
+use super::loops::structure::{Means, Role, Row, Step, Structure};
 use closed::Sampled;
 use configurations::{Effort, Found};
 use linear::Elimination;

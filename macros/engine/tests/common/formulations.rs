@@ -1,11 +1,9 @@
 //! The dynamics of a tree, derived in every way that the engine knows.
 
-use multibody_engine::dynamics::articulated;
-use multibody_engine::dynamics::composite;
 use multibody_engine::dynamics::floating_bases::seats;
-use multibody_engine::dynamics::kinematics;
 use multibody_engine::dynamics::newton_euler::{Wrench, efforts, transmitted};
 use multibody_engine::dynamics::tree::Tree;
+use multibody_engine::dynamics::{articulated, composite, kinematics};
 use multibody_engine::symbolic::graph::{Graph, Scalar, Vector};
 use multibody_engine::symbolic::linear_algebra::solve_symmetric;
 

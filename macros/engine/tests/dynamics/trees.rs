@@ -3,11 +3,10 @@
 
 use std::cell::Cell;
 
-use crate::formulations;
 use crate::on_graph::{Derived, derive, point};
-use crate::plain;
 use crate::random::{Mechanism, State};
 use crate::rng::Rng;
+use crate::{formulations, plain};
 use multibody_engine::dynamics::floating_bases::seats;
 use multibody_engine::dynamics::regroup::regroup;
 use multibody_engine::dynamics::shared_axes::{Axes, share_axes};

@@ -11,10 +11,9 @@ use multibody_engine::contracts::call::Call;
 use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::diagnostics::Diagnostics;
-use multibody_engine::model;
 use multibody_engine::optimize::program::Compiled;
 use multibody_engine::symbolic::graph::{Graph, Scalar};
-use multibody_engine::syntax;
+use multibody_engine::{model, syntax};
 
 /// Below it nothing that a chain of these sizes holds is a number that anybody meant.
 const DUST: f64 = 1e-13;

@@ -11,7 +11,6 @@ use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::dynamics::regroup::regroup;
 use multibody_engine::mechanics::{Derivation, Derived, of};
-use multibody_engine::model;
 use multibody_engine::model::types::{InputId, JointId, ParamId};
 use multibody_engine::optimize::dag::{Dag, Kind};
 use multibody_engine::optimize::{
@@ -21,7 +20,7 @@ use multibody_engine::symbolic::graph::{Graph, Scalar, ScalarNode};
 use multibody_engine::symbolic::identity::{Verdict, close, identical};
 use multibody_engine::symbolic::lower::Lowering;
 use multibody_engine::symbolic::number::Number;
-use multibody_engine::syntax;
+use multibody_engine::{model, syntax};
 
 /// Relative to 1 + |x|: passes reorder sums, and mechanisms at random points are not well conditioned.
 const TOLERANCE: f64 = 1e-7;

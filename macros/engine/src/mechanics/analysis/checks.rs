@@ -5,11 +5,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::mechanics::loops::constraints::coordinate_name;
-use crate::mechanics::loops::constraints::path;
-use crate::mechanics::loops::constraints::row_name;
-use crate::mechanics::loops::structure::Role;
-use crate::mechanics::loops::structure::Structure;
+use crate::mechanics::loops::constraints::{coordinate_name, path, row_name};
+use crate::mechanics::loops::structure::{Role, Structure};
 use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::types::{Closing, JointId, Model};
 

@@ -7,12 +7,8 @@
 
 use std::collections::HashMap;
 
-use crate::mechanics::loops::constraints::coordinate_name;
-use crate::mechanics::loops::constraints::is_uncounted;
-use crate::mechanics::loops::constraints::row_count;
-use crate::mechanics::loops::structure::Means;
-use crate::mechanics::loops::structure::Row;
-use crate::mechanics::loops::structure::Step;
+use crate::mechanics::loops::constraints::{coordinate_name, is_uncounted, row_count};
+use crate::mechanics::loops::structure::{Means, Row, Step};
 use crate::model::types::{BodyRef, Closing, ConstraintId, Coordinate, JointId, Model, SolveHow};
 
 use super::blocks::{components, matching};

@@ -6,8 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::mechanics::loops::structure::Row;
-use crate::mechanics::loops::structure::Structure;
+use crate::mechanics::loops::structure::{Row, Structure};
 
 use super::closed::Sampled;
 use super::problem::{Problem, Source};

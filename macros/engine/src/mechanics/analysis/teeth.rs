@@ -10,8 +10,7 @@
 use std::f64::consts::TAU;
 
 use crate::mechanics::loops::constraints::turns;
-use crate::mechanics::loops::structure::Means;
-use crate::mechanics::loops::structure::Step;
+use crate::mechanics::loops::structure::{Means, Step};
 use crate::model::types::{Closing, ConstraintId};
 
 use super::Complaint;

@@ -5,13 +5,8 @@
 //! these, and the places of those that were kept may hold the very one that says nothing. So the kept equations must have
 //! the rank there that they have here, at every closed configuration that was found.
 
-use crate::mechanics::loops::constraints::Writing;
-use crate::mechanics::loops::constraints::is_component;
-use crate::mechanics::loops::structure::Closed;
-use crate::mechanics::loops::structure::Means;
-use crate::mechanics::loops::structure::Role;
-use crate::mechanics::loops::structure::Row;
-use crate::mechanics::loops::structure::Structure;
+use crate::mechanics::loops::constraints::{Writing, is_component};
+use crate::mechanics::loops::structure::{Closed, Means, Role, Row, Structure};
 use crate::model::types::{Closing, Coordinate, JointId, Model};
 
 use super::problem::Problem;

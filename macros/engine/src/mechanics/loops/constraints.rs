@@ -35,10 +35,7 @@ mod view;
 mod winding;
 mod wrenches;
 
-use crate::mechanics::equations::Equations;
-use crate::mechanics::equations::Method;
-use crate::mechanics::equations::Style;
-use crate::mechanics::equations::Way;
+use crate::mechanics::equations::{Equations, Method, Style, Way};
 use crate::mechanics::translate::symbols::Symbols;
 use crate::model::types::{Closing, ConstraintId, ConstraintKind, JointId, JointKind, Model};
 use crate::symbolic::graph::{Graph, Scalar};

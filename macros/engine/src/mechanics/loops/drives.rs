@@ -6,8 +6,7 @@
 
 use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::orientation;
-use crate::mechanics::translate::symbols::Symbols;
-use crate::mechanics::translate::symbols::has_quaternion;
+use crate::mechanics::translate::symbols::{Symbols, has_quaternion};
 use crate::mechanics::translate::values::Value;
 use crate::model::types::{Coordinate, Drive, DriveTarget, Expr, JointId};
 use crate::symbolic::differentiate::Differentiator;

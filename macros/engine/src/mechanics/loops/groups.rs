@@ -14,8 +14,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use crate::model::types::{BodyId, BodyRef, Closing, ConstraintKind, Frame, JointId, JointKind, Model};
 
-use super::constraints::closings;
-use super::constraints::path;
+use super::constraints::{closings, path};
 use shapes::Shapes;
 
 /// What members of a group are.

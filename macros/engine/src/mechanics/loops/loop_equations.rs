@@ -5,8 +5,7 @@
 //! are, unknown ones keep the symbols of their coordinates as placeholders. A motion that is walked against its sense is
 //! the same motion about the opposite axis: turned by half a turn before and after.
 
-use crate::dynamics::tree::Link;
-use crate::dynamics::tree::Motion;
+use crate::dynamics::tree::{Link, Motion};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::build::Place;
 use crate::mechanics::translate::directions;

@@ -7,8 +7,7 @@
 use std::rc::Rc;
 
 use crate::mechanics::equations::Equations;
-use crate::mechanics::translate::forces::Loads;
-use crate::mechanics::translate::forces::Terms;
+use crate::mechanics::translate::forces::{Loads, Terms};
 use crate::model::types::{Coordinate, JointId, Order};
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::Scalar;

@@ -8,13 +8,10 @@
 
 use std::rc::Rc;
 
-use crate::mechanics::analysis::blocks::components;
-use crate::mechanics::analysis::blocks::matching;
+use crate::mechanics::analysis::blocks::{components, matching};
 use crate::mechanics::equations::Equations;
-use crate::mechanics::loops::reduction::Map;
-use crate::mechanics::loops::reduction::Reduction;
-use crate::mechanics::loops::structure::Means;
-use crate::mechanics::loops::structure::Row;
+use crate::mechanics::loops::reduction::{Map, Reduction};
+use crate::mechanics::loops::structure::{Means, Row};
 use crate::model::types::{Closing, ConstraintId, Coordinate};
 use crate::symbolic::graph::Scalar;
 

@@ -5,16 +5,12 @@
 
 use std::rc::Rc;
 
-use crate::dynamics::articulated;
-use crate::dynamics::composite;
 use crate::dynamics::floating_bases::seats;
 use crate::dynamics::kinematics::motions;
-use crate::dynamics::lumped;
-use crate::dynamics::newton_euler::efforts;
-use crate::dynamics::newton_euler::transmitted;
+use crate::dynamics::newton_euler::{efforts, transmitted};
 use crate::dynamics::regroup::regroup_but;
-use crate::mechanics::equations::Equations;
-use crate::mechanics::equations::Method;
+use crate::dynamics::{articulated, composite, lumped};
+use crate::mechanics::equations::{Equations, Method};
 use crate::symbolic::graph::Scalar;
 use crate::symbolic::linear_algebra::solve_symmetric;
 

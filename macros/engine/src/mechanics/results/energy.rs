@@ -1,17 +1,12 @@
 //! Stage `mechanics`: energies.
 //!
-//! In: the tree with regrouped inertias, springs. Out: kinetic energy, the sum of (w . I w + v . (m v + 2 w x h)) / 2
-//! over the links, h = m c, plus the rotors'; potential energy, minus gravity times the first moment of all mass, plus
-//! the springs'. The first moment climbs to the ground like a point does (see [`crate::dynamics::point_kinematics`]).
+//! In: the tree with regrouped inertias, springs. Out: kinetic energy, that of the links ([`energy`]) plus that of rotors of
+//! joints that close loops; potential energy, minus gravity times the first moment of all mass, plus the springs'.
 
-use crate::dynamics::inertia::Inertia;
-use crate::dynamics::tree::Link;
-use crate::dynamics::tree::Motion;
-use crate::dynamics::tree::Tree;
-use crate::dynamics::velocities::LinkVelocity;
+use crate::dynamics::energy;
 use crate::mechanics::equations::Equations;
 use crate::model::types::ForceKind;
-use crate::symbolic::graph::{Graph, Rotation, RotationNode, Scalar, Vector};
+use crate::symbolic::graph::Scalar;
 
 impl Equations<'_> {
     /// J
@@ -19,14 +14,7 @@ impl Equations<'_> {
         let tree = self.regrouped();
         let velocities = self.link_velocities();
         let g = &mut self.g;
-        let mut twice = Vec::new();
-        for (link, &velocity) in tree.links.iter().zip(velocities.iter()) {
-            twice.push(twice_kinetic(g, &link.inertia, velocity));
-            if link.armature != Scalar::ZERO {
-                let rate = tree.velocity[link.freedom];
-                twice.push(g.product(&[link.armature, rate, rate]));
-            }
-        }
+        let mut twice = energy::twice_kinetic(g, &tree, &velocities);
         twice.extend(self.twice_of_rotors());
         let g = &mut self.g;
         let sum = g.sum(&twice);
@@ -39,7 +27,7 @@ impl Equations<'_> {
         let Some(gravity) = self.mechanism.tree.gravity else { return Vec::new() };
         let tree = self.regrouped();
         let gravity = self.g.vector(gravity);
-        let moments = first_moment(&mut self.g, &tree);
+        let moments = energy::first_moment(&mut self.g, &tree);
         moments.into_iter().map(|moment| -self.g.dot(gravity, moment)).collect()
     }
 
@@ -63,95 +51,4 @@ impl Equations<'_> {
         }
         self.g.sum(&terms)
     }
-}
-
-fn twice_kinetic(g: &mut Graph, inertia: &Inertia, (angular, linear): LinkVelocity) -> Scalar {
-    if inertia.is_zero() {
-        return Scalar::ZERO;
-    }
-    let w = g.components(angular);
-    let momentum = [0, 1, 2].map(|i| {
-        let terms = [0, 1, 2].map(|j| {
-            if w[j] == Scalar::ZERO {
-                return Scalar::ZERO;
-            }
-            let entry = inertia.tensor(g, i, j);
-            g.mul(entry, w[j])
-        });
-        g.sum(&terms)
-    });
-    let momentum = g.vector(momentum);
-    let turning = g.dot(angular, momentum);
-    let first = g.vector(inertia.first);
-    let swing = g.cross(angular, first);
-    let straight = g.scale(inertia.mass, linear);
-    let pushed = g.sum_vectors(&[straight, swing, swing]);
-    let moving = g.dot(linear, pushed);
-    g.add(turning, moving)
-}
-
-/// Parts of the first moment of all mass in world axes.
-fn first_moment(g: &mut Graph, tree: &Tree) -> Vec<Vector> {
-    let mut masses: Vec<Scalar> = tree.links.iter().map(|link| link.inertia.mass).collect();
-    let mut parts: Vec<Vec<(Rotation, Vector)>> = Vec::with_capacity(tree.links.len());
-    for link in &tree.links {
-        parts.push(vec![(Rotation::IDENTITY, g.vector(link.inertia.first))]);
-    }
-    let mut ground = vec![(Rotation::IDENTITY, g.vector(tree.ground.unwrap_or(Inertia::ZERO).first))];
-    for (index, link) in tree.links.iter().enumerate().rev() {
-        let own = std::mem::take(&mut parts[index]);
-        let inwards = outgoing(g, link, own, masses[index]);
-        match link.parent {
-            Some(parent) => {
-                masses[parent] = g.add(masses[parent], masses[index]);
-                parts[parent].extend(inwards);
-            }
-            None => ground.extend(inwards),
-        }
-    }
-    ground.into_iter().map(|(rotation, v)| g.rotate(rotation, v)).collect()
-}
-
-/// A subtree's parts as the parent sees them.
-fn outgoing(g: &mut Graph, link: &Link, parts: Vec<(Rotation, Vector)>, mass: Scalar) -> Vec<(Rotation, Vector)> {
-    let (turn, travel) = match link.motion {
-        Motion::Revolute(axis) => (g.axis_rotation(axis, link.q), Vector::ZERO),
-        Motion::Screw(axis, pitch) => {
-            let length = g.product(&[mass, pitch, link.q]);
-            (g.axis_rotation(axis, link.q), g.along(axis, length))
-        }
-        Motion::Prismatic(axis) => {
-            let length = g.mul(mass, link.q);
-            (Rotation::IDENTITY, g.along(axis, length))
-        }
-        Motion::Ball(quaternion) => (g.quaternion_rotation(quaternion), Vector::ZERO),
-    };
-    let mut parts = turned(g, turn, parts);
-    parts.push((Rotation::IDENTITY, travel));
-    let mut parts = turned(g, link.rotation, parts);
-    let lever = g.scale(mass, link.offset);
-    parts.push((Rotation::IDENTITY, lever));
-    parts
-}
-
-/// Turns of parallel axes stay apart with their summed angles; others are carried out one after the other.
-fn turned(g: &mut Graph, rotation: Rotation, mut parts: Vec<(Rotation, Vector)>) -> Vec<(Rotation, Vector)> {
-    parts.retain(|part| part.1 != Vector::ZERO);
-    if rotation == Rotation::IDENTITY || parts.is_empty() {
-        return parts;
-    }
-    let both: Vec<Rotation> = parts.iter().map(|part| g.compose(rotation, part.0)).collect();
-    if both.iter().any(|&r| matches!(g.rotation_node(r), RotationNode::Product(..))) {
-        let carried: Vec<Vector> = parts.iter().map(|&(r, v)| g.rotate(r, v)).collect();
-        return vec![(rotation, g.sum_vectors(&carried))];
-    }
-    // Parts that turn alike are one.
-    let mut merged: Vec<(Rotation, Vector)> = Vec::with_capacity(parts.len());
-    for (rotation, (_, v)) in both.into_iter().zip(parts) {
-        match merged.iter_mut().find(|part| part.0 == rotation) {
-            Some(part) => part.1 = g.add_vectors(part.1, v),
-            None => merged.push((rotation, v)),
-        }
-    }
-    merged
 }

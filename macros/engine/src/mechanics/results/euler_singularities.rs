@@ -3,8 +3,7 @@
 //! In: model and structure. Out: the pitches of the state whose cosines are told among the dead centres: at a right angle
 //! roll and yaw turn about one axis, and rates grow without bound.
 
-use crate::mechanics::loops::structure::Role;
-use crate::mechanics::loops::structure::Structure;
+use crate::mechanics::loops::structure::{Role, Structure};
 use crate::mechanics::translate::symbols::Symbols;
 use crate::model::types::{Coordinate, Joint, JointId, JointKind, Model, Orientation};
 use crate::symbolic::graph::{Graph, Scalar};

@@ -5,12 +5,10 @@
 
 use std::rc::Rc;
 
-use crate::dynamics::articulated;
-use crate::dynamics::composite;
 use crate::dynamics::floating_bases::seats;
 use crate::dynamics::newton_euler::Wrench;
-use crate::mechanics::equations::Equations;
-use crate::mechanics::equations::Method;
+use crate::dynamics::{articulated, composite};
+use crate::mechanics::equations::{Equations, Method};
 use crate::symbolic::graph::{Scalar, Vector};
 use crate::symbolic::linear_algebra::solve_symmetric;
 

@@ -1,27 +1,14 @@
 //! Stage `mechanics`: momenta and their rates.
 //!
 //! In: the tree, its velocities, declared forces. Out: p = M v, and p' = dT/dq at fixed rates, plus the efforts of gravity
-//! and of the declared forces.
-//!
-//! With the velocity (w, v) of a link at its origin and the momentum (n, f) of all that it carries, about that origin, a
-//! joint with the unit twist (a, b) has the momentum a . n + b . f. The energy T of what it carries changes with its
-//! coordinate as if the link's velocity changed by the product (w, v) x (a, b) of motions, for what lies beyond goes along
-//! in the link's axes: dT/dq = (n, f) . (w x a, w x b + v x a) = a . (n x w + f x v) + b . (f x w). No acceleration and no
-//! centrifugal term comes up, so this costs less than a bias does. (Featherstone 2008, section 2.9, for the product;
-//! Naudet et al. 2003 for a recursion of Hamilton's equations.)
+//! and of the declared forces, by the sweep of [`crate::dynamics::momentum`].
 //!
 //! Dependent coordinates have velocities S u: their momenta go down by S^T, rates by S^T too, and what S changes in time
 //! adds (S')^T p.
 
-use crate::dynamics::kinematics::LinkMotion;
 use crate::dynamics::kinematics::motions;
-use crate::dynamics::newton_euler::Wrench;
-use crate::dynamics::newton_euler::efforts;
-use crate::dynamics::newton_euler::inertial_wrench;
-use crate::dynamics::newton_euler::to_parent;
-use crate::dynamics::newton_euler::transmitted;
-use crate::dynamics::tree::Tree;
-use crate::dynamics::velocities::LinkVelocity;
+use crate::dynamics::momentum::{carried, swept};
+use crate::dynamics::newton_euler::{efforts, transmitted};
 use crate::dynamics::velocities::velocities;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Reduction;
@@ -142,41 +129,6 @@ impl Equations<'_> {
         list.truncate(self.symbols.freedoms);
         list
     }
-}
-
-/// Momentum of each link and all that it carries: angular about the link's origin, linear.
-fn carried(g: &mut Graph, tree: &Tree, moving: &[LinkVelocity]) -> Vec<Wrench> {
-    let mut momenta: Vec<Wrench> = Vec::with_capacity(tree.links.len());
-    for (link, &(angular, linear)) in tree.links.iter().zip(moving) {
-        // As the wrench that accelerates the link from rest to its velocity in a second.
-        let motion = LinkMotion { angular: Vector::ZERO, angular_rate: angular, linear_rate: linear };
-        momenta.push(inertial_wrench(g, link, &motion));
-    }
-    for index in (0..tree.links.len()).rev() {
-        let link = &tree.links[index];
-        let momentum = momenta[index];
-        g.name_vector(momentum.force, || format!("p_{}", link.name));
-        g.name_vector(momentum.moment, || format!("h_{}", link.name));
-        let Some(parent) = link.parent else { continue };
-        let outer = to_parent(g, tree, index, &momentum);
-        momenta[parent] = momenta[parent].add(g, &outer);
-    }
-    momenta
-}
-
-/// dT/dq at fixed rates, in the tree's coordinates.
-fn swept(g: &mut Graph, tree: &Tree, moving: &[LinkVelocity], momenta: &[Wrench]) -> Vec<Scalar> {
-    let mut list = vec![Scalar::ZERO; tree.freedoms()];
-    for ((link, &(angular, linear)), momentum) in tree.links.iter().zip(moving).zip(momenta) {
-        let turned = g.cross(momentum.moment, angular);
-        let pushed = g.cross(momentum.force, linear);
-        let moment = g.add_vectors(turned, pushed);
-        let force = g.cross(momentum.force, angular);
-        for (freedom, effort) in tree.project(g, link, moment, force) {
-            list[freedom] = effort;
-        }
-    }
-    list
 }
 
 /// A square matrix, row by row, by a vector.

@@ -9,8 +9,7 @@
 use std::rc::Rc;
 
 use crate::dynamics::kinematics::motions;
-use crate::dynamics::newton_euler::Wrench;
-use crate::dynamics::newton_euler::transmitted;
+use crate::dynamics::newton_euler::{Wrench, transmitted};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::structure::Row;
 use crate::mechanics::translate::build::Place;

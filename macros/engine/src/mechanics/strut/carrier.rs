@@ -9,10 +9,9 @@ use crate::dynamics::inertia::Inertia;
 use crate::dynamics::tree::Tree;
 use crate::symbolic::graph::{Graph, Scalar};
 
-use super::Strut;
 use super::detect::Chain;
-use super::motion;
 use super::triple::{self, Triple, UNITS, ZERO, add, apply, apply_transposed, combine, cross, minus, scale, total};
+use super::{Strut, motion};
 
 /// A strut and where it ends.
 #[derive(Clone, Debug)]

@@ -8,9 +8,7 @@
 //! Link by link inertias are read: the tree must not have been regrouped.
 
 use crate::dynamics::inertia::Inertia;
-use crate::dynamics::tree::Link;
-use crate::dynamics::tree::Motion;
-use crate::dynamics::tree::Tree;
+use crate::dynamics::tree::{Link, Motion, Tree};
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
 use super::Strut;

@@ -12,8 +12,7 @@
 //! their unknown takes the factor. In the body's axes, or about the feet in the world's, r has constant components,
 //! and rows of the system may come out proportional (see [`crate::symbolic::inputs`]).
 
-use crate::dynamics::inertia::Inertia;
-use crate::dynamics::inertia::entry;
+use crate::dynamics::inertia::{Inertia, entry};
 use crate::symbolic::graph::{Graph, Scalar};
 use crate::symbolic::inputs::{Known, solve_inputs};
 

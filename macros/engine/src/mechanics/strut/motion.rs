@@ -4,8 +4,7 @@
 //! link; and for a link that floats (three translations, then a ball or three turns) the second derivatives of its
 //! coordinates from its accelerations.
 
-use crate::dynamics::tree::Motion;
-use crate::dynamics::tree::Tree;
+use crate::dynamics::tree::{Motion, Tree};
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
 use super::triple::{Triple, sub};

@@ -8,13 +8,11 @@
 
 use std::rc::Rc;
 
-use crate::dynamics::tree::Motion;
-use crate::dynamics::tree::Tree;
+use crate::dynamics::tree::{Motion, Tree};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::branches::Branch;
 use crate::mechanics::loops::reduction::Reduction;
-use crate::mechanics::loops::structure::Means;
-use crate::mechanics::loops::structure::Role;
+use crate::mechanics::loops::structure::{Means, Role};
 use crate::model::types::{Closing, Comparison, ExprNode, Joint, JointKind, SolveHow};
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 use crate::symbolic::inputs::Known;

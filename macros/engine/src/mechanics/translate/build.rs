@@ -5,17 +5,14 @@
 //! on it by a constant rotation and offset; a body on a `Fixed` joint shares its parent's link.
 
 use crate::dynamics::inertia::Inertia;
-use crate::dynamics::tree::Motion;
-use crate::dynamics::tree::Tree;
+use crate::dynamics::tree::{Motion, Tree};
 use crate::mechanics::equations::Equations;
 use crate::model::types::{Body, BodyRef, Frame, FrameStep, Joint, JointId};
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 use crate::symbolic::rotations;
 
 use super::chain::Chain;
-use super::directions;
-use super::names;
-use super::typed;
+use super::{directions, names, typed};
 
 /// A frame that is fixed to a link, or to the ground.
 #[derive(Clone, Copy, Debug)]

@@ -8,15 +8,13 @@
 //! about any other axis along what these become when the axis is turned into place (see [`constants::axis`]).
 
 use crate::dynamics::inertia::Inertia;
-use crate::dynamics::tree::Link;
-use crate::dynamics::tree::Motion;
+use crate::dynamics::tree::{Link, Motion};
 use crate::mechanics::equations::Equations;
 use crate::model::types::{Expr, Joint, JointId, JointKind, Orientation};
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 use crate::symbolic::rotations;
 
-use super::build::Mechanism;
-use super::build::Place;
+use super::build::{Mechanism, Place};
 use super::directions;
 use super::directions::Axis;
 use super::symbols::Symbols;

@@ -8,15 +8,13 @@ use std::rc::Rc;
 
 use crate::dynamics::newton_euler::Wrench;
 use crate::mechanics::equations::Equations;
-use crate::mechanics::loops::constraints::Held;
 use crate::mechanics::loops::constraints::measured::Dual;
-use crate::mechanics::loops::constraints::row_count;
+use crate::mechanics::loops::constraints::{Held, row_count};
 use crate::mechanics::loops::structure::Row;
 use crate::model::types::{Coordinate, Expr, ForceId, ForceKind, Frame, JointId, JointKind, Order, Orientation};
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
-use super::build::Mechanism;
-use super::build::Place;
+use super::build::{Mechanism, Place};
 use super::springs::JointSpring;
 
 /// What acts on the tree.

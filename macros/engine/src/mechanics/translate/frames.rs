@@ -7,8 +7,7 @@ use std::rc::Rc;
 
 use crate::dynamics::point_kinematics::Climb;
 use crate::dynamics::world;
-use crate::mechanics::equations::Equations;
-use crate::mechanics::equations::Style;
+use crate::mechanics::equations::{Equations, Style};
 use crate::model::types::{Expr, ExprNode, FrameQuantity, JointId};
 use crate::symbolic::graph::{Rotation, Scalar, Vector};
 use crate::symbolic::rotations;

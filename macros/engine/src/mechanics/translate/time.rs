@@ -11,8 +11,7 @@ use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::{Graph, Scalar, ScalarNode};
 
 use super::orientation::quaternion_rate;
-use super::symbols::Symbols;
-use super::symbols::has_quaternion;
+use super::symbols::{Symbols, has_quaternion};
 
 /// (symbol, its derivative)
 pub type Seeds = Vec<(Scalar, Scalar)>;

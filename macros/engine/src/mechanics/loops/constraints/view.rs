@@ -9,14 +9,12 @@ use std::rc::Rc;
 
 use crate::dynamics::point_kinematics::Climb;
 use crate::dynamics::tree::Motion;
-use crate::mechanics::equations::Equations;
-use crate::mechanics::equations::Style;
+use crate::mechanics::equations::{Equations, Style};
 use crate::mechanics::translate::build::Place;
 use crate::symbolic::graph::{Rotation, Scalar, Vector};
 use crate::symbolic::rotations;
 
-use super::Axes;
-use super::Writing;
+use super::{Axes, Writing};
 
 /// A frame to look from.
 #[derive(Clone, Copy, Debug)]

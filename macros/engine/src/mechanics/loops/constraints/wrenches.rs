@@ -13,18 +13,15 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use crate::dynamics::newton_euler::Wrench;
-use crate::dynamics::newton_euler::to_parent;
+use crate::dynamics::newton_euler::{Wrench, to_parent};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::build::Place;
-use crate::mechanics::translate::forces::Loads;
-use crate::mechanics::translate::forces::Terms;
+use crate::mechanics::translate::forces::{Loads, Terms};
 use crate::model::types::{Closing, ConstraintId, ConstraintKind, JointId};
 use crate::symbolic::graph::{Scalar, Vector};
 
 use super::Writing;
-use super::cut::Cut;
-use super::cut::Equation;
+use super::cut::{Cut, Equation};
 use super::view::View;
 
 /// A closing with the multipliers of all its equations; those of equations that were dropped are zero.
