@@ -84,7 +84,6 @@ fn loops_against_the_runtime() {
     let (model, structure, compiled) = looped_sample::looped();
     let looped = source(&emit(&model, &structure, &compiled));
 
-    // Beside the other test that builds programs, so that the runtime is built once.
     let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("interface");
     std::fs::create_dir_all(root.join("src")).unwrap();
     std::fs::copy(path("../Cargo.lock"), root.join("Cargo.lock")).unwrap();
@@ -100,7 +99,8 @@ fn loops_against_the_runtime() {
     std::fs::write(root.join("src/main.rs"), main).unwrap();
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.args(["run", "--offline", "--quiet"]).current_dir(&root);
-    command.env("CARGO_TARGET_DIR", Path::new(env!("CARGO_TARGET_TMPDIR")).join("statements/target"));
+    // With other workspaces that stand apart, so that the library is built once.
+    command.env("CARGO_TARGET_DIR", root.join("../apart"));
     command.env_remove("RUSTFLAGS").env_remove("RUST_MIN_STACK");
     let output = command.output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

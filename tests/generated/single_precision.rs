@@ -72,7 +72,8 @@ fn steps_in_single_precision_hold_no_double() {
         println!("skipped: the assembly of another machine than x86-64");
         return;
     }
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("single");
+    // With other workspaces that stand apart, so that the library is built once.
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("apart");
     let output = Command::new(env!("CARGO"))
         .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/single"))
         .env("CARGO_TARGET_DIR", &target)

@@ -88,7 +88,7 @@ fn ten_thousand_statements() {
     }
     let cargo = |arguments: &[&str]| {
         let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-        command.args(arguments).current_dir(&root).env("CARGO_TARGET_DIR", root.join("target"));
+        command.args(arguments).current_dir(&root).env("CARGO_TARGET_DIR", root.join("../apart"));
         command.env_remove("RUSTFLAGS").env_remove("RUST_MIN_STACK");
         let output = command.output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

@@ -2,7 +2,7 @@
 //!
 //! A [`Scene`] is one function of a model as a control loop would call it. [`run`] reports for each: the result of one
 //! call, the hash of ten thousand, and, where [`machine`] can tell, instructions (least and most over random inputs) and
-//! stack. All of it is the same code on every target; `.ci/firmware` builds, runs and compares.
+//! stack. All of it is the same code on every target; `cargo xtask firmware` builds, runs and compares.
 
 #![no_std]
 

@@ -1,0 +1,101 @@
+//! What would be published: the three packages say what they are, hold their README and both licences, and hold nothing that
+//! only tests need; and each compiles from nothing but its package.
+
+use crate::{Stop, command, output, root};
+use serde_json::Value;
+
+/// In the order in which they would be published.
+const PACKAGES: [&str; 3] = ["multibody-engine", "multibody-macros", "multibody"];
+
+const FILES: [&str; 5] = ["Cargo.toml", "README.md", "LICENSE-MIT", "LICENSE-APACHE", "src/lib.rs"];
+
+/// Folders of a package that its users don't need.
+const FOREIGN: [&str; 4] = ["tests/", "benches/", "examples/", "tools/"];
+
+const FIELDS: [&str; 9] = [
+    "description",
+    "license",
+    "repository",
+    "readme",
+    "rust_version",
+    "keywords",
+    "categories",
+    "documentation",
+    "metadata",
+];
+
+pub(crate) fn run() -> Result<bool, Stop> {
+    let metadata = output(cargo("metadata").args(["--no-deps", "--format-version", "1"]))?;
+    let metadata: Value = serde_json::from_str(&metadata)?;
+    let mut faults = Vec::new();
+    for name in PACKAGES {
+        let listed = metadata["packages"].as_array().into_iter().flatten().find(|package| package["name"] == name);
+        let Some(package) = listed else { return Err(format!("no package {name}").into()) };
+        faults.extend(undeclared(package).map(|field| format!("{name} does not say its {field}")));
+        let files = output(cargo("package").args(["--list", "--allow-dirty", "--package", name]))?;
+        println!("{name}: {} files", files.lines().count());
+        faults.extend(missing(&files).map(|file| format!("{name} has no {file}")));
+        faults.extend(foreign(&files).map(|file| format!("{name} holds {file}")));
+    }
+    for fault in &faults {
+        println!("  {fault}");
+    }
+    if !faults.is_empty() {
+        return Ok(false);
+    }
+    let mut publish = cargo("package");
+    publish.args(["--allow-dirty", "--quiet"]);
+    for name in PACKAGES {
+        publish.args(["--package", name]);
+    }
+    Ok(publish.status()?.success())
+}
+
+fn cargo(name: &str) -> std::process::Command {
+    let mut cargo = command("cargo");
+    cargo.arg(name).arg("--locked").current_dir(root());
+    cargo
+}
+
+/// Fields of a manifest that are empty.
+fn undeclared(package: &Value) -> impl Iterator<Item = &'static str> {
+    let empty = |value: &Value| value.is_null() || value.as_array().is_some_and(Vec::is_empty);
+    let docs = package["metadata"]["docs"]["rs"].is_null();
+    FIELDS.into_iter().filter(move |field| if *field == "metadata" { docs } else { empty(&package[*field]) })
+}
+
+fn missing(files: &str) -> impl Iterator<Item = &'static str> {
+    FILES.into_iter().filter(move |wanted| !files.lines().any(|file| file == *wanted))
+}
+
+fn foreign(files: &str) -> impl Iterator<Item = &str> {
+    files.lines().filter(|file| FOREIGN.iter().any(|folder| file.starts_with(folder)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn files_that_are_missing_or_foreign() {
+        let files = "Cargo.toml\nLICENSE-APACHE\nLICENSE-MIT\nREADME.md\nsrc/lib.rs\n";
+        assert_eq!((missing(files).count(), foreign(files).count()), (0, 0));
+        let files = "Cargo.toml\nREADME.md\nsrc/lib.rs\nsrc/LICENSE-MIT\ntests/data/arm.json\nsrc/tests/mod.rs\n";
+        assert_eq!(missing(files).collect::<Vec<_>>(), ["LICENSE-MIT", "LICENSE-APACHE"]);
+        assert_eq!(foreign(files).collect::<Vec<_>>(), ["tests/data/arm.json"]);
+    }
+
+    #[test]
+    fn fields_that_are_empty() {
+        let mut package = json!({
+            "description": "d", "license": "MIT", "repository": "r", "readme": "README.md", "rust_version": "1.89",
+            "keywords": ["k"], "categories": ["c"], "documentation": "d", "metadata": { "docs": { "rs": {} } },
+        });
+        assert_eq!(undeclared(&package).count(), 0);
+        package["keywords"] = json!([]);
+        package["readme"] = Value::Null;
+        package["metadata"] = Value::Null;
+        assert_eq!(undeclared(&package).collect::<Vec<_>>(), ["readme", "keywords", "metadata"]);
+    }
+}
