@@ -19,8 +19,9 @@
 //! emit: optimize mechanics contracts model rust_keywords
 //! ```
 //!
-//! So `symbolic` knows no mechanics; `dynamics` knows trees of links and no model; behind `model` only
-//! `emit` writes tokens; `emit` reads programs and never the graph: it decides nothing about equations and counts none.
+//! So `symbolic` knows no mechanics; `dynamics` knows trees of links and no model; behind `model` only `emit` knows tokens,
+//! and places in the user's text are opaque ([`model::site`]); `emit` reads programs and never the graph: it decides nothing
+//! about equations and counts none.
 
 pub mod contracts;
 pub mod diagnostics;
@@ -108,10 +109,10 @@ impl Trouble {
         let span = model.name.span();
         match self {
             Trouble::Complaints(complaints) => {
-                for Complaint { span, message, help } in complaints {
+                for Complaint { at, message, help } in complaints {
                     match help {
-                        Some(help) => diagnostics.error_help(span, message, help),
-                        None => diagnostics.error(span, message),
+                        Some(help) => diagnostics.error_help(at.span(), message, help),
+                        None => diagnostics.error(at.span(), message),
                     }
                 }
             }

@@ -24,6 +24,7 @@ mod written;
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
+use crate::model::site::{Site, Sited};
 use crate::model::types::{Closing, Coordinate, DriveTarget, Handling, JointId, JointKind, Model};
 
 use super::loops::constraints::{closings, coordinate_name, row_count, row_name, turns};
@@ -33,7 +34,6 @@ use closed::Sampled;
 use configurations::{Effort, Found};
 use linear::Elimination;
 use problem::{Problem, Source};
-use proc_macro2::Span;
 use ranked::Ranked;
 
 pub(super) use written::Writings;
@@ -44,7 +44,7 @@ const OFF: f64 = 1e-2;
 /// A mistake that only the equations show.
 #[derive(Clone, Debug)]
 pub struct Complaint {
-    pub span: Span,
+    pub at: Site,
     pub message: String,
     pub help: Option<String>,
 }
@@ -107,8 +107,8 @@ struct Group {
 }
 
 impl<'m> Analysis<'m> {
-    fn complain(&mut self, span: Span, message: impl Into<String>, help: Option<&str>) {
-        self.complaints.push(Complaint { span, message: message.into(), help: help.map(str::to_owned) });
+    fn complain(&mut self, at: Site, message: impl Into<String>, help: Option<&str>) {
+        self.complaints.push(Complaint { at, message: message.into(), help: help.map(str::to_owned) });
     }
 
     fn drive(&mut self) {
@@ -117,7 +117,7 @@ impl<'m> Analysis<'m> {
             for coordinate in driven_by(model, drive.target) {
                 if self.driven.insert(coordinate, number).is_some() {
                     let name = coordinate_name(model, coordinate);
-                    self.complain(drive.span, format!("the coordinate `{name}` is driven twice"), None);
+                    self.complain(drive.site(), format!("the coordinate `{name}` is driven twice"), None);
                 }
             }
         }
@@ -215,7 +215,7 @@ impl<'m> Analysis<'m> {
         if reduced && self.complaints.is_empty() && model.independent.len() > freedoms {
             let (named, found) = (model.independent.len(), freedoms);
             let message = format!("`independent` names {named} coordinates, but {found} are independent");
-            self.complain(model.name.span(), message, Some("dependent coordinates follow from the loops"));
+            self.complain(model.site(), message, Some("dependent coordinates follow from the loops"));
         }
     }
 

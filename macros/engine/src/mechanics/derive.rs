@@ -17,6 +17,7 @@ use std::rc::Rc;
 
 use crate::contracts::function::FunctionKind;
 use crate::dynamics::shared_axes::Axes;
+use crate::model::site::Sited;
 use crate::model::types::{BodyRef, Coordinate, Joint, JointId, JointKind, Model, Request};
 use crate::symbolic::graph::{Graph, Scalar};
 
@@ -104,7 +105,7 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
         let candidates = deriving.candidates(kind)?;
         if candidates.is_empty() {
             return Err(vec![Complaint {
-                span: model.name.span(),
+                at: model.site(),
                 message: format!("no way was found to derive a function of `{}`", model.name),
                 help: Some("this is an error of multibody: please report it with the model".to_owned()),
             }]);

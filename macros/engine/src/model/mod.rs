@@ -16,6 +16,7 @@ mod expressions;
 mod items;
 mod names;
 mod report;
+pub mod site;
 mod topology;
 mod typed;
 pub mod types;

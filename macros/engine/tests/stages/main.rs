@@ -11,9 +11,9 @@ use paths::{Reading, readings};
 /// What each stage may read, as `lib.rs` has it.
 type Table = BTreeMap<String, Vec<String>>;
 
-/// Crates of tokens, and the stages that may name them.
-const TOKENS: [&str; 3] = ["proc_macro2", "quote", "syn"];
-const WITH_TOKENS: [&str; 6] = ["diagnostics", "syntax", "model", "mechanics", "emit", "rust_keywords"];
+/// Crates of tokens and places in the user's text, and the stages that may name them.
+const TOKENS: [&str; 5] = ["proc_macro2", "quote", "syn", "span", "Span"];
+const WITH_TOKENS: [&str; 5] = ["diagnostics", "syntax", "model", "emit", "rust_keywords"];
 
 #[test]
 fn no_source_reads_upwards() {
@@ -51,6 +51,7 @@ fn an_upward_path_is_found() {
         ("dynamics::tree", "fn f() { let x = crate::mechanics::of; }"),
         ("dynamics::tree", "use proc_macro2::Ident;"),
         ("dynamics::tree", "fn f() -> ::syn::Ident { todo!() }"),
+        ("mechanics::derive", "fn f(model: &Model) { g(model.name.span()); }"),
         ("solve::plan", "macro_rules! m { () => { crate::mechanics::of } }"),
         ("mechanics::derive", "use crate::emit::emit;"),
         ("optimize", "pub use crate::verify;"),
@@ -81,7 +82,7 @@ fn upward(table: &Table, module: &[String], text: &str) -> Vec<String> {
             let own = [stage].into_iter().chain(open);
             !own.into_iter().any(|open| path == *open || path.starts_with(&format!("{open}::")))
         }
-        Reading::Foreign(name) => TOKENS.contains(&name.as_str()) && !WITH_TOKENS.contains(&stage.as_str()),
+        Reading::Name(name) => TOKENS.contains(&name.as_str()) && !WITH_TOKENS.contains(&stage.as_str()),
     };
     let found = readings(module, text.parse().expect("tokens"));
     found.iter().filter(|reading| wrong(reading)).map(|reading| format!("{}: {reading:?}", module.join("::"))).collect()

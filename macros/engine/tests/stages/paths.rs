@@ -7,8 +7,8 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 pub(crate) enum Reading {
     /// Of this crate, from its root.
     Inside(Vec<String>),
-    /// Of the crate of this name, or of what is in scope under it.
-    Foreign(String),
+    /// What is in scope under this name: a crate, an item, a method.
+    Name(String),
 }
 
 /// All paths of a module, macros included. Comments are no tokens.
@@ -78,14 +78,14 @@ fn is_punct(token: Option<&TokenTree>, wanted: char) -> bool {
     matches!(token, Some(TokenTree::Punct(punct)) if punct.as_char() == wanted)
 }
 
-/// From the root of the crate. A name alone reads nothing.
+/// From the root of the crate.
 fn resolved(module: &[String], path: &[String]) -> Option<Reading> {
     let (first, rest) = path.split_first()?;
     let mut base = match first.as_str() {
         "crate" => Vec::new(),
         "self" => module.to_vec(),
         "super" => module[..module.len().saturating_sub(1)].to_vec(),
-        _ => return (!rest.is_empty()).then(|| Reading::Foreign(first.clone())),
+        _ => return Some(Reading::Name(first.clone())),
     };
     for name in rest {
         match name.as_str() {

@@ -8,14 +8,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::mechanics::loops::constraints::{coordinate_name, path, row_name};
 use crate::mechanics::loops::structure::{Role, Structure};
 use crate::mechanics::translate::symbols::has_quaternion;
+use crate::model::site::{Site, Sited};
 use crate::model::types::{Closing, JointId, Model};
 
 use super::configurations::{Effort, Found, configurations};
 use super::measure::Gap;
 use super::problem::Problem;
 use super::{Analysis, Group, Looked, columns_of, driven_by, formula_of, rank, row_of};
-use proc_macro2::Span;
-
 impl Analysis<'_> {
     /// Equations without coordinates: they hold, or nothing can make them.
     pub(super) fn constants(&mut self, problem: &Problem, structure: &mut Structure) {
@@ -51,9 +50,9 @@ impl Analysis<'_> {
     }
 
     fn complain_open(&mut self, closing: Closing, gap: &Gap, size: f64) {
-        let (span, what) = self.thing(closing);
+        let (at, what) = self.thing(closing);
         let message = format!("{what} cannot close: {}", gap.text(size));
-        self.complain(span, message, Some("check lengths, frames and axes"));
+        self.complain(at, message, Some("check lengths, frames and axes"));
     }
 
     /// Closed configurations of a group; nothing if it cannot be closed.
@@ -127,7 +126,7 @@ impl Analysis<'_> {
                 solve.unknowns.iter().map(|&unknown| format!("`{}`", coordinate_name(model, unknown))).collect();
             let message = format!("the formulas of {} do not close their loop", names.join(", "));
             self.complain(
-                solve.span,
+                solve.site(),
                 message,
                 Some("check signs and branches, or let the macro solve: `from` a joint"),
             );
@@ -138,9 +137,9 @@ impl Analysis<'_> {
     pub(super) fn complain_elusive(&mut self, problem: &Problem, group: &Group, evidence: &str) {
         let closing = group.equations.iter().filter_map(|&k| row_of(problem, k)).map(|row| row.closing).min();
         let Some(closing) = closing else { return };
-        let (span, what) = self.thing(closing);
+        let (at, what) = self.thing(closing);
         let message = format!("{what} can't be reduced: how many of its equations count is not known ({evidence})");
-        self.complain(span, message, Some("take `constraints: Multipliers`, which need not know"));
+        self.complain(at, message, Some("take `constraints: Multipliers`, which need not know"));
     }
 
     pub(super) fn complain_locked(&mut self, problem: &Problem, group: &Group, closed: bool) {
@@ -150,15 +149,15 @@ impl Analysis<'_> {
         let names: Vec<String> = joints.iter().take(8).map(|joint| self.joint_name(*joint)).collect();
         let closing = group.equations.iter().filter_map(|&k| row_of(problem, k)).map(|row| row.closing).min();
         let Some(closing) = closing else { return };
-        let (span, what) = self.thing(closing);
+        let (at, what) = self.thing(closing);
         let names = names.join(", ");
         if closed {
             let message = format!("{what} leaves no freedom: nothing can move among {names}");
-            self.complain(span, message, Some("remove a constraint, or give a joint of the loop more freedom"));
+            self.complain(at, message, Some("remove a constraint, or give a joint of the loop more freedom"));
         } else {
             // The rank of a loop that is open says nothing about the closed one.
             let message = format!("{what} can't be reduced: with the declared defaults it does not close ({names})");
-            self.complain(span, message, Some("declare defaults with which it closes"));
+            self.complain(at, message, Some("declare defaults with which it closes"));
         }
     }
 
@@ -183,7 +182,7 @@ impl Analysis<'_> {
                     .collect();
                 let message =
                     format!("the drive prescribes what follows from the loops and other drives: {}", names.join(", "));
-                self.complain(drive.span, message, Some("drive as many coordinates as the mechanism has freedoms"));
+                self.complain(drive.site(), message, Some("drive as many coordinates as the mechanism has freedoms"));
                 return false;
             }
         }
@@ -203,7 +202,11 @@ impl Analysis<'_> {
             if split(orientation) || (split(position) && states(orientation) > 0) {
                 let name = path(model, &joint.place);
                 let message = format!("a part of `{name}` leaves the state, and its orientation is a quaternion");
-                self.complain(joint.span, message, Some("write `coordinates: RollPitchYaw` at the joint or the body"));
+                self.complain(
+                    joint.site(),
+                    message,
+                    Some("write `coordinates: RollPitchYaw` at the joint or the body"),
+                );
             }
         }
     }
@@ -214,7 +217,7 @@ impl Analysis<'_> {
     }
 
     /// Where a closing was written, and how to speak of it.
-    fn thing(&self, closing: Closing) -> (Span, String) {
+    fn thing(&self, closing: Closing) -> (Site, String) {
         thing(self.model, closing)
     }
 }
@@ -258,14 +261,14 @@ fn joints(problem: &Problem, looked: &Looked) -> Vec<JointId> {
     looked.group.columns.iter().map(|&column| problem.columns[column].coordinate.joint).collect()
 }
 
-pub(super) fn thing(model: &Model, closing: Closing) -> (Span, String) {
-    let here = model.name.span();
+pub(super) fn thing(model: &Model, closing: Closing) -> (Site, String) {
+    let here = model.site();
     match closing {
         Closing::Cut(id) => model.joints.get(id.0).map_or((here, String::new()), |joint| {
-            (joint.span, format!("the loop that `{}` closes", path(model, &joint.place)))
+            (joint.site(), format!("the loop that `{}` closes", path(model, &joint.place)))
         }),
         Closing::Constraint(id) => model.constraints.get(id.0).map_or((here, String::new()), |constraint| {
-            (constraint.span, format!("the constraint `{}`", path(model, &constraint.place)))
+            (constraint.site(), format!("the constraint `{}`", path(model, &constraint.place)))
         }),
     }
 }

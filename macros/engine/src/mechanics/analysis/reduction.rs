@@ -9,6 +9,7 @@ use std::collections::HashMap;
 
 use crate::mechanics::loops::constraints::{coordinate_name, is_uncounted, row_count};
 use crate::mechanics::loops::structure::{Means, Row, Step};
+use crate::model::site::Sited;
 use crate::model::types::{BodyRef, Closing, ConstraintId, Coordinate, JointId, Model, SolveHow};
 
 use super::blocks::{components, matching};
@@ -146,7 +147,7 @@ impl Reduction<'_> {
                 continue;
             }
             let mut complain = |message: String, help: &str| {
-                complaints.push(Complaint { span: solve.span, message, help: Some(help.to_owned()) });
+                complaints.push(Complaint { at: solve.site(), message, help: Some(help.to_owned()) });
             };
             let mut unknowns = Vec::new();
             for &unknown in &solve.unknowns {
@@ -207,7 +208,7 @@ impl Reduction<'_> {
     fn undetermined(&self, item: &Item) -> Complaint {
         let solve = &self.model.solves[item.number];
         Complaint {
-            span: solve.span,
+            at: solve.site(),
             message: format!("the loop does not determine {}", self.names(&item.unknowns)),
             help: Some("name coordinates that follow from the loop when the others are known".to_owned()),
         }
@@ -263,8 +264,8 @@ impl Reduction<'_> {
             return Ok(chosen);
         }
         let closing = rows.iter().filter_map(|&k| self.row(k)).map(|row| row.closing).min();
-        let (span, what) = closing.map_or((self.model.name.span(), String::new()), |c| thing(self.model, c));
-        let complaint = |message: String, help: &str| vec![Complaint { span, message, help: Some(help.to_owned()) }];
+        let (at, what) = closing.map_or((self.model.site(), String::new()), |c| thing(self.model, c));
+        let complaint = |message: String, help: &str| vec![Complaint { at, message, help: Some(help.to_owned()) }];
         Err(if chosen.iter().any(|&k| turns(k)) {
             // Not even if other coordinates would do: what they are worth on the branch that is meant is not known.
             let message = format!("{what} makes an orientation depend on other coordinates, and it is a quaternion");
@@ -338,13 +339,13 @@ impl Reduction<'_> {
             let item = group.iter().find(|&&node| node < items.len()).and_then(|&node| items.get(node));
             match item {
                 Some(item) if group.len() > 1 => {
-                    let span = self.model.solves[item.number].span;
+                    let at = self.model.solves[item.number].site();
                     let names = self.names(&item.unknowns);
                     let message =
                         format!("{names} can't be solved for here: the loop needs coordinates that follow from them");
                     let help =
                         Some("let the coordinates that the loop needs be independent, or leave this out".to_owned());
-                    return Err(vec![Complaint { span, message, help }]);
+                    return Err(vec![Complaint { at, message, help }]);
                 }
                 Some(item) => {
                     let unknowns = item.unknowns.iter().map(|&column| self.coordinate(column)).collect();
@@ -375,14 +376,14 @@ impl Reduction<'_> {
         for row in rows.iter().filter(last) {
             let Closing::Cut(joint) = row.closing else { continue };
             if is_uncounted(self.model, joint) {
-                let (span, what) = thing(self.model, row.closing);
+                let (at, what) = thing(self.model, row.closing);
                 let message = format!(
                     "{what} can't be reduced: an orientation tells the screw's angle up to whole turns only, and its travel \
                      with it"
                 );
                 let help = "let all that turns in this loop turn about the screw's axis by joints of one coordinate, whose \
                             turns are counted, or write `constraints: Multipliers`";
-                return Err(vec![Complaint { span, message, help: Some(help.to_owned()) }]);
+                return Err(vec![Complaint { at, message, help: Some(help.to_owned()) }]);
             }
         }
         Ok(())

@@ -36,14 +36,14 @@ impl Reduction<'_> {
             }
             let unsound = periods.iter().find(|&&(id, period, _)| !self.goes_round(steps, step, id, period));
             if let Some(&(id, ..)) = unsound {
-                let (span, what) = thing(self.model, Closing::Constraint(id));
+                let (at, what) = thing(self.model, Closing::Constraint(id));
                 let message = format!(
                     "{what} can't be reduced: the angles that it couples are measured between bodies and known up to whole \
                      turns, so Newton's method could go to another tooth"
                 );
                 let help = "write `constraints: Multipliers`, or let the joints have coordinates, which count their turns: \
                             `coordinates: Joint`, or none, in the place of `Absolute(..)`";
-                return Err(vec![Complaint { span, message, help: Some(help.to_owned()) }]);
+                return Err(vec![Complaint { at, message, help: Some(help.to_owned()) }]);
             }
         }
         Ok(())

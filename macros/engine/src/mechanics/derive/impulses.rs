@@ -2,8 +2,6 @@
 //!
 //! In: what the model asks for. Out: candidates, or complaints about mechanisms whose equations these functions can't hold.
 
-use proc_macro2::Span;
-
 use crate::contracts::function::FunctionKind;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::{Equations, Method, Style, Way};
@@ -11,6 +9,7 @@ use crate::mechanics::loops::constraints::path;
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::results::momentum::Weight;
 use crate::mechanics::translate::symbols::has_quaternion;
+use crate::model::site::Sited;
 use crate::model::types::{Coordinate, Model, Request};
 use crate::symbolic::graph::{Graph, Scalar};
 
@@ -47,12 +46,12 @@ impl Deriving<'_> {
     pub(super) fn check_impulses(&self) -> Result<(), Vec<Complaint>> {
         let (model, structure) = (self.model, &self.structure);
         let mut complaints = Vec::new();
-        if self.asked(Request::Impulse).is_some() && structure.guesses() > 0 {
+        if self.model.asked_at(Request::Impulse).is_some() && structure.guesses() > 0 {
             let message = "`impulse` knows no guess, and a loop of this model is closed by Newton's method";
             let help = "write a `solve` for the loop, or `constraints: Multipliers`";
             complaints.push(self.complaint(Request::Impulse, message, help));
         }
-        if self.asked(Request::Momentum).is_some() {
+        if self.model.asked_at(Request::Momentum).is_some() {
             let mut refuse = |message: &str, help: &str| {
                 complaints.push(self.complaint(Request::Momentum, message, help));
             };
@@ -84,13 +83,9 @@ impl Deriving<'_> {
         if complaints.is_empty() { Ok(()) } else { Err(complaints) }
     }
 
-    fn asked(&self, request: Request) -> Option<Span> {
-        self.model.asked.iter().find(|asked| asked.0 == request).map(|asked| asked.1)
-    }
-
     fn complaint(&self, request: Request, message: &str, help: &str) -> Complaint {
-        let span = self.asked(request).unwrap_or_else(|| self.model.name.span());
-        Complaint { span, message: message.to_owned(), help: Some(help.to_owned()) }
+        let at = self.model.asked_at(request).unwrap_or_else(|| self.model.site());
+        Complaint { at, message: message.to_owned(), help: Some(help.to_owned()) }
     }
 
     /// M d = impulse.

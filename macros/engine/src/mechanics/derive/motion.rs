@@ -10,6 +10,7 @@ use crate::mechanics::results::constrained::Solved;
 use crate::mechanics::strut::forward;
 use crate::mechanics::translate::dependencies::Needs;
 use crate::mechanics::translate::values::width;
+use crate::model::site::Sited;
 use crate::model::types::Output;
 use crate::symbolic::graph::Scalar;
 
@@ -157,7 +158,7 @@ impl<'m> Deriving<'m> {
 
 fn misplaced(output: &Output) -> Complaint {
     Complaint {
-        span: output.value.span,
+        at: output.value.site(),
         message: format!(
             "the output `{}` was derived with another number of scalars than its type has",
             output.place.field

@@ -18,6 +18,7 @@ use crate::contracts::call::Call;
 use crate::contracts::symbol::Symbol;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
+use crate::model::site::Sited;
 use crate::model::types::{Closing, Coordinate, Expr, JointKind, Solve, SolveHow};
 use crate::solve::{self, Cycle, Failure, Plan, Solved, of_signs};
 use crate::symbolic::evaluate::{Evaluator, Real};
@@ -448,7 +449,7 @@ fn unit(draw: u64, key: u64) -> f64 {
 }
 
 fn complaint(item: &Solve, message: String, help: &str) -> Vec<Complaint> {
-    vec![Complaint { span: item.span, message, help: Some(help.to_owned()) }]
+    vec![Complaint { at: item.site(), message, help: Some(help.to_owned()) }]
 }
 
 fn not_found(item: &Solve, failure: &Failure) -> Vec<Complaint> {

@@ -8,6 +8,7 @@
 
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
+use crate::model::site::Sited;
 use crate::model::types::{Closing, JointId, Kinematics, SolveHow};
 use crate::symbolic::graph::Scalar;
 
@@ -38,7 +39,7 @@ impl Equations<'_> {
                 let coordinate = wanted.find.get(at % wanted.find.len().max(1));
                 let name = coordinate.map_or_else(String::new, |&c| coordinate_name(self.model, c));
                 Err(vec![Complaint {
-                    span: wanted.span,
+                    at: wanted.site(),
                     message: format!("`{name}` does not follow from what is given"),
                     help: Some("give more coordinates, or write a `solve` item for its loop".to_owned()),
                 }])
@@ -87,7 +88,7 @@ impl Equations<'_> {
             let name = self.closing_name(closing);
             if worst > if written(last) { TOLERANCE } else { 1e-8 } {
                 complaints.push(Complaint {
-                    span: item.span,
+                    at: item.site(),
                     message: format!("this solution does not close its loop: `{name}` stays open by up to {worst:.1e}"),
                     help: Some(
                         "the formulas must satisfy every equation of the loop, for all values of what they depend on"
@@ -102,7 +103,7 @@ impl Equations<'_> {
         }
         for step in (0..structure.steps.len()).filter(|&step| written(step) && !concerned[step]) {
             complaints.extend(item_of(step).map(|item| Complaint {
-                span: item.span,
+                at: item.site(),
                 message: "this solution closes no loop: no equation concerns what it solves for".to_owned(),
                 help: Some("leave it out, or declare the joint or constraint that it satisfies".to_owned()),
             }));

@@ -10,6 +10,7 @@ use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::loops::structure::Role;
+use crate::model::site::Sited;
 use crate::symbolic::graph::{BlockKind, Scalar};
 
 impl Equations<'_> {
@@ -30,8 +31,8 @@ impl Equations<'_> {
         let multipliers = self.symbols.multipliers.clone();
         let (wanted, size) = (inputs.len(), inputs.len() + multipliers.len());
         let inputs: Vec<Scalar> = inputs.into_iter().chain(multipliers).collect();
-        let span = model.solve_for.first().map_or_else(proc_macro2::Span::call_site, |wanted| wanted.span);
-        let refuse = |message: String, help: &str| Err(vec![Complaint { span, message, help: Some(help.to_owned()) }]);
+        let at = model.solve_for.first().map_or_else(|| model.site(), |wanted| wanted.site());
+        let refuse = |message: String, help: &str| Err(vec![Complaint { at, message, help: Some(help.to_owned()) }]);
         if rows.len() != size {
             let few = if rows.len() > size { "too few" } else { "too many" };
             return refuse(

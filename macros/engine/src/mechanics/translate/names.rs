@@ -10,21 +10,20 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// A leaf's name with the part instances that it stands in.
 pub(in crate::mechanics) fn path(model: &Model, place: &Place) -> String {
-    let mut parts = vec![plain(&place.field)];
+    let mut parts = vec![plain(&place.field.to_string())];
     let mut at = model.instances.get(place.instance.0);
     while let Some(instance) = at {
         let Some(parent) = instance.parent else { break };
         let index = instance.index.map_or(String::new(), |(index, _)| format!("_{index}"));
-        parts.push(format!("{}{index}", plain(&instance.field)));
+        parts.push(format!("{}{index}", plain(&instance.field.to_string())));
         at = model.instances.get(parent.0);
     }
     parts.reverse();
     parts.join("_")
 }
 
-fn plain(name: &proc_macro2::Ident) -> String {
-    let text = name.to_string();
-    text.strip_prefix("r#").unwrap_or(&text).to_lowercase()
+fn plain(name: &str) -> String {
+    name.strip_prefix("r#").unwrap_or(name).to_lowercase()
 }
 
 /// Name of a symbol.

@@ -20,6 +20,7 @@ use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::{Equations, Method, Style, Way};
 use crate::mechanics::translate::expressions::operands;
 use crate::mechanics::translate::symbols::Symbols;
+use crate::model::site::Sited;
 use crate::model::types::{Closing, ConstraintId, ConstraintKind, Coordinate, Expr, ExprNode, Model, Order};
 use crate::symbolic::evaluate::{Evaluator, Real};
 use crate::symbolic::graph::{Graph, Scalar, SymbolId};
@@ -170,7 +171,7 @@ fn complaint(model: &Model, id: ConstraintId, coordinate: Coordinate) -> Complai
         ConstraintKind::Value(value) => measured(model, value).into_iter().find(|one| one.0 == coordinate),
         ConstraintKind::Rod { .. } => None,
     };
-    let span = found.map_or(constraint.span, |(_, expr)| expr.span);
+    let at = found.map_or(constraint.site(), |(_, expr)| expr.site());
     let (name, angle) = (row_name(model, Closing::Constraint(id), 0), coordinate_name(model, coordinate));
     let message = format!(
         "the constraint `{name}` counts the turns of `{angle}`, which is measured between bodies and known up to whole turns"
@@ -179,7 +180,7 @@ fn complaint(model: &Model, id: ConstraintId, coordinate: Coordinate) -> Complai
         "give ratios of angles as numbers or fractions up to {MOST}, such as `1.0 / 3.0`, take `sin` and `cos` of it, \
          or let the joint have a coordinate: with `coordinates: Joint`, or none, in the place of `Absolute(..)`"
     );
-    Complaint { span, message, help: Some(help) }
+    Complaint { at, message, help: Some(help) }
 }
 
 /// Coordinates of joints that close loops which an expression reads, with where it does so first.
