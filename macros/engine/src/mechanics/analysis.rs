@@ -12,12 +12,14 @@ mod closed;
 mod configurations;
 mod linear;
 mod measure;
+mod pinned;
 mod problem;
 mod rank;
 mod ranked;
 mod reduction;
 mod scales;
 pub mod singular;
+mod springs;
 mod tape;
 mod teeth;
 mod written;
@@ -31,7 +33,7 @@ use super::loops::constraints::{closings, coordinate_name, row_count, row_name, 
 use super::loops::groups;
 use super::loops::structure::{Means, Role, Row, Step, Structure};
 use closed::Sampled;
-use configurations::{Effort, Found};
+use configurations::{Configuration, Effort, Found};
 use linear::Elimination;
 use problem::{Problem, Source};
 use ranked::Ranked;
@@ -75,6 +77,10 @@ pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
     if let Some(problem) = &problem {
         structure.closed = closed::closed(problem, &analysis.samples, &structure);
         structure.measure(problem, &analysis.samples);
+        match springs::meeting(model, problem, &structure) {
+            Ok(held) => structure.meeting = held,
+            Err(complaints) => analysis.complaints.extend(complaints),
+        }
     }
     analysis.check_quaternions(&structure);
     if analysis.complaints.is_empty() { Ok(structure) } else { Err(analysis.complaints) }
@@ -146,7 +152,7 @@ impl<'m> Analysis<'m> {
         let locked = checks::locked(problem, &looked, reduced);
         for (number, one) in looked.into_iter().enumerate() {
             let Looked { group, rows, found, ranked } = one;
-            let staying = self.with_other_parameters(problem, &group, &rows, &ranked, structure);
+            let staying = self.with_other_parameters(problem, &group, &rows, &found.configurations, &ranked, structure);
             self.drop_redundant(problem, &group, &rows, &staying, &ranked, structure);
             let Ranked { rank, ref independent, ref kept, .. } = ranked;
             structure.redundant |= staying.len() > ranked.least;
@@ -228,6 +234,7 @@ impl<'m> Analysis<'m> {
         problem: &Problem,
         group: &Group,
         rows: &[usize],
+        from: &[Configuration],
         ranked: &Ranked,
         structure: &mut Structure,
     ) -> Vec<usize> {
@@ -262,6 +269,7 @@ impl<'m> Analysis<'m> {
                 .collect();
             let names = names.join(", ");
             structure.granted.extend(needed.iter().filter_map(|&k| row_of(problem, group.equations[k])));
+            structure.pinned.extend(pinned::pinned(problem, group, rows, from));
             structure.notes.push(format!(
                 "hold only for parameters like the declared ones, and are looked at where a motion starts: {names}"
             ));

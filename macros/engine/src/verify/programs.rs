@@ -27,6 +27,9 @@ pub(super) const WORST: f64 = 4.0;
 /// lose more digits than the equations do.
 const FORMS: f64 = 1e4;
 
+/// What may be missing of what is left where parameters open a loop.
+const OPEN: f64 = 0.1;
+
 /// Results that keep fewer digits than this are not worth a comparison.
 const POOR: f64 = 1e-6;
 
@@ -69,6 +72,30 @@ impl Subject<'_> {
     pub(super) fn compare_residual(&self, states: &States<'_>, state: &State) -> Verdict {
         let count = self.tape.roots.len();
         self.compare_roots(states, state, count.saturating_sub(1)..count, 1, &mut 0)
+    }
+
+    /// What tells that parameters open a loop, where they do. Closed forms rest on all equations there are, and what follows from
+    /// them otherwise is off by squares of what these leave: as long as much less is missing than is left, it is told.
+    pub(super) fn compare_open(&self, states: &States<'_>, state: &State) -> Verdict {
+        let symbol = |id: SymbolId| state.value(id);
+        let exact = Trace::<Doubled>::new(self.tape, &symbol).roots();
+        let look = |symbol| states.value(state, symbol);
+        let nothing = Reads { symbol: &look, fields: &[], deficient: &[], rounds: usize::MAX };
+        let fields = self.prelude.map_or_else(Vec::new, |prelude| machine::run(prelude, &nothing));
+        let results = machine::run(self.program, &Reads { fields: &fields, ..nothing });
+        let largest = exact.iter().fold(0.0_f64, |largest, x| largest.max(x.high.abs()));
+        let clear = exact.iter().all(|x| x.high.is_finite()) && largest > POOR;
+        let off = |(result, exact): (&f64, &Doubled)| (Doubled::of(*result).sub(*exact)).high.abs();
+        let worst = results
+            .iter()
+            .zip(&exact)
+            .map(off)
+            .fold(0.0_f64, |worst, x| if x > worst || x.is_nan() { x } else { worst });
+        match clear {
+            false => Verdict::Unclear(Doubt::Open),
+            true if worst <= OPEN * largest => Verdict::Right,
+            true => Verdict::Wrong(0),
+        }
     }
 
     fn compare_roots(

@@ -2,7 +2,7 @@
 //!
 //! In: the model, its structure with the closed configurations that the analysis has found, and the symbols of the
 //! derivation. Out: numbers for all symbols, always the same: parameters at their defaults in the first state and near them in others,
-//! coordinates of loops at or near a closed configuration, everything else at random.
+//! coordinates of loops at or near a closed configuration, everything else at random. Parameters that open loops stay at their defaults.
 
 use crate::contracts::symbol::Symbol;
 use crate::mechanics::loops::structure::{Means, Structure};
@@ -102,12 +102,29 @@ impl<'m> States<'m> {
 
     /// Whether nothing depends on how states with parameters at their defaults differ from others.
     pub(super) fn has_no_parameters(&self) -> bool {
-        self.model.params.is_empty()
+        self.symbols.iter().all(|&symbol| match symbol {
+            Symbol::Param { param, element } => self.structure.pinned.contains(&(param.0, element)),
+            _ => true,
+        })
     }
 
     /// State number `number`, drawn for the time `attempt`: nearer to where loops close each time, then near the default
     /// position with numbers of other sizes.
     pub(super) fn draw(&self, number: usize, attempt: usize) -> State {
+        self.drawn(number, attempt, &self.structure.pinned)
+    }
+
+    /// The same with all parameters moved: those that open loops too.
+    pub(super) fn unpinned(&self, number: usize, attempt: usize) -> State {
+        self.drawn(number, attempt, &[])
+    }
+
+    /// Whether there are parameters that open loops.
+    pub(super) fn has_pinned(&self) -> bool {
+        !self.structure.pinned.is_empty()
+    }
+
+    fn drawn(&self, number: usize, attempt: usize, pinned: &[(usize, usize)]) -> State {
         let mut random = Random(0x0C8E_C4ED + 7919 * number as u64 + 104_729 * attempt as u64);
         // The first is the one that a person would draw: in line, or at right angles.
         let closed = self.structure.closed.get(1..).filter(|list| !list.is_empty()).unwrap_or(&self.structure.closed);
@@ -131,7 +148,8 @@ impl<'m> States<'m> {
                 let default = self.model.params.get(param.0).and_then(|param| param.default.get(element)).copied();
                 let default = default.unwrap_or(0.0);
                 let size = if default == 0.0 { 0.5 } else { default.abs() };
-                default + around * size * random.next()
+                let way = around * size * random.next();
+                if pinned.contains(&(param.0, element)) { default } else { default + way }
             }
             Symbol::Position { joint, component } => match held(joint.0, component) {
                 // Equations with multipliers are zero where they are closed, which says nothing of their own values.

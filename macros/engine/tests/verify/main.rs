@@ -3,6 +3,7 @@
 mod breaks;
 #[path = "../common/corpus.rs"]
 mod corpus;
+mod held_loops;
 #[path = "../common/interpreter.rs"]
 mod interpreter;
 mod states;

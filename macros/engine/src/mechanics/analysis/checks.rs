@@ -33,6 +33,7 @@ impl Analysis<'_> {
             }
             if adjustable {
                 structure.granted.push(row);
+                structure.pinned.extend(problem.parameters_of(&[k]).into_iter().map(|one| one.1));
                 let name = row_name(self.model, row.closing, row.index);
                 structure.notes.push(format!("`{name}` depends on parameters alone: it must hold by their choice"));
             }

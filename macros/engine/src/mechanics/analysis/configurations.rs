@@ -269,6 +269,12 @@ impl Search<'_> {
         self.configuration(point.clone(), &at, true).rank
     }
 
+    /// Rows of unit length or zero at a point, over the group's columns.
+    pub(super) fn jacobian_at(&self, point: &Point, values: &mut Values) -> Vec<Vec<f64>> {
+        let at = self.problem.linearise(point, self.equations, values);
+        self.jacobian(&at)
+    }
+
     /// J J^T
     fn normal(&self, rows: &[Vec<(usize, f64)>]) -> Vec<Vec<f64>> {
         let mut dense = vec![0.0; self.problem.columns.len()];

@@ -96,6 +96,8 @@ pub(super) struct Problem {
     positions: Vec<Vec<usize>>,
     /// Its symbol.
     time: Option<usize>,
+    /// By symbol the parameter that it is, and the element.
+    parameters: Vec<Option<(usize, usize)>>,
     pub(super) defaults: Vec<f64>,
     /// Positions that drives give at time zero, with the tape's roots for them.
     driven: Vec<(usize, usize)>,
@@ -115,7 +117,8 @@ pub(super) struct Linearised {
     pub rows: Vec<Vec<(usize, f64)>>,
 }
 
-const WAY: Way = Way { style: Style::Nested, method: Method::Composite, axes: None, writing: Writing::PLAIN };
+pub(super) const WAY: Way =
+    Way { style: Style::Nested, method: Method::Composite, axes: None, writing: Writing::PLAIN };
 
 impl Problem {
     pub(super) fn new(model: &Model) -> Problem {
@@ -198,7 +201,13 @@ impl Problem {
         let roots = lowering.run(&roots);
         let tape = Tape::new(&lowering.to, &roots);
         let defaults = defaults(model, &e.symbols, off);
-        let parameter = |&id: &usize| matches!(e.symbols.table.get(id), Some(Symbol::Param { .. }));
+        let parameters: Vec<Option<(usize, usize)>> = (e.symbols.table.iter())
+            .map(|symbol| match *symbol {
+                Symbol::Param { param, element } => Some((param.0, element)),
+                _ => None,
+            })
+            .collect();
+        let parameter = |&id: &usize| matches!(parameters.get(id), Some(Some(_)));
         let time = e.symbols.table.iter().position(|symbol| matches!(symbol, Symbol::Time));
         let columns_of = |root: usize| {
             let mut list: Vec<usize> = Vec::new();
@@ -240,6 +249,7 @@ impl Problem {
             quaternions,
             positions,
             time,
+            parameters,
             defaults,
             driven,
             size: 1.0,
@@ -262,6 +272,15 @@ impl Problem {
             list.iter_mut().for_each(|(k, gap)| gap.widen(&self.gap(&values, &[*k])));
         }
         list
+    }
+
+    /// Parameters that have a say in some equations: their symbols, with number and element.
+    pub(super) fn parameters_of(&self, equations: &[usize]) -> Vec<(usize, (usize, usize))> {
+        let mut symbols: Vec<usize> =
+            equations.iter().flat_map(|&k| self.tape.symbols(self.equations[k].root)).collect();
+        symbols.sort_unstable();
+        symbols.dedup();
+        symbols.into_iter().filter_map(|id| Some((id, (*self.parameters.get(id)?)?))).collect()
     }
 
     /// The place of a closing's row.

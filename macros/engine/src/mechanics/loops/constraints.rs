@@ -29,6 +29,7 @@
 mod cut;
 pub(in crate::mechanics) mod expression;
 pub(in crate::mechanics) mod measured;
+mod meeting;
 mod names;
 pub(in crate::mechanics) mod turns;
 mod view;

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use crate::mechanics::translate::symbols::has_quaternion;
-use crate::model::types::{Closing, ConstraintId, Coordinate, JointId, Model};
+use crate::model::types::{Closing, ConstraintId, Coordinate, ForceId, JointId, Model};
 
 use super::constraints::is_length;
 use super::groups::Group;
@@ -32,6 +32,8 @@ pub struct Structure {
     pub dropped: Vec<Row>,
     /// Those among them that hold for parameters like the declared ones only.
     pub granted: Vec<Row>,
+    /// Parameters, by number and element, that break these when they are not at their defaults.
+    pub pinned: Vec<(usize, usize)>,
     /// The residuals that amount to one: to a movement by a radian, or by the mechanism's size.
     pub scales: BTreeMap<Row, f64>,
     /// By coordinate of the state what counts as one: the mechanism's size for travels.
@@ -42,6 +44,8 @@ pub struct Structure {
     pub groups: Vec<Group>,
     /// Unknowns whose closed forms have a root, and pitches; known once they are derived.
     pub dead_centres: Vec<Coordinate>,
+    /// Springs and dampers between points that joints hold together: nothing acts between these.
+    pub meeting: Vec<ForceId>,
     /// Configurations in which all loops are closed, parameters at their defaults. The first is the one nearest to where
     /// coordinates stand by default; where they are reduced it has the state there if the loops close so. Empty where
     /// there is no loop, and where none was found. What is in no loop is random in the others.

@@ -5,7 +5,7 @@
 
 use crate::dynamics::energy;
 use crate::mechanics::equations::Equations;
-use crate::model::types::ForceKind;
+use crate::model::types::{ForceId, ForceKind};
 use crate::symbolic::graph::Scalar;
 
 impl Equations<'_> {
@@ -35,7 +35,7 @@ impl Equations<'_> {
     pub(in crate::mechanics) fn potential(&mut self) -> Scalar {
         let mut terms = self.weight();
         let model = self.model;
-        for force in &model.forces {
+        for (number, force) in model.forces.iter().enumerate() {
             match &force.kind {
                 ForceKind::JointSpring { joint, coordinate, stiffness: stiffness @ Some(_), rest, .. } => {
                     let spring = self.joint_spring(*joint, *coordinate, [stiffness, &None, rest]);
@@ -43,7 +43,7 @@ impl Equations<'_> {
                 }
                 ForceKind::LineSpring { between, stiffness: stiffness @ Some(_), length, .. } => {
                     let ends = [self.place(&between[0]), self.place(&between[1])];
-                    let line = self.line_spring(&ends, [stiffness, &None, length]);
+                    let line = self.line_spring(ForceId(number), &ends, [stiffness, &None, length]);
                     terms.push(line.energy(&mut self.g));
                 }
                 _ => {}

@@ -101,8 +101,8 @@ impl Equations<'_> {
         let mut terms = Terms::new(&mechanism);
         let model = self.model;
         if !std::mem::replace(&mut self.loading, true) {
-            for force in &model.forces {
-                self.act(&mut terms, &force.kind);
+            for (number, force) in model.forces.iter().enumerate() {
+                self.act(&mut terms, ForceId(number), &force.kind);
             }
             self.loading = false;
         }
@@ -144,7 +144,7 @@ impl Equations<'_> {
         held
     }
 
-    fn act(&mut self, terms: &mut Terms, kind: &ForceKind) {
+    fn act(&mut self, terms: &mut Terms, id: ForceId, kind: &ForceKind) {
         match kind {
             ForceKind::Effort { joint, values } if self.model.cuts.contains(joint) => {
                 let values: Vec<Scalar> = values.iter().map(|value| self.scalar(value)).collect();
@@ -173,7 +173,7 @@ impl Equations<'_> {
                 if ends[0].link == ends[1].link {
                     return;
                 }
-                let line = self.line_spring(&ends, [stiffness, damping, length]);
+                let line = self.line_spring(id, &ends, [stiffness, damping, length]);
                 let force = line.force(&mut self.g);
                 for (place, force) in ends.iter().zip([-force, force]) {
                     let force = self.between(line.axes, place.link, force);
@@ -340,9 +340,9 @@ impl Equations<'_> {
     }
 
     /// What a force puts into the mechanism, W.
-    pub(super) fn power(&mut self, force: ForceId) -> Scalar {
+    pub(super) fn power(&mut self, id: ForceId) -> Scalar {
         let model = self.model;
-        let Some(force) = model.forces.get(force.0) else { return Scalar::ZERO };
+        let Some(force) = model.forces.get(id.0) else { return Scalar::ZERO };
         if std::mem::replace(&mut self.loading, true) {
             return Scalar::ZERO;
         }
@@ -368,7 +368,7 @@ impl Equations<'_> {
                 if ends[0].link == ends[1].link {
                     Scalar::ZERO
                 } else {
-                    let line = self.line_spring(&ends, [stiffness, damping, length]);
+                    let line = self.line_spring(id, &ends, [stiffness, damping, length]);
                     line.power(&mut self.g)
                 }
             }

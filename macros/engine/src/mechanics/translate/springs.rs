@@ -3,11 +3,11 @@
 //! In: a stretch and its rate. Out: force, power put into the mechanism, energy k x^2 / 2. Along a line of length
 //! L = |d| the force on the far end is -(k (L - L0) + c L') d / L with L' = d . d' / L. With natural length zero it is
 //! -(k + c L' / L) d, which needs no root, and no quotient either without a damper. Elsewhere L = 0 is a singular point:
-//! the line has no direction there, and the force is not a number. Points that are one point in every position have no
-//! line: nothing acts between them, and what is stored stays k L0^2 / 2.
+//! the line has no direction there, and the force is not a number. Points that are one point in every position, or
+//! wherever loops are closed (`analysis/springs`), have no line: nothing acts between them, and what is stored stays k L0^2 / 2.
 
 use crate::mechanics::equations::Equations;
-use crate::model::types::Expr;
+use crate::model::types::{Expr, ForceId};
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
 use super::build::Place;
@@ -48,9 +48,17 @@ pub(in crate::mechanics) struct LineSpring {
 
 impl Equations<'_> {
     /// `data`: stiffness, damping, natural length.
-    pub(in crate::mechanics) fn line_spring(&mut self, ends: &[Place; 2], data: [&Option<Expr>; 3]) -> LineSpring {
+    pub(in crate::mechanics) fn line_spring(
+        &mut self,
+        id: ForceId,
+        ends: &[Place; 2],
+        data: [&Option<Expr>; 3],
+    ) -> LineSpring {
         let [stiffness, damping, natural] = self.optional(data);
-        let ([way, way_rate], axes) = self.way(&ends[0], &ends[1], 1);
+        let ([way, way_rate], axes) = match self.structure.meeting.contains(&id) {
+            true => ([Vector::ZERO; 2], None),
+            false => self.way(&ends[0], &ends[1], 1),
+        };
         LineSpring { stiffness, damping, natural, way, way_rate, axes }
     }
 }

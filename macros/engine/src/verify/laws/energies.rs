@@ -3,9 +3,16 @@
 use crate::contracts::function::FunctionKind;
 use crate::contracts::symbol::Symbol;
 use crate::model::types::InputId;
+use crate::optimize::program::Doubt;
 use crate::symbolic::doubled::Doubled;
 
 use super::{At, Judged, Law, Sum, acceleration, forces, judged, velocity};
+
+/// What is left of closed loops.
+const CLOSED: f64 = 1e-9;
+
+/// What is left of an equation that follows from others.
+const DEPENDENT: f64 = 1e-9;
 
 pub(super) const LAWS: &[Law] = &[
     Law { between: "the mass matrix and kinetic energy", judge: |at| at.energy() },
@@ -88,6 +95,46 @@ impl At<'_, '_> {
         Some(None)
     }
 
+    /// By how much equations are not met, in what counts as one; nothing where loops are open.
+    fn gap(&mut self) -> Option<f64> {
+        let structure = self.laws.structure;
+        let residuals = self.values(FunctionKind::Constraints)?;
+        let gaps = structure.rows.iter().zip(&residuals).map(|(&row, x)| x.high.abs() / structure.scale(row));
+        let gap = gaps.fold(0.0_f64, |most, x| if x > most || x.is_nan() { x } else { most });
+        if gap < CLOSED {
+            return Some(gap + f64::EPSILON);
+        }
+        self.doubt = self.doubt.or(Some(Doubt::Open));
+        None
+    }
+
+    /// What of velocities keeps the equations.
+    fn closed_velocities(&mut self, v: Vec<Doubled>) -> Option<Vec<Doubled>> {
+        let jacobian = self.values(FunctionKind::ConstraintJacobian)?;
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+        let mut v: Vec<f64> = v.iter().map(|x| x.high).collect();
+        let mut basis: Vec<Vec<f64>> = Vec::new();
+        let take = |from: &mut Vec<f64>, basis: &[Vec<f64>]| {
+            // Twice, for the digits that the first time has lost.
+            for unit in basis.iter().chain(basis) {
+                let along = dot(unit, from);
+                from.iter_mut().zip(unit).for_each(|(x, u)| *x -= along * u);
+            }
+        };
+        for row in jacobian.chunks(v.len().max(1)) {
+            let mut row: Vec<f64> = row.iter().map(|x| x.high).collect();
+            let size = dot(&row, &row).sqrt();
+            take(&mut row, &basis);
+            let left = dot(&row, &row).sqrt();
+            if left > DEPENDENT * size {
+                row.iter_mut().for_each(|x| *x /= left);
+                basis.push(row);
+            }
+        }
+        take(&mut v, &basis);
+        Some(v.into_iter().map(Doubled::new).collect())
+    }
+
     /// The rate of both energies is the power of all else. Forces that vanish at rest without inputs and are linear in
     /// velocities have opposite powers in opposite motions, so half the sum over both leaves inertia, weight and springs.
     fn balance(&mut self) -> Judged {
@@ -107,12 +154,26 @@ impl At<'_, '_> {
             return Some(None);
         }
         let model = self.laws.model;
+        // Springs on joints that close loops follow coordinates that are measured, which are those of the forces where loops are
+        // closed, and stay so.
+        let measured = rows > 0 && forces::on_closed_joints(model);
+        let mut v = self.velocities();
+        let mut open = 0.0;
+        if measured {
+            if !self.has(g) || !self.has(FunctionKind::Constraints) {
+                return Some(None);
+            }
+            open = self.gap()?;
+            v = self.closed_velocities(v)?;
+        }
         let inputs = model.inputs.iter().enumerate().flat_map(|(k, input)| {
             (0..input.ty.scalars()).map(move |element| (Symbol::Input { input: InputId(k), element }, Doubled::ZERO))
         });
-        let still: Vec<(Symbol, Doubled)> = inputs.collect();
-        let v = self.velocities();
+        let mut still: Vec<(Symbol, Doubled)> = inputs.collect();
         let mut opposite = still.clone();
+        if measured {
+            still.extend(self.coordinates().iter().zip(&v).map(|(&c, &v)| (velocity(c), v)));
+        }
         opposite.extend(self.coordinates().iter().zip(&v).map(|(&c, &v)| (velocity(c), -v)));
         let symbols = self.symbols();
         let kinetic = self.with(t, &still)?.slopes::<Doubled>(&[1.0], symbols);
@@ -147,6 +208,7 @@ impl At<'_, '_> {
             v.iter().zip(&mut weights).for_each(|(v, weight)| *weight = v.high);
         }
         if sum.holds() != Some(true) {
+            sum.open = open;
             sum.bound = kinetic.bound + potential.bound;
             sum.bound += one.slopes::<f64>(&weights, 0).bound + other.slopes::<f64>(&weights, 0).bound;
         }

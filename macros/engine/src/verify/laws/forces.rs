@@ -36,6 +36,14 @@ pub(super) fn are_balanced(model: &Model) -> bool {
     })
 }
 
+/// Whether springs act on joints that close loops.
+pub(super) fn on_closed_joints(model: &Model) -> bool {
+    model.forces.iter().any(|force| match &force.kind {
+        ForceKind::JointSpring { joint, .. } => model.cuts.contains(joint),
+        _ => false,
+    })
+}
+
 type Known = HashMap<*const ExprNode, Shape>;
 
 fn is_balanced(expr: &Expr, known: &mut Known) -> bool {

@@ -30,6 +30,9 @@ use super::trace::{Slopes, Trace};
 /// A sum of numbers with 31 digits that cancel is zero below this share of them.
 const EXACT: f64 = 1e-24;
 
+/// As many times what loops are open by may be missing of a sum for which they must be closed.
+const OPEN: f64 = 64.0;
+
 /// What the laws say at one state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Outcome {
@@ -65,6 +68,8 @@ pub(super) struct Laws<'a> {
 struct Sum {
     value: Vec<Doubled>,
     bound: f64,
+    /// By how much the loops are open that must be closed for it.
+    open: f64,
 }
 
 impl Sum {
@@ -83,7 +88,8 @@ impl Sum {
         if !(sum.is_finite() && size.is_finite() && self.bound.is_finite()) {
             return None;
         }
-        Some(sum <= EXACT * size || sum <= WORST * f64::EPSILON * (self.bound + size))
+        let rounding = WORST * f64::EPSILON * (self.bound + size);
+        Some(sum <= EXACT * size || sum <= rounding + OPEN * self.open * size)
     }
 }
 

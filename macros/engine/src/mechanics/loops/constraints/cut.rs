@@ -36,7 +36,7 @@ pub(super) struct Cut {
     pub ends: [Place; 2],
     pub equations: Vec<Equation>,
     /// Axes that coincide when the joint is closed as it was meant.
-    aligned: Vec<usize>,
+    pub aligned: Vec<usize>,
 }
 
 impl Equations<'_> {
