@@ -87,7 +87,10 @@ impl Family for Loops {
         let all = |words: &str| said.iter().all(|text| text.contains(words));
         // The language has no coordinate for what a quaternion's loop leaves.
         all("and it is a quaternion")
+            || all("and its orientation is a quaternion")
             || !loops::is_regular(mechanism)
+            || all("how many of its equations count is not known") && loops::loses_rank_where_closed(mechanism)
+            || all("tells the screw's angle up to whole turns only") && loops::turns_beside_a_screw(mechanism)
             || all("leaves no freedom") && loops::is_locked(mechanism)
     }
 }

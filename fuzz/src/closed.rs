@@ -163,6 +163,25 @@ pub fn jacobian(of: &Mechanism, at: &Point) -> DMatrix<f64> {
     DMatrix::from_columns(&columns)
 }
 
+/// Whether some velocity turns the ends of a screw that closes a loop about another axis than its own.
+pub fn turns_beside(of: &Mechanism, at: &Point) -> bool {
+    let n = of.freedoms();
+    let mut at = at.clone();
+    (0..n).any(|k| {
+        let unit: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i == k))).collect();
+        at.v = split(of, &unit);
+        let plain = Plain::new(of, &at);
+        of.cuts().iter().any(|joint| match &joint.kind {
+            Kind::Screw(axis, _) => {
+                let relative = Relative::new(&plain.frame(&joint.parent), &plain.frame(&joint.child));
+                let axis = axis.value(&at);
+                norm(cross(axis, relative.w)) > 1e-9 * norm(axis)
+            }
+            _ => false,
+        })
+    })
+}
+
 /// Position and velocity that close the loops, near those given.
 pub fn settled(of: &Mechanism, mut at: Point) -> Option<Point> {
     let mut last = f64::INFINITY;

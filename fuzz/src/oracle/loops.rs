@@ -4,12 +4,14 @@ use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics::loops::structure::Means;
 
+use nalgebra::DVector;
+
 use super::{At, Findings, Verdict};
-use crate::algebra::{V3, apply, dot, norm, quaternion, transposed};
-use crate::closed::{accelerations, jacobian, settled, state};
+use crate::algebra::{V3, apply, dot, least, norm, quaternion, transposed};
+use crate::closed::{accelerations, jacobian, settled, state, turns_beside};
 use crate::mechanism::Mechanism;
 use crate::mechanism::expression::Point;
-use crate::plain::{Motion, Plain, split};
+use crate::plain::{Motion, Plain, displaced, split};
 use crate::programs::{Failure, Programs, Values};
 use crate::random::Random;
 
@@ -62,6 +64,25 @@ pub fn is_regular(mechanism: &Mechanism) -> bool {
     drawn(mechanism)
         .and_then(|at| accelerations(mechanism, &at))
         .is_some_and(|found| found.ratio > 1e-3 && found.rank < mechanism.freedoms())
+}
+
+/// Whether fewer equations are independent where loops are closed than beside that.
+pub fn loses_rank_where_closed(mechanism: &Mechanism) -> bool {
+    drawn(mechanism).is_some_and(|closed| {
+        let rank = |at: &Point| {
+            let slope = jacobian(mechanism, at);
+            least(&slope, &DVector::zeros(slope.nrows())).2
+        };
+        let mut random = Random::new(1);
+        let direction: Vec<f64> = (0..mechanism.freedoms()).map(|_| random.unit()).collect();
+        let q = displaced(mechanism, &closed.q, &split(mechanism, &direction), 0.1);
+        rank(&Point { q, ..closed.clone() }) > rank(&closed)
+    })
+}
+
+/// Whether a loop that a screw closes holds turns about other axes than the screw's.
+pub fn turns_beside_a_screw(mechanism: &Mechanism) -> bool {
+    drawn(mechanism).is_some_and(|at| turns_beside(mechanism, &at))
 }
 
 /// Roll, pitch, yaw of a turn.
