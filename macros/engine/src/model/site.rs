@@ -4,7 +4,7 @@
 
 use proc_macro2::Span;
 
-use super::types::{Constraint, Drive, Expr, Joint, Kinematics, Model, Request, Solve, SolveFor};
+use super::types::{Constraint, Drive, Expr, Force, Joint, Kinematics, Model, Request, Solve, SolveFor};
 
 /// Where something of the model is written.
 #[derive(Clone, Copy, Debug)]
@@ -31,7 +31,7 @@ macro_rules! sited {
     };
 }
 
-sited!(Constraint, Drive, Expr, Joint, Kinematics, Solve, SolveFor);
+sited!(Constraint, Drive, Expr, Force, Joint, Kinematics, Solve, SolveFor);
 
 /// Its name.
 impl Sited for Model {

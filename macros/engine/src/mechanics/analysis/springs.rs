@@ -6,6 +6,7 @@
 
 use crate::mechanics::loops::structure::Structure;
 use crate::mechanics::translate::symbols::Symbols;
+use crate::model::site::Sited;
 use crate::model::types::{ForceId, ForceKind, Model};
 use crate::symbolic::graph::{Graph, Scalar};
 use crate::symbolic::lower::Lowering;
@@ -60,7 +61,7 @@ pub(super) fn meeting(model: &Model, problem: &Problem, structure: &Structure) -
     }
     let meets = |&(_, &way): &(&ForceId, &f64)| way <= NO_WAY * problem.size;
     let complaint = |(id, _): (&ForceId, &f64)| Complaint {
-        span: model.forces[id.0].span,
+        at: model.forces[id.0].site(),
         message: "the two points meet wherever the loops are closed: a line between them has no direction".to_owned(),
         help: Some("let it act between other points, or leave it out".to_owned()),
     };
