@@ -491,15 +491,15 @@ pub mod cart_pole {
     pub struct Model<T = f64> {
         pivot_1_factor: T,
         mass_track: T,
-        acceleration_2_factor: T,
+        acceleration_factor: T,
         acceleration_1_factor: T,
         acceleration_1_factor_v2: T,
+        acceleration_2_factor: T,
         acceleration_2_factor_v2: T,
-        acceleration_2_factor_v3: T,
         g: T,
         n_hinge_z_factor: T,
         second_hinge_yy_factor: T,
-        second_hinge_yy: T,
+        second_hinge_yy_factor_v2: T,
         l: T,
     }
     impl<T: Real> Model<T> {
@@ -509,22 +509,23 @@ pub mod cart_pole {
         #[must_use]
         pub fn new(params: &Params<T>) -> Self {
             let mass_track = params.mp + params.mc;
-            let second_hinge_yy_part = params.mp * params.l;
-            let second_hinge_yy = params.l * second_hinge_yy_part;
-            let inverse_2 = T::lit(1.0) / second_hinge_yy;
-            let value = second_hinge_yy_part * inverse_2;
+            let second_hinge_yy_factor = params.mp * params.l;
+            let second_hinge_yy_factor_v2 = params.l * second_hinge_yy_factor;
+            let second_hinge_yy_factor_v2_inv = T::lit(1.0) / second_hinge_yy_factor_v2;
+            let acceleration_1_factor_part = second_hinge_yy_factor
+                * second_hinge_yy_factor_v2_inv;
             Self {
                 pivot_1_factor: T::lit(0.75) * params.mp,
                 mass_track,
-                acceleration_2_factor: second_hinge_yy_part * params.g,
-                acceleration_1_factor: T::lit(0.75) * value,
-                acceleration_1_factor_v2: T::lit(0.5) * second_hinge_yy_part,
-                acceleration_2_factor_v2: T::lit(1.5) * inverse_2,
-                acceleration_2_factor_v3: T::lit(1.5) * value,
+                acceleration_factor: second_hinge_yy_factor * params.g,
+                acceleration_1_factor: T::lit(0.75) * acceleration_1_factor_part,
+                acceleration_1_factor_v2: T::lit(0.5) * second_hinge_yy_factor,
+                acceleration_2_factor: T::lit(1.5) * second_hinge_yy_factor_v2_inv,
+                acceleration_2_factor_v2: T::lit(1.5) * acceleration_1_factor_part,
                 g: params.g,
-                n_hinge_z_factor: T::lit(0.3333333333333333) * second_hinge_yy,
-                second_hinge_yy_factor: second_hinge_yy_part,
-                second_hinge_yy,
+                n_hinge_z_factor: T::lit(0.3333333333333333) * second_hinge_yy_factor_v2,
+                second_hinge_yy_factor,
+                second_hinge_yy_factor_v2,
                 l: params.l,
             }
         }
@@ -544,13 +545,13 @@ pub mod cart_pole {
             let v = &state.v;
             let (sin_hinge, cos_hinge) = Real::sin_cos(q.hinge);
             let pivot_1 = self.mass_track - cos_hinge * cos_hinge * self.pivot_1_factor;
-            let acceleration_2_part_v3 = sin_hinge * self.acceleration_2_factor;
+            let acceleration_part_v2 = sin_hinge * self.acceleration_factor;
             let acceleration_1 = (input.push
-                + cos_hinge * acceleration_2_part_v3 * self.acceleration_1_factor
+                + cos_hinge * acceleration_part_v2 * self.acceleration_1_factor
                 - v.hinge * v.hinge * sin_hinge * self.acceleration_1_factor_v2)
                 / pivot_1;
-            let acceleration_2 = acceleration_2_part_v3 * self.acceleration_2_factor_v2
-                + cos_hinge * acceleration_1 * self.acceleration_2_factor_v3;
+            let acceleration_2 = acceleration_part_v2 * self.acceleration_2_factor
+                + cos_hinge * acceleration_1 * self.acceleration_2_factor_v2;
             Velocity {
                 track: acceleration_1,
                 hinge: acceleration_2,
@@ -573,13 +574,13 @@ pub mod cart_pole {
             let v = &state.v;
             let (sin_hinge, cos_hinge) = Real::sin_cos(q.hinge);
             let a_hinge_x = accel.track * cos_hinge + self.g * sin_hinge;
-            let n_hinge_z = a_hinge_x * self.acceleration_1_factor_v2
+            let minus_n_hinge_z = a_hinge_x * self.acceleration_1_factor_v2
                 - accel.hinge * self.n_hinge_z_factor;
             Velocity {
                 track: -(input.push - accel.track * self.mass_track
                     + accel.hinge * cos_hinge * self.acceleration_1_factor_v2
                     - v.hinge * v.hinge * sin_hinge * self.acceleration_1_factor_v2),
-                hinge: -n_hinge_z,
+                hinge: -minus_n_hinge_z,
             }
         }
         /// Mass matrix `M` of `M * accel + bias = effort`.
@@ -593,10 +594,13 @@ pub mod cart_pole {
             q: &Position<T>,
         ) -> ::multibody::nalgebra::SMatrix<T, 2, 2> {
             let (_, cos_hinge) = Real::sin_cos(q.hinge);
-            let m_1_2 = T::lit(0.5) * self.second_hinge_yy_factor * cos_hinge;
+            let minus_m_1_2 = T::lit(0.5) * self.second_hinge_yy_factor * cos_hinge;
             ::multibody::nalgebra::SMatrix::from([
-                [self.mass_track, -m_1_2],
-                [-m_1_2, (T::lit(0.3333333333333333) * self.second_hinge_yy)],
+                [self.mass_track, -minus_m_1_2],
+                [
+                    -minus_m_1_2,
+                    (T::lit(0.3333333333333333) * self.second_hinge_yy_factor_v2),
+                ],
             ])
         }
         /// The efforts at zero acceleration, `bias` of `M * accel + bias = effort`; declared forces and gravity are in it.
@@ -614,11 +618,10 @@ pub mod cart_pole {
             let q = &state.q;
             let v = &state.v;
             let (sin_hinge, _) = Real::sin_cos(q.hinge);
-            let n_hinge_z = sin_hinge * self.acceleration_2_factor;
             ::multibody::nalgebra::SVector::from([
                 -(input.push
                     - v.hinge * v.hinge * sin_hinge * self.acceleration_1_factor_v2),
-                (T::lit(-0.5) * n_hinge_z),
+                (T::lit(-0.5) * sin_hinge * self.acceleration_factor),
             ])
         }
         /// `[J]` Kinetic energy of all bodies.
@@ -645,7 +648,7 @@ pub mod cart_pole {
         #[must_use]
         pub fn potential_energy(&self, q: &Position<T>) -> T {
             let (_, cos_hinge) = Real::sin_cos(q.hinge);
-            T::lit(0.5) * cos_hinge * self.acceleration_2_factor
+            T::lit(0.5) * cos_hinge * self.acceleration_factor
         }
         /// Outputs.
         ///

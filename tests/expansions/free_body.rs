@@ -482,19 +482,19 @@ pub mod free_body {
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Model<T = f64> {
-        constant: T,
-        constant_v2: T,
-        constant_v3: T,
+        free_angular_accel_x_factor: T,
+        free_angular_accel_y_factor: T,
+        free_angular_accel_z_factor: T,
         m: T,
-        second_free_yy: T,
-        second_free_zz: T,
-        second_free_xx: T,
+        minus_second_free_yy: T,
+        minus_second_free_zz: T,
+        minus_second_free_xx: T,
         i_0: T,
         i_1: T,
         i_2: T,
-        constant_v4: T,
-        constant_v5: T,
-        constant_v6: T,
+        free_angular_effort_x_factor: T,
+        free_angular_effort_y_factor: T,
+        free_angular_effort_z_factor: T,
     }
     impl<T: Real> Model<T> {
         /// Does the work that depends on parameters alone.
@@ -503,29 +503,32 @@ pub mod free_body {
         #[must_use]
         pub fn new(params: &Params<T>) -> Self {
             let inverse_4 = T::lit(1.0) / params.i[0];
-            let second_free_xx_part = params.i[0] + params.i[1] + params.i[2];
-            let second_free_yy = params.i[1] - T::lit(0.5) * second_free_xx_part;
-            let second_free_zz = params.i[2] - T::lit(0.5) * second_free_xx_part;
-            let value = second_free_yy - second_free_zz;
+            let second_free_part = params.i[0] + params.i[1] + params.i[2];
+            let minus_second_free_yy = params.i[1] - T::lit(0.5) * second_free_part;
+            let minus_second_free_zz = params.i[2] - T::lit(0.5) * second_free_part;
+            let free_angular_effort_x_factor = minus_second_free_yy
+                - minus_second_free_zz;
             let inverse_5 = T::lit(1.0) / params.i[1];
-            let second_free_xx = params.i[0] - T::lit(0.5) * second_free_xx_part;
-            let value_v2 = second_free_zz - second_free_xx;
+            let minus_second_free_xx = params.i[0] - T::lit(0.5) * second_free_part;
+            let free_angular_effort_y_factor = minus_second_free_zz
+                - minus_second_free_xx;
             let inverse_6 = T::lit(1.0) / params.i[2];
-            let value_v3 = second_free_xx - second_free_yy;
+            let free_angular_effort_z_factor = minus_second_free_xx
+                - minus_second_free_yy;
             Self {
-                constant: inverse_4 * value,
-                constant_v2: inverse_5 * value_v2,
-                constant_v3: inverse_6 * value_v3,
+                free_angular_accel_x_factor: inverse_4 * free_angular_effort_x_factor,
+                free_angular_accel_y_factor: inverse_5 * free_angular_effort_y_factor,
+                free_angular_accel_z_factor: inverse_6 * free_angular_effort_z_factor,
                 m: params.m,
-                second_free_yy,
-                second_free_zz,
-                second_free_xx,
+                minus_second_free_yy,
+                minus_second_free_zz,
+                minus_second_free_xx,
                 i_0: params.i[0],
                 i_1: params.i[1],
                 i_2: params.i[2],
-                constant_v4: value,
-                constant_v5: value_v2,
-                constant_v6: value_v3,
+                free_angular_effort_x_factor,
+                free_angular_effort_y_factor,
+                free_angular_effort_z_factor,
             }
         }
         /// Accelerations.
@@ -549,9 +552,12 @@ pub mod free_body {
                         T::lit(0.0),
                     ]),
                     angular: ::multibody::nalgebra::Vector3::from([
-                        (v.free.angular.y * v.free.angular.z * self.constant),
-                        (v.free.angular.x * v.free.angular.z * self.constant_v2),
-                        (v.free.angular.x * v.free.angular.y * self.constant_v3),
+                        (v.free.angular.y * v.free.angular.z
+                            * self.free_angular_accel_x_factor),
+                        (v.free.angular.x * v.free.angular.z
+                            * self.free_angular_accel_y_factor),
+                        (v.free.angular.x * v.free.angular.y
+                            * self.free_angular_accel_z_factor),
                     ]),
                 },
             }
@@ -570,15 +576,15 @@ pub mod free_body {
             accel: &Velocity<T>,
         ) -> Velocity<T> {
             let v = &state.v;
-            let u_free_yz_part = v.free.angular.y * v.free.angular.z;
-            let u_free_zy = accel.free.angular.x + u_free_yz_part;
-            let u_free_yz = accel.free.angular.x - u_free_yz_part;
-            let u_free_zx_part = v.free.angular.x * v.free.angular.z;
-            let u_free_xz = accel.free.angular.y + u_free_zx_part;
-            let u_free_zx = accel.free.angular.y - u_free_zx_part;
-            let u_free_xy_part = v.free.angular.x * v.free.angular.y;
-            let u_free_yx = accel.free.angular.z + u_free_xy_part;
-            let u_free_xy = accel.free.angular.z - u_free_xy_part;
+            let u_free_part = v.free.angular.y * v.free.angular.z;
+            let u_free_zy = accel.free.angular.x + u_free_part;
+            let minus_u_free_yz = accel.free.angular.x - u_free_part;
+            let u_free_part_v2 = v.free.angular.x * v.free.angular.z;
+            let u_free_xz = accel.free.angular.y + u_free_part_v2;
+            let minus_u_free_zx = accel.free.angular.y - u_free_part_v2;
+            let u_free_part_v3 = v.free.angular.x * v.free.angular.y;
+            let u_free_yx = accel.free.angular.z + u_free_part_v3;
+            let minus_u_free_xy = accel.free.angular.z - u_free_part_v3;
             Velocity {
                 free: ::multibody::Twist {
                     linear: ::multibody::nalgebra::Vector3::from([
@@ -587,12 +593,12 @@ pub mod free_body {
                         (self.m * accel.free.linear.z),
                     ]),
                     angular: ::multibody::nalgebra::Vector3::from([
-                        -(self.second_free_yy * u_free_zy
-                            + self.second_free_zz * u_free_yz),
-                        -(self.second_free_zz * u_free_xz
-                            + self.second_free_xx * u_free_zx),
-                        -(self.second_free_xx * u_free_yx
-                            + self.second_free_yy * u_free_xy),
+                        -(self.minus_second_free_yy * u_free_zy
+                            + self.minus_second_free_zz * minus_u_free_yz),
+                        -(self.minus_second_free_zz * u_free_xz
+                            + self.minus_second_free_xx * minus_u_free_zx),
+                        -(self.minus_second_free_xx * u_free_yx
+                            + self.minus_second_free_yy * minus_u_free_xy),
                     ]),
                 },
             }
@@ -675,9 +681,12 @@ pub mod free_body {
                 T::lit(0.0),
                 T::lit(0.0),
                 T::lit(0.0),
-                (-v.free.angular.y * v.free.angular.z * self.constant_v4),
-                (-v.free.angular.x * v.free.angular.z * self.constant_v5),
-                (-v.free.angular.x * v.free.angular.y * self.constant_v6),
+                (-v.free.angular.y * v.free.angular.z
+                    * self.free_angular_effort_x_factor),
+                (-v.free.angular.x * v.free.angular.z
+                    * self.free_angular_effort_y_factor),
+                (-v.free.angular.x * v.free.angular.y
+                    * self.free_angular_effort_z_factor),
             ])
         }
         /// `[J]` Kinetic energy of all bodies.
@@ -688,13 +697,13 @@ pub mod free_body {
         #[must_use]
         pub fn kinetic_energy(&self, state: &State<T>) -> T {
             let v = &state.v;
-            let value = self.m * v.free.linear.x * v.free.linear.x
+            let kinetic_energy_part = self.m * v.free.linear.x * v.free.linear.x
                 + self.m * v.free.linear.y * v.free.linear.y
                 + self.m * v.free.linear.z * v.free.linear.z
                 + self.i_0 * v.free.angular.x * v.free.angular.x
                 + self.i_1 * v.free.angular.y * v.free.angular.y
                 + self.i_2 * v.free.angular.z * v.free.angular.z;
-            T::lit(0.5) * value
+            T::lit(0.5) * kinetic_energy_part
         }
         /// `[J]` Potential energy: gravity's, zero at the world's origin, plus the springs'.
         ///

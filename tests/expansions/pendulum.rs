@@ -378,10 +378,10 @@ pub mod pendulum {
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Model<T = f64> {
-        constant: T,
+        hinge_accel_factor: T,
         n_hinge_z_factor: T,
         n_hinge_z_factor_v2: T,
-        second_hinge_yy: T,
+        second_hinge_yy_factor: T,
         n_hinge_z_factor_v3: T,
     }
     impl<T: Real> Model<T> {
@@ -390,16 +390,16 @@ pub mod pendulum {
         /// Operations: 6 mul, 1 div.
         #[must_use]
         pub fn new(params: &Params<T>) -> Self {
-            let second_hinge_yy_part = params.m * params.l;
-            let second_hinge_yy = params.l * second_hinge_yy_part;
-            let inverse_1 = T::lit(1.0) / second_hinge_yy;
-            let value = params.g * second_hinge_yy_part;
+            let n_hinge_z_factor_v3_part = params.m * params.l;
+            let second_hinge_yy_factor = params.l * n_hinge_z_factor_v3_part;
+            let n_hinge_z_factor_v3 = params.g * n_hinge_z_factor_v3_part;
             Self {
-                constant: inverse_1 * value,
-                n_hinge_z_factor: T::lit(0.5) * value,
-                n_hinge_z_factor_v2: T::lit(0.3333333333333333) * second_hinge_yy,
-                second_hinge_yy,
-                n_hinge_z_factor_v3: value,
+                hinge_accel_factor: T::lit(1.0) / second_hinge_yy_factor
+                    * n_hinge_z_factor_v3,
+                n_hinge_z_factor: T::lit(0.5) * n_hinge_z_factor_v3,
+                n_hinge_z_factor_v2: T::lit(0.3333333333333333) * second_hinge_yy_factor,
+                second_hinge_yy_factor,
+                n_hinge_z_factor_v3,
             }
         }
         /// Accelerations.
@@ -417,7 +417,7 @@ pub mod pendulum {
             let q = &state.q;
             let (sin_hinge, _) = Real::sin_cos(q.hinge);
             Velocity {
-                hinge: T::lit(-1.5) * sin_hinge * self.constant,
+                hinge: T::lit(-1.5) * sin_hinge * self.hinge_accel_factor,
             }
         }
         /// Efforts that the accelerations `accel` need beside all declared forces.
@@ -451,7 +451,7 @@ pub mod pendulum {
             _q: &Position<T>,
         ) -> ::multibody::nalgebra::SMatrix<T, 1, 1> {
             ::multibody::nalgebra::SMatrix::from([
-                [(T::lit(0.3333333333333333) * self.second_hinge_yy)],
+                [(T::lit(0.3333333333333333) * self.second_hinge_yy_factor)],
             ])
         }
         /// The efforts at zero acceleration, `bias` of `M * accel + bias = effort`; declared forces and gravity are in it.
@@ -468,8 +468,9 @@ pub mod pendulum {
         ) -> ::multibody::nalgebra::SVector<T, 1> {
             let q = &state.q;
             let (sin_hinge, _) = Real::sin_cos(q.hinge);
-            let n_hinge_z = sin_hinge * self.n_hinge_z_factor_v3;
-            ::multibody::nalgebra::SVector::from([(T::lit(0.5) * n_hinge_z)])
+            ::multibody::nalgebra::SVector::from([
+                (T::lit(0.5) * sin_hinge * self.n_hinge_z_factor_v3),
+            ])
         }
         /// `[J]` Kinetic energy of all bodies.
         ///
@@ -479,7 +480,7 @@ pub mod pendulum {
         #[must_use]
         pub fn kinetic_energy(&self, state: &State<T>) -> T {
             let v = &state.v;
-            T::lit(0.16666666666666666) * v.hinge * v.hinge * self.second_hinge_yy
+            T::lit(0.16666666666666666) * v.hinge * v.hinge * self.second_hinge_yy_factor
         }
         /// `[J]` Potential energy: gravity's, zero at the world's origin, plus the springs'.
         ///

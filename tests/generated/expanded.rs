@@ -1,15 +1,35 @@
-//! What the macro writes for three small models, formatted and committed in `expansions`: a reader sees what they get, and
-//! a change of the emitter is seen in review. `UPDATE_EXPANSIONS=1` writes the files anew.
+//! What the macro writes for some models, formatted and committed in `expansions`: a reader sees what they get, and a
+//! change of the emitter is seen in review. `UPDATE_EXPANSIONS=1` writes the files anew.
 
 use multibody_engine::expand;
 use multibody_tests::support::data::path;
 use multibody_tests::support::engine::calls;
+use proc_macro2::{TokenStream, TokenTree};
 
-/// The formatted expansion of the call in `file` whose model has this name.
+/// The model of this name and the parts of its call, without other models.
+fn alone(call: TokenStream, name: &str) -> TokenStream {
+    let mut kept: Vec<TokenTree> = Vec::new();
+    // From attributes to the braces of a module; a part has no `pub`.
+    let mut item: Vec<TokenTree> = Vec::new();
+    for token in call {
+        let ends = matches!(&token, TokenTree::Group(group) if group.delimiter() == proc_macro2::Delimiter::Brace);
+        item.push(token);
+        if ends {
+            let words: Vec<String> = item.iter().map(ToString::to_string).collect();
+            if !words.contains(&"pub".to_owned()) || words.iter().any(|word| word == name) {
+                kept.append(&mut item);
+            }
+            item.clear();
+        }
+    }
+    kept.into_iter().collect()
+}
+
+/// The formatted expansion of this model of `file`.
 fn expansion(file: &str, name: &str) -> String {
-    let marker = format!("pub mod {name} ");
+    let marker = format!("mod {name} ");
     let call = calls(file).into_iter().find(|call| call.to_string().contains(&marker));
-    let call = call.unwrap_or_else(|| panic!("no model {name}"));
+    let call = alone(call.unwrap_or_else(|| panic!("no model {name}")), name);
     let once = expand(call.clone()).to_string();
     assert_eq!(once, expand(call.clone()).to_string(), "the same tokens give the same code");
     prettyplease::unparse(&syn::parse2(expand(call)).unwrap())
@@ -43,4 +63,36 @@ fn cart_pole() {
 #[test]
 fn free_body() {
     check("models/motion.rs", "free_body");
+}
+
+#[test]
+fn stewart_level() {
+    check("models/stewart.rs", "level");
+}
+
+#[test]
+fn four_bar() {
+    check("models/mechanisms.rs", "four_bar");
+}
+
+#[test]
+fn slider_crank() {
+    check("../examples/models/slider_crank.rs", "engine");
+}
+
+/// Locals say what they are: at most one of twenty has a name that is only a number.
+#[test]
+fn locals_have_names() {
+    for entry in std::fs::read_dir(path("expansions")).unwrap() {
+        let file = entry.unwrap().path();
+        let text = std::fs::read_to_string(&file).unwrap();
+        let locals: Vec<&str> = text.lines().filter_map(|line| line.trim_start().strip_prefix("let ")).collect();
+        let nameless = locals.iter().filter(|local| {
+            let name = local.split([' ', ':', '=']).next().unwrap_or_default();
+            let word = name.split("_v").next().unwrap_or_default();
+            matches!(word, "value" | "constant" | "unknown" | "solution")
+        });
+        let (count, nameless) = (locals.len(), nameless.count());
+        assert!(20 * nameless <= count, "{}: {nameless} of {count} locals have no name", file.display());
+    }
 }

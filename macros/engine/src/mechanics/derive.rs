@@ -9,6 +9,7 @@ mod checks;
 mod derivatives;
 mod impulses;
 mod inertia;
+mod labels;
 mod motion;
 mod ways;
 
@@ -32,7 +33,7 @@ use super::results::euler_singularities;
 use super::strut::inverse;
 use super::translate::names;
 use super::translate::symbols::{Symbols, freedoms_of};
-use super::{Derivation, Derived};
+use super::{Derivation, Derived, Inertia};
 
 /// Own axes for every link, or common ones for parallel hinges.
 const AXES: [Option<Axes>; 3] = [None, Some(Axes::Base), Some(Axes::Tip)];
@@ -126,6 +127,12 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
     }
     let checks = deriving.checks()?;
     let inertia = deriving.inertia()?;
+    for function in &functions {
+        function.candidates.iter().for_each(|candidate| deriving.label(function.kind, &candidate.1));
+    }
+    if let Inertia::Own(entries) = &inertia {
+        deriving.label(FunctionKind::MassMatrix, entries);
+    }
     let Deriving { graph, symbols, notes, dead_centres, .. } = deriving;
     Ok(Derivation { graph, symbols: symbols.table, symbol_names, functions, notes, dead_centres, checks, inertia })
 }

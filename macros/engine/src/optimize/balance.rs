@@ -186,7 +186,8 @@ fn apply(dag: &mut Dag, id: Id, terms: Vec<(Number, Id)>, reach: &Reach, factor:
         let kind = if node == id { Kind::Sum(Vec::clone(&terms)) } else { dag.nodes[node].kind.clone() };
         dag.replace(node, kind, print);
         // What is three times a moment is not called that moment.
-        dag.nodes[node].name = None;
+        let name = dag.nodes[node].name.take();
+        dag.nodes[node].part_of = name.map(|name| name.text);
     }
     // Several terms of one sum may be scaled: its value is kept only by all of them together.
     let mut sums: Vec<Id> = reach.coefficients.iter().map(|&(sum, ..)| sum).collect();

@@ -12,7 +12,7 @@ use crate::contracts::call::Call;
 use crate::contracts::cost::Cost;
 use crate::contracts::symbol::Symbol;
 use crate::symbolic::fingerprint::{Point, Print};
-use crate::symbolic::graph::{BlockKind, PassHasher, SymbolId};
+use crate::symbolic::graph::{BlockKind, Name, PassHasher, SymbolId};
 use crate::symbolic::number::Number;
 
 use super::stage::Stage;
@@ -57,7 +57,9 @@ pub struct Node {
     pub kind: Kind,
     pub print: Print,
     pub stage: Stage,
-    pub name: Option<String>,
+    pub name: Option<Name>,
+    /// The name of a multiple of it.
+    pub part_of: Option<String>,
 }
 
 /// Expressions under optimisation.
@@ -136,9 +138,21 @@ impl Dag {
     pub fn push(&mut self, kind: Kind, print: Print) -> Id {
         let id = self.nodes.len();
         let stage = self.stage_of(&kind);
-        self.nodes.push(Node { kind, print, stage, name: None });
+        self.nodes.push(Node { kind, print, stage, name: None, part_of: None });
         self.index.entry(print.canonical()).or_insert(id);
         id
+    }
+
+    /// Takes over the name of a multiple of a node: the node's own where it is plain or negative.
+    pub(super) fn name(&mut self, (c, id): (Number, Id), name: &Name) {
+        if !c.is_unit() && id != ONE {
+            self.nodes[id].part_of.get_or_insert_with(|| name.text.clone());
+            return;
+        }
+        let known = &mut self.nodes[id].name;
+        if known.as_ref().is_none_or(|known| name.stands_alone && !known.stands_alone) {
+            *known = Some(Name { is_minus: name.is_minus != c.is_negative(), ..name.clone() });
+        }
     }
 
     fn stage_of(&self, kind: &Kind) -> Stage {

@@ -7,8 +7,10 @@ use std::collections::HashMap;
 
 use crate::contracts::call::Call;
 use crate::contracts::symbol::Symbol;
+use crate::symbolic::graph::Name;
 
 use super::dag::{Dag, Id, Kind, ONE};
+use super::hints::hints;
 use super::names::Names;
 use super::program::FieldId;
 use super::schedule::Fields;
@@ -59,7 +61,7 @@ pub fn gather(functions: &[&Dag], symbols: &[Symbol]) -> Gathered {
     let mut fields = Fields::new();
     for &dag in functions {
         let mut map = HashMap::new();
-        let hints = dag.hints();
+        let hints = hints(dag);
         for id in frontier(dag) {
             let print = dag.nodes[id].print.canonical();
             if fields.contains_key(&print) {
@@ -68,7 +70,9 @@ pub fn gather(functions: &[&Dag], symbols: &[Symbol]) -> Gathered {
             fields.insert(print, (FieldId(prelude.roots.len()), dag.nodes[id].print));
             let adopted = prelude.adopt(dag, id, &mut map);
             prelude.roots.push(adopted);
-            list.push(names.unique(&hint(dag, id, &hints)));
+            let text = names.unique(&hint(dag, id, &hints));
+            prelude.name(adopted, &Name { text: text.clone(), stands_alone: false, is_minus: false });
+            list.push(text);
         }
     }
     Gathered { prelude, fields, names: list }
@@ -80,7 +84,7 @@ fn hint(dag: &Dag, id: Id, hints: &[Option<String>]) -> String {
         return dag.symbol_name(symbol);
     }
     match (&dag.nodes[id].name, &hints[id]) {
-        (Some(name), _) => name.clone(),
+        (Some(name), _) => name.of_sign(false),
         (None, Some(served)) => format!("{served}_factor"),
         (None, None) => "constant".to_owned(),
     }

@@ -27,8 +27,8 @@ impl Dag {
             if shared[index] && value.1 != ONE && !value.0.is_unit() {
                 value = (Number::ONE, dag.plain(value));
             }
-            if let (Some(name), (_, id)) = (graph.name_of(s), value) {
-                dag.nodes[id].name.get_or_insert_with(|| name.to_owned());
+            if let Some(name) = graph.name_of(s) {
+                dag.name(value, name);
             }
             map.insert(index, value);
         }
@@ -172,7 +172,10 @@ impl Dag {
             }
         };
         if let Some(name) = &node.name {
-            self.nodes[value.1].name.get_or_insert_with(|| name.clone());
+            self.name(value, name);
+        }
+        if let Some(text) = &node.part_of {
+            self.nodes[value.1].part_of.get_or_insert_with(|| text.clone());
         }
         map.insert(id, value);
         value

@@ -9,6 +9,7 @@ pub mod dag;
 pub mod factor;
 pub mod fields;
 pub mod flatten;
+mod hints;
 mod import;
 pub mod linear;
 pub mod multiples;

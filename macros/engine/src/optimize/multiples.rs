@@ -51,7 +51,8 @@ fn settle(dag: &mut Dag) {
         let terms = terms.iter().map(|&(d, term)| (c.mul(d), term)).collect();
         let print = dag.nodes[id].print.mul(c.print());
         dag.replace(id, Kind::Sum(terms), print);
-        dag.nodes[id].name = None;
+        let name = dag.nodes[id].name.take();
+        dag.nodes[id].part_of = name.map(|name| name.text);
         dag.roots[k].0 = Number::ONE;
     }
 }

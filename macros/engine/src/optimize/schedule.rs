@@ -14,6 +14,7 @@ use crate::symbolic::graph::{BlockKind, SymbolId};
 use crate::symbolic::number::Number;
 
 use super::dag::{Block, Dag, Id, Kind, ONE};
+use super::hints::hints;
 use super::names::Names;
 use super::program::{Expression, FieldId, Local, Program, Statement};
 use super::stage::Stage;
@@ -70,7 +71,7 @@ impl<'a> Scheduler<'a> {
             angles: HashMap::new(),
             sines: of_kind(dag, &order, |kind| if let Kind::Sin(x) = kind { Some(*x) } else { None }),
             cosines: of_kind(dag, &order, |kind| if let Kind::Cos(x) = kind { Some(*x) } else { None }),
-            hints: dag.hints(),
+            hints: hints(dag),
             names: Names::default(),
             boundary: loops.iter().flat_map(|l| l.frontier.iter().copied()).collect(),
             loops,
@@ -163,7 +164,7 @@ impl<'a> Scheduler<'a> {
     fn output(&self, block: usize, index: usize) -> Option<String> {
         let kind = Kind::Output { block, index };
         let id = self.loops[block].outputs.iter().find(|&&id| self.dag.nodes[id].kind == kind)?;
-        self.dag.nodes[*id].name.clone()
+        self.dag.nodes[*id].name.as_ref().map(|name| name.of_sign(false))
     }
 
     /// Nodes of the body are written for this body alone: another iteration over the same symbols has its own.
@@ -248,7 +249,8 @@ impl<'a> Scheduler<'a> {
         };
         let leaf = matches!(expression, Expression::Literal(_) | Expression::Symbol(_) | Expression::Local(_));
         let once = self.uses[id] == 1 && !self.boundary.contains(&id);
-        let alone = leaf || self.is_divisor(id) || (once && node.name.is_none() && size <= READABLE);
+        let stands_alone = node.name.as_ref().is_some_and(|name| name.stands_alone);
+        let alone = leaf || self.is_divisor(id) || (once && !stands_alone && size <= READABLE);
         self.written[id] = Some(if alone {
             (expression, size)
         } else {
@@ -264,12 +266,21 @@ impl<'a> Scheduler<'a> {
     }
 
     /// A value's own name, or that it is a part of a named one.
+    /// Its own name, one by what it is of a named value, or that of the value which it serves.
     fn name_of(&self, id: Id) -> String {
-        match (&self.dag.nodes[id].name, &self.hints[id]) {
-            (Some(name), _) => name.clone(),
-            (None, Some(hint)) => format!("{hint}_part"),
-            (None, None) => "value".to_owned(),
-        }
+        let dag = self.dag;
+        let named = |id: Id| dag.nodes[id].name.as_ref().map(|name| name.of_sign(self.flipped[id]));
+        let by_form = || match &dag.nodes[id].kind {
+            Kind::Reciprocal(x) => named(*x).map(|name| format!("{name}_inv")),
+            Kind::Sqrt(x) => named(*x).map(|name| format!("{name}_root")),
+            Kind::Product(factors) => match factors[..] {
+                [a, b] if a == b => named(a).map(|name| format!("{name}_squared")),
+                _ => None,
+            },
+            _ => None,
+        };
+        let served = || self.hints[id].as_ref().map(|hint| format!("{hint}_part"));
+        named(id).or_else(by_form).or_else(served).unwrap_or_else(|| "value".to_owned())
     }
 
     fn local(&mut self, name: String) -> Local {
@@ -457,21 +468,6 @@ fn negated(expression: Expression) -> Expression {
 }
 
 impl Dag {
-    /// Names for all nodes: a value without one takes that of the first named value it serves.
-    pub fn hints(&self) -> Vec<Option<String>> {
-        let mut hints: Vec<Option<String>> = vec![None; self.nodes.len()];
-        for &id in self.order().iter().rev() {
-            if let Some(name) = &self.nodes[id].name {
-                hints[id] = Some(name.clone());
-            }
-            let Some(hint) = hints[id].clone() else { continue };
-            for operand in self.operands(&self.nodes[id].kind) {
-                hints[operand].get_or_insert_with(|| hint.clone());
-            }
-        }
-        hints
-    }
-
     /// A readable name for a symbol, from its kind alone where the owner gave none.
     pub fn symbol_name(&self, id: SymbolId) -> String {
         let named = self.symbol_names.get(id.0).filter(|name| !name.is_empty());

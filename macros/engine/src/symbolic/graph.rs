@@ -199,6 +199,23 @@ impl Hasher for PassHasher {
 
 type PrintMap<K> = HashMap<K, u32, BuildHasherDefault<PassHasher>>;
 
+/// What a value is called in generated code.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Name {
+    pub text: String,
+    /// Whether it gets a statement because it has a name.
+    pub stands_alone: bool,
+    /// Whether the name is that of minus the value.
+    pub is_minus: bool,
+}
+
+impl Name {
+    /// As it is written where minus the value, or the value itself, stands.
+    pub fn of_sign(&self, is_minus: bool) -> String {
+        if is_minus == self.is_minus { self.text.clone() } else { format!("minus_{}", self.text) }
+    }
+}
+
 /// Nodes by value, as they are found when equal ones are asked for.
 #[derive(Clone)]
 pub struct Sharing {
@@ -233,8 +250,8 @@ pub struct Graph {
     pub(super) shunned: u128,
     /// Large numbers whose square roots are literals.
     pub(super) radicands: Vec<u128>,
-    names: HashMap<u32, String>,
-    vector_names: HashMap<u32, String>,
+    names: HashMap<u32, Name>,
+    vector_names: HashMap<u32, Name>,
 }
 
 impl Default for Graph {
@@ -485,24 +502,50 @@ impl Graph {
 
     /// Gives a node a readable name, unless it has one or needs none.
     pub fn name(&mut self, s: Scalar, name: impl FnOnce() -> String) -> Scalar {
-        if !matches!(self.node(s), ScalarNode::Literal(_) | ScalarNode::Symbol(_)) {
-            self.names.entry(s.index() as u32).or_insert_with(name);
-        }
-        s
+        self.named(s, true, name)
+    }
+
+    /// Says what a value is, should it get a statement; a statement of its own it has only for other reasons.
+    pub fn label(&mut self, s: Scalar, name: impl FnOnce() -> String) -> Scalar {
+        self.named(s, false, name)
     }
 
     /// Names a vector; its components get the name with `_x`, `_y`, `_z`.
     pub fn name_vector(&mut self, v: Vector, name: impl FnOnce() -> String) -> Vector {
+        let name = || Name { text: name(), stands_alone: true, is_minus: v.is_negative() };
         self.vector_names.entry(v.index() as u32).or_insert_with(name);
         v
     }
 
-    pub fn name_of(&self, s: Scalar) -> Option<&str> {
-        self.names.get(&(s.index() as u32)).map(String::as_str)
+    fn named(&mut self, s: Scalar, stands_alone: bool, text: impl FnOnce() -> String) -> Scalar {
+        let index = s.index() as u32;
+        let vacant = self.names.get(&index).is_none_or(|known| stands_alone && !known.stands_alone);
+        if vacant && !matches!(self.node(s), ScalarNode::Literal(_) | ScalarNode::Symbol(_)) {
+            self.names.insert(index, Name { text: text(), stands_alone, is_minus: s.is_negative() });
+        }
+        s
     }
 
-    pub fn vector_name_of(&self, v: Vector) -> Option<&str> {
-        self.vector_names.get(&(v.index() as u32)).map(String::as_str)
+    /// Gives a value the name of another that it takes the place of.
+    pub fn name_like(&mut self, s: Scalar, name: &Name) {
+        let s = s.flip_if(name.is_minus);
+        self.named(s, name.stands_alone, || name.text.clone());
+    }
+
+    /// The same of a vector.
+    pub fn name_vector_like(&mut self, v: Vector, name: &Name) {
+        if name.stands_alone {
+            self.name_vector(v.flip_if(name.is_minus), || name.text.clone());
+        }
+    }
+
+    /// What the value at this handle's place is called, whatever the handle's sign.
+    pub fn name_of(&self, s: Scalar) -> Option<&Name> {
+        self.names.get(&(s.index() as u32))
+    }
+
+    pub fn vector_name_of(&self, v: Vector) -> Option<&Name> {
+        self.vector_names.get(&(v.index() as u32))
     }
 }
 

@@ -43,7 +43,7 @@ impl<'g> Lowering<'g> {
             None => {
                 let value = self.node(s.positive());
                 if let Some(name) = self.from.name_of(s) {
-                    self.to.name(value, || name.to_owned());
+                    self.to.name_like(value, name);
                 }
                 self.scalars.insert(s.index(), value);
                 value
@@ -114,7 +114,7 @@ impl<'g> Lowering<'g> {
                 let value = self.vector_node(v);
                 if let Some(name) = self.from.vector_name_of(v) {
                     for (axis, c) in ["x", "y", "z"].iter().zip(value) {
-                        self.to.name(c, || format!("{name}_{axis}"));
+                        self.to.name(c.flip_if(name.is_minus), || format!("{}_{axis}", name.text));
                     }
                 }
                 self.vectors.insert(v.index(), value);

@@ -402,8 +402,10 @@ impl Graph {
             }
             BlockKind::Iterate { count, .. } => 0xB10C_0000_u64 + *count as u64,
         };
+        // Of all operands once: a block of n unknowns has n^2 of them and n outputs.
         let prints: Vec<Print> = operands.iter().map(|&s| self.print(s)).collect();
-        let print = |k: usize| Print::opaque(tag ^ ((k as u64 + 1) << 40), &prints);
+        let whole = Print::opaque(tag, &prints);
+        let print = |k: usize| Print::opaque(tag ^ ((k as u64 + 1) << 40), &[whole]);
         // Nothing on the right is answered by nothing, whatever the rank.
         let nothing = match kind {
             BlockKind::Solve { size, .. } if operands[size * size..].iter().all(|&b| b == Scalar::ZERO) => size,

@@ -91,15 +91,15 @@ impl Substitution {
             match node {
                 AnyNode::Scalar(i) if !self.scalars.contains_key(&i) => {
                     let made = self.scalar(g, i);
-                    if let Some(name) = g.name_of(Scalar::new(i, false)).map(str::to_owned) {
-                        g.name(made, || name);
+                    if let Some(name) = g.name_of(Scalar::new(i, false)).cloned() {
+                        g.name_like(made, &name);
                     }
                     self.scalars.insert(i, made);
                 }
                 AnyNode::Vector(i) if !self.vectors.contains_key(&i) => {
                     let made = self.vector(g, i);
-                    if let Some(name) = g.vector_name_of(Vector::new(i, false)).map(str::to_owned) {
-                        g.name_vector(made, || name);
+                    if let Some(name) = g.vector_name_of(Vector::new(i, false)).cloned() {
+                        g.name_vector_like(made, &name);
                     }
                     self.vectors.insert(i, made);
                 }

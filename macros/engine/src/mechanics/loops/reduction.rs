@@ -13,6 +13,7 @@ use std::collections::HashMap;
 use crate::contracts::symbol::Symbol;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
+use crate::mechanics::translate::names;
 use crate::mechanics::translate::symbols::Symbols;
 use crate::model::types::{Closing, Coordinate, JointId, SolveHow};
 use crate::solve::Value as Solved;
@@ -107,12 +108,16 @@ impl Equations<'_> {
             for definition in definitions {
                 let symbol = self.coordinate_symbols(definition.coordinate)[order];
                 let value = self.g.substitute(&[value(definition)], &reduction.map)[0];
+                if let Some(what) = [None, Some("rate"), Some("accel")][order] {
+                    self.g.label(value, || names::of_freedom(self.model, definition.coordinate, what));
+                }
                 reduction.map.extend(self.g.symbol_id(symbol).map(|id| (id, value)));
             }
         }
         for definition in definitions {
             let symbol = self.coordinate_symbols(definition.coordinate)[1];
             let projected = self.g.substitute(&[definition.rate], rates)[0];
+            self.g.label(projected, || names::of_freedom(self.model, definition.coordinate, "rate"));
             rates.extend(self.g.symbol_id(symbol).map(|id| (id, projected)));
             reduction.rates.push((self.freedom(definition.coordinate), projected));
         }
@@ -173,11 +178,19 @@ impl Equations<'_> {
                         let found = self.closed_form(*item, reduction)?;
                         let mut definitions = Vec::with_capacity(found.len());
                         for (unknown, solved) in found {
+                            let symbol = Symbol::Position { joint: unknown.joint, component: unknown.index };
+                            let name = names::symbol(self.model, symbol);
+                            self.g.label(solved.inverse_slope, || format!("slope_{name}_inv"));
                             let position = match solved.value {
-                                Solved::Angle { cos, sin } => self.g.angle(cos, sin),
-                                Solved::Length(x) => x,
+                                Solved::Angle { cos, sin } => {
+                                    self.g.label(cos, || format!("cos_{name}"));
+                                    self.g.label(sin, || format!("sin_{name}"));
+                                    self.g.angle(cos, sin)
+                                }
+                                Solved::Length(x) => self.g.label(x, || name.clone()),
                             };
                             if let Some(root) = solved.root {
+                                self.g.label(root, || format!("root_{name}"));
                                 reduction.dead_centres.push((unknown, root));
                             }
                             reduction.notes.push(format!("`{}`: {}", coordinate_name(self.model, unknown), solved.how));
@@ -277,7 +290,7 @@ impl Equations<'_> {
         let mut definitions = Vec::with_capacity(size);
         for (k, &coordinate) in step.unknowns.iter().enumerate() {
             let symbol = Symbol::Position { joint: coordinate.joint, component: coordinate.index };
-            let name = crate::mechanics::translate::names::symbol(self.model, symbol);
+            let name = names::symbol(self.model, symbol);
             let position = self.g.name(outputs[k], || name);
             definitions.push(Definition { coordinate, position, rate: rates[k], acceleration: accelerations[k] });
         }

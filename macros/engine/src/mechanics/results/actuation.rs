@@ -10,6 +10,7 @@ use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::loops::structure::Role;
+use crate::mechanics::translate::names;
 use crate::model::site::Sited;
 use crate::symbolic::graph::{BlockKind, Scalar};
 
@@ -73,9 +74,8 @@ impl Equations<'_> {
             self.g.block_outputs(BlockKind::Solve { size, symmetric: false, groups: [].into() }, &operands);
         outputs.drain(wanted..size);
         for (&input, &output) in inputs.iter().zip(&outputs) {
-            let name = self.g.name_of(input).map(str::to_owned);
-            if let Some(name) = name {
-                self.g.name(output, || name);
+            if let Some(&symbol) = self.g.symbol_id(input).and_then(|id| self.symbols.table.get(id.0)) {
+                self.g.label(output, || names::symbol(self.model, symbol));
             }
         }
         Ok(outputs)

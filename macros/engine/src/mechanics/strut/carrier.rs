@@ -16,6 +16,8 @@ use super::{Strut, motion};
 /// A strut and where it ends.
 #[derive(Clone, Debug)]
 pub struct Leg {
+    /// What its links have in common in their names.
+    pub name: String,
     pub strut: Strut,
     /// Centre, in the world.
     pub foot: Triple,
@@ -93,6 +95,7 @@ impl Carrier {
             inertia = inertia.add(g, &point);
         }
         let legs = legs.iter().map(|(chain, pin, positive)| Leg {
+            name: chain.name(tree),
             strut: chain.strut(*positive),
             foot: chain.centre,
             pin: *pin,

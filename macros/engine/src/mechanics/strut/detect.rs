@@ -34,6 +34,17 @@ pub struct Chain {
 }
 
 impl Chain {
+    /// The words with which the names of all links begin, or that of the link that slides.
+    pub fn name(&self, tree: &Tree) -> String {
+        let names: Vec<Vec<&str>> = self.links.iter().map(|&at| tree.links[at].name.split('_').collect()).collect();
+        let Some((last, others)) = names.split_last() else { return String::new() };
+        let common = |k: usize| others.iter().all(|name| name.get(k) == last.get(k));
+        match (0..last.len()).take_while(|&k| common(k)).count() {
+            0 => last.join("_"),
+            count => last[..count].join("_"),
+        }
+    }
+
     /// Moments where the distance from centre to point along the axis is positive, or negative.
     pub fn strut(&self, positive: bool) -> Strut {
         let Strut { first, tail, second } = self.strut;

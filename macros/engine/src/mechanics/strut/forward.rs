@@ -17,7 +17,7 @@ use crate::symbolic::graph::{Graph, Scalar};
 use crate::symbolic::linear_algebra::solve_symmetric;
 
 use super::carrier::{Axes, Carrier, spin_matrix};
-use super::triple::{Triple, ZERO, apply, combine, cross, dot, minus, scale, sub, total};
+use super::triple::{Triple, ZERO, apply, combine, cross, dot, label, minus, scale, sub, total};
 
 /// The order in which unknowns are eliminated: translations are 0, 1, 2, rotations 3, 4, 5.
 const ORDER: [usize; 6] = [5, 4, 3, 2, 1, 0];
@@ -59,6 +59,7 @@ pub fn accelerations(
     for (at, leg) in carrier.legs.iter().enumerate() {
         let (d, rate) = (view.line(g, at), view.pin_velocity(g, at));
         let line = leg.strut.moving(g, d, rate);
+        line.label(g, &leg.name);
         let pin = view.pins[at];
         let point = Inertia { mass: line.mu, ..Inertia::ZERO }.shift(g, pin);
         inertia = inertia.add(g, &point);
@@ -98,7 +99,9 @@ pub fn accelerations(
         let push = scale(g, s, &d);
         let drag = scale(g, -line.beta, &rate);
         let weight = scale(g, -line.kappa, &view.gravity);
-        pushes.push(total(g, &[push, drag, weight]));
+        let push = total(g, &[push, drag, weight]);
+        label(g, &push, &format!("{}_push", leg.name));
+        pushes.push(push);
     }
     for i in 0..6 {
         for j in 0..6 {

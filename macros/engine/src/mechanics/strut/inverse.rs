@@ -18,7 +18,7 @@ use crate::symbolic::inputs::{Known, solve_inputs};
 
 use super::Moving;
 use super::carrier::{Axes, Carrier, View};
-use super::triple::{Triple, ZERO, add, combine, cross, minus, scale, sub, total};
+use super::triple::{Triple, ZERO, add, combine, cross, label, minus, scale, sub, total};
 
 /// About which points the moments of the lines of force are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,13 +89,18 @@ pub fn forces(g: &mut Graph, carrier: &Carrier, way: Way, reference: &Triple, kn
         let (d, rate) = (view.line(g, at), view.pin_velocity(g, at));
         let second = view.pin_acceleration(g, at);
         let line = leg.strut.moving(g, d, rate);
+        line.label(g, &leg.name);
         if way.gather == Gather::Forces {
-            transverse.push(line.transverse(g, &second, &view.gravity));
+            let force = line.transverse(g, &second, &view.gravity);
+            label(g, &force, &format!("{}_transverse", leg.name));
+            transverse.push(force);
         }
         seconds.push(second);
         lines.push(line);
     }
     let (force, moment) = balance(g, &view, &lines, &transverse);
+    label(g, &force, "body_force");
+    label(g, &moment, "body_moment");
     // From the point of the moments to the reference point.
     let first = view.pins.first().copied().unwrap_or(ZERO);
     let shift = match way.arms {
@@ -120,9 +125,13 @@ pub fn forces(g: &mut Graph, carrier: &Carrier, way: Way, reference: &Triple, kn
             matrix[k].push(line.d[k]);
             matrix[k + 3].push(turning[k]);
         }
+        label(g, &turning, &format!("{}_lever", carrier.legs[at].name));
     }
     let side: Vec<Scalar> = force.into_iter().chain(moment).collect();
     let found = solve_inputs(g, known, &matrix, &side);
+    for (leg, &phi) in carrier.legs.iter().zip(&found.unknowns) {
+        g.label(phi, || format!("{}_tension", leg.name));
+    }
     let mut forces = Vec::new();
     for (at, leg) in carrier.legs.iter().enumerate() {
         let (line, phi) = (&lines[at], found.unknowns[at]);

@@ -93,6 +93,22 @@ impl Strut {
 }
 
 impl Moving {
+    /// Says what its values are, for those that get statements.
+    pub fn label(&self, g: &mut Graph, leg: &str) {
+        for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+            g.label(self.d[k], || format!("{leg}_line_{axis}"));
+            g.label(self.rate[k], || format!("{leg}_pin_rate_{axis}"));
+        }
+        g.label(self.length, || format!("{leg}_length"));
+        g.label(self.inverse, || format!("{leg}_length_inv"));
+        g.label(self.length_rate, || format!("{leg}_length_rate"));
+        g.label(self.swell, || format!("{leg}_swell"));
+        g.label(self.bend, || format!("{leg}_bend"));
+        g.label(self.mu, || format!("{leg}_mu"));
+        g.label(self.beta, || format!("{leg}_beta"));
+        g.label(self.kappa, || format!("{leg}_kappa"));
+    }
+
     /// The force at the point, up to a part along d.
     pub fn transverse(&self, g: &mut Graph, second: &Triple, gravity: &Triple) -> Triple {
         let parts = [(self.mu, second), (self.beta, &self.rate), (self.kappa, gravity)];

@@ -72,3 +72,10 @@ pub fn combine(g: &mut Graph, vectors: &[Triple; 3], factors: &Triple) -> Triple
 pub fn transposed(rows: &[Triple; 3]) -> [Triple; 3] {
     std::array::from_fn(|i| std::array::from_fn(|j| rows[j][i]))
 }
+
+/// Says what a vector is; its components get the name with `_x`, `_y`, `_z`.
+pub fn label(g: &mut Graph, v: &Triple, name: &str) {
+    for (&component, axis) in v.iter().zip(["x", "y", "z"]) {
+        g.label(component, || format!("{name}_{axis}"));
+    }
+}

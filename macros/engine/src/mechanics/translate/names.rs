@@ -4,7 +4,7 @@
 //! `elbow_rate`, `feet_0_x`.
 
 use crate::contracts::symbol::Symbol;
-use crate::model::types::{JointId, JointKind, Model, Orientation, Place, Type};
+use crate::model::types::{Coordinate, JointId, JointKind, Model, Orientation, Place, Type};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -48,6 +48,11 @@ pub(in crate::mechanics) fn symbol(model: &Model, symbol: Symbol) -> String {
         Symbol::Unknown { index } => Some(format!("unknown_{index}")),
     };
     known.unwrap_or_default()
+}
+
+/// Name of what belongs to a velocity coordinate.
+pub(in crate::mechanics) fn of_freedom(model: &Model, coordinate: Coordinate, what: &str) -> String {
+    of_joint(model, coordinate.joint, |kind| rate(kind, coordinate.index, what)).unwrap_or_default()
 }
 
 fn of_joint(model: &Model, joint: JointId, suffix: impl Fn(&JointKind) -> String) -> Option<String> {

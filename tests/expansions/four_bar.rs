@@ -1,0 +1,1372 @@
+/// A four-bar in gravity, with a spring; its loop is solved.
+///
+/// ## Coordinates
+///
+/// | joint | kind | parent | child | freedoms |  |
+/// |---|---|---|---|---|---|
+/// | `crank` | revolute | ground | `arm` | 1 |  |
+/// | `coupler` | revolute | `arm` | `link` | 0 of 1 |  |
+/// | `rocker` | revolute | ground | `lever` | 0 of 1 |  |
+///
+/// ## Inputs
+///
+/// | field | unit | type |  |
+/// |---|---|---|---|
+/// | `torque` |  | scalar |  |
+///
+/// ## Outputs
+///
+/// | field | unit | type |  |
+/// |---|---|---|---|
+/// | `angles` |  | 3 of scalar |  |
+/// | `rates` |  | 3 of scalar |  |
+/// | `accels` |  | 3 of scalar |  |
+/// | `reactions` |  | 2 of vector | of the arm's tip against the ground, and of the pin |
+/// | `energy` |  | scalar |  |
+///
+/// ## Bodies
+///
+/// | body | inertia |  |
+/// |---|---|---|
+/// | `arm` | rigid body |  |
+/// | `link` | rigid body |  |
+/// | `lever` | rigid body |  |
+///
+/// ## Loops
+///
+/// | closed by | kind | between | and | equations |  |
+/// |---|---|---|---|---|---|
+/// | `pin` | revolute | `link` | `lever` | solved |  |
+///
+/// 1 velocity coordinates + 0 constraint equations = 1 equations.
+///
+/// - `coupler`, `rocker`: in closed form from `pin`, where `sin(rocker - crank - coupler) > 0.0`
+/// - left out, since they follow from the other equations: `pin.z`, `pin.turn_y`, `pin.turn_x`
+/// - found in closed form: `coupler`, `rocker`
+/// - `rocker`: distance of two points: A cos x + B sin x = C
+/// - `coupler`: a point on both sides: (r cos x, r sin x) = (u, v)
+///
+/// ## Functions
+///
+/// | function | method | operations | as derived |
+/// |---|---|---|---|
+/// | `new` |  | none |  |
+/// | `forward_dynamics` | composite rigid body, LDL^T, parallel hinges in the axes of their base | 78 add, 139 mul, 4 div, 2 sqrt, 1 sincos | 89 add, 182 mul, 4 div, 2 sqrt, 1 sincos |
+/// | `inverse_dynamics` | recursive Newton-Euler, parallel hinges in the axes of their base | 75 add, 124 mul, 3 div, 2 sqrt, 1 sincos | 82 add, 160 mul, 3 div, 2 sqrt, 1 sincos |
+/// | `mass_matrix` | composite rigid body | 25 add, 42 mul, 2 div, 1 sqrt, 1 sincos | 30 add, 51 mul, 2 div, 1 sqrt, 1 sincos |
+/// | `bias` | recursive Newton-Euler, parallel hinges in the axes of their base | 65 add, 115 mul, 3 div, 2 sqrt, 1 sincos | 73 add, 152 mul, 3 div, 2 sqrt, 1 sincos |
+/// | `outputs` | world axes | 183 add, 222 mul, 10 div, 2 sqrt, 1 sincos, 2 other | 209 add, 282 mul, 10 div, 2 sqrt, 1 sincos, 2 other |
+/// | `dead_centres` | closed forms | 4 add, 4 mul, 1 sqrt, 1 sincos | 4 add, 4 mul, 1 sqrt, 1 sincos |
+/// | `margins` | closed forms, determinants | 6 add, 9 mul, 1 sqrt, 1 sincos | 6 add, 11 mul, 1 sqrt, 1 sincos |
+pub mod four_bar {
+    use ::core::prelude::v1::*;
+    use ::multibody::Real;
+    /// Number of degrees of freedom: components of a velocity.
+    pub const DOF: usize = 1;
+    /// Operation counts of every function, and of `Model::new`.
+    pub const COSTS: &[::multibody::Cost] = &[
+        ::multibody::Cost {
+            function: "new",
+            add: 0,
+            mul: 0,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "forward_dynamics",
+            add: 78,
+            mul: 139,
+            div: 4,
+            sqrt: 2,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "inverse_dynamics",
+            add: 75,
+            mul: 124,
+            div: 3,
+            sqrt: 2,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "mass_matrix",
+            add: 25,
+            mul: 42,
+            div: 2,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "bias",
+            add: 65,
+            mul: 115,
+            div: 3,
+            sqrt: 2,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "outputs",
+            add: 183,
+            mul: 222,
+            div: 10,
+            sqrt: 2,
+            sincos: 1,
+            other: 2,
+        },
+        ::multibody::Cost {
+            function: "dead_centres",
+            add: 4,
+            mul: 4,
+            div: 0,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "margins",
+            add: 6,
+            mul: 9,
+            div: 0,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+    ];
+    /// The same of every function as it was derived, before optimisation, with the work on parameters in it.
+    pub const DERIVED: &[::multibody::Cost] = &[
+        ::multibody::Cost {
+            function: "forward_dynamics",
+            add: 89,
+            mul: 182,
+            div: 4,
+            sqrt: 2,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "inverse_dynamics",
+            add: 82,
+            mul: 160,
+            div: 3,
+            sqrt: 2,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "mass_matrix",
+            add: 30,
+            mul: 51,
+            div: 2,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "bias",
+            add: 73,
+            mul: 152,
+            div: 3,
+            sqrt: 2,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "outputs",
+            add: 209,
+            mul: 282,
+            div: 10,
+            sqrt: 2,
+            sincos: 1,
+            other: 2,
+        },
+        ::multibody::Cost {
+            function: "dead_centres",
+            add: 4,
+            mul: 4,
+            div: 0,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "margins",
+            add: 6,
+            mul: 11,
+            div: 0,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+    ];
+    /// Names of the components of a velocity, in order.
+    pub const COORDINATES: &[&str] = &["crank"];
+    /// The coordinates whose dead centres `dead_centres` tells of, in order.
+    pub const DEAD_CENTRES: &[&str] = &["rocker"];
+    /// Parameters of `four_bar`. The default is what the model declares.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Params<T = f64> {
+        scalar: ::core::marker::PhantomData<T>,
+    }
+    /// Positions of the joints of `four_bar`. The default is zero, or the identity.
+    ///
+    /// Components in order of declaration: 1.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Position<T = f64> {
+        /// `[rad]` position of the revolute joint
+        pub crank: T,
+    }
+    /// Velocities of `four_bar`; accelerations and efforts have the same components.
+    ///
+    /// Components in order of declaration: 1.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Velocity<T = f64> {
+        /// `[rad/s]` velocity of the revolute joint
+        pub crank: T,
+    }
+    /// Inputs of `four_bar`, held over a step. The default is zero.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Input<T = f64> {
+        /// input
+        pub torque: T,
+    }
+    /// Outputs of `four_bar`.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Output<T = f64> {
+        /// output
+        pub angles: [T; 3],
+        /// output
+        pub rates: [T; 3],
+        /// output
+        pub accels: [T; 3],
+        /// of the arm's tip against the ground, and of the pin
+        pub reactions: [::multibody::nalgebra::Vector3<T>; 2],
+        /// output
+        pub energy: T,
+    }
+    impl<T: Real> Default for Params<T> {
+        fn default() -> Self {
+            Self {
+                scalar: ::core::marker::PhantomData,
+            }
+        }
+    }
+    impl<T: Real> Default for Position<T> {
+        fn default() -> Self {
+            Self { crank: T::lit(0.0) }
+        }
+    }
+    impl<T: Real> Default for Velocity<T> {
+        fn default() -> Self {
+            Self { crank: T::lit(0.0) }
+        }
+    }
+    impl<T: Real> Default for Input<T> {
+        fn default() -> Self {
+            Self { torque: T::lit(0.0) }
+        }
+    }
+    impl<T: Real> Default for Output<T> {
+        fn default() -> Self {
+            Self {
+                angles: [T::lit(0.0); 3],
+                rates: [T::lit(0.0); 3],
+                accels: [T::lit(0.0); 3],
+                reactions: [::multibody::nalgebra::Vector3::zeros(); 2],
+                energy: T::lit(0.0),
+            }
+        }
+    }
+    impl<T: Real> Params<T> {
+        /// Whether a mechanism can have these parameters: they are finite, masses, inertias and lengths are such as
+        /// there are, the mass matrix is regular at the default position and loops with conditions have a solution
+        /// there, and the scalar holds the numbers of the model.
+        ///
+        /// # Errors
+        ///
+        /// Names the first parameter, body, coordinate or number for which that is not so.
+        pub fn check(&self) -> Result<(), ::multibody::ParamError> {
+            Ok(())
+        }
+    }
+    /// All that changes in time. Its default is every joint at zero, at rest.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct State<T = f64> {
+        /// positions
+        pub q: Position<T>,
+        /// velocities
+        pub v: Velocity<T>,
+    }
+    impl<T: Real> Default for State<T> {
+        fn default() -> Self {
+            Self {
+                q: Position::default(),
+                v: Velocity::default(),
+            }
+        }
+    }
+    impl<T: Real> ::multibody::Tangent<T> for Velocity<T> {
+        fn zero() -> Self {
+            Self {
+                crank: ::multibody::Tangent::zero(),
+            }
+        }
+        fn zip<F: FnMut(T, T) -> T>(&self, other: &Self, f: &mut F) -> Self {
+            Self {
+                crank: ::multibody::Tangent::zip(&self.crank, &other.crank, f),
+            }
+        }
+        fn fold<A, F: FnMut(A, T) -> A>(&self, start: A, f: &mut F) -> A {
+            ::multibody::Tangent::fold(&self.crank, start, f)
+        }
+    }
+    impl<T: Real> ::multibody::Configuration<T> for Position<T> {
+        type Velocity = Velocity<T>;
+        fn displace(&self, d: &Velocity<T>) -> Self {
+            Self {
+                crank: ::multibody::Configuration::displace(&self.crank, &d.crank),
+            }
+        }
+        fn advance(&self, d: &Velocity<T>, rest: &Velocity<T>) -> (Self, Velocity<T>) {
+            let (mut end, mut left) = (*self, *rest);
+            (end.crank, left.crank) = ::multibody::Configuration::advance(
+                &self.crank,
+                &d.crank,
+                &rest.crank,
+            );
+            (end, left)
+        }
+        fn dexp_inv(_d: &Velocity<T>, v: &Velocity<T>) -> Velocity<T> {
+            *v
+        }
+        fn magnitude(&self) -> Velocity<T> {
+            Velocity {
+                crank: ::multibody::Configuration::magnitude(&self.crank),
+            }
+        }
+    }
+    impl<T: Real> ::multibody::StateSpace for State<T> {
+        type Scalar = T;
+        type Position = Position<T>;
+        type Velocity = Velocity<T>;
+        type Extra = ();
+        fn split(&self) -> (Position<T>, Velocity<T>, ()) {
+            (self.q, self.v, ())
+        }
+        fn join(&self, q: Position<T>, v: Velocity<T>, (): ()) -> Self {
+            Self { q, v }
+        }
+    }
+    impl<T: Real> From<Velocity<T>> for ::multibody::nalgebra::SVector<T, 1> {
+        fn from(velocity: Velocity<T>) -> Self {
+            Self::from([velocity.crank])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 1>> for Velocity<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 1>) -> Self {
+            let [[crank]] = vector.data.0;
+            Velocity { crank }
+        }
+    }
+    impl<T: Real> From<Position<T>> for ::multibody::nalgebra::SVector<T, 1> {
+        fn from(position: Position<T>) -> Self {
+            Self::from([position.crank])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 1>> for Position<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 1>) -> Self {
+            let [[crank]] = vector.data.0;
+            Position { crank }
+        }
+    }
+    /// The equations of motion of `four_bar`. It takes no space: nothing depends on parameters.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Model<T = f64> {
+        scalar: ::core::marker::PhantomData<T>,
+    }
+    impl<T: Real> Model<T> {
+        /// Does the work that depends on parameters alone.
+        ///
+        /// Operations: none.
+        #[must_use]
+        pub fn new(_params: &Params<T>) -> Self {
+            Self {
+                scalar: ::core::marker::PhantomData,
+            }
+        }
+        /// Accelerations.
+        ///
+        /// Method: composite rigid body, LDL^T, parallel hinges in the axes of their base.
+        ///
+        /// Operations: 78 add, 139 mul, 4 div, 2 sqrt, 1 sincos; as derived, before optimisation: 89 add, 182 mul, 4 div, 2 sqrt, 1 sincos.
+        #[must_use]
+        pub fn forward_dynamics(
+            &self,
+            _t: T,
+            state: &State<T>,
+            input: &Input<T>,
+        ) -> Velocity<T> {
+            let q = &state.q;
+            let v = &state.v;
+            let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
+            let accel_part = cos_crank - T::lit(4.0);
+            let rocker_part = accel_part * accel_part + sin_crank * sin_crank;
+            let rocker_part_v2 = T::lit(1.0) / rocker_part;
+            let rocker_part_v3 = T::lit(0.16666666666666666) * rocker_part
+                - T::lit(0.5416666666666666);
+            let root_rocker = Real::sqrt(rocker_part - rocker_part_v3 * rocker_part_v3);
+            let cos_rocker = rocker_part_v2
+                * (accel_part * rocker_part_v3 + sin_crank * root_rocker);
+            let crank_accel_part = T::lit(3.0) * cos_rocker;
+            let pivot_1_part = T::lit(4.0) + crank_accel_part;
+            let sin_rocker = rocker_part_v2
+                * (sin_crank * rocker_part_v3 - accel_part * root_rocker);
+            let w2_coupler_z_part = T::lit(3.0) * sin_crank;
+            let pivot_1_part_v2 = cos_crank * pivot_1_part
+                + sin_rocker * w2_coupler_z_part;
+            let pivot_1_part_v3 = pivot_1_part_v2 - T::lit(1.0);
+            let pivot_1_part_v4 = cos_crank * sin_rocker;
+            let pivot_1_part_v5 = sin_crank * pivot_1_part
+                - T::lit(3.0) * pivot_1_part_v4;
+            let f_coupler_passed_part = cos_crank * pivot_1_part_v3
+                + sin_crank * pivot_1_part_v5;
+            let f_coupler_part = sin_crank * pivot_1_part_v3
+                - cos_crank * pivot_1_part_v5;
+            let f_coupler_x_part = cos_crank
+                - T::lit(0.5714285714285714) * f_coupler_part;
+            let crank_accel_part_v2 = sin_crank
+                + T::lit(0.5714285714285714) * f_coupler_passed_part;
+            let crank_accel_part_v3 = Real::sqrt(
+                f_coupler_x_part * f_coupler_x_part
+                    + crank_accel_part_v2 * crank_accel_part_v2,
+            );
+            let crank_accel_part_v4 = (crank_accel_part_v3 - T::lit(0.5))
+                / crank_accel_part_v3;
+            let f_coupler_x_part_v2 = f_coupler_x_part * crank_accel_part_v4;
+            let crank_accel_part_v5 = crank_accel_part_v2 * crank_accel_part_v4;
+            let minus_slope_rocker_inv = T::lit(1.0) / root_rocker;
+            let rocker_part_v4 = v.crank * sin_crank;
+            let rocker_part_v5 = v.crank * cos_crank;
+            let minus_rocker_rate = minus_slope_rocker_inv
+                * (T::lit(0.3333333333333333)
+                    * (accel_part * rocker_part_v4 - sin_crank * rocker_part_v5)
+                    + sin_rocker * rocker_part_v5 - cos_rocker * rocker_part_v4);
+            let w2_coupler_z_part_v2 = sin_rocker * minus_rocker_rate;
+            let w2_coupler_z_part_v3 = cos_rocker * minus_rocker_rate;
+            let w2_coupler_z_part_v4 = T::lit(3.0) * cos_crank;
+            let w2_coupler_z_part_v5 = w2_coupler_z_part_v2 * w2_coupler_z_part
+                + w2_coupler_z_part_v3 * w2_coupler_z_part_v4;
+            let w2_coupler_z_part_v6 = v.crank * pivot_1_part_v2 + w2_coupler_z_part_v5;
+            let accel_part_v2 = minus_rocker_rate * w2_coupler_z_part_v3;
+            let accel_part_v3 = minus_rocker_rate * w2_coupler_z_part_v2;
+            let a_coupler_y_part = v.crank * rocker_part_v4;
+            let minus_a_coupler_x = v.crank * rocker_part_v5;
+            let pivot_1_part_v6 = T::lit(0.3333333333333333) * pivot_1_part;
+            let rocker_accel_part = accel_part * accel_part_v2
+                + sin_crank * accel_part_v3 + sin_rocker * a_coupler_y_part
+                + minus_a_coupler_x * pivot_1_part_v6
+                + T::lit(2.0)
+                    * (rocker_part_v4 * w2_coupler_z_part_v2
+                        + rocker_part_v5 * w2_coupler_z_part_v3);
+            let rocker_accel = minus_slope_rocker_inv * rocker_accel_part;
+            let crank_accel_part_v6 = T::lit(3.0) * accel_part_v2
+                + T::lit(3.0) * sin_rocker * rocker_accel;
+            let crank_accel_part_v7 = T::lit(3.0) * accel_part_v3
+                - rocker_accel * crank_accel_part;
+            let w2_coupler_z_part_v7 = w2_coupler_z_part_v2 * w2_coupler_z_part_v4
+                - w2_coupler_z_part_v3 * w2_coupler_z_part;
+            let w2_coupler_z_part_v8 = v.crank * pivot_1_part_v5 - w2_coupler_z_part_v7;
+            let crank_accel_part_v8 = pivot_1_part_v5
+                * (v.crank * w2_coupler_z_part_v5 + v.crank * w2_coupler_z_part_v6
+                    + cos_crank * crank_accel_part_v6 + sin_crank * crank_accel_part_v7)
+                - pivot_1_part_v3
+                    * (v.crank * w2_coupler_z_part_v8 - v.crank * w2_coupler_z_part_v7
+                        + sin_crank * crank_accel_part_v6
+                        - cos_crank * crank_accel_part_v7);
+            let f_coupler_passed_y = T::lit(1.7) * f_coupler_passed_part
+                - T::lit(0.2) * f_coupler_part;
+            let minus_a_coupler_y = a_coupler_y_part - T::lit(9.81);
+            let minus_f_coupler_passed_x = T::lit(0.2) * f_coupler_passed_part
+                + T::lit(1.7) * f_coupler_part;
+            let minus_n_coupler_z = T::lit(4.571428571428571)
+                * (f_coupler_passed_part * f_coupler_x_part_v2
+                    + f_coupler_part * crank_accel_part_v5)
+                + T::lit(1.090204081632653) * crank_accel_part_v8
+                + f_coupler_passed_y * minus_a_coupler_y
+                - minus_a_coupler_x * minus_f_coupler_passed_x;
+            let w2_coupler_z_part_v9 = v.crank
+                - T::lit(0.08163265306122448)
+                    * (pivot_1_part_v3 * w2_coupler_z_part_v6
+                        + pivot_1_part_v5 * w2_coupler_z_part_v8);
+            let w2_coupler_z = w2_coupler_z_part_v9 * w2_coupler_z_part_v9;
+            let crank_accel_part_v9 = T::lit(0.08163265306122448) * crank_accel_part_v8;
+            let f_coupler_x = T::lit(8.0) * f_coupler_x_part_v2
+                - f_coupler_passed_y * w2_coupler_z
+                + minus_f_coupler_passed_x * crank_accel_part_v9;
+            let crank_accel_part_v10 = pivot_1_part_v5 * minus_n_coupler_z;
+            let crank_accel_part_v11 = pivot_1_part_v3 * minus_n_coupler_z;
+            let crank_accel_part_v12 = T::lit(9.0) * rocker_accel
+                + T::lit(0.24489795918367346) * sin_rocker
+                    * (cos_crank * crank_accel_part_v10
+                        - sin_crank * crank_accel_part_v11)
+                + cos_rocker
+                    * (T::lit(44.145)
+                        - T::lit(0.24489795918367346)
+                            * (sin_crank * crank_accel_part_v10
+                                + cos_crank * crank_accel_part_v11));
+            let crank_accel_part_v13 = minus_slope_rocker_inv * crank_accel_part_v12;
+            let crank_accel_part_v14 = T::lit(0.3333333333333333) * crank_accel_part_v13;
+            let crank_accel_part_v15 = minus_f_coupler_passed_x * w2_coupler_z
+                - T::lit(39.24) - T::lit(8.0) * crank_accel_part_v5
+                + sin_rocker * crank_accel_part_v13
+                + f_coupler_passed_y * crank_accel_part_v9
+                - sin_crank * crank_accel_part_v14;
+            let crank_accel_part_v16 = input.torque + minus_n_coupler_z
+                + sin_crank * f_coupler_x
+                + sin_crank
+                    * (accel_part * crank_accel_part_v14
+                        - cos_rocker * crank_accel_part_v13)
+                + cos_crank * crank_accel_part_v15
+                - T::lit(0.08163265306122448)
+                    * (pivot_1_part_v2 * crank_accel_part_v11
+                        + pivot_1_part_v5 * crank_accel_part_v10);
+            let pivot_1_part_v7 = cos_crank * f_coupler_passed_y
+                + sin_crank * minus_f_coupler_passed_x;
+            let pivot_1_part_v8 = minus_slope_rocker_inv
+                * (sin_crank * pivot_1_part_v6 - pivot_1_part_v4);
+            let m_1_2 = T::lit(13.355) + pivot_1_part_v7;
+            let pivot_1_part_v9 = sin_rocker * pivot_1_part_v8;
+            let pivot_1_part_v10 = cos_rocker * pivot_1_part_v8;
+            let pivot_1_part_v11 = T::lit(0.2857142857142857) * pivot_1_part_v5
+                * (pivot_1_part_v5
+                    + T::lit(3.0)
+                        * (cos_crank * pivot_1_part_v9 - sin_crank * pivot_1_part_v10))
+                + T::lit(0.2857142857142857) * pivot_1_part_v3
+                    * (pivot_1_part_v2
+                        - T::lit(3.0)
+                            * (sin_crank * pivot_1_part_v9
+                                + cos_crank * pivot_1_part_v10));
+            let pivot_1 = T::lit(17.188333333333333) + T::lit(2.0) * pivot_1_part_v7
+                + T::lit(9.0) * pivot_1_part_v8 * pivot_1_part_v8
+                - T::lit(0.2857142857142857)
+                    * (m_1_2 * pivot_1_part_v11
+                        + pivot_1_part_v11
+                            * (m_1_2 - T::lit(3.815714285714286) * pivot_1_part_v11));
+            Velocity {
+                crank: crank_accel_part_v16 / pivot_1,
+            }
+        }
+        /// Efforts that the accelerations `accel` need beside all declared forces.
+        ///
+        /// Method: recursive Newton-Euler, parallel hinges in the axes of their base.
+        ///
+        /// Operations: 75 add, 124 mul, 3 div, 2 sqrt, 1 sincos; as derived, before optimisation: 82 add, 160 mul, 3 div, 2 sqrt, 1 sincos.
+        #[must_use]
+        pub fn inverse_dynamics(
+            &self,
+            _t: T,
+            state: &State<T>,
+            input: &Input<T>,
+            accel: &Velocity<T>,
+        ) -> Velocity<T> {
+            let q = &state.q;
+            let v = &state.v;
+            let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
+            let crank_effort_part = cos_crank - T::lit(4.0);
+            let rocker_part = crank_effort_part * crank_effort_part
+                + sin_crank * sin_crank;
+            let rocker_part_v2 = T::lit(1.0) / rocker_part;
+            let rocker_part_v3 = T::lit(0.16666666666666666) * rocker_part
+                - T::lit(0.5416666666666666);
+            let root_rocker = Real::sqrt(rocker_part - rocker_part_v3 * rocker_part_v3);
+            let cos_rocker = rocker_part_v2
+                * (crank_effort_part * rocker_part_v3 + sin_crank * root_rocker);
+            let u_coupler_xy_part = T::lit(3.0) * cos_rocker;
+            let crank_effort_part_v2 = T::lit(4.0) + u_coupler_xy_part;
+            let sin_rocker = rocker_part_v2
+                * (sin_crank * rocker_part_v3 - crank_effort_part * root_rocker);
+            let w2_coupler_z_part = T::lit(3.0) * sin_crank;
+            let crank_effort_part_v3 = cos_crank * crank_effort_part_v2
+                + sin_rocker * w2_coupler_z_part;
+            let crank_effort_part_v4 = crank_effort_part_v3 - T::lit(1.0);
+            let w2_coupler_z_part_v2 = T::lit(3.0) * cos_crank;
+            let crank_effort_part_v5 = sin_crank * crank_effort_part_v2
+                - sin_rocker * w2_coupler_z_part_v2;
+            let crank_effort_part_v6 = cos_crank * crank_effort_part_v4
+                + sin_crank * crank_effort_part_v5;
+            let crank_effort_part_v7 = sin_crank * crank_effort_part_v4
+                - cos_crank * crank_effort_part_v5;
+            let f_coupler_x_part = cos_crank
+                - T::lit(0.5714285714285714) * crank_effort_part_v7;
+            let crank_effort_part_v8 = sin_crank
+                + T::lit(0.5714285714285714) * crank_effort_part_v6;
+            let crank_effort_part_v9 = Real::sqrt(
+                f_coupler_x_part * f_coupler_x_part
+                    + crank_effort_part_v8 * crank_effort_part_v8,
+            );
+            let crank_effort_part_v10 = (crank_effort_part_v9 - T::lit(0.5))
+                / crank_effort_part_v9;
+            let f_coupler_x_part_v2 = f_coupler_x_part * crank_effort_part_v10;
+            let crank_effort_part_v11 = crank_effort_part_v8 * crank_effort_part_v10;
+            let minus_slope_rocker_inv = T::lit(1.0) / root_rocker;
+            let rocker_part_v4 = v.crank * sin_crank;
+            let rocker_part_v5 = v.crank * cos_crank;
+            let minus_rocker_rate = minus_slope_rocker_inv
+                * (T::lit(0.3333333333333333)
+                    * (crank_effort_part * rocker_part_v4 - sin_crank * rocker_part_v5)
+                    + sin_rocker * rocker_part_v5 - cos_rocker * rocker_part_v4);
+            let w2_coupler_z_part_v3 = sin_rocker * minus_rocker_rate;
+            let w2_coupler_z_part_v4 = cos_rocker * minus_rocker_rate;
+            let w2_coupler_z_part_v5 = w2_coupler_z_part_v3 * w2_coupler_z_part
+                + w2_coupler_z_part_v4 * w2_coupler_z_part_v2;
+            let u_coupler_xy_part_v2 = minus_rocker_rate * w2_coupler_z_part_v4;
+            let minus_a_coupler_x = accel.crank * sin_crank + v.crank * rocker_part_v5;
+            let a_coupler_y_part = accel.crank * cos_crank - v.crank * rocker_part_v4;
+            let u_coupler_xy_part_v3 = minus_rocker_rate * w2_coupler_z_part_v3;
+            let rocker_accel_part = T::lit(0.3333333333333333)
+                * (crank_effort_part * minus_a_coupler_x - sin_crank * a_coupler_y_part
+                    - rocker_part_v4 * rocker_part_v4 - rocker_part_v5 * rocker_part_v5)
+                - cos_rocker * minus_a_coupler_x + sin_rocker * a_coupler_y_part
+                - crank_effort_part * u_coupler_xy_part_v2
+                - sin_crank * u_coupler_xy_part_v3
+                - T::lit(2.0)
+                    * (rocker_part_v4 * w2_coupler_z_part_v3
+                        + rocker_part_v5 * w2_coupler_z_part_v4);
+            let minus_rocker_accel = minus_slope_rocker_inv * rocker_accel_part;
+            let u_coupler_xy_part_v4 = T::lit(3.0) * sin_rocker * minus_rocker_accel
+                - T::lit(3.0) * u_coupler_xy_part_v2;
+            let u_coupler_xy_part_v5 = T::lit(3.0) * u_coupler_xy_part_v3
+                + minus_rocker_accel * u_coupler_xy_part;
+            let w2_coupler_z_part_v6 = v.crank * crank_effort_part_v3
+                + w2_coupler_z_part_v5;
+            let u_coupler_xy_part_v6 = crank_effort_part_v5
+                * (v.crank * w2_coupler_z_part_v5 - cos_crank * u_coupler_xy_part_v4
+                    + sin_crank * u_coupler_xy_part_v5
+                    + accel.crank * crank_effort_part_v5
+                    + v.crank * w2_coupler_z_part_v6);
+            let w2_coupler_z_part_v7 = w2_coupler_z_part_v3 * w2_coupler_z_part_v2
+                - w2_coupler_z_part_v4 * w2_coupler_z_part;
+            let w2_coupler_z_part_v8 = v.crank * crank_effort_part_v5
+                - w2_coupler_z_part_v7;
+            let u_coupler_xy_part_v7 = crank_effort_part_v4
+                * (v.crank * w2_coupler_z_part_v7 + sin_crank * u_coupler_xy_part_v4
+                    + cos_crank * u_coupler_xy_part_v5
+                    + accel.crank * crank_effort_part_v3
+                    - v.crank * w2_coupler_z_part_v8);
+            let minus_u_coupler_xy = accel.crank
+                - T::lit(0.08163265306122448)
+                    * (u_coupler_xy_part_v6 + u_coupler_xy_part_v7);
+            let a_coupler_y = T::lit(9.81) + a_coupler_y_part;
+            let crank_effort_part_v12 = T::lit(1.7) * crank_effort_part_v6
+                - T::lit(0.2) * crank_effort_part_v7;
+            let crank_effort_part_v13 = T::lit(0.2) * crank_effort_part_v6
+                + T::lit(1.7) * crank_effort_part_v7;
+            let minus_n_coupler_z = T::lit(4.571428571428571)
+                * (crank_effort_part_v6 * f_coupler_x_part_v2
+                    + crank_effort_part_v7 * crank_effort_part_v11)
+                - T::lit(13.355) * minus_u_coupler_xy
+                - a_coupler_y * crank_effort_part_v12
+                - minus_a_coupler_x * crank_effort_part_v13;
+            let w2_coupler_z_part_v9 = v.crank
+                - T::lit(0.08163265306122448)
+                    * (crank_effort_part_v4 * w2_coupler_z_part_v6
+                        + crank_effort_part_v5 * w2_coupler_z_part_v8);
+            let w2_coupler_z = w2_coupler_z_part_v9 * w2_coupler_z_part_v9;
+            let f_coupler_x = T::lit(8.0) * f_coupler_x_part_v2
+                - crank_effort_part_v12 * w2_coupler_z
+                - crank_effort_part_v13 * minus_u_coupler_xy;
+            let crank_effort_part_v14 = crank_effort_part_v5 * minus_n_coupler_z;
+            let crank_effort_part_v15 = crank_effort_part_v4 * minus_n_coupler_z;
+            let crank_effort_part_v16 = T::lit(0.24489795918367346) * sin_rocker
+                * (cos_crank * crank_effort_part_v14 - sin_crank * crank_effort_part_v15)
+                - T::lit(9.0) * minus_rocker_accel
+                + cos_rocker
+                    * (T::lit(44.145)
+                        - T::lit(0.24489795918367346)
+                            * (sin_crank * crank_effort_part_v14
+                                + cos_crank * crank_effort_part_v15));
+            let crank_effort_part_v17 = minus_slope_rocker_inv * crank_effort_part_v16;
+            let crank_effort_part_v18 = T::lit(0.3333333333333333)
+                * crank_effort_part_v17;
+            let crank_effort_part_v19 = crank_effort_part_v13 * w2_coupler_z
+                - T::lit(39.24) - T::lit(8.0) * crank_effort_part_v11
+                - crank_effort_part_v12 * minus_u_coupler_xy
+                + sin_rocker * crank_effort_part_v17 - sin_crank * crank_effort_part_v18;
+            let minus_crank_effort = input.torque
+                - T::lit(3.8333333333333335) * accel.crank + minus_n_coupler_z
+                + sin_crank * f_coupler_x
+                + sin_crank
+                    * (crank_effort_part * crank_effort_part_v18
+                        - cos_rocker * crank_effort_part_v17)
+                + cos_crank * crank_effort_part_v19
+                - T::lit(0.08163265306122448)
+                    * (crank_effort_part_v3 * crank_effort_part_v15
+                        + crank_effort_part_v5 * crank_effort_part_v14);
+            Velocity {
+                crank: -minus_crank_effort,
+            }
+        }
+        /// Mass matrix `M` of `M * accel + bias = effort`.
+        ///
+        /// Method: composite rigid body.
+        ///
+        /// Operations: 25 add, 42 mul, 2 div, 1 sqrt, 1 sincos; as derived, before optimisation: 30 add, 51 mul, 2 div, 1 sqrt, 1 sincos.
+        #[must_use]
+        pub fn mass_matrix(
+            &self,
+            q: &Position<T>,
+        ) -> ::multibody::nalgebra::SMatrix<T, 1, 1> {
+            let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
+            let mass_matrix_0_part = cos_crank - T::lit(4.0);
+            let rocker_part = mass_matrix_0_part * mass_matrix_0_part
+                + sin_crank * sin_crank;
+            let rocker_part_v2 = T::lit(1.0) / rocker_part;
+            let rocker_part_v3 = T::lit(0.16666666666666666) * rocker_part
+                - T::lit(0.5416666666666666);
+            let root_rocker = Real::sqrt(rocker_part - rocker_part_v3 * rocker_part_v3);
+            let cos_rocker = rocker_part_v2
+                * (mass_matrix_0_part * rocker_part_v3 + sin_crank * root_rocker);
+            let mass_matrix_0_part_v2 = T::lit(4.0) + T::lit(3.0) * cos_rocker;
+            let sin_rocker = rocker_part_v2
+                * (sin_crank * rocker_part_v3 - mass_matrix_0_part * root_rocker);
+            let mass_matrix_0_part_v3 = cos_crank * sin_rocker;
+            let mass_matrix_0_part_v4 = sin_crank * mass_matrix_0_part_v2
+                - T::lit(3.0) * mass_matrix_0_part_v3;
+            let mass_matrix_0_part_v5 = cos_crank * mass_matrix_0_part_v2
+                + T::lit(3.0) * sin_crank * sin_rocker;
+            let mass_matrix_0_part_v6 = mass_matrix_0_part_v5 - T::lit(1.0);
+            let f_coupler_passed_y = T::lit(0.2) * mass_matrix_0_part_v4
+                + T::lit(1.7) * mass_matrix_0_part_v6;
+            let mass_matrix_0_part_v7 = (mass_matrix_0_part_v3
+                + T::lit(0.3333333333333333)
+                    * (sin_crank * mass_matrix_0_part - cos_crank * sin_crank)
+                - sin_crank * cos_rocker) / root_rocker;
+            let m_1_2 = T::lit(13.355) + f_coupler_passed_y;
+            let mass_matrix_0_part_v8 = sin_rocker * mass_matrix_0_part_v7;
+            let mass_matrix_0_part_v9 = cos_rocker * mass_matrix_0_part_v7;
+            let mass_matrix_0_part_v10 = T::lit(0.2857142857142857)
+                * mass_matrix_0_part_v4
+                * (mass_matrix_0_part_v4
+                    - T::lit(3.0)
+                        * (cos_crank * mass_matrix_0_part_v8
+                            - sin_crank * mass_matrix_0_part_v9))
+                + T::lit(0.2857142857142857) * mass_matrix_0_part_v6
+                    * (mass_matrix_0_part_v5
+                        + T::lit(3.0)
+                            * (sin_crank * mass_matrix_0_part_v8
+                                + cos_crank * mass_matrix_0_part_v9));
+            let minus_mass_matrix_0 = T::lit(0.2857142857142857)
+                * (m_1_2 * mass_matrix_0_part_v10
+                    + mass_matrix_0_part_v10
+                        * (m_1_2 - T::lit(3.815714285714286) * mass_matrix_0_part_v10))
+                - T::lit(17.188333333333333) - T::lit(2.0) * f_coupler_passed_y
+                - T::lit(9.0) * mass_matrix_0_part_v7 * mass_matrix_0_part_v7;
+            ::multibody::nalgebra::SMatrix::from([[-minus_mass_matrix_0]])
+        }
+        /// The efforts at zero acceleration, `bias` of `M * accel + bias = effort`; declared forces and gravity are in it.
+        ///
+        /// Method: recursive Newton-Euler, parallel hinges in the axes of their base.
+        ///
+        /// Operations: 65 add, 115 mul, 3 div, 2 sqrt, 1 sincos; as derived, before optimisation: 73 add, 152 mul, 3 div, 2 sqrt, 1 sincos.
+        #[must_use]
+        pub fn bias(
+            &self,
+            _t: T,
+            state: &State<T>,
+            input: &Input<T>,
+        ) -> ::multibody::nalgebra::SVector<T, 1> {
+            let q = &state.q;
+            let v = &state.v;
+            let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
+            let crank_effort_part = cos_crank - T::lit(4.0);
+            let rocker_part = crank_effort_part * crank_effort_part
+                + sin_crank * sin_crank;
+            let rocker_part_v2 = T::lit(1.0) / rocker_part;
+            let rocker_part_v3 = T::lit(0.16666666666666666) * rocker_part
+                - T::lit(0.5416666666666666);
+            let root_rocker = Real::sqrt(rocker_part - rocker_part_v3 * rocker_part_v3);
+            let cos_rocker = rocker_part_v2
+                * (crank_effort_part * rocker_part_v3 + sin_crank * root_rocker);
+            let crank_effort_part_v2 = T::lit(3.0) * cos_rocker;
+            let rocker_accel_part = T::lit(4.0) + crank_effort_part_v2;
+            let sin_rocker = rocker_part_v2
+                * (sin_crank * rocker_part_v3 - crank_effort_part * root_rocker);
+            let w2_coupler_z_part = T::lit(3.0) * sin_crank;
+            let crank_effort_part_v3 = cos_crank * rocker_accel_part
+                + sin_rocker * w2_coupler_z_part;
+            let crank_effort_part_v4 = crank_effort_part_v3 - T::lit(1.0);
+            let w2_coupler_z_part_v2 = T::lit(3.0) * cos_crank;
+            let crank_effort_part_v5 = sin_crank * rocker_accel_part
+                - sin_rocker * w2_coupler_z_part_v2;
+            let crank_effort_part_v6 = cos_crank * crank_effort_part_v4
+                + sin_crank * crank_effort_part_v5;
+            let crank_effort_part_v7 = sin_crank * crank_effort_part_v4
+                - cos_crank * crank_effort_part_v5;
+            let f_coupler_x_part = cos_crank
+                - T::lit(0.5714285714285714) * crank_effort_part_v7;
+            let crank_effort_part_v8 = sin_crank
+                + T::lit(0.5714285714285714) * crank_effort_part_v6;
+            let crank_effort_part_v9 = Real::sqrt(
+                f_coupler_x_part * f_coupler_x_part
+                    + crank_effort_part_v8 * crank_effort_part_v8,
+            );
+            let crank_effort_part_v10 = (crank_effort_part_v9 - T::lit(0.5))
+                / crank_effort_part_v9;
+            let f_coupler_x_part_v2 = f_coupler_x_part * crank_effort_part_v10;
+            let crank_effort_part_v11 = crank_effort_part_v8 * crank_effort_part_v10;
+            let minus_slope_rocker_inv = T::lit(1.0) / root_rocker;
+            let rocker_part_v4 = v.crank * sin_crank;
+            let rocker_part_v5 = v.crank * cos_crank;
+            let minus_rocker_rate = minus_slope_rocker_inv
+                * (T::lit(0.3333333333333333)
+                    * (crank_effort_part * rocker_part_v4 - sin_crank * rocker_part_v5)
+                    + sin_rocker * rocker_part_v5 - cos_rocker * rocker_part_v4);
+            let w2_coupler_z_part_v3 = sin_rocker * minus_rocker_rate;
+            let w2_coupler_z_part_v4 = cos_rocker * minus_rocker_rate;
+            let w2_coupler_z_part_v5 = w2_coupler_z_part_v3 * w2_coupler_z_part
+                + w2_coupler_z_part_v4 * w2_coupler_z_part_v2;
+            let w2_coupler_z_part_v6 = v.crank * crank_effort_part_v3
+                + w2_coupler_z_part_v5;
+            let crank_effort_part_v12 = minus_rocker_rate * w2_coupler_z_part_v4;
+            let crank_effort_part_v13 = minus_rocker_rate * w2_coupler_z_part_v3;
+            let a_coupler_y_part = v.crank * rocker_part_v4;
+            let minus_a_coupler_x = v.crank * rocker_part_v5;
+            let rocker_accel_part_v2 = crank_effort_part * crank_effort_part_v12
+                + sin_crank * crank_effort_part_v13 + sin_rocker * a_coupler_y_part
+                + minus_a_coupler_x * T::lit(0.3333333333333333) * rocker_accel_part
+                + T::lit(2.0)
+                    * (rocker_part_v4 * w2_coupler_z_part_v3
+                        + rocker_part_v5 * w2_coupler_z_part_v4);
+            let rocker_accel = minus_slope_rocker_inv * rocker_accel_part_v2;
+            let crank_effort_part_v14 = T::lit(3.0) * crank_effort_part_v12
+                + T::lit(3.0) * sin_rocker * rocker_accel;
+            let crank_effort_part_v15 = T::lit(3.0) * crank_effort_part_v13
+                - rocker_accel * crank_effort_part_v2;
+            let w2_coupler_z_part_v7 = w2_coupler_z_part_v3 * w2_coupler_z_part_v2
+                - w2_coupler_z_part_v4 * w2_coupler_z_part;
+            let w2_coupler_z_part_v8 = v.crank * crank_effort_part_v5
+                - w2_coupler_z_part_v7;
+            let crank_effort_part_v16 = crank_effort_part_v5
+                * (v.crank * w2_coupler_z_part_v5 + v.crank * w2_coupler_z_part_v6
+                    + cos_crank * crank_effort_part_v14
+                    + sin_crank * crank_effort_part_v15)
+                - crank_effort_part_v4
+                    * (v.crank * w2_coupler_z_part_v8 - v.crank * w2_coupler_z_part_v7
+                        + sin_crank * crank_effort_part_v14
+                        - cos_crank * crank_effort_part_v15);
+            let crank_effort_part_v17 = T::lit(1.7) * crank_effort_part_v6
+                - T::lit(0.2) * crank_effort_part_v7;
+            let minus_a_coupler_y = a_coupler_y_part - T::lit(9.81);
+            let crank_effort_part_v18 = T::lit(0.2) * crank_effort_part_v6
+                + T::lit(1.7) * crank_effort_part_v7;
+            let minus_n_coupler_z = T::lit(4.571428571428571)
+                * (crank_effort_part_v6 * f_coupler_x_part_v2
+                    + crank_effort_part_v7 * crank_effort_part_v11)
+                + T::lit(1.090204081632653) * crank_effort_part_v16
+                + crank_effort_part_v17 * minus_a_coupler_y
+                - minus_a_coupler_x * crank_effort_part_v18;
+            let w2_coupler_z_part_v9 = v.crank
+                - T::lit(0.08163265306122448)
+                    * (crank_effort_part_v4 * w2_coupler_z_part_v6
+                        + crank_effort_part_v5 * w2_coupler_z_part_v8);
+            let w2_coupler_z = w2_coupler_z_part_v9 * w2_coupler_z_part_v9;
+            let crank_effort_part_v19 = T::lit(0.08163265306122448)
+                * crank_effort_part_v16;
+            let f_coupler_x = T::lit(8.0) * f_coupler_x_part_v2
+                - crank_effort_part_v17 * w2_coupler_z
+                + crank_effort_part_v18 * crank_effort_part_v19;
+            let crank_effort_part_v20 = crank_effort_part_v5 * minus_n_coupler_z;
+            let crank_effort_part_v21 = crank_effort_part_v4 * minus_n_coupler_z;
+            let crank_effort_part_v22 = T::lit(9.0) * rocker_accel
+                + T::lit(0.24489795918367346) * sin_rocker
+                    * (cos_crank * crank_effort_part_v20
+                        - sin_crank * crank_effort_part_v21)
+                + cos_rocker
+                    * (T::lit(44.145)
+                        - T::lit(0.24489795918367346)
+                            * (sin_crank * crank_effort_part_v20
+                                + cos_crank * crank_effort_part_v21));
+            let crank_effort_part_v23 = minus_slope_rocker_inv * crank_effort_part_v22;
+            let crank_effort_part_v24 = T::lit(0.3333333333333333)
+                * crank_effort_part_v23;
+            let crank_effort_part_v25 = crank_effort_part_v18 * w2_coupler_z
+                - T::lit(39.24) - T::lit(8.0) * crank_effort_part_v11
+                + sin_rocker * crank_effort_part_v23
+                + crank_effort_part_v17 * crank_effort_part_v19
+                - sin_crank * crank_effort_part_v24;
+            let minus_crank_effort = input.torque + minus_n_coupler_z
+                + sin_crank * f_coupler_x
+                + sin_crank
+                    * (crank_effort_part * crank_effort_part_v24
+                        - cos_rocker * crank_effort_part_v23)
+                + cos_crank * crank_effort_part_v25
+                - T::lit(0.08163265306122448)
+                    * (crank_effort_part_v3 * crank_effort_part_v21
+                        + crank_effort_part_v5 * crank_effort_part_v20);
+            ::multibody::nalgebra::SVector::from([-minus_crank_effort])
+        }
+        /// Outputs.
+        ///
+        /// Method: world axes.
+        ///
+        /// Operations: 183 add, 222 mul, 10 div, 2 sqrt, 1 sincos, 2 other; as derived, before optimisation: 209 add, 282 mul, 10 div, 2 sqrt, 1 sincos, 2 other.
+        #[must_use]
+        pub fn outputs(&self, _t: T, state: &State<T>, input: &Input<T>) -> Output<T> {
+            let q = &state.q;
+            let v = &state.v;
+            let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
+            let rocker_part = cos_crank - T::lit(4.0);
+            let rocker_part_v2 = rocker_part * rocker_part + sin_crank * sin_crank;
+            let rocker_part_v3 = T::lit(1.0) / rocker_part_v2;
+            let rocker_part_v4 = T::lit(0.16666666666666666) * rocker_part_v2
+                - T::lit(0.5416666666666666);
+            let root_rocker = Real::sqrt(
+                rocker_part_v2 - rocker_part_v4 * rocker_part_v4,
+            );
+            let cos_rocker = rocker_part_v3
+                * (rocker_part * rocker_part_v4 + sin_crank * root_rocker);
+            let multiplier_part = T::lit(3.0) * cos_rocker;
+            let coupler_part = T::lit(4.0) + multiplier_part;
+            let sin_rocker = rocker_part_v3
+                * (sin_crank * rocker_part_v4 - rocker_part * root_rocker);
+            let pivot_1_part = cos_crank * sin_rocker;
+            let sin_coupler_part = sin_crank * coupler_part - T::lit(3.0) * pivot_1_part;
+            let pivot_1_part_v2 = T::lit(0.2857142857142857) * sin_coupler_part;
+            let multiplier_part_v2 = T::lit(3.0) * sin_rocker;
+            let coupler_part_v2 = cos_crank * coupler_part
+                + sin_crank * multiplier_part_v2;
+            let cos_coupler_part = coupler_part_v2 - T::lit(1.0);
+            let pivot_1_part_v3 = T::lit(0.2857142857142857) * cos_coupler_part;
+            let energy_part = v.crank * sin_coupler_part;
+            let minus_slope_rocker_inv = T::lit(1.0) / root_rocker;
+            let w2_crank_z_part = v.crank * sin_crank;
+            let rocker_accel_part = v.crank * cos_crank;
+            let minus_w_rocker_z = minus_slope_rocker_inv
+                * (T::lit(0.3333333333333333)
+                    * (rocker_part * w2_crank_z_part - sin_crank * rocker_accel_part)
+                    + sin_rocker * rocker_accel_part - cos_rocker * w2_crank_z_part);
+            let accel_part = cos_rocker * minus_w_rocker_z;
+            let coupler_part_v3 = T::lit(3.0) * sin_crank;
+            let accel_part_v2 = sin_rocker * minus_w_rocker_z;
+            let coupler_part_v4 = T::lit(3.0) * cos_crank;
+            let coupler_part_v5 = accel_part_v2 * coupler_part_v4
+                - accel_part * coupler_part_v3;
+            let coupler_part_v6 = energy_part - coupler_part_v5;
+            let coupler_part_v7 = T::lit(0.08163265306122448) * sin_coupler_part;
+            let coupler_part_v8 = accel_part_v2 * coupler_part_v3
+                + accel_part * coupler_part_v4;
+            let coupler_part_v9 = v.crank * coupler_part_v2 + coupler_part_v8;
+            let coupler_part_v10 = T::lit(0.08163265306122448) * cos_coupler_part;
+            let minus_coupler_rate = coupler_part_v6 * coupler_part_v7
+                + coupler_part_v9 * coupler_part_v10;
+            let a_coupler_y_part = cos_crank * cos_coupler_part;
+            let energy_part_v2 = T::lit(0.2857142857142857) * a_coupler_y_part
+                + sin_crank * pivot_1_part_v2;
+            let a_coupler_x_part = cos_crank * sin_coupler_part;
+            let energy_part_v3 = sin_crank * pivot_1_part_v3
+                - T::lit(0.2857142857142857) * a_coupler_x_part;
+            let f_coupler_part = cos_crank - T::lit(2.0) * energy_part_v3;
+            let f_coupler_part_v2 = sin_crank + T::lit(2.0) * energy_part_v2;
+            let energy_part_v4 = Real::sqrt(
+                f_coupler_part * f_coupler_part + f_coupler_part_v2 * f_coupler_part_v2,
+            );
+            let energy_part_v5 = energy_part_v4 - T::lit(0.5);
+            let f_coupler_part_v3 = energy_part_v5 / energy_part_v4;
+            let f_coupler_part_v4 = f_coupler_part * f_coupler_part_v3;
+            let f_coupler_part_v5 = f_coupler_part_v2 * f_coupler_part_v3;
+            let f_coupler_x_part = energy_part_v2 * f_coupler_part_v4
+                + energy_part_v3 * f_coupler_part_v5;
+            let n_coupler_z_part = T::lit(16.0) * f_coupler_x_part;
+            let accel_part_v3 = minus_w_rocker_z * accel_part;
+            let coupler_accel_part = T::lit(3.0) * accel_part_v3;
+            let w2_crank_z_part_v2 = rocker_accel_part * rocker_accel_part;
+            let rocker_accel_part_v2 = v.crank * rocker_accel_part;
+            let rocker_accel_part_v3 = v.crank * w2_crank_z_part;
+            let accel_part_v4 = minus_w_rocker_z * accel_part_v2;
+            let rocker_accel_part_v4 = rocker_part * accel_part_v3
+                + sin_crank * accel_part_v4
+                + T::lit(2.0)
+                    * (w2_crank_z_part * accel_part_v2 + rocker_accel_part * accel_part);
+            let rocker_accel = minus_slope_rocker_inv
+                * (T::lit(0.3333333333333333)
+                    * (w2_crank_z_part_v2 - rocker_part * rocker_accel_part_v2)
+                    + cos_rocker * rocker_accel_part_v2
+                    + sin_rocker * rocker_accel_part_v3 + rocker_accel_part_v4);
+            let f_coupler_part_v6 = coupler_accel_part
+                + rocker_accel * multiplier_part_v2;
+            let coupler_accel_part_v2 = T::lit(3.0) * accel_part_v4;
+            let f_coupler_part_v7 = coupler_accel_part_v2
+                - multiplier_part * rocker_accel;
+            let coupler_accel_part_v3 = v.crank * coupler_part_v8
+                + v.crank * coupler_part_v9;
+            let coupler_accel_part_v4 = v.crank * coupler_part_v5
+                - v.crank * coupler_part_v6;
+            let f_coupler_part_v8 = sin_coupler_part
+                * (cos_crank * f_coupler_part_v6 + sin_crank * f_coupler_part_v7
+                    + coupler_accel_part_v3)
+                - cos_coupler_part
+                    * (sin_crank * f_coupler_part_v6 - cos_crank * f_coupler_part_v7
+                        - coupler_accel_part_v4);
+            let w2_crank_z = w2_crank_z_part * w2_crank_z_part + w2_crank_z_part_v2;
+            let a_coupler_part = w2_crank_z - T::lit(9.81) * sin_crank;
+            let a_coupler_x_part_v2 = cos_coupler_part * a_coupler_part;
+            let a_coupler_y_part_v2 = sin_coupler_part * a_coupler_part;
+            let minus_n_coupler_z = n_coupler_z_part
+                + T::lit(1.090204081632653) * f_coupler_part_v8
+                - T::lit(1.962)
+                    * (a_coupler_x_part
+                        + T::lit(0.1019367991845056) * a_coupler_x_part_v2)
+                + T::lit(16.677)
+                    * (T::lit(0.1019367991845056) * a_coupler_y_part_v2
+                        - a_coupler_y_part);
+            let multiplier_part_v3 = T::lit(44.145) * cos_rocker;
+            let dw_crank_z_part = sin_coupler_part * minus_n_coupler_z;
+            let dw_crank_z_part_v2 = cos_coupler_part * minus_n_coupler_z;
+            let dw_crank_z_part_v3 = multiplier_part_v3 + T::lit(9.0) * rocker_accel
+                - T::lit(0.24489795918367346)
+                    * (cos_rocker
+                        * (sin_crank * dw_crank_z_part + cos_crank * dw_crank_z_part_v2)
+                        - sin_rocker
+                            * (cos_crank * dw_crank_z_part
+                                - sin_crank * dw_crank_z_part_v2));
+            let dw_crank_z_part_v4 = minus_slope_rocker_inv * dw_crank_z_part_v3;
+            let dw_crank_z_part_v5 = T::lit(0.3333333333333333) * dw_crank_z_part_v4;
+            let w_coupler_z = v.crank - minus_coupler_rate;
+            let w2_coupler_z = w_coupler_z * w_coupler_z;
+            let f_coupler_x_part_v2 = T::lit(8.0) * f_coupler_x_part
+                - T::lit(5.95) * w2_coupler_z;
+            let f_coupler_x = T::lit(0.05714285714285714) * f_coupler_part_v8
+                + f_coupler_x_part_v2;
+            let f_coupler_y_part = T::lit(8.0)
+                * (energy_part_v3 * f_coupler_part_v4
+                    - energy_part_v2 * f_coupler_part_v5) + T::lit(0.7) * w2_coupler_z;
+            let minus_f_coupler_y = T::lit(0.4857142857142857) * f_coupler_part_v8
+                + f_coupler_y_part;
+            let dw_crank_z_part_v6 = input.torque + minus_n_coupler_z
+                + sin_crank
+                    * (rocker_part * dw_crank_z_part_v5
+                        - cos_rocker * dw_crank_z_part_v4)
+                + cos_crank
+                    * (sin_rocker * dw_crank_z_part_v4 - T::lit(39.24)
+                        - sin_crank * dw_crank_z_part_v5)
+                + T::lit(0.2857142857142857)
+                    * (sin_coupler_part * f_coupler_x
+                        + cos_coupler_part * minus_f_coupler_y)
+                - T::lit(0.08163265306122448)
+                    * (coupler_part_v2 * dw_crank_z_part_v2
+                        + sin_coupler_part * dw_crank_z_part);
+            let f_coupler_passed_y = T::lit(0.2) * sin_coupler_part
+                + T::lit(1.7) * cos_coupler_part;
+            let energy_part_v6 = sin_crank * rocker_part - cos_crank * sin_crank;
+            let pivot_1_part_v4 = minus_slope_rocker_inv
+                * (pivot_1_part + T::lit(0.3333333333333333) * energy_part_v6
+                    - sin_crank * cos_rocker);
+            let m_1_2 = T::lit(13.355) + f_coupler_passed_y;
+            let pivot_1_part_v5 = sin_rocker * pivot_1_part_v4;
+            let pivot_1_part_v6 = cos_rocker * pivot_1_part_v4;
+            let pivot_1_part_v7 = pivot_1_part_v2
+                * (sin_coupler_part
+                    - T::lit(3.0)
+                        * (cos_crank * pivot_1_part_v5 - sin_crank * pivot_1_part_v6))
+                + pivot_1_part_v3
+                    * (coupler_part_v2
+                        + T::lit(3.0)
+                            * (sin_crank * pivot_1_part_v5
+                                + cos_crank * pivot_1_part_v6));
+            let minus_pivot_1 = T::lit(0.2857142857142857)
+                * (m_1_2 * pivot_1_part_v7
+                    + pivot_1_part_v7
+                        * (m_1_2 - T::lit(3.815714285714286) * pivot_1_part_v7))
+                - T::lit(17.188333333333333) - T::lit(2.0) * f_coupler_passed_y
+                - T::lit(9.0) * pivot_1_part_v4 * pivot_1_part_v4;
+            let minus_dw_crank_z = dw_crank_z_part_v6 / minus_pivot_1;
+            let rocker_accel_part_v5 = rocker_accel_part_v2
+                - sin_crank * minus_dw_crank_z;
+            let rocker_accel_part_v6 = rocker_accel_part_v3
+                + cos_crank * minus_dw_crank_z;
+            let rocker_accel_part_v7 = T::lit(0.3333333333333333)
+                * (w2_crank_z - rocker_part * rocker_accel_part_v5
+                    - sin_crank * rocker_accel_part_v6)
+                + cos_rocker * rocker_accel_part_v5 + sin_rocker * rocker_accel_part_v6
+                + rocker_accel_part_v4;
+            let rocker_accel_v2 = minus_slope_rocker_inv * rocker_accel_part_v7;
+            let coupler_accel_part_v5 = coupler_accel_part
+                + rocker_accel_v2 * multiplier_part_v2;
+            let coupler_accel_part_v6 = coupler_accel_part_v2
+                - multiplier_part * rocker_accel_v2;
+            let minus_coupler_accel = (cos_crank * coupler_accel_part_v5
+                + sin_crank * coupler_accel_part_v6 - sin_coupler_part * minus_dw_crank_z
+                + coupler_accel_part_v3) * coupler_part_v7
+                + (cos_crank * coupler_accel_part_v6 - sin_crank * coupler_accel_part_v5
+                    - coupler_part_v2 * minus_dw_crank_z + coupler_accel_part_v4)
+                    * coupler_part_v10;
+            let a_coupler_part_v2 = T::lit(9.81) * cos_crank - minus_dw_crank_z;
+            let a_coupler_x_part_v3 = a_coupler_x_part_v2
+                + sin_coupler_part * a_coupler_part_v2;
+            let u_coupler_xy = minus_dw_crank_z + minus_coupler_accel;
+            let a_coupler_y_part_v3 = a_coupler_y_part_v2
+                - cos_coupler_part * a_coupler_part_v2;
+            let minus_n_coupler_z_v2 = n_coupler_z_part
+                - T::lit(0.2) * a_coupler_x_part_v3 + T::lit(1.7) * a_coupler_y_part_v3
+                + T::lit(13.355) * u_coupler_xy;
+            let ([multiplier_2, multiplier_1], _) = ::multibody::linear::solve(
+                [
+                    [(T::lit(-3.5) * energy_part_v2), (T::lit(3.5) * energy_part_v3)],
+                    [multiplier_part, -multiplier_part_v2],
+                ],
+                [
+                    minus_n_coupler_z_v2,
+                    -(multiplier_part_v3 + T::lit(9.0) * rocker_accel_v2),
+                ],
+            );
+            let f_coupler_x_v2 = T::lit(0.7) * u_coupler_xy - a_coupler_x_part_v3
+                - energy_part_v2 * multiplier_1 - energy_part_v3 * multiplier_2
+                + f_coupler_x_part_v2;
+            let minus_f_coupler_y_v2 = a_coupler_y_part_v3 + T::lit(5.95) * u_coupler_xy
+                - energy_part_v3 * multiplier_1 + energy_part_v2 * multiplier_2
+                + f_coupler_y_part;
+            let energy_part_v7 = w2_crank_z + T::lit(3.483913043478261) * w2_coupler_z
+                + T::lit(0.10434782608695652) * energy_part * w_coupler_z
+                + T::lit(0.8869565217391304) * v.crank * cos_coupler_part * w_coupler_z
+                + T::lit(2.347826086956522) * minus_w_rocker_z * minus_w_rocker_z;
+            let minus_energy = T::lit(9.81)
+                * (energy_part_v6 - T::lit(0.7) * energy_part_v2
+                    - T::lit(5.95) * energy_part_v3) - T::lit(44.145) * sin_rocker
+                - T::lit(4.0) * energy_part_v5 * energy_part_v5
+                - T::lit(1.9166666666666667) * energy_part_v7;
+            Output {
+                angles: [
+                    q.crank,
+                    -Real::atan2(pivot_1_part_v2, pivot_1_part_v3),
+                    Real::atan2(sin_rocker, cos_rocker),
+                ],
+                rates: [v.crank, -minus_coupler_rate, -minus_w_rocker_z],
+                accels: [-minus_dw_crank_z, -minus_coupler_accel, rocker_accel_v2],
+                reactions: [
+                    ::multibody::nalgebra::Vector3::from([
+                        (energy_part_v2 * f_coupler_x_v2
+                            + energy_part_v3 * minus_f_coupler_y_v2),
+                        (energy_part_v3 * f_coupler_x_v2
+                            - energy_part_v2 * minus_f_coupler_y_v2),
+                        T::lit(0.0),
+                    ]),
+                    ::multibody::nalgebra::Vector3::from([
+                        -multiplier_1,
+                        -multiplier_2,
+                        T::lit(0.0),
+                    ]),
+                ],
+                energy: -minus_energy,
+            }
+        }
+        /// Distances from dead centres, in the order of `DEAD_CENTRES`. Of a loop's solution: its square root, a product of lengths, zero where two solutions meet and NaN where the loop cannot be closed. Of roll, pitch and yaw: the cosine of the pitch, zero where roll and yaw turn about one axis. Rates grow without bound there.
+        ///
+        /// Method: closed forms.
+        ///
+        /// Operations: 4 add, 4 mul, 1 sqrt, 1 sincos; as derived, before optimisation: 4 add, 4 mul, 1 sqrt, 1 sincos.
+        #[must_use]
+        pub fn dead_centres(
+            &self,
+            _t: T,
+            q: &Position<T>,
+        ) -> ::multibody::nalgebra::SVector<T, 1> {
+            let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
+            let root_rocker_part = cos_crank - T::lit(4.0);
+            let root_rocker_part_v2 = root_rocker_part * root_rocker_part
+                + sin_crank * sin_crank;
+            let root_rocker_part_v3 = T::lit(0.16666666666666666) * root_rocker_part_v2
+                - T::lit(0.5416666666666666);
+            ::multibody::nalgebra::SVector::from([
+                Real::sqrt(
+                    root_rocker_part_v2 - root_rocker_part_v3 * root_rocker_part_v3,
+                ),
+            ])
+        }
+        /// For integrators, at a state whose guess is the solution: how far loops are from dead centres (the root of a closed form, the determinant of what Newton's method solves), each followed by the rate of its square; then the greatest residual of Newton's method, if it closes loops.
+        ///
+        /// Method: closed forms, determinants.
+        ///
+        /// Operations: 6 add, 9 mul, 1 sqrt, 1 sincos; as derived, before optimisation: 6 add, 11 mul, 1 sqrt, 1 sincos.
+        #[must_use]
+        pub fn margins(
+            &self,
+            _t: T,
+            state: &State<T>,
+        ) -> ::multibody::nalgebra::SVector<T, 2> {
+            let q = &state.q;
+            let v = &state.v;
+            let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
+            let margin_1_part = cos_crank - T::lit(4.0);
+            let root_rocker_part = margin_1_part * margin_1_part + sin_crank * sin_crank;
+            let margin_1_part_v2 = T::lit(0.16666666666666666) * root_rocker_part
+                - T::lit(0.5416666666666666);
+            let margin_1_part_v3 = v.crank * sin_crank;
+            ::multibody::nalgebra::SVector::from([
+                Real::sqrt(root_rocker_part - margin_1_part_v2 * margin_1_part_v2),
+                (-(margin_1_part * margin_1_part_v3 - cos_crank * margin_1_part_v3)
+                    * (T::lit(2.0) - T::lit(0.6666666666666666) * margin_1_part_v2)),
+            ])
+        }
+    }
+    impl<T: Real> Default for Model<T> {
+        fn default() -> Self {
+            Self::new(&Params::default())
+        }
+    }
+    impl<T: Real> Model<T> {
+        /// Not derived: `emit energy` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn kinetic_energy<A: ::multibody::emitted::Energy>(
+            &self,
+            _state: &A,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit energy` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn potential_energy<A: ::multibody::emitted::Energy>(
+            &self,
+            _q: &A,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit residual` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn residual<A: ::multibody::emitted::Residual>(
+            &self,
+            _t: T,
+            _state: &A,
+            _input: &Input<T>,
+            _accel: &Velocity<T>,
+            _multipliers: &::multibody::nalgebra::SVector<T, 0>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit kinematics { given: .., find: .. }` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn kinematics<A: ::multibody::emitted::Kinematics>(
+            &self,
+            _t: T,
+            _state: &A,
+            _accel: &Velocity<T>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit derivatives` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn forward_derivatives<A: ::multibody::emitted::Derivatives>(
+            &self,
+            _t: T,
+            _state: &A,
+            _input: &Input<T>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit derivatives` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn inverse_derivatives<A: ::multibody::emitted::Derivatives>(
+            &self,
+            _t: T,
+            _state: &A,
+            _input: &Input<T>,
+            _accel: &Velocity<T>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit impulse` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn impulse<A: ::multibody::emitted::Impulse>(
+            &self,
+            _q: &A,
+            _impulse: &Velocity<T>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit momentum` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn momentum<A: ::multibody::emitted::Momentum>(
+            &self,
+            _state: &A,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit momentum` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn momentum_rate<A: ::multibody::emitted::Momentum>(
+            &self,
+            _t: T,
+            _state: &A,
+            _input: &Input<T>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit momentum` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn velocity<A: ::multibody::emitted::Momentum>(
+            &self,
+            _q: &A,
+            _momentum: &Velocity<T>,
+        ) -> A::Result {
+            A::never()
+        }
+    }
+    impl<T: Real> ::multibody::System for Model<T> {
+        type Scalar = T;
+        type State = State<T>;
+        type Input = Input<T>;
+        fn derivative(
+            &self,
+            t: T,
+            state: &State<T>,
+            input: &Input<T>,
+        ) -> (Velocity<T>, ()) {
+            (self.forward_dynamics(t, state, input), ())
+        }
+        fn margins(
+            &self,
+            t: T,
+            state: &State<T>,
+            _input: &Input<T>,
+            visit: &mut dyn FnMut(::multibody::Margin<T>),
+        ) -> T {
+            let margins = self.margins(t, state);
+            visit(::multibody::Margin {
+                coordinate: "rocker",
+                root: margins[0],
+                rate: margins[1],
+            });
+            T::lit(0.0)
+        }
+        fn without_inertia(
+            &self,
+            _t: T,
+            state: &State<T>,
+            _input: &Input<T>,
+        ) -> Option<&'static str> {
+            let matrix = self.mass_matrix(&state.q);
+            ::multibody::pivots::without_inertia(&matrix, &["crank"])
+        }
+    }
+}

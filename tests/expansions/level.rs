@@ -1,0 +1,2041 @@
+/// The platform is kept level.
+///
+/// ## Parameters
+///
+/// | field | unit | default |  |
+/// |---|---|---|---|
+/// | `legs[_].k` | `N/m` | `0.0` | of a spring along the leg |
+/// | `legs[_].c` | `N s/m` | `0.0` | of a damper along the leg |
+/// | `legs[_].s0` | `m` | `0.0` | stroke at which the spring is at rest |
+///
+/// ## Coordinates
+///
+/// | joint | kind | parent | child | freedoms |  |
+/// |---|---|---|---|---|---|
+/// | `platform` | free | ground | `platform` | 3 of 6 |  |
+/// | `legs[0].gimbal` | universal | ground | `legs[0].cylinder` | 0 of 2 |  |
+/// | `legs[0].stroke` | prismatic | `legs[0].cylinder` | `legs[0].piston` | 0 of 1 |  |
+/// | `legs[1].gimbal` | universal | ground | `legs[1].cylinder` | 0 of 2 |  |
+/// | `legs[1].stroke` | prismatic | `legs[1].cylinder` | `legs[1].piston` | 0 of 1 |  |
+/// | `legs[2].gimbal` | universal | ground | `legs[2].cylinder` | 0 of 2 |  |
+/// | `legs[2].stroke` | prismatic | `legs[2].cylinder` | `legs[2].piston` | 0 of 1 |  |
+/// | `legs[3].gimbal` | universal | ground | `legs[3].cylinder` | 0 of 2 |  |
+/// | `legs[3].stroke` | prismatic | `legs[3].cylinder` | `legs[3].piston` | 0 of 1 |  |
+/// | `legs[4].gimbal` | universal | ground | `legs[4].cylinder` | 0 of 2 |  |
+/// | `legs[4].stroke` | prismatic | `legs[4].cylinder` | `legs[4].piston` | 0 of 1 |  |
+/// | `legs[5].gimbal` | universal | ground | `legs[5].cylinder` | 0 of 2 |  |
+/// | `legs[5].stroke` | prismatic | `legs[5].cylinder` | `legs[5].piston` | 0 of 1 |  |
+///
+/// ## Inputs
+///
+/// | field | unit | type |  |
+/// |---|---|---|---|
+/// | `legs[_].thrust` | `N` | scalar | pushes the tip away from the base |
+///
+/// ## Bodies
+///
+/// | body | inertia |  |
+/// |---|---|---|
+/// | `platform` | rigid body |  |
+/// | `legs[_].cylinder` | rigid body |  |
+/// | `legs[_].piston` | rigid body |  |
+///
+/// ## Loops
+///
+/// | closed by | kind | between | and | equations |  |
+/// |---|---|---|---|---|---|
+/// | `legs[0].ball` | ball | `legs[0].piston` | `platform` | solved |  |
+/// | `legs[1].ball` | ball | `legs[1].piston` | `platform` | solved |  |
+/// | `legs[2].ball` | ball | `legs[2].piston` | `platform` | solved |  |
+/// | `legs[3].ball` | ball | `legs[3].piston` | `platform` | solved |  |
+/// | `legs[4].ball` | ball | `legs[4].piston` | `platform` | solved |  |
+/// | `legs[5].ball` | ball | `legs[5].piston` | `platform` | solved |  |
+///
+/// 3 velocity coordinates + 0 constraint equations = 3 equations.
+///
+/// - `legs[_].gimbal.first`, `legs[_].gimbal.second`, `legs[_].stroke`: in closed form from `legs[_].ball`, where `legs[0].stroke > -1.0`, `cos(legs[0].gimbal.second) > 0.0`
+/// - `legs[_].gimbal.first`, `legs[_].gimbal.second`, `legs[_].stroke`: in closed form from `legs[_].ball`, where `legs[1].stroke > -1.0`, `cos(legs[1].gimbal.second) > 0.0`
+/// - `legs[_].gimbal.first`, `legs[_].gimbal.second`, `legs[_].stroke`: in closed form from `legs[_].ball`, where `legs[2].stroke > -1.0`, `cos(legs[2].gimbal.second) > 0.0`
+/// - `legs[_].gimbal.first`, `legs[_].gimbal.second`, `legs[_].stroke`: in closed form from `legs[_].ball`, where `legs[3].stroke > -1.0`, `cos(legs[3].gimbal.second) > 0.0`
+/// - `legs[_].gimbal.first`, `legs[_].gimbal.second`, `legs[_].stroke`: in closed form from `legs[_].ball`, where `legs[4].stroke > -1.0`, `cos(legs[4].gimbal.second) > 0.0`
+/// - `legs[_].gimbal.first`, `legs[_].gimbal.second`, `legs[_].stroke`: in closed form from `legs[_].ball`, where `legs[5].stroke > -1.0`, `cos(legs[5].gimbal.second) > 0.0`
+/// - `platform.orientation` is driven: `identity()`
+/// - found in closed form: `legs[0].gimbal.first`, `legs[0].gimbal.second`, `legs[0].stroke`
+/// - found in closed form: `legs[1].gimbal.first`, `legs[1].gimbal.second`, `legs[1].stroke`
+/// - found in closed form: `legs[2].gimbal.first`, `legs[2].gimbal.second`, `legs[2].stroke`
+/// - found in closed form: `legs[3].gimbal.first`, `legs[3].gimbal.second`, `legs[3].stroke`
+/// - found in closed form: `legs[4].gimbal.first`, `legs[4].gimbal.second`, `legs[4].stroke`
+/// - found in closed form: `legs[5].gimbal.first`, `legs[5].gimbal.second`, `legs[5].stroke`
+/// - `legs[0].stroke`: distance of two points: quadratic in the travel
+/// - `legs[0].gimbal.first`: distance of a point from a plane: A cos x + B sin x = 0
+/// - `legs[0].gimbal.second`: a point on both sides: (r cos x, r sin x) = (u, v)
+/// - `legs[1].stroke`: distance of two points: quadratic in the travel
+/// - `legs[1].gimbal.first`: distance of a point from a plane: A cos x + B sin x = 0
+/// - `legs[1].gimbal.second`: a point on both sides: (r cos x, r sin x) = (u, v)
+/// - `legs[2].stroke`: distance of two points: quadratic in the travel
+/// - `legs[2].gimbal.first`: distance of a point from a plane: A cos x + B sin x = 0
+/// - `legs[2].gimbal.second`: a point on both sides: (r cos x, r sin x) = (u, v)
+/// - `legs[3].stroke`: distance of two points: quadratic in the travel
+/// - `legs[3].gimbal.first`: distance of a point from a plane: A cos x + B sin x = 0
+/// - `legs[3].gimbal.second`: a point on both sides: (r cos x, r sin x) = (u, v)
+/// - `legs[4].stroke`: distance of two points: quadratic in the travel
+/// - `legs[4].gimbal.first`: distance of a point from a plane: A cos x + B sin x = 0
+/// - `legs[4].gimbal.second`: a point on both sides: (r cos x, r sin x) = (u, v)
+/// - `legs[5].stroke`: distance of two points: quadratic in the travel
+/// - `legs[5].gimbal.first`: distance of a point from a plane: A cos x + B sin x = 0
+/// - `legs[5].gimbal.second`: a point on both sides: (r cos x, r sin x) = (u, v)
+///
+/// ## Repeated parts
+///
+/// - six identical loops: `legs[0].ball` to `legs[5].ball`
+///
+/// ## Functions
+///
+/// | function | method | operations | as derived |
+/// |---|---|---|---|
+/// | `new` |  | 6 add |  |
+/// | `forward_dynamics` | struts, condensed | 151 add, 165 mul, 9 div, 6 sqrt | 173 add, 225 mul, 9 div, 6 sqrt |
+/// | `inverse_dynamics` | struts, moments about a point of the pins' plane | 184 add, 200 mul, 7 div, 6 sqrt, 3 other | 219 add, 219 mul, 7 div, 6 sqrt, 3 other |
+/// | `dead_centres` | closed forms | 34 add, 31 mul, 12 sqrt | 48 add, 31 mul, 12 sqrt |
+/// | `margins` | closed forms, determinants | 64 add, 69 mul, 12 sqrt | 78 add, 69 mul, 12 sqrt |
+///
+/// ## Defaults in force
+///
+/// - centre of mass at the body's origin: `platform`
+pub mod level {
+    use ::core::prelude::v1::*;
+    use ::multibody::Real;
+    /// Number of degrees of freedom: components of a velocity.
+    pub const DOF: usize = 3;
+    /// Operation counts of every function, and of `Model::new`.
+    pub const COSTS: &[::multibody::Cost] = &[
+        ::multibody::Cost {
+            function: "new",
+            add: 6,
+            mul: 0,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "forward_dynamics",
+            add: 151,
+            mul: 165,
+            div: 9,
+            sqrt: 6,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "inverse_dynamics",
+            add: 184,
+            mul: 200,
+            div: 7,
+            sqrt: 6,
+            sincos: 0,
+            other: 3,
+        },
+        ::multibody::Cost {
+            function: "dead_centres",
+            add: 34,
+            mul: 31,
+            div: 0,
+            sqrt: 12,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "margins",
+            add: 64,
+            mul: 69,
+            div: 0,
+            sqrt: 12,
+            sincos: 0,
+            other: 0,
+        },
+    ];
+    /// The same of every function as it was derived, before optimisation, with the work on parameters in it.
+    pub const DERIVED: &[::multibody::Cost] = &[
+        ::multibody::Cost {
+            function: "forward_dynamics",
+            add: 173,
+            mul: 225,
+            div: 9,
+            sqrt: 6,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "inverse_dynamics",
+            add: 219,
+            mul: 219,
+            div: 7,
+            sqrt: 6,
+            sincos: 0,
+            other: 3,
+        },
+        ::multibody::Cost {
+            function: "dead_centres",
+            add: 48,
+            mul: 31,
+            div: 0,
+            sqrt: 12,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "margins",
+            add: 78,
+            mul: 69,
+            div: 0,
+            sqrt: 12,
+            sincos: 0,
+            other: 0,
+        },
+    ];
+    /// Names of the components of a velocity, in order.
+    pub const COORDINATES: &[&str] = &["platform.x", "platform.y", "platform.z"];
+    /// The coordinates whose dead centres `dead_centres` tells of, in order.
+    pub const DEAD_CENTRES: &[&str] = &[
+        "legs[0].stroke",
+        "legs[0].gimbal.first",
+        "legs[1].stroke",
+        "legs[1].gimbal.first",
+        "legs[2].stroke",
+        "legs[2].gimbal.first",
+        "legs[3].stroke",
+        "legs[3].gimbal.first",
+        "legs[4].stroke",
+        "legs[4].gimbal.first",
+        "legs[5].stroke",
+        "legs[5].gimbal.first",
+    ];
+    /// Parameters of `level`. The default is what the model declares.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Params<T = f64> {
+        /// part `leg`
+        pub legs: [leg::Params<T>; 6],
+    }
+    /// Positions of the joints of `level`. The default is zero, or the identity.
+    ///
+    /// Components in order of declaration: 3.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Position<T = f64> {
+        /// `[m]` position of the free joint
+        pub platform: ::multibody::nalgebra::Vector3<T>,
+    }
+    /// Velocities of `level`; accelerations and efforts have the same components.
+    ///
+    /// Components in order of declaration: 3.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Velocity<T = f64> {
+        /// `[m/s]` rate of the position of the free joint
+        pub platform: ::multibody::nalgebra::Vector3<T>,
+    }
+    /// Inputs of `level`, held over a step. The default is zero.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Input<T = f64> {
+        /// part `leg`
+        pub legs: [leg::Input<T>; 6],
+    }
+    impl<T: Real> Default for Params<T> {
+        fn default() -> Self {
+            Self {
+                legs: [leg::Params::default(); 6],
+            }
+        }
+    }
+    impl<T: Real> Default for Position<T> {
+        fn default() -> Self {
+            Self {
+                platform: ::multibody::nalgebra::Vector3::zeros(),
+            }
+        }
+    }
+    impl<T: Real> Default for Velocity<T> {
+        fn default() -> Self {
+            Self {
+                platform: ::multibody::nalgebra::Vector3::zeros(),
+            }
+        }
+    }
+    impl<T: Real> Default for Input<T> {
+        fn default() -> Self {
+            Self {
+                legs: [leg::Input::default(); 6],
+            }
+        }
+    }
+    impl<T: Real> Params<T> {
+        /// Whether a mechanism can have these parameters: they are finite, masses, inertias and lengths are such as
+        /// there are, the mass matrix is regular at the default position and loops with conditions have a solution
+        /// there, and the scalar holds the numbers of the model.
+        ///
+        /// # Errors
+        ///
+        /// Names the first parameter, body, coordinate or number for which that is not so.
+        pub fn check(&self) -> Result<(), ::multibody::ParamError> {
+            let params = self;
+            if !::multibody::all(Real::is_finite(params.legs[0].k)) {
+                return Err(::multibody::ParamError {
+                    what: "`legs[0].k` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.legs[0].c)) {
+                return Err(::multibody::ParamError {
+                    what: "`legs[0].c` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.legs[0].s0)) {
+                return Err(::multibody::ParamError {
+                    what: "`legs[0].s0` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.legs[1].k)) {
+                return Err(::multibody::ParamError {
+                    what: "`legs[1].k` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.legs[1].c)) {
+                return Err(::multibody::ParamError {
+                    what: "`legs[1].c` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.legs[1].s0)) {
+                return Err(::multibody::ParamError {
+                    what: "`legs[1].s0` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.legs[2].k)) {
+                return Err(::multibody::ParamError {
+                    what: "`legs[2].k` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.legs[2].c)) {
+                return Err(::multibody::ParamError {
+                    what: "`legs[2].c` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.legs[2].s0)) {
+                return Err(::multibody::ParamError {
+                    what: "`legs[2].s0` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.legs[3].k)) {
+                return Err(::multibody::ParamError {
+                    what: "`legs[3].k` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.legs[3].c)) {
+                return Err(::multibody::ParamError {
+                    what: "`legs[3].c` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.legs[3].s0)) {
+                return Err(::multibody::ParamError {
+                    what: "`legs[3].s0` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.legs[4].k)) {
+                return Err(::multibody::ParamError {
+                    what: "`legs[4].k` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.legs[4].c)) {
+                return Err(::multibody::ParamError {
+                    what: "`legs[4].c` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.legs[4].s0)) {
+                return Err(::multibody::ParamError {
+                    what: "`legs[4].s0` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.legs[5].k)) {
+                return Err(::multibody::ParamError {
+                    what: "`legs[5].k` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.legs[5].c)) {
+                return Err(::multibody::ParamError {
+                    what: "`legs[5].c` is not finite",
+                });
+            }
+            if !::multibody::all(Real::is_finite(params.legs[5].s0)) {
+                return Err(::multibody::ParamError {
+                    what: "`legs[5].s0` is not finite",
+                });
+            }
+            Ok(())
+        }
+    }
+    /// All that changes in time. Its default is every joint at zero, at rest.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct State<T = f64> {
+        /// positions
+        pub q: Position<T>,
+        /// velocities
+        pub v: Velocity<T>,
+    }
+    impl<T: Real> Default for State<T> {
+        fn default() -> Self {
+            Self {
+                q: Position::default(),
+                v: Velocity::default(),
+            }
+        }
+    }
+    /// What inverse dynamics gives: the inputs that produce the motion.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Solved<T = f64> {
+        /// the given inputs, with those that were looked for in their places
+        pub input: Input<T>,
+        /// rank of their equations
+        pub rank: T,
+    }
+    impl<T: Real> Default for Solved<T> {
+        fn default() -> Self {
+            Self {
+                input: Input::default(),
+                rank: T::lit(0.0),
+            }
+        }
+    }
+    impl<T: Real> ::multibody::Tangent<T> for Velocity<T> {
+        fn zero() -> Self {
+            Self {
+                platform: ::multibody::Tangent::zero(),
+            }
+        }
+        fn zip<F: FnMut(T, T) -> T>(&self, other: &Self, f: &mut F) -> Self {
+            Self {
+                platform: ::multibody::Tangent::zip(&self.platform, &other.platform, f),
+            }
+        }
+        fn fold<A, F: FnMut(A, T) -> A>(&self, start: A, f: &mut F) -> A {
+            ::multibody::Tangent::fold(&self.platform, start, f)
+        }
+    }
+    impl<T: Real> ::multibody::Configuration<T> for Position<T> {
+        type Velocity = Velocity<T>;
+        fn displace(&self, d: &Velocity<T>) -> Self {
+            Self {
+                platform: ::multibody::Configuration::displace(
+                    &self.platform,
+                    &d.platform,
+                ),
+            }
+        }
+        fn advance(&self, d: &Velocity<T>, rest: &Velocity<T>) -> (Self, Velocity<T>) {
+            let (mut end, mut left) = (*self, *rest);
+            (end.platform, left.platform) = ::multibody::Configuration::advance(
+                &self.platform,
+                &d.platform,
+                &rest.platform,
+            );
+            (end, left)
+        }
+        fn dexp_inv(_d: &Velocity<T>, v: &Velocity<T>) -> Velocity<T> {
+            *v
+        }
+        fn magnitude(&self) -> Velocity<T> {
+            Velocity {
+                platform: ::multibody::Configuration::magnitude(&self.platform),
+            }
+        }
+    }
+    impl<T: Real> ::multibody::StateSpace for State<T> {
+        type Scalar = T;
+        type Position = Position<T>;
+        type Velocity = Velocity<T>;
+        type Extra = ();
+        fn split(&self) -> (Position<T>, Velocity<T>, ()) {
+            (self.q, self.v, ())
+        }
+        fn join(&self, q: Position<T>, v: Velocity<T>, (): ()) -> Self {
+            Self { q, v }
+        }
+    }
+    impl<T: Real> From<Velocity<T>> for ::multibody::nalgebra::SVector<T, 3> {
+        fn from(velocity: Velocity<T>) -> Self {
+            Self::from([velocity.platform.x, velocity.platform.y, velocity.platform.z])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 3>> for Velocity<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 3>) -> Self {
+            let [[platform_x, platform_y, platform_z]] = vector.data.0;
+            Velocity {
+                platform: ::multibody::nalgebra::Vector3::from([
+                    platform_x,
+                    platform_y,
+                    platform_z,
+                ]),
+            }
+        }
+    }
+    impl<T: Real> From<Position<T>> for ::multibody::nalgebra::SVector<T, 3> {
+        fn from(position: Position<T>) -> Self {
+            Self::from([position.platform.x, position.platform.y, position.platform.z])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 3>> for Position<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 3>) -> Self {
+            let [[platform_x, platform_y, platform_z]] = vector.data.0;
+            Position {
+                platform: ::multibody::nalgebra::Vector3::from([
+                    platform_x,
+                    platform_y,
+                    platform_z,
+                ]),
+            }
+        }
+    }
+    /// The equations of motion of `level`. It holds the 18 values that depend on parameters alone.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Model<T = f64> {
+        platform_accel_factor: T,
+        legs_0_k: T,
+        legs_0_c: T,
+        platform_accel_factor_v2: T,
+        legs_1_k: T,
+        legs_1_c: T,
+        platform_accel_factor_v3: T,
+        legs_2_k: T,
+        legs_2_c: T,
+        platform_accel_factor_v4: T,
+        legs_3_k: T,
+        legs_3_c: T,
+        platform_accel_factor_v5: T,
+        legs_4_k: T,
+        legs_4_c: T,
+        platform_accel_factor_v6: T,
+        legs_5_k: T,
+        legs_5_c: T,
+    }
+    impl<T: Real> Model<T> {
+        /// Does the work that depends on parameters alone.
+        ///
+        /// Operations: 6 add.
+        #[must_use]
+        pub fn new(params: &Params<T>) -> Self {
+            Self {
+                platform_accel_factor: T::lit(1.0) + params.legs[0].s0,
+                legs_0_k: params.legs[0].k,
+                legs_0_c: params.legs[0].c,
+                platform_accel_factor_v2: T::lit(1.0) + params.legs[1].s0,
+                legs_1_k: params.legs[1].k,
+                legs_1_c: params.legs[1].c,
+                platform_accel_factor_v3: T::lit(1.0) + params.legs[2].s0,
+                legs_2_k: params.legs[2].k,
+                legs_2_c: params.legs[2].c,
+                platform_accel_factor_v4: T::lit(1.0) + params.legs[3].s0,
+                legs_3_k: params.legs[3].k,
+                legs_3_c: params.legs[3].c,
+                platform_accel_factor_v5: T::lit(1.0) + params.legs[4].s0,
+                legs_4_k: params.legs[4].k,
+                legs_4_c: params.legs[4].c,
+                platform_accel_factor_v6: T::lit(1.0) + params.legs[5].s0,
+                legs_5_k: params.legs[5].k,
+                legs_5_c: params.legs[5].c,
+            }
+        }
+        /// Accelerations.
+        ///
+        /// Method: struts, condensed.
+        ///
+        /// Operations: 151 add, 165 mul, 9 div, 6 sqrt; as derived, before optimisation: 173 add, 225 mul, 9 div, 6 sqrt.
+        #[must_use]
+        pub fn forward_dynamics(
+            &self,
+            _t: T,
+            state: &State<T>,
+            input: &Input<T>,
+        ) -> Velocity<T> {
+            let q = &state.q;
+            let v = &state.v;
+            let legs_0_line_x = T::lit(2.29) + q.platform.x;
+            let legs_0_line_y = q.platform.y - T::lit(0.779);
+            let legs_0_line_z = q.platform.z - T::lit(0.4);
+            let legs_0_line_z_squared = legs_0_line_z * legs_0_line_z;
+            let legs_length_part = legs_0_line_x * legs_0_line_x + legs_0_line_z_squared;
+            let legs_0_length = Real::sqrt(
+                legs_0_line_y * legs_0_line_y + legs_length_part,
+            );
+            let legs_0_length_inv = T::lit(1.0) / legs_0_length;
+            let platform_accel_part = v.platform.x * v.platform.x
+                + v.platform.y * v.platform.y + v.platform.z * v.platform.z;
+            let legs_length_rate_part = v.platform.z * legs_0_line_z;
+            let legs_length_rate_part_v2 = v.platform.x * legs_0_line_x
+                + legs_length_rate_part;
+            let legs_0_length_rate = legs_0_length_inv
+                * (v.platform.y * legs_0_line_y + legs_length_rate_part_v2);
+            let legs_0_length_inv_squared = legs_0_length_inv * legs_0_length_inv;
+            let legs_0_part = T::lit(0.0625) * legs_0_length_inv;
+            let legs_0_swell = legs_0_part - T::lit(0.1);
+            let minus_legs_0_beta = legs_0_length_rate * (legs_0_part + legs_0_swell)
+                * legs_0_length_inv_squared;
+            let platform_accel_part_v2 = T::lit(0.05)
+                * (platform_accel_part - legs_0_length_rate * legs_0_length_rate)
+                * legs_0_length_inv_squared - input.legs[0].thrust
+                - self.legs_0_k * (self.platform_accel_factor - legs_0_length)
+                + legs_0_length_rate * (self.legs_0_c + minus_legs_0_beta);
+            let platform_accel_part_v3 = legs_0_length_inv * platform_accel_part_v2;
+            let legs_1_line_x = T::lit(1.78) + q.platform.x;
+            let legs_1_line_y = q.platform.y - T::lit(1.074);
+            let legs_length_part_v2 = legs_0_line_z_squared
+                + legs_1_line_x * legs_1_line_x;
+            let legs_1_length = Real::sqrt(
+                legs_1_line_y * legs_1_line_y + legs_length_part_v2,
+            );
+            let legs_1_length_inv = T::lit(1.0) / legs_1_length;
+            let legs_length_rate_part_v3 = legs_length_rate_part
+                + v.platform.x * legs_1_line_x;
+            let legs_1_length_rate = legs_1_length_inv
+                * (v.platform.y * legs_1_line_y + legs_length_rate_part_v3);
+            let legs_1_length_inv_squared = legs_1_length_inv * legs_1_length_inv;
+            let legs_1_part = T::lit(0.0625) * legs_1_length_inv;
+            let legs_1_swell = legs_1_part - T::lit(0.1);
+            let minus_legs_1_beta = legs_1_length_rate * (legs_1_part + legs_1_swell)
+                * legs_1_length_inv_squared;
+            let platform_accel_part_v4 = T::lit(0.05)
+                * (platform_accel_part - legs_1_length_rate * legs_1_length_rate)
+                * legs_1_length_inv_squared - input.legs[1].thrust
+                - self.legs_1_k * (self.platform_accel_factor_v2 - legs_1_length)
+                + legs_1_length_rate * (self.legs_1_c + minus_legs_1_beta);
+            let platform_accel_part_v5 = legs_1_length_inv * platform_accel_part_v4;
+            let legs_2_line_y = T::lit(1.074) + q.platform.y;
+            let legs_2_length = Real::sqrt(
+                legs_2_line_y * legs_2_line_y + legs_length_part_v2,
+            );
+            let legs_2_length_inv = T::lit(1.0) / legs_2_length;
+            let legs_2_length_rate = legs_2_length_inv
+                * (v.platform.y * legs_2_line_y + legs_length_rate_part_v3);
+            let legs_2_length_inv_squared = legs_2_length_inv * legs_2_length_inv;
+            let legs_2_part = T::lit(0.0625) * legs_2_length_inv;
+            let legs_2_swell = legs_2_part - T::lit(0.1);
+            let minus_legs_2_beta = legs_2_length_rate * (legs_2_part + legs_2_swell)
+                * legs_2_length_inv_squared;
+            let platform_accel_part_v6 = T::lit(0.05)
+                * (platform_accel_part - legs_2_length_rate * legs_2_length_rate)
+                * legs_2_length_inv_squared - input.legs[2].thrust
+                - self.legs_2_k * (self.platform_accel_factor_v3 - legs_2_length)
+                + legs_2_length_rate * (self.legs_2_c + minus_legs_2_beta);
+            let platform_accel_part_v7 = legs_2_length_inv * platform_accel_part_v6;
+            let legs_3_line_y = T::lit(0.779) + q.platform.y;
+            let legs_3_length = Real::sqrt(
+                legs_3_line_y * legs_3_line_y + legs_length_part,
+            );
+            let legs_3_length_inv = T::lit(1.0) / legs_3_length;
+            let legs_3_length_rate = legs_3_length_inv
+                * (v.platform.y * legs_3_line_y + legs_length_rate_part_v2);
+            let legs_3_length_inv_squared = legs_3_length_inv * legs_3_length_inv;
+            let legs_3_part = T::lit(0.0625) * legs_3_length_inv;
+            let legs_3_swell = legs_3_part - T::lit(0.1);
+            let minus_legs_3_beta = legs_3_length_rate * (legs_3_part + legs_3_swell)
+                * legs_3_length_inv_squared;
+            let platform_accel_part_v8 = T::lit(0.05)
+                * (platform_accel_part - legs_3_length_rate * legs_3_length_rate)
+                * legs_3_length_inv_squared - input.legs[3].thrust
+                - self.legs_3_k * (self.platform_accel_factor_v4 - legs_3_length)
+                + legs_3_length_rate * (self.legs_3_c + minus_legs_3_beta);
+            let platform_accel_part_v9 = legs_3_length_inv * platform_accel_part_v8;
+            let legs_4_line_x = T::lit(43.0 / 100.0) + q.platform.x;
+            let legs_4_line_y = q.platform.y - T::lit(0.295);
+            let legs_length_part_v3 = legs_0_line_z_squared
+                + legs_4_line_x * legs_4_line_x;
+            let legs_4_length = Real::sqrt(
+                legs_4_line_y * legs_4_line_y + legs_length_part_v3,
+            );
+            let legs_4_length_inv = T::lit(1.0) / legs_4_length;
+            let legs_length_rate_part_v4 = legs_length_rate_part
+                + v.platform.x * legs_4_line_x;
+            let legs_4_length_rate = legs_4_length_inv
+                * (v.platform.y * legs_4_line_y + legs_length_rate_part_v4);
+            let legs_4_length_inv_squared = legs_4_length_inv * legs_4_length_inv;
+            let legs_4_part = T::lit(0.0625) * legs_4_length_inv;
+            let legs_4_swell = legs_4_part - T::lit(0.1);
+            let minus_legs_4_beta = legs_4_length_rate * (legs_4_part + legs_4_swell)
+                * legs_4_length_inv_squared;
+            let platform_accel_part_v10 = T::lit(0.05)
+                * (platform_accel_part - legs_4_length_rate * legs_4_length_rate)
+                * legs_4_length_inv_squared - input.legs[4].thrust
+                - self.legs_4_k * (self.platform_accel_factor_v5 - legs_4_length)
+                + legs_4_length_rate * (self.legs_4_c + minus_legs_4_beta);
+            let platform_accel_part_v11 = legs_4_length_inv * platform_accel_part_v10;
+            let legs_5_line_y = T::lit(0.295) + q.platform.y;
+            let legs_5_length = Real::sqrt(
+                legs_5_line_y * legs_5_line_y + legs_length_part_v3,
+            );
+            let legs_5_length_inv = T::lit(1.0) / legs_5_length;
+            let legs_5_length_rate = legs_5_length_inv
+                * (v.platform.y * legs_5_line_y + legs_length_rate_part_v4);
+            let legs_5_length_inv_squared = legs_5_length_inv * legs_5_length_inv;
+            let legs_5_part = T::lit(0.0625) * legs_5_length_inv;
+            let legs_5_swell = legs_5_part - T::lit(0.1);
+            let minus_legs_5_beta = legs_5_length_rate * (legs_5_part + legs_5_swell)
+                * legs_5_length_inv_squared;
+            let platform_accel_part_v12 = T::lit(0.05)
+                * (platform_accel_part - legs_5_length_rate * legs_5_length_rate)
+                * legs_5_length_inv_squared - input.legs[5].thrust
+                - self.legs_5_k * (self.platform_accel_factor_v6 - legs_5_length)
+                + legs_5_length_rate * (self.legs_5_c + minus_legs_5_beta);
+            let platform_accel_part_v13 = legs_5_length_inv * platform_accel_part_v12;
+            let platform_accel_part_v14 = minus_legs_0_beta + minus_legs_1_beta
+                + minus_legs_2_beta + minus_legs_3_beta + minus_legs_4_beta
+                + minus_legs_5_beta;
+            let platform_accel_part_v15 = legs_0_line_x * platform_accel_part_v3
+                + legs_1_line_x * platform_accel_part_v5
+                + legs_1_line_x * platform_accel_part_v7
+                + legs_0_line_x * platform_accel_part_v9
+                + legs_4_line_x * platform_accel_part_v11
+                + legs_4_line_x * platform_accel_part_v13
+                - v.platform.x * platform_accel_part_v14;
+            let legs_0_mu = legs_0_length_inv * legs_0_swell;
+            let pivot_part = legs_0_mu * legs_0_length_inv_squared;
+            let pivot_part_v2 = legs_0_line_x * pivot_part;
+            let legs_1_mu = legs_1_length_inv * legs_1_swell;
+            let pivot_part_v3 = legs_1_mu * legs_1_length_inv_squared;
+            let pivot_part_v4 = legs_1_line_x * pivot_part_v3;
+            let legs_2_mu = legs_2_length_inv * legs_2_swell;
+            let pivot_part_v5 = legs_2_mu * legs_2_length_inv_squared;
+            let pivot_part_v6 = legs_1_line_x * pivot_part_v5;
+            let legs_3_mu = legs_3_length_inv * legs_3_swell;
+            let pivot_part_v7 = legs_3_mu * legs_3_length_inv_squared;
+            let pivot_part_v8 = legs_0_line_x * pivot_part_v7;
+            let legs_4_mu = legs_4_length_inv * legs_4_swell;
+            let pivot_part_v9 = legs_4_mu * legs_4_length_inv_squared;
+            let pivot_part_v10 = legs_4_line_x * pivot_part_v9;
+            let legs_5_mu = legs_5_length_inv * legs_5_swell;
+            let pivot_part_v11 = T::lit(2.1) + legs_0_mu + legs_1_mu + legs_2_mu
+                + legs_3_mu + legs_4_mu + legs_5_mu;
+            let pivot_part_v12 = legs_5_mu * legs_5_length_inv_squared;
+            let pivot_part_v13 = legs_4_line_x * pivot_part_v12;
+            let minus_pivot_1 = legs_0_line_x * pivot_part_v2
+                + legs_1_line_x * pivot_part_v4 + legs_1_line_x * pivot_part_v6
+                + legs_0_line_x * pivot_part_v8 + legs_4_line_x * pivot_part_v10
+                - pivot_part_v11 + legs_4_line_x * pivot_part_v13;
+            let minus_inverse_1 = T::lit(1.0) / minus_pivot_1;
+            let pivot_2_part = legs_0_line_y * pivot_part_v2
+                + legs_1_line_y * pivot_part_v4 + legs_2_line_y * pivot_part_v6
+                + legs_3_line_y * pivot_part_v8 + legs_4_line_y * pivot_part_v10
+                + legs_5_line_y * pivot_part_v13;
+            let l_1_2 = pivot_2_part * minus_inverse_1;
+            let platform_accel_part_v16 = legs_0_line_y * platform_accel_part_v3
+                + legs_1_line_y * platform_accel_part_v5
+                + legs_2_line_y * platform_accel_part_v7
+                + legs_3_line_y * platform_accel_part_v9
+                + legs_4_line_y * platform_accel_part_v11
+                + legs_5_line_y * platform_accel_part_v13
+                - platform_accel_part_v15 * l_1_2
+                - v.platform.y * platform_accel_part_v14;
+            let pivot_part_v14 = legs_0_line_y * pivot_part;
+            let pivot_part_v15 = legs_1_line_y * pivot_part_v3;
+            let pivot_part_v16 = legs_2_line_y * pivot_part_v5;
+            let pivot_part_v17 = legs_3_line_y * pivot_part_v7;
+            let pivot_part_v18 = legs_4_line_y * pivot_part_v9;
+            let pivot_part_v19 = legs_5_line_y * pivot_part_v12;
+            let minus_pivot_2 = legs_0_line_y * pivot_part_v14
+                + legs_1_line_y * pivot_part_v15 + legs_2_line_y * pivot_part_v16
+                + legs_3_line_y * pivot_part_v17 + legs_4_line_y * pivot_part_v18
+                - pivot_part_v11 + legs_5_line_y * pivot_part_v19 - pivot_2_part * l_1_2;
+            let minus_inverse_2 = T::lit(1.0) / minus_pivot_2;
+            let pivot_3_part = pivot_part_v2 + pivot_part_v4 + pivot_part_v6
+                + pivot_part_v8 + pivot_part_v10 + pivot_part_v13;
+            let pivot_3_part_v2 = legs_0_line_z
+                * (pivot_part_v14 + pivot_part_v15 + pivot_part_v16 + pivot_part_v17
+                    + pivot_part_v18 + pivot_part_v19 - l_1_2 * pivot_3_part);
+            let l_2_3 = pivot_3_part_v2 * minus_inverse_2;
+            let pivot_3_part_v3 = legs_0_line_z * pivot_3_part;
+            let l_1_3 = pivot_3_part_v3 * minus_inverse_1;
+            let platform_z_accel_part = T::lit(20.593965)
+                - platform_accel_part_v15 * l_1_3 - platform_accel_part_v16 * l_2_3
+                - v.platform.z * platform_accel_part_v14
+                + legs_0_line_z
+                    * (platform_accel_part_v3 + platform_accel_part_v5
+                        + platform_accel_part_v7 + platform_accel_part_v9
+                        + platform_accel_part_v11 + platform_accel_part_v13);
+            let minus_pivot_3 = legs_0_line_z_squared
+                * (pivot_part + pivot_part_v3 + pivot_part_v5 + pivot_part_v7
+                    + pivot_part_v9 + pivot_part_v12) - pivot_part_v11
+                - pivot_3_part_v3 * l_1_3 - pivot_3_part_v2 * l_2_3;
+            let platform_z_accel = platform_z_accel_part / minus_pivot_3;
+            let platform_y_accel = platform_accel_part_v16 * minus_inverse_2
+                - l_2_3 * platform_z_accel;
+            Velocity {
+                platform: ::multibody::nalgebra::Vector3::from([
+                    (platform_accel_part_v15 * minus_inverse_1 - l_1_2 * platform_y_accel
+                        - l_1_3 * platform_z_accel),
+                    platform_y_accel,
+                    platform_z_accel,
+                ]),
+            }
+        }
+        /// The inputs that produce the accelerations `accel`, in the place of what `input` says of them.
+        ///
+        /// Method: struts, moments about a point of the pins' plane.
+        ///
+        /// Operations: 184 add, 200 mul, 7 div, 6 sqrt, 3 other; as derived, before optimisation: 219 add, 219 mul, 7 div, 6 sqrt, 3 other.
+        #[must_use]
+        pub fn inverse_dynamics(
+            &self,
+            _t: T,
+            state: &State<T>,
+            input: &Input<T>,
+            accel: &Velocity<T>,
+        ) -> Solved<T> {
+            let q = &state.q;
+            let v = &state.v;
+            let legs_0_line_y = q.platform.y - T::lit(0.779);
+            let legs_0_line_x = T::lit(2.29) + q.platform.x;
+            let legs_stroke_rate_part = T::lit(0.7316888688738209) * legs_0_line_x;
+            let legs_0_stroke_rate_part = legs_stroke_rate_part
+                - T::lit(0.6816387600233341) * legs_0_line_y;
+            let legs_stroke_rate_part_v2 = T::lit(0.6816387600233341) * legs_0_line_x;
+            let legs_0_stroke_rate_part_v2 = T::lit(0.7316888688738209) * legs_0_line_y
+                + legs_stroke_rate_part_v2;
+            let legs_0_line_z = q.platform.z - T::lit(0.4);
+            let legs_0_line_z_squared = legs_0_line_z * legs_0_line_z;
+            let root_legs_0_stroke = Real::sqrt(
+                legs_0_stroke_rate_part * legs_0_stroke_rate_part
+                    + legs_0_stroke_rate_part_v2 * legs_0_stroke_rate_part_v2
+                    + legs_0_line_z_squared,
+            );
+            let slope_legs_0_stroke_inv = T::lit(1.0) / root_legs_0_stroke;
+            let legs_0_part = T::lit(0.0625) * slope_legs_0_stroke_inv;
+            let legs_0_swell = legs_0_part - T::lit(0.1);
+            let legs_thrust_part = accel.platform.z * legs_0_line_z;
+            let legs_thrust_part_v2 = accel.platform.x * legs_0_line_x
+                + legs_thrust_part;
+            let legs_thrust_part_v3 = T::lit(0.05)
+                * (v.platform.x * v.platform.x + v.platform.y * v.platform.y
+                    + v.platform.z * v.platform.z);
+            let legs_stroke_rate_part_v3 = T::lit(0.7316888688738209) * v.platform.x;
+            let legs_stroke_rate_part_v4 = T::lit(0.6816387600233341) * v.platform.y;
+            let legs_stroke_rate_part_v5 = T::lit(0.6816387600233341) * v.platform.x;
+            let legs_stroke_rate_part_v6 = T::lit(0.7316888688738209) * v.platform.y;
+            let legs_stroke_rate_part_v7 = v.platform.z * legs_0_line_z;
+            let legs_0_stroke_rate = slope_legs_0_stroke_inv
+                * (legs_0_stroke_rate_part
+                    * (legs_stroke_rate_part_v3 - legs_stroke_rate_part_v4)
+                    + legs_0_stroke_rate_part_v2
+                        * (legs_stroke_rate_part_v5 + legs_stroke_rate_part_v6)
+                    + legs_stroke_rate_part_v7);
+            let legs_0_bend = legs_0_part + legs_0_swell;
+            let slope_legs_0_stroke_inv_squared = slope_legs_0_stroke_inv
+                * slope_legs_0_stroke_inv;
+            let legs_0_mu = slope_legs_0_stroke_inv * legs_0_swell;
+            let legs_3_line_y = T::lit(0.779) + q.platform.y;
+            let legs_3_stroke_rate_part = legs_stroke_rate_part
+                + T::lit(0.6816387600233341) * legs_3_line_y;
+            let legs_3_stroke_rate_part_v2 = legs_stroke_rate_part_v2
+                - T::lit(0.7316888688738209) * legs_3_line_y;
+            let root_legs_3_stroke = Real::sqrt(
+                legs_0_line_z_squared + legs_3_stroke_rate_part * legs_3_stroke_rate_part
+                    + legs_3_stroke_rate_part_v2 * legs_3_stroke_rate_part_v2,
+            );
+            let slope_legs_3_stroke_inv = T::lit(1.0) / root_legs_3_stroke;
+            let legs_3_part = T::lit(0.0625) * slope_legs_3_stroke_inv;
+            let legs_3_swell = legs_3_part - T::lit(0.1);
+            let legs_3_mu = slope_legs_3_stroke_inv * legs_3_swell;
+            let legs_tension_part = legs_0_mu + legs_3_mu;
+            let legs_1_line_y = q.platform.y - T::lit(1.074);
+            let legs_1_line_x = T::lit(1.78) + q.platform.x;
+            let legs_stroke_rate_part_v8 = T::lit(0.8525245220595058) * legs_1_line_x;
+            let legs_1_stroke_rate_part = legs_stroke_rate_part_v8
+                - T::lit(0.5226872289306592) * legs_1_line_y;
+            let legs_stroke_rate_part_v9 = T::lit(0.5226872289306592) * legs_1_line_x;
+            let legs_1_stroke_rate_part_v2 = T::lit(0.8525245220595058) * legs_1_line_y
+                + legs_stroke_rate_part_v9;
+            let root_legs_1_stroke = Real::sqrt(
+                legs_0_line_z_squared + legs_1_stroke_rate_part * legs_1_stroke_rate_part
+                    + legs_1_stroke_rate_part_v2 * legs_1_stroke_rate_part_v2,
+            );
+            let slope_legs_1_stroke_inv = T::lit(1.0) / root_legs_1_stroke;
+            let legs_1_part = T::lit(0.0625) * slope_legs_1_stroke_inv;
+            let legs_1_swell = legs_1_part - T::lit(0.1);
+            let legs_1_mu = slope_legs_1_stroke_inv * legs_1_swell;
+            let legs_2_line_y = T::lit(1.074) + q.platform.y;
+            let legs_2_stroke_rate_part = legs_stroke_rate_part_v8
+                + T::lit(0.5226872289306592) * legs_2_line_y;
+            let legs_2_stroke_rate_part_v2 = legs_stroke_rate_part_v9
+                - T::lit(0.8525245220595058) * legs_2_line_y;
+            let root_legs_2_stroke = Real::sqrt(
+                legs_0_line_z_squared + legs_2_stroke_rate_part * legs_2_stroke_rate_part
+                    + legs_2_stroke_rate_part_v2 * legs_2_stroke_rate_part_v2,
+            );
+            let slope_legs_2_stroke_inv = T::lit(1.0) / root_legs_2_stroke;
+            let legs_2_part = T::lit(0.0625) * slope_legs_2_stroke_inv;
+            let legs_2_swell = legs_2_part - T::lit(0.1);
+            let legs_2_mu = slope_legs_2_stroke_inv * legs_2_swell;
+            let legs_tension_part_v2 = legs_1_mu + legs_2_mu;
+            let legs_4_line_y = q.platform.y - T::lit(0.295);
+            let legs_4_line_x = T::lit(43.0 / 100.0) + q.platform.x;
+            let legs_stroke_rate_part_v10 = T::lit(0.9577872375530903) * legs_4_line_x;
+            let legs_4_stroke_rate_part = T::lit(0.2874780123425445) * legs_4_line_y
+                + legs_stroke_rate_part_v10;
+            let legs_stroke_rate_part_v11 = T::lit(0.2874780123425445) * legs_4_line_x;
+            let legs_4_stroke_rate_part_v2 = legs_stroke_rate_part_v11
+                - T::lit(0.9577872375530903) * legs_4_line_y;
+            let root_legs_4_stroke = Real::sqrt(
+                legs_0_line_z_squared + legs_4_stroke_rate_part * legs_4_stroke_rate_part
+                    + legs_4_stroke_rate_part_v2 * legs_4_stroke_rate_part_v2,
+            );
+            let slope_legs_4_stroke_inv = T::lit(1.0) / root_legs_4_stroke;
+            let legs_4_part = T::lit(0.0625) * slope_legs_4_stroke_inv;
+            let legs_4_swell = legs_4_part - T::lit(0.1);
+            let legs_4_mu = slope_legs_4_stroke_inv * legs_4_swell;
+            let legs_5_line_y = T::lit(0.295) + q.platform.y;
+            let legs_5_stroke_rate_part = legs_stroke_rate_part_v10
+                - T::lit(0.2874780123425445) * legs_5_line_y;
+            let legs_5_stroke_rate_part_v2 = legs_stroke_rate_part_v11
+                + T::lit(0.9577872375530903) * legs_5_line_y;
+            let root_legs_5_stroke = Real::sqrt(
+                legs_0_line_z_squared + legs_5_stroke_rate_part * legs_5_stroke_rate_part
+                    + legs_5_stroke_rate_part_v2 * legs_5_stroke_rate_part_v2,
+            );
+            let slope_legs_5_stroke_inv = T::lit(1.0) / root_legs_5_stroke;
+            let legs_5_part = T::lit(0.0625) * slope_legs_5_stroke_inv;
+            let legs_5_swell = legs_5_part - T::lit(0.1);
+            let legs_5_mu = slope_legs_5_stroke_inv * legs_5_swell;
+            let legs_tension_part_v3 = legs_4_mu + legs_5_mu;
+            let legs_tension_part_v4 = T::lit(2.1) + legs_tension_part
+                + legs_tension_part_v2 + legs_tension_part_v3;
+            let minus_legs_0_beta = legs_0_stroke_rate * legs_0_bend
+                * slope_legs_0_stroke_inv_squared;
+            let legs_3_stroke_rate = slope_legs_3_stroke_inv
+                * (legs_stroke_rate_part_v7
+                    + legs_3_stroke_rate_part
+                        * (legs_stroke_rate_part_v3 + legs_stroke_rate_part_v4)
+                    + legs_3_stroke_rate_part_v2
+                        * (legs_stroke_rate_part_v5 - legs_stroke_rate_part_v6));
+            let legs_3_bend = legs_3_part + legs_3_swell;
+            let slope_legs_3_stroke_inv_squared = slope_legs_3_stroke_inv
+                * slope_legs_3_stroke_inv;
+            let minus_legs_3_beta = legs_3_stroke_rate * legs_3_bend
+                * slope_legs_3_stroke_inv_squared;
+            let legs_tension_part_v5 = minus_legs_0_beta + minus_legs_3_beta;
+            let legs_stroke_rate_part_v12 = T::lit(0.8525245220595058) * v.platform.x;
+            let legs_stroke_rate_part_v13 = T::lit(0.5226872289306592) * v.platform.y;
+            let legs_stroke_rate_part_v14 = T::lit(0.5226872289306592) * v.platform.x;
+            let legs_stroke_rate_part_v15 = T::lit(0.8525245220595058) * v.platform.y;
+            let legs_1_stroke_rate = slope_legs_1_stroke_inv
+                * (legs_stroke_rate_part_v7
+                    + legs_1_stroke_rate_part
+                        * (legs_stroke_rate_part_v12 - legs_stroke_rate_part_v13)
+                    + legs_1_stroke_rate_part_v2
+                        * (legs_stroke_rate_part_v14 + legs_stroke_rate_part_v15));
+            let legs_1_bend = legs_1_part + legs_1_swell;
+            let slope_legs_1_stroke_inv_squared = slope_legs_1_stroke_inv
+                * slope_legs_1_stroke_inv;
+            let minus_legs_1_beta = legs_1_stroke_rate * legs_1_bend
+                * slope_legs_1_stroke_inv_squared;
+            let legs_2_stroke_rate = slope_legs_2_stroke_inv
+                * (legs_stroke_rate_part_v7
+                    + legs_2_stroke_rate_part
+                        * (legs_stroke_rate_part_v12 + legs_stroke_rate_part_v13)
+                    + legs_2_stroke_rate_part_v2
+                        * (legs_stroke_rate_part_v14 - legs_stroke_rate_part_v15));
+            let legs_2_bend = legs_2_part + legs_2_swell;
+            let slope_legs_2_stroke_inv_squared = slope_legs_2_stroke_inv
+                * slope_legs_2_stroke_inv;
+            let minus_legs_2_beta = legs_2_stroke_rate * legs_2_bend
+                * slope_legs_2_stroke_inv_squared;
+            let legs_tension_part_v6 = minus_legs_1_beta + minus_legs_2_beta;
+            let legs_stroke_rate_part_v16 = T::lit(0.9577872375530903) * v.platform.x;
+            let legs_stroke_rate_part_v17 = T::lit(0.2874780123425445) * v.platform.y;
+            let legs_stroke_rate_part_v18 = T::lit(0.2874780123425445) * v.platform.x;
+            let legs_stroke_rate_part_v19 = T::lit(0.9577872375530903) * v.platform.y;
+            let legs_4_stroke_rate = slope_legs_4_stroke_inv
+                * (legs_stroke_rate_part_v7
+                    + legs_4_stroke_rate_part
+                        * (legs_stroke_rate_part_v16 + legs_stroke_rate_part_v17)
+                    + legs_4_stroke_rate_part_v2
+                        * (legs_stroke_rate_part_v18 - legs_stroke_rate_part_v19));
+            let legs_4_bend = legs_4_part + legs_4_swell;
+            let slope_legs_4_stroke_inv_squared = slope_legs_4_stroke_inv
+                * slope_legs_4_stroke_inv;
+            let minus_legs_4_beta = legs_4_stroke_rate * legs_4_bend
+                * slope_legs_4_stroke_inv_squared;
+            let legs_5_stroke_rate = slope_legs_5_stroke_inv
+                * (legs_stroke_rate_part_v7
+                    + legs_5_stroke_rate_part
+                        * (legs_stroke_rate_part_v16 - legs_stroke_rate_part_v17)
+                    + legs_5_stroke_rate_part_v2
+                        * (legs_stroke_rate_part_v18 + legs_stroke_rate_part_v19));
+            let legs_5_bend = legs_5_part + legs_5_swell;
+            let slope_legs_5_stroke_inv_squared = slope_legs_5_stroke_inv
+                * slope_legs_5_stroke_inv;
+            let minus_legs_5_beta = legs_5_stroke_rate * legs_5_bend
+                * slope_legs_5_stroke_inv_squared;
+            let legs_tension_part_v7 = minus_legs_4_beta + minus_legs_5_beta;
+            let legs_tension_part_v8 = legs_tension_part_v5 + legs_tension_part_v6
+                + legs_tension_part_v7;
+            let rank_0_part = Real::abs(legs_0_line_z);
+            let rank_0_part_v2 = T::lit(450.0) * <T as Real>::epsilon();
+            let legs_tension_part_v9 = Real::select(
+                Real::le(rank_0_part, rank_0_part_v2),
+                T::lit(0.0),
+                T::lit(1.0) / legs_0_line_z,
+            );
+            let legs_tension_part_v10 = (T::lit(20.593965)
+                + accel.platform.z * legs_tension_part_v4
+                - v.platform.z * legs_tension_part_v8) * legs_tension_part_v9;
+            let legs_tension_part_v11 = accel.platform.x * legs_tension_part_v4
+                - v.platform.x * legs_tension_part_v8
+                - q.platform.x * legs_tension_part_v10;
+            let legs_tension_part_v12 = T::lit(0.17) * legs_tension_part
+                - T::lit(0.6) * legs_tension_part_v2
+                + T::lit(43.0 / 100.0) * legs_tension_part_v3;
+            let legs_tension_part_v13 = T::lit(0.17) * legs_tension_part_v5
+                - T::lit(0.6) * legs_tension_part_v6
+                + T::lit(43.0 / 100.0) * legs_tension_part_v7;
+            let legs_tension_part_v14 = (accel.platform.z * legs_tension_part_v12
+                - T::lit(0.6) * accel.platform.x - v.platform.z * legs_tension_part_v13)
+                * legs_tension_part_v9;
+            let legs_tension_part_v15 = T::lit(0.32911554192229037)
+                * legs_tension_part_v11
+                - T::lit(0.3270066462167689) * legs_tension_part_v10
+                + T::lit(0.4313650306748466) * legs_tension_part_v14;
+            let legs_tension_part_v16 = accel.platform.y * legs_tension_part_v4
+                - v.platform.y * legs_tension_part_v8
+                - q.platform.y * legs_tension_part_v10;
+            let legs_tension_part_v17 = T::lit(0.595) * (legs_0_mu - legs_3_mu)
+                + T::lit(0.15) * (legs_1_mu - legs_2_mu)
+                - T::lit(0.445) * (legs_4_mu - legs_5_mu);
+            let legs_tension_part_v18 = T::lit(0.595)
+                * (minus_legs_0_beta - minus_legs_3_beta)
+                + T::lit(0.15) * (minus_legs_1_beta - minus_legs_2_beta)
+                - T::lit(0.445) * (minus_legs_4_beta - minus_legs_5_beta);
+            let legs_tension_part_v19 = (accel.platform.z * legs_tension_part_v17
+                - T::lit(0.6) * accel.platform.y - v.platform.z * legs_tension_part_v18)
+                * legs_tension_part_v9;
+            let legs_tension_part_v20 = accel.platform.y * legs_tension_part_v12
+                - v.platform.y * legs_tension_part_v13
+                - accel.platform.x * legs_tension_part_v17
+                + v.platform.x * legs_tension_part_v18
+                + q.platform.x * legs_tension_part_v19
+                - q.platform.y * legs_tension_part_v14;
+            let legs_tension_part_v21 = T::lit(0.27656702878509637)
+                * legs_tension_part_v20;
+            let legs_tension_part_v22 = T::lit(0.09407346608210052)
+                * legs_tension_part_v16
+                - T::lit(0.022276627275462778) * legs_tension_part_v19
+                + legs_tension_part_v21;
+            let minus_legs_0_thrust = (legs_0_swell
+                * (accel.platform.y * legs_0_line_y + legs_thrust_part_v2)
+                - legs_thrust_part_v3
+                - legs_0_stroke_rate * legs_0_stroke_rate * (legs_0_bend - T::lit(0.05)))
+                * slope_legs_0_stroke_inv_squared
+                + root_legs_0_stroke * (legs_tension_part_v22 - legs_tension_part_v15)
+                - self.legs_0_c * legs_0_stroke_rate
+                + self.legs_0_k * (self.platform_accel_factor - root_legs_0_stroke);
+            let legs_thrust_part_v4 = legs_thrust_part
+                + accel.platform.x * legs_1_line_x;
+            let legs_tension_part_v23 = T::lit(0.2601930192065932)
+                * legs_tension_part_v19
+                - T::lit(0.33202481420439073) * legs_tension_part_v16
+                + legs_tension_part_v21;
+            let legs_tension_part_v24 = T::lit(0.08307770961145194)
+                * legs_tension_part_v11
+                - T::lit(0.2912832310838446) * legs_tension_part_v10
+                + T::lit(0.5943251533742331) * legs_tension_part_v14;
+            let legs_1_thrust = (legs_thrust_part_v3
+                - legs_1_swell * (accel.platform.y * legs_1_line_y + legs_thrust_part_v4)
+                + legs_1_stroke_rate * legs_1_stroke_rate * (legs_1_bend - T::lit(0.05)))
+                * slope_legs_1_stroke_inv_squared
+                + root_legs_1_stroke * (legs_tension_part_v23 - legs_tension_part_v24)
+                + self.legs_1_c * legs_1_stroke_rate
+                - self.legs_1_k * (self.platform_accel_factor_v2 - root_legs_1_stroke);
+            let legs_2_thrust = (legs_thrust_part_v3
+                - legs_2_swell * (accel.platform.y * legs_2_line_y + legs_thrust_part_v4)
+                + legs_2_stroke_rate * legs_2_stroke_rate * (legs_2_bend - T::lit(0.05)))
+                * slope_legs_2_stroke_inv_squared
+                - root_legs_2_stroke * (legs_tension_part_v23 + legs_tension_part_v24)
+                + self.legs_2_c * legs_2_stroke_rate
+                - self.legs_2_k * (self.platform_accel_factor_v3 - root_legs_2_stroke);
+            let legs_3_thrust = (legs_thrust_part_v3
+                - legs_3_swell * (accel.platform.y * legs_3_line_y + legs_thrust_part_v2)
+                + legs_3_stroke_rate * legs_3_stroke_rate * (legs_3_bend - T::lit(0.05)))
+                * slope_legs_3_stroke_inv_squared
+                + root_legs_3_stroke * (legs_tension_part_v15 + legs_tension_part_v22)
+                + self.legs_3_c * legs_3_stroke_rate
+                - self.legs_3_k * (self.platform_accel_factor_v4 - root_legs_3_stroke);
+            let legs_thrust_part_v5 = legs_thrust_part
+                + accel.platform.x * legs_4_line_x;
+            let legs_tension_part_v25 = T::lit(0.23770209988653576)
+                * legs_tension_part_v16
+                + T::lit(1.0061043907642937) * legs_tension_part_v19
+                + legs_tension_part_v21;
+            let legs_tension_part_v26 = T::lit(0.5357234151329243)
+                * legs_tension_part_v10
+                - T::lit(0.24603783231083845) * legs_tension_part_v11
+                + T::lit(0.1629601226993865) * legs_tension_part_v14;
+            let legs_4_thrust = (legs_thrust_part_v3
+                - legs_4_swell * (accel.platform.y * legs_4_line_y + legs_thrust_part_v5)
+                + legs_4_stroke_rate * legs_4_stroke_rate * (legs_4_bend - T::lit(0.05)))
+                * slope_legs_4_stroke_inv_squared
+                - root_legs_4_stroke * (legs_tension_part_v25 - legs_tension_part_v26)
+                + self.legs_4_c * legs_4_stroke_rate
+                - self.legs_4_k * (self.platform_accel_factor_v5 - root_legs_4_stroke);
+            let legs_5_thrust = (legs_thrust_part_v3
+                - legs_5_swell * (accel.platform.y * legs_5_line_y + legs_thrust_part_v5)
+                + legs_5_stroke_rate * legs_5_stroke_rate * (legs_5_bend - T::lit(0.05)))
+                * slope_legs_5_stroke_inv_squared
+                + root_legs_5_stroke * (legs_tension_part_v25 + legs_tension_part_v26)
+                + self.legs_5_c * legs_5_stroke_rate
+                - self.legs_5_k * (self.platform_accel_factor_v6 - root_legs_5_stroke);
+            let mut solved = *input;
+            solved.legs[0].thrust = -minus_legs_0_thrust;
+            solved.legs[1].thrust = legs_1_thrust;
+            solved.legs[2].thrust = legs_2_thrust;
+            solved.legs[3].thrust = legs_3_thrust;
+            solved.legs[4].thrust = legs_4_thrust;
+            solved.legs[5].thrust = legs_5_thrust;
+            Solved {
+                input: solved,
+                rank: T::lit(3.0)
+                    + T::lit(3.0)
+                        * Real::select(
+                            Real::lt(rank_0_part_v2, rank_0_part),
+                            T::lit(1.0),
+                            T::lit(0.0),
+                        ),
+            }
+        }
+        /// Distances from dead centres, in the order of `DEAD_CENTRES`. Of a loop's solution: its square root, a product of lengths, zero where two solutions meet and NaN where the loop cannot be closed. Of roll, pitch and yaw: the cosine of the pitch, zero where roll and yaw turn about one axis. Rates grow without bound there.
+        ///
+        /// Method: closed forms.
+        ///
+        /// Operations: 34 add, 31 mul, 12 sqrt; as derived, before optimisation: 48 add, 31 mul, 12 sqrt.
+        #[must_use]
+        pub fn dead_centres(
+            &self,
+            _t: T,
+            q: &Position<T>,
+        ) -> ::multibody::nalgebra::SVector<T, 12> {
+            let root_legs_0_part = q.platform.y - T::lit(0.779);
+            let root_legs_part = T::lit(2.29) + q.platform.x;
+            let root_legs_stroke_part = T::lit(0.7316888688738209) * root_legs_part;
+            let root_legs_0_stroke_part = root_legs_stroke_part
+                - T::lit(0.6816387600233341) * root_legs_0_part;
+            let root_legs_part_v2 = T::lit(0.6816387600233341) * root_legs_part;
+            let root_legs_0_part_v2 = T::lit(0.7316888688738209) * root_legs_0_part
+                + root_legs_part_v2;
+            let root_legs_part_v3 = q.platform.z - T::lit(0.4);
+            let root_legs_part_v4 = root_legs_part_v3 * root_legs_part_v3;
+            let root_legs_0_part_v3 = root_legs_0_part_v2 * root_legs_0_part_v2
+                + root_legs_part_v4;
+            let root_legs_1_part = q.platform.y - T::lit(1.074);
+            let root_legs_part_v5 = T::lit(1.78) + q.platform.x;
+            let root_legs_stroke_part_v2 = T::lit(0.8525245220595058)
+                * root_legs_part_v5;
+            let root_legs_1_stroke_part = root_legs_stroke_part_v2
+                - T::lit(0.5226872289306592) * root_legs_1_part;
+            let root_legs_part_v6 = T::lit(0.5226872289306592) * root_legs_part_v5;
+            let root_legs_1_part_v2 = T::lit(0.8525245220595058) * root_legs_1_part
+                + root_legs_part_v6;
+            let root_legs_1_part_v3 = root_legs_part_v4
+                + root_legs_1_part_v2 * root_legs_1_part_v2;
+            let root_legs_2_part = T::lit(1.074) + q.platform.y;
+            let root_legs_2_stroke_part = root_legs_stroke_part_v2
+                + T::lit(0.5226872289306592) * root_legs_2_part;
+            let root_legs_2_part_v2 = root_legs_part_v6
+                - T::lit(0.8525245220595058) * root_legs_2_part;
+            let root_legs_2_part_v3 = root_legs_part_v4
+                + root_legs_2_part_v2 * root_legs_2_part_v2;
+            let root_legs_3_part = T::lit(0.779) + q.platform.y;
+            let root_legs_3_stroke_part = root_legs_stroke_part
+                + T::lit(0.6816387600233341) * root_legs_3_part;
+            let root_legs_3_part_v2 = root_legs_part_v2
+                - T::lit(0.7316888688738209) * root_legs_3_part;
+            let root_legs_3_part_v3 = root_legs_part_v4
+                + root_legs_3_part_v2 * root_legs_3_part_v2;
+            let root_legs_4_part = q.platform.y - T::lit(0.295);
+            let root_legs_part_v7 = T::lit(43.0 / 100.0) + q.platform.x;
+            let root_legs_stroke_part_v3 = T::lit(0.9577872375530903)
+                * root_legs_part_v7;
+            let root_legs_4_stroke_part = T::lit(0.2874780123425445) * root_legs_4_part
+                + root_legs_stroke_part_v3;
+            let root_legs_part_v8 = T::lit(0.2874780123425445) * root_legs_part_v7;
+            let root_legs_4_part_v2 = root_legs_part_v8
+                - T::lit(0.9577872375530903) * root_legs_4_part;
+            let root_legs_4_part_v3 = root_legs_part_v4
+                + root_legs_4_part_v2 * root_legs_4_part_v2;
+            let root_legs_5_part = T::lit(0.295) + q.platform.y;
+            let root_legs_5_stroke_part = root_legs_stroke_part_v3
+                - T::lit(0.2874780123425445) * root_legs_5_part;
+            let root_legs_5_part_v2 = root_legs_part_v8
+                + T::lit(0.9577872375530903) * root_legs_5_part;
+            let root_legs_5_part_v3 = root_legs_part_v4
+                + root_legs_5_part_v2 * root_legs_5_part_v2;
+            ::multibody::nalgebra::SVector::from([
+                Real::sqrt(
+                    root_legs_0_stroke_part * root_legs_0_stroke_part
+                        + root_legs_0_part_v3,
+                ),
+                Real::sqrt(root_legs_0_part_v3),
+                Real::sqrt(
+                    root_legs_1_stroke_part * root_legs_1_stroke_part
+                        + root_legs_1_part_v3,
+                ),
+                Real::sqrt(root_legs_1_part_v3),
+                Real::sqrt(
+                    root_legs_2_stroke_part * root_legs_2_stroke_part
+                        + root_legs_2_part_v3,
+                ),
+                Real::sqrt(root_legs_2_part_v3),
+                Real::sqrt(
+                    root_legs_3_stroke_part * root_legs_3_stroke_part
+                        + root_legs_3_part_v3,
+                ),
+                Real::sqrt(root_legs_3_part_v3),
+                Real::sqrt(
+                    root_legs_4_stroke_part * root_legs_4_stroke_part
+                        + root_legs_4_part_v3,
+                ),
+                Real::sqrt(root_legs_4_part_v3),
+                Real::sqrt(
+                    root_legs_5_stroke_part * root_legs_5_stroke_part
+                        + root_legs_5_part_v3,
+                ),
+                Real::sqrt(root_legs_5_part_v3),
+            ])
+        }
+        /// For integrators, at a state whose guess is the solution: how far loops are from dead centres (the root of a closed form, the determinant of what Newton's method solves), each followed by the rate of its square; then the greatest residual of Newton's method, if it closes loops.
+        ///
+        /// Method: closed forms, determinants.
+        ///
+        /// Operations: 64 add, 69 mul, 12 sqrt; as derived, before optimisation: 78 add, 69 mul, 12 sqrt.
+        #[must_use]
+        pub fn margins(
+            &self,
+            _t: T,
+            state: &State<T>,
+        ) -> ::multibody::nalgebra::SVector<T, 24> {
+            let q = &state.q;
+            let v = &state.v;
+            let margin_part = q.platform.y - T::lit(0.779);
+            let margin_part_v2 = T::lit(2.29) + q.platform.x;
+            let margin_part_v3 = T::lit(0.7316888688738209) * margin_part_v2;
+            let margin_1_part = margin_part_v3
+                - T::lit(0.6816387600233341) * margin_part;
+            let margin_part_v4 = T::lit(0.6816387600233341) * margin_part_v2;
+            let margin_part_v5 = T::lit(0.7316888688738209) * margin_part
+                + margin_part_v4;
+            let margin_part_v6 = q.platform.z - T::lit(0.4);
+            let root_legs_part = margin_part_v6 * margin_part_v6;
+            let root_legs_0_part = margin_part_v5 * margin_part_v5 + root_legs_part;
+            let margin_part_v7 = T::lit(0.7316888688738209) * v.platform.x;
+            let margin_part_v8 = T::lit(0.6816387600233341) * v.platform.y;
+            let margin_part_v9 = T::lit(0.6816387600233341) * v.platform.x;
+            let margin_part_v10 = T::lit(0.7316888688738209) * v.platform.y;
+            let margin_part_v11 = margin_part_v5 * (margin_part_v9 + margin_part_v10);
+            let margin_part_v12 = v.platform.z * margin_part_v6;
+            let margin_part_v13 = T::lit(2.0) * margin_part_v12;
+            let margin_part_v14 = q.platform.y - T::lit(1.074);
+            let margin_part_v15 = T::lit(1.78) + q.platform.x;
+            let margin_part_v16 = T::lit(0.8525245220595058) * margin_part_v15;
+            let margin_5_part = margin_part_v16
+                - T::lit(0.5226872289306592) * margin_part_v14;
+            let margin_part_v17 = T::lit(0.5226872289306592) * margin_part_v15;
+            let margin_part_v18 = T::lit(0.8525245220595058) * margin_part_v14
+                + margin_part_v17;
+            let root_legs_1_part = root_legs_part + margin_part_v18 * margin_part_v18;
+            let margin_part_v19 = T::lit(0.8525245220595058) * v.platform.x;
+            let margin_part_v20 = T::lit(0.5226872289306592) * v.platform.y;
+            let margin_part_v21 = T::lit(0.5226872289306592) * v.platform.x;
+            let margin_part_v22 = T::lit(0.8525245220595058) * v.platform.y;
+            let margin_part_v23 = margin_part_v18 * (margin_part_v21 + margin_part_v22);
+            let margin_part_v24 = T::lit(1.074) + q.platform.y;
+            let margin_9_part = margin_part_v16
+                + T::lit(0.5226872289306592) * margin_part_v24;
+            let margin_part_v25 = margin_part_v17
+                - T::lit(0.8525245220595058) * margin_part_v24;
+            let root_legs_2_part = root_legs_part + margin_part_v25 * margin_part_v25;
+            let margin_part_v26 = margin_part_v25 * (margin_part_v21 - margin_part_v22);
+            let margin_part_v27 = T::lit(0.779) + q.platform.y;
+            let margin_13_part = margin_part_v3
+                + T::lit(0.6816387600233341) * margin_part_v27;
+            let margin_part_v28 = margin_part_v4
+                - T::lit(0.7316888688738209) * margin_part_v27;
+            let root_legs_3_part = root_legs_part + margin_part_v28 * margin_part_v28;
+            let margin_part_v29 = margin_part_v28 * (margin_part_v9 - margin_part_v10);
+            let margin_part_v30 = q.platform.y - T::lit(0.295);
+            let margin_part_v31 = T::lit(43.0 / 100.0) + q.platform.x;
+            let margin_part_v32 = T::lit(0.9577872375530903) * margin_part_v31;
+            let margin_17_part = T::lit(0.2874780123425445) * margin_part_v30
+                + margin_part_v32;
+            let margin_part_v33 = T::lit(0.2874780123425445) * margin_part_v31;
+            let margin_part_v34 = margin_part_v33
+                - T::lit(0.9577872375530903) * margin_part_v30;
+            let root_legs_4_part = root_legs_part + margin_part_v34 * margin_part_v34;
+            let margin_part_v35 = T::lit(0.9577872375530903) * v.platform.x;
+            let margin_part_v36 = T::lit(0.2874780123425445) * v.platform.y;
+            let margin_part_v37 = T::lit(0.2874780123425445) * v.platform.x;
+            let margin_part_v38 = T::lit(0.9577872375530903) * v.platform.y;
+            let margin_part_v39 = margin_part_v34 * (margin_part_v37 - margin_part_v38);
+            let margin_part_v40 = T::lit(0.295) + q.platform.y;
+            let margin_21_part = margin_part_v32
+                - T::lit(0.2874780123425445) * margin_part_v40;
+            let margin_part_v41 = margin_part_v33
+                + T::lit(0.9577872375530903) * margin_part_v40;
+            let root_legs_5_part = root_legs_part + margin_part_v41 * margin_part_v41;
+            let margin_part_v42 = margin_part_v41 * (margin_part_v37 + margin_part_v38);
+            ::multibody::nalgebra::SVector::from([
+                Real::sqrt(margin_1_part * margin_1_part + root_legs_0_part),
+                (T::lit(2.0)
+                    * (margin_1_part * (margin_part_v7 - margin_part_v8)
+                        + margin_part_v11 + margin_part_v12)),
+                Real::sqrt(root_legs_0_part),
+                (T::lit(2.0) * margin_part_v11 + margin_part_v13),
+                Real::sqrt(margin_5_part * margin_5_part + root_legs_1_part),
+                (T::lit(2.0)
+                    * (margin_part_v12
+                        + margin_5_part * (margin_part_v19 - margin_part_v20)
+                        + margin_part_v23)),
+                Real::sqrt(root_legs_1_part),
+                (T::lit(2.0) * margin_part_v23 + margin_part_v13),
+                Real::sqrt(margin_9_part * margin_9_part + root_legs_2_part),
+                (T::lit(2.0)
+                    * (margin_part_v12
+                        + margin_9_part * (margin_part_v19 + margin_part_v20)
+                        + margin_part_v26)),
+                Real::sqrt(root_legs_2_part),
+                (T::lit(2.0) * margin_part_v26 + margin_part_v13),
+                Real::sqrt(margin_13_part * margin_13_part + root_legs_3_part),
+                (T::lit(2.0)
+                    * (margin_part_v12
+                        + margin_13_part * (margin_part_v7 + margin_part_v8)
+                        + margin_part_v29)),
+                Real::sqrt(root_legs_3_part),
+                (T::lit(2.0) * margin_part_v29 + margin_part_v13),
+                Real::sqrt(margin_17_part * margin_17_part + root_legs_4_part),
+                (T::lit(2.0)
+                    * (margin_part_v12
+                        + margin_17_part * (margin_part_v35 + margin_part_v36)
+                        + margin_part_v39)),
+                Real::sqrt(root_legs_4_part),
+                (T::lit(2.0) * margin_part_v39 + margin_part_v13),
+                Real::sqrt(margin_21_part * margin_21_part + root_legs_5_part),
+                (T::lit(2.0)
+                    * (margin_part_v12
+                        + margin_21_part * (margin_part_v35 - margin_part_v36)
+                        + margin_part_v42)),
+                Real::sqrt(root_legs_5_part),
+                (T::lit(2.0) * margin_part_v42 + margin_part_v13),
+            ])
+        }
+    }
+    impl<T: Real> Default for Model<T> {
+        fn default() -> Self {
+            Self::new(&Params::default())
+        }
+    }
+    impl<T: Real> Model<T> {
+        /// Not derived: `emit mass_matrix` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn mass_matrix<A: ::multibody::emitted::MassMatrix>(
+            &self,
+            _q: &A,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit bias` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn bias<A: ::multibody::emitted::Bias>(
+            &self,
+            _t: T,
+            _state: &A,
+            _input: &Input<T>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit energy` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn kinetic_energy<A: ::multibody::emitted::Energy>(
+            &self,
+            _state: &A,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit energy` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn potential_energy<A: ::multibody::emitted::Energy>(
+            &self,
+            _q: &A,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit residual` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn residual<A: ::multibody::emitted::Residual>(
+            &self,
+            _t: T,
+            _state: &A,
+            _input: &Input<T>,
+            _accel: &Velocity<T>,
+            _multipliers: &::multibody::nalgebra::SVector<T, 0>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit kinematics { given: .., find: .. }` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn kinematics<A: ::multibody::emitted::Kinematics>(
+            &self,
+            _t: T,
+            _state: &A,
+            _accel: &Velocity<T>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit derivatives` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn forward_derivatives<A: ::multibody::emitted::Derivatives>(
+            &self,
+            _t: T,
+            _state: &A,
+            _input: &Input<T>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit derivatives` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn inverse_derivatives<A: ::multibody::emitted::Derivatives>(
+            &self,
+            _t: T,
+            _state: &A,
+            _input: &Input<T>,
+            _accel: &Velocity<T>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit impulse` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn impulse<A: ::multibody::emitted::Impulse>(
+            &self,
+            _q: &A,
+            _impulse: &Velocity<T>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit momentum` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn momentum<A: ::multibody::emitted::Momentum>(
+            &self,
+            _state: &A,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit momentum` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn momentum_rate<A: ::multibody::emitted::Momentum>(
+            &self,
+            _t: T,
+            _state: &A,
+            _input: &Input<T>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// Not derived: `emit momentum` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn velocity<A: ::multibody::emitted::Momentum>(
+            &self,
+            _q: &A,
+            _momentum: &Velocity<T>,
+        ) -> A::Result {
+            A::never()
+        }
+        /// The model has no `output`.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn outputs<A: ::multibody::emitted::Outputs>(
+            &self,
+            _t: T,
+            _state: &A,
+            _input: &Input<T>,
+        ) -> A::Result {
+            A::never()
+        }
+    }
+    impl<T: Real> ::multibody::System for Model<T> {
+        type Scalar = T;
+        type State = State<T>;
+        type Input = Input<T>;
+        fn derivative(
+            &self,
+            t: T,
+            state: &State<T>,
+            input: &Input<T>,
+        ) -> (Velocity<T>, ()) {
+            (self.forward_dynamics(t, state, input), ())
+        }
+        fn margins(
+            &self,
+            t: T,
+            state: &State<T>,
+            _input: &Input<T>,
+            visit: &mut dyn FnMut(::multibody::Margin<T>),
+        ) -> T {
+            let margins = self.margins(t, state);
+            visit(::multibody::Margin {
+                coordinate: "legs[0].stroke",
+                root: margins[0],
+                rate: margins[1],
+            });
+            visit(::multibody::Margin {
+                coordinate: "legs[0].gimbal.first",
+                root: margins[2],
+                rate: margins[3],
+            });
+            visit(::multibody::Margin {
+                coordinate: "legs[1].stroke",
+                root: margins[4],
+                rate: margins[5],
+            });
+            visit(::multibody::Margin {
+                coordinate: "legs[1].gimbal.first",
+                root: margins[6],
+                rate: margins[7],
+            });
+            visit(::multibody::Margin {
+                coordinate: "legs[2].stroke",
+                root: margins[8],
+                rate: margins[9],
+            });
+            visit(::multibody::Margin {
+                coordinate: "legs[2].gimbal.first",
+                root: margins[10],
+                rate: margins[11],
+            });
+            visit(::multibody::Margin {
+                coordinate: "legs[3].stroke",
+                root: margins[12],
+                rate: margins[13],
+            });
+            visit(::multibody::Margin {
+                coordinate: "legs[3].gimbal.first",
+                root: margins[14],
+                rate: margins[15],
+            });
+            visit(::multibody::Margin {
+                coordinate: "legs[4].stroke",
+                root: margins[16],
+                rate: margins[17],
+            });
+            visit(::multibody::Margin {
+                coordinate: "legs[4].gimbal.first",
+                root: margins[18],
+                rate: margins[19],
+            });
+            visit(::multibody::Margin {
+                coordinate: "legs[5].stroke",
+                root: margins[20],
+                rate: margins[21],
+            });
+            visit(::multibody::Margin {
+                coordinate: "legs[5].gimbal.first",
+                root: margins[22],
+                rate: margins[23],
+            });
+            T::lit(0.0)
+        }
+        fn without_inertia(
+            &self,
+            _t: T,
+            state: &State<T>,
+            _input: &Input<T>,
+        ) -> Option<&'static str> {
+            let q = &state.q;
+            let mass_matrix_part = T::lit(0.595) + q.platform.y - T::lit(1.374);
+            let mass_matrix_part_v2 = T::lit(2.12) + (T::lit(0.17) + q.platform.x);
+            let sin_legs_gimbal_first_part = T::lit(0.6816387600233341)
+                * mass_matrix_part_v2;
+            let sin_legs_0_gimbal_first_part = T::lit(0.7316888688738209)
+                * mass_matrix_part + sin_legs_gimbal_first_part;
+            let m_8_8_part = sin_legs_0_gimbal_first_part * sin_legs_0_gimbal_first_part;
+            let mass_matrix_part_v3 = q.platform.z - T::lit(0.4);
+            let m_23_23_part = mass_matrix_part_v3 * mass_matrix_part_v3;
+            let root_legs_0_gimbal_first = Real::sqrt(m_8_8_part + m_23_23_part);
+            let minus_slope_legs_0_gimbal_first_inv = T::lit(1.0)
+                / root_legs_0_gimbal_first;
+            let cos_legs_0_gimbal_first = mass_matrix_part_v3
+                * minus_slope_legs_0_gimbal_first_inv;
+            let mass_matrix_part_v4 = minus_slope_legs_0_gimbal_first_inv
+                * cos_legs_0_gimbal_first;
+            let sin_legs_gimbal_second_part = T::lit(0.7316888688738209)
+                * mass_matrix_part_v2;
+            let sin_legs_0_gimbal_second_part = sin_legs_gimbal_second_part
+                - T::lit(0.6816387600233341) * mass_matrix_part;
+            let m_8_8_part_v2 = sin_legs_0_gimbal_second_part
+                * sin_legs_0_gimbal_second_part + m_8_8_part + m_23_23_part;
+            let root_legs_0_stroke = Real::sqrt(m_8_8_part_v2);
+            let slope_legs_0_stroke_inv = T::lit(1.0) / root_legs_0_stroke;
+            let cos_legs_0_gimbal_second = root_legs_0_gimbal_first
+                * slope_legs_0_stroke_inv;
+            let m_8_8 = T::lit(0.0625)
+                + (T::lit(0.1) * m_8_8_part_v2 - T::lit(0.1) * root_legs_0_stroke);
+            let m_7_7 = cos_legs_0_gimbal_second * cos_legs_0_gimbal_second * m_8_8;
+            let mass_matrix_part_v5 = mass_matrix_part_v4 * m_7_7 * mass_matrix_part_v4;
+            let minus_sin_legs_0_gimbal_first = sin_legs_0_gimbal_first_part
+                * minus_slope_legs_0_gimbal_first_inv;
+            let sin_legs_0_gimbal_second = sin_legs_0_gimbal_second_part
+                * slope_legs_0_stroke_inv;
+            let mass_matrix_part_v6 = minus_sin_legs_0_gimbal_first
+                * sin_legs_0_gimbal_second;
+            let mass_matrix_part_v7 = slope_legs_0_stroke_inv
+                * (T::lit(0.6816387600233341) * mass_matrix_part_v6
+                    - T::lit(0.7316888688738209) * cos_legs_0_gimbal_second);
+            let mass_matrix_part_v8 = mass_matrix_part_v2 * slope_legs_0_stroke_inv;
+            let mass_matrix_part_v9 = T::lit(0.15) + q.platform.y - T::lit(1.224);
+            let mass_matrix_part_v10 = T::lit(2.38) + (q.platform.x - T::lit(0.6));
+            let sin_legs_gimbal_first_part_v2 = T::lit(0.5226872289306592)
+                * mass_matrix_part_v10;
+            let sin_legs_1_gimbal_first_part = T::lit(0.8525245220595058)
+                * mass_matrix_part_v9 + sin_legs_gimbal_first_part_v2;
+            let m_11_11_part = sin_legs_1_gimbal_first_part
+                * sin_legs_1_gimbal_first_part;
+            let root_legs_1_gimbal_first = Real::sqrt(m_23_23_part + m_11_11_part);
+            let minus_slope_legs_1_gimbal_first_inv = T::lit(1.0)
+                / root_legs_1_gimbal_first;
+            let cos_legs_1_gimbal_first = mass_matrix_part_v3
+                * minus_slope_legs_1_gimbal_first_inv;
+            let mass_matrix_part_v11 = minus_slope_legs_1_gimbal_first_inv
+                * cos_legs_1_gimbal_first;
+            let sin_legs_gimbal_second_part_v2 = T::lit(0.8525245220595058)
+                * mass_matrix_part_v10;
+            let sin_legs_1_gimbal_second_part = sin_legs_gimbal_second_part_v2
+                - T::lit(0.5226872289306592) * mass_matrix_part_v9;
+            let m_11_11_part_v2 = m_23_23_part
+                + sin_legs_1_gimbal_second_part * sin_legs_1_gimbal_second_part
+                + m_11_11_part;
+            let root_legs_1_stroke = Real::sqrt(m_11_11_part_v2);
+            let slope_legs_1_stroke_inv = T::lit(1.0) / root_legs_1_stroke;
+            let cos_legs_1_gimbal_second = root_legs_1_gimbal_first
+                * slope_legs_1_stroke_inv;
+            let m_11_11 = T::lit(0.0625)
+                + (T::lit(0.1) * m_11_11_part_v2 - T::lit(0.1) * root_legs_1_stroke);
+            let m_10_10 = cos_legs_1_gimbal_second * cos_legs_1_gimbal_second * m_11_11;
+            let mass_matrix_part_v12 = mass_matrix_part_v11 * m_10_10
+                * mass_matrix_part_v11;
+            let minus_sin_legs_1_gimbal_first = sin_legs_1_gimbal_first_part
+                * minus_slope_legs_1_gimbal_first_inv;
+            let sin_legs_1_gimbal_second = sin_legs_1_gimbal_second_part
+                * slope_legs_1_stroke_inv;
+            let mass_matrix_part_v13 = minus_sin_legs_1_gimbal_first
+                * sin_legs_1_gimbal_second;
+            let mass_matrix_part_v14 = slope_legs_1_stroke_inv
+                * (T::lit(0.5226872289306592) * mass_matrix_part_v13
+                    - T::lit(0.8525245220595058) * cos_legs_1_gimbal_second);
+            let mass_matrix_part_v15 = mass_matrix_part_v10 * slope_legs_1_stroke_inv;
+            let mass_matrix_part_v16 = T::lit(1.224) + (q.platform.y - T::lit(0.15));
+            let sin_legs_2_gimbal_first_part = sin_legs_gimbal_first_part_v2
+                - T::lit(0.8525245220595058) * mass_matrix_part_v16;
+            let m_14_14_part = sin_legs_2_gimbal_first_part
+                * sin_legs_2_gimbal_first_part;
+            let root_legs_2_gimbal_first = Real::sqrt(m_23_23_part + m_14_14_part);
+            let minus_slope_legs_2_gimbal_first_inv = T::lit(1.0)
+                / root_legs_2_gimbal_first;
+            let cos_legs_2_gimbal_first = mass_matrix_part_v3
+                * minus_slope_legs_2_gimbal_first_inv;
+            let mass_matrix_part_v17 = minus_slope_legs_2_gimbal_first_inv
+                * cos_legs_2_gimbal_first;
+            let sin_legs_2_gimbal_second_part = sin_legs_gimbal_second_part_v2
+                + T::lit(0.5226872289306592) * mass_matrix_part_v16;
+            let m_14_14_part_v2 = m_23_23_part
+                + sin_legs_2_gimbal_second_part * sin_legs_2_gimbal_second_part
+                + m_14_14_part;
+            let root_legs_2_stroke = Real::sqrt(m_14_14_part_v2);
+            let slope_legs_2_stroke_inv = T::lit(1.0) / root_legs_2_stroke;
+            let cos_legs_2_gimbal_second = root_legs_2_gimbal_first
+                * slope_legs_2_stroke_inv;
+            let m_14_14 = T::lit(0.0625)
+                + (T::lit(0.1) * m_14_14_part_v2 - T::lit(0.1) * root_legs_2_stroke);
+            let m_13_13 = cos_legs_2_gimbal_second * cos_legs_2_gimbal_second * m_14_14;
+            let mass_matrix_part_v18 = mass_matrix_part_v17 * m_13_13
+                * mass_matrix_part_v17;
+            let sin_legs_2_gimbal_first = sin_legs_2_gimbal_first_part
+                * minus_slope_legs_2_gimbal_first_inv;
+            let sin_legs_2_gimbal_second = sin_legs_2_gimbal_second_part
+                * slope_legs_2_stroke_inv;
+            let mass_matrix_part_v19 = sin_legs_2_gimbal_first
+                * sin_legs_2_gimbal_second;
+            let mass_matrix_part_v20 = slope_legs_2_stroke_inv
+                * (T::lit(0.5226872289306592) * mass_matrix_part_v19
+                    - T::lit(0.8525245220595058) * cos_legs_2_gimbal_second);
+            let mass_matrix_part_v21 = mass_matrix_part_v10 * slope_legs_2_stroke_inv;
+            let mass_matrix_part_v22 = T::lit(1.374) + (q.platform.y - T::lit(0.595));
+            let sin_legs_3_gimbal_first_part = sin_legs_gimbal_first_part
+                - T::lit(0.7316888688738209) * mass_matrix_part_v22;
+            let m_17_17_part = sin_legs_3_gimbal_first_part
+                * sin_legs_3_gimbal_first_part;
+            let root_legs_3_gimbal_first = Real::sqrt(m_23_23_part + m_17_17_part);
+            let minus_slope_legs_3_gimbal_first_inv = T::lit(1.0)
+                / root_legs_3_gimbal_first;
+            let cos_legs_3_gimbal_first = mass_matrix_part_v3
+                * minus_slope_legs_3_gimbal_first_inv;
+            let mass_matrix_part_v23 = minus_slope_legs_3_gimbal_first_inv
+                * cos_legs_3_gimbal_first;
+            let sin_legs_3_gimbal_second_part = sin_legs_gimbal_second_part
+                + T::lit(0.6816387600233341) * mass_matrix_part_v22;
+            let m_17_17_part_v2 = m_23_23_part
+                + sin_legs_3_gimbal_second_part * sin_legs_3_gimbal_second_part
+                + m_17_17_part;
+            let root_legs_3_stroke = Real::sqrt(m_17_17_part_v2);
+            let slope_legs_3_stroke_inv = T::lit(1.0) / root_legs_3_stroke;
+            let cos_legs_3_gimbal_second = root_legs_3_gimbal_first
+                * slope_legs_3_stroke_inv;
+            let m_17_17 = T::lit(0.0625)
+                + (T::lit(0.1) * m_17_17_part_v2 - T::lit(0.1) * root_legs_3_stroke);
+            let m_16_16 = cos_legs_3_gimbal_second * cos_legs_3_gimbal_second * m_17_17;
+            let mass_matrix_part_v24 = mass_matrix_part_v23 * m_16_16
+                * mass_matrix_part_v23;
+            let sin_legs_3_gimbal_first = sin_legs_3_gimbal_first_part
+                * minus_slope_legs_3_gimbal_first_inv;
+            let sin_legs_3_gimbal_second = sin_legs_3_gimbal_second_part
+                * slope_legs_3_stroke_inv;
+            let mass_matrix_part_v25 = sin_legs_3_gimbal_first
+                * sin_legs_3_gimbal_second;
+            let mass_matrix_part_v26 = slope_legs_3_stroke_inv
+                * (T::lit(0.6816387600233341) * mass_matrix_part_v25
+                    - T::lit(0.7316888688738209) * cos_legs_3_gimbal_second);
+            let mass_matrix_part_v27 = mass_matrix_part_v2 * slope_legs_3_stroke_inv;
+            let mass_matrix_part_v28 = T::lit(0.15) + (q.platform.y - T::lit(0.445));
+            let mass_matrix_part_v29 = T::lit(43.0 / 100.0) + q.platform.x;
+            let sin_legs_gimbal_first_part_v3 = T::lit(0.2874780123425445)
+                * mass_matrix_part_v29;
+            let sin_legs_4_gimbal_first_part = sin_legs_gimbal_first_part_v3
+                - T::lit(0.9577872375530903) * mass_matrix_part_v28;
+            let m_20_20_part = sin_legs_4_gimbal_first_part
+                * sin_legs_4_gimbal_first_part;
+            let root_legs_4_gimbal_first = Real::sqrt(m_23_23_part + m_20_20_part);
+            let minus_slope_legs_4_gimbal_first_inv = T::lit(1.0)
+                / root_legs_4_gimbal_first;
+            let cos_legs_4_gimbal_first = mass_matrix_part_v3
+                * minus_slope_legs_4_gimbal_first_inv;
+            let mass_matrix_part_v30 = minus_slope_legs_4_gimbal_first_inv
+                * cos_legs_4_gimbal_first;
+            let sin_legs_gimbal_second_part_v3 = T::lit(0.9577872375530903)
+                * mass_matrix_part_v29;
+            let sin_legs_4_gimbal_second_part = T::lit(0.2874780123425445)
+                * mass_matrix_part_v28 + sin_legs_gimbal_second_part_v3;
+            let m_20_20_part_v2 = m_23_23_part
+                + sin_legs_4_gimbal_second_part * sin_legs_4_gimbal_second_part
+                + m_20_20_part;
+            let root_legs_4_stroke = Real::sqrt(m_20_20_part_v2);
+            let slope_legs_4_stroke_inv = T::lit(1.0) / root_legs_4_stroke;
+            let cos_legs_4_gimbal_second = root_legs_4_gimbal_first
+                * slope_legs_4_stroke_inv;
+            let m_20_20 = T::lit(0.0625)
+                + (T::lit(0.1) * m_20_20_part_v2 - T::lit(0.1) * root_legs_4_stroke);
+            let m_19_19 = cos_legs_4_gimbal_second * cos_legs_4_gimbal_second * m_20_20;
+            let mass_matrix_part_v31 = mass_matrix_part_v30 * m_19_19
+                * mass_matrix_part_v30;
+            let minus_sin_legs_4_gimbal_first = sin_legs_4_gimbal_first_part
+                * minus_slope_legs_4_gimbal_first_inv;
+            let minus_sin_legs_4_gimbal_second = sin_legs_4_gimbal_second_part
+                * slope_legs_4_stroke_inv;
+            let mass_matrix_part_v32 = minus_sin_legs_4_gimbal_first
+                * minus_sin_legs_4_gimbal_second;
+            let mass_matrix_part_v33 = slope_legs_4_stroke_inv
+                * (T::lit(0.2874780123425445) * mass_matrix_part_v32
+                    - T::lit(0.9577872375530903) * cos_legs_4_gimbal_second);
+            let mass_matrix_part_v34 = mass_matrix_part_v29 * slope_legs_4_stroke_inv;
+            let mass_matrix_part_v35 = T::lit(0.445) + q.platform.y - T::lit(0.15);
+            let sin_legs_5_gimbal_first_part = sin_legs_gimbal_first_part_v3
+                + T::lit(0.9577872375530903) * mass_matrix_part_v35;
+            let m_23_23_part_v2 = sin_legs_5_gimbal_first_part
+                * sin_legs_5_gimbal_first_part;
+            let root_legs_5_gimbal_first = Real::sqrt(m_23_23_part + m_23_23_part_v2);
+            let minus_slope_legs_5_gimbal_first_inv = T::lit(1.0)
+                / root_legs_5_gimbal_first;
+            let cos_legs_5_gimbal_first = mass_matrix_part_v3
+                * minus_slope_legs_5_gimbal_first_inv;
+            let mass_matrix_part_v36 = minus_slope_legs_5_gimbal_first_inv
+                * cos_legs_5_gimbal_first;
+            let sin_legs_5_gimbal_second_part = sin_legs_gimbal_second_part_v3
+                - T::lit(0.2874780123425445) * mass_matrix_part_v35;
+            let m_23_23_part_v3 = m_23_23_part
+                + sin_legs_5_gimbal_second_part * sin_legs_5_gimbal_second_part
+                + m_23_23_part_v2;
+            let root_legs_5_stroke = Real::sqrt(m_23_23_part_v3);
+            let slope_legs_5_stroke_inv = T::lit(1.0) / root_legs_5_stroke;
+            let cos_legs_5_gimbal_second = root_legs_5_gimbal_first
+                * slope_legs_5_stroke_inv;
+            let m_23_23 = T::lit(0.0625)
+                + (T::lit(0.1) * m_23_23_part_v3 - T::lit(0.1) * root_legs_5_stroke);
+            let m_22_22 = cos_legs_5_gimbal_second * cos_legs_5_gimbal_second * m_23_23;
+            let mass_matrix_part_v37 = mass_matrix_part_v36 * m_22_22
+                * mass_matrix_part_v36;
+            let sin_legs_5_gimbal_first = sin_legs_5_gimbal_first_part
+                * minus_slope_legs_5_gimbal_first_inv;
+            let minus_sin_legs_5_gimbal_second = sin_legs_5_gimbal_second_part
+                * slope_legs_5_stroke_inv;
+            let mass_matrix_part_v38 = sin_legs_5_gimbal_first
+                * minus_sin_legs_5_gimbal_second;
+            let mass_matrix_part_v39 = slope_legs_5_stroke_inv
+                * (T::lit(0.2874780123425445) * mass_matrix_part_v38
+                    - T::lit(0.9577872375530903) * cos_legs_5_gimbal_second);
+            let mass_matrix_part_v40 = mass_matrix_part_v29 * slope_legs_5_stroke_inv;
+            let mass_matrix_0 = T::lit(1.5)
+                + T::lit(0.46463139916614854) * mass_matrix_part_v5
+                + mass_matrix_part_v7 * m_8_8 * mass_matrix_part_v7
+                + T::lit(0.1) * mass_matrix_part_v8 * mass_matrix_part_v8
+                + T::lit(0.2732019392872113) * mass_matrix_part_v12
+                + mass_matrix_part_v14 * m_11_11 * mass_matrix_part_v14
+                + T::lit(0.1) * mass_matrix_part_v15 * mass_matrix_part_v15
+                + T::lit(0.2732019392872113) * mass_matrix_part_v18
+                + mass_matrix_part_v20 * m_14_14 * mass_matrix_part_v20
+                + T::lit(0.1) * mass_matrix_part_v21 * mass_matrix_part_v21
+                + T::lit(0.46463139916614854) * mass_matrix_part_v24
+                + mass_matrix_part_v26 * m_17_17 * mass_matrix_part_v26
+                + T::lit(0.1) * mass_matrix_part_v27 * mass_matrix_part_v27
+                + T::lit(0.08264360758042016) * mass_matrix_part_v31
+                + mass_matrix_part_v33 * m_20_20 * mass_matrix_part_v33
+                + T::lit(0.1) * mass_matrix_part_v34 * mass_matrix_part_v34
+                + T::lit(0.08264360758042016) * mass_matrix_part_v37
+                + mass_matrix_part_v39 * m_23_23 * mass_matrix_part_v39
+                + T::lit(0.1) * mass_matrix_part_v40 * mass_matrix_part_v40;
+            let mass_matrix_part_v41 = slope_legs_0_stroke_inv
+                * (T::lit(0.6816387600233341) * cos_legs_0_gimbal_second
+                    + T::lit(0.7316888688738209) * mass_matrix_part_v6);
+            let mass_matrix_part_v42 = m_8_8 * mass_matrix_part_v41;
+            let mass_matrix_part_v43 = mass_matrix_part * slope_legs_0_stroke_inv;
+            let mass_matrix_part_v44 = slope_legs_1_stroke_inv
+                * (T::lit(0.5226872289306592) * cos_legs_1_gimbal_second
+                    + T::lit(0.8525245220595058) * mass_matrix_part_v13);
+            let mass_matrix_part_v45 = m_11_11 * mass_matrix_part_v44;
+            let mass_matrix_part_v46 = mass_matrix_part_v9 * slope_legs_1_stroke_inv;
+            let mass_matrix_part_v47 = slope_legs_2_stroke_inv
+                * (T::lit(0.5226872289306592) * cos_legs_2_gimbal_second
+                    + T::lit(0.8525245220595058) * mass_matrix_part_v19);
+            let mass_matrix_part_v48 = m_14_14 * mass_matrix_part_v47;
+            let mass_matrix_part_v49 = mass_matrix_part_v16 * slope_legs_2_stroke_inv;
+            let mass_matrix_part_v50 = slope_legs_3_stroke_inv
+                * (T::lit(0.6816387600233341) * cos_legs_3_gimbal_second
+                    + T::lit(0.7316888688738209) * mass_matrix_part_v25);
+            let mass_matrix_part_v51 = m_17_17 * mass_matrix_part_v50;
+            let mass_matrix_part_v52 = mass_matrix_part_v22 * slope_legs_3_stroke_inv;
+            let mass_matrix_part_v53 = slope_legs_4_stroke_inv
+                * (T::lit(0.2874780123425445) * cos_legs_4_gimbal_second
+                    + T::lit(0.9577872375530903) * mass_matrix_part_v32);
+            let mass_matrix_part_v54 = m_20_20 * mass_matrix_part_v53;
+            let mass_matrix_part_v55 = mass_matrix_part_v28 * slope_legs_4_stroke_inv;
+            let mass_matrix_part_v56 = slope_legs_5_stroke_inv
+                * (T::lit(0.2874780123425445) * cos_legs_5_gimbal_second
+                    + T::lit(0.9577872375530903) * mass_matrix_part_v38);
+            let mass_matrix_part_v57 = m_23_23 * mass_matrix_part_v56;
+            let mass_matrix_part_v58 = mass_matrix_part_v35 * slope_legs_5_stroke_inv;
+            let mass_matrix_1 = T::lit(0.4987474933020272) * mass_matrix_part_v5
+                + T::lit(0.44560368003071765) * mass_matrix_part_v12
+                - T::lit(0.44560368003071765) * mass_matrix_part_v18
+                - T::lit(0.4987474933020272) * mass_matrix_part_v24
+                - T::lit(0.2753427712988189) * mass_matrix_part_v31
+                + T::lit(0.2753427712988189) * mass_matrix_part_v37
+                + mass_matrix_part_v7 * mass_matrix_part_v42
+                + T::lit(0.1) * mass_matrix_part_v8 * mass_matrix_part_v43
+                + mass_matrix_part_v14 * mass_matrix_part_v45
+                + T::lit(0.1) * mass_matrix_part_v15 * mass_matrix_part_v46
+                - mass_matrix_part_v20 * mass_matrix_part_v48
+                + T::lit(0.1) * mass_matrix_part_v21 * mass_matrix_part_v49
+                - mass_matrix_part_v26 * mass_matrix_part_v51
+                + T::lit(0.1) * mass_matrix_part_v27 * mass_matrix_part_v52
+                - mass_matrix_part_v33 * mass_matrix_part_v54
+                + T::lit(0.1) * mass_matrix_part_v34 * mass_matrix_part_v55
+                + mass_matrix_part_v39 * mass_matrix_part_v57
+                + T::lit(0.1) * mass_matrix_part_v40 * mass_matrix_part_v58;
+            let mass_matrix_part_v59 = minus_slope_legs_0_gimbal_first_inv
+                * minus_sin_legs_0_gimbal_first;
+            let mass_matrix_part_v60 = m_7_7 * mass_matrix_part_v59;
+            let mass_matrix_part_v61 = mass_matrix_part_v4 * mass_matrix_part_v60;
+            let mass_matrix_part_v62 = slope_legs_0_stroke_inv * cos_legs_0_gimbal_first
+                * sin_legs_0_gimbal_second;
+            let mass_matrix_part_v63 = m_8_8 * mass_matrix_part_v62;
+            let mass_matrix_part_v64 = mass_matrix_part_v3 * slope_legs_0_stroke_inv;
+            let mass_matrix_part_v65 = minus_slope_legs_1_gimbal_first_inv
+                * minus_sin_legs_1_gimbal_first;
+            let mass_matrix_part_v66 = m_10_10 * mass_matrix_part_v65;
+            let mass_matrix_part_v67 = mass_matrix_part_v11 * mass_matrix_part_v66;
+            let mass_matrix_part_v68 = slope_legs_1_stroke_inv * cos_legs_1_gimbal_first
+                * sin_legs_1_gimbal_second;
+            let mass_matrix_part_v69 = m_11_11 * mass_matrix_part_v68;
+            let mass_matrix_part_v70 = mass_matrix_part_v3 * slope_legs_1_stroke_inv;
+            let mass_matrix_part_v71 = minus_slope_legs_2_gimbal_first_inv
+                * sin_legs_2_gimbal_first;
+            let mass_matrix_part_v72 = m_13_13 * mass_matrix_part_v71;
+            let mass_matrix_part_v73 = mass_matrix_part_v17 * mass_matrix_part_v72;
+            let mass_matrix_part_v74 = slope_legs_2_stroke_inv * cos_legs_2_gimbal_first
+                * sin_legs_2_gimbal_second;
+            let mass_matrix_part_v75 = m_14_14 * mass_matrix_part_v74;
+            let mass_matrix_part_v76 = mass_matrix_part_v3 * slope_legs_2_stroke_inv;
+            let mass_matrix_part_v77 = minus_slope_legs_3_gimbal_first_inv
+                * sin_legs_3_gimbal_first;
+            let mass_matrix_part_v78 = m_16_16 * mass_matrix_part_v77;
+            let mass_matrix_part_v79 = mass_matrix_part_v23 * mass_matrix_part_v78;
+            let mass_matrix_part_v80 = slope_legs_3_stroke_inv * cos_legs_3_gimbal_first
+                * sin_legs_3_gimbal_second;
+            let mass_matrix_part_v81 = m_17_17 * mass_matrix_part_v80;
+            let mass_matrix_part_v82 = mass_matrix_part_v3 * slope_legs_3_stroke_inv;
+            let mass_matrix_part_v83 = minus_slope_legs_4_gimbal_first_inv
+                * minus_sin_legs_4_gimbal_first;
+            let mass_matrix_part_v84 = m_19_19 * mass_matrix_part_v83;
+            let mass_matrix_part_v85 = mass_matrix_part_v30 * mass_matrix_part_v84;
+            let mass_matrix_part_v86 = slope_legs_4_stroke_inv * cos_legs_4_gimbal_first
+                * minus_sin_legs_4_gimbal_second;
+            let mass_matrix_part_v87 = m_20_20 * mass_matrix_part_v86;
+            let mass_matrix_part_v88 = mass_matrix_part_v3 * slope_legs_4_stroke_inv;
+            let mass_matrix_part_v89 = minus_slope_legs_5_gimbal_first_inv
+                * sin_legs_5_gimbal_first;
+            let mass_matrix_part_v90 = m_22_22 * mass_matrix_part_v89;
+            let mass_matrix_part_v91 = mass_matrix_part_v36 * mass_matrix_part_v90;
+            let mass_matrix_part_v92 = slope_legs_5_stroke_inv * cos_legs_5_gimbal_first
+                * minus_sin_legs_5_gimbal_second;
+            let mass_matrix_part_v93 = m_23_23 * mass_matrix_part_v92;
+            let mass_matrix_part_v94 = mass_matrix_part_v3 * slope_legs_5_stroke_inv;
+            let minus_mass_matrix_2 = T::lit(0.6816387600233341) * mass_matrix_part_v61
+                - mass_matrix_part_v7 * mass_matrix_part_v63
+                - T::lit(0.1) * mass_matrix_part_v8 * mass_matrix_part_v64
+                + T::lit(0.5226872289306592) * mass_matrix_part_v67
+                - mass_matrix_part_v14 * mass_matrix_part_v69
+                - T::lit(0.1) * mass_matrix_part_v15 * mass_matrix_part_v70
+                + T::lit(0.5226872289306592) * mass_matrix_part_v73
+                - mass_matrix_part_v20 * mass_matrix_part_v75
+                - T::lit(0.1) * mass_matrix_part_v21 * mass_matrix_part_v76
+                + T::lit(0.6816387600233341) * mass_matrix_part_v79
+                - mass_matrix_part_v26 * mass_matrix_part_v81
+                - T::lit(0.1) * mass_matrix_part_v27 * mass_matrix_part_v82
+                + T::lit(0.2874780123425445) * mass_matrix_part_v85
+                - mass_matrix_part_v33 * mass_matrix_part_v87
+                - T::lit(0.1) * mass_matrix_part_v34 * mass_matrix_part_v88
+                + T::lit(0.2874780123425445) * mass_matrix_part_v91
+                - mass_matrix_part_v39 * mass_matrix_part_v93
+                - T::lit(0.1) * mass_matrix_part_v40 * mass_matrix_part_v94;
+            let mass_matrix_4 = T::lit(1.5)
+                + T::lit(0.5353686008338514) * mass_matrix_part_v5
+                + T::lit(0.7267980607127887) * mass_matrix_part_v12
+                + T::lit(0.7267980607127887) * mass_matrix_part_v18
+                + T::lit(0.5353686008338514) * mass_matrix_part_v24
+                + T::lit(0.9173563924195799) * mass_matrix_part_v31
+                + T::lit(0.9173563924195799) * mass_matrix_part_v37
+                + mass_matrix_part_v41 * mass_matrix_part_v42
+                + T::lit(0.1) * mass_matrix_part_v43 * mass_matrix_part_v43
+                + mass_matrix_part_v44 * mass_matrix_part_v45
+                + T::lit(0.1) * mass_matrix_part_v46 * mass_matrix_part_v46
+                + mass_matrix_part_v47 * mass_matrix_part_v48
+                + T::lit(0.1) * mass_matrix_part_v49 * mass_matrix_part_v49
+                + mass_matrix_part_v50 * mass_matrix_part_v51
+                + T::lit(0.1) * mass_matrix_part_v52 * mass_matrix_part_v52
+                + mass_matrix_part_v53 * mass_matrix_part_v54
+                + T::lit(0.1) * mass_matrix_part_v55 * mass_matrix_part_v55
+                + mass_matrix_part_v56 * mass_matrix_part_v57
+                + T::lit(0.1) * mass_matrix_part_v58 * mass_matrix_part_v58;
+            let minus_mass_matrix_5 = T::lit(0.7316888688738209) * mass_matrix_part_v61
+                + T::lit(0.8525245220595058) * mass_matrix_part_v67
+                - T::lit(0.8525245220595058) * mass_matrix_part_v73
+                - T::lit(0.7316888688738209) * mass_matrix_part_v79
+                - T::lit(0.9577872375530903) * mass_matrix_part_v85
+                + T::lit(0.9577872375530903) * mass_matrix_part_v91
+                - mass_matrix_part_v41 * mass_matrix_part_v63
+                - T::lit(0.1) * mass_matrix_part_v43 * mass_matrix_part_v64
+                - mass_matrix_part_v44 * mass_matrix_part_v69
+                - T::lit(0.1) * mass_matrix_part_v46 * mass_matrix_part_v70
+                + mass_matrix_part_v47 * mass_matrix_part_v75
+                - T::lit(0.1) * mass_matrix_part_v49 * mass_matrix_part_v76
+                + mass_matrix_part_v50 * mass_matrix_part_v81
+                - T::lit(0.1) * mass_matrix_part_v52 * mass_matrix_part_v82
+                + mass_matrix_part_v53 * mass_matrix_part_v87
+                - T::lit(0.1) * mass_matrix_part_v55 * mass_matrix_part_v88
+                - mass_matrix_part_v56 * mass_matrix_part_v93
+                - T::lit(0.1) * mass_matrix_part_v58 * mass_matrix_part_v94;
+            let mass_matrix_8 = T::lit(1.5) + mass_matrix_part_v59 * mass_matrix_part_v60
+                + mass_matrix_part_v62 * mass_matrix_part_v63
+                + T::lit(0.1) * mass_matrix_part_v64 * mass_matrix_part_v64
+                + mass_matrix_part_v65 * mass_matrix_part_v66
+                + mass_matrix_part_v68 * mass_matrix_part_v69
+                + T::lit(0.1) * mass_matrix_part_v70 * mass_matrix_part_v70
+                + mass_matrix_part_v71 * mass_matrix_part_v72
+                + mass_matrix_part_v74 * mass_matrix_part_v75
+                + T::lit(0.1) * mass_matrix_part_v76 * mass_matrix_part_v76
+                + mass_matrix_part_v77 * mass_matrix_part_v78
+                + mass_matrix_part_v80 * mass_matrix_part_v81
+                + T::lit(0.1) * mass_matrix_part_v82 * mass_matrix_part_v82
+                + mass_matrix_part_v83 * mass_matrix_part_v84
+                + mass_matrix_part_v86 * mass_matrix_part_v87
+                + T::lit(0.1) * mass_matrix_part_v88 * mass_matrix_part_v88
+                + mass_matrix_part_v89 * mass_matrix_part_v90
+                + mass_matrix_part_v92 * mass_matrix_part_v93
+                + T::lit(0.1) * mass_matrix_part_v94 * mass_matrix_part_v94;
+            let matrix: ::multibody::nalgebra::SMatrix<T, 3, 3> = ::multibody::nalgebra::SMatrix::from([
+                [mass_matrix_0, mass_matrix_1, -minus_mass_matrix_2],
+                [mass_matrix_1, mass_matrix_4, -minus_mass_matrix_5],
+                [-minus_mass_matrix_2, -minus_mass_matrix_5, mass_matrix_8],
+            ]);
+            ::multibody::pivots::without_inertia(
+                &matrix,
+                &["platform.position.x", "platform.position.y", "platform.position.z"],
+            )
+        }
+    }
+    /// A leg; its spring is part of the actuator.
+    pub mod leg {
+        use ::core::prelude::v1::*;
+        use ::multibody::Real;
+        /// Parameters of one part `leg`. The default is what the model declares.
+        #[repr(C)]
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Params<T = f64> {
+            /// `[N/m]` of a spring along the leg
+            ///
+            /// Default: `0.0`
+            pub k: T,
+            /// `[N s/m]` of a damper along the leg
+            ///
+            /// Default: `0.0`
+            pub c: T,
+            /// `[m]` stroke at which the spring is at rest
+            ///
+            /// Default: `0.0`
+            pub s0: T,
+        }
+        impl<T: Real> Default for Params<T> {
+            fn default() -> Self {
+                Self {
+                    k: T::lit(0.0),
+                    c: T::lit(0.0),
+                    s0: T::lit(0.0),
+                }
+            }
+        }
+        /// Inputs of one part `leg`, held over a step. The default is zero.
+        #[repr(C)]
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Input<T = f64> {
+            /// `[N]` pushes the tip away from the base
+            pub thrust: T,
+        }
+        impl<T: Real> Default for Input<T> {
+            fn default() -> Self {
+                Self { thrust: T::lit(0.0) }
+            }
+        }
+    }
+}
