@@ -193,26 +193,35 @@ struct Chosen {
     dag: Dag,
 }
 
-/// All rewrites, a fixed number of rounds. Each pass pays by its own count, not always by the whole: what comes out
-/// dearer than it went in is given back as it came (law 7), and so is what would not have the same value: then the
-/// answer is `false`, and a pass has an error.
+/// A rewrite, with its name.
+pub type Pass = (&'static str, fn(&mut Dag));
+
+const FIRST: [Pass; 3] = [("angles", angles::angles), ("split", stage::split), ("combine", linear::combine)];
+const ROUND: [Pass; 6] = [
+    ("factor", factor::factor),
+    ("flatten", flatten::flatten),
+    ("share", common::share),
+    ("balance", balance::balance),
+    ("flatten", flatten::flatten),
+    ("split", stage::split),
+];
+const LAST: [Pass; 2] = [("multiples", multiples::multiples), ("share", common::share)];
+
+/// All rewrites of flat expressions in their order, with a fixed number of rounds.
+pub fn passes() -> impl Iterator<Item = Pass> {
+    FIRST.into_iter().chain([ROUND; 3].into_iter().flatten()).chain(LAST)
+}
+
+/// All rewrites. Each pass pays by its own count, not always by the whole: what comes out dearer than it went in is given
+/// back as it came (law 7), and so is what would not have the same value: then the answer is `false`, and a pass has an
+/// error.
 pub fn simplify(dag: &mut Dag) -> bool {
     flatten::flatten(dag);
     let derived = dag.clone();
     let expected = dag.root_prints();
-    angles::angles(dag);
-    stage::split(dag);
-    linear::combine(dag);
-    for _ in 0..3 {
-        factor::factor(dag);
-        flatten::flatten(dag);
-        common::share(dag);
-        balance::balance(dag);
-        flatten::flatten(dag);
-        stage::split(dag);
+    for (_, rewrite) in passes() {
+        rewrite(dag);
     }
-    multiples::multiples(dag);
-    common::share(dag);
     let sound = dag.is_sound(&expected);
     if !sound || dag.cost().0.weight() > derived.cost().0.weight() {
         *dag = derived;

@@ -7,7 +7,7 @@
 //! that `FIRST` names.
 
 use std::fmt::Write as _;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::mechanics::analysis::analyse;
@@ -503,15 +503,12 @@ const FORMULATIONS: [&str; 3] = [
 
 #[test]
 fn freedoms_are_those_of_the_closures() {
-    let wanted: u64 = std::env::var("LOOPS").ok().and_then(|text| text.parse().ok()).unwrap_or(400);
-    let bound = if std::env::var("LOOPS").is_ok() { Duration::MAX } else { Duration::from_secs(45) };
+    // By number and not by time: the same ones on every machine.
+    let wanted: u64 = std::env::var("LOOPS").ok().and_then(|text| text.parse().ok()).unwrap_or(120);
     let start = Instant::now();
     let (mut looked, mut unclear, mut elusive, mut wrong, mut refused) = (0, 0, 0, Vec::new(), Vec::new());
     let first: u64 = std::env::var("FIRST").ok().and_then(|text| text.parse().ok()).unwrap_or(0);
     for seed in first..first + wanted {
-        if start.elapsed() > bound {
-            break;
-        }
         // Most of what is drawn can't move; some of it is looked at, to be refused.
         let mut tries = (0..20).map(|attempt| made(0xF00D + 7919 * seed + 104_729 * attempt));
         let moves = |mechanism: &Mechanism| mechanism.freedoms() != Some(0);
@@ -553,5 +550,5 @@ fn freedoms_are_those_of_the_closures() {
         println!("{text}");
     }
     assert!(wrong.is_empty() && refused.is_empty());
-    assert!(looked >= 100 || wanted < 300, "{looked} in {:?}", start.elapsed());
+    assert!(4 * looked >= 3 * wanted, "{looked} of {wanted} are clear");
 }

@@ -13,36 +13,16 @@ use multibody_engine::dynamics::regroup::regroup;
 use multibody_engine::mechanics::{Derivation, Derived, of};
 use multibody_engine::model::types::{InputId, JointId, ParamId};
 use multibody_engine::optimize::dag::{Dag, Kind};
-use multibody_engine::optimize::{
-    angles, balance, common, compile, factor, fields, flatten, linear, multiples, simplify, stage,
-};
+use multibody_engine::optimize::{Pass, compile, fields, flatten, passes, simplify};
 use multibody_engine::symbolic::graph::{Graph, Scalar, ScalarNode};
 use multibody_engine::symbolic::identity::{Verdict, close, identical};
 use multibody_engine::symbolic::lower::Lowering;
 use multibody_engine::symbolic::number::Number;
 use multibody_engine::{model, syntax};
+use std::iter;
 
 /// Relative to 1 + |x|: passes reorder sums, and mechanisms at random points are not well conditioned.
 const TOLERANCE: f64 = 1e-7;
-
-type Pass = (&'static str, fn(&mut Dag));
-
-const FIRST: [Pass; 4] =
-    [("flatten", flatten::flatten), ("angles", angles::angles), ("split", stage::split), ("combine", linear::combine)];
-const ROUND: [Pass; 6] = [
-    ("factor", factor::factor),
-    ("flatten", flatten::flatten),
-    ("share", common::share),
-    ("balance", balance::balance),
-    ("flatten", flatten::flatten),
-    ("split", stage::split),
-];
-const LAST: [Pass; 2] = [("multiples", multiples::multiples), ("share", common::share)];
-
-/// The passes in the order of `simplify`.
-fn passes() -> impl Iterator<Item = Pass> {
-    FIRST.into_iter().chain([ROUND; 3].into_iter().flatten()).chain(LAST)
-}
 
 /// Expressions as they were derived, without vectors.
 struct Reference {
@@ -77,7 +57,8 @@ fn said(derivation: &Derivation, results: &[Scalar], seed: u64) -> Vec<(String, 
     };
     say("import".into(), &imported);
     let mut dag = imported.clone();
-    for (k, (name, pass)) in passes().enumerate() {
+    let flat: Pass = ("flatten", flatten::flatten);
+    for (k, (name, pass)) in iter::once(flat).chain(passes()).enumerate() {
         pass(&mut dag);
         say(format!("{name}, pass {k}"), &dag);
     }
