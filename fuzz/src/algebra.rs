@@ -122,7 +122,8 @@ pub fn least(matrix: &DMatrix<f64>, rhs: &DVector<f64>) -> (DVector<f64>, f64, u
         x += to * (from.dot(rhs) / (size * size));
         (smallest, rank) = (smallest.min(size), rank + 1);
     }
-    (x, smallest / most.max(f64::MIN_POSITIVE), rank)
+    // What holds nothing is not ill-conditioned.
+    (x, if rank == 0 { 1.0 } else { smallest / most }, rank)
 }
 
 /// A V with orthogonal columns, and V: the singular values are their lengths. By plane rotations of two columns at a time

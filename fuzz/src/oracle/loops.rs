@@ -127,10 +127,29 @@ impl Values for Anywhere<'_> {
     }
 }
 
+/// Least over greatest singular value of the equations in the coordinates that follow from others.
+fn off_dead_centres(m: &Mechanism, programs: &Programs, point: &Point) -> f64 {
+    let first = |joint: usize| m.joints[..joint].iter().map(|joint| joint.kind.freedoms()).sum::<usize>();
+    let unknowns = programs.structure.steps.iter().flat_map(|step| &step.unknowns);
+    let columns: Vec<usize> = unknowns
+        .filter_map(|unknown| {
+            let name = programs.model.joints[unknown.joint.0].place.field.to_string();
+            let joint: usize = name.strip_prefix('j')?.parse().ok()?;
+            Some(first(joint) + unknown.index)
+        })
+        .collect();
+    let slope = jacobian(m, point).select_columns(columns.iter());
+    match least(&slope, &DVector::zeros(slope.nrows())) {
+        (_, ratio, rank) if rank == columns.len() => ratio,
+        _ => 0.0,
+    }
+}
+
 fn look(m: &Mechanism, programs: &Programs, point: &Point, findings: &mut Findings) {
     let Some(found) = accelerations(m, point) else { return };
-    // Near a singular pose nothing says how large a difference may be.
-    if found.ratio < 1e-2 || found.accelerations.iter().any(|x| x.abs() > 1e5) {
+    // Near a singular pose nothing says how large a difference may be; in coordinates of the state dead centres are such poses.
+    let ratio = found.ratio.min(off_dead_centres(m, programs, point));
+    if ratio < 1e-2 || found.accelerations.iter().any(|x| x.abs() > 1e5) {
         return;
     }
     let point = Point { a: split(m, &found.accelerations), ..point.clone() };
@@ -168,7 +187,7 @@ fn look(m: &Mechanism, programs: &Programs, point: &Point, findings: &mut Findin
         let want: Vec<f64> = state.iter().map(|&(j, k)| point.a[j][k]).collect();
         if let Some(got) = programs.run(FunctionKind::ForwardDynamics, &values) {
             let got = &got[..want.len().min(got.len())];
-            findings.compare("forward dynamics", got, &want, fastest / found.ratio, TOLERANCE);
+            findings.compare("forward dynamics", got, &want, fastest / ratio, TOLERANCE);
         }
         if let Some(got) = programs.run(FunctionKind::MassMatrix, &values) {
             let v: Vec<f64> = state.iter().map(|&(j, k)| point.v[j][k]).collect();
@@ -183,11 +202,11 @@ fn look(m: &Mechanism, programs: &Programs, point: &Point, findings: &mut Findin
             && let Some(got) = programs.run(FunctionKind::InverseDynamics, &values)
         {
             let zero = vec![0.0; got.len()];
-            findings.compare("inverse dynamics (left)", &got, &zero, plain.efforts().1 / found.ratio, TOLERANCE);
+            findings.compare("inverse dynamics (left)", &got, &zero, plain.efforts().1 / ratio, TOLERANCE);
         }
     }
     if m.outputs {
-        outputs(m, programs, &values, &plain, (reach, fastest / found.ratio), findings);
+        outputs(m, programs, &values, &plain, (reach, fastest / ratio), findings);
     }
 }
 
