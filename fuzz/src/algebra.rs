@@ -126,6 +126,14 @@ pub fn least(matrix: &DMatrix<f64>, rhs: &DVector<f64>) -> (DVector<f64>, f64, u
     (x, if rank == 0 { 1.0 } else { smallest / most }, rank)
 }
 
+/// The least and the greatest of a matrix' singular values, as many as it has columns.
+pub fn extremes(matrix: DMatrix<f64>) -> (f64, f64) {
+    let (turned, _) = orthogonal_columns(matrix);
+    turned
+        .column_iter()
+        .fold((f64::INFINITY, 0.0), |(least, most), column| (least.min(column.norm()), most.max(column.norm())))
+}
+
 /// A V with orthogonal columns, and V: the singular values are their lengths. By plane rotations of two columns at a time
 /// (Hestenes 1958), which stay accurate where the matrix is of lesser rank.
 fn orthogonal_columns(mut a: DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {

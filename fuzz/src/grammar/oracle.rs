@@ -46,7 +46,7 @@ fn messages(tokens: TokenStream) -> Result<Vec<String>, String> {
             match compile(model) {
                 Ok(_) => {}
                 Err(Trouble::Complaints(list)) => {
-                    list.into_iter().for_each(|complaint| diagnostics.error(complaint.span, complaint.message));
+                    list.into_iter().for_each(|complaint| diagnostics.error(complaint.at.span(), complaint.message));
                 }
                 Err(Trouble::Refused(refusal @ (Refusal::TooLarge(_) | Refusal::NotFinite))) => {
                     diagnostics.error(model.name.span(), format!("{refusal:?}"));

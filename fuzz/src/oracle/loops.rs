@@ -7,7 +7,7 @@ use multibody_engine::mechanics::loops::structure::Means;
 use nalgebra::DVector;
 
 use super::{At, Findings, Verdict};
-use crate::algebra::{V3, apply, dot, least, norm, quaternion, transposed};
+use crate::algebra::{V3, apply, dot, extremes, least, norm, quaternion, transposed};
 use crate::closed::{accelerations, jacobian, settled, state, turns_beside};
 use crate::mechanism::Mechanism;
 use crate::mechanism::expression::Point;
@@ -127,7 +127,7 @@ impl Values for Anywhere<'_> {
     }
 }
 
-/// Least over greatest singular value of the equations in the coordinates that follow from others.
+/// The least singular value of the equations in the coordinates that follow from others, over the greatest in all.
 fn off_dead_centres(m: &Mechanism, programs: &Programs, point: &Point) -> f64 {
     let first = |joint: usize| m.joints[..joint].iter().map(|joint| joint.kind.freedoms()).sum::<usize>();
     let unknowns = programs.structure.steps.iter().flat_map(|step| &step.unknowns);
@@ -138,11 +138,11 @@ fn off_dead_centres(m: &Mechanism, programs: &Programs, point: &Point) -> f64 {
             Some(first(joint) + unknown.index)
         })
         .collect();
-    let slope = jacobian(m, point).select_columns(columns.iter());
-    match least(&slope, &DVector::zeros(slope.nrows())) {
-        (_, ratio, rank) if rank == columns.len() => ratio,
-        _ => 0.0,
-    }
+    let slope = jacobian(m, point);
+    let (least, _) = extremes(slope.select_columns(columns.iter()));
+    let (_, most) = extremes(slope);
+    // Where nothing follows the least is infinite.
+    if least.is_finite() { least / most } else { 1.0 }
 }
 
 fn look(m: &Mechanism, programs: &Programs, point: &Point, findings: &mut Findings) {

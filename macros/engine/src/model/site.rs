@@ -11,7 +11,7 @@ use super::types::{Constraint, Drive, Expr, Force, Joint, Kinematics, Model, Req
 pub struct Site(Span);
 
 impl Site {
-    pub(crate) fn span(self) -> Span {
+    pub fn span(self) -> Span {
         self.0
     }
 }
