@@ -18,6 +18,9 @@ use super::trace::Trace;
 /// How far parameters are moved, relative to their size.
 const AROUND: f64 = 0.02;
 
+/// How far those are moved that open loops, where it is seen whether that is told.
+const OPENING: f64 = 1e-4;
+
 /// Rounds of Newton's method, each of as many steps as the emitted code takes.
 const CLOSINGS: usize = 20;
 
@@ -111,12 +114,12 @@ impl<'m> States<'m> {
     /// State number `number`, drawn for the time `attempt`: nearer to where loops close each time, then near the default
     /// position with numbers of other sizes.
     pub(super) fn draw(&self, number: usize, attempt: usize) -> State {
-        self.drawn(number, attempt, &self.structure.pinned)
+        self.drawn(number, attempt, &self.structure.pinned, if number == 0 { 0.0 } else { AROUND })
     }
 
-    /// The same with all parameters moved: those that open loops too.
+    /// The same with all parameters moved by a little: those that open loops too.
     pub(super) fn unpinned(&self, number: usize, attempt: usize) -> State {
-        self.drawn(number, attempt, &[])
+        self.drawn(number, attempt, &[], OPENING)
     }
 
     /// Whether there are parameters that open loops.
@@ -124,7 +127,7 @@ impl<'m> States<'m> {
         !self.structure.pinned.is_empty()
     }
 
-    fn drawn(&self, number: usize, attempt: usize, pinned: &[(usize, usize)]) -> State {
+    fn drawn(&self, number: usize, attempt: usize, pinned: &[(usize, usize)], around: f64) -> State {
         let mut random = Random(0x0C8E_C4ED + 7919 * number as u64 + 104_729 * attempt as u64);
         // The first is the one that a person would draw: in line, or at right angles.
         let closed = self.structure.closed.get(1..).filter(|list| !list.is_empty()).unwrap_or(&self.structure.closed);
@@ -135,7 +138,6 @@ impl<'m> States<'m> {
         };
         let near = [0.1, 0.03, 0.3, 0.01, 0.0][attempt % 5];
         let wide = if further.is_some() { near } else { [1.2, 0.8, 0.4, 1.6, 0.1][attempt % 5] };
-        let around = if number == 0 { 0.0 } else { AROUND };
         // Functions of the user's may ask for numbers that are large, or small, or all positive.
         let size = further.map_or(1.0, |k| [1.0, 0.1, 10.0, 1e-2, 100.0, 1e-3, 1e3][k / 2 % 7]);
         let positive = further.is_some_and(|k| k % 2 == 1);
