@@ -1,4 +1,9 @@
-//! Functions that are generated.
+//! Functions that are generated: one row each, which all stages read.
+//!
+//! A row says what asks for the function, its name, what it takes, what it gives and its documentation. Results are scalars in
+//! the order that [`FunctionKind`] documents; the [`Shape`] says what they fill.
+
+use crate::model::types::Request;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum FunctionKind {
@@ -50,4 +55,377 @@ pub enum FunctionKind {
     /// Output after output, flattened: `Vec3` 3, `Rotation` 9 row by row, `Pose` x, y, z, w, i, j, k, `Twist` and
     /// `Wrench` 6, `Jacobian` 6 x DOF row by row, arrays element by element.
     Outputs,
+}
+
+/// What asks for a function.
+#[derive(Clone, Copy)]
+pub enum Asked {
+    /// The user, by a word in `emit`; the trait of the runtime's `emitted` speaks of it where it is missing.
+    By { request: Request, word: &'static str, missing: &'static str },
+    /// Equations that keep a multiplier.
+    Equations,
+    /// Loops that Newton's method closes.
+    Guesses,
+    /// Outputs of the model.
+    Outputs,
+    /// What the derivation has found: a loop with a dead centre, an equation that was left out.
+    Found,
+}
+
+/// What a method takes besides `&self`, in this order.
+#[derive(Clone, Copy, PartialEq, Eq, Default)]
+pub struct Arguments {
+    pub time: bool,
+    /// The state, or else only its position.
+    pub state: bool,
+    pub input: bool,
+    pub accel: bool,
+    pub multipliers: bool,
+    /// With the rates of the constraint equations, if there are any.
+    pub impulse: bool,
+    pub momentum: bool,
+}
+
+impl Arguments {
+    const POSITION: Arguments = Arguments {
+        time: false,
+        state: false,
+        input: false,
+        accel: false,
+        multipliers: false,
+        impulse: false,
+        momentum: false,
+    };
+    const TIMED: Arguments = Arguments { time: true, ..Arguments::POSITION };
+    const STATE: Arguments = Arguments { state: true, ..Arguments::POSITION };
+    const TIMED_STATE: Arguments = Arguments { time: true, ..Arguments::STATE };
+    const ALL: Arguments = Arguments { input: true, ..Arguments::TIMED_STATE };
+}
+
+/// How large a model's structs are.
+#[derive(Clone, Copy, Default)]
+pub struct Sizes {
+    pub dof: usize,
+    /// Equations that keep a multiplier.
+    pub rows: usize,
+    /// Scalars of own states, inputs, outputs.
+    pub states: usize,
+    pub inputs: usize,
+    pub outputs: usize,
+    pub guesses: usize,
+    /// Inputs that inverse dynamics finds in the place of efforts.
+    pub solved: Option<usize>,
+    /// Coordinates that the kinematics in question finds.
+    pub found: usize,
+    pub dead_centres: usize,
+    pub margins: usize,
+    pub granted: usize,
+}
+
+impl Sizes {
+    /// Whether forward dynamics gives more than accelerations.
+    pub fn has_derivative(&self) -> bool {
+        self.states > 0 || self.rows > 0 || self.guesses > 0
+    }
+
+    /// Multipliers and the rank of their system.
+    fn multipliers(&self) -> usize {
+        if self.rows > 0 { self.rows + 1 } else { 0 }
+    }
+}
+
+/// What results fill.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    Scalar,
+    Vector(usize),
+    /// Row by row.
+    Matrix(usize, usize),
+    Velocity,
+    /// Accelerations, rates of own states, multipliers, rank, residual: those that there are.
+    Derivative,
+    /// Inputs, then the rank of their system.
+    Solved(usize),
+    /// Velocities, multipliers, rank.
+    Jump,
+    Outputs,
+    /// Positions, rates, accelerations, so many each.
+    Kinematics(usize),
+    /// Of so many results: matrices by position, velocity, own states, inputs.
+    Derivatives(usize),
+    /// The unknowns of all iterations, then the greatest residual.
+    Closed,
+}
+
+impl Shape {
+    /// Number of scalars.
+    pub fn count(self, sizes: &Sizes) -> usize {
+        match self {
+            Shape::Scalar => 1,
+            Shape::Vector(size) => size,
+            Shape::Matrix(rows, columns) => rows * columns,
+            Shape::Velocity => sizes.dof,
+            Shape::Derivative => sizes.dof + sizes.states + sizes.multipliers() + usize::from(sizes.guesses > 0),
+            Shape::Solved(inputs) => inputs + 1,
+            Shape::Jump => sizes.dof + sizes.multipliers(),
+            Shape::Outputs => sizes.outputs,
+            Shape::Kinematics(found) => 3 * found,
+            Shape::Derivatives(results) => results * (2 * sizes.dof + sizes.states + sizes.inputs),
+            Shape::Closed => sizes.guesses + 1,
+        }
+    }
+}
+
+/// One generated function.
+pub struct Row {
+    pub asked: Asked,
+    /// Of the method; kinematics behind the first have their number in it.
+    pub name: &'static str,
+    /// What its meaning demands.
+    pub takes: Arguments,
+    pub gives: fn(&Sizes) -> Shape,
+    /// Of kinematics, `{}` are the coordinates that it finds.
+    pub documentation: fn(&Sizes) -> &'static str,
+}
+
+impl FunctionKind {
+    /// All of them in the order in which they are derived; the first kinematics for all.
+    pub const ALL: [FunctionKind; 23] = [
+        FunctionKind::ForwardDynamics,
+        FunctionKind::InverseDynamics,
+        FunctionKind::MassMatrix,
+        FunctionKind::Bias,
+        FunctionKind::KineticEnergy,
+        FunctionKind::PotentialEnergy,
+        FunctionKind::Constraints,
+        FunctionKind::ConstraintJacobian,
+        FunctionKind::ConstraintRate,
+        FunctionKind::ConstraintBias,
+        FunctionKind::Guess,
+        FunctionKind::Residual,
+        FunctionKind::Kinematics(0),
+        FunctionKind::ForwardDerivatives,
+        FunctionKind::InverseDerivatives,
+        FunctionKind::Impulse,
+        FunctionKind::Momentum,
+        FunctionKind::MomentumRate,
+        FunctionKind::MomentumVelocity,
+        FunctionKind::Outputs,
+        FunctionKind::DeadCentres,
+        FunctionKind::Margins,
+        FunctionKind::Granted,
+    ];
+
+    pub fn row(self) -> Row {
+        use Request as R;
+        let by = |request, word, missing| Asked::By { request, word, missing };
+        let row = |asked, name, takes, gives, documentation| Row { asked, name, takes, gives, documentation };
+        match self {
+            FunctionKind::ForwardDynamics => row(
+                by(R::ForwardDynamics, "forward_dynamics", "ForwardDynamics"),
+                "forward_dynamics",
+                Arguments::ALL,
+                |s| if s.has_derivative() { Shape::Derivative } else { Shape::Velocity },
+                |s| match (s.has_derivative(), s.rows, s.guesses) {
+                    (false, ..) => "Accelerations.",
+                    (true, 0, 0) => "Accelerations, and the rates of the model's own states.",
+                    (true, 0, _) => "Accelerations, and how well the loops are closed.",
+                    (true, ..) => "Accelerations, and the multipliers of the constraint equations.",
+                },
+            ),
+            FunctionKind::InverseDynamics => row(
+                by(R::InverseDynamics, "inverse_dynamics", "InverseDynamics"),
+                "inverse_dynamics",
+                Arguments { accel: true, ..Arguments::ALL },
+                |s| s.solved.map_or(Shape::Velocity, Shape::Solved),
+                |s| match s.solved {
+                    Some(_) => {
+                        "The inputs that produce the accelerations `accel`, in the place of what `input` says of them."
+                    }
+                    None => "Efforts that the accelerations `accel` need beside all declared forces.",
+                },
+            ),
+            FunctionKind::MassMatrix => row(
+                by(R::MassMatrix, "mass_matrix", "MassMatrix"),
+                "mass_matrix",
+                Arguments::POSITION,
+                |s| Shape::Matrix(s.dof, s.dof),
+                |_| "Mass matrix `M` of `M * accel + bias = effort`.",
+            ),
+            FunctionKind::Bias => row(
+                by(R::Bias, "bias", "Bias"),
+                "bias",
+                Arguments::ALL,
+                |s| Shape::Vector(s.dof),
+                |_| {
+                    "The efforts at zero acceleration, `bias` of `M * accel + bias = effort`; declared forces and gravity are \
+                     in it."
+                },
+            ),
+            FunctionKind::KineticEnergy => row(
+                by(R::Energy, "energy", "Energy"),
+                "kinetic_energy",
+                Arguments::STATE,
+                |_| Shape::Scalar,
+                |_| "`[J]` Kinetic energy of all bodies.",
+            ),
+            FunctionKind::PotentialEnergy => row(
+                by(R::Energy, "energy", "Energy"),
+                "potential_energy",
+                Arguments::POSITION,
+                |_| Shape::Scalar,
+                |_| "`[J]` Potential energy: gravity's, zero at the world's origin, plus the springs'.",
+            ),
+            FunctionKind::Constraints => row(
+                Asked::Equations,
+                "constraints",
+                Arguments::TIMED,
+                |s| Shape::Vector(s.rows),
+                |_| "Residuals of the constraint equations, zero where the loops are closed.",
+            ),
+            FunctionKind::ConstraintJacobian => row(
+                Asked::Equations,
+                "constraint_jacobian",
+                Arguments::TIMED,
+                |s| Shape::Matrix(s.rows, s.dof),
+                |_| "The Jacobian `G` of the constraint equations by the velocities.",
+            ),
+            FunctionKind::ConstraintRate => row(
+                Asked::Equations,
+                "constraint_rate",
+                Arguments::TIMED_STATE,
+                |s| Shape::Vector(s.rows),
+                |_| "Time derivatives of the residuals of the constraint equations, `G * v` and what moves in time by itself.",
+            ),
+            FunctionKind::ConstraintBias => row(
+                Asked::Equations,
+                "constraint_bias",
+                Arguments::TIMED_STATE,
+                |s| Shape::Vector(s.rows),
+                |_| {
+                    "What is left of the second time derivatives of the residuals of the constraint equations where the \
+                     accelerations are zero: the derivatives are `G * accel + constraint_bias`."
+                },
+            ),
+            FunctionKind::Guess => row(
+                Asked::Guesses,
+                "close",
+                Arguments::TIMED_STATE,
+                |_| Shape::Closed,
+                |_| "Closes the loops by Newton's method: the state with the solution as its guess, and the greatest residual.",
+            ),
+            FunctionKind::Residual => row(
+                by(R::Residual, "residual", "Residual"),
+                "residual",
+                Arguments { accel: true, multipliers: true, ..Arguments::ALL },
+                |s| Shape::Vector(s.dof + s.rows),
+                |_| {
+                    "All equations as a residual: `M * accel + bias + G^T * multipliers`, then the residuals of the constraint \
+                     equations."
+                },
+            ),
+            FunctionKind::Kinematics(_) => row(
+                by(R::Kinematics, "kinematics { given: .., find: .. }", "Kinematics"),
+                "kinematics",
+                Arguments { accel: true, ..Arguments::TIMED_STATE },
+                |s| Shape::Kinematics(s.found),
+                |_| "Positions, rates and accelerations, in this order: {}.",
+            ),
+            FunctionKind::ForwardDerivatives => row(
+                by(R::Derivatives, "derivatives", "Derivatives"),
+                "forward_derivatives",
+                Arguments::ALL,
+                |s| Shape::Derivatives(s.dof + s.states),
+                |s| {
+                    if s.states > 0 {
+                        "Partial derivatives of the accelerations, then of the rates of the model's own states, by \
+                         displacements of the position, velocities, own states and inputs."
+                    } else {
+                        "Partial derivatives of the accelerations by displacements of the position, velocities and inputs."
+                    }
+                },
+            ),
+            FunctionKind::InverseDerivatives => row(
+                by(R::Derivatives, "derivatives", "Derivatives"),
+                "inverse_derivatives",
+                Arguments { accel: true, ..Arguments::ALL },
+                |s| Shape::Derivatives(s.dof),
+                |_| {
+                    "Partial derivatives of the efforts that the accelerations `accel` need beside all declared forces, by \
+                     displacements of the position, velocities, own states and inputs, at fixed `accel`."
+                },
+            ),
+            FunctionKind::Impulse => row(
+                by(R::Impulse, "impulse", "Impulse"),
+                "impulse",
+                Arguments { impulse: true, ..Arguments::POSITION },
+                |s| if s.rows > 0 { Shape::Jump } else { Shape::Velocity },
+                |s| {
+                    if s.rows > 0 {
+                        "The jump of the velocities under an impulse, with `rates` for the jump of `constraint_rate`: \
+                         `M * v + G^T * multipliers = impulse`, `G * v = rates`."
+                    } else {
+                        "The jump `M^-1 * impulse` of the velocities under an impulse."
+                    }
+                },
+            ),
+            FunctionKind::Momentum => row(
+                by(R::Momentum, "momentum", "Momentum"),
+                "momentum",
+                Arguments::STATE,
+                |_| Shape::Velocity,
+                |_| "Momenta `M * v`.",
+            ),
+            FunctionKind::MomentumRate => row(
+                by(R::Momentum, "momentum", "Momentum"),
+                "momentum_rate",
+                Arguments::ALL,
+                |_| Shape::Velocity,
+                |_| {
+                    "Rates of the momenta: the gradient of the kinetic energy by the position at fixed velocities, and the \
+                     efforts of gravity and of all declared forces."
+                },
+            ),
+            FunctionKind::MomentumVelocity => row(
+                by(R::Momentum, "momentum", "Momentum"),
+                "velocity",
+                Arguments { momentum: true, ..Arguments::POSITION },
+                |_| Shape::Velocity,
+                |_| "Velocities `M^-1 * momentum` that belong to momenta.",
+            ),
+            FunctionKind::Outputs => row(Asked::Outputs, "outputs", Arguments::ALL, |_| Shape::Outputs, |_| "Outputs."),
+            FunctionKind::DeadCentres => row(
+                Asked::Found,
+                "dead_centres",
+                Arguments::TIMED,
+                |s| Shape::Vector(s.dead_centres),
+                |_| {
+                    "Distances from dead centres, in the order of `DEAD_CENTRES`. Of a loop's solution: its square root, a product \
+                     of lengths, zero where two solutions meet and NaN where the loop cannot be closed. Of roll, pitch and yaw: \
+                     the cosine of the pitch, zero where roll and yaw turn about one axis. Rates grow without bound there."
+                },
+            ),
+            FunctionKind::Margins => row(
+                Asked::Found,
+                "margins",
+                Arguments::TIMED_STATE,
+                |s| Shape::Vector(2 * s.margins + usize::from(s.guesses > 0)),
+                |_| {
+                    "For integrators, at a state whose guess is the solution: how far loops are from dead centres (the root of a \
+                     closed form, the determinant of what Newton's method solves), each followed by the rate of its square; then \
+                     the greatest residual of Newton's method, if it closes loops."
+                },
+            ),
+            FunctionKind::Granted => row(
+                Asked::Found,
+                "granted",
+                Arguments::TIMED,
+                |s| Shape::Vector(s.granted),
+                |_| {
+                    "What equations leave that hold for parameters like the declared ones only, and were left out for them, each in \
+                     units of a movement by a radian or by the mechanism's size. Integrations start where they hold."
+                },
+            ),
+        }
+    }
 }

@@ -179,86 +179,16 @@ pub(super) fn new(compiled: &Compiled) -> Vec<String> {
 
 /// Of a derived function.
 pub(super) fn function(layout: &Layout<'_>, function: &Function) -> Vec<String> {
+    let text = (function.kind.row().documentation)(&layout.sizes(function.kind));
     let text = match function.kind {
-        FunctionKind::ForwardDynamics if layout.has_derivative() => match (layout.rows(), layout.structure.guesses()) {
-            (0, 0) => "Accelerations, and the rates of the model's own states.",
-            (0, _) => "Accelerations, and how well the loops are closed.",
-            _ => "Accelerations, and the multipliers of the constraint equations.",
-        },
-        FunctionKind::InverseDynamics if layout.solves_inputs() => {
-            "The inputs that produce the accelerations `accel`, in the place of what `input` says of them."
-        }
-        FunctionKind::ForwardDynamics => "Accelerations.",
-        FunctionKind::InverseDynamics => "Efforts that the accelerations `accel` need beside all declared forces.",
-        FunctionKind::MassMatrix => "Mass matrix `M` of `M * accel + bias = effort`.",
-        FunctionKind::Bias => {
-            "The efforts at zero acceleration, `bias` of `M * accel + bias = effort`; declared forces and gravity are \
-             in it."
-        }
-        FunctionKind::KineticEnergy => "`[J]` Kinetic energy of all bodies.",
-        FunctionKind::PotentialEnergy => {
-            "`[J]` Potential energy: gravity's, zero at the world's origin, plus the springs'."
-        }
-        FunctionKind::Outputs => "Outputs.",
-        FunctionKind::Constraints => "Residuals of the constraint equations, zero where the loops are closed.",
-        FunctionKind::ConstraintJacobian => "The Jacobian `G` of the constraint equations by the velocities.",
-        FunctionKind::ConstraintRate => {
-            "Time derivatives of the residuals of the constraint equations, `G * v` and what moves in time by itself."
-        }
-        FunctionKind::ConstraintBias => {
-            "What is left of the second time derivatives of the residuals of the constraint equations where the \
-             accelerations are zero: the derivatives are `G * accel + constraint_bias`."
-        }
-        FunctionKind::Residual => {
-            "All equations as a residual: `M * accel + bias + G^T * multipliers`, then the residuals of the constraint \
-             equations."
-        }
         FunctionKind::Kinematics(number) => {
             let found = layout.model.kinematics.get(number).map_or(&[][..], |kinematics| &kinematics.find);
             let found: Vec<String> = found.iter().map(|c| format!("`{}`", code(&layout.coordinate(*c)))).collect();
-            &format!("Positions, rates and accelerations, in this order: {}.", found.join(", "))
+            text.replace("{}", &found.join(", "))
         }
-        FunctionKind::ForwardDerivatives if layout.has_states() => {
-            "Partial derivatives of the accelerations, then of the rates of the model's own states, by displacements of \
-             the position, velocities, own states and inputs."
-        }
-        FunctionKind::ForwardDerivatives => {
-            "Partial derivatives of the accelerations by displacements of the position, velocities and inputs."
-        }
-        FunctionKind::InverseDerivatives => {
-            "Partial derivatives of the efforts that the accelerations `accel` need beside all declared forces, by \
-             displacements of the position, velocities, own states and inputs, at fixed `accel`."
-        }
-        FunctionKind::Guess => {
-            "Closes the loops by Newton's method: the state with the solution as its guess, and the greatest residual."
-        }
-        FunctionKind::Impulse if layout.rows() > 0 => {
-            "The jump of the velocities under an impulse, with `rates` for the jump of `constraint_rate`: \
-             `M * v + G^T * multipliers = impulse`, `G * v = rates`."
-        }
-        FunctionKind::Impulse => "The jump `M^-1 * impulse` of the velocities under an impulse.",
-        FunctionKind::Momentum => "Momenta `M * v`.",
-        FunctionKind::MomentumRate => {
-            "Rates of the momenta: the gradient of the kinetic energy by the position at fixed velocities, and the \
-             efforts of gravity and of all declared forces."
-        }
-        FunctionKind::MomentumVelocity => "Velocities `M^-1 * momentum` that belong to momenta.",
-        FunctionKind::Margins => {
-            "For integrators, at a state whose guess is the solution: how far loops are from dead centres (the root of a \
-             closed form, the determinant of what Newton's method solves), each followed by the rate of its square; then \
-             the greatest residual of Newton's method, if it closes loops."
-        }
-        FunctionKind::Granted => {
-            "What equations leave that hold for parameters like the declared ones only, and were left out for them, each in \
-             units of a movement by a radian or by the mechanism's size. Integrations start where they hold."
-        }
-        FunctionKind::DeadCentres => {
-            "Distances from dead centres, in the order of `DEAD_CENTRES`. Of a loop's solution: its square root, a product \
-             of lengths, zero where two solutions meet and NaN where the loop cannot be closed. Of roll, pitch and yaw: \
-             the cosine of the pitch, zero where roll and yaw turn about one axis. Rates grow without bound there."
-        }
+        _ => text.to_string(),
     };
-    let mut lines = vec![text.to_string(), String::new()];
+    let mut lines = vec![text, String::new()];
     if !function.method.is_empty() {
         lines.extend([format!("Method: {}.", function.method), String::new()]);
     }

@@ -11,12 +11,13 @@ mod impulses;
 mod inertia;
 mod labels;
 mod motion;
+mod recipes;
 mod ways;
 
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use crate::contracts::function::FunctionKind;
+use crate::contracts::function::{Asked, FunctionKind};
 use crate::dynamics::shared_axes::Axes;
 use crate::model::site::Sited;
 use crate::model::types::{BodyRef, Coordinate, Joint, JointId, JointKind, Model, Request};
@@ -27,7 +28,6 @@ use super::equations::Method;
 use super::loops::branches::Branch;
 use super::loops::constraints::Writing;
 use super::loops::known::Known;
-use super::loops::reduction::Reduction;
 use super::loops::structure::{Role, Structure};
 use super::results::euler_singularities;
 use super::strut::inverse;
@@ -139,36 +139,22 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
 
 /// What to derive, each once, in a fixed order.
 fn kinds(model: &Model, structure: &Structure) -> Vec<FunctionKind> {
-    let wanted = |request: Request, kinds: &[FunctionKind]| {
-        if model.emit.contains(&request) { kinds.to_vec() } else { Vec::new() }
+    let wanted = |kind: FunctionKind| match (kind, kind.row().asked) {
+        (FunctionKind::Kinematics(_), _) => (0..model.kinematics.len()).map(FunctionKind::Kinematics).collect(),
+        // Velocities from momenta are the jump under an impulse: with both, one function serves.
+        (FunctionKind::MomentumVelocity, _) if model.emit.contains(&Request::Impulse) => Vec::new(),
+        (_, Asked::By { request, .. }) => vec![kind; usize::from(model.emit.contains(&request))],
+        (_, Asked::Equations) => vec![kind; usize::from(!structure.rows.is_empty())],
+        (_, Asked::Guesses) => vec![kind; usize::from(structure.guesses() > 0)],
+        (_, Asked::Outputs) => vec![kind; usize::from(!model.outputs.is_empty())],
+        (_, Asked::Found) => Vec::new(),
     };
-    let mut kinds = wanted(Request::ForwardDynamics, &[FunctionKind::ForwardDynamics]);
-    kinds.extend(wanted(Request::InverseDynamics, &[FunctionKind::InverseDynamics]));
-    kinds.extend(wanted(Request::MassMatrix, &[FunctionKind::MassMatrix]));
-    kinds.extend(wanted(Request::Bias, &[FunctionKind::Bias]));
-    kinds.extend(wanted(Request::Energy, &[FunctionKind::KineticEnergy, FunctionKind::PotentialEnergy]));
-    if !structure.rows.is_empty() {
-        kinds.extend([
-            FunctionKind::Constraints,
-            FunctionKind::ConstraintJacobian,
-            FunctionKind::ConstraintRate,
-            FunctionKind::ConstraintBias,
-        ]);
-    }
-    if structure.guesses() > 0 {
-        kinds.push(FunctionKind::Guess);
-    }
-    kinds.extend(wanted(Request::Residual, &[FunctionKind::Residual]));
-    kinds.extend((0..model.kinematics.len()).map(FunctionKind::Kinematics));
-    kinds.extend(wanted(Request::Derivatives, &[FunctionKind::ForwardDerivatives, FunctionKind::InverseDerivatives]));
-    kinds.extend(impulses::kinds(model));
-    if !model.outputs.is_empty() {
-        kinds.push(FunctionKind::Outputs);
-    }
-    kinds
+    FunctionKind::ALL.into_iter().flat_map(wanted).collect()
 }
 
 type Candidate = (&'static str, Vec<Scalar>);
+
+type Candidates = Result<Vec<Candidate>, Vec<Complaint>>;
 
 /// A graph that goes from candidate to candidate.
 struct Deriving<'m> {
@@ -190,120 +176,20 @@ struct Deriving<'m> {
 type Found = Result<Vec<Scalar>, Vec<Complaint>>;
 
 impl<'m> Deriving<'m> {
-    fn candidates(&mut self, kind: FunctionKind) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        if self.is_open() {
-            return match kind {
-                FunctionKind::ForwardDynamics => self.forward_dynamics(),
-                FunctionKind::Outputs => self.outputs(),
-                FunctionKind::InverseDynamics if !self.model.solve_for.is_empty() => {
-                    self.one(NEWTON_EULER, |e| e.actuate(&Reduction::default()))
-                }
-                FunctionKind::InverseDynamics => {
-                    let mut candidates = self.one(NEWTON_EULER, |e| Ok(e.inverse_dynamics()))?;
-                    candidates.extend(self.gathered(|e| Ok(e.inverse_dynamics()))?);
-                    Ok(candidates)
-                }
-                FunctionKind::Bias => {
-                    let mut candidates = self.one(NEWTON_EULER, |e| Ok(e.bias()))?;
-                    candidates.extend(self.gathered(|e| Ok(e.bias()))?);
-                    Ok(candidates)
-                }
-                FunctionKind::MassMatrix => self.one(COMPOSITE, |e| Ok(e.mass_matrix())),
-                FunctionKind::KineticEnergy => self.only("sum over links", |e| Ok(vec![e.kinetic()])),
-                FunctionKind::PotentialEnergy => {
-                    self.only("first moment of mass, springs", |e| Ok(vec![e.potential()]))
-                }
-                FunctionKind::Residual => self.one(NEWTON_EULER, |e| Ok(e.inverse_dynamics())),
-                FunctionKind::Kinematics(k) => self.kinematics(k),
-                FunctionKind::ForwardDerivatives => self.forward_derivatives(),
-                FunctionKind::InverseDerivatives => self.inverse_derivatives(),
-                FunctionKind::Constraints
-                | FunctionKind::ConstraintJacobian
-                | FunctionKind::ConstraintRate
-                | FunctionKind::ConstraintBias
-                | FunctionKind::Margins
-                | FunctionKind::Guess => Ok(Vec::new()),
-                FunctionKind::Granted => self.granted(),
-                FunctionKind::DeadCentres => self.only("closed forms", |e| {
-                    let pitches = euler_singularities::pitches(e.model, &e.structure);
-                    Ok(euler_singularities::cosines(&mut e.g, &e.symbols, &pitches))
-                }),
-                FunctionKind::Impulse | FunctionKind::MomentumVelocity => self.jumps(),
-                FunctionKind::Momentum => self.momenta(),
-                FunctionKind::MomentumRate => self.momentum_rates(),
-            };
-        }
-        match kind {
-            FunctionKind::ForwardDynamics => self.constrained_dynamics(),
-            FunctionKind::Outputs => self.outputs(),
-            FunctionKind::InverseDynamics if !self.model.solve_for.is_empty() => {
-                let mut candidates = self.reduced(NEWTON_EULER, |e, reduction| e.actuate(reduction))?;
-                for at in 0..MOST_STRUT_WAYS {
-                    let found = self.maybe(|e| {
-                        let reduction = e.reduce()?;
-                        let Some(platform) = e.platform(&reduction) else { return Ok(None) };
-                        let name = inverse::ways(&platform.carrier, platform.assumed()).get(at).map(|way| way.0);
-                        Ok(name.zip(e.platform_inputs(&platform, &reduction, at)))
-                    })?;
-                    let Some(found) = found else { break };
-                    candidates.push(found);
-                }
-                Ok(candidates)
-            }
-            FunctionKind::InverseDynamics => {
-                self.reduced(NEWTON_EULER, |e, reduction| Ok(e.reduced_efforts(reduction, true)))
-            }
-            FunctionKind::Bias => self.reduced(NEWTON_EULER, |e, reduction| Ok(e.reduced_efforts(reduction, false))),
-            FunctionKind::MassMatrix => {
-                self.reduced(COMPOSITE, |e, reduction| Ok(e.reduced_mass_matrix(reduction).concat()))
-            }
-            FunctionKind::KineticEnergy => self.put_in("sum over links", |e| Ok(vec![e.kinetic()])),
-            FunctionKind::PotentialEnergy => self.put_in("first moment of mass, springs", |e| Ok(vec![e.potential()])),
-            FunctionKind::Constraints => self.written(&[None], |e, r| e.constraints(r)),
-            FunctionKind::ConstraintJacobian => self.written(&[None], |e, r| e.constraint_jacobian(r)),
-            FunctionKind::ConstraintRate => self.written(&[None], |e, r| e.constraint_rate(r)),
-            FunctionKind::ConstraintBias => self.written(&[None], |e, r| e.constraint_bias(r)),
-            FunctionKind::Residual => {
-                let mut candidates = self.written(&AXES, |e, r| e.residual(r))?;
-                candidates.extend(self.gathered(|e| {
-                    let reduction = e.reduce()?;
-                    Ok(e.residual(&reduction))
-                })?);
-                Ok(candidates)
-            }
-            FunctionKind::Kinematics(k) => self.kinematics(k),
-            FunctionKind::ForwardDerivatives => self.forward_derivatives(),
-            FunctionKind::InverseDerivatives => self.inverse_derivatives(),
-            FunctionKind::Guess => self.equations("Newton's method", |e, reduction| {
-                let mut results = reduction.guesses.clone();
-                results.push(e.worst_residual(reduction));
-                Ok(e.finish(reduction, &results))
-            }),
-            FunctionKind::DeadCentres => self.equations("closed forms", |e, reduction| {
-                let mut roots: Vec<Scalar> = reduction.dead_centres.iter().map(|centre| centre.1).collect();
-                let pitches = euler_singularities::pitches(e.model, &e.structure);
-                roots.extend(euler_singularities::cosines(&mut e.g, &e.symbols, &pitches));
-                Ok(e.finish(reduction, &roots))
-            }),
-            FunctionKind::Margins => self.only("closed forms, determinants", |e| {
-                e.at_guess = true;
+    /// Inputs of a body on struts.
+    fn strut_inputs(&mut self) -> Candidates {
+        let mut candidates = Vec::new();
+        for at in 0..MOST_STRUT_WAYS {
+            let found = self.maybe(|e| {
                 let reduction = e.reduce()?;
-                Ok(e.margins(&reduction))
-            }),
-            FunctionKind::Granted => self.granted(),
-            FunctionKind::Impulse | FunctionKind::MomentumVelocity => self.constrained_jumps(),
-            FunctionKind::Momentum => self.reduced_momenta(),
-            FunctionKind::MomentumRate => self.reduced_momentum_rates(),
+                let Some(platform) = e.platform(&reduction) else { return Ok(None) };
+                let name = inverse::ways(&platform.carrier, platform.assumed()).get(at).map(|way| way.0);
+                Ok(name.zip(e.platform_inputs(&platform, &reduction, at)))
+            })?;
+            let Some(found) = found else { break };
+            candidates.push(found);
         }
-    }
-
-    /// What equations leave that were left out for the declared parameters.
-    fn granted(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        self.only("equations that were left out", |e| {
-            e.at_guess = true;
-            let reduction = e.reduce()?;
-            Ok(e.granted(&reduction))
-        })
+        Ok(candidates)
     }
 
     /// Whether loops are solved in a way that ends in dead centres.

@@ -7,7 +7,7 @@
 use proc_macro2::TokenStream;
 
 use crate::contracts::cost::Cost;
-use crate::contracts::function::FunctionKind;
+use crate::contracts::function::{Asked, FunctionKind};
 use crate::emit::{context, module};
 use crate::mechanics;
 use crate::model::{Checked, Soundness};
@@ -22,33 +22,14 @@ pub fn skeleton(checked: &Checked) -> TokenStream {
     let known = (checked.state != Soundness::Guessed && small).then(|| mechanics::analysis::analyse(model).ok());
     let structure = known.flatten().unwrap_or_else(|| guesses::structure(model));
     let mut compiled = Compiled::default();
-    let mut kinds = vec![
-        FunctionKind::ForwardDynamics,
-        FunctionKind::InverseDynamics,
-        FunctionKind::MassMatrix,
-        FunctionKind::Bias,
-        FunctionKind::KineticEnergy,
-        FunctionKind::PotentialEnergy,
-        FunctionKind::Outputs,
-        FunctionKind::Residual,
-        FunctionKind::ForwardDerivatives,
-        FunctionKind::InverseDerivatives,
-        FunctionKind::Impulse,
-        FunctionKind::Momentum,
-        FunctionKind::MomentumRate,
-        FunctionKind::MomentumVelocity,
-    ];
-    if !structure.rows.is_empty() {
-        kinds.extend([
-            FunctionKind::Constraints,
-            FunctionKind::ConstraintJacobian,
-            FunctionKind::ConstraintRate,
-            FunctionKind::ConstraintBias,
-        ]);
-    }
-    kinds.extend((0..model.kinematics.len()).map(FunctionKind::Kinematics));
-    kinds.extend((structure.guesses() > 0).then_some(FunctionKind::Guess));
-    compiled.functions.extend(kinds.into_iter().map(|kind| Function {
+    let kinds = FunctionKind::ALL.into_iter().flat_map(|kind| match (kind, kind.row().asked) {
+        (FunctionKind::Kinematics(_), _) => (0..model.kinematics.len()).map(FunctionKind::Kinematics).collect(),
+        (_, Asked::Equations) if structure.rows.is_empty() => Vec::new(),
+        (_, Asked::Guesses) if structure.guesses() == 0 => Vec::new(),
+        (_, Asked::Found) => Vec::new(),
+        (_, Asked::By { .. } | Asked::Outputs | Asked::Equations | Asked::Guesses) => vec![kind],
+    });
+    compiled.functions.extend(kinds.map(|kind| Function {
         kind,
         program: Program::default(),
         before: Cost::default(),

@@ -3,10 +3,10 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::contracts::function::FunctionKind;
+use crate::contracts::function::{Arguments, FunctionKind};
 use crate::emit::layout::leaf;
 use crate::emit::layout::places::RESERVED;
-use crate::emit::methods::arguments::{Arguments, input_type};
+use crate::emit::methods::arguments::input_type;
 use crate::emit::methods::{functions, results};
 use crate::emit::print::blocks::body;
 use crate::emit::print::expressions::Names;

@@ -3,10 +3,10 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
-use crate::contracts::function::FunctionKind;
+use crate::contracts::function::{Arguments, FunctionKind};
 use crate::emit::items::singular;
 use crate::emit::layout::Layout;
-use crate::emit::methods::arguments::{Arguments, input_type};
+use crate::emit::methods::arguments::input_type;
 use crate::emit::methods::{functions, results};
 use crate::emit::print::blocks::groups_argument;
 use crate::emit::print::literals;
@@ -178,7 +178,7 @@ fn scales(layout: &Layout<'_>) -> [f64; 2] {
 fn constrained_start(context: &Context<'_>, reads: &mut [bool; 2]) -> Option<TokenStream> {
     let layout = &context.layout;
     for kind in [FunctionKind::Constraints, FunctionKind::ConstraintRate, FunctionKind::ConstraintJacobian] {
-        if functions::arguments(context.function(kind)?) != Arguments::least(kind) {
+        if functions::arguments(context.function(kind)?) != kind.row().takes {
             return None;
         }
     }
@@ -262,7 +262,7 @@ pub(super) fn granted_names(layout: &Layout<'_>) -> Vec<String> {
 fn constrained(context: &Context<'_>) -> Option<TokenStream> {
     let layout = &context.layout;
     for kind in [FunctionKind::Constraints, FunctionKind::ConstraintJacobian, FunctionKind::ConstraintRate] {
-        if functions::arguments(context.function(kind)?) != Arguments::least(kind) {
+        if functions::arguments(context.function(kind)?) != kind.row().takes {
             return None;
         }
     }

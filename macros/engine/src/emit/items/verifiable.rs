@@ -3,8 +3,8 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use crate::contracts::function::FunctionKind;
-use crate::emit::methods::arguments::{Arguments, input_type};
+use crate::contracts::function::{Arguments, FunctionKind};
+use crate::emit::methods::arguments::input_type;
 use crate::emit::methods::functions;
 use crate::emit::{Context, names};
 use crate::optimize::program::Function;

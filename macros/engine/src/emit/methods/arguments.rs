@@ -8,60 +8,17 @@ use std::collections::BTreeSet;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use crate::contracts::function::FunctionKind;
+use crate::contracts::function::{Arguments, FunctionKind};
 use crate::emit::layout::places::Root;
 use crate::emit::layout::{Group, Layout};
 use crate::emit::names;
 
 use super::results::vector_type;
 
-/// Arguments in the order in which they stand.
-#[derive(Clone, Copy, PartialEq, Eq, Default)]
-pub(in crate::emit) struct Arguments {
-    time: bool,
-    /// The state, or else only its position.
-    state: bool,
-    input: bool,
-    accel: bool,
-    multipliers: bool,
-    /// With the rates of the constraint equations, if there are any.
-    impulse: bool,
-    momentum: bool,
-}
-
 impl Arguments {
-    /// What the function's meaning demands.
-    pub(in crate::emit) fn least(kind: FunctionKind) -> Arguments {
-        let position = Arguments::default();
-        let state = Arguments { state: true, ..position };
-        let all = Arguments { time: true, input: true, ..state };
-        match kind {
-            FunctionKind::MassMatrix | FunctionKind::PotentialEnergy => position,
-            FunctionKind::KineticEnergy | FunctionKind::Momentum => state,
-            FunctionKind::ForwardDynamics
-            | FunctionKind::ForwardDerivatives
-            | FunctionKind::Bias
-            | FunctionKind::Outputs
-            | FunctionKind::MomentumRate => all,
-            FunctionKind::Impulse => Arguments { impulse: true, ..position },
-            FunctionKind::MomentumVelocity => Arguments { momentum: true, ..position },
-            FunctionKind::InverseDynamics | FunctionKind::InverseDerivatives => Arguments { accel: true, ..all },
-            FunctionKind::Constraints
-            | FunctionKind::ConstraintJacobian
-            | FunctionKind::DeadCentres
-            | FunctionKind::Granted => Arguments { time: true, ..position },
-            FunctionKind::ConstraintRate
-            | FunctionKind::ConstraintBias
-            | FunctionKind::Guess
-            | FunctionKind::Margins => Arguments { time: true, ..state },
-            FunctionKind::Kinematics(_) => Arguments { time: true, accel: true, ..state },
-            FunctionKind::Residual => Arguments { accel: true, multipliers: true, ..all },
-        }
-    }
-
     /// The fewest that the function's meaning and its program allow: a spring may stiffen with time, an input shift it.
     pub(in crate::emit) fn of(kind: FunctionKind, roots: &BTreeSet<Root>) -> Arguments {
-        let mut needed = Arguments::least(kind);
+        let mut needed = kind.row().takes;
         for root in roots {
             match root {
                 Root::Params | Root::Position | Root::Impulse | Root::Rates | Root::Momentum => {}

@@ -15,37 +15,15 @@ use crate::emit::print::expressions::Names;
 use crate::emit::{Context, document, names};
 use crate::optimize::program::{Expression, Function, Program};
 
-use super::arguments::Arguments;
 use super::results;
+use crate::contracts::function::Arguments;
 
 /// Name of the method.
 pub fn name(kind: FunctionKind) -> Cow<'static, str> {
-    Cow::Borrowed(match kind {
-        FunctionKind::ForwardDynamics => "forward_dynamics",
-        FunctionKind::InverseDynamics => "inverse_dynamics",
-        FunctionKind::MassMatrix => "mass_matrix",
-        FunctionKind::Bias => "bias",
-        FunctionKind::KineticEnergy => "kinetic_energy",
-        FunctionKind::PotentialEnergy => "potential_energy",
-        FunctionKind::Outputs => "outputs",
-        FunctionKind::Constraints => "constraints",
-        FunctionKind::ConstraintJacobian => "constraint_jacobian",
-        FunctionKind::ConstraintRate => "constraint_rate",
-        FunctionKind::ConstraintBias => "constraint_bias",
-        FunctionKind::Residual => "residual",
-        FunctionKind::ForwardDerivatives => "forward_derivatives",
-        FunctionKind::InverseDerivatives => "inverse_derivatives",
-        FunctionKind::Kinematics(0) => "kinematics",
-        FunctionKind::Kinematics(number) => return Cow::Owned(format!("kinematics_{}", number + 1)),
-        FunctionKind::Guess => "close",
-        FunctionKind::DeadCentres => "dead_centres",
-        FunctionKind::Margins => "margins",
-        FunctionKind::Granted => "granted",
-        FunctionKind::Impulse => "impulse",
-        FunctionKind::Momentum => "momentum",
-        FunctionKind::MomentumRate => "momentum_rate",
-        FunctionKind::MomentumVelocity => "velocity",
-    })
+    match kind {
+        FunctionKind::Kinematics(number) if number > 0 => Cow::Owned(format!("{}_{}", kind.row().name, number + 1)),
+        kind => Cow::Borrowed(kind.row().name),
+    }
 }
 
 /// The variables that a program reads.

@@ -6,7 +6,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use crate::contracts::function::FunctionKind;
+use crate::contracts::function::{FunctionKind, Shape, Sizes};
 use crate::contracts::symbol::Symbol;
 use crate::emit::layout::{Group, Layout, leaf};
 use crate::emit::names;
@@ -25,117 +25,93 @@ impl Layout<'_> {
 
     /// Whether forward dynamics gives more than accelerations.
     pub(in crate::emit) fn has_derivative(&self) -> bool {
-        self.has_states() || self.rows() > 0 || self.structure.guesses() > 0
+        self.sizes(FunctionKind::ForwardDynamics).has_derivative()
     }
 
     /// Whether inverse dynamics finds inputs instead of efforts.
     pub(in crate::emit) fn solves_inputs(&self) -> bool {
         !self.model.solve_for.is_empty() && !self.is_empty(Group::Input, None)
     }
+
+    /// What the function gives.
+    pub(in crate::emit) fn shape(&self, kind: FunctionKind) -> Shape {
+        (kind.row().gives)(&self.sizes(kind))
+    }
+
+    /// What shapes and documentation depend on.
+    pub(in crate::emit) fn sizes(&self, kind: FunctionKind) -> Sizes {
+        let [states, inputs, outputs] =
+            [Group::States, Group::Input, Group::Output].map(|group| self.table(group).size);
+        let kinematics = match kind {
+            FunctionKind::Kinematics(number) => self.model.kinematics.get(number),
+            _ => None,
+        };
+        Sizes {
+            dof: self.dof(),
+            rows: self.rows(),
+            states,
+            inputs,
+            outputs,
+            guesses: self.structure.guesses(),
+            solved: self.solves_inputs().then_some(self.model.solve_for.len()),
+            found: kinematics.map_or(0, |kinematics| kinematics.find.len()),
+            dead_centres: self.structure.dead_centres.len(),
+            margins: self.structure.margins().len(),
+            granted: self.structure.granted.len(),
+        }
+    }
 }
 
 /// Number of scalars that the method's value is built from.
 pub(in crate::emit) fn count(layout: &Layout<'_>, kind: FunctionKind) -> usize {
-    let (dof, rows) = (layout.dof(), layout.rows());
-    let [states, inputs, outputs] = [Group::States, Group::Input, Group::Output].map(|group| layout.table(group).size);
-    // With the rank of their system.
-    let multipliers = if rows > 0 { rows + 1 } else { 0 };
-    match kind {
-        FunctionKind::ForwardDynamics => dof + states + multipliers + usize::from(layout.structure.guesses() > 0),
-        FunctionKind::InverseDynamics if layout.solves_inputs() => layout.model.solve_for.len() + 1,
-        FunctionKind::InverseDynamics
-        | FunctionKind::Bias
-        | FunctionKind::Momentum
-        | FunctionKind::MomentumRate
-        | FunctionKind::MomentumVelocity => dof,
-        FunctionKind::MassMatrix => dof * dof,
-        FunctionKind::KineticEnergy | FunctionKind::PotentialEnergy => 1,
-        FunctionKind::Constraints | FunctionKind::ConstraintRate | FunctionKind::ConstraintBias => rows,
-        FunctionKind::ConstraintJacobian => rows * dof,
-        FunctionKind::Residual => dof + rows,
-        FunctionKind::Kinematics(number) => 3 * found(layout, number),
-        FunctionKind::Guess => layout.structure.guesses() + 1,
-        FunctionKind::DeadCentres => layout.structure.dead_centres.len(),
-        FunctionKind::Margins => margins(layout),
-        FunctionKind::Granted => layout.structure.granted.len(),
-        FunctionKind::ForwardDerivatives | FunctionKind::InverseDerivatives => {
-            differentiated(layout, kind) * (2 * dof + states + inputs)
-        }
-        FunctionKind::Impulse => dof + multipliers,
-        FunctionKind::Outputs => outputs,
-    }
-}
-
-/// Margins with their rates, and how far loops of Newton's method are open.
-fn margins(layout: &Layout<'_>) -> usize {
-    2 * layout.structure.margins().len() + usize::from(layout.structure.guesses() > 0)
+    layout.shape(kind).count(&layout.sizes(kind))
 }
 
 /// Expands to the method's return type.
 pub(in crate::emit) fn ty(layout: &Layout<'_>, kind: FunctionKind) -> TokenStream {
-    let dof = layout.dof();
-    match kind {
-        FunctionKind::ForwardDynamics if layout.has_derivative() => quote!(Derivative<T>),
-        FunctionKind::InverseDynamics if layout.solves_inputs() => quote!(Solved<T>),
-        FunctionKind::ForwardDynamics | FunctionKind::InverseDynamics => quote!(Velocity<T>),
-        FunctionKind::MassMatrix => matrix_type(layout, dof, dof),
-        FunctionKind::Bias => vector_type(layout, dof),
-        FunctionKind::KineticEnergy | FunctionKind::PotentialEnergy => quote!(T),
-        FunctionKind::Outputs => quote!(Output<T>),
-        FunctionKind::Constraints | FunctionKind::ConstraintRate | FunctionKind::ConstraintBias => {
-            vector_type(layout, layout.rows())
-        }
-        FunctionKind::ConstraintJacobian => matrix_type(layout, layout.rows(), dof),
-        FunctionKind::Residual => vector_type(layout, dof + layout.rows()),
-        FunctionKind::Kinematics(number) => {
-            let (krate, count) = (layout.krate(), Literal::usize_unsuffixed(found(layout, number)));
+    let krate = layout.krate();
+    match layout.shape(kind) {
+        Shape::Scalar => quote!(T),
+        Shape::Vector(size) => vector_type(layout, size),
+        Shape::Matrix(rows, columns) => matrix_type(layout, rows, columns),
+        Shape::Velocity => quote!(Velocity<T>),
+        Shape::Derivative => quote!(Derivative<T>),
+        Shape::Solved(_) => quote!(Solved<T>),
+        Shape::Jump => quote!(Jump<T>),
+        Shape::Outputs => quote!(Output<T>),
+        Shape::Kinematics(found) => {
+            let count = Literal::usize_unsuffixed(found);
             quote!(#krate::Kinematics<T, #count>)
         }
-        FunctionKind::ForwardDerivatives | FunctionKind::InverseDerivatives => {
-            let krate = layout.krate();
-            let [results, states, inputs] =
-                [differentiated(layout, kind), layout.table(Group::States).size, layout.table(Group::Input).size]
-                    .map(Literal::usize_unsuffixed);
-            let dof = Literal::usize_unsuffixed(dof);
+        Shape::Derivatives(results) => {
+            let sizes = layout.sizes(kind);
+            let [results, dof, states, inputs] =
+                [results, sizes.dof, sizes.states, sizes.inputs].map(Literal::usize_unsuffixed);
             quote!(#krate::Derivatives<T, #results, #dof, #states, #inputs>)
         }
-        FunctionKind::Guess => quote!(Closed<T>),
-        FunctionKind::Impulse if layout.rows() > 0 => quote!(Jump<T>),
-        FunctionKind::Impulse
-        | FunctionKind::Momentum
-        | FunctionKind::MomentumRate
-        | FunctionKind::MomentumVelocity => quote!(Velocity<T>),
-        FunctionKind::DeadCentres => vector_type(layout, layout.structure.dead_centres.len()),
-        FunctionKind::Margins => vector_type(layout, margins(layout)),
-        FunctionKind::Granted => vector_type(layout, layout.structure.granted.len()),
+        Shape::Closed => quote!(Closed<T>),
     }
 }
 
 /// Expands to the method's value, from its scalars.
 pub(in crate::emit) fn value(layout: &Layout<'_>, kind: FunctionKind, results: Vec<TokenStream>) -> TokenStream {
     let krate = layout.krate();
-    let dof = layout.dof();
-    match kind {
-        FunctionKind::ForwardDynamics if layout.has_derivative() => derivative(layout, results),
-        FunctionKind::InverseDynamics if layout.solves_inputs() => solved(layout, results),
-        FunctionKind::ForwardDynamics | FunctionKind::InverseDynamics => filled(layout, Group::Velocity, &results),
-        FunctionKind::MassMatrix => leaf::matrix(krate, dof, dof, &mut results.into_iter()),
-        FunctionKind::ConstraintJacobian => leaf::matrix(krate, layout.rows(), dof, &mut results.into_iter()),
-        FunctionKind::KineticEnergy | FunctionKind::PotentialEnergy => quote!(#(#results)*),
-        FunctionKind::Impulse if layout.rows() > 0 => jump(layout, results),
-        FunctionKind::Impulse
-        | FunctionKind::Momentum
-        | FunctionKind::MomentumRate
-        | FunctionKind::MomentumVelocity => filled(layout, Group::Velocity, &results),
-        FunctionKind::Outputs => filled(layout, Group::Output, &results),
-        FunctionKind::Kinematics(number) => {
+    match layout.shape(kind) {
+        Shape::Scalar => quote!(#(#results)*),
+        Shape::Vector(_) => vector(layout, results),
+        Shape::Matrix(rows, columns) => leaf::matrix(krate, rows, columns, &mut results.into_iter()),
+        Shape::Velocity => filled(layout, Group::Velocity, &results),
+        Shape::Derivative => derivative(layout, results),
+        Shape::Solved(_) => solved(layout, results),
+        Shape::Jump => jump(layout, results),
+        Shape::Outputs => filled(layout, Group::Output, &results),
+        Shape::Kinematics(found) => {
             let mut results = results.into_iter();
-            let mut next = || vector(layout, results.by_ref().take(found(layout, number)).collect());
+            let mut next = || vector(layout, results.by_ref().take(found).collect());
             let (position, velocity, acceleration) = (next(), next(), next());
             quote!(#krate::Kinematics { position: #position, velocity: #velocity, acceleration: #acceleration })
         }
-        FunctionKind::ForwardDerivatives | FunctionKind::InverseDerivatives => {
-            let rows = differentiated(layout, kind);
+        Shape::Derivatives(rows) => {
             let mut results = results.into_iter();
             let mut next = |group| {
                 let columns = layout.table(group).size;
@@ -147,20 +123,12 @@ pub(in crate::emit) fn value(layout: &Layout<'_>, kind: FunctionKind, results: V
                 #krate::Derivatives { position: #position, velocity: #velocity, states: #states, input: #input }
             }
         }
-        FunctionKind::Guess => {
+        Shape::Closed => {
             let (mut results, state) = (results, names::ident("state"));
             let residual = results.split_off(layout.structure.guesses().min(results.len()));
             let guess = filled(layout, Group::Guess, &layout.in_leaves(&results));
             quote!(Closed { state: State { guess: #guess, ..*#state }, residual: #(#residual)* })
         }
-        FunctionKind::Bias
-        | FunctionKind::Constraints
-        | FunctionKind::ConstraintRate
-        | FunctionKind::ConstraintBias
-        | FunctionKind::DeadCentres
-        | FunctionKind::Margins
-        | FunctionKind::Granted
-        | FunctionKind::Residual => vector(layout, results),
     }
 }
 
@@ -209,17 +177,6 @@ fn solved(layout: &Layout<'_>, results: Vec<TokenStream>) -> TokenStream {
         #(#set)*
         Solved { input: #solved, rank: #(#rank)* }
     }
-}
-
-/// Number of results that have derivatives: accelerations and rates of own states, or efforts.
-fn differentiated(layout: &Layout<'_>, kind: FunctionKind) -> usize {
-    let states = layout.table(Group::States).size;
-    layout.dof() + if kind == FunctionKind::ForwardDerivatives { states } else { 0 }
-}
-
-/// Number of scalars that these kinematics find.
-fn found(layout: &Layout<'_>, number: usize) -> usize {
-    layout.model.kinematics.get(number).map_or(0, |kinematics| kinematics.find.len())
 }
 
 pub(in crate::emit) fn vector_type(layout: &Layout<'_>, size: usize) -> TokenStream {

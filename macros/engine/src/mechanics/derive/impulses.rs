@@ -2,7 +2,6 @@
 //!
 //! In: what the model asks for. Out: candidates, or complaints about mechanisms whose equations these functions can't hold.
 
-use crate::contracts::function::FunctionKind;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::{Equations, Method, Style, Way};
 use crate::mechanics::loops::constraints::path;
@@ -10,12 +9,10 @@ use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::results::momentum::Weight;
 use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::site::Sited;
-use crate::model::types::{Coordinate, Model, Request};
+use crate::model::types::{Coordinate, Request};
 use crate::symbolic::graph::{Graph, Scalar};
 
-use super::{COMPOSITE, Candidate, Deriving, METHODS, MOST_COMPOSITE, Names, articulates, floats, freedoms};
-
-type Candidates = Result<Vec<Candidate>, Vec<Complaint>>;
+use super::{COMPOSITE, Candidates, Deriving, METHODS, MOST_COMPOSITE, Names, articulates, floats, freedoms};
 
 const MOMENTA: Names = [
     "momenta of the links",
@@ -30,16 +27,6 @@ const POTENTIAL: Names = [
 ];
 
 const FLOATING: &str = "composite rigid body, LDL^T, translations first";
-
-/// What the model asks for. Velocities from momenta are the jump under an impulse: with both, one function serves.
-pub(super) fn kinds(model: &Model) -> Vec<FunctionKind> {
-    let (jumps, momenta) = (model.emit.contains(&Request::Impulse), model.emit.contains(&Request::Momentum));
-    let mut kinds = Vec::new();
-    kinds.extend(jumps.then_some(FunctionKind::Impulse));
-    kinds.extend(momenta.then_some([FunctionKind::Momentum, FunctionKind::MomentumRate]).into_iter().flatten());
-    kinds.extend((momenta && !jumps).then_some(FunctionKind::MomentumVelocity));
-    kinds
-}
 
 impl Deriving<'_> {
     /// What these functions can't hold, each at the word that asks for it.

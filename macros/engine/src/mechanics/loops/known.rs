@@ -11,7 +11,7 @@ use crate::dynamics::shared_axes::Axes;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::{Equations, Method, Style};
 use crate::model::types::JointId;
-use crate::symbolic::graph::{Graph, Sharing};
+use crate::symbolic::graph::Sharing;
 
 use super::constraints::Writing;
 use super::reduction::Reduction;
@@ -89,11 +89,7 @@ impl<'m> Equations<'m> {
 
     /// A copy of all but the graph and what goes from one derivation to the next.
     fn without_graph(&mut self) -> Equations<'m> {
-        let passed = (
-            std::mem::replace(&mut self.g, Graph::new()),
-            std::mem::take(&mut self.branches),
-            std::mem::take(&mut self.known),
-        );
+        let passed = (std::mem::take(&mut self.g), std::mem::take(&mut self.branches), std::mem::take(&mut self.known));
         let copy = self.clone();
         (self.g, self.branches, self.known) = passed;
         copy

@@ -1,0 +1,183 @@
+//! Stage `mechanics`, its whole: the table of recipes.
+//!
+//! In: a function. Out: the ways to it, each with its name: one list where all coordinates are of the state and no equation
+//! keeps a multiplier, one where some depend on others. What a way does with axes and definitions is told by [`super::ways`].
+
+use crate::contracts::function::FunctionKind;
+use crate::dynamics::shared_axes::Axes;
+use crate::mechanics::equations::Equations;
+use crate::mechanics::loops::reduction::Reduction;
+use crate::mechanics::results::euler_singularities;
+use crate::symbolic::graph::Scalar;
+
+use super::{AXES, COMPOSITE, Candidates, Deriving, Found, NEWTON_EULER, Names};
+
+/// Results from the tree, and with the definitions of dependent coordinates.
+type OnTree = fn(&mut Equations<'_>) -> Found;
+type OnLoops = fn(&mut Equations<'_>, &Reduction) -> Found;
+
+/// One or several ways to a function, with their names.
+pub(super) enum Way {
+    /// On the tree, in the axes that [`AXES`] names.
+    InAxes(Names, OnTree),
+    /// The same with definitions at hand.
+    Reduced(Names, OnLoops),
+    /// On the tree, over links that turn together, where that is another way.
+    Lumped(OnTree),
+    /// Without a choice of axes: on the tree, on it with definitions put in, with definitions at hand.
+    Plain(&'static str, OnTree),
+    PutIn(&'static str, OnTree),
+    Defined(&'static str, OnLoops),
+    /// In the axes in which loops are closed, which give the name; in those axes for parallel hinges.
+    Written(&'static [Option<Axes>], fn(&mut Equations<'_>, &Reduction) -> Vec<Scalar>),
+    /// Ways that depend on the model.
+    Chosen(fn(&mut Deriving<'_>, FunctionKind) -> Candidates),
+}
+
+/// The ways to one function.
+pub(super) struct Recipe {
+    open: &'static [Way],
+    looped: &'static [Way],
+}
+
+const LINKS: &str = "sum over links";
+const FIRST_MOMENT: &str = "first moment of mass, springs";
+const WITHOUT_CHOICE: &[Option<Axes>] = &[None];
+
+/// One row per function.
+fn recipe(kind: FunctionKind, solves_inputs: bool) -> Recipe {
+    use FunctionKind as F;
+    use Way::{Chosen, Defined, InAxes, Lumped, Plain, PutIn, Reduced, Written};
+    const NONE: &[Way] = &[];
+    let (open, looped): (&'static [Way], &'static [Way]) = match kind {
+        F::ForwardDynamics => {
+            (const { &[Chosen(|d, _| d.forward_dynamics())] }, const { &[Chosen(|d, _| d.constrained_dynamics())] })
+        }
+        F::InverseDynamics if solves_inputs => (
+            const { &[InAxes(NEWTON_EULER, |e| e.actuate(&Reduction::default()))] },
+            const { &[Reduced(NEWTON_EULER, |e, r| e.actuate(r)), Chosen(|d, _| d.strut_inputs())] },
+        ),
+        F::InverseDynamics => (
+            const { &[InAxes(NEWTON_EULER, |e| Ok(e.inverse_dynamics())), Lumped(|e| Ok(e.inverse_dynamics()))] },
+            const { &[Reduced(NEWTON_EULER, |e, r| Ok(e.reduced_efforts(r, true)))] },
+        ),
+        F::Bias => (
+            const { &[InAxes(NEWTON_EULER, |e| Ok(e.bias())), Lumped(|e| Ok(e.bias()))] },
+            const { &[Reduced(NEWTON_EULER, |e, r| Ok(e.reduced_efforts(r, false)))] },
+        ),
+        F::MassMatrix => (
+            const { &[InAxes(COMPOSITE, |e| Ok(e.mass_matrix()))] },
+            const { &[Reduced(COMPOSITE, |e, r| Ok(e.reduced_mass_matrix(r).concat()))] },
+        ),
+        F::KineticEnergy => {
+            (const { &[Plain(LINKS, |e| Ok(vec![e.kinetic()]))] }, const { &[PutIn(LINKS, |e| Ok(vec![e.kinetic()]))] })
+        }
+        F::PotentialEnergy => (
+            const { &[Plain(FIRST_MOMENT, |e| Ok(vec![e.potential()]))] },
+            const { &[PutIn(FIRST_MOMENT, |e| Ok(vec![e.potential()]))] },
+        ),
+        F::Constraints => (NONE, const { &[Written(WITHOUT_CHOICE, |e, r| e.constraints(r))] }),
+        F::ConstraintJacobian => (NONE, const { &[Written(WITHOUT_CHOICE, |e, r| e.constraint_jacobian(r))] }),
+        F::ConstraintRate => (NONE, const { &[Written(WITHOUT_CHOICE, |e, r| e.constraint_rate(r))] }),
+        F::ConstraintBias => (NONE, const { &[Written(WITHOUT_CHOICE, |e, r| e.constraint_bias(r))] }),
+        F::Residual => (
+            const { &[InAxes(NEWTON_EULER, |e| Ok(e.inverse_dynamics()))] },
+            const { &[Written(&AXES, |e, r| e.residual(r)), Lumped(residual)] },
+        ),
+        F::Kinematics(_) => (const { &[Chosen(kinematics)] }, const { &[Chosen(kinematics)] }),
+        F::Guess => (NONE, const { &[Defined("Newton's method", guess)] }),
+        F::DeadCentres => {
+            (const { &[Plain("closed forms", |e| Ok(pitches(e)))] }, const { &[Defined("closed forms", dead_centres)] })
+        }
+        F::Margins => (NONE, const { &[Plain("closed forms, determinants", margins)] }),
+        F::Granted => {
+            const GRANTED: &[Way] = &[Plain("equations that were left out", granted)];
+            (GRANTED, GRANTED)
+        }
+        F::ForwardDerivatives => {
+            const SAME: &[Way] = &[Chosen(|d, _| d.forward_derivatives())];
+            (SAME, SAME)
+        }
+        F::InverseDerivatives => {
+            const SAME: &[Way] = &[Chosen(|d, _| d.inverse_derivatives())];
+            (SAME, SAME)
+        }
+        F::Impulse | F::MomentumVelocity => {
+            (const { &[Chosen(|d, _| d.jumps())] }, const { &[Chosen(|d, _| d.constrained_jumps())] })
+        }
+        F::Momentum => (const { &[Chosen(|d, _| d.momenta())] }, const { &[Chosen(|d, _| d.reduced_momenta())] }),
+        F::MomentumRate => {
+            (const { &[Chosen(|d, _| d.momentum_rates())] }, const { &[Chosen(|d, _| d.reduced_momentum_rates())] })
+        }
+        F::Outputs => {
+            const SAME: &[Way] = &[Chosen(|d, _| d.outputs())];
+            (SAME, SAME)
+        }
+    };
+    Recipe { open, looped }
+}
+
+fn kinematics(deriving: &mut Deriving<'_>, kind: FunctionKind) -> Candidates {
+    match kind {
+        FunctionKind::Kinematics(number) => deriving.kinematics(number),
+        _ => Ok(Vec::new()),
+    }
+}
+
+fn residual(e: &mut Equations<'_>) -> Found {
+    let reduction = e.reduce()?;
+    Ok(e.residual(&reduction))
+}
+
+fn guess(e: &mut Equations<'_>, reduction: &Reduction) -> Found {
+    let mut results = reduction.guesses.clone();
+    results.push(e.worst_residual(reduction));
+    Ok(e.finish(reduction, &results))
+}
+
+fn dead_centres(e: &mut Equations<'_>, reduction: &Reduction) -> Found {
+    let mut roots: Vec<Scalar> = reduction.dead_centres.iter().map(|centre| centre.1).collect();
+    roots.extend(pitches(e));
+    Ok(e.finish(reduction, &roots))
+}
+
+/// Cosines of the pitches that may stand at a right angle.
+fn pitches(e: &mut Equations<'_>) -> Vec<Scalar> {
+    let pitches = euler_singularities::pitches(e.model, &e.structure);
+    euler_singularities::cosines(&mut e.g, &e.symbols, &pitches)
+}
+
+fn margins(e: &mut Equations<'_>) -> Found {
+    e.at_guess = true;
+    let reduction = e.reduce()?;
+    Ok(e.margins(&reduction))
+}
+
+/// What equations leave that were left out for the declared parameters.
+fn granted(e: &mut Equations<'_>) -> Found {
+    e.at_guess = true;
+    let reduction = e.reduce()?;
+    Ok(e.granted(&reduction))
+}
+
+impl Deriving<'_> {
+    /// All candidates of a function, in the order of the table.
+    pub(super) fn candidates(&mut self, kind: FunctionKind) -> Candidates {
+        let recipe = recipe(kind, !self.model.solve_for.is_empty());
+        let ways = if self.is_open() { recipe.open } else { recipe.looped };
+        let mut candidates = Vec::new();
+        for way in ways {
+            candidates.extend(match way {
+                Way::InAxes(names, f) => self.one(*names, f)?,
+                Way::Reduced(names, f) => self.reduced(*names, f)?,
+                Way::Lumped(f) => self.gathered(f)?.into_iter().collect(),
+                Way::Plain(name, f) => self.only(name, f)?,
+                Way::PutIn(name, f) => self.put_in(name, f)?,
+                Way::Defined(name, f) => self.equations(name, f)?,
+                Way::Written(axes, f) => self.written(axes, f)?,
+                Way::Chosen(f) => f(self, kind)?,
+            });
+        }
+        Ok(candidates)
+    }
+}
