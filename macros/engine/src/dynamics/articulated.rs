@@ -14,7 +14,7 @@
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
 use super::articulated_inertia::ArticulatedInertia;
-use super::floating_bases::Seat;
+use super::floating_bases::FloatingBase;
 use super::kinematics::motions;
 use super::newton_euler::{Wrench, inertial_wrench, to_parent};
 use super::tree::{Link, Motion, Tree};
@@ -24,7 +24,7 @@ use super::tree::{Link, Motion, Tree};
 enum Freedom {
     /// A coordinate.
     Of(usize),
-    /// A translation along an axis of a seat.
+    /// A translation along an axis of a floating base.
     Along(usize),
 }
 
@@ -49,20 +49,23 @@ struct Pivot {
     drive: Scalar,
 }
 
-/// Accelerations in the order of the coordinates. `base` is minus gravity, `efforts` are those of all coordinates; `seats`
+/// Accelerations in the order of the coordinates. `base` is minus gravity, `efforts` are those of all coordinates; `floating_bases`
 /// may be empty, then every freedom is eliminated where it was declared.
 pub fn forward_dynamics(
     g: &mut Graph,
     tree: &Tree,
-    seats: &[Seat],
+    floating_bases: &[FloatingBase],
     velocity: &[Scalar],
     base: Vector,
     applied: &[Wrench],
     efforts: &[Scalar],
 ) -> Vec<Scalar> {
     // What acts on a carrier would be felt by some of the translations only.
-    let seats: Vec<&Seat> = seats.iter().filter(|seat| seat.carriers().all(|k| is_zero(g, &applied[k]))).collect();
-    let still = falling(g, tree, &seats, base);
+    let floating_bases: Vec<&FloatingBase> = floating_bases
+        .iter()
+        .filter(|floating_base| floating_base.carriers().all(|k| is_zero(g, &applied[k])))
+        .collect();
+    let still = falling(g, tree, &floating_bases, base);
     let motions = motions(g, tree, velocity, &still, base);
     let mut wrenches = Vec::with_capacity(tree.links.len());
     for ((link, motion), outside) in tree.links.iter().zip(&motions).zip(applied) {
@@ -70,19 +73,19 @@ pub fn forward_dynamics(
         let outside = Wrench { moment: -outside.moment, force: -outside.force };
         wrenches.push(needed.add(g, &outside));
     }
-    let pivots = eliminate(g, tree, &seats, wrenches, efforts);
-    let beside = accelerate(g, tree, &seats, &pivots);
+    let pivots = eliminate(g, tree, &floating_bases, wrenches, efforts);
+    let beside = accelerate(g, tree, &floating_bases, &pivots);
     still.iter().zip(beside).map(|(&still, beside)| g.add(still, beside)).collect()
 }
 
 /// Accelerations of what falls freely from the ground; zero elsewhere.
-fn falling(g: &mut Graph, tree: &Tree, seats: &[&Seat], base: Vector) -> Vec<Scalar> {
+fn falling(g: &mut Graph, tree: &Tree, floating_bases: &[&FloatingBase], base: Vector) -> Vec<Scalar> {
     let mut still = vec![Scalar::ZERO; tree.freedoms()];
-    for seat in seats {
-        let first = &tree.links[seat.slides[0]];
+    for floating_base in floating_bases {
+        let first = &tree.links[floating_base.slides[0]];
         if first.parent.is_none() {
             let pull = g.rotate(first.rotation.transpose(), base);
-            for (freedom, axis) in slides(tree, seat) {
+            for (freedom, axis) in slides(tree, floating_base) {
                 still[freedom] = -g.component(pull, axis);
             }
         }
@@ -90,28 +93,33 @@ fn falling(g: &mut Graph, tree: &Tree, seats: &[&Seat], base: Vector) -> Vec<Sca
     still
 }
 
-/// Coordinates and axes of a seat's translations.
-fn slides<'t>(tree: &'t Tree, seat: &'t Seat) -> impl Iterator<Item = (usize, usize)> + 't {
-    seat.slides.iter().filter_map(|&index| match tree.links[index].motion {
+/// Coordinates and axes of a floating base's translations.
+fn slides<'t>(tree: &'t Tree, floating_base: &'t FloatingBase) -> impl Iterator<Item = (usize, usize)> + 't {
+    floating_base.slides.iter().filter_map(|&index| match tree.links[index].motion {
         Motion::Prismatic(axis) => Some((tree.links[index].freedom, axis)),
         _ => None,
     })
 }
 
-/// Unit translations along the axes of a seat, with their efforts.
-fn translations(g: &mut Graph, tree: &Tree, seat: &Seat, efforts: &[Scalar]) -> Vec<(Freedom, [Scalar; 6], Scalar)> {
+/// Unit translations along the axes of a floating base, with their efforts.
+fn translations(
+    g: &mut Graph,
+    tree: &Tree,
+    floating_base: &FloatingBase,
+    efforts: &[Scalar],
+) -> Vec<(Freedom, [Scalar; 6], Scalar)> {
     let mut along = [Scalar::ZERO; 3];
-    for (freedom, axis) in slides(tree, seat) {
+    for (freedom, axis) in slides(tree, floating_base) {
         along[axis] = efforts[freedom];
     }
     let mut along = g.vector(along);
-    for &index in seat.turners.iter().chain([&seat.link]) {
+    for &index in floating_base.turners.iter().chain([&floating_base.link]) {
         along = tree.to_link(g, &tree.links[index], along);
     }
     let along = g.components(along);
-    // Where two translations float, they lie in the plane in which the seat turns.
-    let normal = match tree.links[seat.link].motion {
-        Motion::Revolute(axis) if seat.slides.len() == 2 => Some(axis),
+    // Where two translations float, they lie in the plane in which the floating base turns.
+    let normal = match tree.links[floating_base.link].motion {
+        Motion::Revolute(axis) if floating_base.slides.len() == 2 => Some(axis),
         _ => None,
     };
     let axes = (0..3).filter(|&axis| Some(axis) != normal);
@@ -120,7 +128,13 @@ fn translations(g: &mut Graph, tree: &Tree, seat: &Seat, efforts: &[Scalar]) -> 
 }
 
 /// From the leaves inwards.
-fn eliminate(g: &mut Graph, tree: &Tree, seats: &[&Seat], mut wrenches: Vec<Wrench>, efforts: &[Scalar]) -> Vec<Pivot> {
+fn eliminate(
+    g: &mut Graph,
+    tree: &Tree,
+    floating_bases: &[&FloatingBase],
+    mut wrenches: Vec<Wrench>,
+    efforts: &[Scalar],
+) -> Vec<Pivot> {
     let mut inertias: Vec<ArticulatedInertia> =
         tree.links.iter().map(|link| ArticulatedInertia::rigid(g, &link.inertia)).collect();
     let mut pivots = Vec::with_capacity(tree.freedoms());
@@ -128,10 +142,10 @@ fn eliminate(g: &mut Graph, tree: &Tree, seats: &[&Seat], mut wrenches: Vec<Wren
         let mut inertia = inertias[index];
         let mut wrench = components(g, &wrenches[index]);
         let mut freedoms = Vec::new();
-        if let Some(seat) = seats.iter().find(|seat| seat.link == index) {
-            freedoms.extend(translations(g, tree, seat, efforts));
+        if let Some(floating_base) = floating_bases.iter().find(|floating_base| floating_base.link == index) {
+            freedoms.extend(translations(g, tree, floating_base, efforts));
         }
-        if !seats.iter().any(|seat| seat.slides.contains(&index)) {
+        if !floating_bases.iter().any(|floating_base| floating_base.slides.contains(&index)) {
             freedoms.extend(tree.twists(link).into_iter().map(|(k, twist)| (Freedom::Of(k), twist, efforts[k])));
         }
         for (freedom, twist, effort) in freedoms {
@@ -188,7 +202,7 @@ fn inertia_to_parent(g: &mut Graph, tree: &Tree, link: &Link, inertia: &Articula
 }
 
 /// From the ground outwards.
-fn accelerate(g: &mut Graph, tree: &Tree, seats: &[&Seat], pivots: &[Pivot]) -> Vec<Scalar> {
+fn accelerate(g: &mut Graph, tree: &Tree, floating_bases: &[&FloatingBase], pivots: &[Pivot]) -> Vec<Scalar> {
     let mut result = vec![Scalar::ZERO; tree.freedoms()];
     let mut pivots = pivots.iter().rev().peekable();
     let mut motions: Vec<(Vector, Vector)> = Vec::with_capacity(tree.links.len());
@@ -220,12 +234,12 @@ fn accelerate(g: &mut Graph, tree: &Tree, seats: &[&Seat], pivots: &[Pivot]) -> 
                 Freedom::Along(axis) => travel[axis] = acceleration,
             }
         }
-        if let Some(seat) = seats.iter().find(|seat| seat.link == index) {
+        if let Some(floating_base) = floating_bases.iter().find(|floating_base| floating_base.link == index) {
             let mut travel = g.vector(travel);
-            for &index in seat.turners.iter().chain([&seat.link]).rev() {
+            for &index in floating_base.turners.iter().chain([&floating_base.link]).rev() {
                 travel = tree.to_parent(g, &tree.links[index], travel);
             }
-            for (freedom, axis) in slides(tree, seat) {
+            for (freedom, axis) in slides(tree, floating_base) {
                 result[freedom] = g.component(travel, axis);
             }
         }

@@ -1,6 +1,6 @@
 //! Stage `dynamics`: what floats.
 //!
-//! In: a tree. Out: its [`Seat`]s. The three translations of a free body and the two of a planar one are declared along
+//! In: a tree. Out: its [`FloatingBase`]s. The three translations of a free body and the two of a planar one are declared along
 //! the axes of what the body moves against, but they span the same space in the body's own axes, since a rigid
 //! translation moves every point alike. Eliminated there, together with the rotation and before it, a rigid body's mass
 //! is the same in all directions and what is left of it is its inertia about the centre of mass: constants, wherever the
@@ -12,35 +12,35 @@ use super::tree::{Link, Motion, Tree};
 
 /// A link that is carried by translations in every direction in which its rotation could turn them.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Seat {
+pub struct FloatingBase {
     pub link: usize,
     /// Massless links with the translations, outwards; the axes of all are those of the first.
     pub slides: Vec<usize>,
-    /// Massless links that turn between these and the seat, outwards.
+    /// Massless links that turn between these and the floating base, outwards.
     pub turners: Vec<usize>,
 }
 
-impl Seat {
-    /// Links before the seat.
+impl FloatingBase {
+    /// Links before the floating base.
     pub fn carriers(&self) -> impl Iterator<Item = usize> + '_ {
         self.slides.iter().chain(&self.turners).copied()
     }
 }
 
-/// All seats of a tree whose inertias have not been regrouped.
-pub fn seats(tree: &Tree) -> Vec<Seat> {
-    let mut seats: Vec<Seat> = Vec::new();
+/// All floating bases of a tree whose inertias have not been regrouped.
+pub fn floating_bases(tree: &Tree) -> Vec<FloatingBase> {
+    let mut floating_bases: Vec<FloatingBase> = Vec::new();
     for index in 0..tree.links.len() {
-        // The last two of three translations are no seat of their own.
-        if !seats.iter().any(|seat| seat.slides.contains(&index)) {
-            seats.extend(seat(tree, index));
+        // The last two of three translations are no floating base of their own.
+        if !floating_bases.iter().any(|floating_base| floating_base.slides.contains(&index)) {
+            floating_bases.extend(floating_base(tree, index));
         }
     }
-    seats
+    floating_bases
 }
 
-/// The seat whose translations begin with a link.
-fn seat(tree: &Tree, first: usize) -> Option<Seat> {
+/// The floating base whose translations begin with a link.
+fn floating_base(tree: &Tree, first: usize) -> Option<FloatingBase> {
     let slide = |index: usize| match tree.links[index].motion {
         Motion::Prismatic(axis) if is_carrier(&tree.links[index]) => Some(axis),
         _ => None,
@@ -67,7 +67,11 @@ fn seat(tree: &Tree, first: usize) -> Option<Seat> {
             if a + b + axis == 3 && axis != a && axis != b && is_aligned(&tree.links[link]) => {}
         _ => return None,
     }
-    matches!(tree.links[link].motion, Motion::Revolute(_) | Motion::Ball(_)).then_some(Seat { link, slides, turners })
+    matches!(tree.links[link].motion, Motion::Revolute(_) | Motion::Ball(_)).then_some(FloatingBase {
+        link,
+        slides,
+        turners,
+    })
 }
 
 /// Its axes are its parent's while its coordinate is zero.

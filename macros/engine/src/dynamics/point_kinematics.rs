@@ -32,7 +32,7 @@ impl Part {
 }
 
 /// A point and the frame that it belongs to, as the present link sees them.
-pub(crate) struct Climb<'t> {
+pub(crate) struct PointKinematics<'t> {
     tree: &'t Tree,
     /// 0: position; 1: velocity too; 2: acceleration too.
     order: u8,
@@ -42,11 +42,11 @@ pub(crate) struct Climb<'t> {
     pub angular_rate: Vector,
 }
 
-impl<'t> Climb<'t> {
+impl<'t> PointKinematics<'t> {
     /// At a point of a link. `acceleration` is read for order 2.
     pub(crate) fn new(tree: &'t Tree, point: Vector, order: u8, acceleration: &'t [Scalar]) -> Self {
         let parts = vec![Part::fixed([point, Vector::ZERO, Vector::ZERO])];
-        Climb { tree, order, acceleration, parts, angular: Vector::ZERO, angular_rate: Vector::ZERO }
+        PointKinematics { tree, order, acceleration, parts, angular: Vector::ZERO, angular_rate: Vector::ZERO }
     }
 
     /// From `link` up to the link `end`, or the ground.

@@ -70,7 +70,7 @@ const METHODS: [(Method, Names); 2] = [
     ),
 ];
 
-const GATHERED: &str = "Newton-Euler, links that turn together gathered";
+const LUMPED: &str = "Newton-Euler, links that turn together gathered";
 
 /// Most ways to the equations of a body on struts.
 const MOST_STRUT_WAYS: usize = 6;

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 use crate::dynamics::columns::Columns;
-use crate::dynamics::floating_bases::seats;
+use crate::dynamics::floating_bases::floating_bases;
 use crate::dynamics::newton_euler::Wrench;
 use crate::dynamics::regroup::{regroup, regroup_but};
 use crate::dynamics::shared_axes::{Axes, Shared, share_axes};
@@ -97,9 +97,9 @@ pub struct Equations<'m> {
     /// Multipliers whose forces act beside the declared ones.
     pub(super) multiplied: Vec<(Row, Scalar)>,
     /// Inverse dynamics by [`crate::dynamics::lumped`].
-    pub(super) gathered: bool,
+    pub(super) lumped: bool,
     /// Multipliers of the equations by which dependent coordinates are found, where reactions have asked for them.
-    pub(super) holding: Option<Rc<[(Row, Scalar)]>>,
+    pub(super) constraint_forces: Option<Rc<[(Row, Scalar)]>>,
     /// Of joints that close loops.
     pub(super) rotors: Option<Rc<[Rotor]>>,
     /// What expressions that are held act with, by constraint.
@@ -147,8 +147,8 @@ impl<'m> Equations<'m> {
             transmitted: None,
             branches: HashMap::new(),
             multiplied: Vec::new(),
-            gathered: false,
-            holding: None,
+            lumped: false,
+            constraint_forces: None,
             rotors: None,
             slopes: HashMap::new(),
             turns: HashMap::new(),
@@ -184,7 +184,8 @@ impl<'m> Equations<'m> {
         let tree = match self.method {
             // What floats is best eliminated whole.
             Method::Articulated => {
-                let keep: Vec<usize> = seats(&self.mechanism.tree).iter().map(|seat| seat.link).collect();
+                let keep: Vec<usize> =
+                    floating_bases(&self.mechanism.tree).iter().map(|floating_base| floating_base.link).collect();
                 Rc::new(regroup_but(&mut self.g, &self.mechanism.tree, false, &keep))
             }
             Method::Composite | Method::Floating => self.regrouped(),

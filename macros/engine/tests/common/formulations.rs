@@ -1,6 +1,6 @@
 //! The dynamics of a tree, derived in every way that the engine knows.
 
-use multibody_engine::dynamics::floating_bases::seats;
+use multibody_engine::dynamics::floating_bases::floating_bases;
 use multibody_engine::dynamics::newton_euler::{Wrench, efforts, transmitted};
 use multibody_engine::dynamics::tree::Tree;
 use multibody_engine::dynamics::{articulated, composite, kinematics};
@@ -47,7 +47,7 @@ pub(crate) fn by_composite(g: &mut Graph, tree: &Tree, applied: &[Scalar]) -> Ve
 /// Accelerations by articulated bodies.
 pub(crate) fn by_articulated(g: &mut Graph, tree: &Tree, applied: &[Scalar]) -> Vec<Scalar> {
     let base = base(g, tree);
-    articulated::forward_dynamics(g, tree, &seats(tree), &tree.velocity, base, &no_forces(tree), applied)
+    articulated::forward_dynamics(g, tree, &floating_bases(tree), &tree.velocity, base, &no_forces(tree), applied)
 }
 
 fn no_forces(tree: &Tree) -> Vec<Wrench> {

@@ -7,7 +7,7 @@ use crate::on_graph::{Derived, derive, point};
 use crate::random::{Mechanism, State};
 use crate::rng::Rng;
 use crate::{formulations, plain};
-use multibody_engine::dynamics::floating_bases::seats;
+use multibody_engine::dynamics::floating_bases::floating_bases;
 use multibody_engine::dynamics::regroup::regroup;
 use multibody_engine::dynamics::shared_axes::{Axes, share_axes};
 use multibody_engine::dynamics::tree::{Motion, Tree};
@@ -124,10 +124,10 @@ fn floating_bases_agree_with_plain_numbers() {
         let mut rng = Rng::new(seed);
         let mut mechanism = Mechanism { gravity: [0.3, 0.0, -9.81], ..Mechanism::default() };
         mechanism.float(&mut rng);
-        assert_eq!(seats(&derive(&mechanism).tree).len(), 1, "{mechanism:?}");
+        assert_eq!(floating_bases(&derive(&mechanism).tree).len(), 1, "{mechanism:?}");
         if rng.chance(50) {
             mechanism.float(&mut rng);
-            assert!(!seats(&derive(&mechanism).tree).is_empty());
+            assert!(!floating_bases(&derive(&mechanism).tree).is_empty());
         }
         let state = mechanism.state(&mut rng);
         check_numbers(&mechanism, &state);

@@ -8,7 +8,7 @@ use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::{Equations, Method, Style, Way};
 use crate::mechanics::results::constrained::Solved;
 use crate::mechanics::strut::forward;
-use crate::mechanics::translate::dependencies::Needs;
+use crate::mechanics::translate::dependencies::Dependencies;
 use crate::mechanics::translate::values::width;
 use crate::model::site::Sited;
 use crate::model::types::Output;
@@ -19,7 +19,7 @@ use super::{Candidate, Deriving, METHODS, MOST_COMPOSITE, MOST_STRUT_WAYS, artic
 impl<'m> Deriving<'m> {
     pub(super) fn forward_dynamics(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
         let model = self.model;
-        let needs = Needs::of(model.states.iter().map(|state| &state.rate));
+        let needs = Dependencies::of(model.states.iter().map(|state| &state.rate));
         let kept = needs.kept(model);
         let all = |equations: &mut Equations<'m>| {
             let mut results = equations.accelerations().to_vec();
@@ -46,7 +46,7 @@ impl<'m> Deriving<'m> {
     /// With dependent or driven coordinates, or multipliers.
     pub(super) fn constrained_dynamics(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
         let model = self.model;
-        let kept = Needs::of(model.states.iter().map(|state| &state.rate)).kept(model);
+        let kept = Dependencies::of(model.states.iter().map(|state| &state.rate)).kept(model);
         let all = |equations: &mut Equations<'m>| {
             let reduction = equations.reduce()?;
             let solved = equations.solve_constrained(&reduction);
@@ -100,7 +100,7 @@ impl<'m> Deriving<'m> {
 
     pub(super) fn outputs(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
         let model = self.model;
-        let needs = Needs::of(model.outputs.iter().map(|output| &output.value));
+        let needs = Dependencies::of(model.outputs.iter().map(|output| &output.value));
         let kept = needs.kept(model);
         let open = self.is_open();
         let freedoms = self.structure.freedoms();

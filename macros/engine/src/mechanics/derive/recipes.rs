@@ -170,7 +170,7 @@ impl Deriving<'_> {
             candidates.extend(match way {
                 Way::InAxes(names, f) => self.one(*names, f)?,
                 Way::Reduced(names, f) => self.reduced(*names, f)?,
-                Way::Lumped(f) => self.gathered(f)?.into_iter().collect(),
+                Way::Lumped(f) => self.lumped(f)?.into_iter().collect(),
                 Way::Plain(name, f) => self.only(name, f)?,
                 Way::PutIn(name, f) => self.put_in(name, f)?,
                 Way::Defined(name, f) => self.equations(name, f)?,

@@ -16,7 +16,7 @@ use crate::model::types::JointId;
 use crate::symbolic::graph::{Graph, Rotation, Scalar};
 use crate::symbolic::lower::Lowering;
 
-use super::{AXES, Candidate, Deriving, Found, GATHERED, MOST_COMPOSITE, Names, freedoms};
+use super::{AXES, Candidate, Deriving, Found, LUMPED, MOST_COMPOSITE, Names, freedoms};
 
 impl<'m> Deriving<'m> {
     /// One method, in the axes that [`AXES`] names.
@@ -29,16 +29,16 @@ impl<'m> Deriving<'m> {
     }
 
     /// The recursion over groups of links, where it is another way.
-    pub(super) fn gathered(
+    pub(super) fn lumped(
         &mut self,
         mut f: impl FnMut(&mut Equations<'m>) -> Found,
     ) -> Result<Option<Candidate>, Vec<Complaint>> {
         self.maybe(|e| {
-            e.gathered = true;
+            e.lumped = true;
             if !lumped::differs(&e.mechanism.tree) {
                 return Ok(None);
             }
-            Ok(Some((GATHERED, f(e)?)))
+            Ok(Some((LUMPED, f(e)?)))
         })
     }
 

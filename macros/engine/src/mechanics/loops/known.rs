@@ -49,7 +49,7 @@ impl<'m> Equations<'m> {
             let graph = std::mem::take(&mut self.g);
             *self = Equations {
                 g: graph,
-                gathered: self.gathered,
+                lumped: self.lumped,
                 branches: std::mem::take(&mut self.branches),
                 known: std::mem::take(&mut self.known),
                 ..reduced.equations.clone()

@@ -27,7 +27,7 @@ impl Equations<'_> {
     /// Multipliers of the equations by which dependent coordinates are found, linear couplings left out; in symbols of the
     /// tree's coordinates and accelerations.
     pub(super) fn holding_multipliers(&mut self) -> Rc<[(Row, Scalar)]> {
-        if let Some(known) = &self.holding {
+        if let Some(known) = &self.constraint_forces {
             return Rc::clone(known);
         }
         let (rows, unknowns) = self.held_rows();
@@ -40,7 +40,7 @@ impl Equations<'_> {
             Vec::new()
         };
         let found: Rc<[(Row, Scalar)]> = found.into();
-        self.holding = Some(Rc::clone(&found));
+        self.constraint_forces = Some(Rc::clone(&found));
         found
     }
 

@@ -5,7 +5,7 @@
 
 use std::rc::Rc;
 
-use crate::dynamics::floating_bases::seats;
+use crate::dynamics::floating_bases::floating_bases;
 use crate::dynamics::kinematics::motions;
 use crate::dynamics::newton_euler::{efforts, transmitted};
 use crate::dynamics::regroup::regroup_but;
@@ -36,8 +36,8 @@ impl Equations<'_> {
 
     /// In the tree's coordinates.
     fn efforts(&mut self, acceleration: &[Scalar]) -> Vec<Scalar> {
-        if self.gathered {
-            return self.gathered_efforts(acceleration);
+        if self.lumped {
+            return self.lumped_efforts(acceleration);
         }
         let shared = self.shared();
         let tree = &shared.tree;
@@ -53,7 +53,7 @@ impl Equations<'_> {
     }
 
     /// The same over groups of links.
-    fn gathered_efforts(&mut self, acceleration: &[Scalar]) -> Vec<Scalar> {
+    fn lumped_efforts(&mut self, acceleration: &[Scalar]) -> Vec<Scalar> {
         let tree = regroup_but(&mut self.g, &self.mechanism.tree, true, &[]);
         let loads = self.loads();
         let base = self.base();
@@ -105,8 +105,8 @@ impl Equations<'_> {
                 let base = self.base();
                 let g = &mut self.g;
                 let applied = shared.turn(g, &loads.applied);
-                let seats = seats(&mechanism.tree);
-                articulated::forward_dynamics(g, tree, &seats, &tree.velocity, base, &applied, &loads.efforts)
+                let floating_bases = floating_bases(&mechanism.tree);
+                articulated::forward_dynamics(g, tree, &floating_bases, &tree.velocity, base, &applied, &loads.efforts)
             }
         };
         let accelerations: Rc<[Scalar]> = mechanism.sign(&list).into();

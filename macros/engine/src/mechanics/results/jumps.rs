@@ -5,7 +5,7 @@
 
 use std::rc::Rc;
 
-use crate::dynamics::floating_bases::seats;
+use crate::dynamics::floating_bases::floating_bases;
 use crate::dynamics::newton_euler::Wrench;
 use crate::dynamics::{articulated, composite};
 use crate::mechanics::equations::{Equations, Method};
@@ -29,8 +29,8 @@ impl Equations<'_> {
             Method::Articulated => {
                 let rest = vec![Scalar::ZERO; tree.freedoms()];
                 let nothing = vec![Wrench::ZERO; tree.links.len()];
-                let seats = seats(&mechanism.tree);
-                articulated::forward_dynamics(g, tree, &seats, &rest, Vector::ZERO, &nothing, &impulses)
+                let floating_bases = floating_bases(&mechanism.tree);
+                articulated::forward_dynamics(g, tree, &floating_bases, &rest, Vector::ZERO, &nothing, &impulses)
             }
         };
         mechanism.sign(&list)

@@ -1,6 +1,6 @@
 //! Stage `mechanics`: what expressions ask for.
 //!
-//! In: typed expressions. Out: [`Needs`], which tell how much of the mechanics has to be derived for them.
+//! In: typed expressions. Out: [`Dependencies`], which tell how much of the mechanics has to be derived for them.
 
 use std::collections::HashSet;
 use std::rc::Rc;
@@ -9,15 +9,15 @@ use crate::model::types::{Expr, ExprNode, JointId, JointKind, Model, Order};
 
 /// What expressions ask for.
 #[derive(Default)]
-pub(in crate::mechanics) struct Needs {
+pub(in crate::mechanics) struct Dependencies {
     pub frames: bool,
     pub accelerations: bool,
     reactions: Vec<JointId>,
 }
 
-impl Needs {
-    pub(in crate::mechanics) fn of<'m>(roots: impl Iterator<Item = &'m Expr>) -> Needs {
-        let mut needs = Needs::default();
+impl Dependencies {
+    pub(in crate::mechanics) fn of<'m>(roots: impl Iterator<Item = &'m Expr>) -> Dependencies {
+        let mut needs = Dependencies::default();
         let mut seen = HashSet::new();
         let mut stack: Vec<&Expr> = roots.collect();
         while let Some(expr) = stack.pop() {

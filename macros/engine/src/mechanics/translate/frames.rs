@@ -5,7 +5,7 @@
 
 use std::rc::Rc;
 
-use crate::dynamics::point_kinematics::Climb;
+use crate::dynamics::point_kinematics::PointKinematics;
 use crate::dynamics::world;
 use crate::mechanics::equations::{Equations, Style};
 use crate::model::types::{Expr, ExprNode, FrameQuantity, JointId};
@@ -63,10 +63,10 @@ impl Equations<'_> {
             Style::Nested => {
                 let still: Rc<[Scalar]> = Rc::from([]);
                 let acceleration = acceleration.unwrap_or(still);
-                let mut climb = Climb::new(tree, place.offset, order, &acceleration);
-                climb.up_to(&mut self.g, place.link, None);
-                let [position, velocity, acceleration] = climb.local(&mut self.g);
-                let (angular, angular_rate) = (climb.angular, climb.angular_rate);
+                let mut kinematics = PointKinematics::new(tree, place.offset, order, &acceleration);
+                kinematics.up_to(&mut self.g, place.link, None);
+                let [position, velocity, acceleration] = kinematics.local(&mut self.g);
+                let (angular, angular_rate) = (kinematics.angular, kinematics.angular_rate);
                 FrameMotion { position, velocity, acceleration, angular, angular_rate }
             }
             Style::World => {
@@ -281,9 +281,9 @@ impl Equations<'_> {
         let mechanism = Rc::clone(&self.mechanism);
         let common = self.common(from.link, to.link);
         let ends = [from, to].map(|place| {
-            let mut climb = Climb::new(&mechanism.tree, place.offset, order, &[]);
-            climb.up_to(&mut self.g, place.link, common);
-            climb.local(&mut self.g)
+            let mut kinematics = PointKinematics::new(&mechanism.tree, place.offset, order, &[]);
+            kinematics.up_to(&mut self.g, place.link, common);
+            kinematics.local(&mut self.g)
         });
         let way = [0, 1].map(|k| self.g.sub_vectors(ends[1][k], ends[0][k]));
         (way, common)

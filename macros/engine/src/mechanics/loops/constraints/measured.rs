@@ -11,7 +11,7 @@
 use std::rc::Rc;
 
 use crate::contracts::call::Call;
-use crate::dynamics::point_kinematics::Climb;
+use crate::dynamics::point_kinematics::PointKinematics;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::build::Place;
 use crate::mechanics::translate::symbols::Symbols;
@@ -267,9 +267,9 @@ impl Equations<'_> {
         let mechanism = Rc::clone(&self.mechanism);
         let common = self.common(ends[0].link, ends[1].link);
         let [from, to] = [0, 1].map(|k| {
-            let mut climb = Climb::new(&mechanism.tree, ends[k].offset, 1, &[]);
-            climb.up_to(&mut self.g, ends[k].link, common);
-            (climb.local(&mut self.g), climb.angular)
+            let mut kinematics = PointKinematics::new(&mechanism.tree, ends[k].offset, 1, &[]);
+            kinematics.up_to(&mut self.g, ends[k].link, common);
+            (kinematics.local(&mut self.g), kinematics.angular)
         });
         let way = [0, 1].map(|k| self.g.sub_vectors(to.0[k], from.0[k]));
         (common, way, [from.1, to.1])

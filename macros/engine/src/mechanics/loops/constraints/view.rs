@@ -7,7 +7,7 @@
 
 use std::rc::Rc;
 
-use crate::dynamics::point_kinematics::Climb;
+use crate::dynamics::point_kinematics::PointKinematics;
 use crate::dynamics::tree::Motion;
 use crate::mechanics::equations::{Equations, Style};
 use crate::mechanics::translate::build::Place;
@@ -72,12 +72,12 @@ impl Equations<'_> {
         let mechanism = Rc::clone(&self.mechanism);
         let tree = &mechanism.tree;
         if self.hangs_on(view, point.link) {
-            let mut climb = Climb::new(tree, point.offset, 0, &[]);
-            climb.up_to(&mut self.g, point.link, view.first);
+            let mut kinematics = PointKinematics::new(tree, point.offset, 0, &[]);
+            kinematics.up_to(&mut self.g, point.link, view.first);
             if let Some(link) = view.first.and_then(|index| tree.links.get(index)) {
-                climb.leave(&mut self.g, link);
+                kinematics.leave(&mut self.g, link);
             }
-            return climb.local(&mut self.g)[0];
+            return kinematics.local(&mut self.g)[0];
         }
         let to = view.place;
         if point.link == to.link {
@@ -88,9 +88,9 @@ impl Equations<'_> {
             self.world.point(&mut self.g, tree, point.link, point.offset)
         } else {
             let common = self.common(point.link, to.link);
-            let mut climb = Climb::new(tree, point.offset, 0, &[]);
-            climb.up_to(&mut self.g, point.link, common);
-            let seen = climb.local(&mut self.g)[0];
+            let mut kinematics = PointKinematics::new(tree, point.offset, 0, &[]);
+            kinematics.up_to(&mut self.g, point.link, common);
+            let seen = kinematics.local(&mut self.g)[0];
             self.descend(common, to.link, seen)
         };
         seen = self.g.sub_vectors(seen, to.offset);

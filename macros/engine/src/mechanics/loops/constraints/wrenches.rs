@@ -69,7 +69,7 @@ impl Equations<'_> {
         for (link, (moments, forces)) in gathered.world {
             let g = &mut self.g;
             let (moment, force) = (g.sum_vectors(&moments), g.sum_vectors(&forces));
-            if self.gathered {
+            if self.lumped {
                 world.push((link, Wrench { moment, force }));
                 continue;
             }
