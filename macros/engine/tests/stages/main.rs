@@ -72,6 +72,24 @@ fn an_upward_path_is_found() {
     }
 }
 
+/// Stops of the walk in ARCHITECTURE.md are there, and lead down the stages.
+#[test]
+fn the_walk_is_true() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = fs::read_to_string(root.join("../../ARCHITECTURE.md")).unwrap();
+    let walk = page.split("## A walk through the house").nth(1).unwrap().split("\n## ").next().unwrap();
+    let mut stops = 0;
+    for row in walk.lines().filter(|line| line.contains(".rs` |")) {
+        let names: Vec<&str> = row.split('`').collect();
+        let (file, function) = (names[1], names[3]);
+        let text = fs::read_to_string(root.join("src").join(file)).unwrap_or_else(|_| panic!("{file} is gone"));
+        let declared = text.contains(&format!("fn {function}(")) || text.contains(&format!("fn {function}<"));
+        assert!(declared, "{file} has no function {function}");
+        stops += 1;
+    }
+    assert!(stops > 15, "{stops} stops");
+}
+
 /// What a source reads and may not.
 fn upward(table: &Table, module: &[String], text: &str) -> Vec<String> {
     let Some(stage) = module.first() else { return Vec::new() };
