@@ -47,7 +47,7 @@ fn said(items: &str) -> Vec<String> {
     for model in &models {
         match compile(model) {
             Err(Trouble::Complaints(list)) => {
-                lines.extend(list.iter().map(|c| line(c.span, &c.message, c.help.as_deref())))
+                lines.extend(list.iter().map(|c| line(c.at.span(), &c.message, c.help.as_deref())))
             }
             Err(Trouble::Refused(refusal)) => lines.push(format!("{refusal:?}")),
             Ok(_) => {}
