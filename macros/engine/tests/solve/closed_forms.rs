@@ -1,9 +1,6 @@
 //! Closed forms of loops: the six reference loops with all digits, all planar triples, the spatial ones, loops drawn at
 //! random; every branch closes the cycle, none is found twice, rates and accelerations follow.
 
-// Reference digits stand as they were published.
-#![allow(clippy::excessive_precision)]
-
 use crate::cycle::{Cycle, Outcome};
 use crate::reference;
 use crate::rng::Rng;

@@ -1,5 +1,8 @@
 //! The loops of the reference file with their digits.
 
+// Reference digits stand as they were published.
+#![allow(clippy::excessive_precision)]
+
 use multibody_engine::symbolic::graph::Scalar;
 
 use crate::cycle::Cycle;
