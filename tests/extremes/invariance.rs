@@ -1,7 +1,7 @@
 //! Where the origin is does not matter, and how small an inertia is does not either, until it is gone.
 
 #[path = "../models/invariance.rs"]
-mod invariance;
+mod models;
 
 use multibody::nalgebra::SVector;
 use multibody::{DormandPrince, IntegrationError};
@@ -10,7 +10,7 @@ use multibody_engine::{model, syntax};
 use multibody_tests::support::compare::worse;
 use multibody_tests::support::random::Random;
 
-use invariance::*;
+use models::*;
 
 fn bits<const N: usize>(v: SVector<f64, N>) -> Vec<u64> {
     v.iter().map(|x| x.to_bits()).collect()
