@@ -9,7 +9,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// [s] that a program may run.
+/// `[s]` that a program may run.
 const PATIENCE: &str = "300";
 
 /// Where everything is.

@@ -49,7 +49,7 @@ fn is_helper(name: &str) -> bool {
     !name.is_empty() && name.bytes().all(|letter| letter.is_ascii_lowercase())
 }
 
-/// [byte] of model and method, and of the compiler's helpers; what lies in one place counts once. From `nm -CS`.
+/// `[byte]` of model and method, and of the compiler's helpers; what lies in one place counts once. From `nm -CS`.
 pub(crate) fn flash(symbols: &str) -> (u64, u64) {
     let (mut ours, mut helpers) = (0, 0);
     let mut seen = HashSet::new();
@@ -95,13 +95,13 @@ pub(crate) fn software_doubles(symbols: &str) -> usize {
     symbols.lines().filter(|line| by_abi(line) || by_name(line)).count()
 }
 
-/// [byte] of code and constants. From `size`.
+/// `[byte]` of code and constants. From `size`.
 pub(crate) fn flash_bytes(sizes: &str) -> Option<u64> {
     let mut fields = sizes.lines().nth(1)?.split_whitespace();
     Some(fields.next()?.parse::<u64>().ok()? + fields.next()?.parse::<u64>().ok()?)
 }
 
-/// [byte] of variables. From `size -A`.
+/// `[byte]` of variables. From `size -A`.
 pub(crate) fn ram_bytes(sections: &str) -> u64 {
     let variables = sections.lines().filter_map(|line| {
         let mut fields = line.split_whitespace();
