@@ -130,7 +130,7 @@ fn without_luck(collect: &Collect<'_>) -> Vec<(u32, f64)> {
 
 /// Positions and velocities of a scene of `examples/tradeoff` at its end.
 fn truth<const N: usize>(scene: &str) -> [[f64; N]; 2] {
-    let text = std::fs::read_to_string(path("../../examples/tradeoff/data/references.txt")).unwrap();
+    let text = std::fs::read_to_string(path("../examples/tradeoff/data/references.txt")).unwrap();
     let line = text.lines().find(|line| line.split(' ').next() == Some(scene)).unwrap();
     let numbers = |part: &str| part.split_whitespace().map(|word| word.parse().unwrap()).collect::<Vec<f64>>();
     let parts: Vec<_> = line.split('|').skip(1).map(numbers).collect();
