@@ -33,7 +33,7 @@ use super::loops::constraints::{closings, coordinate_name, row_count, row_name, 
 use super::loops::groups;
 use super::loops::structure::{Means, Role, Row, Step, Structure};
 use closed::Sampled;
-use configurations::{Configuration, Effort, Found};
+use configurations::{Configuration, Effort, Found, follow};
 use linear::Elimination;
 use problem::{Problem, Source};
 use ranked::Ranked;
@@ -146,7 +146,10 @@ impl<'m> Analysis<'m> {
             let all: Vec<usize> = (0..group.equations.len()).collect();
             let is_formula = |&k: &usize| matches!(problem.equations[group.equations[k]].source, Source::Formula(..));
             let (formulas, rows): (Vec<usize>, Vec<usize>) = all.iter().partition(|k| is_formula(k));
-            let ranked = ranked::ranked(&mut found, &rows, &formulas);
+            // With multipliers an equation more costs work and does no harm.
+            let follows =
+                |independent: &[usize]| reduced && follow(problem, &group.equations, independent, &group.columns);
+            let ranked = ranked::ranked(&mut found, &rows, &formulas, follows);
             looked.push(Looked { group, rows, found, ranked });
         }
         let locked = checks::locked(problem, &looked, reduced);

@@ -197,3 +197,35 @@ fn springs_on_joints_that_close_loops() {
         assert!(compiled.unchecked.is_empty(), "{:?}", compiled.unchecked);
     }
 }
+
+/// A body whose axis a closing joint holds, and whose place along that axis, through a point that stands still: closed,
+/// the axis fixes the place, so one equation follows from two others there and nowhere else.
+#[test]
+fn an_equation_may_follow_where_the_others_hold_only() {
+    let loop_of = |center: &str, constraints: &str| {
+        format!(
+            "pub mod m {{
+                body b0 {{ mass: 1, com: 0 * X, inertia: diag(0.1, 0.1, 0.1) }}
+                body b1 {{ mass: 1, com: 0 * X, inertia: diag(0.1, 0.1, 0.1) }}
+                body b2 {{ mass: 1, com: 0 * X, inertia: diag(0.1, 0.1, 0.1) }}
+                joint j0: Revolute {{
+                    parent: ground.rotated([1, 0.5, 0.2], deg(90)).at([0.8, 0, 0.7]), child: b0, axis: Z
+                }}
+                joint j1: Revolute {{ parent: b0, child: b1{center}, axis: Z }}
+                joint j2: Universal {{ parent: b1, child: b2.at([0.7, 0.46, 1]), axes: [[1, 2, 2], [2, 1, -2]] }}
+                #[cut]
+                joint j3: Planar {{
+                    parent: ground.rotated([1, 0.5, 0.2], deg(90)).at([1.4, 0, 0.7]),
+                    child: b2.at([1.3, 0.96, 1]), axis: X
+                }}
+                formulation {{ constraints: {constraints} }}
+                emit energy;
+            }}"
+        )
+    };
+    let (structure, _) = compiled(&loop_of("", "Reduced"));
+    assert_eq!(structure.dropped.len(), 1);
+    // With the point beside the hinges' axis the place along the axis counts.
+    let (structure, _) = compiled(&loop_of(".at([0.3, 0.2, 0])", "Multipliers"));
+    assert_eq!(structure.dropped.len(), 0);
+}

@@ -15,6 +15,13 @@ use super::tape::Values;
 /// A residual below this counts as zero, in units of the equation's gradient.
 const CLOSED: f64 = 1e-11;
 
+/// What an equation may leave that follows from others which are closed.
+const FOLLOWS: f64 = 1e-9;
+
+/// Starts from which that is looked at, and those that have to come to an end.
+const FOLLOWING_STARTS: usize = 120;
+const LEAST_FOLLOWING: usize = 40;
+
 /// Iterations of one start.
 const ITERATIONS: usize = 80;
 
@@ -149,6 +156,28 @@ pub(super) fn configurations(problem: &Problem, equations: &[usize], columns: &[
         }
     }
     found
+}
+
+/// Whether some equations vanish wherever `independent` ones among them do: at configurations found for these alone, from
+/// starts all over. On a branch on which another one counts they would leave it open, since without it that branch has a
+/// dimension more. Nothing is found out where too few starts come to an end.
+pub(super) fn follow(problem: &Problem, equations: &[usize], independent: &[usize], columns: &[usize]) -> bool {
+    let alone: Vec<usize> = independent.iter().map(|&k| equations[k]).collect();
+    let search = Search::new(problem, &alone, columns);
+    let mut values = Values::default();
+    let mut closed = 0;
+    for start in 0..FOLLOWING_STARTS {
+        let mut random = Random(0xF0_110 + 977 * start as u64);
+        let mut point = problem.start(&mut random, [0.3, 0.6, 1.0, 1.5][start % 4]);
+        if !search.close(&mut point, &mut values) {
+            continue;
+        }
+        if problem.residuals(&point, equations, &mut values).iter().any(|residual| residual.abs() > FOLLOWS) {
+            return false;
+        }
+        closed += 1;
+    }
+    closed >= LEAST_FOLLOWING
 }
 
 /// What makes points closed.

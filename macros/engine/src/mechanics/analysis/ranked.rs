@@ -4,7 +4,9 @@
 //! left out if it depends on others at every closed configuration that was found, and these agree: they have the same
 //! rank, and the same equations carry it. Where they don't (a loop that can collapse has branches on which less is left to
 //! hold), or where all equations can be met beside zero at once and so are independent somewhere, only what depends on
-//! others at points that close nothing is left out, which is so everywhere. The multipliers' rank sees to the rest.
+//! others at points that close nothing is left out, which is so everywhere. The multipliers' rank sees to the rest. An
+//! exception is what vanishes wherever the others do: a distance along the normal of a plane that others hold is constant
+//! as soon as they are closed, and changes where they are not.
 
 use super::configurations::{Configuration, Found};
 use super::rank;
@@ -28,16 +30,30 @@ pub(super) struct Ranked {
 }
 
 /// Keeps the configurations of the greatest rank in `found`. `rows` are places of equations, `formulas` those of formulas.
-pub(super) fn ranked(found: &mut Found, rows: &[usize], formulas: &[usize]) -> Ranked {
+/// `follows` tells whether all rows vanish wherever some of them do.
+pub(super) fn ranked(
+    found: &mut Found,
+    rows: &[usize],
+    formulas: &[usize],
+    follows: impl Fn(&[usize]) -> bool,
+) -> Ranked {
     let closed = found.configurations.iter().any(|configuration| configuration.closed);
     let ranks: Vec<usize> = found.configurations.iter().map(|c| rank::of(&c.jacobian, rows)).collect();
     let greatest = ranks.iter().copied().max().unwrap_or(0);
     let least = ranks.iter().copied().min().unwrap_or(0);
     let beside = found.beside.iter().map(|jacobian| rank::of(jacobian, rows)).max().unwrap_or(0);
     let everywhere: Vec<&[Vec<f64>]> = found.configurations.iter().map(|c| c.jacobian.as_slice()).collect();
-    let union = rank::kept(&everywhere, rows);
+    let mut order = rows.to_vec();
+    let mut union = rank::kept(&everywhere, &order);
     let same = ranks.iter().all(|&rank| rank == greatest);
-    let agreed = closed && same && union.len() == greatest && beside <= greatest;
+    let mut agreed = closed && same && union.len() == greatest;
+    if agreed && beside > greatest && !follows(&union) {
+        // A distance may follow from directions, and these not from it.
+        order.reverse();
+        union = rank::kept(&everywhere, &order);
+        agreed = union.len() == greatest && follows(&union);
+        union.sort_unstable();
+    }
     let staying = if agreed {
         union.clone()
     } else {
@@ -50,10 +66,11 @@ pub(super) fn ranked(found: &mut Found, rows: &[usize], formulas: &[usize]) -> R
     let configurations = &mut found.configurations;
     configurations.retain(|_| numbers.next() == Some(&greatest));
     let regular: Vec<&[Vec<f64>]> = configurations.iter().map(|c| c.jacobian.as_slice()).collect();
-    let mut independent = rank::kept(&regular, rows);
+    let mut independent = rank::kept(&regular, if agreed { &order } else { rows });
     if independent.len() > greatest {
         independent = rank::kept(&regular[..1], rows);
     }
+    independent.sort_unstable();
     let kept = if formulas.is_empty() {
         independent.clone()
     } else {
@@ -61,8 +78,21 @@ pub(super) fn ranked(found: &mut Found, rows: &[usize], formulas: &[usize]) -> R
         all.sort_unstable();
         rank::kept(&regular, &all)
     };
-    let evidence = evidence(configurations, count, &ranks, beside);
-    Ranked { rank: greatest, least, independent, staying, kept, agreed, elusive: beside > greatest, evidence }
+    let followed = agreed && beside > greatest;
+    let mut evidence = evidence(configurations, count, &ranks, if followed { 0 } else { beside });
+    if followed {
+        evidence += "; what is left out vanishes wherever the others do";
+    }
+    Ranked {
+        rank: greatest,
+        least,
+        independent,
+        staying,
+        kept,
+        agreed,
+        elusive: beside > greatest && !agreed,
+        evidence,
+    }
 }
 
 fn evidence(configurations: &[Configuration], count: usize, ranks: &[usize], beside: usize) -> String {
