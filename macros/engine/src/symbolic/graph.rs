@@ -534,9 +534,7 @@ impl Graph {
 
     /// The same of a vector.
     pub fn name_vector_like(&mut self, v: Vector, name: &Name) {
-        if name.stands_alone {
-            self.name_vector(v.flip_if(name.is_minus), || name.text.clone());
-        }
+        self.name_vector(v.flip_if(name.is_minus), || name.text.clone());
     }
 
     /// What the value at this handle's place is called, whatever the handle's sign.

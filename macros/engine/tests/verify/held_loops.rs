@@ -205,6 +205,7 @@ fn an_equation_may_follow_where_the_others_hold_only() {
     let loop_of = |center: &str, constraints: &str| {
         format!(
             "pub mod m {{
+                param beside = 0.0;
                 body b0 {{ mass: 1, com: 0 * X, inertia: diag(0.1, 0.1, 0.1) }}
                 body b1 {{ mass: 1, com: 0 * X, inertia: diag(0.1, 0.1, 0.1) }}
                 body b2 {{ mass: 1, com: 0 * X, inertia: diag(0.1, 0.1, 0.1) }}
@@ -225,6 +226,9 @@ fn an_equation_may_follow_where_the_others_hold_only() {
     };
     let (structure, _) = compiled(&loop_of("", "Reduced"));
     assert_eq!(structure.dropped.len(), 1);
+    // A parameter may move the point beside it: then what was left out is looked at in every run.
+    let (structure, _) = compiled(&loop_of(".at([beside, 0, 0])", "Reduced"));
+    assert_eq!((structure.dropped.len(), structure.granted.len()), (1, 1));
     // With the point beside the hinges' axis the place along the axis counts.
     let (structure, _) = compiled(&loop_of(".at([0.3, 0.2, 0])", "Multipliers"));
     assert_eq!(structure.dropped.len(), 0);

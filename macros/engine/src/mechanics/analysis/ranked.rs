@@ -48,10 +48,10 @@ pub(super) fn ranked(
     let same = ranks.iter().all(|&rank| rank == greatest);
     let mut agreed = closed && same && union.len() == greatest;
     if agreed && beside > greatest && !follows(&union) {
-        // A distance may follow from directions, and these not from it.
+        // A distance may follow from directions, and these not from it. Beside formulas the declared order counts.
         order.reverse();
         union = rank::kept(&everywhere, &order);
-        agreed = union.len() == greatest && follows(&union);
+        agreed = formulas.is_empty() && union.len() == greatest && follows(&union);
         union.sort_unstable();
     }
     let staying = if agreed {
