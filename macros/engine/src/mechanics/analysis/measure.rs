@@ -20,16 +20,27 @@ const NO_LENGTH: f64 = 1e-9;
 /// And so are lengths below this (m), whatever the bodies.
 const LEAST_LENGTH: f64 = 1e-12;
 
-/// What a residual is.
+/// What a residual is; what a rod's length is, is `R`.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Measure {
+pub(super) enum Measure<R = usize> {
     /// m
     Length,
     Cosine,
-    /// (d . d - length^2) / 2, with the root of the length.
-    Rod(usize),
+    /// (d . d - length^2) / 2, with the number of the length's root.
+    Rod(R),
     /// A user's expression.
     Value,
+}
+
+impl<R> Measure<R> {
+    pub(super) fn map<S>(self, rod: impl FnOnce(R) -> S) -> Measure<S> {
+        match self {
+            Measure::Length => Measure::Length,
+            Measure::Cosine => Measure::Cosine,
+            Measure::Rod(length) => Measure::Rod(rod(length)),
+            Measure::Value => Measure::Value,
+        }
+    }
 }
 
 /// How far a loop is from being closed.

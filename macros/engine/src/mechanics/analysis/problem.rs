@@ -1,23 +1,20 @@
 //! Stage `mechanics`: the equations of a mechanism as numbers.
 //!
-//! In: the model. Out: a [`Problem`]: residuals of all closings and of formulas that a user wrote, with what each of them
+//! In: the model, written in symbols ([`formulation`]). Out: a [`Problem`]: residuals of all closings and of formulas that a user wrote, with what each of them
 //! depends on, evaluated in double precision with parameters at their defaults and inputs at zero. Columns are velocity
 //! coordinates of the tree; travels count in units of the mechanism's size, so that they compare with angles. Where time has
 //! a say each start has a time of its own: what holds at time zero alone does not hold.
 
-use crate::contracts::symbol::Symbol;
-use crate::dynamics::tree::Motion;
-use crate::mechanics::loops::constraints::{Writing, closings, is_length};
-use crate::mechanics::loops::reduction::Reduction;
-use crate::mechanics::loops::structure::Row;
-use crate::mechanics::translate::symbols::{Symbols, has_quaternion};
-use crate::model::types::{Closing, ConstraintKind, Coordinate, Handling, JointId, Model, SolveHow};
-use crate::symbolic::graph::{Graph, Scalar};
-use crate::symbolic::lower::Lowering;
+mod formulation;
 
-use super::super::equations::{Equations, Method, Style, Way};
+use crate::mechanics::loops::constraints::Writing;
+use crate::mechanics::loops::structure::Row;
+use crate::model::types::{Closing, Coordinate, Model};
+
+use super::super::equations::{Method, Style, Way};
 use super::measure::{Gap, Measure};
 use super::tape::{Tape, Values};
+use formulation::formulate;
 
 /// Where an equation comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,135 +124,12 @@ impl Problem {
 
     /// With parameters that are off their defaults by about this much.
     pub(super) fn with(model: &Model, off: f64) -> Problem {
-        Problem::made(model, off, Writing::PLAIN)
+        formulate(model, off, Writing::PLAIN)
     }
 
     /// With equations of loops in other axes.
     pub(super) fn written(model: &Model, writing: Writing) -> Problem {
-        Problem::made(model, 0.0, writing)
-    }
-
-    fn made(model: &Model, off: f64, writing: Writing) -> Problem {
-        let mut graph = Graph::new();
-        let symbols = Symbols::new(&mut graph, model);
-        let mut e = Equations::new(model, graph, symbols, WAY, &[]);
-        let mut roots: Vec<Scalar> = Vec::new();
-        let mut sources = Vec::new();
-        let mut cosines = Vec::new();
-        let mut rods: Vec<Scalar> = Vec::new();
-        let mut measures: Vec<Measure> = Vec::new();
-        for closing in closings(model) {
-            let rod = e.rod_length(closing);
-            rods.extend(rod);
-            let residuals = e.residuals(closing, writing);
-            for (index, residual) in residuals.into_iter().enumerate() {
-                measures.push(match closing {
-                    Closing::Constraint(_) if rod.is_some() => Measure::Rod(rods.len() - 1),
-                    Closing::Constraint(_) => Measure::Value,
-                    Closing::Cut(_) if is_length(model, closing, index) => Measure::Length,
-                    Closing::Cut(_) => Measure::Cosine,
-                });
-                sources.push((Source::Row(Row { closing, index }), residual));
-            }
-            cosines.extend(e.alignments(closing).into_iter().map(|cosine| (closing, cosine)));
-        }
-        for (number, solve) in model.solves.iter().enumerate() {
-            let (SolveHow::Formulas(list), Handling::Reduced) = (&solve.how, &model.handling) else { continue };
-            for (k, (formula, unknown)) in list.iter().zip(&solve.unknowns).enumerate() {
-                let value = e.scalar(formula);
-                let x = Symbols::of(&e.symbols.positions, unknown.joint).get(unknown.index).copied();
-                let residual = e.g.sub(x.unwrap_or(Scalar::ZERO), value);
-                sources.push((Source::Formula(number, k), residual));
-                measures.push(Measure::Value);
-            }
-        }
-        roots.extend(sources.iter().map(|source| source.1));
-        roots.extend(cosines.iter().map(|cosine| cosine.1));
-        let lengths = roots.len();
-        for measure in &mut measures {
-            if let Measure::Rod(number) = measure {
-                *number += lengths;
-            }
-        }
-        roots.extend(rods);
-        roots.extend(e.lengths());
-        let scaled = lengths..roots.len();
-        roots.extend(e.spans());
-        let spans = scaled.end..roots.len();
-        let first_condition = roots.len();
-        roots.extend(e.conditions());
-        let conditions = first_condition..roots.len();
-        let driven = e.driven();
-        let driven: Vec<(usize, usize)> = driven
-            .into_iter()
-            .map(|(symbol, value)| {
-                roots.push(value);
-                (symbol, roots.len() - 1)
-            })
-            .collect();
-        let (movers, quaternions, columns) = columns(model, &e);
-        let positions = e.symbols.positions.iter();
-        let positions =
-            positions.map(|list| list.iter().filter_map(|&s| Some(e.g.symbol_id(s)?.0)).collect()).collect();
-        let mut lowering = Lowering::new(&e.g);
-        let roots = lowering.run(&roots);
-        let tape = Tape::new(&lowering.to, &roots);
-        let defaults = defaults(model, &e.symbols, off);
-        let parameters: Vec<Option<(usize, usize)>> = (e.symbols.table.iter())
-            .map(|symbol| match *symbol {
-                Symbol::Param { param, element } => Some((param.0, element)),
-                _ => None,
-            })
-            .collect();
-        let parameter = |&id: &usize| matches!(parameters.get(id), Some(Some(_)));
-        let time = e.symbols.table.iter().position(|symbol| matches!(symbol, Symbol::Time));
-        let columns_of = |root: usize| {
-            let mut list: Vec<usize> = Vec::new();
-            for id in tape.symbols(root) {
-                match movers.get(id) {
-                    Some(&Mover::Straight(column)) => list.push(column),
-                    Some(&Mover::Turns(number, _)) => {
-                        let first = quaternions.get(number).map_or(0, |q: &Quaternion| q.column);
-                        list.extend(first..first + 3);
-                    }
-                    _ => {}
-                }
-            }
-            list.sort_unstable();
-            list.dedup();
-            list
-        };
-        let equations = sources.iter().zip(measures).enumerate().map(|(root, (&(source, _), measure))| {
-            let symbols = tape.symbols(root);
-            let adjustable = symbols.iter().any(parameter);
-            let timed = symbols.iter().any(|&id| Some(id) == time);
-            let columns = columns_of(root);
-            Equation { source, columns, adjustable, timed, constant: false, root, measure, scale: 1.0 }
-        });
-        let equations: Vec<Equation> = equations.collect();
-        let first = equations.len();
-        let alignments = cosines.iter().enumerate();
-        let alignments = alignments
-            .map(|(k, &(closing, _))| Alignment { closing, root: first + k, columns: columns_of(first + k) })
-            .collect();
-        let conditions = conditions.map(|root| Condition { root, columns: columns_of(root) }).collect();
-        let mut problem = Problem {
-            tape,
-            equations,
-            columns,
-            alignments,
-            conditions,
-            movers,
-            quaternions,
-            positions,
-            time,
-            parameters,
-            defaults,
-            driven,
-            size: 1.0,
-        };
-        problem.measure(scaled, spans);
-        problem
+        formulate(model, 0.0, writing)
     }
 
     /// Equations that depend on no coordinate. Those of time are looked at twice: it should make no difference to them.
@@ -496,135 +370,6 @@ impl Problem {
         }
         row
     }
-}
-
-impl Equations<'_> {
-    fn rod_length(&mut self, closing: Closing) -> Option<Scalar> {
-        let Closing::Constraint(id) = closing else { return None };
-        match &self.model.constraints.get(id.0)?.kind {
-            ConstraintKind::Rod { length, .. } => Some(self.scalar(length)),
-            ConstraintKind::Value(_) => None,
-        }
-    }
-
-    /// Symbols of positions that drives give, with the values.
-    fn driven(&mut self) -> Vec<(usize, Scalar)> {
-        if self.model.drives.is_empty() {
-            return Vec::new();
-        }
-        let mut reduction = Reduction::default();
-        self.drive(&mut reduction);
-        let positions: Vec<Scalar> = self.symbols.positions.concat();
-        let ids = positions.iter().filter_map(|&s| self.g.symbol_id(s));
-        ids.filter_map(|id| reduction.map.get(&id).map(|&value| (id.0, value))).collect()
-    }
-
-    /// Conditions of `solve` items.
-    fn conditions(&mut self) -> Vec<Scalar> {
-        let model = self.model;
-        let mut list = Vec::new();
-        for solve in &model.solves {
-            if let SolveHow::From { branches, .. } = &solve.how {
-                list.extend(branches.iter().map(|condition| self.scalar(condition)));
-            }
-        }
-        list
-    }
-
-    /// Masses and traces of second moments: how far bodies reach.
-    fn spans(&mut self) -> Vec<Scalar> {
-        let mechanism = std::rc::Rc::clone(&self.mechanism);
-        let mut spans = Vec::new();
-        for link in &mechanism.tree.links {
-            let [xx, yy, zz, ..] = link.inertia.second;
-            spans.extend([link.inertia.mass, self.g.sum(&[xx, yy, zz])]);
-        }
-        spans
-    }
-
-    /// Constant lengths of the mechanism, component by component.
-    fn lengths(&mut self) -> Vec<Scalar> {
-        let mechanism = std::rc::Rc::clone(&self.mechanism);
-        let model = self.model;
-        let mut offsets: Vec<_> = mechanism.tree.links.iter().map(|link| link.offset).collect();
-        let mut lengths = Vec::new();
-        let mut frames = Vec::new();
-        for joint in model.cuts.iter().filter_map(|id| model.joints.get(id.0)) {
-            frames.extend([&joint.parent, &joint.child]);
-        }
-        for constraint in &model.constraints {
-            if let ConstraintKind::Rod { between, length } = &constraint.kind {
-                frames.extend(between.iter());
-                lengths.push(self.scalar(length));
-            }
-        }
-        offsets.extend(frames.into_iter().map(|frame| self.place(frame).offset));
-        for offset in offsets {
-            lengths.extend(self.g.components(offset));
-        }
-        lengths
-    }
-}
-
-fn columns(model: &Model, e: &Equations<'_>) -> (Vec<Mover>, Vec<Quaternion>, Vec<Column>) {
-    let mut movers = vec![Mover::Rests; e.symbols.table.len()];
-    let mut quaternions: Vec<Quaternion> = Vec::new();
-    let mut columns: Vec<Column> = Vec::new();
-    for (joint, velocities) in e.symbols.velocities.iter().enumerate() {
-        let id = JointId(joint);
-        let first = columns.len();
-        let turns = model.joints.get(joint).is_some_and(has_quaternion) && velocities.len() >= 3;
-        let straight = velocities.len() - if turns { 3 } else { 0 };
-        for index in 0..velocities.len() {
-            columns.push(Column {
-                coordinate: Coordinate { joint: id, index },
-                turns: index >= straight,
-                travels: false,
-                unit: 1.0,
-            });
-        }
-        if turns {
-            quaternions.push(Quaternion { symbol: usize::MAX, column: first + straight });
-        }
-        for (id, symbol) in e.symbols.table.iter().enumerate() {
-            let Symbol::Position { joint: at, component } = *symbol else { continue };
-            if at.0 != joint {
-                continue;
-            }
-            if component < straight {
-                movers[id] = Mover::Straight(first + component);
-            } else if let Some(last) = quaternions.last_mut() {
-                last.symbol = last.symbol.min(id);
-                movers[id] = Mover::Turns(quaternions.len() - 1, component - straight);
-            }
-        }
-    }
-    for link in &e.mechanism.tree.links {
-        if let (Motion::Prismatic(_), Some(column)) = (link.motion, columns.get_mut(link.freedom)) {
-            // Negative: in units of the size, which is not known yet.
-            (column.travels, column.unit) = (true, -1.0);
-        }
-    }
-    (movers, quaternions, columns)
-}
-
-/// Parameters near their defaults, orientations that turn nothing, all else zero.
-fn defaults(model: &Model, symbols: &Symbols, off: f64) -> Vec<f64> {
-    let mut random = Random(11);
-    let value = |symbol: &Symbol| match *symbol {
-        Symbol::Param { param, element } => {
-            let default = model.params.get(param.0).and_then(|param| param.default.get(element)).copied();
-            let default = default.unwrap_or(0.0);
-            default + off * (1.0 + default.abs()) * random.next()
-        }
-        Symbol::Position { joint, component } => {
-            let joint = model.joints.get(joint.0);
-            let turns = joint.is_some_and(|joint| has_quaternion(joint) && component == joint.kind.freedoms() - 3);
-            f64::from(u8::from(turns))
-        }
-        _ => 0.0,
-    };
-    symbols.table.iter().map(value).collect()
 }
 
 fn multiply(p: [f64; 4], q: [f64; 4]) -> [f64; 4] {

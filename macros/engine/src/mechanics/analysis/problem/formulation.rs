@@ -1,0 +1,302 @@
+//! Stage `mechanics`: the equations of a mechanism in symbols, as a tape evaluates them.
+//!
+//! In: the model. Out: a [`Problem`]: every equation with its source, its measure and its columns, and beside the equations
+//! what says how large they are, which way joints close and which branch was meant.
+
+use std::ops::Range;
+
+use crate::contracts::symbol::Symbol;
+use crate::dynamics::tree::Motion;
+use crate::mechanics::equations::Equations;
+use crate::mechanics::loops::constraints::{Writing, closings, is_length};
+use crate::mechanics::loops::reduction::Reduction;
+use crate::mechanics::loops::structure::Row;
+use crate::mechanics::translate::symbols::{Symbols, has_quaternion};
+use crate::model::types::{Closing, ConstraintKind, Coordinate, Handling, JointId, Model, SolveHow};
+use crate::symbolic::graph::{Graph, Scalar};
+use crate::symbolic::lower::Lowering;
+
+use super::super::measure::Measure;
+use super::super::tape::Tape;
+use super::{Alignment, Column, Condition, Equation, Mover, Problem, Quaternion, Random, Source, WAY};
+
+/// An equation in symbols.
+struct Draft {
+    source: Source,
+    residual: Scalar,
+    measure: Measure<Scalar>,
+}
+
+/// What the tape computes, in the order in which it was asked for.
+#[derive(Default)]
+struct Roots(Vec<Scalar>);
+
+impl Roots {
+    /// Its number.
+    fn push(&mut self, value: Scalar) -> usize {
+        self.0.push(value);
+        self.0.len() - 1
+    }
+
+    fn extend(&mut self, values: impl IntoIterator<Item = Scalar>) -> Range<usize> {
+        let first = self.0.len();
+        self.0.extend(values);
+        first..self.0.len()
+    }
+}
+
+pub(super) fn formulate(model: &Model, off: f64, writing: Writing) -> Problem {
+    let mut graph = Graph::new();
+    let symbols = Symbols::new(&mut graph, model);
+    let mut e = Equations::new(model, graph, symbols, WAY, &[]);
+    let (mut drafts, cosines) = e.closing_drafts(writing);
+    drafts.extend(e.formula_drafts());
+    let mut roots = Roots::default();
+    let residuals = roots.extend(drafts.iter().map(|draft| draft.residual));
+    let directions = roots.extend(cosines.iter().map(|cosine| cosine.1));
+    let first = roots.0.len();
+    let measures: Vec<Measure> = drafts.iter().map(|draft| draft.measure.map(|rod| roots.push(rod))).collect();
+    roots.extend(e.lengths());
+    let lengths = first..roots.0.len();
+    let spans = roots.extend(e.spans());
+    let conditions = roots.extend(e.conditions());
+    let driven: Vec<(usize, usize)> =
+        e.driven().into_iter().map(|(symbol, value)| (symbol, roots.push(value))).collect();
+    let (movers, quaternions, columns) = columns(model, &e);
+    let positions = e.symbols.positions.iter();
+    let positions = positions.map(|list| list.iter().filter_map(|&s| Some(e.g.symbol_id(s)?.0)).collect()).collect();
+    let mut lowering = Lowering::new(&e.g);
+    let roots = lowering.run(&roots.0);
+    let tape = Tape::new(&lowering.to, &roots);
+    let parameters = parameters(&e.symbols);
+    let time = e.symbols.table.iter().position(|symbol| matches!(symbol, Symbol::Time));
+    let columns_of = |root: usize| columns_of(&tape.symbols(root), &movers, &quaternions);
+    let equations = drafts.iter().zip(measures).zip(residuals).map(|((draft, measure), root)| {
+        let symbols = tape.symbols(root);
+        Equation {
+            source: draft.source,
+            columns: columns_of(root),
+            adjustable: symbols.iter().any(|&id| matches!(parameters.get(id), Some(Some(_)))),
+            timed: symbols.iter().any(|&id| Some(id) == time),
+            constant: false,
+            root,
+            measure,
+            scale: 1.0,
+        }
+    });
+    let equations = equations.collect();
+    let alignments = cosines.iter().zip(directions);
+    let alignments =
+        alignments.map(|(&(closing, _), root)| Alignment { closing, root, columns: columns_of(root) }).collect();
+    let conditions = conditions.map(|root| Condition { root, columns: columns_of(root) }).collect();
+    let defaults = defaults(model, &e.symbols, off);
+    let mut problem = Problem {
+        tape,
+        equations,
+        columns,
+        alignments,
+        conditions,
+        movers,
+        quaternions,
+        positions,
+        time,
+        parameters,
+        defaults,
+        driven,
+        size: 1.0,
+    };
+    problem.measure(lengths, spans);
+    problem
+}
+
+impl Equations<'_> {
+    /// Equations of all closings, and the cosines that are one where joints are closed as they were meant.
+    fn closing_drafts(&mut self, writing: Writing) -> (Vec<Draft>, Vec<(Closing, Scalar)>) {
+        let model = self.model;
+        let (mut drafts, mut cosines) = (Vec::new(), Vec::new());
+        for closing in closings(model) {
+            let rod = self.rod_length(closing);
+            for (index, residual) in self.residuals(closing, writing).into_iter().enumerate() {
+                let measure = match (closing, rod) {
+                    (Closing::Constraint(_), Some(length)) => Measure::Rod(length),
+                    (Closing::Constraint(_), None) => Measure::Value,
+                    (Closing::Cut(_), _) if is_length(model, closing, index) => Measure::Length,
+                    (Closing::Cut(_), _) => Measure::Cosine,
+                };
+                drafts.push(Draft { source: Source::Row(Row { closing, index }), residual, measure });
+            }
+            cosines.extend(self.alignments(closing).into_iter().map(|cosine| (closing, cosine)));
+        }
+        (drafts, cosines)
+    }
+
+    /// Unknowns minus the formulas of `solve` items.
+    fn formula_drafts(&mut self) -> Vec<Draft> {
+        let model = self.model;
+        let mut drafts = Vec::new();
+        for (number, solve) in model.solves.iter().enumerate() {
+            let (SolveHow::Formulas(list), Handling::Reduced) = (&solve.how, &model.handling) else { continue };
+            for (k, (formula, unknown)) in list.iter().zip(&solve.unknowns).enumerate() {
+                let value = self.scalar(formula);
+                let x = Symbols::of(&self.symbols.positions, unknown.joint).get(unknown.index).copied();
+                let residual = self.g.sub(x.unwrap_or(Scalar::ZERO), value);
+                drafts.push(Draft { source: Source::Formula(number, k), residual, measure: Measure::Value });
+            }
+        }
+        drafts
+    }
+
+    fn rod_length(&mut self, closing: Closing) -> Option<Scalar> {
+        let Closing::Constraint(id) = closing else { return None };
+        match &self.model.constraints.get(id.0)?.kind {
+            ConstraintKind::Rod { length, .. } => Some(self.scalar(length)),
+            ConstraintKind::Value(_) => None,
+        }
+    }
+
+    /// Symbols of positions that drives give, with the values.
+    fn driven(&mut self) -> Vec<(usize, Scalar)> {
+        if self.model.drives.is_empty() {
+            return Vec::new();
+        }
+        let mut reduction = Reduction::default();
+        self.drive(&mut reduction);
+        let positions: Vec<Scalar> = self.symbols.positions.concat();
+        let ids = positions.iter().filter_map(|&s| self.g.symbol_id(s));
+        ids.filter_map(|id| reduction.map.get(&id).map(|&value| (id.0, value))).collect()
+    }
+
+    /// Conditions of `solve` items.
+    fn conditions(&mut self) -> Vec<Scalar> {
+        let model = self.model;
+        let mut list = Vec::new();
+        for solve in &model.solves {
+            if let SolveHow::From { branches, .. } = &solve.how {
+                list.extend(branches.iter().map(|condition| self.scalar(condition)));
+            }
+        }
+        list
+    }
+
+    /// Masses and traces of second moments: how far bodies reach.
+    fn spans(&mut self) -> Vec<Scalar> {
+        let mechanism = std::rc::Rc::clone(&self.mechanism);
+        let mut spans = Vec::new();
+        for link in &mechanism.tree.links {
+            let [xx, yy, zz, ..] = link.inertia.second;
+            spans.extend([link.inertia.mass, self.g.sum(&[xx, yy, zz])]);
+        }
+        spans
+    }
+
+    /// Constant lengths of the mechanism, component by component.
+    fn lengths(&mut self) -> Vec<Scalar> {
+        let mechanism = std::rc::Rc::clone(&self.mechanism);
+        let model = self.model;
+        let mut offsets: Vec<_> = mechanism.tree.links.iter().map(|link| link.offset).collect();
+        let mut lengths = Vec::new();
+        let mut frames = Vec::new();
+        for joint in model.cuts.iter().filter_map(|id| model.joints.get(id.0)) {
+            frames.extend([&joint.parent, &joint.child]);
+        }
+        for constraint in &model.constraints {
+            if let ConstraintKind::Rod { between, length } = &constraint.kind {
+                frames.extend(between.iter());
+                lengths.push(self.scalar(length));
+            }
+        }
+        offsets.extend(frames.into_iter().map(|frame| self.place(frame).offset));
+        for offset in offsets {
+            lengths.extend(self.g.components(offset));
+        }
+        lengths
+    }
+}
+
+fn columns(model: &Model, e: &Equations<'_>) -> (Vec<Mover>, Vec<Quaternion>, Vec<Column>) {
+    let mut movers = vec![Mover::Rests; e.symbols.table.len()];
+    let mut quaternions: Vec<Quaternion> = Vec::new();
+    let mut columns: Vec<Column> = Vec::new();
+    for (joint, velocities) in e.symbols.velocities.iter().enumerate() {
+        let id = JointId(joint);
+        let first = columns.len();
+        let turns = model.joints.get(joint).is_some_and(has_quaternion) && velocities.len() >= 3;
+        let straight = velocities.len() - if turns { 3 } else { 0 };
+        for index in 0..velocities.len() {
+            columns.push(Column {
+                coordinate: Coordinate { joint: id, index },
+                turns: index >= straight,
+                travels: false,
+                unit: 1.0,
+            });
+        }
+        if turns {
+            quaternions.push(Quaternion { symbol: usize::MAX, column: first + straight });
+        }
+        for (id, symbol) in e.symbols.table.iter().enumerate() {
+            let Symbol::Position { joint: at, component } = *symbol else { continue };
+            if at.0 != joint {
+                continue;
+            }
+            if component < straight {
+                movers[id] = Mover::Straight(first + component);
+            } else if let Some(last) = quaternions.last_mut() {
+                last.symbol = last.symbol.min(id);
+                movers[id] = Mover::Turns(quaternions.len() - 1, component - straight);
+            }
+        }
+    }
+    for link in &e.mechanism.tree.links {
+        if let (Motion::Prismatic(_), Some(column)) = (link.motion, columns.get_mut(link.freedom)) {
+            // Negative: in units of the size, which is not known yet.
+            (column.travels, column.unit) = (true, -1.0);
+        }
+    }
+    (movers, quaternions, columns)
+}
+
+/// Columns that a number moves with, from its symbols.
+fn columns_of(symbols: &[usize], movers: &[Mover], quaternions: &[Quaternion]) -> Vec<usize> {
+    let mut list: Vec<usize> = Vec::new();
+    for &id in symbols {
+        match movers.get(id) {
+            Some(&Mover::Straight(column)) => list.push(column),
+            Some(&Mover::Turns(number, _)) => {
+                let first = quaternions.get(number).map_or(0, |q: &Quaternion| q.column);
+                list.extend(first..first + 3);
+            }
+            _ => {}
+        }
+    }
+    list.sort_unstable();
+    list.dedup();
+    list
+}
+
+/// By symbol the parameter that it is, and the element.
+fn parameters(symbols: &Symbols) -> Vec<Option<(usize, usize)>> {
+    let parameter = |symbol: &Symbol| match *symbol {
+        Symbol::Param { param, element } => Some((param.0, element)),
+        _ => None,
+    };
+    symbols.table.iter().map(parameter).collect()
+}
+
+/// Parameters near their defaults, orientations that turn nothing, all else zero.
+fn defaults(model: &Model, symbols: &Symbols, off: f64) -> Vec<f64> {
+    let mut random = Random(11);
+    let value = |symbol: &Symbol| match *symbol {
+        Symbol::Param { param, element } => {
+            let default = model.params.get(param.0).and_then(|param| param.default.get(element)).copied();
+            let default = default.unwrap_or(0.0);
+            default + off * (1.0 + default.abs()) * random.next()
+        }
+        Symbol::Position { joint, component } => {
+            let joint = model.joints.get(joint.0);
+            let turns = joint.is_some_and(|joint| has_quaternion(joint) && component == joint.kind.freedoms() - 3);
+            f64::from(u8::from(turns))
+        }
+        _ => 0.0,
+    };
+    symbols.table.iter().map(value).collect()
+}
