@@ -91,14 +91,8 @@ impl Columns {
 
     /// The next link on the way to the root: outwards where the root lies beyond.
     fn towards_root(&self, tree: &Tree, link: Option<usize>) -> Option<usize> {
-        let mut at = self.root;
-        while let Some(index) = at {
-            if tree.links[index].parent == link {
-                return at;
-            }
-            at = tree.links[index].parent;
-        }
-        link.and_then(|index| tree.links[index].parent)
+        let outwards = tree.support(self.root).find(|&index| tree.links[index].parent == link);
+        outwards.or_else(|| link.and_then(|index| tree.links[index].parent))
     }
 }
 

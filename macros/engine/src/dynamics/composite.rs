@@ -18,16 +18,15 @@ pub fn mass_matrix(g: &mut Graph, tree: &Tree) -> Vec<Vec<Scalar>> {
     for (index, link) in tree.links.iter().enumerate() {
         for (column, twist) in tree.twists(link) {
             let mut wrench = unit_wrench(g, &composites[index], &twist);
-            let mut at = index;
-            loop {
-                let ancestor = &tree.links[at];
-                for (row, effort) in tree.project(g, ancestor, wrench.moment, wrench.force) {
+            let mut child = None;
+            for ancestor in tree.support(Some(index)) {
+                if let Some(child) = child.replace(ancestor) {
+                    wrench = to_parent(g, tree, child, &wrench);
+                }
+                for (row, effort) in tree.project(g, &tree.links[ancestor], wrench.moment, wrench.force) {
                     matrix[row][column] = effort;
                     matrix[column][row] = effort;
                 }
-                let Some(parent) = ancestor.parent else { break };
-                wrench = to_parent(g, tree, at, &wrench);
-                at = parent;
             }
             matrix[column][column] = g.add(matrix[column][column], link.armature);
         }

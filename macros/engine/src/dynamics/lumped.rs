@@ -140,14 +140,9 @@ fn members(g: &mut Graph, tree: &Tree, acceleration: &[Scalar]) -> Vec<Member> {
 
 /// Whether a link is another or slides on it, by way of its group.
 fn beyond(tree: &Tree, members: &[Member], link: usize, from: usize) -> bool {
-    let mut at = Some(link);
-    while let Some(index) = at.filter(|&index| index >= from && members[index].first == members[from].first) {
-        if index == from {
-            return true;
-        }
-        at = tree.links[index].parent;
-    }
-    false
+    let group = members[from].first;
+    let mut own = tree.support(Some(link)).take_while(|&index| index >= from && members[index].first == group);
+    own.any(|index| index == from)
 }
 
 /// Moments about the origin of the group's first link, and what its members' own ways add.
@@ -230,14 +225,8 @@ fn descend(g: &mut Graph, tree: &Tree, link: usize, wrench: &Wrench, wrenches: &
             break;
         }
     }
-    let mut path = Vec::new();
-    let mut below = at;
-    while let Some(index) = below {
-        path.push(index);
-        below = tree.links[index].parent;
-    }
     let [mut moment, mut force] = [wrench.moment, wrench.force];
-    for &index in path.iter().rev() {
+    for index in tree.path(None, at) {
         [moment, force] = [moment, force].map(|v| tree.to_link(g, &tree.links[index], v));
     }
     if let Some(carrier) = at {

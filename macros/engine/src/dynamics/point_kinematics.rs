@@ -7,7 +7,7 @@
 
 use crate::symbolic::graph::{Graph, Rotation, RotationNode, Scalar, Vector};
 
-use super::tree::{Link, Motion, Tree};
+use super::tree::{Link, Tree};
 
 /// A piece of the way to the point, and how it moves: d = R x, d' = R x' + w x d and so on.
 #[derive(Clone, Copy, Debug)]
@@ -50,11 +50,10 @@ impl<'t> PointKinematics<'t> {
     }
 
     /// From `link` up to the link `end`, or the ground.
-    pub(crate) fn up_to(&mut self, g: &mut Graph, mut link: Option<usize>, end: Option<usize>) {
-        while link != end {
-            let Some(at) = link.and_then(|index| self.tree.links.get(index)) else { return };
-            self.step(g, at);
-            link = at.parent;
+    pub(crate) fn up_to(&mut self, g: &mut Graph, link: Option<usize>, end: Option<usize>) {
+        let tree = self.tree;
+        for index in tree.support(link).take_while(|&index| Some(index) != end) {
+            self.step(g, &tree.links[index]);
         }
     }
 
@@ -68,20 +67,9 @@ impl<'t> PointKinematics<'t> {
     /// Through a link's motion, into the frame that its joint stands in.
     pub(crate) fn leave(&mut self, g: &mut Graph, link: &Link) {
         let tree = self.tree;
-        let turn = match link.motion {
-            Motion::Revolute(axis) | Motion::Screw(axis, _) => g.axis_rotation(axis, link.q),
-            Motion::Prismatic(_) => Rotation::IDENTITY,
-            Motion::Ball(quaternion) => g.quaternion_rotation(quaternion),
-        };
+        let turn = link.turn(g);
         let (mut w, mut dw) = (Vector::ZERO, Vector::ZERO);
-        let mut travel = [Vector::ZERO; 3];
-        if let Motion::Prismatic(axis) = link.motion {
-            travel[0] = g.along(axis, link.q);
-        }
-        if let Motion::Screw(axis, pitch) = link.motion {
-            let length = g.mul(pitch, link.q);
-            travel[0] = g.along(axis, length);
-        }
+        let mut travel = [link.travel(g), Vector::ZERO, Vector::ZERO];
         // A ball's angular velocity is given in the link's axes, and so is its rate, since w x w = 0.
         if self.order > 0 {
             (w, travel[1]) = tree.joint_motion(g, link, &tree.velocity);

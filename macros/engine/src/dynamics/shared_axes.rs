@@ -108,8 +108,7 @@ fn members(g: &mut Graph, tree: &Tree) -> Vec<Option<Member>> {
         };
         let parent = link.parent.and_then(|p| members[p]);
         let joined = parent.and_then(|parent| join(g, link, axis, parent));
-        let planar =
-            || std::iter::successors(link.parent, |&p| tree.links[p].parent).all(|p| is_straight(&tree.links[p]));
+        let planar = || tree.support(link.parent).all(|p| is_straight(&tree.links[p]));
         let alone = || Member { axis, head: index, reversed: false, planar: planar(), total: link.q };
         members.push(Some(joined.unwrap_or_else(alone)));
     }

@@ -46,6 +46,29 @@ pub struct Link {
     pub armature: Scalar,
 }
 
+impl Link {
+    /// How far it has turned against the frame that its joint stands in.
+    pub fn turn(&self, g: &mut Graph) -> Rotation {
+        match self.motion {
+            Motion::Revolute(axis) | Motion::Screw(axis, _) => g.axis_rotation(axis, self.q),
+            Motion::Prismatic(_) => Rotation::IDENTITY,
+            Motion::Ball(quaternion) => g.quaternion_rotation(quaternion),
+        }
+    }
+
+    /// How far it has moved along its axis, in the axes of the frame that its joint stands in.
+    pub fn travel(&self, g: &mut Graph) -> Vector {
+        match self.motion {
+            Motion::Prismatic(axis) => g.along(axis, self.q),
+            Motion::Screw(axis, pitch) => {
+                let length = g.mul(pitch, self.q);
+                g.along(axis, length)
+            }
+            Motion::Revolute(_) | Motion::Ball(_) => Vector::ZERO,
+        }
+    }
+}
+
 /// The mechanism as recursions see it.
 #[derive(Clone, Debug, Default)]
 pub struct Tree {
@@ -64,54 +87,53 @@ impl Tree {
         self.velocity.len()
     }
 
+    /// Links from this one to the ground, this one first. The ground, `None`, has none.
+    pub fn support(&self, link: Option<usize>) -> impl Iterator<Item = usize> {
+        std::iter::successors(link, |&index| self.links[index].parent)
+    }
+
+    /// Links beyond a carrier on the way out to another, in this order; empty where they are one.
+    pub fn path(&self, carrier: Option<usize>, link: Option<usize>) -> Vec<usize> {
+        let mut path: Vec<usize> = self.support(link).take_while(|&index| Some(index) != carrier).collect();
+        path.reverse();
+        path
+    }
+
+    /// The outermost link that carries both.
+    pub fn common(&self, mut a: Option<usize>, mut b: Option<usize>) -> Option<usize> {
+        // Parents stand before children, so the later of two different links is never the common one.
+        while a != b {
+            let later = if a > b { &mut a } else { &mut b };
+            *later = later.and_then(|index| self.links[index].parent);
+        }
+        a
+    }
+
     /// Rotation from the link's to its parent's axes.
     pub fn rotation(&self, g: &mut Graph, link: &Link) -> Rotation {
-        let turn = match link.motion {
-            Motion::Revolute(axis) | Motion::Screw(axis, _) => g.axis_rotation(axis, link.q),
-            Motion::Prismatic(_) => Rotation::IDENTITY,
-            Motion::Ball(quaternion) => g.quaternion_rotation(quaternion),
-        };
+        let turn = link.turn(g);
         g.compose(link.rotation, turn)
     }
 
     /// The same in two steps, so that vectors pass the constant placement and the motion one after the other.
     pub fn to_parent(&self, g: &mut Graph, link: &Link, v: Vector) -> Vector {
-        let turned = self.turn(g, link, v, false);
+        let turn = link.turn(g);
+        let turned = g.rotate(turn, v);
         g.rotate(link.rotation, turned)
     }
 
     /// Components in the link's axes of a vector given in the parent's.
     pub fn to_link(&self, g: &mut Graph, link: &Link, v: Vector) -> Vector {
         let placed = g.rotate(link.rotation.transpose(), v);
-        self.turn(g, link, placed, true)
-    }
-
-    fn turn(&self, g: &mut Graph, link: &Link, v: Vector, back: bool) -> Vector {
-        let r = match link.motion {
-            Motion::Revolute(axis) | Motion::Screw(axis, _) => g.axis_rotation(axis, link.q),
-            Motion::Prismatic(_) => return v,
-            Motion::Ball(quaternion) => g.quaternion_rotation(quaternion),
-        };
-        g.rotate(if back { r.transpose() } else { r }, v)
+        let turn = link.turn(g);
+        g.rotate(turn.transpose(), placed)
     }
 
     /// The link's origin in its parent's frame.
     pub fn origin(&self, g: &mut Graph, link: &Link) -> Vector {
-        match self.travel(g, link) {
-            Some(travel) => g.add_vectors(link.offset, travel),
-            None => link.offset,
-        }
-    }
-
-    /// What a prismatic or screw motion adds to the offset, in the parent's axes.
-    fn travel(&self, g: &mut Graph, link: &Link) -> Option<Vector> {
-        let (axis, length) = match link.motion {
-            Motion::Prismatic(axis) => (axis, link.q),
-            Motion::Screw(axis, pitch) => (axis, g.mul(pitch, link.q)),
-            _ => return None,
-        };
-        let along = g.along(axis, length);
-        Some(g.rotate(link.rotation, along))
+        let along = link.travel(g);
+        let travel = g.rotate(link.rotation, along);
+        g.add_vectors(link.offset, travel)
     }
 
     /// Angular and linear part of the unit twists of a link's freedoms, in link axes.

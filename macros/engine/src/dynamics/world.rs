@@ -36,14 +36,8 @@ pub(crate) fn motion(
     link: Option<usize>,
     acceleration: Option<&Rc<[Scalar]>>,
 ) -> WorldMotion {
-    let mut path = Vec::new();
-    let mut at = link;
-    while let Some(index) = at {
-        path.push(index);
-        at = tree.links.get(index).and_then(|link| link.parent);
-    }
     let mut motion = WorldMotion::REST;
-    for index in path.into_iter().rev() {
+    for index in tree.path(None, link) {
         motion = outwards(g, tree, columns, index, motion, acceleration.map(|list| &list[..]));
     }
     motion

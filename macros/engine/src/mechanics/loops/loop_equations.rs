@@ -64,22 +64,10 @@ impl Equations<'_> {
         cycle
     }
 
-    /// The links from the common carrier (excluded) to a place's link, outwards.
-    fn links_between(&self, link: Option<usize>, common: Option<usize>) -> Vec<usize> {
-        let mut path = Vec::new();
-        let mut at = link;
-        while let (true, Some(index)) = (at != common, at) {
-            path.push(index);
-            at = self.mechanism.tree.links.get(index).and_then(|link| link.parent);
-        }
-        path.reverse();
-        path
-    }
-
     fn outwards_to(&mut self, place: &Place, common: Option<usize>, item: &Solve, cycle: &mut Vec<Segment>) {
         let mechanism = std::rc::Rc::clone(&self.mechanism);
-        for index in self.links_between(place.link, common) {
-            let Some(link) = mechanism.tree.links.get(index) else { continue };
+        for index in mechanism.tree.path(common, place.link) {
+            let link = &mechanism.tree.links[index];
             cycle.push(Segment::Fixed { rotation: link.rotation, offset: link.offset });
             self.motion(link, false, item, cycle);
         }
@@ -89,8 +77,8 @@ impl Equations<'_> {
     fn back_from(&mut self, place: &Place, common: Option<usize>, item: &Solve, cycle: &mut Vec<Segment>) {
         let mechanism = std::rc::Rc::clone(&self.mechanism);
         self.inverse(place.rotation, place.offset, cycle);
-        for index in self.links_between(place.link, common).into_iter().rev() {
-            let Some(link) = mechanism.tree.links.get(index) else { continue };
+        for index in mechanism.tree.path(common, place.link).into_iter().rev() {
+            let link = &mechanism.tree.links[index];
             self.motion(link, true, item, cycle);
             self.inverse(link.rotation, link.offset, cycle);
         }
@@ -123,10 +111,8 @@ impl Equations<'_> {
             cycle.extend(turn);
             return;
         }
-        let mut still = link.clone();
-        (still.rotation, still.offset) = (Rotation::IDENTITY, Vector::ZERO);
-        let rotation = self.mechanism.tree.rotation(&mut self.g, &still);
-        let offset = self.mechanism.tree.origin(&mut self.g, &still);
+        let rotation = link.turn(&mut self.g);
+        let offset = link.travel(&mut self.g);
         if back {
             // The travel lies on the axis of the turn, so it needs no turning back.
             cycle.push(Segment::Fixed { rotation: rotation.transpose(), offset: -offset });

@@ -26,10 +26,8 @@ impl Equations<'_> {
         let columns = if plain { &mut self.world } else { &mut own };
         let mut rows: [Vec<Scalar>; 6] = std::array::from_fn(|_| vec![Scalar::ZERO; self.symbols.freedoms]);
         let point = columns.point(g, tree, place.link, place.offset);
-        let mut at = place.link;
-        while let Some(index) = at {
+        for index in tree.support(place.link) {
             let link = &tree.links[index];
-            at = link.parent;
             if link.freedom >= self.symbols.freedoms {
                 continue;
             }

@@ -78,7 +78,7 @@ impl Carrier {
     /// The link of a tree that these struts carry; pins in its axes. Nothing if what lies between it and the ground has
     /// mass, or if it carries links itself. Accelerations are the tree's symbols.
     pub fn of(g: &mut Graph, tree: &Tree, link: usize, legs: &[(Chain, Triple, bool)]) -> Option<Carrier> {
-        let path = motion::path(tree, link);
+        let path = tree.path(None, Some(link));
         let bare = path.iter().all(|&at| {
             let other = &tree.links[at];
             other.armature == Scalar::ZERO && (at == link || other.inertia.is_zero())

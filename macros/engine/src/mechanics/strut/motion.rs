@@ -23,16 +23,6 @@ pub struct Moves {
     pub d_omega: Vector,
 }
 
-/// The links from the ground to this one.
-pub fn path(tree: &Tree, link: usize) -> Vec<usize> {
-    let mut path = vec![link];
-    while let Some(parent) = path.last().and_then(|&at| tree.links[at].parent) {
-        path.push(parent);
-    }
-    path.reverse();
-    path
-}
-
 /// Motion of every link on the path to this one. `accelerations` by velocity coordinate.
 pub fn moves(g: &mut Graph, tree: &Tree, link: usize, accelerations: &[Scalar]) -> Vec<Moves> {
     let mut list: Vec<Moves> = Vec::new();
@@ -44,7 +34,7 @@ pub fn moves(g: &mut Graph, tree: &Tree, link: usize, accelerations: &[Scalar]) 
         omega: Vector::ZERO,
         d_omega: Vector::ZERO,
     };
-    for at in path(tree, link) {
+    for at in tree.path(None, Some(link)) {
         let link = &tree.links[at];
         let below = list.last().unwrap_or(&ground).clone();
         let r = tree.origin(g, link);
@@ -88,7 +78,7 @@ pub fn coordinates(
     acceleration: &Triple,
     d_omega: &Triple,
 ) -> Option<Vec<(usize, Scalar)>> {
-    let path = path(tree, link);
+    let path = tree.path(None, Some(link));
     let (translations, turns) = path.split_at_checked(3)?;
     let still = vec![Scalar::ZERO; tree.acceleration.len()];
     let moves = moves(g, tree, link, &still);

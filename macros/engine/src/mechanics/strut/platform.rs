@@ -70,7 +70,7 @@ impl Equations<'_> {
         let link = held?;
         let mechanism = Rc::clone(&self.mechanism);
         let own: usize = chains.iter().map(|(chain, _)| chain.links.len()).sum();
-        if mechanism.tree.links.len() != motion::path(&mechanism.tree, link).len() + own {
+        if mechanism.tree.links.len() != mechanism.tree.path(None, Some(link)).len() + own {
             return None;
         }
         let efforts = self.strut_efforts(&chains, link)?;
@@ -89,7 +89,7 @@ impl Equations<'_> {
         let mut tree = mechanism.tree.clone();
         tree.velocity = self.finish(reduction, &tree.velocity);
         tree.acceleration = self.finish(reduction, &tree.acceleration);
-        for at in motion::path(&mechanism.tree, link) {
+        for at in mechanism.tree.path(None, Some(link)) {
             let q = tree.links[at].q;
             tree.links[at].q = self.finish(reduction, &[q])[0];
             if let Motion::Ball(quaternion) = tree.links[at].motion {
@@ -159,7 +159,7 @@ impl Equations<'_> {
     ) -> Option<Vec<Scalar>> {
         // A drive may hold all of the rotation, and nothing else.
         let held = self.structure.roles.iter().flatten().any(|role| matches!(role, Role::Driven(_)));
-        let path = motion::path(&platform.tree, platform.link);
+        let path = platform.tree.path(None, Some(platform.link));
         let moves = |at: &usize| self.state().contains(&platform.tree.links[*at].freedom);
         let (translations, turns) = path.split_at_checked(3)?;
         if held && (!translations.iter().all(moves) || turns.iter().any(moves)) {

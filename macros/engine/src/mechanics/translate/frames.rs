@@ -123,22 +123,11 @@ impl Equations<'_> {
     pub(in crate::mechanics) fn rotation(&mut self, link: Option<usize>) -> Rotation {
         let mechanism = Rc::clone(&self.mechanism);
         let tree = &mechanism.tree;
-        let mut path = Vec::new();
-        let mut at = link;
-        let mut rotation = Rotation::IDENTITY;
-        while let Some(index) = at {
-            if let Some(Some(known)) = self.rotations.get(index) {
-                rotation = *known;
-                break;
-            }
-            path.push(index);
-            at = tree.links.get(index).and_then(|link| link.parent);
-        }
-        for index in path.into_iter().rev() {
+        let known = tree.support(link).find(|&index| self.rotations[index].is_some());
+        let mut rotation = known.and_then(|index| self.rotations[index]).unwrap_or(Rotation::IDENTITY);
+        for index in tree.path(known, link) {
             rotation = self.outwards(rotation, index);
-            if let Some(slot) = self.rotations.get_mut(index) {
-                *slot = Some(rotation);
-            }
+            self.rotations[index] = Some(rotation);
         }
         rotation
     }
@@ -146,11 +135,9 @@ impl Equations<'_> {
     /// A rotation followed outwards through one joint: placement and turn one by one, so that parallel turns meet.
     fn outwards(&mut self, rotation: Rotation, index: usize) -> Rotation {
         let mechanism = Rc::clone(&self.mechanism);
-        let Some(link) = mechanism.tree.links.get(index) else { return rotation };
+        let link = &mechanism.tree.links[index];
         let placed = self.g.compose(rotation, link.rotation);
-        let mut turn = link.clone();
-        turn.rotation = Rotation::IDENTITY;
-        let turn = mechanism.tree.rotation(&mut self.g, &turn);
+        let turn = link.turn(&mut self.g);
         self.g.compose(placed, turn)
     }
 
@@ -172,28 +159,13 @@ impl Equations<'_> {
             return self.rotation(link);
         }
         let mechanism = Rc::clone(&self.mechanism);
-        let mut path = Vec::new();
-        let mut at = link;
-        while let (true, Some(index)) = (at != carrier, at) {
-            path.push(index);
-            at = mechanism.tree.links.get(index).and_then(|link| link.parent);
-        }
-        path.into_iter().rev().fold(Rotation::IDENTITY, |rotation, index| self.outwards(rotation, index))
+        let path = mechanism.tree.path(carrier, link);
+        path.into_iter().fold(Rotation::IDENTITY, |rotation, index| self.outwards(rotation, index))
     }
 
     /// The outermost link that carries both.
     pub(in crate::mechanics) fn common(&self, a: Option<usize>, b: Option<usize>) -> Option<usize> {
-        let parent = |index: usize| self.mechanism.tree.links.get(index).and_then(|link| link.parent);
-        let (mut a, mut b) = (a, b);
-        // Parents stand before children, so the later of two different links is never the common one.
-        while a != b {
-            if a > b {
-                a = a.and_then(parent);
-            } else {
-                b = b.and_then(parent);
-            }
-        }
-        a
+        self.mechanism.tree.common(a, b)
     }
 
     /// Components in a frame's axes of a world vector. Quantities of frames on the same link need no way through the

@@ -7,7 +7,7 @@
 //! Shepperd 1978).
 
 use crate::contracts::call::Call;
-use crate::dynamics::tree::Motion;
+
 use crate::mechanics::equations::Equations;
 use crate::symbolic::graph::{Graph, Rotation, RotationNode, Scalar, Vector};
 use crate::symbolic::number::Number;
@@ -38,21 +38,13 @@ impl Equations<'_> {
     /// The rotations from the ground to a frame if one at most is not constant.
     fn few_turns(&mut self, place: &Place) -> Option<Vec<Rotation>> {
         let mechanism = std::rc::Rc::clone(&self.mechanism);
-        let mut path = Vec::new();
-        let mut at = place.link;
-        while let Some(link) = at.and_then(|index| mechanism.tree.links.get(index)) {
-            path.push(link);
-            at = link.parent;
-        }
+        let tree = &mechanism.tree;
         let g = &mut self.g;
         // Constant, moving, constant.
         let mut turns: [Rotation; 3] = [Rotation::IDENTITY; 3];
-        for link in path.into_iter().rev() {
-            let moving = match link.motion {
-                Motion::Revolute(axis) | Motion::Screw(axis, _) => g.axis_rotation(axis, link.q),
-                Motion::Prismatic(_) => Rotation::IDENTITY,
-                Motion::Ball(quaternion) => g.quaternion_rotation(quaternion),
-            };
+        for index in tree.path(None, place.link) {
+            let link = &tree.links[index];
+            let moving = link.turn(g);
             let slot = if turns[1] == Rotation::IDENTITY { 0 } else { 2 };
             turns[slot] = rotations::compose(g, turns[slot], link.rotation);
             if moving == Rotation::IDENTITY {

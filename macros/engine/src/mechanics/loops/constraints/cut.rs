@@ -91,12 +91,9 @@ impl Equations<'_> {
     /// Whether a screw of the tree stands between two frames.
     fn holds_screw(&self, ends: &[Place; 2]) -> bool {
         let common = self.common(ends[0].link, ends[1].link);
-        let links = &self.mechanism.tree.links;
-        ends.iter().any(|end| {
-            let way = std::iter::successors(end.link, |&at| links.get(at).and_then(|link| link.parent));
-            let mut way = way.take_while(|&at| Some(at) != common);
-            way.any(|at| links.get(at).is_some_and(|link| matches!(link.motion, Motion::Screw(..))))
-        })
+        let tree = &self.mechanism.tree;
+        let is_screw = |index: usize| matches!(tree.links[index].motion, Motion::Screw(..));
+        ends.iter().any(|end| tree.path(common, end.link).into_iter().any(is_screw))
     }
 
     /// Where everything in the loop turns about one axis, the cosine that speaks of this turn becomes the angle: with

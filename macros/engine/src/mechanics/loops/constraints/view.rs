@@ -8,7 +8,6 @@
 use std::rc::Rc;
 
 use crate::dynamics::point_kinematics::PointKinematics;
-use crate::dynamics::tree::Motion;
 use crate::mechanics::equations::{Equations, Style};
 use crate::mechanics::translate::build::Place;
 use crate::symbolic::graph::{Rotation, Scalar, Vector};
@@ -49,34 +48,25 @@ impl Equations<'_> {
 
     /// The frame that the first joint beyond `common` stands in, on the way to a frame.
     fn base_of(&self, end: &Place, common: Option<usize>) -> (Place, Option<usize>) {
-        let mut at = end.link;
-        while let Some(link) = at.and_then(|index| self.mechanism.tree.links.get(index)) {
-            if at == common {
-                break;
-            }
-            if link.parent == common {
-                return (Place { link: common, rotation: link.rotation, offset: link.offset }, at);
-            }
-            at = link.parent;
-        }
-        (*end, None)
+        let tree = &self.mechanism.tree;
+        let Some(&first) = tree.path(common, end.link).first() else { return (*end, None) };
+        let link = &tree.links[first];
+        (Place { link: common, rotation: link.rotation, offset: link.offset }, Some(first))
     }
 
-    /// Whether a link hangs on the joint that stands in the view's frame.
-    pub(super) fn hangs_on(&self, view: &View, link: Option<usize>) -> bool {
-        view.first.is_some() && self.common(link, view.first) == view.first
+    /// The link whose joint stands in the view's frame, if another hangs on it.
+    pub(super) fn hangs_on(&self, view: &View, link: Option<usize>) -> Option<usize> {
+        view.first.filter(|&first| self.common(link, Some(first)) == Some(first))
     }
 
     /// A frame's origin, from the view's origin in its axes.
     pub(super) fn see_point(&mut self, view: &View, point: &Place) -> Vector {
         let mechanism = Rc::clone(&self.mechanism);
         let tree = &mechanism.tree;
-        if self.hangs_on(view, point.link) {
+        if let Some(first) = self.hangs_on(view, point.link) {
             let mut kinematics = PointKinematics::new(tree, point.offset, 0, &[]);
-            kinematics.up_to(&mut self.g, point.link, view.first);
-            if let Some(link) = view.first.and_then(|index| tree.links.get(index)) {
-                kinematics.leave(&mut self.g, link);
-            }
+            kinematics.up_to(&mut self.g, point.link, Some(first));
+            kinematics.leave(&mut self.g, &tree.links[first]);
             return kinematics.local(&mut self.g)[0];
         }
         let to = view.place;
@@ -101,30 +91,14 @@ impl Equations<'_> {
     fn descend(&mut self, from: Option<usize>, to: Option<usize>, mut point: Vector) -> Vector {
         let mechanism = Rc::clone(&self.mechanism);
         let tree = &mechanism.tree;
-        let mut path = Vec::new();
-        let mut at = to;
-        while let (true, Some(index)) = (at != from, at) {
-            path.push(index);
-            at = tree.links.get(index).and_then(|link| link.parent);
-        }
         let g = &mut self.g;
-        for link in path.into_iter().rev().filter_map(|index| tree.links.get(index)) {
+        for index in tree.path(from, to) {
+            let link = &tree.links[index];
             let arm = g.sub_vectors(point, link.offset);
             point = g.rotate(link.rotation.transpose(), arm);
-            let travel = match link.motion {
-                Motion::Prismatic(axis) => g.along(axis, link.q),
-                Motion::Screw(axis, pitch) => {
-                    let length = g.mul(pitch, link.q);
-                    g.along(axis, length)
-                }
-                Motion::Revolute(_) | Motion::Ball(_) => Vector::ZERO,
-            };
+            let travel = link.travel(g);
             point = g.sub_vectors(point, travel);
-            let turn = match link.motion {
-                Motion::Revolute(axis) | Motion::Screw(axis, _) => g.axis_rotation(axis, link.q),
-                Motion::Prismatic(_) => Rotation::IDENTITY,
-                Motion::Ball(quaternion) => g.quaternion_rotation(quaternion),
-            };
+            let turn = link.turn(g);
             point = g.rotate(turn.transpose(), point);
         }
         point
@@ -138,8 +112,8 @@ impl Equations<'_> {
         let mechanism = Rc::clone(&self.mechanism);
         let tree = &mechanism.tree;
         let to = view.place;
-        if self.hangs_on(view, link) {
-            let turns = self.turns_from(view.first, link);
+        if let Some(first) = self.hangs_on(view, link) {
+            let turns = self.turns_from(first, link);
             return self.g.rotate(turns, v);
         }
         let seen = if link == to.link {
@@ -153,27 +127,16 @@ impl Equations<'_> {
     }
 
     /// Rotation from a link's axes to those of the frame that the joint of `first` stands in.
-    fn turns_from(&mut self, first: Option<usize>, link: Option<usize>) -> Rotation {
+    fn turns_from(&mut self, first: usize, link: Option<usize>) -> Rotation {
         let mechanism = Rc::clone(&self.mechanism);
         let tree = &mechanism.tree;
-        let mut path = Vec::new();
-        let mut at = link;
-        while let Some(index) = at {
-            path.push(index);
-            if at == first {
-                break;
-            }
-            at = tree.links.get(index).and_then(|link| link.parent);
-        }
         let mut rotation = Rotation::IDENTITY;
-        for index in path.into_iter().rev() {
-            let Some(link) = tree.links.get(index) else { continue };
-            let mut turn = link.clone();
-            turn.rotation = Rotation::IDENTITY;
-            if Some(index) != first {
+        for (k, index) in tree.path(tree.links[first].parent, link).into_iter().enumerate() {
+            let link = &tree.links[index];
+            if k > 0 {
                 rotation = self.g.compose(rotation, link.rotation);
             }
-            let turn = tree.rotation(&mut self.g, &turn);
+            let turn = link.turn(&mut self.g);
             rotation = self.g.compose(rotation, turn);
         }
         rotation
@@ -184,8 +147,8 @@ impl Equations<'_> {
         if v == Vector::ZERO {
             return v;
         }
-        if self.hangs_on(view, link) {
-            let turns = self.turns_from(view.first, link);
+        if let Some(first) = self.hangs_on(view, link) {
+            let turns = self.turns_from(first, link);
             return self.g.rotate(turns.transpose(), v);
         }
         let v = self.g.rotate(view.place.rotation, v);

@@ -48,9 +48,9 @@ impl Equations<'_> {
         let mechanism = Rc::clone(&self.mechanism);
         let tree = &mechanism.tree;
         let mut direction = self.axis_in_link(end, axis);
-        let (mut at, mut turns) = (end.link, Scalar::ZERO);
-        while let (true, Some(link)) = (at != carrier, at.and_then(|index| tree.links.get(index))) {
-            let g = &mut self.g;
+        let mut turns = Scalar::ZERO;
+        for index in tree.path(carrier, end.link).into_iter().rev() {
+            let (g, link) = (&mut self.g, &tree.links[index]);
             if let Motion::Revolute(k) | Motion::Screw(k, _) = link.motion {
                 turns = match g.component(direction, k) {
                     Scalar::ONE => g.add(turns, link.q),
@@ -60,7 +60,6 @@ impl Equations<'_> {
             }
             let rotation = tree.rotation(g, link);
             direction = g.rotate(rotation, direction);
-            at = link.parent;
         }
         turns
     }

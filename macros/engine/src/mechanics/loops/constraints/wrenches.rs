@@ -160,7 +160,7 @@ impl Equations<'_> {
         if force == Vector::ZERO && moment == Vector::ZERO {
             return;
         }
-        if view.shares(self.hangs_on(view, place.link)) {
+        if view.shares(self.hangs_on(view, place.link).is_some()) {
             let mechanism = Rc::clone(&self.mechanism);
             let [force, moment] = [force, moment].map(|v| self.g.rotate(view.place.rotation, v));
             let arm = self.world.rotate(&mut self.g, &mechanism.tree, place.link, place.offset);
