@@ -56,149 +56,6 @@ pub mod cart_pole {
     use ::multibody::Real;
     /// Number of degrees of freedom: components of a velocity.
     pub const DOF: usize = 2;
-    /// Operation counts of every function, and of `Model::new`.
-    pub const COSTS: &[::multibody::Cost] = &[
-        ::multibody::Cost {
-            function: "new",
-            add: 1,
-            mul: 10,
-            div: 1,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "forward_dynamics",
-            add: 4,
-            mul: 11,
-            div: 1,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "inverse_dynamics",
-            add: 5,
-            mul: 10,
-            div: 0,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "mass_matrix",
-            add: 0,
-            mul: 2,
-            div: 0,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "bias",
-            add: 1,
-            mul: 5,
-            div: 0,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "kinetic_energy",
-            add: 2,
-            mul: 7,
-            div: 0,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "potential_energy",
-            add: 0,
-            mul: 2,
-            div: 0,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "outputs",
-            add: 1,
-            mul: 2,
-            div: 0,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-    ];
-    /// The same of every function as it was derived, before optimisation, with the work on parameters in it.
-    pub const DERIVED: &[::multibody::Cost] = &[
-        ::multibody::Cost {
-            function: "forward_dynamics",
-            add: 6,
-            mul: 26,
-            div: 2,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "inverse_dynamics",
-            add: 7,
-            mul: 19,
-            div: 0,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "mass_matrix",
-            add: 2,
-            mul: 8,
-            div: 0,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "bias",
-            add: 1,
-            mul: 8,
-            div: 0,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "kinetic_energy",
-            add: 4,
-            mul: 14,
-            div: 0,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "potential_energy",
-            add: 0,
-            mul: 4,
-            div: 0,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "outputs",
-            add: 1,
-            mul: 2,
-            div: 0,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-    ];
-    /// Names of the components of a velocity, in order.
-    pub const COORDINATES: &[&str] = &["track", "hinge"];
     /// Parameters of `cart_pole`. The default is what the model declares.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -489,17 +346,29 @@ pub mod cart_pole {
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Model<T = f64> {
+        /// `0.75 * mp`
         pivot_1_factor: T,
+        /// `mp + mc`
         mass_track: T,
+        /// `mp * l * g`
         acceleration_factor: T,
+        /// `0.75 / l`
         acceleration_1_factor: T,
+        /// `0.5 * mp * l`
         acceleration_1_factor_v2: T,
+        /// `1.5 / (l^2 * mp)`
         acceleration_2_factor: T,
+        /// `1.5 / l`
         acceleration_2_factor_v2: T,
+        /// `g`
         g: T,
+        /// `1 / 3 * l^2 * mp`
         n_hinge_z_factor: T,
+        /// `mp * l`
         second_hinge_yy_factor: T,
+        /// `l^2 * mp`
         second_hinge_yy_factor_v2: T,
+        /// `l`
         l: T,
     }
     impl<T: Real> Model<T> {
@@ -823,4 +692,147 @@ pub mod cart_pole {
             self.kinetic_energy(state)
         }
     }
+    /// Names of the components of a velocity, in order.
+    pub const COORDINATES: &[&str] = &["track", "hinge"];
+    /// Operation counts of every function, and of `Model::new`.
+    pub const COSTS: &[::multibody::Cost] = &[
+        ::multibody::Cost {
+            function: "new",
+            add: 1,
+            mul: 10,
+            div: 1,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "forward_dynamics",
+            add: 4,
+            mul: 11,
+            div: 1,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "inverse_dynamics",
+            add: 5,
+            mul: 10,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "mass_matrix",
+            add: 0,
+            mul: 2,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "bias",
+            add: 1,
+            mul: 5,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "kinetic_energy",
+            add: 2,
+            mul: 7,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "potential_energy",
+            add: 0,
+            mul: 2,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "outputs",
+            add: 1,
+            mul: 2,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+    ];
+    /// The same of every function as it was derived, before optimisation, with the work on parameters in it.
+    pub const DERIVED: &[::multibody::Cost] = &[
+        ::multibody::Cost {
+            function: "forward_dynamics",
+            add: 6,
+            mul: 26,
+            div: 2,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "inverse_dynamics",
+            add: 7,
+            mul: 19,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "mass_matrix",
+            add: 2,
+            mul: 8,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "bias",
+            add: 1,
+            mul: 8,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "kinetic_energy",
+            add: 4,
+            mul: 14,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "potential_energy",
+            add: 0,
+            mul: 4,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "outputs",
+            add: 1,
+            mul: 2,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+    ];
 }

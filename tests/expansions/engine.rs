@@ -70,133 +70,6 @@ pub(crate) mod engine {
     use ::multibody::Real;
     /// Number of degrees of freedom: components of a velocity.
     pub const DOF: usize = 1;
-    /// Operation counts of every function, and of `Model::new`.
-    pub const COSTS: &[::multibody::Cost] = &[
-        ::multibody::Cost {
-            function: "new",
-            add: 0,
-            mul: 0,
-            div: 0,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "forward_dynamics",
-            add: 33,
-            mul: 65,
-            div: 2,
-            sqrt: 1,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "inverse_dynamics",
-            add: 30,
-            mul: 58,
-            div: 1,
-            sqrt: 1,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "kinematics",
-            add: 5,
-            mul: 16,
-            div: 1,
-            sqrt: 1,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "outputs",
-            add: 83,
-            mul: 118,
-            div: 8,
-            sqrt: 1,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "dead_centres",
-            add: 1,
-            mul: 2,
-            div: 0,
-            sqrt: 1,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "margins",
-            add: 1,
-            mul: 5,
-            div: 0,
-            sqrt: 1,
-            sincos: 1,
-            other: 0,
-        },
-    ];
-    /// The same of every function as it was derived, before optimisation, with the work on parameters in it.
-    pub const DERIVED: &[::multibody::Cost] = &[
-        ::multibody::Cost {
-            function: "forward_dynamics",
-            add: 40,
-            mul: 92,
-            div: 2,
-            sqrt: 1,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "inverse_dynamics",
-            add: 37,
-            mul: 84,
-            div: 1,
-            sqrt: 1,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "kinematics",
-            add: 6,
-            mul: 19,
-            div: 1,
-            sqrt: 1,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "outputs",
-            add: 101,
-            mul: 171,
-            div: 8,
-            sqrt: 1,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "dead_centres",
-            add: 1,
-            mul: 2,
-            div: 0,
-            sqrt: 1,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "margins",
-            add: 1,
-            mul: 5,
-            div: 0,
-            sqrt: 1,
-            sincos: 1,
-            other: 0,
-        },
-    ];
-    /// Names of the components of a velocity, in order.
-    pub const COORDINATES: &[&str] = &["shaft"];
-    /// The coordinates whose dead centres `dead_centres` tells of, in order.
-    pub const DEAD_CENTRES: &[&str] = &["cylinder"];
     /// Parameters of `engine`. The default is what the model declares.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -381,6 +254,7 @@ pub(crate) mod engine {
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Model<T = f64> {
+        /// `load`
         load: T,
     }
     impl<T: Real> Model<T> {
@@ -946,4 +820,131 @@ pub(crate) mod engine {
             ::multibody::pivots::without_inertia(&matrix, &["shaft"])
         }
     }
+    /// Names of the components of a velocity, in order.
+    pub const COORDINATES: &[&str] = &["shaft"];
+    /// The coordinates whose dead centres `dead_centres` tells of, in order.
+    pub const DEAD_CENTRES: &[&str] = &["cylinder"];
+    /// Operation counts of every function, and of `Model::new`.
+    pub const COSTS: &[::multibody::Cost] = &[
+        ::multibody::Cost {
+            function: "new",
+            add: 0,
+            mul: 0,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "forward_dynamics",
+            add: 33,
+            mul: 65,
+            div: 2,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "inverse_dynamics",
+            add: 30,
+            mul: 58,
+            div: 1,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "kinematics",
+            add: 5,
+            mul: 16,
+            div: 1,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "outputs",
+            add: 83,
+            mul: 118,
+            div: 8,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "dead_centres",
+            add: 1,
+            mul: 2,
+            div: 0,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "margins",
+            add: 1,
+            mul: 5,
+            div: 0,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+    ];
+    /// The same of every function as it was derived, before optimisation, with the work on parameters in it.
+    pub const DERIVED: &[::multibody::Cost] = &[
+        ::multibody::Cost {
+            function: "forward_dynamics",
+            add: 40,
+            mul: 92,
+            div: 2,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "inverse_dynamics",
+            add: 37,
+            mul: 84,
+            div: 1,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "kinematics",
+            add: 6,
+            mul: 19,
+            div: 1,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "outputs",
+            add: 101,
+            mul: 171,
+            div: 8,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "dead_centres",
+            add: 1,
+            mul: 2,
+            div: 0,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "margins",
+            add: 1,
+            mul: 5,
+            div: 0,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+    ];
 }

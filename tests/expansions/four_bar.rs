@@ -63,151 +63,6 @@ pub mod four_bar {
     use ::multibody::Real;
     /// Number of degrees of freedom: components of a velocity.
     pub const DOF: usize = 1;
-    /// Operation counts of every function, and of `Model::new`.
-    pub const COSTS: &[::multibody::Cost] = &[
-        ::multibody::Cost {
-            function: "new",
-            add: 0,
-            mul: 0,
-            div: 0,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "forward_dynamics",
-            add: 78,
-            mul: 139,
-            div: 4,
-            sqrt: 2,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "inverse_dynamics",
-            add: 75,
-            mul: 124,
-            div: 3,
-            sqrt: 2,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "mass_matrix",
-            add: 25,
-            mul: 42,
-            div: 2,
-            sqrt: 1,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "bias",
-            add: 65,
-            mul: 115,
-            div: 3,
-            sqrt: 2,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "outputs",
-            add: 183,
-            mul: 222,
-            div: 10,
-            sqrt: 2,
-            sincos: 1,
-            other: 2,
-        },
-        ::multibody::Cost {
-            function: "dead_centres",
-            add: 4,
-            mul: 4,
-            div: 0,
-            sqrt: 1,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "margins",
-            add: 6,
-            mul: 9,
-            div: 0,
-            sqrt: 1,
-            sincos: 1,
-            other: 0,
-        },
-    ];
-    /// The same of every function as it was derived, before optimisation, with the work on parameters in it.
-    pub const DERIVED: &[::multibody::Cost] = &[
-        ::multibody::Cost {
-            function: "forward_dynamics",
-            add: 89,
-            mul: 182,
-            div: 4,
-            sqrt: 2,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "inverse_dynamics",
-            add: 82,
-            mul: 160,
-            div: 3,
-            sqrt: 2,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "mass_matrix",
-            add: 30,
-            mul: 51,
-            div: 2,
-            sqrt: 1,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "bias",
-            add: 73,
-            mul: 152,
-            div: 3,
-            sqrt: 2,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "outputs",
-            add: 209,
-            mul: 282,
-            div: 10,
-            sqrt: 2,
-            sincos: 1,
-            other: 2,
-        },
-        ::multibody::Cost {
-            function: "dead_centres",
-            add: 4,
-            mul: 4,
-            div: 0,
-            sqrt: 1,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "margins",
-            add: 6,
-            mul: 11,
-            div: 0,
-            sqrt: 1,
-            sincos: 1,
-            other: 0,
-        },
-    ];
-    /// Names of the components of a velocity, in order.
-    pub const COORDINATES: &[&str] = &["crank"];
-    /// The coordinates whose dead centres `dead_centres` tells of, in order.
-    pub const DEAD_CENTRES: &[&str] = &["rocker"];
     /// Parameters of `four_bar`. The default is what the model declares.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -1369,4 +1224,149 @@ pub mod four_bar {
             ::multibody::pivots::without_inertia(&matrix, &["crank"])
         }
     }
+    /// Names of the components of a velocity, in order.
+    pub const COORDINATES: &[&str] = &["crank"];
+    /// The coordinates whose dead centres `dead_centres` tells of, in order.
+    pub const DEAD_CENTRES: &[&str] = &["rocker"];
+    /// Operation counts of every function, and of `Model::new`.
+    pub const COSTS: &[::multibody::Cost] = &[
+        ::multibody::Cost {
+            function: "new",
+            add: 0,
+            mul: 0,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "forward_dynamics",
+            add: 78,
+            mul: 139,
+            div: 4,
+            sqrt: 2,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "inverse_dynamics",
+            add: 75,
+            mul: 124,
+            div: 3,
+            sqrt: 2,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "mass_matrix",
+            add: 25,
+            mul: 42,
+            div: 2,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "bias",
+            add: 65,
+            mul: 115,
+            div: 3,
+            sqrt: 2,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "outputs",
+            add: 183,
+            mul: 222,
+            div: 10,
+            sqrt: 2,
+            sincos: 1,
+            other: 2,
+        },
+        ::multibody::Cost {
+            function: "dead_centres",
+            add: 4,
+            mul: 4,
+            div: 0,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "margins",
+            add: 6,
+            mul: 9,
+            div: 0,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+    ];
+    /// The same of every function as it was derived, before optimisation, with the work on parameters in it.
+    pub const DERIVED: &[::multibody::Cost] = &[
+        ::multibody::Cost {
+            function: "forward_dynamics",
+            add: 89,
+            mul: 182,
+            div: 4,
+            sqrt: 2,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "inverse_dynamics",
+            add: 82,
+            mul: 160,
+            div: 3,
+            sqrt: 2,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "mass_matrix",
+            add: 30,
+            mul: 51,
+            div: 2,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "bias",
+            add: 73,
+            mul: 152,
+            div: 3,
+            sqrt: 2,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "outputs",
+            add: 209,
+            mul: 282,
+            div: 10,
+            sqrt: 2,
+            sincos: 1,
+            other: 2,
+        },
+        ::multibody::Cost {
+            function: "dead_centres",
+            add: 4,
+            mul: 4,
+            div: 0,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "margins",
+            add: 6,
+            mul: 11,
+            div: 0,
+            sqrt: 1,
+            sincos: 1,
+            other: 0,
+        },
+    ];
 }

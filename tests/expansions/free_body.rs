@@ -41,138 +41,6 @@ pub mod free_body {
     use ::multibody::Real;
     /// Number of degrees of freedom: components of a velocity.
     pub const DOF: usize = 6;
-    /// Operation counts of every function, and of `Model::new`.
-    pub const COSTS: &[::multibody::Cost] = &[
-        ::multibody::Cost {
-            function: "new",
-            add: 8,
-            mul: 6,
-            div: 3,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "forward_dynamics",
-            add: 0,
-            mul: 6,
-            div: 0,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "inverse_dynamics",
-            add: 9,
-            mul: 12,
-            div: 0,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "mass_matrix",
-            add: 0,
-            mul: 0,
-            div: 0,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "bias",
-            add: 0,
-            mul: 6,
-            div: 0,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "kinetic_energy",
-            add: 5,
-            mul: 13,
-            div: 0,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "potential_energy",
-            add: 0,
-            mul: 0,
-            div: 0,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-    ];
-    /// The same of every function as it was derived, before optimisation, with the work on parameters in it.
-    pub const DERIVED: &[::multibody::Cost] = &[
-        ::multibody::Cost {
-            function: "forward_dynamics",
-            add: 8,
-            mul: 13,
-            div: 3,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "inverse_dynamics",
-            add: 14,
-            mul: 13,
-            div: 0,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "mass_matrix",
-            add: 0,
-            mul: 0,
-            div: 0,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "bias",
-            add: 8,
-            mul: 10,
-            div: 0,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "kinetic_energy",
-            add: 5,
-            mul: 13,
-            div: 0,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "potential_energy",
-            add: 0,
-            mul: 0,
-            div: 0,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-    ];
-    /// Names of the components of a velocity, in order.
-    pub const COORDINATES: &[&str] = &[
-        "free.linear.x",
-        "free.linear.y",
-        "free.linear.z",
-        "free.angular.x",
-        "free.angular.y",
-        "free.angular.z",
-    ];
     /// Parameters of `free_body`. The default is what the model declares.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -482,18 +350,31 @@ pub mod free_body {
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Model<T = f64> {
+        /// `((i[1] - 0.5 * (i[0] + i[1] + i[2])) - (i[2] - 0.5 * (i[0] + i[1] + i[2]))) / i[0]`
         free_angular_accel_x_factor: T,
+        /// `((i[2] - 0.5 * (i[0] + i[1] + i[2])) - (i[0] - 0.5 * (i[0] + i[1] + i[2]))) / i[1]`
         free_angular_accel_y_factor: T,
+        /// `((i[0] - 0.5 * (i[0] + i[1] + i[2])) - (i[1] - 0.5 * (i[0] + i[1] + i[2]))) / i[2]`
         free_angular_accel_z_factor: T,
+        /// `m`
         m: T,
+        /// `i[1] - 0.5 * (i[0] + i[1] + i[2])`
         minus_second_free_yy: T,
+        /// `i[2] - 0.5 * (i[0] + i[1] + i[2])`
         minus_second_free_zz: T,
+        /// `i[0] - 0.5 * (i[0] + i[1] + i[2])`
         minus_second_free_xx: T,
+        /// `i[0]`
         i_0: T,
+        /// `i[1]`
         i_1: T,
+        /// `i[2]`
         i_2: T,
+        /// `(i[1] - 0.5 * (i[0] + i[1] + i[2])) - (i[2] - 0.5 * (i[0] + i[1] + i[2]))`
         free_angular_effort_x_factor: T,
+        /// `(i[2] - 0.5 * (i[0] + i[1] + i[2])) - (i[0] - 0.5 * (i[0] + i[1] + i[2]))`
         free_angular_effort_y_factor: T,
+        /// `(i[0] - 0.5 * (i[0] + i[1] + i[2])) - (i[1] - 0.5 * (i[0] + i[1] + i[2]))`
         free_angular_effort_z_factor: T,
     }
     impl<T: Real> Model<T> {
@@ -886,4 +767,136 @@ pub mod free_body {
             self.kinetic_energy(state)
         }
     }
+    /// Names of the components of a velocity, in order.
+    pub const COORDINATES: &[&str] = &[
+        "free.linear.x",
+        "free.linear.y",
+        "free.linear.z",
+        "free.angular.x",
+        "free.angular.y",
+        "free.angular.z",
+    ];
+    /// Operation counts of every function, and of `Model::new`.
+    pub const COSTS: &[::multibody::Cost] = &[
+        ::multibody::Cost {
+            function: "new",
+            add: 8,
+            mul: 6,
+            div: 3,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "forward_dynamics",
+            add: 0,
+            mul: 6,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "inverse_dynamics",
+            add: 9,
+            mul: 12,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "mass_matrix",
+            add: 0,
+            mul: 0,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "bias",
+            add: 0,
+            mul: 6,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "kinetic_energy",
+            add: 5,
+            mul: 13,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "potential_energy",
+            add: 0,
+            mul: 0,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+    ];
+    /// The same of every function as it was derived, before optimisation, with the work on parameters in it.
+    pub const DERIVED: &[::multibody::Cost] = &[
+        ::multibody::Cost {
+            function: "forward_dynamics",
+            add: 8,
+            mul: 13,
+            div: 3,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "inverse_dynamics",
+            add: 14,
+            mul: 13,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "mass_matrix",
+            add: 0,
+            mul: 0,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "bias",
+            add: 8,
+            mul: 10,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "kinetic_energy",
+            add: 5,
+            mul: 13,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "potential_energy",
+            add: 0,
+            mul: 0,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+    ];
 }

@@ -107,110 +107,6 @@ pub mod level {
     use ::multibody::Real;
     /// Number of degrees of freedom: components of a velocity.
     pub const DOF: usize = 3;
-    /// Operation counts of every function, and of `Model::new`.
-    pub const COSTS: &[::multibody::Cost] = &[
-        ::multibody::Cost {
-            function: "new",
-            add: 6,
-            mul: 0,
-            div: 0,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "forward_dynamics",
-            add: 151,
-            mul: 165,
-            div: 9,
-            sqrt: 6,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "inverse_dynamics",
-            add: 184,
-            mul: 200,
-            div: 7,
-            sqrt: 6,
-            sincos: 0,
-            other: 3,
-        },
-        ::multibody::Cost {
-            function: "dead_centres",
-            add: 34,
-            mul: 31,
-            div: 0,
-            sqrt: 12,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "margins",
-            add: 64,
-            mul: 69,
-            div: 0,
-            sqrt: 12,
-            sincos: 0,
-            other: 0,
-        },
-    ];
-    /// The same of every function as it was derived, before optimisation, with the work on parameters in it.
-    pub const DERIVED: &[::multibody::Cost] = &[
-        ::multibody::Cost {
-            function: "forward_dynamics",
-            add: 173,
-            mul: 225,
-            div: 9,
-            sqrt: 6,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "inverse_dynamics",
-            add: 219,
-            mul: 219,
-            div: 7,
-            sqrt: 6,
-            sincos: 0,
-            other: 3,
-        },
-        ::multibody::Cost {
-            function: "dead_centres",
-            add: 48,
-            mul: 31,
-            div: 0,
-            sqrt: 12,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "margins",
-            add: 78,
-            mul: 69,
-            div: 0,
-            sqrt: 12,
-            sincos: 0,
-            other: 0,
-        },
-    ];
-    /// Names of the components of a velocity, in order.
-    pub const COORDINATES: &[&str] = &["platform.x", "platform.y", "platform.z"];
-    /// The coordinates whose dead centres `dead_centres` tells of, in order.
-    pub const DEAD_CENTRES: &[&str] = &[
-        "legs[0].stroke",
-        "legs[0].gimbal.first",
-        "legs[1].stroke",
-        "legs[1].gimbal.first",
-        "legs[2].stroke",
-        "legs[2].gimbal.first",
-        "legs[3].stroke",
-        "legs[3].gimbal.first",
-        "legs[4].stroke",
-        "legs[4].gimbal.first",
-        "legs[5].stroke",
-        "legs[5].gimbal.first",
-    ];
     /// Parameters of `level`. The default is what the model declares.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -501,23 +397,41 @@ pub mod level {
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Model<T = f64> {
+        /// `1 + legs[0].s0`
         platform_accel_factor: T,
+        /// `legs[0].k`
         legs_0_k: T,
+        /// `legs[0].c`
         legs_0_c: T,
+        /// `1 + legs[1].s0`
         platform_accel_factor_v2: T,
+        /// `legs[1].k`
         legs_1_k: T,
+        /// `legs[1].c`
         legs_1_c: T,
+        /// `1 + legs[2].s0`
         platform_accel_factor_v3: T,
+        /// `legs[2].k`
         legs_2_k: T,
+        /// `legs[2].c`
         legs_2_c: T,
+        /// `1 + legs[3].s0`
         platform_accel_factor_v4: T,
+        /// `legs[3].k`
         legs_3_k: T,
+        /// `legs[3].c`
         legs_3_c: T,
+        /// `1 + legs[4].s0`
         platform_accel_factor_v5: T,
+        /// `legs[4].k`
         legs_4_k: T,
+        /// `legs[4].c`
         legs_4_c: T,
+        /// `1 + legs[5].s0`
         platform_accel_factor_v6: T,
+        /// `legs[5].k`
         legs_5_k: T,
+        /// `legs[5].c`
         legs_5_c: T,
     }
     impl<T: Real> Model<T> {
@@ -2038,4 +1952,108 @@ pub mod level {
             }
         }
     }
+    /// Names of the components of a velocity, in order.
+    pub const COORDINATES: &[&str] = &["platform.x", "platform.y", "platform.z"];
+    /// The coordinates whose dead centres `dead_centres` tells of, in order.
+    pub const DEAD_CENTRES: &[&str] = &[
+        "legs[0].stroke",
+        "legs[0].gimbal.first",
+        "legs[1].stroke",
+        "legs[1].gimbal.first",
+        "legs[2].stroke",
+        "legs[2].gimbal.first",
+        "legs[3].stroke",
+        "legs[3].gimbal.first",
+        "legs[4].stroke",
+        "legs[4].gimbal.first",
+        "legs[5].stroke",
+        "legs[5].gimbal.first",
+    ];
+    /// Operation counts of every function, and of `Model::new`.
+    pub const COSTS: &[::multibody::Cost] = &[
+        ::multibody::Cost {
+            function: "new",
+            add: 6,
+            mul: 0,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "forward_dynamics",
+            add: 151,
+            mul: 165,
+            div: 9,
+            sqrt: 6,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "inverse_dynamics",
+            add: 184,
+            mul: 200,
+            div: 7,
+            sqrt: 6,
+            sincos: 0,
+            other: 3,
+        },
+        ::multibody::Cost {
+            function: "dead_centres",
+            add: 34,
+            mul: 31,
+            div: 0,
+            sqrt: 12,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "margins",
+            add: 64,
+            mul: 69,
+            div: 0,
+            sqrt: 12,
+            sincos: 0,
+            other: 0,
+        },
+    ];
+    /// The same of every function as it was derived, before optimisation, with the work on parameters in it.
+    pub const DERIVED: &[::multibody::Cost] = &[
+        ::multibody::Cost {
+            function: "forward_dynamics",
+            add: 173,
+            mul: 225,
+            div: 9,
+            sqrt: 6,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "inverse_dynamics",
+            add: 219,
+            mul: 219,
+            div: 7,
+            sqrt: 6,
+            sincos: 0,
+            other: 3,
+        },
+        ::multibody::Cost {
+            function: "dead_centres",
+            add: 48,
+            mul: 31,
+            div: 0,
+            sqrt: 12,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "margins",
+            add: 78,
+            mul: 69,
+            div: 0,
+            sqrt: 12,
+            sincos: 0,
+            other: 0,
+        },
+    ];
 }

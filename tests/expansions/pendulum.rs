@@ -38,131 +38,6 @@ pub mod pendulum {
     use ::multibody::Real;
     /// Number of degrees of freedom: components of a velocity.
     pub const DOF: usize = 1;
-    /// Operation counts of every function, and of `Model::new`.
-    pub const COSTS: &[::multibody::Cost] = &[
-        ::multibody::Cost {
-            function: "new",
-            add: 0,
-            mul: 6,
-            div: 1,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "forward_dynamics",
-            add: 0,
-            mul: 2,
-            div: 0,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "inverse_dynamics",
-            add: 1,
-            mul: 2,
-            div: 0,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "mass_matrix",
-            add: 0,
-            mul: 0,
-            div: 0,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "bias",
-            add: 0,
-            mul: 2,
-            div: 0,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "kinetic_energy",
-            add: 0,
-            mul: 3,
-            div: 0,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "potential_energy",
-            add: 0,
-            mul: 2,
-            div: 0,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-    ];
-    /// The same of every function as it was derived, before optimisation, with the work on parameters in it.
-    pub const DERIVED: &[::multibody::Cost] = &[
-        ::multibody::Cost {
-            function: "forward_dynamics",
-            add: 1,
-            mul: 10,
-            div: 1,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "inverse_dynamics",
-            add: 2,
-            mul: 10,
-            div: 0,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "mass_matrix",
-            add: 1,
-            mul: 6,
-            div: 0,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "bias",
-            add: 0,
-            mul: 4,
-            div: 0,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "kinetic_energy",
-            add: 1,
-            mul: 9,
-            div: 0,
-            sqrt: 0,
-            sincos: 0,
-            other: 0,
-        },
-        ::multibody::Cost {
-            function: "potential_energy",
-            add: 0,
-            mul: 4,
-            div: 0,
-            sqrt: 0,
-            sincos: 1,
-            other: 0,
-        },
-    ];
-    /// Names of the components of a velocity, in order.
-    pub const COORDINATES: &[&str] = &["hinge"];
     /// Parameters of `pendulum`. The default is what the model declares.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -378,10 +253,15 @@ pub mod pendulum {
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Model<T = f64> {
+        /// `g / l`
         hinge_accel_factor: T,
+        /// `0.5 * g * m * l`
         n_hinge_z_factor: T,
+        /// `1 / 3 * l^2 * m`
         n_hinge_z_factor_v2: T,
+        /// `l^2 * m`
         second_hinge_yy_factor: T,
+        /// `g * m * l`
         n_hinge_z_factor_v3: T,
     }
     impl<T: Real> Model<T> {
@@ -655,4 +535,129 @@ pub mod pendulum {
             self.kinetic_energy(state)
         }
     }
+    /// Names of the components of a velocity, in order.
+    pub const COORDINATES: &[&str] = &["hinge"];
+    /// Operation counts of every function, and of `Model::new`.
+    pub const COSTS: &[::multibody::Cost] = &[
+        ::multibody::Cost {
+            function: "new",
+            add: 0,
+            mul: 6,
+            div: 1,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "forward_dynamics",
+            add: 0,
+            mul: 2,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "inverse_dynamics",
+            add: 1,
+            mul: 2,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "mass_matrix",
+            add: 0,
+            mul: 0,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "bias",
+            add: 0,
+            mul: 2,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "kinetic_energy",
+            add: 0,
+            mul: 3,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "potential_energy",
+            add: 0,
+            mul: 2,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+    ];
+    /// The same of every function as it was derived, before optimisation, with the work on parameters in it.
+    pub const DERIVED: &[::multibody::Cost] = &[
+        ::multibody::Cost {
+            function: "forward_dynamics",
+            add: 1,
+            mul: 10,
+            div: 1,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "inverse_dynamics",
+            add: 2,
+            mul: 10,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "mass_matrix",
+            add: 1,
+            mul: 6,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "bias",
+            add: 0,
+            mul: 4,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "kinetic_energy",
+            add: 1,
+            mul: 9,
+            div: 0,
+            sqrt: 0,
+            sincos: 0,
+            other: 0,
+        },
+        ::multibody::Cost {
+            function: "potential_energy",
+            add: 0,
+            mul: 4,
+            div: 0,
+            sqrt: 0,
+            sincos: 1,
+            other: 0,
+        },
+    ];
 }

@@ -1,4 +1,4 @@
-//! Stage `emit`: the constants `DOF`, `COSTS` and `DERIVED`.
+//! Stage `emit`: the constants `DOF`, before all other items, and `COSTS` and `DERIVED`, behind them.
 
 use std::borrow::Cow;
 
@@ -10,18 +10,24 @@ use crate::contracts::cost::Cost;
 use crate::emit::Context;
 use crate::emit::methods::functions;
 
-/// Expands to `pub const DOF: usize = 2;`, `pub const COSTS: &[Cost] = &[..];` and `pub const DERIVED: &[Cost] = &[..];`.
+/// Expands to `pub const DOF: usize = 2;`.
+pub(super) fn dof(context: &Context<'_>) -> TokenStream {
+    let dof = Literal::usize_unsuffixed(context.layout.dof());
+    quote! {
+        /// Number of degrees of freedom: components of a velocity.
+        pub const DOF: usize = #dof;
+    }
+}
+
+/// Expands to `pub const COSTS: &[Cost] = &[..];` and `pub const DERIVED: &[Cost] = &[..];`.
 pub(super) fn items(context: &Context<'_>) -> TokenStream {
     let krate = context.layout.krate();
-    let dof = Literal::usize_unsuffixed(context.layout.dof());
     let compiled = context.compiled;
     let functions = || compiled.functions.iter().map(|function| (functions::name(function.kind), function));
     let after = functions().map(|(name, function)| row(krate, name, &function.after));
     let costs = std::iter::once(row(krate, "new".into(), &compiled.prelude_cost)).chain(after);
     let derived = functions().map(|(name, function)| row(krate, name, &function.before));
     quote! {
-        /// Number of degrees of freedom: components of a velocity.
-        pub const DOF: usize = #dof;
         /// Operation counts of every function, and of `Model::new`.
         pub const COSTS: &[#krate::Cost] = &[#(#costs),*];
         /// The same of every function as it was derived, before optimisation, with the work on parameters in it.

@@ -22,11 +22,10 @@ use proc_macro2::TokenStream;
 
 use super::Context;
 
-/// Expands to all items of the module.
+/// Expands to all items of the module: what is called stands before what is looked up.
 pub(super) fn all(context: &Context<'_>) -> TokenStream {
     [
-        costs::items(context),
-        equations::items(context),
+        costs::dof(context),
         structs::items(context),
         defaults::items(context),
         check::item(context),
@@ -41,6 +40,8 @@ pub(super) fn all(context: &Context<'_>) -> TokenStream {
         impulses::items(context),
         verifiable::item(context).unwrap_or_default(),
         parts::items(context),
+        equations::items(context),
+        costs::items(context),
     ]
     .into_iter()
     .collect()

@@ -13,12 +13,22 @@ use crate::emit::print::expressions::Names;
 use crate::emit::{Context, document, names};
 use crate::optimize::program::Expression;
 
-/// Expands to `pub struct Model<T = f64> { .. }`, `impl<T: Real> Model<T> { .. }` and `Default`.
+/// Expands to `pub struct Model<T = f64> { .. }`, its fields with their formulas, `impl<T: Real> Model<T> { .. }` and `Default`.
 pub(super) fn items(context: &Context<'_>) -> TokenStream {
     let docs = document::attributes(&document::model(context));
-    let fields = &context.fields;
-    let fields =
-        if fields.is_empty() { quote!(scalar: ::core::marker::PhantomData<T>) } else { quote!(#(#fields: T),*) };
+    let fields = if context.fields.is_empty() {
+        quote!(scalar: ::core::marker::PhantomData<T>)
+    } else {
+        let prelude = &context.compiled.prelude;
+        let locals = names::unique(prelude.locals.iter().map(String::as_str), RESERVED);
+        let locals: Vec<String> = locals.iter().map(ToString::to_string).collect();
+        let formulas = document::fields::lines(&context.layout, prelude, &locals);
+        let fields = context.fields.iter().zip(formulas).map(|(field, formula)| {
+            let docs = document::attributes(&[formula]);
+            quote!(#docs #field: T)
+        });
+        quote!(#(#fields),*)
+    };
     let new = new(context);
     let methods = context
         .compiled

@@ -139,7 +139,7 @@ impl Names<'_> {
 }
 
 /// The function of `Real`; operators have none.
-fn function(call: Call) -> Option<&'static str> {
+pub(in crate::emit) fn function(call: Call) -> Option<&'static str> {
     Some(match call {
         Call::Tan => "tan",
         Call::Asin => "asin",
