@@ -14,7 +14,8 @@ use quote::quote;
 
 use crate::contracts::cost::Cost;
 use crate::contracts::function::FunctionKind;
-use crate::model::types::{Docs, Joint, JointKind, Param, PartTypeId, State};
+use crate::model::joint_kinds::JointKind;
+use crate::model::types::{Docs, Joint, Param, PartTypeId, State};
 use crate::optimize::program::{Compiled, Function};
 
 use super::layout::{Group, Layout};
@@ -82,37 +83,22 @@ pub(super) fn values(values: &[f64]) -> String {
     }
 }
 
-/// `revolute`, `prismatic`, ..
-pub(super) fn kind(kind: &JointKind) -> &'static str {
-    match kind {
-        JointKind::Fixed => "fixed",
-        JointKind::Revolute { .. } => "revolute",
-        JointKind::Prismatic { .. } => "prismatic",
-        JointKind::Screw { .. } => "screw",
-        JointKind::Cylindrical { .. } => "cylindrical",
-        JointKind::Universal { .. } => "universal",
-        JointKind::Planar { .. } => "planar",
-        JointKind::Ball(_) => "ball",
-        JointKind::Free(_) => "free",
-    }
-}
-
 pub(super) fn position(joint: &Joint) -> Vec<String> {
-    let unit = joint.docs.unit.as_deref().or(unit(&joint.kind));
-    let otherwise = format!("position of the {} joint", kind(&joint.kind));
+    let unit = joint.docs.unit.as_deref().or(unit(joint.kind));
+    let otherwise = format!("position of the {} joint", joint.kind.word);
     with_unit(&joint.docs, unit, &otherwise)
 }
 
 pub(super) fn velocity(joint: &Joint) -> Vec<String> {
-    let unit = joint.docs.unit.as_deref().or(unit(&joint.kind));
+    let unit = joint.docs.unit.as_deref().or(unit(joint.kind));
     let unit = unit.map(|unit| format!("{unit}/s"));
-    let otherwise = format!("velocity of the {} joint", kind(&joint.kind));
+    let otherwise = format!("velocity of the {} joint", joint.kind.word);
     with_unit(&Docs::default(), unit.as_deref(), &otherwise)
 }
 
 /// Of a part of a joint, in `Position` and in `Velocity`.
 pub(super) fn piece(joint: &Joint, what: &str, unit: &str) -> [Vec<String>; 2] {
-    let kind = kind(&joint.kind);
+    let kind = joint.kind.word;
     let (position, velocity) =
         (format!("{what} of the {kind} joint"), format!("rate of the {what} of the {kind} joint"));
     let rate = format!("{unit}/s");
@@ -121,11 +107,8 @@ pub(super) fn piece(joint: &Joint, what: &str, unit: &str) -> [Vec<String>; 2] {
 
 /// Of a joint's one coordinate.
 fn unit(kind: &JointKind) -> Option<&'static str> {
-    match kind {
-        JointKind::Revolute { .. } | JointKind::Screw { .. } => Some("rad"),
-        JointKind::Prismatic { .. } => Some("m"),
-        _ => None,
-    }
+    let one = kind.freedoms() == 1;
+    one.then(|| if kind.is_slide(0) { "m" } else { "rad" })
 }
 
 /// Of the structs `Params`, `Position`, ..

@@ -162,7 +162,7 @@ impl<'a> Layout<'a> {
             if self.joints.get(id.0).is_none_or(|pieces| !pieces.is_empty()) {
                 continue;
             }
-            for piece in joints::pieces(&joint.kind, &joints::held(model, &structure.state, id)) {
+            for piece in joints::pieces(joint.kind, &joints::held(model, &structure.state, id)) {
                 let field = joints::field(model, &structure.state, id, joint, &piece);
                 let place = Place { instance: joint.place.instance, field };
                 let [of_position, of_velocity] = piece.docs(joint);
@@ -188,7 +188,7 @@ impl<'a> Layout<'a> {
             if unknowns.iter().take(number).any(|other| other.joint == id) {
                 continue;
             }
-            for piece in joints::pieces(&joint.kind, &joints::held(model, &unknowns, id)) {
+            for piece in joints::pieces(joint.kind, &joints::held(model, &unknowns, id)) {
                 let field = joints::field(model, &unknowns, id, joint, &piece);
                 let place = Place { instance: joint.place.instance, field };
                 let [docs, _] = piece.docs(joint);

@@ -27,7 +27,7 @@ mod written;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use crate::model::site::{Site, Sited};
-use crate::model::types::{Closing, Coordinate, DriveTarget, Handling, JointId, JointKind, Model};
+use crate::model::types::{Closing, Coordinate, DriveTarget, Handling, JointId, Model};
 
 use super::loops::constraints::{closings, coordinate_name, row_count, row_name, turns};
 use super::loops::groups;
@@ -367,8 +367,7 @@ pub fn driven_by(model: &Model, target: DriveTarget) -> Vec<Coordinate> {
         DriveTarget::Position(joint) => several(joint, 0..3),
         DriveTarget::Pose(joint) => several(joint, 0..6),
         DriveTarget::Orientation(joint) => {
-            let free = model.joints.get(joint.0).is_some_and(|joint| matches!(joint.kind, JointKind::Free(_)));
-            several(joint, if free { 3..6 } else { 0..3 })
+            several(joint, model.joints.get(joint.0).map_or(0..0, |joint| joint.kind.turning()))
         }
     }
 }

@@ -20,7 +20,7 @@ use std::rc::Rc;
 use crate::contracts::function::{Asked, FunctionKind};
 use crate::dynamics::shared_axes::Axes;
 use crate::model::site::Sited;
-use crate::model::types::{BodyRef, Coordinate, Joint, JointId, JointKind, Model, Request};
+use crate::model::types::{BodyRef, Coordinate, Joint, JointId, Model, Request};
 use crate::symbolic::graph::{Graph, Scalar};
 
 use super::analysis::{Complaint, Writings};
@@ -270,7 +270,7 @@ fn articulates(model: &Model, kept: &[JointId]) -> bool {
 
 /// Whether something moves about in the world by translations.
 fn floats(model: &Model) -> bool {
-    let floating = |joint: &Joint| matches!(joint.kind, JointKind::Free(_) | JointKind::Planar { .. });
+    let floating = |joint: &Joint| joint.kind.slides() > 1;
     model.joints.iter().any(|joint| floating(joint) && joint.parent.body == BodyRef::Ground)
 }
 

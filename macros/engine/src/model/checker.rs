@@ -12,7 +12,7 @@ use crate::syntax::tree;
 
 use super::checks::evaluate::Evaluator;
 use super::items::coordinates::Coordinates;
-use super::names::Shape;
+use super::joint_kinds::JointKind;
 use super::report::Report;
 use super::typed::{FrameValue, Typed};
 use super::types::{
@@ -168,7 +168,7 @@ pub(super) struct JointSlot<'a> {
     pub(super) item: &'a tree::Item,
     pub(super) scope: ScopeId,
     /// `None`: unknown kind, reported.
-    pub(super) shape: Option<Shape>,
+    pub(super) kind: Option<&'static JointKind>,
     /// The frames, where they could be read.
     pub(super) frames: Lazy<[FrameValue; 2]>,
 }

@@ -19,7 +19,8 @@ use super::checker::{
 use super::docs;
 use super::items::coordinates::Coordinates;
 use super::items::fields::field;
-use super::names::{self, Shape};
+use super::joint_kinds::{self, JointKind};
+use super::names;
 use super::typed::{FrameValue, Uses};
 use super::types::{
     BodyId, BodyRef, ConstraintId, ForceId, Frame, InputId, Instance, InstanceId, JointId, ParamId, Place, StateId,
@@ -282,7 +283,7 @@ impl<'a> Checker<'a, '_> {
                     place,
                     item,
                     scope,
-                    shape: Shape::read(&kind.to_string(), fields),
+                    kind: JointKind::read(&kind.to_string(), fields),
                     frames: Lazy::Waiting,
                 });
                 (Subject::Joint(id), Symbol::Joint(id))
@@ -334,7 +335,7 @@ impl<'a> Checker<'a, '_> {
             place: place.clone(),
             item,
             scope,
-            shape: Some(Shape::Free(orientation)),
+            kind: joint_kinds::FREE.oriented(orientation),
             frames: Lazy::Done(Some([frame(BodyRef::Ground), frame(BodyRef::Body(body))])),
         });
         Some(id)

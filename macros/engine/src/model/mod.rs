@@ -14,6 +14,7 @@ mod docs;
 mod expand;
 mod expressions;
 mod items;
+pub mod joint_kinds;
 mod names;
 mod report;
 pub mod site;

@@ -7,7 +7,8 @@ use syn::Expr;
 use crate::rust_keywords::is_keyword;
 use crate::syntax::tree::Fields;
 
-use super::types::{Function, JointKind, Orientation};
+use super::joint_kinds::JointKind;
+use super::types::{Function, Orientation};
 
 /// Constants, the world frame, and time: values that every expression may name.
 pub(super) const VALUES: [&str; 6] = ["ground", "X", "Y", "Z", "PI", "t"];
@@ -107,103 +108,19 @@ pub(super) fn module_refusal(name: &str) -> Option<String> {
     None
 }
 
-/// Shape of a joint's coordinates, known from the syntax alone: expressions need it before axes are checked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Shape {
-    Fixed,
-    Revolute,
-    Prismatic,
-    Screw,
-    Cylindrical,
-    Universal,
-    Planar,
-    Ball(Orientation),
-    Free(Orientation),
-}
-
-/// Joint kinds by name; Ball and Free with the default orientation.
-pub(super) const JOINT_KINDS: [(&str, Shape); 9] = [
-    ("Fixed", Shape::Fixed),
-    ("Revolute", Shape::Revolute),
-    ("Prismatic", Shape::Prismatic),
-    ("Screw", Shape::Screw),
-    ("Cylindrical", Shape::Cylindrical),
-    ("Universal", Shape::Universal),
-    ("Planar", Shape::Planar),
-    ("Ball", Shape::Ball(Orientation::Quaternion)),
-    ("Free", Shape::Free(Orientation::Quaternion)),
-];
-
-impl Shape {
-    pub(super) fn named(name: &str) -> Option<Shape> {
-        let found = JOINT_KINDS.iter().find(|(kind, _)| *kind == name);
-        found.map(|(_, shape)| *shape)
-    }
-
+impl JointKind {
     /// Of a joint of this kind with these fields, before they are checked.
-    pub(super) fn read(kind: &str, fields: &Fields) -> Option<Shape> {
+    pub(super) fn read(kind: &str, fields: &Fields) -> Option<&'static JointKind> {
         let said = fields.list.iter().find(|f| f.name == "coordinates");
         let angles =
             said.is_some_and(|field| matches!(&field.value, Expr::Path(path) if path.path.is_ident("RollPitchYaw")));
-        Some(match Shape::named(kind)? {
-            Shape::Ball(_) if angles => Shape::Ball(Orientation::RollPitchYaw),
-            Shape::Free(_) if angles => Shape::Free(Orientation::RollPitchYaw),
-            other => other,
-        })
-    }
-
-    pub(super) fn of(kind: &JointKind) -> Shape {
-        match kind {
-            JointKind::Fixed => Shape::Fixed,
-            JointKind::Revolute { .. } => Shape::Revolute,
-            JointKind::Prismatic { .. } => Shape::Prismatic,
-            JointKind::Screw { .. } => Shape::Screw,
-            JointKind::Cylindrical { .. } => Shape::Cylindrical,
-            JointKind::Universal { .. } => Shape::Universal,
-            JointKind::Planar { .. } => Shape::Planar,
-            JointKind::Ball(orientation) => Shape::Ball(*orientation),
-            JointKind::Free(orientation) => Shape::Free(*orientation),
-        }
-    }
-
-    pub(super) fn name(self) -> &'static str {
-        let kind = match self {
-            Shape::Ball(_) => Shape::Ball(Orientation::Quaternion),
-            Shape::Free(_) => Shape::Free(Orientation::Quaternion),
-            other => other,
-        };
-        let found = JOINT_KINDS.iter().find(|(_, shape)| *shape == kind);
-        found.map_or("joint", |(name, _)| name)
-    }
-
-    /// Number of velocity coordinates.
-    pub(super) fn freedoms(self) -> usize {
-        match self {
-            Shape::Fixed => 0,
-            Shape::Revolute | Shape::Prismatic | Shape::Screw => 1,
-            Shape::Cylindrical | Shape::Universal => 2,
-            Shape::Planar | Shape::Ball(_) => 3,
-            Shape::Free(_) => 6,
-        }
-    }
-
-    /// Names of the coordinates that are scalars, in the order of the coordinates.
-    pub(super) fn coordinates(self) -> &'static [&'static str] {
-        match self {
-            Shape::Fixed | Shape::Ball(Orientation::Quaternion) => &[],
-            Shape::Revolute | Shape::Screw => &["angle"],
-            Shape::Prismatic => &["travel"],
-            Shape::Cylindrical => &["travel", "angle"],
-            Shape::Universal => &["first", "second"],
-            Shape::Planar => &["x", "y", "angle"],
-            Shape::Ball(Orientation::RollPitchYaw) => &["roll", "pitch", "yaw"],
-            Shape::Free(Orientation::RollPitchYaw) => &["x", "y", "z", "roll", "pitch", "yaw"],
-            Shape::Free(Orientation::Quaternion) => &["x", "y", "z"],
-        }
+        let kind = JointKind::named(kind)?;
+        let by_angles = kind.oriented(Orientation::RollPitchYaw).filter(|_| angles);
+        Some(by_angles.unwrap_or(kind))
     }
 
     /// How a message names velocity coordinate `index` of the joint `name`.
-    pub(super) fn coordinate_text(self, name: &str, index: usize) -> String {
+    pub(super) fn coordinate_text(&self, name: &str, index: usize) -> String {
         if self.freedoms() == 1 {
             return format!("`{name}`");
         }

@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 
 use super::arborescence::{self, Edge};
 use super::checker::Checker;
-use super::types::{Body, BodyId, BodyRef, ExprNode, Joint, JointId, JointKind, Place};
+use super::types::{Body, BodyId, BodyRef, ExprNode, Joint, JointId, Place};
 use crate::syntax::tree;
 
 /// What hangs on what.
@@ -166,10 +166,7 @@ impl Checker<'_, '_> {
             if follow.get(index) != Some(&true) {
                 continue;
             }
-            let freedoms = match &joint.kind {
-                JointKind::Free(_) => 0,
-                kind => i128::try_from(kind.freedoms()).ok()? + 1,
-            };
+            let freedoms = if joint.kind.is_free() { 0 } else { i128::try_from(joint.kind.freedoms()).ok()? + 1 };
             let absolute = match joint.parent.body {
                 BodyRef::Body(id) => self.absolute.get(id.0).is_some_and(Option::is_some),
                 BodyRef::Ground => false,

@@ -11,6 +11,8 @@ use std::rc::Rc;
 use proc_macro2::{Ident, Span};
 use syn::{Attribute, Path, Visibility};
 
+use super::joint_kinds::JointKind;
+
 macro_rules! ids {
     ($($(#[$doc:meta])* $name:ident),* $(,)?) => {$(
         $(#[$doc])*
@@ -297,7 +299,10 @@ pub enum FrameStep {
 
 pub struct Joint {
     pub place: Place,
-    pub kind: JointKind,
+    pub kind: &'static JointKind,
+    pub directions: Directions,
+    /// m/rad
+    pub pitch: Option<Expr>,
     pub parent: Frame,
     /// Of a joint in the tree its body is never the ground.
     pub child: Frame,
@@ -307,51 +312,31 @@ pub struct Joint {
     pub span: Span,
 }
 
-/// Axes are `Vec3` expressions of parameters at most, of any length but zero.
-pub enum JointKind {
-    Fixed,
-    Revolute {
-        axis: Expr,
-    },
-    Prismatic {
-        axis: Expr,
-    },
-    /// `pitch` in m/rad; the coordinate is the angle.
-    Screw {
-        axis: Expr,
-        pitch: Expr,
-    },
-    /// Coordinates: travel, angle.
-    Cylindrical {
-        axis: Expr,
-    },
-    /// Coordinates: first, second; the axes are perpendicular.
-    Universal {
-        axes: Box<[Expr; 2]>,
-    },
-    /// Coordinates: x, y, angle.
-    Planar {
-        axis: Expr,
-    },
-    Ball(Orientation),
-    Free(Orientation),
-}
-
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Orientation {
     Quaternion,
     RollPitchYaw,
 }
 
-impl JointKind {
-    /// Number of velocity coordinates.
-    pub fn freedoms(&self) -> usize {
+/// What gives the directions of a joint's freedoms, as it is written: `Vec3` expressions of parameters at most, of any length
+/// but zero.
+#[derive(Clone)]
+pub enum Directions {
+    /// The axes of the parent's frame.
+    Frame,
+    /// One direction, and the two that follow when it is turned into a coordinate axis.
+    Axis(Expr),
+    /// One of the parent and, perpendicular to it, one of the child.
+    Crossed(Box<[Expr; 2]>),
+}
+
+impl Directions {
+    /// As they are written, in this order.
+    pub fn written(&self) -> Vec<&Expr> {
         match self {
-            JointKind::Fixed => 0,
-            JointKind::Revolute { .. } | JointKind::Prismatic { .. } | JointKind::Screw { .. } => 1,
-            JointKind::Cylindrical { .. } | JointKind::Universal { .. } => 2,
-            JointKind::Planar { .. } | JointKind::Ball(_) => 3,
-            JointKind::Free(_) => 6,
+            Directions::Frame => Vec::new(),
+            Directions::Axis(axis) => vec![axis],
+            Directions::Crossed(axes) => axes.iter().collect(),
         }
     }
 }

@@ -6,6 +6,7 @@
 use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics::loops::structure::{Means, Role, Row, Step, Structure};
+use multibody_engine::model::joint_kinds;
 use multibody_engine::model::types::*;
 use multibody_engine::optimize::program::{Compiled, Expression};
 use proc_macro2::Span;
@@ -39,8 +40,7 @@ fn numbers(first: usize, count: usize) -> Vec<Expression> {
 
 pub fn model() -> Model {
     let mut model = empty("looped");
-    let z = || vector([0.0, 0.0, 1.0]);
-    let slide = || JointKind::Prismatic { axis: z() };
+    let slide = || &joint_kinds::PRISMATIC;
     for part in ["leg", "toe"] {
         model.part_types.push(PartType { name: name(part), docs: Docs::default() });
     }
@@ -60,20 +60,19 @@ pub fn model() -> Model {
     model.inputs.push(Input { place: place(0, "wind"), ty: Type::Vec3, docs: Docs::default() });
     add_param(&mut model, place(0, "radius"), Type::Scalar, &[1.0], docs("m", ""));
     model.states.push(State { place: place(0, "current"), rate: number(0.0), start: 0.25, docs: Docs::default() });
-    let axes = Box::new([vector([1.0, 0.0, 0.0]), vector([0.0, 1.0, 0.0])]);
     let joints = [
         (0, "a", slide()),
         (0, "b", slide()),
-        (0, "table", JointKind::Planar { axis: z() }),
-        (0, "table_y", JointKind::Fixed),
-        (0, "platform", JointKind::Free(Orientation::Quaternion)),
-        (0, "head", JointKind::Free(Orientation::RollPitchYaw)),
-        (1, "gimbal", JointKind::Universal { axes: axes.clone() }),
+        (0, "table", &joint_kinds::PLANAR),
+        (0, "table_y", &joint_kinds::FIXED),
+        (0, "platform", &joint_kinds::FREE),
+        (0, "head", &joint_kinds::FREE_BY_ANGLES),
+        (1, "gimbal", &joint_kinds::UNIVERSAL),
         (2, "hinge", slide()),
-        (3, "gimbal", JointKind::Universal { axes }),
+        (3, "gimbal", &joint_kinds::UNIVERSAL),
         (4, "hinge", slide()),
-        (1, "ball", JointKind::Ball(Orientation::Quaternion)),
-        (3, "ball", JointKind::Ball(Orientation::Quaternion)),
+        (1, "ball", &joint_kinds::BALL),
+        (3, "ball", &joint_kinds::BALL),
     ];
     for (instance, name, kind) in joints {
         add_joint(&mut model, place(instance, name), kind);

@@ -6,7 +6,8 @@ use crate::parsed;
 use crate::samples::*;
 use multibody_engine::emit::report;
 use multibody_engine::mechanics::loops::structure::Structure;
-use multibody_engine::model::types::{Coordinate, InstanceId, JointId, JointKind, Orientation};
+use multibody_engine::model::joint_kinds;
+use multibody_engine::model::types::{Coordinate, InstanceId, JointId};
 use syn::{Item, ItemMod};
 
 fn module() -> ItemMod {
@@ -61,7 +62,7 @@ fn a_part_has_one_type_for_all_its_instances() {
     let (mut model, mut compiled) = zoo();
     compiled.functions.clear();
     for leg in [1, 3] {
-        add_joint(&mut model, place(leg, "body"), JointKind::Free(Orientation::Quaternion));
+        add_joint(&mut model, place(leg, "body"), &joint_kinds::FREE);
     }
     let body = model.joints.len() - 1;
     let mut structure = Structure::open(&model);

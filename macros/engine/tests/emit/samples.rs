@@ -9,6 +9,7 @@ use multibody_engine::contracts::cost::Cost;
 use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics::loops::structure::Structure;
+use multibody_engine::model::joint_kinds::{self, JointKind, Written};
 use multibody_engine::model::types::*;
 use multibody_engine::optimize::program::{
     Compiled, Expression, FieldId, Function as Derived, Local, Program, Statement,
@@ -96,16 +97,23 @@ pub fn add_param(model: &mut Model, place: Place, ty: Type, default: &[f64], doc
     ParamId(model.params.len() - 1)
 }
 
-pub fn add_joint(model: &mut Model, place: Place, kind: JointKind) -> JointId {
+pub fn add_joint(model: &mut Model, place: Place, kind: &'static JointKind) -> JointId {
     let id = JointId(model.joints.len());
     let frame = |body| Frame { body, steps: Vec::new(), span: Span::call_site() };
     let parent = match model.bodies.len() {
         0 => BodyRef::Ground,
         count => BodyRef::Body(BodyId(count - 1)),
     };
+    let directions = match kind.written {
+        Written::Frame => Directions::Frame,
+        Written::Axis => Directions::Axis(vector([0.0, 0.0, 1.0])),
+        Written::Crossed => Directions::Crossed(Box::new([vector([1.0, 0.0, 0.0]), vector([0.0, 1.0, 0.0])])),
+    };
     model.joints.push(Joint {
         place: place.clone(),
         kind,
+        directions,
+        pitch: kind.has_pitch.then(|| number(0.1)),
         parent: frame(parent),
         child: frame(BodyRef::Body(BodyId(model.bodies.len()))),
         armature: None,
@@ -128,8 +136,8 @@ pub fn add_output(model: &mut Model, place: Place, ty: Type, docs: Docs) {
     model.outputs.push(Output { place, value: expr(ExprNode::Number(0.0), ty), docs });
 }
 
-pub fn revolute() -> JointKind {
-    JointKind::Revolute { axis: vector([0.0, 0.0, 1.0]) }
+pub fn revolute() -> &'static JointKind {
+    &joint_kinds::REVOLUTE
 }
 
 // Expressions.
@@ -304,7 +312,6 @@ pub fn pendulum() -> (Model, Compiled) {
 /// outputs of every type. What is computed means nothing; every symbol is read.
 pub fn zoo() -> (Model, Compiled) {
     let mut model = empty("zoo");
-    let z = || vector([0.0, 0.0, 1.0]);
     for part in ["leg", "foot"] {
         model.part_types.push(PartType { name: name(part), docs: Docs::default() });
     }
@@ -329,10 +336,9 @@ pub fn zoo() -> (Model, Compiled) {
         model.inputs.push(Input { place: place(leg, "thrust"), ty: Type::Scalar, docs: docs("N", "pushes") });
         model.states.push(State { place: place(leg, "current"), rate: number(0.0), start: 0.25, docs: docs("A", "") });
         add_output(&mut model, place(leg, "reach"), Type::Scalar, docs("m", ""));
-        let axes = Box::new([vector([1.0, 0.0, 0.0]), vector([0.0, 1.0, 0.0])]);
-        add_joint(&mut model, place(leg, "gimbal"), JointKind::Universal { axes });
-        add_joint(&mut model, place(leg, "stroke"), JointKind::Prismatic { axis: z() });
-        add_joint(&mut model, place(leg + 1, "sole"), JointKind::Ball(Orientation::Quaternion));
+        add_joint(&mut model, place(leg, "gimbal"), &joint_kinds::UNIVERSAL);
+        add_joint(&mut model, place(leg, "stroke"), &joint_kinds::PRISMATIC);
+        add_joint(&mut model, place(leg + 1, "sole"), &joint_kinds::BALL);
     }
     let corners = Type::Array(Box::new(Type::Vec3), 2);
     add_param(&mut model, place(0, "corners"), corners, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], docs("m", ""));
@@ -340,13 +346,13 @@ pub fn zoo() -> (Model, Compiled) {
     add_param(&mut model, place(0, "about_pi"), Type::Scalar, &[314.0 / 100.0], Docs::default());
     model.inputs.push(Input { place: place(0, "wind"), ty: Type::Vec3, docs: Docs::default() });
     let kinds = [
-        ("mount", JointKind::Fixed),
-        ("base", JointKind::Free(Orientation::Quaternion)),
-        ("float", JointKind::Free(Orientation::RollPitchYaw)),
-        ("neck", JointKind::Ball(Orientation::RollPitchYaw)),
-        ("slide", JointKind::Planar { axis: z() }),
-        ("rod", JointKind::Cylindrical { axis: z() }),
-        ("thread", JointKind::Screw { axis: z(), pitch: number(0.1) }),
+        ("mount", &joint_kinds::FIXED),
+        ("base", &joint_kinds::FREE),
+        ("float", &joint_kinds::FREE_BY_ANGLES),
+        ("neck", &joint_kinds::BALL_BY_ANGLES),
+        ("slide", &joint_kinds::PLANAR),
+        ("rod", &joint_kinds::CYLINDRICAL),
+        ("thread", &joint_kinds::SCREW),
         ("type_", revolute()),
     ];
     for (name, kind) in kinds {
@@ -426,9 +432,7 @@ fn everything_read(model: &Model) -> Compiled {
 fn joint_symbols(model: &Model, position: bool, symbol: fn(usize, usize) -> Expression) -> Vec<Expression> {
     let mut symbols = Vec::new();
     for (number, joint) in model.joints.iter().enumerate() {
-        let quaternion =
-            matches!(joint.kind, JointKind::Ball(Orientation::Quaternion) | JointKind::Free(Orientation::Quaternion));
-        let count = joint.kind.freedoms() + usize::from(position && quaternion);
+        let count = joint.kind.freedoms() + usize::from(position && joint.kind.has_quaternion());
         symbols.extend((0..count).map(|component| symbol(number, component)));
     }
     symbols
@@ -437,7 +441,7 @@ fn joint_symbols(model: &Model, position: bool, symbol: fn(usize, usize) -> Expr
 /// Neither parameters nor coordinates.
 pub fn nothing() -> (Model, Compiled) {
     let mut model = empty("nothing");
-    add_joint(&mut model, place(0, "weld"), JointKind::Fixed);
+    add_joint(&mut model, place(0, "weld"), &joint_kinds::FIXED);
     let none = || program(&[], vec![], vec![]);
     let compiled = Compiled {
         checks: Default::default(),

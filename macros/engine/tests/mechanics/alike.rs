@@ -4,7 +4,8 @@
 use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics::loops::structure::Means;
-use multibody_engine::model::types::{BodyRef, Coordinate, JointId, JointKind, Orientation};
+use multibody_engine::model::joint_kinds::JointKind;
+use multibody_engine::model::types::{BodyRef, Coordinate, JointId};
 
 use super::support::*;
 
@@ -27,19 +28,6 @@ pub(crate) struct Motion {
     from: Vec<(Symbol, f64)>,
 }
 
-fn coordinate_names(kind: &JointKind) -> &'static [&'static str] {
-    match kind {
-        JointKind::Revolute { .. } | JointKind::Screw { .. } => &["angle"],
-        JointKind::Prismatic { .. } => &["travel"],
-        JointKind::Cylindrical { .. } => &["travel", "angle"],
-        JointKind::Universal { .. } => &["first", "second"],
-        JointKind::Planar { .. } => &["x", "y", "angle"],
-        JointKind::Ball(Orientation::RollPitchYaw) => &["roll", "pitch", "yaw"],
-        JointKind::Free(Orientation::RollPitchYaw) => &["x", "y", "z", "roll", "pitch", "yaw"],
-        _ => &[],
-    }
-}
-
 impl Mechanism {
     pub(crate) fn new(items: &str) -> Mechanism {
         let model = model_of(items);
@@ -47,7 +35,9 @@ impl Mechanism {
         let bodies = model.bodies.iter().map(|body| body.place.field.to_string()).collect();
         let mut coordinates = Vec::new();
         for &joint in &model.tree {
-            let names = coordinate_names(&model.joints[joint.0].kind).iter().enumerate();
+            let kind = model.joints[joint.0].kind;
+            let names =
+                kind.freedoms.iter().filter(|_| !kind.has_quaternion()).map(|freedom| &freedom.name).enumerate();
             coordinates.extend(names.map(|(k, text)| (name(joint), k, format!("{}.{text}", name(joint)))));
         }
         let joints = (0..model.joints.len()).map(|k| name(JointId(k))).collect();
@@ -132,8 +122,8 @@ impl Mechanism {
         for (number, joint) in case.model.joints.iter().enumerate() {
             let id = JointId(number);
             let Some(body) = self.bodies.iter().position(|body| joint.place.field == body) else { continue };
-            assert!(matches!(joint.kind, JointKind::Free(_)) && joint.parent.body == BodyRef::Ground);
-            place(&mut point, id, &joint.kind, &motion.bodies[body]);
+            assert!(joint.kind.is_free() && joint.parent.body == BodyRef::Ground);
+            place(&mut point, id, joint.kind, &motion.bodies[body]);
         }
         for ((joint, index, _), [value, rate]) in self.coordinates.iter().zip(&motion.coordinates) {
             let id = case.joint(joint);
@@ -168,7 +158,7 @@ fn place(point: &mut Point, joint: JointId, kind: &JointKind, [position, q, velo
         point.set(Symbol::Velocity { joint, component }, velocity[component]);
     }
     let rotation = of_quaternion(q);
-    if let JointKind::Free(Orientation::Quaternion) = kind {
+    if kind.has_quaternion() {
         let own = apply(&transpose(&rotation), &[spin[0], spin[1], spin[2]]);
         for (component, &q) in q.iter().enumerate() {
             point.set(Symbol::Position { joint, component: 3 + component }, q);

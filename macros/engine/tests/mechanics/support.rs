@@ -8,7 +8,7 @@ use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::mechanics::Derivation;
 use multibody_engine::mechanics::loops::structure::Structure;
 use multibody_engine::model::check;
-use multibody_engine::model::types::{Joint, JointKind, Model, Orientation};
+use multibody_engine::model::types::{Joint, Model};
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
 use multibody_engine::symbolic::graph::SymbolId;
 use multibody_engine::syntax::parse;
@@ -78,11 +78,7 @@ impl Random {
 }
 
 fn quaternion_start(joint: &Joint) -> Option<usize> {
-    match joint.kind {
-        JointKind::Ball(Orientation::Quaternion) => Some(0),
-        JointKind::Free(Orientation::Quaternion) => Some(3),
-        _ => None,
-    }
+    joint.kind.has_quaternion().then(|| joint.kind.turning().start)
 }
 
 impl Case {

@@ -33,7 +33,7 @@ impl Layout<'_> {
         let Some(joint) = self.model.joints.get(coordinate.joint.0) else {
             return String::new();
         };
-        let leaf = Leaf::velocity(&joint.kind);
+        let leaf = Leaf::velocity(joint.kind);
         let access = leaf.map_or_else(String::new, |leaf| access(&leaf, coordinate.index));
         format!("{}{access}", self.name(&joint.place))
     }
@@ -146,7 +146,7 @@ fn closings(layout: &Layout<'_>) -> Vec<Line> {
     let cuts = model.cuts.iter().filter_map(|id| {
         let joint = model.joints.get(id.0)?;
         let (parent, child) = (frame(layout, &joint.parent), frame(layout, &joint.child));
-        let kind = document::kind(&joint.kind).to_string();
+        let kind = joint.kind.word.to_string();
         let cells = vec![kind, parent, child, count(Closing::Cut(*id)), text(&joint.docs)];
         Some(row(layout, &joint.place, cells))
     });

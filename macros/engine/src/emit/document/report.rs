@@ -11,10 +11,10 @@ use crate::emit::methods::functions;
 use crate::emit::print::{literals, range};
 use crate::emit::{Context, context, document, names};
 use crate::mechanics::loops::structure::Structure;
-use crate::model::types::{Body, BodyRef, Docs, ExprNode, Frame, JointId, JointKind, Model, Orientation, Place, Type};
+use crate::model::types::{Body, BodyRef, Docs, ExprNode, Frame, JointId, Model, Place, Type};
 use crate::optimize::program::Compiled;
 
-use super::{code, cost, kind, loops, unchecked, values};
+use super::{code, cost, loops, unchecked, values};
 
 /// The report as a Markdown document.
 pub fn report(model: &Model, structure: &Structure, compiled: &Compiled) -> String {
@@ -55,7 +55,7 @@ pub(in crate::emit) fn lines(context: &Context<'_>) -> Vec<String> {
             let all = j.kind.freedoms();
             let held = joints::held(model, &layout.structure.state, id).iter().filter(|held| **held).count();
             let freedoms = if held == all { all.to_string() } else { format!("{held} of {all}") };
-            let kind = kind(&j.kind).to_string();
+            let kind = j.kind.word.to_string();
             row(layout, &j.place, vec![kind, parent, child, freedoms, text(&j.docs)])
         })
     });
@@ -233,9 +233,7 @@ fn defaults(layout: &Layout<'_>) -> Vec<String> {
         }
     };
     let in_tree = model.joints.iter().enumerate().filter(|(number, _)| !model.cuts.contains(&JointId(*number)));
-    let quaternions = in_tree.map(|(_, joint)| joint).filter(|joint| {
-        matches!(joint.kind, JointKind::Ball(Orientation::Quaternion) | JointKind::Free(Orientation::Quaternion))
-    });
+    let quaternions = in_tree.map(|(_, joint)| joint).filter(|joint| joint.kind.has_quaternion());
     list("orientation by quaternions", quaternions.map(|joint| &joint.place).collect());
     let at_origin = model.bodies.iter().filter(|body| is_zero(body));
     list("centre of mass at the body's origin", at_origin.map(|body| &body.place).collect());

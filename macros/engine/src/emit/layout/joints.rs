@@ -7,7 +7,8 @@
 use proc_macro2::Ident;
 
 use crate::emit::{document, names};
-use crate::model::types::{Coordinate, Joint, JointId, JointKind, Model, Orientation};
+use crate::model::joint_kinds::{self, JointKind};
+use crate::model::types::{Coordinate, Joint, JointId, Model};
 
 use super::leaf::Leaf;
 
@@ -36,11 +37,10 @@ impl Piece {
 
     /// Documentation of the leaf in `Position` and in `Velocity`.
     pub(in crate::emit) fn docs(&self, joint: &Joint) -> [Vec<String>; 2] {
-        if !self.is_partial(&joint.kind) {
+        if !self.is_partial(joint.kind) {
             return [document::position(joint), document::velocity(joint)];
         }
-        let name = coordinates(&joint.kind).get(self.first[1]).copied().unwrap_or_default();
-        let is_straight = matches!(name, "x" | "y" | "z" | "travel");
+        let is_straight = joint.kind.is_slide(self.first[1]);
         let what = match (self.suffix, &self.velocity) {
             (Some(suffix), _) => suffix,
             (None, _) if is_straight => "position",
@@ -51,23 +51,13 @@ impl Piece {
 }
 
 /// Names of a joint's velocity coordinates; a rotation by quaternions has none for single ones.
-fn coordinates(kind: &JointKind) -> &'static [&'static str] {
-    match kind {
-        JointKind::Fixed => &[],
-        JointKind::Prismatic { .. } => &["travel"],
-        JointKind::Revolute { .. } | JointKind::Screw { .. } => &["angle"],
-        JointKind::Cylindrical { .. } => &["travel", "angle"],
-        JointKind::Universal { .. } => &["first", "second"],
-        JointKind::Planar { .. } => &["x", "y", "angle"],
-        JointKind::Ball(Orientation::RollPitchYaw) => &["roll", "pitch", "yaw"],
-        JointKind::Ball(Orientation::Quaternion) => &["orientation"],
-        JointKind::Free(Orientation::RollPitchYaw) => &["x", "y", "z", "roll", "pitch", "yaw"],
-        JointKind::Free(Orientation::Quaternion) => &["x", "y", "z", "orientation"],
-    }
+fn coordinates(kind: &JointKind) -> Vec<&'static str> {
+    let orientation = kind.has_quaternion().then_some("orientation");
+    kind.freedoms.iter().map(|freedom| freedom.name).chain(orientation).collect()
 }
 
 /// The leaves of a joint with these coordinates in the state. A quaternion stays whole.
-pub(super) fn pieces(kind: &JointKind, held: &[bool]) -> Vec<Piece> {
+pub(super) fn pieces(kind: &'static JointKind, held: &[bool]) -> Vec<Piece> {
     let whole = Leaf::position(kind).zip(Leaf::velocity(kind));
     let Some((position, velocity)) = whole.filter(|_| held.contains(&true)) else {
         return Vec::new();
@@ -75,25 +65,26 @@ pub(super) fn pieces(kind: &JointKind, held: &[bool]) -> Vec<Piece> {
     if !held.contains(&false) {
         return vec![Piece { suffix: None, position, velocity, first: [0, 0] }];
     }
-    if let JointKind::Free(orientation) = kind
+    if kind.is_free()
+        && let Some(orientation) = kind.orientation
+        && let Some(ball) = joint_kinds::BALL.oriented(orientation)
         && let Some((straight, turning)) = held.split_at_checked(3)
     {
-        let ball = JointKind::Ball(*orientation);
         match (straight, turning) {
             ([true, true, true], [false, false, false]) => {
                 return vec![Piece { suffix: None, position: Leaf::Vec3, velocity: Leaf::Vec3, first: [0, 0] }];
             }
             ([false, false, false], [true, true, true]) => {
-                let leaves = Leaf::position(&ball).zip(Leaf::velocity(&ball));
+                let leaves = Leaf::position(ball).zip(Leaf::velocity(ball));
                 let piece = |(position, velocity)| Piece { suffix: None, position, velocity, first: [3, 3] };
                 return leaves.map(piece).into_iter().collect();
             }
             _ => {}
         }
     }
-    let names = coordinates(kind).iter().enumerate();
+    let names = coordinates(kind).into_iter().enumerate();
     let pieces = names.filter(|(index, _)| held.get(*index) == Some(&true)).map(|(index, name)| {
-        let (position, velocity) = match *name {
+        let (position, velocity) = match name {
             "orientation" => (Leaf::Quaternion, Leaf::Vec3),
             _ => (Leaf::Scalar, Leaf::Scalar),
         };
@@ -130,7 +121,7 @@ pub(super) fn field(model: &Model, coordinates: &[Coordinate], id: JointId, join
             other.contains(&true) && other != own
         });
         let what = if piece.first[1] == 0 { "position" } else { "orientation" };
-        (differs && piece.is_partial(&joint.kind)).then_some(what)
+        (differs && piece.is_partial(joint.kind)).then_some(what)
     });
     let Some(suffix) = suffix else {
         return names::field(&joint.place.field);

@@ -1,14 +1,15 @@
 //! Stage `emit`: types of single fields in generated structs.
 //!
 //! In: kinds of joints and types of values. Out: for each the Rust type, how to reach one of its scalars, and how to
-//! build it from scalars. The one table that knows the runtime's coordinate structs.
+//! build it from scalars. The names of the runtime's structs of coordinates stand in the table of joint kinds.
 
 use proc_macro2::{Literal, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
 use syn::Path;
 
 use crate::emit::names;
-use crate::model::types::{JointKind, Orientation, Type};
+use crate::model::joint_kinds::{self, JointKind};
+use crate::model::types::{Orientation, Type};
 
 /// A field's type.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +24,8 @@ pub(in crate::emit) enum Leaf {
     Jacobian(usize),
     /// A struct of the runtime.
     Struct(&'static Struct),
+    /// The runtime's struct of a joint's coordinates, all scalars.
+    Coordinates(&'static JointKind),
     Array(Box<Leaf>, usize),
 }
 
@@ -33,16 +36,9 @@ pub(in crate::emit) struct Struct {
     fields: &'static [(&'static str, Leaf)],
 }
 
-const UNIVERSAL: &Struct = &Struct { name: "Universal", fields: &[("first", Leaf::Scalar), ("second", Leaf::Scalar)] };
-const CYLINDRICAL: &Struct =
-    &Struct { name: "Cylindrical", fields: &[("travel", Leaf::Scalar), ("angle", Leaf::Scalar)] };
-const PLANAR: &Struct =
-    &Struct { name: "Planar", fields: &[("x", Leaf::Scalar), ("y", Leaf::Scalar), ("angle", Leaf::Scalar)] };
-const ROLL_PITCH_YAW: &Struct =
-    &Struct { name: "RollPitchYaw", fields: &[("roll", Leaf::Scalar), ("pitch", Leaf::Scalar), ("yaw", Leaf::Scalar)] };
 const FREE_ROLL_PITCH_YAW: &Struct = &Struct {
     name: "FreeRollPitchYaw",
-    fields: &[("position", Leaf::Vec3), ("orientation", Leaf::Struct(ROLL_PITCH_YAW))],
+    fields: &[("position", Leaf::Vec3), ("orientation", Leaf::Coordinates(&joint_kinds::BALL_BY_ANGLES))],
 };
 const POSE: &Struct = &Struct { name: "Pose", fields: &[("position", Leaf::Vec3), ("orientation", Leaf::Quaternion)] };
 const TWIST: &Struct = &Struct { name: "Twist", fields: &[("linear", Leaf::Vec3), ("angular", Leaf::Vec3)] };
@@ -50,26 +46,25 @@ const WRENCH: &Struct = &Struct { name: "Wrench", fields: &[("force", Leaf::Vec3
 
 impl Leaf {
     /// Of a joint's position; nothing where it has no coordinates.
-    pub(in crate::emit) fn position(kind: &JointKind) -> Option<Leaf> {
-        Some(match kind {
-            JointKind::Ball(Orientation::Quaternion) => Leaf::Quaternion,
-            JointKind::Free(Orientation::Quaternion) => Leaf::Struct(POSE),
-            _ => return Leaf::velocity(kind),
-        })
+    pub(in crate::emit) fn position(kind: &'static JointKind) -> Option<Leaf> {
+        match (kind.has_quaternion(), kind.is_free()) {
+            (true, false) => Some(Leaf::Quaternion),
+            (true, true) => Some(Leaf::Struct(POSE)),
+            (false, _) => Leaf::velocity(kind),
+        }
     }
 
     /// Of a joint's velocity, acceleration or effort.
-    pub(in crate::emit) fn velocity(kind: &JointKind) -> Option<Leaf> {
-        Some(match kind {
-            JointKind::Fixed => return None,
-            JointKind::Revolute { .. } | JointKind::Prismatic { .. } | JointKind::Screw { .. } => Leaf::Scalar,
-            JointKind::Cylindrical { .. } => Leaf::Struct(CYLINDRICAL),
-            JointKind::Universal { .. } => Leaf::Struct(UNIVERSAL),
-            JointKind::Planar { .. } => Leaf::Struct(PLANAR),
-            JointKind::Ball(Orientation::Quaternion) => Leaf::Vec3,
-            JointKind::Ball(Orientation::RollPitchYaw) => Leaf::Struct(ROLL_PITCH_YAW),
-            JointKind::Free(Orientation::Quaternion) => Leaf::Struct(TWIST),
-            JointKind::Free(Orientation::RollPitchYaw) => Leaf::Struct(FREE_ROLL_PITCH_YAW),
+    pub(in crate::emit) fn velocity(kind: &'static JointKind) -> Option<Leaf> {
+        Some(match (kind.orientation, kind.is_free()) {
+            (Some(Orientation::Quaternion), false) => Leaf::Vec3,
+            (Some(Orientation::Quaternion), true) => Leaf::Struct(TWIST),
+            (Some(Orientation::RollPitchYaw), true) => Leaf::Struct(FREE_ROLL_PITCH_YAW),
+            (Some(Orientation::RollPitchYaw), false) | (None, _) => match kind.freedoms() {
+                0 => return None,
+                1 => Leaf::Scalar,
+                _ => Leaf::Coordinates(kind),
+            },
         })
     }
 
@@ -96,6 +91,7 @@ impl Leaf {
             Leaf::Rotation => 9,
             Leaf::Jacobian(dof) => 6 * dof,
             Leaf::Struct(of) => of.fields.iter().map(|(_, leaf)| leaf.size()).sum(),
+            Leaf::Coordinates(kind) => kind.freedoms(),
             Leaf::Array(element, count) => element.size() * count,
         }
     }
@@ -106,7 +102,7 @@ impl Leaf {
             Leaf::Quaternion => true,
             Leaf::Struct(of) => of.fields.iter().any(|(_, leaf)| leaf.has_quaternion()),
             Leaf::Array(element, _) => element.has_quaternion(),
-            _ => false,
+            Leaf::Scalar | Leaf::Vec3 | Leaf::Rotation | Leaf::Jacobian(_) | Leaf::Coordinates(_) => false,
         }
     }
 
@@ -116,7 +112,7 @@ impl Leaf {
             Leaf::Rotation | Leaf::Quaternion => true,
             Leaf::Struct(of) => of.fields.iter().any(|(_, leaf)| leaf.compares_by_hand()),
             Leaf::Array(element, _) => element.compares_by_hand(),
-            _ => false,
+            Leaf::Scalar | Leaf::Vec3 | Leaf::Jacobian(_) | Leaf::Coordinates(_) => false,
         }
     }
 
@@ -131,8 +127,8 @@ impl Leaf {
                 let dof = Literal::usize_unsuffixed(*dof);
                 quote!(#krate::nalgebra::SMatrix<T, 6, #dof>)
             }
-            Leaf::Struct(of) => {
-                let name = names::ident(of.name);
+            Leaf::Struct(Struct { name, .. }) | Leaf::Coordinates(JointKind { struct_name: name, .. }) => {
+                let name = names::ident(name);
                 quote!(#krate::#name<T>)
             }
             Leaf::Array(element, count) => {
@@ -159,6 +155,7 @@ impl Leaf {
                 }
                 TokenStream::new()
             }
+            Leaf::Coordinates(kind) => member(&kind.coordinates(), component),
             Leaf::Array(element, _) => {
                 let size = element.size().max(1);
                 let (index, inner) = (Literal::usize_unsuffixed(component / size), element.access(component % size));
@@ -213,6 +210,14 @@ impl Leaf {
                 });
                 quote!(#krate::#name { #(#fields),* })
             }
+            Leaf::Coordinates(kind) => {
+                let name = names::ident(kind.struct_name);
+                let fields = kind.freedoms.iter().map(|freedom| {
+                    let field = names::ident(freedom.name);
+                    initialiser(&field, &scalars.next().unwrap_or_default())
+                });
+                quote!(#krate::#name { #(#fields),* })
+            }
             Leaf::Array(leaf, count) => {
                 let list = (0..*count).map(|_| element(leaf.compose(krate, scalars, quaternion)));
                 quote!([#(#list),*])
@@ -228,8 +233,8 @@ impl Leaf {
             Leaf::Quaternion => quote!(#krate::nalgebra::UnitQuaternion::identity()),
             Leaf::Rotation => quote!(#krate::nalgebra::Rotation3::identity()),
             Leaf::Jacobian(_) => quote!(#krate::nalgebra::SMatrix::zeros()),
-            Leaf::Struct(of) => {
-                let name = names::ident(of.name);
+            Leaf::Struct(Struct { name, .. }) | Leaf::Coordinates(JointKind { struct_name: name, .. }) => {
+                let name = names::ident(name);
                 quote!(#krate::#name::default())
             }
             Leaf::Array(element, count) => {

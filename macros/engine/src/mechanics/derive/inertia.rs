@@ -6,7 +6,7 @@
 //! `Params::check` says of them, so they prove nothing.
 
 use crate::mechanics::Inertia;
-use crate::model::types::{Body, BodyRef, Expr, Joint, JointKind, Orientation, Request};
+use crate::model::types::{Body, BodyRef, Expr, Joint, Request};
 use crate::symbolic::graph::Scalar;
 use crate::symbolic::linear_algebra::Factors;
 
@@ -68,10 +68,7 @@ impl Equations<'_> {
                     BodyRef::Ground => true,
                 };
                 armature.is_some_and(|a| a >= 0.0 && (child || a > 0.0 && has_one_axis(joint)))
-                    && !matches!(
-                        joint.kind,
-                        JointKind::Ball(Orientation::RollPitchYaw) | JointKind::Free(Orientation::RollPitchYaw)
-                    )
+                    && !joint.kind.has_angles()
                     || joint.kind.freedoms() == 0
             })
     }
@@ -100,5 +97,5 @@ impl Equations<'_> {
 
 /// Whether the armature is the inertia of all that the joint moves.
 fn has_one_axis(joint: &Joint) -> bool {
-    matches!(joint.kind, JointKind::Revolute { .. } | JointKind::Prismatic { .. } | JointKind::Screw { .. })
+    joint.kind.freedoms() == 1
 }

@@ -19,7 +19,7 @@ use crate::contracts::symbol::Symbol;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::model::site::Sited;
-use crate::model::types::{Closing, Coordinate, Expr, JointKind, Solve, SolveHow};
+use crate::model::types::{Closing, Coordinate, Expr, Solve, SolveHow};
 use crate::solve::{self, Cycle, Failure, Plan, Solved, of_signs};
 use crate::symbolic::evaluate::{Evaluator, Real};
 use crate::symbolic::fingerprint::mix;
@@ -424,14 +424,8 @@ impl Equations<'_> {
                 param.and_then(|param| param.default.get(element)).copied().unwrap_or(0.0)
             }
             Some(&Symbol::Position { joint, component }) => {
-                let kind = self.model.joints.get(joint.0).map(|joint| &joint.kind);
-                let length = match kind {
-                    Some(JointKind::Prismatic { .. }) => true,
-                    Some(JointKind::Cylindrical { .. }) => component == 0,
-                    Some(JointKind::Planar { .. }) => component < 2,
-                    Some(JointKind::Free(_)) => component < 3,
-                    _ => false,
-                };
+                let joint = self.model.joints.get(joint.0);
+                let length = joint.is_some_and(|joint| joint.kind.is_slide(component));
                 if length { scale * random } else { std::f64::consts::PI * random }
             }
             _ => random,

@@ -3,18 +3,17 @@
 //! In: a closing (a joint that is cut, a rod, a user's expression), and how it is to be written. Out: its residuals, which
 //! vanish where the loop is closed. The equations of a joint are parts of the way d from the parent's to the child's
 //! point, and cosines of angles between axes of the child and axes of the parent that are perpendicular when it is
-//! closed (Haug 1989, chapter 9):
+//! closed (Haug 1989, chapter 9). Which of them a joint holds stands in the table of joint kinds:
 //!
-//! | joint | rows |
+//! | what is held | rows |
 //! |---|---|
-//! | Ball | d |
-//! | Universal | d, second axis . first axis |
-//! | Revolute | d, child's axis . both parent's axes across it |
-//! | Prismatic | d . both parent's axes across the travel, three axes of the child . the next one of the parent |
-//! | Cylindrical | d . both axes across, child's axis . both axes across |
-//! | Screw | those of Cylindrical, travel - pitch * angle |
-//! | Planar | d . axis, child's axis . both axes across |
-//! | Fixed | d, three axes of the child . the next one of the parent |
+//! | point | d |
+//! | line | d . both axes of the parent across it |
+//! | plane | d . the direction across it |
+//! | axis | child's axis . both parent's axes across it |
+//! | crossing | second axis . first axis |
+//! | orientation | three axes of the child . the next one of the parent |
+//! | pitch | travel - pitch * angle |
 //!
 //! The angle of a screw counts its turns (`winding`), and so does the one that a Prismatic or Fixed joint holds where a
 //! screw stands in its loop. Where an orientation alone gives it, up to whole turns, the
@@ -38,7 +37,8 @@ mod wrenches;
 
 use crate::mechanics::equations::{Equations, Method, Style, Way};
 use crate::mechanics::translate::symbols::Symbols;
-use crate::model::types::{Closing, ConstraintId, ConstraintKind, JointId, JointKind, Model};
+use crate::model::joint_kinds::Hold;
+use crate::model::types::{Closing, ConstraintId, ConstraintKind, JointId, Model};
 use crate::symbolic::graph::{Graph, Scalar};
 
 pub(in crate::mechanics) use names::path;
@@ -92,38 +92,27 @@ impl Writing {
 /// Number of equations that a closing gives.
 pub fn row_count(model: &Model, closing: Closing) -> usize {
     match closing {
-        Closing::Cut(joint) => model.joints.get(joint.0).map_or(0, |joint| joint_rows(&joint.kind)),
+        Closing::Cut(joint) => model.joints.get(joint.0).map_or(0, |joint| joint.kind.rows().count()),
         Closing::Constraint(id) => usize::from(model.constraints.get(id.0).is_some()),
     }
-}
-
-fn joint_rows(kind: &JointKind) -> usize {
-    6 - kind.freedoms().min(6)
 }
 
 /// Whether the equation of a cut joint is a length (m), and not a cosine.
 pub fn is_length(model: &Model, closing: Closing, index: usize) -> bool {
     let Closing::Cut(joint) = closing else { return false };
-    let lengths = match model.joints.get(joint.0).map(|joint| &joint.kind) {
-        Some(JointKind::Prismatic { .. } | JointKind::Cylindrical { .. }) => 2,
-        Some(JointKind::Screw { .. }) if index == 4 => 5,
-        Some(JointKind::Screw { .. }) => 2,
-        Some(JointKind::Planar { .. }) => 1,
-        _ => 3,
-    };
-    index < lengths
+    hold(model, joint, index).is_some_and(Hold::is_length)
+}
+
+/// What an equation of a cut joint belongs to.
+fn hold(model: &Model, joint: JointId, index: usize) -> Option<Hold> {
+    model.joints.get(joint.0)?.kind.rows().nth(index)
 }
 
 /// Whether an equation is one of three components of the way between a joint's frames, in the axes of the [`Writing`]; all
 /// others say the same in any axes.
 pub(in crate::mechanics) fn is_component(model: &Model, closing: Closing, index: usize) -> bool {
     let Closing::Cut(joint) = closing else { return false };
-    let kind = model.joints.get(joint.0).map(|joint| &joint.kind);
-    let whole = matches!(
-        kind,
-        Some(JointKind::Fixed | JointKind::Ball(_) | JointKind::Universal { .. } | JointKind::Revolute { .. })
-    );
-    whole && index < 3
+    hold(model, joint, index) == Some(Hold::Point)
 }
 
 /// Everything that gives equations, in source order: joints, then constraints.
@@ -135,7 +124,7 @@ pub fn closings(model: &Model) -> Vec<Closing> {
 
 /// Whether a cut screw knows its angle up to whole turns only.
 pub(in crate::mechanics) fn is_uncounted(model: &Model, joint: JointId) -> bool {
-    if !matches!(model.joints.get(joint.0).map(|joint| &joint.kind), Some(JointKind::Screw { .. })) {
+    if !model.joints.get(joint.0).is_some_and(|joint| joint.kind.has_pitch) {
         return false;
     }
     let mut graph = Graph::new();

@@ -12,7 +12,7 @@ mod shapes;
 
 use std::collections::{BTreeMap, HashMap};
 
-use crate::model::types::{BodyId, BodyRef, Closing, ConstraintKind, Frame, JointId, JointKind, Model};
+use crate::model::types::{BodyId, BodyRef, Closing, ConstraintKind, Frame, JointId, Model};
 
 use super::constraints::{closings, path};
 use shapes::Shapes;
@@ -101,7 +101,7 @@ pub fn find(model: &Model) -> Vec<Group> {
     }
     let mut hubs: Vec<bool> = passes.iter().map(|&count| count >= HUB).collect();
     for (number, joint) in model.joints.iter().enumerate() {
-        if let (JointKind::Free(_), Some(body)) = (&joint.kind, forest.body(JointId(number))) {
+        if let (true, Some(body)) = (joint.kind.is_free(), forest.body(JointId(number))) {
             hubs[body.0] = true;
         }
     }

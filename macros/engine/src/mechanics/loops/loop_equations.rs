@@ -8,8 +8,7 @@
 use crate::dynamics::tree::{Link, Motion};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::build::Place;
-use crate::mechanics::translate::directions;
-use crate::model::types::{Closing, ConstraintKind, JointId, JointKind, Solve};
+use crate::model::types::{Closing, ConstraintKind, Joint, JointId, Solve};
 use crate::solve::{Cycle, Segment};
 use crate::symbolic::graph::{Rotation, Scalar, Vector};
 use crate::symbolic::rotations;
@@ -28,7 +27,7 @@ impl Equations<'_> {
     /// The sum of all angles of a loop that counts turns. That of a screw which closes it stands there as its coordinate.
     fn cycle_winding(&mut self, id: JointId) -> Option<Scalar> {
         let sum = self.counted_turns(id)?;
-        let screw = matches!(self.model.joints.get(id.0)?.kind, JointKind::Screw { .. });
+        let screw = self.model.joints.get(id.0)?.kind.has_pitch;
         // The first of the closing's own coordinates, see `closing_motions`.
         let own = if screw { self.symbols.unwanted(0) } else { Scalar::ZERO };
         Some(self.g.sub(sum, own))
@@ -43,7 +42,7 @@ impl Equations<'_> {
                 let (from, to) = (self.place(&joint.parent), self.place(&joint.child));
                 let common = self.common(from.link, to.link);
                 self.outwards_to(&from, common, item, &mut cycle);
-                self.closing_motions(&joint.kind, &mut cycle);
+                self.closing_motions(joint, &mut cycle);
                 self.back_from(&to, common, item, &mut cycle);
             }
             Closing::Constraint(id) => {
@@ -122,36 +121,18 @@ impl Equations<'_> {
     }
 
     /// The motions of what closes the loop, from its parent frame to its child frame.
-    fn closing_motions(&mut self, kind: &JointKind, cycle: &mut Vec<Segment>) {
-        let mut axes: Vec<(directions::Axis, Option<Scalar>, bool)> = Vec::new();
-        match kind {
-            JointKind::Fixed | JointKind::Free(_) => {}
-            JointKind::Revolute { axis } => axes.push((self.axis(axis), None, true)),
-            JointKind::Prismatic { axis } => axes.push((self.axis(axis), None, false)),
-            JointKind::Screw { axis, pitch } => {
-                let pitch = self.scalar(pitch);
-                axes.push((self.axis(axis), Some(pitch), true));
+    fn closing_motions(&mut self, joint: &Joint, cycle: &mut Vec<Segment>) {
+        let kind = joint.kind;
+        if kind.turns_freely() {
+            // What is free closes nothing.
+            if !kind.is_free() {
+                cycle.push(self.unwanted(Motion::Ball([Scalar::ZERO; 4]), 0));
             }
-            JointKind::Cylindrical { axis } => {
-                let axis = self.axis(axis);
-                axes.extend([(axis, None, false), (axis, None, true)]);
-            }
-            JointKind::Universal { axes: pair } => {
-                axes.extend(pair.each_ref().map(|axis| (self.axis(axis), None, true)));
-            }
-            JointKind::Planar { axis } => {
-                let axis = self.axis(axis);
-                let along = |k: usize| directions::Axis { index: (axis.index + k) % 3, flipped: false, ..axis };
-                axes.extend([(along(1), None, false), (along(2), None, false), (axis, None, true)]);
-            }
-            JointKind::Ball(_) => cycle.push(self.unwanted(Motion::Ball([Scalar::ZERO; 4]), 0)),
+            return;
         }
-        for (number, (axis, pitch, turns)) in axes.into_iter().enumerate() {
-            let motion = match (pitch, turns) {
-                (Some(pitch), _) => Motion::Screw(axis.index, pitch),
-                (None, true) => Motion::Revolute(axis.index),
-                (None, false) => Motion::Prismatic(axis.index),
-            };
+        let axes = self.joint_axes(joint);
+        for (number, index) in kind.sequence().into_iter().enumerate() {
+            let (axis, motion) = self.freedom_motion(joint, &axes, index);
             let place = |rotation| Segment::Fixed { rotation, offset: Vector::ZERO };
             cycle.push(place(axis.turn));
             cycle.push(self.unwanted(motion, number));

@@ -5,17 +5,13 @@
 
 use crate::mechanics::loops::structure::{Role, Structure};
 use crate::mechanics::translate::symbols::Symbols;
-use crate::model::types::{Coordinate, Joint, JointId, JointKind, Model, Orientation};
+use crate::model::types::{Coordinate, Joint, JointId, Model};
 use crate::symbolic::graph::{Graph, Scalar};
 
 /// Pitches that are coordinates of the state, in the order of joints.
 pub(in crate::mechanics) fn pitches(model: &Model, structure: &Structure) -> Vec<Coordinate> {
     let pitch = |(number, joint): (usize, &Joint)| {
-        let index = match joint.kind {
-            JointKind::Ball(Orientation::RollPitchYaw) => 1,
-            JointKind::Free(Orientation::RollPitchYaw) => 4,
-            _ => return None,
-        };
+        let index = joint.kind.pitch()?;
         let coordinate = Coordinate { joint: JointId(number), index };
         let role = structure.roles.get(number).and_then(|roles| roles.get(index));
         (role == Some(&Role::State)).then_some(coordinate)

@@ -13,7 +13,8 @@ use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::branches::Branch;
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::loops::structure::{Means, Role};
-use crate::model::types::{Closing, Comparison, ExprNode, Joint, JointKind, SolveHow};
+use crate::model::joint_kinds::Hold;
+use crate::model::types::{Closing, Comparison, ExprNode, Joint, SolveHow};
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 use crate::symbolic::inputs::Known;
 use crate::symbolic::signs::is_positive;
@@ -109,7 +110,7 @@ impl Equations<'_> {
 
     /// The strut that a ball ends, the link of the body there and the ball's place on it.
     fn chain(&mut self, ball: &Joint) -> Option<(Chain, usize, Triple)> {
-        if !matches!(ball.kind, JointKind::Ball(_)) {
+        if ball.kind.holds != [Hold::Point] {
             return None;
         }
         let mechanism = Rc::clone(&self.mechanism);

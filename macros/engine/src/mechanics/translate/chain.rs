@@ -1,17 +1,16 @@
 //! Stage `mechanics`: a joint as a chain of primitive motions with massless links between.
 //!
-//! In: a joint's kind. Out: its links. Universal is two revolute motions, Cylindrical a prismatic and a revolute one,
-//! Planar two prismatic and a revolute one, roll-pitch-yaw is Rz(yaw) Ry(pitch) Rx(roll), Free is three prismatic motions
-//! along the parent's axes and a ball. Velocity coordinates keep the order of the language whatever the order of links.
-//!
-//! Planar about coordinate axis k moves along the axes k + 1 and k + 2 in cyclic order, whatever the sign of the axis;
-//! about any other axis along what these become when the axis is turned into place (see [`constants::axis`]).
+//! In: a joint. Out: its links, one for each freedom of its kind from the parent to the child, then a ball where it turns in
+//! all directions. Velocity coordinates keep the order of the language whatever the order of links. Where one axis is
+//! written the directions that follow it are coordinate axes k + 1 and k + 2 in cyclic order, whatever its sign, or what
+//! these become when any other axis is turned into place (see [`directions::axis`]).
 
 use crate::dynamics::inertia::Inertia;
 use crate::dynamics::tree::{Link, Motion};
 use crate::mechanics::equations::Equations;
-use crate::model::types::{Expr, Joint, JointId, JointKind, Orientation};
-use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
+use crate::model::joint_kinds;
+use crate::model::types::{Directions, Expr, Joint, JointId};
+use crate::symbolic::graph::{Graph, Scalar, Vector};
 use crate::symbolic::rotations;
 
 use super::build::{Mechanism, Place};
@@ -61,19 +60,6 @@ impl<'a> Chain<'a> {
         });
         self.end = Place { link: Some(index), rotation: step.axis.turn.transpose(), offset: Vector::ZERO };
     }
-
-    fn revolute(&mut self, g: &mut Graph, suffix: &str, axis: Axis, freedom: usize, q: Scalar) {
-        self.push(g, suffix, &Step { axis, motion: Motion::Revolute(axis.index), freedom, q });
-    }
-
-    fn prismatic(&mut self, g: &mut Graph, suffix: &str, axis: Axis, freedom: usize, q: Scalar) {
-        self.push(g, suffix, &Step { axis, motion: Motion::Prismatic(axis.index), freedom, q });
-    }
-}
-
-/// A coordinate axis.
-fn coordinate(index: usize) -> Axis {
-    Axis { turn: Rotation::IDENTITY, index, flipped: false }
 }
 
 impl Equations<'_> {
@@ -82,67 +68,60 @@ impl Equations<'_> {
         let q = Symbols::of(&self.symbols.positions, id).to_vec();
         let q = |k: usize| q.get(k).copied().unwrap_or(Scalar::ZERO);
         let first = self.symbols.first.get(id.0).copied().unwrap_or(0);
-        match &joint.kind {
-            JointKind::Fixed if kept => {
-                let tree = &mut chain.mechanism.tree;
-                let freedom = tree.velocity.len();
-                tree.velocity.push(Scalar::ZERO);
-                tree.acceleration.push(Scalar::ZERO);
-                chain.prismatic(&mut self.g, "", coordinate(0), freedom, Scalar::ZERO);
-            }
-            JointKind::Fixed => {}
-            JointKind::Revolute { axis } => {
-                let axis = self.axis(axis);
-                chain.revolute(&mut self.g, "", axis, first, q(0));
-            }
-            JointKind::Prismatic { axis } => {
-                let axis = self.axis(axis);
-                chain.prismatic(&mut self.g, "", axis, first, q(0));
-            }
-            JointKind::Screw { axis, pitch } => {
-                let axis = self.axis(axis);
-                let pitch = self.scalar(pitch);
-                let motion = Motion::Screw(axis.index, pitch);
-                chain.push(&mut self.g, "", &Step { axis, motion, freedom: first, q: q(0) });
-            }
-            JointKind::Cylindrical { axis } => {
-                let axis = self.axis(axis);
-                chain.prismatic(&mut self.g, "travel", axis, first, q(0));
-                chain.revolute(&mut self.g, "", axis, first + 1, q(1));
-            }
-            JointKind::Universal { axes } => {
-                let [one, two] = [self.axis(&axes[0]), self.axis(&axes[1])];
-                chain.revolute(&mut self.g, "first", one, first, q(0));
-                chain.revolute(&mut self.g, "", two, first + 1, q(1));
-            }
-            JointKind::Planar { axis } => {
-                let axis = self.axis(axis);
-                let along = |k: usize| Axis { index: (axis.index + k) % 3, flipped: false, ..axis };
-                chain.prismatic(&mut self.g, "x", along(1), first, q(0));
-                chain.prismatic(&mut self.g, "y", along(2), first + 1, q(1));
-                chain.revolute(&mut self.g, "", axis, first + 2, q(2));
-            }
-            JointKind::Ball(orientation) => self.ball(chain, *orientation, first, q),
-            JointKind::Free(orientation) => {
-                for (k, suffix) in ["x", "y", "z"].into_iter().enumerate() {
-                    chain.prismatic(&mut self.g, suffix, coordinate(k), first + k, q(k));
-                }
-                self.ball(chain, *orientation, first + 3, |k| q(k + 3));
-            }
+        let kind = joint.kind;
+        if kind.freedoms() == 0 && kept {
+            let tree = &mut chain.mechanism.tree;
+            let freedom = tree.velocity.len();
+            tree.velocity.push(Scalar::ZERO);
+            tree.acceleration.push(Scalar::ZERO);
+            let axis = Axis::coordinate(0);
+            let motion = Motion::Prismatic(axis.index);
+            chain.push(&mut self.g, "", &Step { axis, motion, freedom, q: Scalar::ZERO });
+        }
+        let axes = self.joint_axes(joint);
+        let sequence = kind.sequence();
+        let last = sequence.last().copied().filter(|_| !kind.has_quaternion());
+        for index in sequence {
+            let (axis, motion) = self.freedom_motion(joint, &axes, index);
+            let suffix = if last == Some(index) { "" } else { kind.freedoms[index].name };
+            chain.push(&mut self.g, suffix, &Step { axis, motion, freedom: first + index, q: q(index) });
+        }
+        if kind.has_quaternion() {
+            let start = kind.turning().start;
+            let motion = Motion::Ball([0, 1, 2, 3].map(|k| q(start + k)));
+            let axis = Axis::coordinate(0);
+            chain.push(&mut self.g, "", &Step { axis, motion, freedom: first + start, q: Scalar::ZERO });
         }
     }
 
-    fn ball(&mut self, chain: &mut Chain<'_>, orientation: Orientation, first: usize, q: impl Fn(usize) -> Scalar) {
-        let g = &mut self.g;
-        match orientation {
-            Orientation::Quaternion => {
-                let motion = Motion::Ball([0, 1, 2, 3].map(&q));
-                chain.push(g, "", &Step { axis: coordinate(0), motion, freedom: first, q: Scalar::ZERO });
+    /// The primitive motion of a freedom, and the axis along or about which it goes.
+    pub(in crate::mechanics) fn freedom_motion(
+        &mut self,
+        joint: &Joint,
+        axes: &[Axis; 3],
+        index: usize,
+    ) -> (Axis, Motion) {
+        let freedom = &joint.kind.freedoms[index];
+        let axis = axes[freedom.direction % 3];
+        let motion = match (freedom.motion, &joint.pitch) {
+            (joint_kinds::Motion::Slides, _) => Motion::Prismatic(axis.index),
+            (joint_kinds::Motion::Turns, None) => Motion::Revolute(axis.index),
+            (joint_kinds::Motion::Turns, Some(pitch)) => Motion::Screw(axis.index, self.scalar(pitch)),
+        };
+        (axis, motion)
+    }
+
+    /// The directions of a joint's freedoms, in its parent's frame.
+    pub(in crate::mechanics) fn joint_axes(&mut self, joint: &Joint) -> [Axis; 3] {
+        match &joint.directions {
+            Directions::Frame => [0, 1, 2].map(Axis::coordinate),
+            Directions::Axis(axis) => {
+                let axis = self.axis(axis);
+                [axis, axis.next(1), axis.next(2)]
             }
-            Orientation::RollPitchYaw => {
-                for (suffix, k) in [("yaw", 2), ("pitch", 1), ("", 0)] {
-                    chain.revolute(g, suffix, coordinate(k), first + k, q(k));
-                }
+            Directions::Crossed(axes) => {
+                let [first, second] = axes.each_ref().map(|axis| self.axis(axis));
+                [first, second, first.next(2)]
             }
         }
     }

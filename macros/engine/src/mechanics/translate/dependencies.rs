@@ -5,7 +5,7 @@
 use std::collections::HashSet;
 use std::rc::Rc;
 
-use crate::model::types::{Expr, ExprNode, JointId, JointKind, Model, Order};
+use crate::model::types::{Expr, ExprNode, JointId, Model, Order};
 
 /// What expressions ask for.
 #[derive(Default)]
@@ -45,7 +45,7 @@ impl Dependencies {
 
     /// `Fixed` joints whose reactions are asked for.
     pub(in crate::mechanics) fn kept(&self, model: &Model) -> Vec<JointId> {
-        let fixed = |id: &JointId| model.joints.get(id.0).is_some_and(|joint| matches!(joint.kind, JointKind::Fixed));
+        let fixed = |id: &JointId| model.joints.get(id.0).is_some_and(|joint| joint.kind.freedoms() == 0);
         self.reactions.iter().copied().filter(fixed).collect()
     }
 }

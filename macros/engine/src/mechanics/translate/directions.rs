@@ -21,6 +21,18 @@ pub(in crate::mechanics) struct Axis {
     pub flipped: bool,
 }
 
+impl Axis {
+    /// An axis of the frame itself.
+    pub(in crate::mechanics) fn coordinate(index: usize) -> Axis {
+        Axis { turn: Rotation::IDENTITY, index: index % 3, flipped: false }
+    }
+
+    /// The coordinate axis that follows, or the one after that, in the same turned frame.
+    pub(in crate::mechanics) fn next(self, by: usize) -> Axis {
+        Axis { index: (self.index + by) % 3, flipped: false, ..self }
+    }
+}
+
 /// Rotation about any axis by a constant angle.
 pub(in crate::mechanics) fn about(g: &mut Graph, axis: [Scalar; 3], angle: Scalar) -> Rotation {
     let axis = self::axis(g, axis);

@@ -11,7 +11,9 @@ use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::constraints::measured::Dual;
 use crate::mechanics::loops::constraints::{Held, row_count};
 use crate::mechanics::loops::structure::Row;
-use crate::model::types::{Coordinate, Expr, ForceId, ForceKind, Frame, JointId, JointKind, Order, Orientation};
+use crate::mechanics::translate::directions::Axis;
+use crate::model::joint_kinds::Motion;
+use crate::model::types::{Coordinate, Directions, Expr, ForceId, ForceKind, Frame, JointId, Order};
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
 use super::build::{Mechanism, Place};
@@ -227,33 +229,27 @@ impl Equations<'_> {
         let ends = [self.place(&joint.parent), self.place(&joint.child)];
         // In the axes of the parent's frame, but for what belongs to axes of the child.
         let (mut force, mut moment, mut own) = (Vector::ZERO, Vector::ZERO, Vector::ZERO);
-        match &joint.kind {
-            JointKind::Screw { axis, pitch } if held && self.scalar(pitch) != Scalar::ZERO => {
-                let pitch = self.scalar(pitch);
-                let push = self.g.div(effort(0), pitch);
-                force = self.along(axis, 0, push);
+        if joint.kind.has_angles() || joint.kind.is_free() {
+            return Some((ends, self.along_duals(id, efforts)));
+        }
+        let axes = self.joint_axes(joint);
+        let pitch = joint.pitch.as_ref().filter(|_| held).map(|pitch| self.scalar(pitch));
+        if let Some(pitch) = pitch.filter(|&pitch| pitch != Scalar::ZERO) {
+            let push = self.g.div(effort(0), pitch);
+            force = self.along(axes[0], push);
+        } else if joint.kind.has_quaternion() {
+            own = self.g.vector([effort(0), effort(1), effort(2)]);
+        } else {
+            for (index, freedom) in joint.kind.freedoms.iter().enumerate() {
+                let along = self.along(axes[freedom.direction % 3], effort(index));
+                let slot = match (freedom.motion, &joint.directions) {
+                    (Motion::Slides, _) => &mut force,
+                    // The axes are perpendicular, so each moment works on its own angle alone.
+                    (Motion::Turns, Directions::Crossed(_)) if index == 1 => &mut own,
+                    (Motion::Turns, _) => &mut moment,
+                };
+                *slot = self.g.add_vectors(*slot, along);
             }
-            JointKind::Revolute { axis } | JointKind::Screw { axis, .. } => moment = self.along(axis, 0, effort(0)),
-            JointKind::Prismatic { axis } => force = self.along(axis, 0, effort(0)),
-            JointKind::Cylindrical { axis } => {
-                force = self.along(axis, 0, effort(0));
-                moment = self.along(axis, 0, effort(1));
-            }
-            // The axes are perpendicular, so each moment works on its own angle alone.
-            JointKind::Universal { axes } => {
-                moment = self.along(&axes[0], 0, effort(0));
-                own = self.along(&axes[1], 0, effort(1));
-            }
-            JointKind::Planar { axis } => {
-                let (x, y) = (self.along(axis, 1, effort(0)), self.along(axis, 2, effort(1)));
-                force = self.g.add_vectors(x, y);
-                moment = self.along(axis, 0, effort(2));
-            }
-            JointKind::Ball(Orientation::Quaternion) => own = self.g.vector([effort(0), effort(1), effort(2)]),
-            JointKind::Ball(Orientation::RollPitchYaw) | JointKind::Free(_) => {
-                return Some((ends, self.along_duals(id, efforts)));
-            }
-            JointKind::Fixed => {}
         }
         let [parent, child] = &ends;
         let force = self.g.rotate(parent.rotation, force);
@@ -277,11 +273,10 @@ impl Equations<'_> {
         Wrench { moment: self.g.sum_vectors(&moments), force: self.g.sum_vectors(&forces) }
     }
 
-    /// A length along a joint's axis, or along the following axes of its plane.
-    pub(in crate::mechanics) fn along(&mut self, axis: &Expr, next: usize, length: Scalar) -> Vector {
-        let axis = self.axis(axis);
-        let length = if axis.flipped && next == 0 { -length } else { length };
-        let along = self.g.along((axis.index + next) % 3, length);
+    /// A length along an axis.
+    pub(in crate::mechanics) fn along(&mut self, axis: Axis, length: Scalar) -> Vector {
+        let length = if axis.flipped { -length } else { length };
+        let along = self.g.along(axis.index, length);
         self.g.rotate(axis.turn, along)
     }
 

@@ -4,7 +4,8 @@
 //! `elbow_rate`, `feet_0_x`.
 
 use crate::contracts::symbol::Symbol;
-use crate::model::types::{Coordinate, JointId, JointKind, Model, Orientation, Place, Type};
+use crate::model::joint_kinds::JointKind;
+use crate::model::types::{Coordinate, JointId, Model, Place, Type};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -56,7 +57,7 @@ pub(in crate::mechanics) fn of_freedom(model: &Model, coordinate: Coordinate, wh
 }
 
 fn of_joint(model: &Model, joint: JointId, suffix: impl Fn(&JointKind) -> String) -> Option<String> {
-    model.joints.get(joint.0).map(|joint| path(model, &joint.place) + &suffix(&joint.kind))
+    model.joints.get(joint.0).map(|joint| path(model, &joint.place) + &suffix(joint.kind))
 }
 
 /// `_2_x` for an element of an array of `Vec3`.
@@ -73,36 +74,24 @@ fn suffix(ty: &Type, element: usize) -> String {
 
 /// `_first` and the like; nothing for joints of one coordinate.
 fn coordinate(kind: &JointKind, index: usize) -> String {
-    let names: &[&str] = match kind {
-        JointKind::Fixed | JointKind::Revolute { .. } | JointKind::Prismatic { .. } | JointKind::Screw { .. } => &[],
-        JointKind::Cylindrical { .. } => &["travel", "angle"],
-        JointKind::Universal { .. } => &["first", "second"],
-        JointKind::Planar { .. } => &["x", "y", "angle"],
-        JointKind::Ball(_) => &["roll", "pitch", "yaw"],
-        JointKind::Free(_) => &["x", "y", "z", "roll", "pitch", "yaw"],
-    };
-    names.get(index).map_or(String::new(), |name| format!("_{name}"))
+    let name = kind.freedoms.get(index).filter(|_| kind.freedoms() > 1);
+    name.map_or(String::new(), |freedom| format!("_{}", freedom.name))
+}
+
+/// The number among those of a quaternion, of a component or a turning direction.
+fn of_quaternion(kind: &JointKind, component: usize) -> Option<usize> {
+    component.checked_sub(kind.turning().start).filter(|_| kind.has_quaternion())
 }
 
 fn position(kind: &JointKind, component: usize) -> String {
-    let first = match kind {
-        JointKind::Ball(Orientation::Quaternion) => 0,
-        JointKind::Free(Orientation::Quaternion) => 3,
-        _ => return coordinate(kind, component),
-    };
-    match component.checked_sub(first).and_then(|k| ["w", "i", "j", "k"].get(k)) {
+    match of_quaternion(kind, component).and_then(|k| ["w", "i", "j", "k"].get(k)) {
         Some(name) => format!("_{name}"),
         None => coordinate(kind, component),
     }
 }
 
 fn rate(kind: &JointKind, component: usize, what: &str) -> String {
-    let first = match kind {
-        JointKind::Ball(Orientation::Quaternion) => 0,
-        JointKind::Free(Orientation::Quaternion) => 3,
-        _ => return format!("{}_{what}", coordinate(kind, component)),
-    };
-    match component.checked_sub(first).and_then(|k| AXES.get(k)) {
+    match of_quaternion(kind, component).and_then(|k| AXES.get(k)) {
         Some(axis) => format!("_angular_{what}_{axis}"),
         None => format!("{}_{what}", coordinate(kind, component)),
     }

@@ -6,9 +6,7 @@
 
 use crate::contracts::symbol::Symbol;
 use crate::mechanics::loops::structure::{Role, Structure};
-use crate::model::types::{
-    Coordinate, InputId, Joint, JointId, JointKind, Model, Orientation, ParamId, Request, StateId,
-};
+use crate::model::types::{Coordinate, InputId, Joint, JointId, Model, ParamId, Request, StateId};
 use crate::symbolic::graph::{Graph, Scalar};
 
 /// Handles of all symbols, by what they stand for.
@@ -206,13 +204,12 @@ pub fn freedoms_of(model: &Model, id: JointId, joint: &Joint) -> usize {
 
 /// Whether the joint's orientation is a quaternion.
 pub fn has_quaternion(joint: &Joint) -> bool {
-    matches!(joint.kind, JointKind::Ball(Orientation::Quaternion) | JointKind::Free(Orientation::Quaternion))
+    joint.kind.has_quaternion()
 }
 
 /// Position components that change at the rate of a velocity coordinate.
 fn straight_positions(joint: &Joint) -> usize {
-    let freedoms = joint.kind.freedoms();
-    if has_quaternion(joint) { freedoms - 3 } else { freedoms }
+    joint.kind.freedoms.len()
 }
 
 fn one(g: &mut Graph, table: &mut Vec<Symbol>, symbol: Symbol) -> Scalar {

@@ -18,12 +18,12 @@ use crate::model::expand::root;
 use crate::model::items::fields::field;
 use crate::model::items::joints::{fields_of, meant};
 use crate::model::items::loops::Driven;
-use crate::model::names::Shape;
+use crate::model::joint_kinds::{self, JointKind};
 use crate::model::topology::Topology;
 use crate::model::typed::{bounded_scalars, new_expr};
 use crate::model::types::{
-    Body, BodyRef, Constraint, ConstraintKind, Coordinate, Docs, Drive, DriveTarget, Expr, ExprNode, Frame, Handling,
-    Input, InputId, InstanceId, Joint, JointId, JointKind, Kinematics, Model, Output, Param, ParamId, Place, Request,
+    Body, BodyRef, Constraint, ConstraintKind, Coordinate, Directions, Docs, Drive, DriveTarget, Expr, ExprNode, Frame,
+    Handling, Input, InputId, InstanceId, Joint, JointId, Kinematics, Model, Output, Param, ParamId, Place, Request,
     Solve, SolveHow, State, Type,
 };
 use crate::model::{Checked, Soundness};
@@ -118,21 +118,24 @@ impl<'a> Checker<'a, '_> {
         let ItemKind::Joint { kind, fields, .. } = &item.kind else {
             return None;
         };
-        let shape = slot.shape.unwrap_or_else(|| meant(&kind.to_string(), fields));
-        let fields = self.corrected_fields(fields, &fields_of(shape), context);
+        let meant_kind = slot.kind.unwrap_or_else(|| meant(&kind.to_string(), fields));
+        let fields = self.corrected_fields(fields, &fields_of(meant_kind), context);
         let frames = ["parent", "child"].map(|name| {
             let found = field(&fields, name).and_then(|expr| self.near_frame(expr, context));
             *whole &= matches!(found, Some((_, true)));
             found.map(|(frame, _)| frame)
         });
-        let found = self.joint_kind(shape, &fields, context);
+        let found = self.joint_directions(meant_kind, &fields, context);
         *whole &= found.is_some();
         let ends = frames.each_ref().map(|frame| frame.as_ref().map(|frame| frame.body));
         let nowhere = || Frame { body: BodyRef::Ground, steps: Vec::new(), span: Span::call_site() };
         let [parent, child] = frames.map(|frame| frame.unwrap_or_else(nowhere));
+        let (directions, pitch) = found.unwrap_or_else(|| unread(meant_kind));
         let joint = Joint {
             place,
-            kind: found.unwrap_or_else(|| kind_of(shape)),
+            kind: meant_kind,
+            directions,
+            pitch,
             parent,
             child,
             armature: None,
@@ -354,20 +357,15 @@ fn type_of(target: DriveTarget) -> Type {
     }
 }
 
-/// Nobody reads its axes.
-fn kind_of(shape: Shape) -> JointKind {
+/// What nobody reads in place of a joint's directions and pitch.
+fn unread(kind: &JointKind) -> (Directions, Option<Expr>) {
     let axis = || zero(Type::Vec3);
-    match shape {
-        Shape::Fixed => JointKind::Fixed,
-        Shape::Revolute => JointKind::Revolute { axis: axis() },
-        Shape::Prismatic => JointKind::Prismatic { axis: axis() },
-        Shape::Screw => JointKind::Screw { axis: axis(), pitch: zero(Type::Scalar) },
-        Shape::Cylindrical => JointKind::Cylindrical { axis: axis() },
-        Shape::Universal => JointKind::Universal { axes: Box::new([axis(), axis()]) },
-        Shape::Planar => JointKind::Planar { axis: axis() },
-        Shape::Ball(orientation) => JointKind::Ball(orientation),
-        Shape::Free(orientation) => JointKind::Free(orientation),
-    }
+    let directions = match kind.written {
+        joint_kinds::Written::Frame => Directions::Frame,
+        joint_kinds::Written::Axis => Directions::Axis(axis()),
+        joint_kinds::Written::Crossed => Directions::Crossed(Box::new([axis(), axis()])),
+    };
+    (directions, kind.has_pitch.then(|| zero(Type::Scalar)))
 }
 
 /// Nobody reads its value.

@@ -11,7 +11,7 @@ use crate::diagnostics::nearest;
 use crate::model::checker::{Checker, Context, Meaning};
 use crate::model::names::{FUNCTIONS, VALUES};
 use crate::model::topology::Topology;
-use crate::model::types::{BodyRef, Function, Joint, JointId, JointKind, Type};
+use crate::model::types::{BodyRef, Function, Joint, JointId, Type};
 use crate::syntax::tree::{Field, Fields};
 
 /// Members that vectors, and what has them, are asked for.
@@ -74,10 +74,7 @@ impl<'a> Checker<'a, '_> {
         let cost = |index: usize| {
             let joint = joints.get(index);
             let says_cut = self.coordinates.is_none() && self.says_cut(index);
-            let freedoms = joint.map_or(0, |joint| match joint.kind {
-                JointKind::Free(_) => 0,
-                ref kind => kind.freedoms() + 1,
-            });
+            let freedoms = joint.map_or(0, |joint| if joint.kind.is_free() { 0 } else { joint.kind.freedoms() + 1 });
             (says_cut, freedoms, index)
         };
         let mut order: Vec<usize> = (0..joints.len()).collect();

@@ -3,7 +3,8 @@
 //! In: bodies, joints, the tree. Out: per joint the inertia beyond it and its motion axes, in the joint's child frame.
 
 use crate::model::checker::Checker;
-use crate::model::types::{Body, BodyRef, Frame, FrameStep, Joint, JointId, JointKind, Orientation};
+use crate::model::joint_kinds;
+use crate::model::types::{Body, BodyRef, Directions, Frame, FrameStep, Joint, JointId};
 
 use super::evaluate::{cross, dot};
 use super::matrix3::{IDENTITY, Matrix3, Vector3, add, product, rotation, scale, sub, times, transpose, unit};
@@ -41,20 +42,22 @@ pub(super) struct Link {
     pub(in crate::model) armature: f64,
     /// The joint's parent frame, seen from the child frame of the joint before.
     mount: Pose,
-    kind: Kind,
+    /// From parent to child.
+    sequence: Vec<Freedom>,
+    /// Whether it turns in all directions after these, at rates in the child's axes.
+    turns_freely: bool,
 }
 
-/// Joint kinds with their numbers; axes are unit vectors.
-enum Kind {
-    Fixed,
-    /// Axis, and metres per radian.
-    Turn(Vector3, f64),
-    Slide(Vector3),
-    Cylindrical(Vector3),
-    Universal(Vector3, Vector3),
-    Planar(Vector3),
-    Ball(Orientation),
-    Free(Orientation),
+/// A freedom in numbers.
+struct Freedom {
+    /// Number of the coordinate.
+    index: usize,
+    /// Velocity at a rate of one, at the frame that the freedom stands in.
+    axis: Vector6,
+    /// A unit vector.
+    direction: Vector3,
+    /// Metres and radians for a change of one.
+    amounts: [f64; 2],
 }
 
 /// A joint somewhere: from its child frame to the child frame of the joint before, and its axes in the child frame.
@@ -73,7 +76,7 @@ impl Configuration {
     pub(in crate::model) fn random(links: &[Link], trial: u64) -> Configuration {
         let mut random = Random(0x9e37_79b9_7f4a_7c15 ^ (trial + 1).wrapping_mul(0xd1b5_4a32_d192_ed03));
         let joints = links.iter().map(|link| {
-            let (pose, axes) = link.kind.moved(&mut random);
+            let (pose, axes) = link.moved(&mut random);
             let pose = link.mount.then(&pose);
             Motion { rotation: pose.rotation, position: pose.position, axes }
         });
@@ -81,77 +84,47 @@ impl Configuration {
     }
 }
 
-impl Kind {
+impl Link {
     /// Where the joint goes, and its axes in the child's frame.
     fn moved(&self, random: &mut Random) -> (Pose, Vec<Vector6>) {
-        let zero = [0.0; 3];
-        let turned = |rotation| Pose { rotation, position: zero };
-        match self {
-            Kind::Fixed => (Pose::IDENTITY, Vec::new()),
-            Kind::Turn(axis, pitch) => {
-                let angle = random.next();
-                let pose = Pose { rotation: rotation(*axis, angle), position: scale(angle * pitch, *axis) };
-                (pose, vec![join(*axis, scale(*pitch, *axis))])
-            }
-            Kind::Slide(axis) => {
-                let pose = Pose { rotation: IDENTITY, position: scale(random.next(), *axis) };
-                (pose, vec![join(zero, *axis)])
-            }
-            Kind::Cylindrical(axis) => {
-                let pose = Pose { rotation: rotation(*axis, random.next()), position: scale(random.next(), *axis) };
-                (pose, vec![join(zero, *axis), join(*axis, zero)])
-            }
-            Kind::Universal(first, second) => {
-                let after = rotation(*second, random.next());
-                let turn = product(&rotation(*first, random.next()), &after);
-                let carried = times(&transpose(after), *first);
-                (turned(turn), vec![join(carried, zero), join(*second, zero)])
-            }
-            Kind::Planar(axis) => {
-                let (x, y) = in_plane(*axis);
-                let turn = rotation(*axis, random.next());
-                let position = add(scale(random.next(), x), scale(random.next(), y));
-                let back = transpose(turn);
-                let axes = vec![join(zero, times(&back, x)), join(zero, times(&back, y)), join(*axis, zero)];
-                let pose = Pose { rotation: turn, position };
-                (pose, axes)
-            }
-            Kind::Ball(orientation) => {
-                let (turn, axes) = ball(*orientation, random);
-                (turned(turn), axes)
-            }
-            Kind::Free(orientation) => {
-                let (turn, spins) = ball(*orientation, random);
-                let back = transpose(turn);
-                let mut axes: Vec<Vector6> = IDENTITY.iter().map(|axis| join(zero, times(&back, *axis))).collect();
-                axes.extend(spins);
-                let pose = Pose { rotation: turn, position: [random.next(), random.next(), random.next()] };
-                (pose, axes)
-            }
+        let mut pose = Pose::IDENTITY;
+        let mut axes: Vec<(usize, Vector6)> = Vec::new();
+        let mut step = |axes: &mut Vec<(usize, Vector6)>, step: &Pose| {
+            axes.iter_mut().for_each(|(_, axis)| *axis = carried(axis, step));
+            pose = pose.then(step);
+        };
+        for freedom in &self.sequence {
+            let [length, angle] = scale_pair(freedom.amounts, random.next());
+            let position = scale(length, freedom.direction);
+            step(&mut axes, &Pose { rotation: rotation(freedom.direction, angle), position });
+            axes.push((freedom.index, freedom.axis));
         }
+        if self.turns_freely {
+            let turns = IDENTITY.map(|axis| rotation(axis, random.next()));
+            for rotation in turns {
+                step(&mut axes, &Pose { rotation, position: [0.0; 3] });
+            }
+            let first = axes.len();
+            axes.extend(IDENTITY.iter().enumerate().map(|(k, axis)| (first + k, join(*axis, [0.0; 3]))));
+        }
+        axes.sort_by_key(|(index, _)| *index);
+        (pose, axes.into_iter().map(|(_, axis)| axis).collect())
     }
 }
 
-/// Angular velocity in child axes: itself, or from the rates of `Rz(yaw) Ry(pitch) Rx(roll)`.
-fn ball(orientation: Orientation, random: &mut Random) -> (Matrix3, Vec<Vector6>) {
-    let [x, y, z] = IDENTITY;
-    let (roll, pitch, yaw) = (random.next(), random.next(), random.next());
-    let (about_x, about_y) = (rotation(x, roll), rotation(y, pitch));
-    let turn = product(&product(&rotation(z, yaw), &about_y), &about_x);
-    let axes = match orientation {
-        Orientation::Quaternion => [x, y, z],
-        Orientation::RollPitchYaw => {
-            let back = transpose(about_x);
-            let yaw = times(&back, times(&transpose(about_y), z));
-            [x, times(&back, y), yaw]
-        }
-    };
-    let axes = axes.map(|axis| join(axis, [0.0; 3]));
-    (turn, axes.to_vec())
+fn scale_pair(pair: [f64; 2], s: f64) -> [f64; 2] {
+    pair.map(|x| s * x)
 }
 
-/// The plane of a planar joint: the axis that follows the largest component of `n`, cyclically, then the third.
-fn in_plane(n: Vector3) -> (Vector3, Vector3) {
+/// A velocity at the origin of a frame, seen from the frame that a step leads to.
+fn carried([a, b, c, d, e, f]: &Vector6, step: &Pose) -> Vector6 {
+    let (angular, linear) = ([*a, *b, *c], [*d, *e, *f]);
+    let back = transpose(step.rotation);
+    join(times(&back, angular), times(&back, add(linear, cross(angular, step.position))))
+}
+
+/// Two directions across a third: the axis that follows its largest component, cyclically, then the last one.
+fn across(n: Vector3) -> [Vector3; 2] {
     let [a, b, c] = n.map(f64::abs);
     let [x, y, z] = IDENTITY;
     let near = if c >= a && c >= b {
@@ -162,7 +135,7 @@ fn in_plane(n: Vector3) -> (Vector3, Vector3) {
         z
     };
     let first = unit(sub(near, scale(dot(near, n), n)));
-    (first, cross(n, first))
+    [first, cross(n, first)]
 }
 
 impl Checker<'_, '_> {
@@ -193,29 +166,47 @@ impl Checker<'_, '_> {
             if !inertia.iter().flatten().all(|x| x.is_finite()) {
                 return None;
             }
-            links.push(Link { parent: before, inertia, armature, mount, kind: self.kind(&joint.kind)? });
+            let (sequence, turns_freely) = (self.sequence(joint)?, joint.kind.has_quaternion());
+            links.push(Link { parent: before, inertia, armature, mount, sequence, turns_freely });
         }
         Some(links)
     }
 
-    fn kind(&mut self, kind: &JointKind) -> Option<Kind> {
+    /// The freedoms of a joint, but for those of a quaternion.
+    fn sequence(&mut self, joint: &Joint) -> Option<Vec<Freedom>> {
+        let directions = self.directions(joint)?;
+        let pitch = match &joint.pitch {
+            Some(pitch) => self.evaluator.scalar(pitch)?,
+            None => 0.0,
+        };
+        let freedom = |index: usize| {
+            let freedom = joint.kind.freedoms.get(index)?;
+            let direction = *directions.get(freedom.direction)?;
+            let [length, angle] = match freedom.motion {
+                joint_kinds::Motion::Slides => [1.0, 0.0],
+                joint_kinds::Motion::Turns => [pitch, 1.0],
+            };
+            let axis = join(scale(angle, direction), scale(length, direction));
+            Some(Freedom { index, axis, direction, amounts: [length, angle] })
+        };
+        joint.kind.sequence().into_iter().map(freedom).collect()
+    }
+
+    /// Unit vectors along a joint's directions.
+    fn directions(&mut self, joint: &Joint) -> Option<[Vector3; 3]> {
         let mut axis = |axis| self.evaluator.vector(axis).map(unit);
-        Some(match kind {
-            JointKind::Fixed => Kind::Fixed,
-            JointKind::Revolute { axis: a } => Kind::Turn(axis(a)?, 0.0),
-            JointKind::Prismatic { axis: a } => Kind::Slide(axis(a)?),
-            JointKind::Cylindrical { axis: a } => Kind::Cylindrical(axis(a)?),
-            JointKind::Planar { axis: a } => Kind::Planar(axis(a)?),
-            JointKind::Universal { axes } => {
-                let [first, second] = axes.each_ref().map(&mut axis);
-                Kind::Universal(first?, second?)
+        Some(match &joint.directions {
+            Directions::Frame => IDENTITY,
+            Directions::Axis(written) => {
+                let axis = axis(written)?;
+                let [second, third] = across(axis);
+                [axis, second, third]
             }
-            JointKind::Screw { axis: a, pitch } => {
-                let axis = axis(a)?;
-                Kind::Turn(axis, self.evaluator.scalar(pitch)?)
+            Directions::Crossed(axes) => {
+                let [first, second] = axes.each_ref().map(axis);
+                let (first, second) = (first?, second?);
+                [first, second, cross(first, second)]
             }
-            JointKind::Ball(orientation) => Kind::Ball(*orientation),
-            JointKind::Free(orientation) => Kind::Free(*orientation),
         })
     }
 

@@ -9,7 +9,6 @@
 //! configurations is singular by structure.
 
 use crate::model::checker::Checker;
-use crate::model::names::Shape;
 use crate::model::types::{Body, BodyRef, Joint, JointId};
 
 use super::configuration::{Configuration, Link};
@@ -84,9 +83,9 @@ impl Checker<'_, '_> {
         let (Some(joint), Some(coordinate)) = (joint, coordinate) else {
             return;
         };
-        let shape = Shape::of(&joint.kind);
-        let name = shape.coordinate_text(&joint.place.field.to_string(), coordinate);
-        let help = if shape.freedoms() == 1 {
+        let kind = joint.kind;
+        let name = kind.coordinate_text(&joint.place.field.to_string(), coordinate);
+        let help = if kind.freedoms() == 1 {
             "give the bodies beyond it inertia in this direction, or the joint an `armature`"
         } else {
             "give the bodies beyond it inertia in this direction, or take a joint without this freedom"

@@ -7,7 +7,7 @@ use syn::spanned::Spanned;
 use syn::{Expr, Member};
 
 use crate::model::checker::{Checker, Context, Meaning};
-use crate::model::names::Shape;
+use crate::model::joint_kinds::JointKind;
 use crate::model::types::{Coordinate, JointId};
 
 use super::source_text;
@@ -59,19 +59,19 @@ impl<'a> Checker<'a, '_> {
         for meaning in self.several_meanings(expr, context)? {
             match meaning {
                 Meaning::Joint(joint) => {
-                    let shape = self.shape(joint)?;
-                    if shape.freedoms() == 0 {
+                    let kind = self.joint_kind(joint)?;
+                    if kind.freedoms() == 0 {
                         let message = format!("`{}` is a fixed joint, which has no coordinate", source_text(expr));
                         self.report.error(expr.span(), message);
                         return None;
                     }
-                    found.extend(all(joint, shape));
+                    found.extend(all(joint, kind));
                 }
                 Meaning::Coordinate(joint, index) => found.push(Coordinate { joint, index }),
                 Meaning::Frame(frame) if self.absolute(&frame).is_some() => {
                     let joint = self.absolute(&frame)?;
-                    let shape = self.shape(joint)?;
-                    found.extend(all(joint, shape));
+                    let kind = self.joint_kind(joint)?;
+                    found.extend(all(joint, kind));
                 }
                 _ => {
                     self.report.help(
@@ -88,6 +88,6 @@ impl<'a> Checker<'a, '_> {
 }
 
 /// All velocity coordinates of a joint.
-fn all(joint: JointId, shape: Shape) -> impl Iterator<Item = Coordinate> {
-    (0..shape.freedoms()).map(move |index| Coordinate { joint, index })
+fn all(joint: JointId, kind: &JointKind) -> impl Iterator<Item = Coordinate> {
+    (0..kind.freedoms()).map(move |index| Coordinate { joint, index })
 }

@@ -7,9 +7,9 @@ use proc_macro2::{Ident, Span};
 use syn::Expr;
 
 use crate::model::checker::{Checker, Meaning};
-use crate::model::names::Shape;
+use crate::model::joint_kinds::JointKind;
 use crate::model::typed::{Class, Typed, Uses};
-use crate::model::types::{BodyRef, ExprNode, FrameQuantity, JointId, Order, Orientation, Type};
+use crate::model::types::{BodyRef, ExprNode, FrameQuantity, JointId, Order, Type};
 
 use super::paths::plain_frame;
 use super::{source_text, span};
@@ -23,26 +23,26 @@ impl Checker<'_, '_> {
         self.coordinate_uses.push((joint, at));
     }
 
-    pub(in crate::model) fn shape(&mut self, joint: JointId) -> Option<Shape> {
-        let shape = self.joints.get(joint.0).and_then(|slot| slot.shape);
-        if shape.is_none() {
+    pub(in crate::model) fn joint_kind(&mut self, joint: JointId) -> Option<&'static JointKind> {
+        let kind = self.joints.get(joint.0).and_then(|slot| slot.kind);
+        if kind.is_none() {
             // An unknown kind: reported with the joint itself.
             self.report.silent();
         }
-        shape
+        kind
     }
 
     /// A bare joint of one coordinate stands for that coordinate.
     pub(super) fn joint_value(&mut self, joint: JointId, expr: &Expr) -> Option<Typed> {
-        let shape = self.shape(joint)?;
-        if shape.freedoms() == 1 {
+        let kind = self.joint_kind(joint)?;
+        if kind.freedoms() == 1 {
             return self.coordinate(joint, 0, expr);
         }
         let text = source_text(expr);
-        let names = offers(shape, &text);
+        let names = offers(kind, &text);
         self.report.help(
             span(expr),
-            format!("expected a value, found a joint of kind {}", shape.name()),
+            format!("expected a value, found a joint of kind {}", kind.name),
             format!("take one of {names}"),
         );
         None
@@ -50,11 +50,11 @@ impl Checker<'_, '_> {
 
     /// The value of a coordinate.
     pub(super) fn coordinate(&mut self, joint: JointId, index: usize, expr: &Expr) -> Option<Typed> {
-        let shape = self.shape(joint)?;
+        let kind = self.joint_kind(joint)?;
         let at = span(expr);
         let uses = Uses::of(Class::Position, source_text(expr), at);
         self.uses_coordinates(joint, at);
-        if shape != Shape::Free(Orientation::Quaternion) {
+        if !(kind.is_free() && kind.has_quaternion()) {
             let node = ExprNode::Coordinate { joint, index, order: Order::Position };
             return Some(Typed::leaf(node, Type::Scalar, at).with(uses));
         }
@@ -105,19 +105,19 @@ impl Checker<'_, '_> {
     }
 
     pub(super) fn joint_member(&mut self, joint: JointId, base: &Expr, member: &Ident) -> Option<Meaning> {
-        let shape = self.shape(joint)?;
+        let kind = self.joint_kind(joint)?;
         let name = member.to_string();
-        let coordinates = shape.coordinates();
+        let coordinates = kind.coordinates();
         if let Some(index) = coordinates.iter().position(|known| *known == name) {
             return Some(Meaning::Coordinate(joint, index));
         }
-        if shape.freedoms() == 1 && OF_COORDINATE.contains(&name.as_str()) {
+        if kind.freedoms() == 1 && OF_COORDINATE.contains(&name.as_str()) {
             return self.coordinate_member(joint, 0, base, member);
         }
         let text = format!("{}.{name}", source_text(base));
         let at = member.span();
-        let rotates = matches!(shape, Shape::Ball(_) | Shape::Free(_));
-        let angles = matches!(shape, Shape::Ball(Orientation::RollPitchYaw) | Shape::Free(Orientation::RollPitchYaw));
+        let rotates = kind.turns_freely();
+        let angles = kind.has_angles();
         let (value, class) = match name.as_str() {
             "reaction" => {
                 let axes = plain_frame(BodyRef::Ground, at);
@@ -128,26 +128,26 @@ impl Checker<'_, '_> {
                 let node = ExprNode::RelativeAngularVelocity(joint);
                 (Typed::leaf(node, Type::Vec3, at), Class::State)
             }
-            "velocity" if matches!(shape, Shape::Free(_)) => {
+            "velocity" if kind.is_free() => {
                 let node = |index| coordinate(joint, index, Order::Rate);
                 (self.several(node, 0..3, at)?, Class::State)
             }
             "angular_acceleration" if rotates && !angles => {
                 let node = |index| coordinate(joint, index, Order::Acceleration);
-                let end = shape.freedoms();
+                let end = kind.freedoms();
                 let value = self.several(node, end - 3..end, at)?;
                 (value, Class::Acceleration)
             }
             "rates" if angles => {
                 let node = |index| coordinate(joint, index, Order::Rate);
-                (self.several(node, 0..shape.freedoms(), at)?, Class::State)
+                (self.several(node, 0..kind.freedoms(), at)?, Class::State)
             }
-            "effort" if shape.freedoms() > 1 => {
+            "effort" if kind.freedoms() > 1 => {
                 let node = |index| ExprNode::Effort { joint, index };
-                (self.several(node, 0..shape.freedoms(), at)?, Class::Load)
+                (self.several(node, 0..kind.freedoms(), at)?, Class::Load)
             }
             _ => {
-                self.unknown_joint_member(shape, base, member);
+                self.unknown_joint_member(kind, base, member);
                 return None;
             }
         };
@@ -165,29 +165,29 @@ impl Checker<'_, '_> {
         self.collect(elements, ty, at)
     }
 
-    fn unknown_joint_member(&mut self, shape: Shape, base: &Expr, member: &Ident) {
+    fn unknown_joint_member(&mut self, kind: &JointKind, base: &Expr, member: &Ident) {
         let name = member.to_string();
         let text = source_text(base);
-        let several = shape.freedoms() > 1 && OF_COORDINATE.contains(&name.as_str());
-        let help = match shape.coordinates() {
+        let several = kind.freedoms() > 1 && OF_COORDINATE.contains(&name.as_str());
+        let help = match kind.coordinates()[..] {
             [first, ..] if several => format!("write `{text}.{first}.{name}`"),
             [coordinate] => match name.as_str() {
                 "q" | "position" | "displacement" => format!("write `{text}.{coordinate}`"),
                 "v" | "velocity" | "speed" | "omega" | "angular_velocity" => format!("write `{text}.rate`"),
                 "a" | "acceleration" => format!("write `{text}.accel`"),
                 "torque" => format!("write `{text}.effort`"),
-                _ => format!("it has {}", offers(shape, &text)),
+                _ => format!("it has {}", offers(kind, &text)),
             },
             _ if name == "rates" => format!("write `{text}.angular_velocity`"),
-            _ => format!("it has {}", offers(shape, &text)),
+            _ => format!("it has {}", offers(kind, &text)),
         };
-        let mut candidates: Vec<&str> = members(shape);
+        let mut candidates: Vec<&str> = members(kind);
         if several {
             candidates.clear();
         }
         self.report.unknown(
             member.span(),
-            format!("a joint of kind {} has no `{name}`", shape.name()),
+            format!("a joint of kind {} has no `{name}`", kind.name),
             &name,
             candidates,
             Some(help),
@@ -196,20 +196,20 @@ impl Checker<'_, '_> {
 }
 
 /// Names that a joint offers.
-fn members(shape: Shape) -> Vec<&'static str> {
-    let mut names = shape.coordinates().to_vec();
-    if shape.freedoms() == 1 {
+fn members(kind: &JointKind) -> Vec<&'static str> {
+    let mut names = kind.coordinates();
+    if kind.freedoms() == 1 {
         names.extend(OF_COORDINATE);
     }
-    if matches!(shape, Shape::Ball(_) | Shape::Free(_)) {
+    if kind.turns_freely() {
         names.push("angular_velocity");
     }
     names.push("reaction");
     names
 }
 
-pub(in crate::model) fn offers(shape: Shape, text: &str) -> String {
-    let names: Vec<String> = members(shape).iter().map(|name| format!("`{text}.{name}`")).collect();
+pub(in crate::model) fn offers(kind: &JointKind, text: &str) -> String {
+    let names: Vec<String> = members(kind).iter().map(|name| format!("`{text}.{name}`")).collect();
     names.join(", ")
 }
 

@@ -7,6 +7,7 @@ use syn::spanned::Spanned;
 use syn::{Expr, ExprField, Member};
 
 use crate::model::checker::{Checker, Context, Meaning, ScopeId};
+use crate::model::joint_kinds::JointKind;
 use crate::model::typed::{Class, FrameValue, Typed, Uses, type_text};
 use crate::model::types::{BodyRef, ExprNode, ForceId, FrameQuantity, JointId, Type};
 
@@ -94,8 +95,8 @@ impl<'a> Checker<'a, '_> {
         }
         let Some((_, quantity, ty, class)) = QUANTITIES.iter().find(|(known, ..)| *known == name) else {
             if let Some(joint) = self.absolute(&frame) {
-                let shape = self.joints.get(joint.0).and_then(|slot| slot.shape);
-                let coordinates = shape.map_or(&[][..], |shape| shape.coordinates());
+                let kind = self.joints.get(joint.0).and_then(|slot| slot.kind);
+                let coordinates = kind.map_or_else(Vec::new, JointKind::coordinates);
                 if coordinates.contains(&name.as_str()) || matches!(name.as_str(), "rates" | "effort") {
                     return self.joint_member(joint, base, member);
                 }

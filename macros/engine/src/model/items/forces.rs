@@ -11,10 +11,10 @@ use crate::model::checker::{Checker, Context, Meaning, Slot};
 use crate::model::docs;
 use crate::model::expand::root;
 use crate::model::expressions::{component_of, element_of, source_text};
-use crate::model::names::Shape;
+use crate::model::joint_kinds::JointKind;
 use crate::model::typed::{Allowed, Typed, number};
 use crate::model::types::Expr as Checked;
-use crate::model::types::{Force, ForceKind, Frame, JointId, Orientation, Type};
+use crate::model::types::{Force, ForceKind, Frame, JointId, Type};
 use crate::syntax::tree::{self, ItemKind};
 
 use super::fields::{Known, field};
@@ -77,7 +77,7 @@ impl<'a> Checker<'a, '_> {
     fn effort(&mut self, fields: &tree::Fields, context: Context<'a>) -> Option<ForceKind> {
         let target = field(fields, "joint").and_then(|expr| self.target(expr, context));
         let value = field(fields, "value");
-        let Some((joint, shape, index)) = target else {
+        let Some((joint, kind, index)) = target else {
             // Mistakes in the value are told all the same.
             if let Some(expr) = value {
                 self.value(expr, context);
@@ -85,10 +85,10 @@ impl<'a> Checker<'a, '_> {
             return None;
         };
         let value = value?;
-        let freedoms = shape.freedoms();
+        let freedoms = kind.freedoms();
         // Along the axes of a joint an effort acts between the two bodies, be the joint a coordinate or not; efforts on
         // angles in sequence, and on what is free, have no such meaning.
-        if matches!(shape, Shape::Ball(Orientation::RollPitchYaw) | Shape::Free(_)) {
+        if kind.has_angles() || kind.is_free() {
             self.uses_coordinates(joint, field(fields, "joint").map_or(fields.span, Spanned::span));
         }
         if freedoms == 0 {
@@ -121,7 +121,7 @@ impl<'a> Checker<'a, '_> {
     }
 
     /// A joint, or one coordinate of it.
-    fn target(&mut self, expr: &Expr, context: Context<'a>) -> Option<(JointId, Shape, Option<usize>)> {
+    fn target(&mut self, expr: &Expr, context: Context<'a>) -> Option<(JointId, &'static JointKind, Option<usize>)> {
         let (joint, index) = match self.meaning(expr, context)? {
             Meaning::Joint(joint) => (joint, None),
             Meaning::Coordinate(joint, index) => (joint, Some(index)),
@@ -134,11 +134,11 @@ impl<'a> Checker<'a, '_> {
                 return None;
             }
         };
-        let shape = self.joints.get(joint.0).and_then(|slot| slot.shape);
-        if shape.is_none() {
+        let kind = self.joints.get(joint.0).and_then(|slot| slot.kind);
+        if kind.is_none() {
             self.report.silent();
         }
-        Some((joint, shape?, index))
+        Some((joint, kind?, index))
     }
 
     fn at_frame(&mut self, kind: &str, fields: &tree::Fields, context: Context<'a>) -> Option<ForceKind> {
@@ -213,9 +213,9 @@ impl<'a> Checker<'a, '_> {
 
     /// One scalar coordinate.
     fn spring_target(&mut self, expr: &Expr, context: Context<'a>) -> Option<(JointId, usize)> {
-        let (joint, shape, index) = self.target(expr, context)?;
+        let (joint, kind, index) = self.target(expr, context)?;
         // The place of what is free is a number in each direction, its orientation none.
-        if shape == Shape::Free(Orientation::Quaternion) && index.is_none() {
+        if kind.is_free() && kind.has_quaternion() && index.is_none() {
             self.report.help(
                 expr.span(),
                 "springs and dampers need coordinates that are numbers, and this joint has quaternions",
@@ -227,19 +227,19 @@ impl<'a> Checker<'a, '_> {
             self.uses_coordinates(joint, expr.span());
             return Some((joint, index));
         }
-        if shape.freedoms() == 1 {
+        if kind.freedoms() == 1 {
             self.uses_coordinates(joint, expr.span());
             return Some((joint, 0));
         }
         let text = source_text(expr);
-        let help = match (shape, shape.coordinates()) {
-            (Shape::Ball(Orientation::Quaternion), _) => "an `Effort` with a Vec3 can act on it".to_string(),
-            (_, [first, ..]) => format!("write `joint: {text}.{first}`"),
-            _ => "write another joint".to_string(),
+        let help = match kind.coordinates()[..] {
+            [first, ..] => format!("write `joint: {text}.{first}`"),
+            [] if kind.has_quaternion() => "an `Effort` with a Vec3 can act on it".to_string(),
+            [] => "write another joint".to_string(),
         };
         self.report.help(
             expr.span(),
-            format!("a spring or damper acts on one coordinate: `{text}` is a joint of kind {}", shape.name()),
+            format!("a spring or damper acts on one coordinate: `{text}` is a joint of kind {}", kind.name),
             help,
         );
         None

@@ -12,9 +12,9 @@ use crate::model::checker::{Checker, Context, Lazy};
 use crate::model::checks::evaluate::dot;
 use crate::model::docs;
 use crate::model::expand::root;
-use crate::model::names::{JOINT_KINDS, Shape};
+use crate::model::joint_kinds::{self, JointKind, Written};
 use crate::model::typed::{Allowed, FrameValue, Typed};
-use crate::model::types::{BodyRef, Joint, JointId, JointKind, Orientation, Type};
+use crate::model::types::{self, BodyRef, Directions, Joint, JointId, Orientation, Type};
 use crate::syntax::tree::{self, ItemKind};
 
 use super::fields::{Known, field};
@@ -28,22 +28,23 @@ const SEQUENCES: [&str; 2] = ["Quaternion", "RollPitchYaw"];
 impl<'a> Checker<'a, '_> {
     pub(in crate::model) fn finish_joint(&mut self, id: JointId) -> Option<Joint> {
         let slot = self.joints.get(id.0)?;
-        let (item, scope, place, shape) = (slot.item, slot.scope, slot.place.clone(), slot.shape);
-        let ItemKind::Joint { name, kind, fields } = &item.kind else {
+        let (item, scope, place, known_kind) = (slot.item, slot.scope, slot.place.clone(), slot.kind);
+        let ItemKind::Joint { name, kind: word, fields } = &item.kind else {
             return self.implicit(id);
         };
         let attributes = docs::attributes(&item.attrs, self.report);
         self.refuse_waiver(&attributes);
         let frames = self.joint_frames(id, name.span());
-        let Some(shape) = shape else {
-            self.unknown_kind(kind);
+        let Some(kind) = known_kind else {
+            self.unknown_kind(word);
             return None;
         };
-        let owner = format!("the {} joint `{name}`", shape.name());
-        self.check_fields(&owner, name, fields, &known(shape));
+        let owner = format!("the {} joint `{name}`", kind.name);
+        let known = Known { required: &required(kind), optional: optional(kind) };
+        self.check_fields(&owner, name, fields, &known);
         let context = root(scope);
-        let joint_kind = self.joint_kind(shape, fields, context);
-        let armature = match field(fields, "armature").filter(|_| shape.freedoms() == 1) {
+        let parts = self.joint_directions(kind, fields, context);
+        let armature = match field(fields, "armature").filter(|_| kind.freedoms() == 1) {
             Some(expr) => self
                 .scalar(expr, context, Allowed::Parameters)
                 .and_then(|value| self.not_negative(&value, "an armature"))
@@ -62,9 +63,12 @@ impl<'a> Checker<'a, '_> {
             self.report.error(child.frame.span, message);
             return None;
         }
+        let (directions, pitch) = parts?;
         Some(Joint {
             place,
-            kind: joint_kind?,
+            kind,
+            directions,
+            pitch,
             parent: parent.frame,
             child: child.frame,
             armature: armature?,
@@ -77,12 +81,12 @@ impl<'a> Checker<'a, '_> {
     fn implicit(&mut self, id: JointId) -> Option<Joint> {
         let [parent, child] = self.joint_frames(id, Span::call_site())?;
         let slot = self.joints.get(id.0)?;
-        let Some(Shape::Free(orientation)) = slot.shape else {
-            return None;
-        };
+        let kind = slot.kind.filter(|kind| kind.is_free())?;
         Some(Joint {
             place: slot.place.clone(),
-            kind: JointKind::Free(orientation),
+            kind,
+            directions: Directions::Frame,
+            pitch: None,
             parent: parent.frame,
             child: child.frame,
             armature: None,
@@ -126,55 +130,48 @@ impl<'a> Checker<'a, '_> {
         if name == tree::UNREADABLE {
             return self.report.silent();
         }
-        let instead = elsewhere(&name);
         let message = format!("unknown kind of joint `{name}`");
-        if let Some(instead) = instead {
-            let help = format!("write `{instead}`");
+        if let Some(instead) = JointKind::elsewhere(&name) {
+            let help = format!("write `{}`", instead.name);
             return self.report.help(kind.span(), message, help);
         }
-        let kinds: Vec<&str> = JOINT_KINDS.iter().map(|(kind, _)| *kind).collect();
+        let kinds: Vec<&str> = JointKind::names().collect();
         let list = format!("kinds are `{}`", kinds.join("`, `"));
         self.report.unknown(kind.span(), message, &name, kinds, Some(list));
     }
 
-    pub(in crate::model) fn joint_kind(
+    /// What gives a joint's directions, and its pitch.
+    pub(in crate::model) fn joint_directions(
         &mut self,
-        shape: Shape,
+        kind: &JointKind,
         fields: &tree::Fields,
         context: Context<'a>,
-    ) -> Option<JointKind> {
+    ) -> Option<(Directions, Option<types::Expr>)> {
         if let Some(expr) = field(fields, "coordinates") {
-            self.orientation(shape, expr);
+            self.orientation(kind, expr);
         }
-        let axis = match (shape, field(fields, "axis")) {
-            (Shape::Fixed | Shape::Universal | Shape::Ball(_) | Shape::Free(_), _) => None,
-            (_, Some(expr)) => self.axis(expr, context).map(|axis| axis.expr),
-            (_, None) => None,
+        let directions = match kind.written {
+            Written::Frame => Some(Directions::Frame),
+            Written::Axis => {
+                let axis = field(fields, "axis").and_then(|expr| self.axis(expr, context));
+                axis.map(|axis| Directions::Axis(axis.expr))
+            }
+            Written::Crossed => {
+                let axes = field(fields, "axes").and_then(|expr| self.universal_axes(expr, context));
+                axes.map(|axes| Directions::Crossed(Box::new(axes)))
+            }
         };
-        Some(match shape {
-            Shape::Fixed => JointKind::Fixed,
-            Shape::Revolute => JointKind::Revolute { axis: axis? },
-            Shape::Prismatic => JointKind::Prismatic { axis: axis? },
-            Shape::Cylindrical => JointKind::Cylindrical { axis: axis? },
-            Shape::Planar => JointKind::Planar { axis: axis? },
-            Shape::Screw => {
-                let pitch = field(fields, "pitch").and_then(|expr| {
-                    let pitch = self.scalar(expr, context, Allowed::Parameters)?;
-                    self.finite(&pitch)?;
-                    Some(pitch.expr)
-                });
-                JointKind::Screw { axis: axis?, pitch: pitch? }
+        let pitch = match field(fields, "pitch").filter(|_| kind.has_pitch) {
+            Some(expr) => {
+                let pitch = self.scalar(expr, context, Allowed::Parameters);
+                pitch.filter(|pitch| self.finite(pitch).is_some()).map(|pitch| Some(pitch.expr))
             }
-            Shape::Universal => {
-                let axes = field(fields, "axes")?;
-                JointKind::Universal { axes: Box::new(self.universal_axes(axes, context)?) }
-            }
-            Shape::Ball(orientation) => JointKind::Ball(orientation),
-            Shape::Free(orientation) => JointKind::Free(orientation),
-        })
+            None => (!kind.has_pitch).then_some(None),
+        };
+        Some((directions?, pitch?))
     }
 
-    fn universal_axes(&mut self, expr: &Expr, context: Context<'a>) -> Option<[crate::model::types::Expr; 2]> {
+    fn universal_axes(&mut self, expr: &Expr, context: Context<'a>) -> Option<[types::Expr; 2]> {
         let axes = match expr {
             // Element by element, so that errors stand at one of them.
             Expr::Array(array) => {
@@ -195,7 +192,7 @@ impl<'a> Checker<'a, '_> {
                 vec![element(0)?, element(1)?]
             }
         };
-        let [first, second] = <[crate::model::types::Expr; 2]>::try_from(axes).ok()?;
+        let [first, second] = <[types::Expr; 2]>::try_from(axes).ok()?;
         let (a, b) = (self.evaluator.vector(&first)?, self.evaluator.vector(&second)?);
         if dot(a, a) == 0.0 || dot(b, b) == 0.0 {
             self.report.error(expr.span(), "an axis must not be zero");
@@ -212,9 +209,9 @@ impl<'a> Checker<'a, '_> {
         Some([first, second])
     }
 
-    /// `coordinates:` of Ball and Free; the shape has read what it needs.
-    fn orientation(&mut self, shape: Shape, expr: &Expr) {
-        if !matches!(shape, Shape::Ball(_) | Shape::Free(_)) {
+    /// `coordinates:` of Ball and Free; the kind has read what it needs.
+    fn orientation(&mut self, kind: &JointKind, expr: &Expr) {
+        if !kind.turns_freely() {
             return;
         }
         let name = match expr {
@@ -246,44 +243,29 @@ impl Orientation {
     }
 }
 
-/// What other tools call a kind of joint.
-fn elsewhere(name: &str) -> Option<&'static str> {
-    Some(match name {
-        "Hinge" | "Pin" | "Rotary" | "Rotational" | "Continuous" => "Revolute",
-        "Slider" | "Sliding" | "Linear" | "Translational" => "Prismatic",
-        "Spherical" => "Ball",
-        "Weld" | "Rigid" => "Fixed",
-        "Floating" | "SixDof" | "FreeJoint" => "Free",
-        "Cardan" | "Hooke" => "Universal",
-        "Helical" => "Screw",
-        _ => return None,
-    })
-}
-
-/// The shape of a joint whose kind is none: of the one that was probably meant.
-pub(in crate::model) fn meant(kind: &str, fields: &tree::Fields) -> Shape {
-    let near = || nearest(kind, JOINT_KINDS.iter().map(|(kind, _)| *kind));
-    let name = elsewhere(kind).or_else(near).unwrap_or("Revolute");
-    Shape::read(name, fields).unwrap_or(Shape::Revolute)
+/// The kind of a joint whose kind is none: the one that was probably meant.
+pub(in crate::model) fn meant(word: &str, fields: &tree::Fields) -> &'static JointKind {
+    let near = || nearest(word, JointKind::names());
+    let name = JointKind::elsewhere(word).map(|kind| kind.name).or_else(near);
+    name.and_then(|name| JointKind::read(name, fields)).unwrap_or(&joint_kinds::REVOLUTE)
 }
 
 /// The names of the fields that a joint has.
-pub(in crate::model) fn fields_of(shape: Shape) -> Vec<&'static str> {
-    let known = known(shape);
-    known.required.iter().chain(known.optional).copied().collect()
+pub(in crate::model) fn fields_of(kind: &JointKind) -> Vec<&'static str> {
+    [required(kind).as_slice(), optional(kind)].concat()
 }
 
-fn known(shape: Shape) -> Known<'static> {
-    let required: &[&str] = match shape {
-        Shape::Fixed | Shape::Ball(_) | Shape::Free(_) => &["parent", "child"],
-        Shape::Screw => &["parent", "child", "axis", "pitch"],
-        Shape::Universal => &["parent", "child", "axes"],
-        _ => &["parent", "child", "axis"],
-    };
-    let optional: &[&str] = match shape {
-        Shape::Ball(_) | Shape::Free(_) => &["coordinates"],
-        _ if shape.freedoms() == 1 => &["armature"],
-        _ => &[],
-    };
-    Known { required, optional }
+fn required(kind: &JointKind) -> Vec<&'static str> {
+    let pitch: &[&str] = if kind.has_pitch { &["pitch"] } else { &[] };
+    [&["parent", "child"], kind.written.fields(), pitch].concat()
+}
+
+fn optional(kind: &JointKind) -> &'static [&'static str] {
+    if kind.turns_freely() {
+        &["coordinates"]
+    } else if kind.freedoms() == 1 {
+        &["armature"]
+    } else {
+        &[]
+    }
 }

@@ -10,13 +10,12 @@ use crate::model::checker::{Checker, Context, Meaning, Slot};
 use crate::model::docs;
 use crate::model::expand::root;
 use crate::model::expressions::source_text;
-use crate::model::names::Shape;
+use crate::model::joint_kinds::JointKind;
 use crate::model::topology::Topology;
 use crate::model::typed::{Allowed, FrameValue, new_expr};
 use crate::model::types::Expr as Checked;
 use crate::model::types::{
-    BodyRef, Constraint, ConstraintKind, Coordinate, Drive, DriveTarget, ExprNode, Joint, JointId, JointKind, Order,
-    Orientation, Type,
+    BodyRef, Constraint, ConstraintKind, Coordinate, Drive, DriveTarget, ExprNode, Joint, JointId, Order, Type,
 };
 use crate::syntax::tree::{self, ItemKind};
 
@@ -161,11 +160,11 @@ impl<'a> Checker<'a, '_> {
         let (joint, index) = match self.meaning(expr, context)? {
             Meaning::Coordinate(joint, index) => (joint, index),
             Meaning::Joint(joint) => {
-                let shape = self.shape(joint)?;
-                if shape.freedoms() != 1 {
+                let kind = self.joint_kind(joint)?;
+                if kind.freedoms() != 1 {
                     let text = source_text(expr);
-                    let names = drivable(shape, &text);
-                    let message = format!("a drive needs one coordinate: `{text}` is a joint of kind {}", shape.name());
+                    let names = drivable(kind, &text);
+                    let message = format!("a drive needs one coordinate: `{text}` is a joint of kind {}", kind.name);
                     self.report.help(expr.span(), message, names);
                     return None;
                 }
@@ -214,15 +213,15 @@ impl<'a> Checker<'a, '_> {
             }
         };
         let joint = self.itself(joint, joints);
-        let shape = self.shape(joint)?;
-        let target = match (member, shape) {
-            ("position", Shape::Free(_)) => DriveTarget::Position(joint),
-            ("pose", Shape::Free(_)) => DriveTarget::Pose(joint),
-            ("orientation" | "rotation", Shape::Free(_) | Shape::Ball(_)) => DriveTarget::Orientation(joint),
+        let kind = self.joint_kind(joint)?;
+        let target = match member {
+            "position" if kind.is_free() => DriveTarget::Position(joint),
+            "pose" if kind.is_free() => DriveTarget::Pose(joint),
+            "orientation" | "rotation" if kind.turns_freely() => DriveTarget::Orientation(joint),
             _ => {
                 let text = source_text(&field.base);
-                let message = format!("a joint of kind {} has no `{member}` that can be driven", shape.name());
-                self.report.help(field.span(), message, drivable(shape, &text));
+                let message = format!("a joint of kind {} has no `{member}` that can be driven", kind.name);
+                self.report.help(field.span(), message, drivable(kind, &text));
                 return None;
             }
         };
@@ -236,8 +235,8 @@ impl<'a> Checker<'a, '_> {
         let Some(written) = list.get(joint.0).filter(|written| topology.is_cut(joint) && plain(written)) else {
             return joint;
         };
-        match (&written.kind, written.child.body) {
-            (JointKind::Free(_), BodyRef::Body(id)) => self.absolute.get(id.0).copied().flatten().unwrap_or(joint),
+        match written.child.body {
+            BodyRef::Body(id) if written.kind.is_free() => self.absolute.get(id.0).copied().flatten().unwrap_or(joint),
             _ => joint,
         }
     }
@@ -256,8 +255,9 @@ impl<'a> Checker<'a, '_> {
         let (topology, list) = joints?;
         let text = source_text(base);
         let carrier = topology.carrier(frame.frame.body, list).filter(|_| frame.frame.steps.is_empty());
-        let free = carrier
-            .filter(|id| list.get(id.0).is_some_and(|j| matches!(self.shape(*id), Some(Shape::Free(_))) && plain(j)));
+        let free = carrier.filter(|id| {
+            list.get(id.0).is_some_and(|j| self.joint_kind(*id).is_some_and(JointKind::is_free) && plain(j))
+        });
         if free.is_none() {
             self.report.help(
                 base.span(),
@@ -282,8 +282,8 @@ impl<'a> Checker<'a, '_> {
     /// The coordinates that a drive takes.
     pub(in crate::model) fn driven(&self, target: DriveTarget) -> Vec<Coordinate> {
         let freedoms = |joint: JointId| {
-            let shape = self.joints.get(joint.0).and_then(|slot| slot.shape);
-            shape.map_or(0, Shape::freedoms)
+            let kind = self.joints.get(joint.0).and_then(|slot| slot.kind);
+            kind.map_or(0, JointKind::freedoms)
         };
         let (joint, range) = match target {
             DriveTarget::Coordinate(coordinate) => return vec![coordinate],
@@ -300,7 +300,7 @@ impl<'a> Checker<'a, '_> {
             return String::new();
         };
         let name = self.path_text(&slot.place);
-        slot.shape.map_or_else(|| format!("`{name}`"), |shape| shape.coordinate_text(&name, coordinate.index))
+        slot.kind.map_or_else(|| format!("`{name}`"), |kind| kind.coordinate_text(&name, coordinate.index))
     }
 }
 
@@ -310,14 +310,14 @@ fn plain(joint: &Joint) -> bool {
 }
 
 /// What a joint has that can be driven.
-fn drivable(shape: Shape, text: &str) -> String {
-    let mut names: Vec<String> = shape.coordinates().iter().map(|name| format!("`{text}.{name}`")).collect();
-    match shape {
-        Shape::Free(_) => names.extend(["position", "orientation", "pose"].map(|name| format!("`{text}.{name}`"))),
-        Shape::Ball(Orientation::Quaternion) => names = vec![format!("`{text}.orientation`")],
-        Shape::Ball(_) => names.push(format!("`{text}.orientation`")),
-        _ => {}
-    }
+fn drivable(kind: &JointKind, text: &str) -> String {
+    let mut names: Vec<String> = kind.coordinates().iter().map(|name| format!("`{text}.{name}`")).collect();
+    let whole: &[&str] = match (kind.turns_freely(), kind.is_free()) {
+        (true, true) => &["position", "orientation", "pose"],
+        (true, false) => &["orientation"],
+        (false, _) => &[],
+    };
+    names.extend(whole.iter().map(|name| format!("`{text}.{name}`")));
     match names.as_slice() {
         [] => "take another joint".into(),
         names => format!("take {}", names.join(", ")),

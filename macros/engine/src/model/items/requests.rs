@@ -266,7 +266,7 @@ impl<'a> Checker<'a, '_> {
             for meaning in self.several_meanings(base, context)? {
                 let joint = match meaning {
                     Meaning::Joint(joint) => joint,
-                    Meaning::Coordinate(joint, _) if self.shape(joint)?.freedoms() == 1 => joint,
+                    Meaning::Coordinate(joint, _) if self.joint_kind(joint)?.freedoms() == 1 => joint,
                     Meaning::Frame(frame) => self.free_carrier(&frame, base, joints)?,
                     _ => {
                         self.report.help(

@@ -9,10 +9,10 @@ use syn::spanned::Spanned;
 
 use crate::model::checker::{Checker, Context, Meaning};
 use crate::model::expressions::source_text;
-use crate::model::names::Shape;
+use crate::model::joint_kinds::JointKind;
 use crate::model::topology::Topology;
 use crate::model::typed::Allowed;
-use crate::model::types::{Closing, Coordinate, Joint, Orientation, Solve, SolveHow, Type};
+use crate::model::types::{Closing, Coordinate, Joint, Solve, SolveHow, Type};
 use crate::syntax::tree::Solution;
 
 /// What a `solve` item gives.
@@ -81,8 +81,8 @@ impl<'a> Checker<'a, '_> {
         let lists = lists?;
         for (expr, list) in unknowns.iter().zip(lists) {
             let quaternion = list.iter().any(|coordinate| {
-                let shape = self.joints.get(coordinate.joint.0).and_then(|slot| slot.shape);
-                matches!(shape, Some(Shape::Ball(Orientation::Quaternion) | Shape::Free(Orientation::Quaternion)))
+                let kind = self.joints.get(coordinate.joint.0).and_then(|slot| slot.kind);
+                kind.is_some_and(JointKind::has_quaternion)
             });
             if quaternion {
                 self.report.help(

@@ -5,9 +5,9 @@
 use crate::dynamics::tree::Motion;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::build::Place;
-use crate::mechanics::translate::directions;
 use crate::mechanics::translate::directions::Axis;
-use crate::model::types::{Expr, JointId, JointKind};
+use crate::model::joint_kinds::Hold;
+use crate::model::types::{Directions, JointId};
 use crate::symbolic::graph::{Scalar, Vector};
 use crate::symbolic::rotations;
 
@@ -44,45 +44,37 @@ impl Equations<'_> {
         let model = self.model;
         let joint = model.joints.get(id.0)?;
         let mut ends = [self.place(&joint.parent), self.place(&joint.child)];
-        let gap = || (0..3).map(Equation::Gap);
-        let all = || (0..3).map(|k| Equation::Turn(k, (k + 1) % 3));
-        let across = |k: usize| [(k + 1) % 3, (k + 2) % 3];
-        let along = |k: usize| across(k).map(Equation::Along).into_iter();
-        let turns = |k: usize| across(k).map(|other| Equation::Turn(k, other)).into_iter();
-        let (equations, aligned): (Vec<Equation>, Vec<usize>) = match &joint.kind {
-            JointKind::Free(_) => (Vec::new(), Vec::new()),
-            JointKind::Fixed => (gap().chain(all()).collect(), vec![0, 1, 2]),
-            JointKind::Ball(_) => (gap().collect(), Vec::new()),
-            JointKind::Universal { axes } => {
-                let [first, second] = [self.turned(&axes[0]), self.turned(&axes[1])];
-                self.turn_end(&mut ends[0], &first);
-                self.turn_end(&mut ends[1], &second);
-                (gap().chain([Equation::Turn(second.index, first.index)]).collect(), Vec::new())
-            }
-            JointKind::Revolute { axis } => {
-                let k = self.turn_ends(&mut ends, axis);
-                (gap().chain(turns(k)).collect(), vec![k])
-            }
-            JointKind::Prismatic { axis } => {
-                let k = self.turn_ends(&mut ends, axis);
-                (along(k).chain(all()).collect(), vec![0, 1, 2])
-            }
-            JointKind::Cylindrical { axis } => {
-                let k = self.turn_ends(&mut ends, axis);
-                (along(k).chain(turns(k)).collect(), vec![k])
-            }
-            JointKind::Screw { axis, pitch } => {
-                let k = self.turn_ends(&mut ends, axis);
-                let pitch = self.scalar(pitch);
-                (along(k).chain(turns(k)).chain([Equation::Pitch(k, pitch)]).collect(), vec![k])
-            }
-            JointKind::Planar { axis } => {
-                let k = self.turn_ends(&mut ends, axis);
-                ([Equation::Along(k)].into_iter().chain(turns(k)).collect(), vec![k])
-            }
+        let axes = self.joint_axes(joint);
+        // Both frames so that the directions are coordinate axes, or the opposite of one: no equation minds.
+        let [of_parent, of_child] = match joint.directions {
+            Directions::Frame | Directions::Axis(_) => [axes[0], axes[0]],
+            Directions::Crossed(_) => [axes[0], axes[1]],
         };
+        self.turn_end(&mut ends[0], &of_parent);
+        self.turn_end(&mut ends[1], &of_child);
+        let pitch = joint.pitch.as_ref().map(|pitch| self.scalar(pitch));
+        let of = |k: usize| axes[k % 3].index;
+        let across = |k: usize| [(of(k) + 1) % 3, (of(k) + 2) % 3];
+        let (mut equations, mut aligned) = (Vec::new(), Vec::new());
+        for hold in joint.kind.holds {
+            match *hold {
+                Hold::Point => equations.extend((0..3).map(Equation::Gap)),
+                Hold::Line(k) => equations.extend(across(k).map(Equation::Along)),
+                Hold::Plane(k) => equations.push(Equation::Along(of(k))),
+                Hold::Axis(k) => {
+                    equations.extend(across(k).map(|other| Equation::Turn(of(k), other)));
+                    aligned.push(of(k));
+                }
+                Hold::Crossing => equations.push(Equation::Turn(of(1), of(0))),
+                Hold::Orientation => {
+                    equations.extend((0..3).map(|k| Equation::Turn(k, (k + 1) % 3)));
+                    aligned.extend(0..3);
+                }
+                Hold::Pitch => equations.extend(pitch.map(|pitch| Equation::Pitch(of(0), pitch))),
+            }
+        }
         let mut cut = Cut { ends, equations, aligned };
-        if matches!(joint.kind, JointKind::Prismatic { .. } | JointKind::Fixed) && self.holds_screw(&ends) {
+        if joint.kind.holds(Hold::Orientation) && self.holds_screw(&ends) {
             self.count_turns(&mut cut);
         }
         Some(cut)
@@ -112,23 +104,8 @@ impl Equations<'_> {
         }
     }
 
-    fn turned(&mut self, axis: &Expr) -> Axis {
-        let direction = self.vector(axis);
-        let direction = self.g.components(direction);
-        directions::axis(&mut self.g, direction)
-    }
-
     fn turn_end(&mut self, end: &mut Place, axis: &Axis) {
         end.rotation = rotations::compose(&mut self.g, end.rotation, axis.turn);
-    }
-
-    /// Turns both frames so that the axis is a coordinate axis, or the opposite of one: no equation minds.
-    fn turn_ends(&mut self, ends: &mut [Place; 2], axis: &Expr) -> usize {
-        let axis = self.turned(axis);
-        for end in ends {
-            self.turn_end(end, &axis);
-        }
-        axis.index
     }
 
     pub(super) fn cut_residuals(&mut self, cut: &Cut, writing: Writing) -> Vec<Scalar> {

@@ -14,8 +14,10 @@ use crate::contracts::call::Call;
 use crate::dynamics::point_kinematics::PointKinematics;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::build::Place;
+use crate::mechanics::translate::directions::Axis;
 use crate::mechanics::translate::symbols::Symbols;
-use crate::model::types::{Coordinate, JointId, JointKind, Order, Orientation};
+use crate::model::joint_kinds::Motion;
+use crate::model::types::{Coordinate, Directions, Joint, JointId, Order};
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::{Scalar, Vector};
 
@@ -66,34 +68,23 @@ impl Equations<'_> {
         let model = self.model;
         let Some(joint) = model.joints.get(joint.0) else { return Scalar::ZERO };
         let ends = [self.place(&joint.parent), self.place(&joint.child)];
-        match (&joint.kind, index) {
-            (JointKind::Screw { axis, pitch }, _) => {
-                let pitch = self.scalar(pitch);
-                if pitch != Scalar::ZERO {
-                    let along = self.along(axis, 0, Scalar::ONE);
-                    let travel = self.travel(&ends, along);
-                    return self.g.div(travel, pitch);
-                }
+        let axes = self.joint_axes(joint);
+        if let Some(pitch) = &joint.pitch {
+            let pitch = self.scalar(pitch);
+            if pitch != Scalar::ZERO {
+                let along = self.along(axes[0], Scalar::ONE);
+                let travel = self.travel(&ends, along);
+                return self.g.div(travel, pitch);
             }
-            (JointKind::Prismatic { axis } | JointKind::Cylindrical { axis }, 0) => {
-                let along = self.along(axis, 0, Scalar::ONE);
-                return self.travel(&ends, along);
-            }
-            (JointKind::Planar { axis }, 0 | 1) => {
-                let along = self.along(axis, index + 1, Scalar::ONE);
-                return self.travel(&ends, along);
-            }
-            (JointKind::Free(_), 0..3) => {
-                let along = self.g.along(index, Scalar::ONE);
-                return self.travel(&ends, along);
-            }
-            (JointKind::Ball(Orientation::RollPitchYaw), _) => return self.roll_pitch_yaw_between(&ends, index),
-            (JointKind::Free(Orientation::RollPitchYaw), 3..) => {
-                return self.roll_pitch_yaw_between(&ends, index - 3);
-            }
-            _ => {}
         }
-        match self.angle_of(&joint.kind, &ends, index) {
+        if let Some(freedom) = joint.kind.freedoms.get(index).filter(|freedom| freedom.motion == Motion::Slides) {
+            let along = self.along(axes[freedom.direction % 3], Scalar::ONE);
+            return self.travel(&ends, along);
+        }
+        if joint.kind.has_angles() {
+            return self.roll_pitch_yaw_between(&ends, index - joint.kind.turning().start);
+        }
+        match self.angle_of(joint, &ends, index) {
             Some(angle) => {
                 let [cos, sin] = self.point_of(&ends, &angle);
                 self.g.call(Call::Atan2, &[sin, cos])
@@ -106,16 +97,10 @@ impl Equations<'_> {
     /// quarter.
     pub(super) fn is_angle(&mut self, Coordinate { joint, index }: Coordinate) -> bool {
         let model = self.model;
-        match (model.joints.get(joint.0).map(|joint| &joint.kind), index) {
-            (Some(JointKind::Screw { pitch, .. }), _) => self.scalar(pitch) == Scalar::ZERO,
-            (Some(JointKind::Revolute { .. }), 0)
-            | (Some(JointKind::Cylindrical { .. }), 1)
-            | (Some(JointKind::Planar { .. }), 2)
-            | (Some(JointKind::Universal { .. }), 0 | 1)
-            | (Some(JointKind::Ball(Orientation::RollPitchYaw)), 0 | 2)
-            | (Some(JointKind::Free(Orientation::RollPitchYaw)), 3 | 5) => true,
-            _ => false,
-        }
+        let Some(joint) = model.joints.get(joint.0) else { return false };
+        let turns = joint.kind.freedoms.get(index).is_some_and(|freedom| freedom.motion == Motion::Turns);
+        let travels = joint.pitch.as_ref().is_some_and(|pitch| self.scalar(pitch) != Scalar::ZERO);
+        turns && !travels && joint.kind.pitch() != Some(index)
     }
 
     /// A component of the way along a direction of the parent's frame.
@@ -127,19 +112,13 @@ impl Equations<'_> {
         self.g.dot(way, along)
     }
 
-    fn angle_of(&mut self, kind: &JointKind, ends: &[Place; 2], index: usize) -> Option<Angle> {
+    fn angle_of(&mut self, joint: &Joint, ends: &[Place; 2], index: usize) -> Option<Angle> {
         let [parent, child] = *ends;
-        match (kind, index) {
-            (JointKind::Revolute { axis } | JointKind::Screw { axis, .. }, 0)
-            | (JointKind::Cylindrical { axis }, 1)
-            | (JointKind::Planar { axis }, 2) => {
-                let flipped = self.axis(axis).flipped;
-                let [u, v] = [1, 2].map(|next| self.along(axis, next, Scalar::ONE));
-                let v = if flipped { -v } else { v };
-                Some(Angle { u: (parent, u), v: (parent, v), x: (child, u) })
-            }
-            (JointKind::Universal { axes }, 0 | 1) => {
-                let [first, second] = [0, 1].map(|k| self.along(&axes[k], 0, Scalar::ONE));
+        let freedom = joint.kind.freedoms.get(index).filter(|freedom| freedom.motion == Motion::Turns)?;
+        let axes = self.joint_axes(joint);
+        match &joint.directions {
+            Directions::Crossed(_) => {
+                let [first, second] = [axes[0], axes[1]].map(|axis| self.along(axis, Scalar::ONE));
                 let v = self.g.cross(first, second);
                 Some(if index == 0 {
                     Angle { u: (parent, second), v: (parent, v), x: (child, second) }
@@ -148,7 +127,12 @@ impl Equations<'_> {
                     Angle { u: (child, first), v: (child, v), x: (parent, first) }
                 })
             }
-            _ => None,
+            Directions::Frame | Directions::Axis(_) => {
+                let axis = axes[freedom.direction % 3];
+                let [u, v] = [1, 2].map(|next| self.along(axis.next(next), Scalar::ONE));
+                let v = if axis.flipped { -v } else { v };
+                Some(Angle { u: (parent, u), v: (parent, v), x: (child, u) })
+            }
         }
     }
 
@@ -187,34 +171,29 @@ impl Equations<'_> {
         let model = self.model;
         let joint = model.joints.get(joint.0)?;
         let [parent, child] = [self.place(&joint.parent), self.place(&joint.child)];
-        let (dual, of_child): (fn(Vector) -> Dual, Option<usize>) = match (&joint.kind, index) {
-            (JointKind::Prismatic { .. } | JointKind::Cylindrical { .. }, 0) | (JointKind::Planar { .. }, 0 | 1) => {
-                (Dual::Slides, None)
-            }
-            (JointKind::Free(_), 0..3) => (Dual::Slides, None),
-            (JointKind::Ball(Orientation::Quaternion), _) => (Dual::Turns, Some(index)),
-            (JointKind::Free(Orientation::Quaternion), _) => (Dual::Turns, Some(index - 3)),
-            _ => (Dual::Turns, None),
+        let Some(freedom) = joint.kind.freedoms.get(index) else {
+            let own = self.axis_in_link(&child, index - joint.kind.freedoms.len());
+            return Some(Dual::Turns(self.between(child.link, parent.link, own)));
         };
-        let direction = match (&joint.kind, index) {
-            (JointKind::Revolute { axis } | JointKind::Prismatic { axis } | JointKind::Screw { axis, .. }, 0)
-            | (JointKind::Cylindrical { axis }, 0 | 1) => self.along(axis, 0, Scalar::ONE),
-            (JointKind::Planar { axis }, 0..3) => self.along(axis, (index + 1) % 3, Scalar::ONE),
-            (JointKind::Universal { axes }, 0) => self.along(&axes[0], 0, Scalar::ONE),
-            (JointKind::Universal { axes }, 1) => {
-                let own = self.along(&axes[1], 0, Scalar::ONE);
-                let own = self.g.rotate(child.rotation, own);
+        let axes = self.joint_axes(joint);
+        let axis = axes[freedom.direction % 3];
+        let direction = match (freedom.motion, &joint.directions) {
+            (Motion::Slides, _) => return Some(Dual::Slides(self.direction_in(&parent, axis))),
+            (Motion::Turns, _) if joint.kind.has_angles() => {
+                self.gimbal(&[parent, child], index - joint.kind.turning().start)
+            }
+            (Motion::Turns, Directions::Crossed(_)) if index == 1 => {
+                let own = self.direction_in(&child, axis);
                 return Some(Dual::Turns(self.between(child.link, parent.link, own)));
             }
-            (JointKind::Free(_), 0..3) => self.g.along(index, Scalar::ONE),
-            (JointKind::Ball(Orientation::RollPitchYaw), 0..3) => self.gimbal(&[parent, child], index),
-            (JointKind::Free(Orientation::RollPitchYaw), 3..6) => self.gimbal(&[parent, child], index - 3),
-            _ => {
-                let own = self.axis_in_link(&child, of_child?);
-                return Some(dual(self.between(child.link, parent.link, own)));
-            }
+            (Motion::Turns, _) => self.along(axis, Scalar::ONE),
         };
-        Some(dual(self.g.rotate(parent.rotation, direction)))
+        Some(Dual::Turns(self.g.rotate(parent.rotation, direction)))
+    }
+
+    fn direction_in(&mut self, place: &Place, axis: Axis) -> Vector {
+        let along = self.along(axis, Scalar::ONE);
+        self.g.rotate(place.rotation, along)
     }
 
     /// With c the child's x axis in the parent's, the axes of roll, pitch and yaw are c, (-c_y, c_x, 0) / k and z, with

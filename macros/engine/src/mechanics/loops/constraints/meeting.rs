@@ -7,7 +7,7 @@
 
 use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::build::Place;
-use crate::model::types::{JointId, JointKind};
+use crate::model::types::JointId;
 use crate::symbolic::graph::{Scalar, Vector};
 use crate::symbolic::rotations;
 
@@ -41,7 +41,7 @@ impl Equations<'_> {
     /// The same point on the body beyond a cut joint.
     fn beyond(&mut self, point: &Place, id: JointId) -> Option<Place> {
         let cut = self.cut(id)?;
-        let kind = &self.model.joints.get(id.0)?.kind;
+        let kind = self.model.joints.get(id.0)?.kind;
         for [near, far] in [cut.ends, [cut.ends[1], cut.ends[0]]] {
             let local = match point.link == near.link {
                 true => {
@@ -53,11 +53,13 @@ impl Equations<'_> {
             };
             let parts = self.g.components(local);
             let axis = cut.aligned.first().copied();
-            let held = match kind {
-                JointKind::Fixed => true,
-                JointKind::Revolute { .. } => (0..3).all(|k| Some(k) == axis || parts[k] == Scalar::ZERO),
-                JointKind::Ball(_) | JointKind::Universal { .. } => local == Vector::ZERO,
-                _ => false,
+            // Freedoms that turn leave in place what lies on all their axes.
+            let turns = kind.slides() == 0 && !kind.has_pitch;
+            let held = match (turns, kind.freedoms()) {
+                (false, _) => false,
+                (true, 0) => true,
+                (true, 1) => (0..3).all(|k| Some(k) == axis || parts[k] == Scalar::ZERO),
+                (true, _) => local == Vector::ZERO,
             };
             if held {
                 let arm = rotations::rotate(&mut self.g, far.rotation, local);

@@ -4,8 +4,8 @@
 //! a way along an axis, `turn_x` an angle about one; axes count in the parent frame, turned so that a joint's axis is a
 //! coordinate axis.
 
-use crate::mechanics::translate::symbols::has_quaternion;
-use crate::model::types::{Closing, Coordinate, Expr, ExprNode, Joint, JointKind, Model, Place};
+use crate::model::joint_kinds::Hold;
+use crate::model::types::{Closing, Coordinate, Directions, Expr, ExprNode, Joint, Model, Place};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -32,18 +32,12 @@ pub fn row_name(model: &Model, closing: Closing, index: usize) -> String {
 /// A coordinate as the user addresses it.
 pub fn coordinate_name(model: &Model, coordinate: Coordinate) -> String {
     let Some(joint) = model.joints.get(coordinate.joint.0) else { return String::new() };
-    let turns = has_quaternion(joint);
-    let names: &[&str] = match &joint.kind {
-        JointKind::Fixed | JointKind::Revolute { .. } | JointKind::Prismatic { .. } | JointKind::Screw { .. } => &[],
-        JointKind::Cylindrical { .. } => &["travel", "angle"],
-        JointKind::Universal { .. } => &["first", "second"],
-        JointKind::Planar { .. } => &["x", "y", "angle"],
-        JointKind::Ball(_) if turns => &["turn_x", "turn_y", "turn_z"],
-        JointKind::Ball(_) => &["roll", "pitch", "yaw"],
-        JointKind::Free(_) if turns => &["x", "y", "z", "turn_x", "turn_y", "turn_z"],
-        JointKind::Free(_) => &["x", "y", "z", "roll", "pitch", "yaw"],
+    let kind = joint.kind;
+    let suffix = match kind.freedoms.get(coordinate.index) {
+        Some(_) if kind.freedoms() == 1 => String::new(),
+        Some(freedom) => format!(".{}", freedom.name),
+        None => AXES.get(coordinate.index - kind.freedoms.len()).map_or(String::new(), |axis| format!(".turn_{axis}")),
     };
-    let suffix = names.get(coordinate.index).map_or(String::new(), |name| format!(".{name}"));
     path(model, &joint.place) + &suffix
 }
 
@@ -62,31 +56,27 @@ pub(in crate::mechanics) fn path(model: &Model, place: &Place) -> String {
 }
 
 fn of_joint(joint: &Joint) -> Vec<String> {
-    let all = |what: &'static str| AXES.into_iter().map(move |axis| format!("{what}{axis}"));
-    let (gap, turns) = (|| all(""), || all("turn_"));
-    let across = |axis: &Expr| {
-        let k = coordinate_axis(axis);
-        [(k + 1) % 3, (k + 2) % 3]
+    let axes = match &joint.directions {
+        Directions::Axis(axis) => [0, 1, 2].map(|next| (coordinate_axis(axis) + next) % 3),
+        Directions::Frame | Directions::Crossed(_) => [0, 1, 2],
     };
-    let along = |axis: &Expr| across(axis).map(|k| AXES[k].to_owned()).into_iter();
-    // The child's axis moves towards one parent's axis by a turn about the other.
-    let tilts = |axis: &Expr| {
-        let [a, b] = across(axis);
-        [b, a].map(|k| format!("turn_{}", AXES[k])).into_iter()
-    };
-    // Axis k of the child against k + 1 of the parent: a turn about k + 2.
-    let orientation = || [2, 0, 1].into_iter().filter_map(move |k| turns().nth(k));
-    match &joint.kind {
-        JointKind::Free(_) => Vec::new(),
-        JointKind::Ball(_) => gap().collect(),
-        JointKind::Universal { .. } => gap().chain(["turn".to_owned()]).collect(),
-        JointKind::Revolute { axis } => gap().chain(tilts(axis)).collect(),
-        JointKind::Prismatic { axis } => along(axis).chain(orientation()).collect(),
-        JointKind::Cylindrical { axis } => along(axis).chain(tilts(axis)).collect(),
-        JointKind::Screw { axis, .. } => along(axis).chain(tilts(axis)).chain(["pitch".to_owned()]).collect(),
-        JointKind::Planar { axis } => [AXES[coordinate_axis(axis)].to_owned()].into_iter().chain(tilts(axis)).collect(),
-        JointKind::Fixed => gap().chain(orientation()).collect(),
-    }
+    let across = |direction: usize| [1, 2].map(|next| (axes[direction % 3] + next) % 3);
+    let turn = |k: usize| format!("turn_{}", AXES[k]);
+    let names = joint.kind.holds.iter().flat_map(|hold| match *hold {
+        Hold::Point => AXES.map(str::to_owned).to_vec(),
+        Hold::Line(k) => across(k).map(|k| AXES[k].to_owned()).to_vec(),
+        Hold::Plane(k) => vec![AXES[axes[k % 3]].to_owned()],
+        // The child's axis moves towards one parent's axis by a turn about the other.
+        Hold::Axis(k) => {
+            let [a, b] = across(k);
+            vec![turn(b), turn(a)]
+        }
+        Hold::Crossing => vec!["turn".to_owned()],
+        // Axis k of the child against k + 1 of the parent: a turn about k + 2.
+        Hold::Orientation => [2, 0, 1].map(turn).to_vec(),
+        Hold::Pitch => vec!["pitch".to_owned()],
+    });
+    names.collect()
 }
 
 /// The coordinate axis behind a written axis; any other axis is turned into z.

@@ -8,8 +8,8 @@ use std::collections::HashMap;
 use crate::mechanics::analysis::driven_by;
 use crate::model::checks::evaluate::{Evaluator, Value};
 use crate::model::types::{
-    BodyId, BodyRef, Closing, ConstraintKind, Coordinate, DriveTarget, Expr, ForceKind, Frame, FrameStep, JointId,
-    JointKind, Model, ParamId, SolveHow, Type,
+    BodyId, BodyRef, Closing, ConstraintKind, Coordinate, DriveTarget, Expr, ForceKind, Frame, FrameStep, Joint,
+    JointId, Model, ParamId, SolveHow, Type,
 };
 use crate::symbolic::fingerprint::mix;
 
@@ -76,7 +76,7 @@ impl<'m> Shapes<'m> {
         });
         let closed = match one.closing {
             Closing::Cut(id) => model.joints.get(id.0).map(|joint| {
-                let kind = self.kind(&joint.kind);
+                let kind = self.kind(joint);
                 let ends = [&joint.parent, &joint.child].map(|frame| self.end(frame, one.carrier));
                 format!("{} {kind} {}{:?}", ends[0], ends[1], self.on_joints[id.0])
             }),
@@ -132,7 +132,7 @@ impl<'m> Shapes<'m> {
     /// A joint and its body, wherever they stand.
     pub(super) fn link(&mut self, id: JointId) -> String {
         let Some(joint) = self.model.joints.get(id.0) else { return String::new() };
-        let kind = self.kind(&joint.kind);
+        let kind = self.kind(joint);
         let child = self.steps(&joint.child);
         let armature = joint.armature.as_ref().map(|armature| self.entries(armature));
         let marks = (0..joint.kind.freedoms()).map(|index| self.marks.get(&Coordinate { joint: id, index }));
@@ -192,18 +192,15 @@ impl<'m> Shapes<'m> {
         text + ">"
     }
 
-    fn kind(&mut self, kind: &JointKind) -> String {
-        match kind {
-            JointKind::Fixed => "fixed".to_owned(),
-            JointKind::Revolute { axis } => format!("revolute {}", self.signs(axis)),
-            JointKind::Prismatic { axis } => format!("prismatic {}", self.signs(axis)),
-            JointKind::Screw { axis, pitch } => format!("screw {} {}", self.signs(axis), self.signs(pitch)),
-            JointKind::Cylindrical { axis } => format!("cylindrical {}", self.signs(axis)),
-            JointKind::Universal { axes } => format!("universal {} {}", self.signs(&axes[0]), self.signs(&axes[1])),
-            JointKind::Planar { axis } => format!("planar {}", self.signs(axis)),
-            JointKind::Ball(orientation) => format!("ball {orientation:?}"),
-            JointKind::Free(orientation) => format!("free {orientation:?}"),
+    fn kind(&mut self, joint: &Joint) -> String {
+        let mut text = joint.kind.word.to_owned();
+        for written in joint.directions.written().into_iter().chain(&joint.pitch) {
+            text += &format!(" {}", self.signs(written));
         }
+        if let Some(orientation) = joint.kind.orientation {
+            text += &format!(" {orientation:?}");
+        }
+        text
     }
 
     /// `0` and `x` for each scalar.
