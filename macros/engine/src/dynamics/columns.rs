@@ -29,6 +29,13 @@ pub(crate) struct Columns {
     known: HashMap<Option<usize>, Turned>,
 }
 
+impl Default for Columns {
+    /// In world axes.
+    fn default() -> Self {
+        Columns::new(None, Rotation::IDENTITY)
+    }
+}
+
 impl Columns {
     pub(crate) fn new(root: Option<usize>, turn: Rotation) -> Self {
         Columns { root, turn, known: HashMap::new() }

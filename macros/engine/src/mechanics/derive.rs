@@ -14,7 +14,6 @@ mod motion;
 mod recipes;
 mod ways;
 
-use std::collections::HashMap;
 use std::rc::Rc;
 
 use crate::contracts::function::{Asked, FunctionKind};
@@ -24,12 +23,11 @@ use crate::model::types::{BodyRef, Coordinate, Joint, JointId, Model, Request};
 use crate::symbolic::graph::{Graph, Scalar};
 
 use super::analysis::{Complaint, Writings};
-use super::equations::Method;
-use super::loops::branches::Branch;
 use super::loops::constraints::Writing;
-use super::loops::known::Known;
+use super::loops::known::Decided;
 use super::loops::structure::{Role, Structure};
 use super::results::euler_singularities;
+use super::scene::Method;
 use super::strut::inverse;
 use super::translate::names;
 use super::translate::symbols::{Symbols, freedoms_of};
@@ -91,9 +89,8 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
         model,
         structure: Rc::new(structure.clone()),
         graph,
-        symbols,
-        branches: HashMap::new(),
-        known: Known::default(),
+        symbols: Rc::new(symbols),
+        decided: Decided::default(),
         writing: Writing::PLAIN,
         notes: Vec::new(),
         dead_centres: Vec::new(),
@@ -134,7 +131,16 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
         deriving.label(FunctionKind::MassMatrix, entries);
     }
     let Deriving { graph, symbols, notes, dead_centres, .. } = deriving;
-    Ok(Derivation { graph, symbols: symbols.table, symbol_names, functions, notes, dead_centres, checks, inertia })
+    Ok(Derivation {
+        graph,
+        symbols: symbols.table.clone(),
+        symbol_names,
+        functions,
+        notes,
+        dead_centres,
+        checks,
+        inertia,
+    })
 }
 
 /// What to derive, each once, in a fixed order.
@@ -161,9 +167,9 @@ struct Deriving<'m> {
     model: &'m Model,
     structure: Rc<Structure>,
     graph: Graph,
-    symbols: Symbols,
-    branches: HashMap<usize, Branch>,
-    known: Known<'m>,
+    symbols: Rc<Symbols>,
+    /// What goes from candidate to candidate with it.
+    decided: Decided<'m>,
     /// How equations of loops are written.
     writing: Writing,
     /// Sentences for the report.
@@ -180,7 +186,7 @@ impl<'m> Deriving<'m> {
     fn strut_inputs(&mut self) -> Candidates {
         let mut candidates = Vec::new();
         for at in 0..MOST_STRUT_WAYS {
-            let found = self.maybe(|e| {
+            let found = self.maybe(self.way(), |e| {
                 let reduction = e.reduce()?;
                 let Some(platform) = e.platform(&reduction) else { return Ok(None) };
                 let name = inverse::ways(&platform.carrier, platform.assumed()).get(at).map(|way| way.0);
@@ -214,11 +220,11 @@ impl<'m> Deriving<'m> {
         let (mut notes, mut centres) = (Vec::new(), Vec::new());
         let mut outcome = Ok(());
         self.only("", |e| {
-            outcome = e.reduce().and_then(|mut reduction| {
-                let verdict = e.verify(&mut reduction);
-                notes = reduction.notes;
-                centres = reduction.dead_centres.into_iter().map(|centre| centre.0).collect();
-                verdict
+            outcome = e.reduce().and_then(|reduction| {
+                notes.clone_from(&reduction.notes);
+                centres.extend(reduction.dead_centres.iter().map(|centre| centre.0));
+                notes.extend(e.verify(&reduction)?);
+                Ok(())
             });
             Ok(Vec::new())
         })?;

@@ -2,16 +2,18 @@
 //!
 //! Rooms: [`translate`] makes the tree of links and the values of expressions, [`loops`] says which coordinates follow and
 //! how, [`analysis`] decides that in numbers beforehand, `results` has one file per thing that functions give, [`strut`] the
-//! short way for bodies on struts; [`derive()`] tells which functions are made, and in which ways. [`equations`] is the
-//! state that they share.
+//! short way for bodies on struts; [`derive()`] tells which functions are made, and in which ways. [`scene`] is
+//! what a derivation is about, and [`equations`] what it has made.
 
 pub mod analysis;
 mod derive;
 pub mod equations;
 pub mod loops;
 mod results;
+pub mod scene;
 pub mod strut;
 pub mod translate;
+mod trees;
 
 pub use derive::{MOST_FREEDOMS, derive, freedoms};
 

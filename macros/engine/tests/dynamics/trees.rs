@@ -264,3 +264,26 @@ fn lowering_changes_no_value() {
         }
     });
 }
+
+/// Ways between links, against their ways from the ground.
+#[test]
+fn paths_between_links() {
+    for_trees(32, |mechanism, _| {
+        let tree = derive(&mechanism).tree;
+        let ends: Vec<Option<usize>> = (0..tree.links.len()).map(Some).chain([None]).collect();
+        let whole = |link: Option<usize>| tree.path(None, link);
+        for &a in &ends {
+            assert_eq!(whole(a).last().copied(), a);
+            let parents: Vec<Option<usize>> = whole(a).iter().map(|&link| tree.links[link].parent).collect();
+            let before: Vec<Option<usize>> = [None].into_iter().chain(whole(a).into_iter().map(Some)).collect();
+            assert!(before.starts_with(&parents));
+            for &b in &ends {
+                let shared = whole(a).into_iter().zip(whole(b)).take_while(|(x, y)| x == y).count();
+                let common = tree.common(a, b);
+                assert_eq!(whole(common), whole(a)[..shared]);
+                assert_eq!(tree.path(common, a), whole(a)[shared..]);
+                assert_eq!(tree.path(common, b), whole(b)[shared..]);
+            }
+        }
+    });
+}

@@ -3,12 +3,12 @@
 //! transposed Jacobian.
 
 use multibody_engine::contracts::symbol::Symbol;
-use multibody_engine::mechanics::equations::{Equations, Method, Style, Way};
+use multibody_engine::mechanics::equations::Equations;
 use multibody_engine::mechanics::loops::constraints::{Axes, Held, Writing, closings, row_count, row_name};
-use multibody_engine::mechanics::translate::symbols::Symbols;
+use multibody_engine::mechanics::scene::Style;
 use multibody_engine::model::types::{BodyId, BodyRef, Closing, Coordinate, JointId, Model};
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
-use multibody_engine::symbolic::graph::{Graph, Scalar, SymbolId};
+use multibody_engine::symbolic::graph::{Scalar, SymbolId};
 
 use super::support::{Random, close, model_of};
 
@@ -46,14 +46,6 @@ fn body(name: &str) -> String {
     format!("body {name} {{ mass: 1.0, inertia: diag(1.0, 1.0, 1.0) }}")
 }
 
-const WAY: Way = Way { style: Style::Nested, method: Method::Composite, axes: None, writing: Writing::PLAIN };
-
-fn equations(model: &Model) -> Equations<'_> {
-    let mut graph = Graph::new();
-    let symbols = Symbols::new(&mut graph, model);
-    Equations::new(model, graph, symbols, WAY, &[])
-}
-
 const PARENT: &str = "a.at([0.1, -0.2, 0.3]).rotated([1.0, 2.0, 2.0], 0.4)";
 const CHILD: &str = "at([0.3, 0.1, -0.4]).rotated([2.0, -1.0, 2.0], 0.7)";
 
@@ -75,7 +67,7 @@ fn a_joint_beside_itself_is_closed() {
         let closing = closings(&model)[0];
         assert_eq!(row_count(&model, closing), rows, "{kind}");
         for writing in Writing::ALL {
-            let mut e = equations(&model);
+            let mut e = Equations::plain(&model);
             let residuals = e.residuals(closing, writing);
             assert_eq!(residuals, vec![Scalar::ZERO; rows], "{kind} {rest} {writing:?}");
             let aligned = e.alignments(closing);
@@ -88,7 +80,7 @@ struct Values(std::collections::HashMap<Symbol, f64>);
 
 impl Values {
     fn of(&self, e: &Equations<'_>, list: &[Scalar]) -> Vec<f64> {
-        let symbols = |id: SymbolId| self.0[&e.symbols.table[id.0]];
+        let symbols = |id: SymbolId| self.0[&e.scene.symbols.table[id.0]];
         Evaluator::new(&e.g, Real { symbols: &symbols }).run(list)
     }
 }
@@ -113,7 +105,7 @@ fn loose(kind: &str, rest: &str, offset: &str) -> Model {
 fn draw(e: &Equations<'_>, seed: u64) -> Values {
     let mut random = Random(seed);
     let mut values: std::collections::HashMap<Symbol, f64> =
-        e.symbols.table.iter().map(|&symbol| (symbol, random.next())).collect();
+        e.scene.symbols.table.iter().map(|&symbol| (symbol, random.next())).collect();
     // `free` is joint 2, its quaternion starts at component 3.
     let key = |k: usize| Symbol::Position { joint: JointId(2), component: 3 + k };
     let norm = (0..4).map(|k| values[&key(k)].powi(2)).sum::<f64>().sqrt();
@@ -164,8 +156,8 @@ fn close_loop(e: &mut Equations<'_>, residuals: &[Scalar], values: &mut Values) 
 /// G^T lambda from the residuals' derivatives by every coordinate.
 fn transposed(e: &mut Equations<'_>, residuals: &[Scalar], multipliers: &[Scalar]) -> Vec<Scalar> {
     let mut efforts = Vec::new();
-    for joint in 0..e.symbols.velocities.len() {
-        for index in 0..e.symbols.velocities[joint].len() {
+    for joint in 0..e.scene.symbols.velocities.len() {
+        for index in 0..e.scene.symbols.velocities[joint].len() {
             let slopes = e.partial(residuals, Coordinate { joint: JointId(joint), index });
             let products: Vec<Scalar> = slopes.iter().zip(multipliers).map(|(&s, &m)| e.g.mul(s, m)).collect();
             efforts.push(-e.g.sum(&products));
@@ -180,7 +172,7 @@ fn multipliers_act_as_the_transposed_jacobian() {
         let model = loose(kind, rest, "");
         let closing = closings(&model)[0];
         for (seed, writing) in Writing::ALL.into_iter().enumerate() {
-            let mut e = equations(&model);
+            let mut e = Equations::plain(&model);
             let residuals = e.residuals(closing, writing);
             let mut values = draw(&e, seed as u64);
             close_loop(&mut e, &residuals, &mut values);
@@ -224,7 +216,7 @@ fn rods_and_expressions_are_exact() {
     let kind = ConstraintKind::Rod { between: between.clone(), length: length.clone() };
     model.constraints.push(Constraint { place, kind, drive: None, docs: docs(), span });
     for (seed, writing) in Writing::ALL.into_iter().enumerate() {
-        let mut e = equations(&model);
+        let mut e = Equations::plain(&model);
         let values = draw(&e, 100 + seed as u64);
         for k in 0..2 {
             let closing = Closing::Constraint(ConstraintId(k));
@@ -237,7 +229,7 @@ fn rods_and_expressions_are_exact() {
             // r' = G v + dr/dt
             let rates = e.residual_rates(closing, writing);
             let rate = values.of(&e, &rates)[0];
-            let velocities: Vec<Scalar> = e.symbols.velocities.concat();
+            let velocities: Vec<Scalar> = e.scene.symbols.velocities.concat();
             let v = values.of(&e, &velocities);
             let power: f64 = values.of(&e, &wanted).iter().zip(&v).map(|(f, v)| -f * v / 0.7).sum();
             let rail = Symbol::Position { joint: JointId(0), component: 0 };
@@ -252,11 +244,11 @@ fn writings_say_the_same() {
     for (kind, rest, rows) in KINDS {
         let model = loose(kind, rest, "");
         let closing = closings(&model)[0];
-        let mut e = equations(&model);
+        let mut e = Equations::plain(&model);
         let values = draw(&e, 7);
         let mut squares = Vec::new();
         for writing in Writing::ALL {
-            let mut one = equations(&model);
+            let mut one = Equations::plain(&model);
             let residuals = one.residuals(closing, writing);
             let r = values.of(&one, &residuals);
             assert_eq!(r.len(), rows);
@@ -294,10 +286,10 @@ fn planar_loops_have_absolute_angles() {
     let closing = closings(&model)[0];
     for axes in [Axes::World, Axes::Common] {
         for style in [Style::Nested, Style::World] {
-            let mut e = equations(&model);
+            let mut e = Equations::plain(&model);
             let r = e.residuals(closing, Writing { axes, style });
             assert_eq!(&r[2..], &[Scalar::ZERO; 3], "{axes:?} {style:?}");
-            let [a, b, c] = [0, 1, 2].map(|k| e.symbols.positions[k][0]);
+            let [a, b, c] = [0, 1, 2].map(|k| e.scene.symbols.positions[k][0]);
             let sum = e.g.add(a, b);
             let cosines = [a, sum, c].map(|angle| e.g.cos(angle));
             let two = e.g.integer(2);
@@ -319,7 +311,7 @@ fn planar_loops_have_absolute_angles() {
 fn second_derivatives_follow_the_motion() {
     let model = loose("Universal", ", axes: [X, Y]", "");
     let closing = closings(&model)[0];
-    let mut e = equations(&model);
+    let mut e = Equations::plain(&model);
     let residuals = e.residuals(closing, Writing::PLAIN);
     let [first, second] = e.time_derivatives(&residuals);
     let mut values = draw(&e, 3);
@@ -327,14 +319,14 @@ fn second_derivatives_follow_the_motion() {
     let at = |values: &Values, e: &Equations<'_>, h: f64| {
         let mut moved = values.0.clone();
         for joint in 0..3 {
-            let straight = e.symbols.positions[joint].len() - if joint == 2 { 4 } else { 0 };
+            let straight = e.scene.symbols.positions[joint].len() - if joint == 2 { 4 } else { 0 };
             let v = |k: usize| values.0[&Symbol::Velocity { joint: JointId(joint), component: k }];
             let a = |k: usize| values.0[&Symbol::Acceleration { joint: JointId(joint), component: k }];
             for component in 0..straight {
                 let q = Symbol::Position { joint: JointId(joint), component };
                 *moved.get_mut(&q).expect("known") += h * v(component) + 0.5 * h * h * a(component);
             }
-            for component in 0..e.symbols.velocities[joint].len() {
+            for component in 0..e.scene.symbols.velocities[joint].len() {
                 let key = Symbol::Velocity { joint: JointId(joint), component };
                 *moved.get_mut(&key).expect("known") += h * a(component);
             }
@@ -370,11 +362,11 @@ fn a_leg_costs_what_it_should() {
         let model = model_of(&text);
         let closing = closings(&model)[0];
         for (axes, most) in [(Axes::Parent, [11, 12, 2]), (Axes::ParentBase, [9, 8, 2])] {
-            let mut e = equations(&model);
+            let mut e = Equations::plain(&model);
             let residuals = e.residuals(closing, Writing { axes, style: Style::Nested });
-            let symbol_names = (0..e.symbols.table.len()).map(|k| format!("s{k}")).collect();
+            let symbol_names = (0..e.scene.symbols.table.len()).map(|k| format!("s{k}")).collect();
             let derivation = Derivation {
-                symbols: e.symbols.table.clone(),
+                symbols: e.scene.symbols.table.clone(),
                 graph: e.g,
                 symbol_names,
                 functions: vec![Derived { kind: FunctionKind::Constraints, candidates: vec![("one", residuals)] }],

@@ -9,11 +9,11 @@ use std::collections::HashSet;
 use crate::contracts::symbol::Symbol;
 use crate::mechanics::loops::constraints::Writing;
 use crate::mechanics::loops::constraints::turns::Turns;
-use crate::mechanics::translate::symbols::{Symbols, has_quaternion};
+use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::types::{Closing, ConstraintId, ConstraintKind, Coordinate, Model};
-use crate::symbolic::graph::{Graph, ScalarNode};
+use crate::symbolic::graph::ScalarNode;
 
-use super::super::equations::{Equations, Method, Style, Way};
+use super::super::equations::Equations;
 
 /// A constraint that is linear in the coordinates.
 pub(super) struct Coupling {
@@ -36,10 +36,7 @@ pub(super) fn couplings(model: &Model) -> Vec<Coupling> {
     if !(0..model.constraints.len()).any(value) {
         return Vec::new();
     }
-    let mut graph = Graph::new();
-    let symbols = Symbols::new(&mut graph, model);
-    let way = Way { style: Style::Nested, method: Method::Composite, axes: None, writing: Writing::PLAIN };
-    let mut e = Equations::new(model, graph, symbols, way, &[]);
+    let mut e = Equations::plain(model);
     (0..model.constraints.len())
         .filter(|&k| value(k))
         .filter_map(|k| coupling(&mut e, model, ConstraintId(k)))
@@ -76,7 +73,7 @@ fn coupling(e: &mut Equations<'_>, model: &Model, constraint: ConstraintId) -> O
 fn positions(e: &Equations<'_>, s: crate::symbolic::graph::Scalar) -> Vec<(crate::model::types::JointId, usize)> {
     let reachable = e.g.reachable_scalars(&[s]);
     let symbol = |index: usize| match e.g.node(e.g.scalar_at(index)) {
-        ScalarNode::Symbol(id) => match e.symbols.table.get(id.0) {
+        ScalarNode::Symbol(id) => match e.scene.symbols.table.get(id.0) {
             Some(&Symbol::Position { joint, component }) => Some((joint, component)),
             _ => None,
         },

@@ -11,7 +11,6 @@ use crate::mechanics::loops::constraints::Writing;
 use crate::mechanics::loops::structure::Row;
 use crate::model::types::{Closing, Coordinate, Model};
 
-use super::super::equations::{Method, Style, Way};
 use super::measure::{Gap, Measure};
 use super::tape::{Tape, Values};
 use formulation::formulate;
@@ -113,9 +112,6 @@ pub(super) struct Linearised {
     /// (column, entry)
     pub rows: Vec<Vec<(usize, f64)>>,
 }
-
-pub(super) const WAY: Way =
-    Way { style: Style::Nested, method: Method::Composite, axes: None, writing: Writing::PLAIN };
 
 impl Problem {
     pub(super) fn new(model: &Model) -> Problem {

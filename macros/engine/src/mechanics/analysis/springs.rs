@@ -5,15 +5,14 @@
 //! rounding leaves of its length would give it one.
 
 use crate::mechanics::loops::structure::Structure;
-use crate::mechanics::translate::symbols::Symbols;
 use crate::model::site::Sited;
 use crate::model::types::{ForceId, ForceKind, Model};
-use crate::symbolic::graph::{Graph, Scalar};
+use crate::symbolic::graph::Scalar;
 use crate::symbolic::lower::Lowering;
 
 use super::super::equations::Equations;
 use super::Complaint;
-use super::problem::{Problem, WAY};
+use super::problem::Problem;
 use super::tape::{Tape, Values};
 
 /// A way up to this share of the mechanism's size is what closed loops leave.
@@ -21,8 +20,6 @@ const NO_WAY: f64 = 1e-9;
 
 /// Springs whose ends joints hold together.
 pub(super) fn meeting(model: &Model, problem: &Problem, structure: &Structure) -> Result<Vec<ForceId>, Vec<Complaint>> {
-    let mut graph = Graph::new();
-    let symbols = Symbols::new(&mut graph, model);
     let lines = model.forces.iter().enumerate().filter_map(|(number, force)| match &force.kind {
         ForceKind::LineSpring { between, damping, length, .. } => Some((ForceId(number), between, [damping, length])),
         _ => None,
@@ -31,7 +28,7 @@ pub(super) fn meeting(model: &Model, problem: &Problem, structure: &Structure) -
     if lines.is_empty() {
         return Ok(Vec::new());
     }
-    let mut e = Equations::new(model, graph, symbols, WAY, &[]);
+    let mut e = Equations::plain(model);
     let (mut held, mut open, mut roots) = (Vec::new(), Vec::new(), Vec::new());
     for (id, between, [damping, length]) in lines {
         let ends = between.each_ref().map(|frame| e.place(frame));

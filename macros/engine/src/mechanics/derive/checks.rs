@@ -51,7 +51,7 @@ impl Equations<'_> {
         let mut tests = self.tests_of_loops(reduction);
         tests.extend(self.tests_of_masses(reduction));
         let place = self.default_position();
-        let parameters = self.symbols.parameters();
+        let parameters = self.scene.symbols.parameters();
         let others: Vec<Scalar> = self.other_symbols();
         for test in &mut tests {
             let put = self.finish(reduction, &test.values);
@@ -67,9 +67,9 @@ impl Equations<'_> {
 
     /// With the declared parameters.
     fn passes(&self, test: &Test) -> bool {
-        let value = |id: SymbolId| match self.symbols.table.get(id.0) {
+        let value = |id: SymbolId| match self.scene.symbols.table.get(id.0) {
             Some(&Symbol::Param { param, element }) => {
-                let param = self.model.params.get(param.0);
+                let param = self.scene.model.params.get(param.0);
                 param.and_then(|param| param.default.get(element)).copied().unwrap_or(0.0)
             }
             _ => 0.0,
@@ -87,8 +87,8 @@ impl Equations<'_> {
     fn default_position(&self) -> Map {
         let mut map = Map::new();
         let mut set = |s: Scalar, value: Scalar| map.extend(self.g.symbol_id(s).map(|id| (id, value)));
-        set(self.symbols.time, Scalar::ZERO);
-        for (joint, list) in self.model.joints.iter().zip(&self.symbols.positions) {
+        set(self.scene.symbols.time, Scalar::ZERO);
+        for (joint, list) in self.scene.model.joints.iter().zip(&self.scene.symbols.positions) {
             let straight = if has_quaternion(joint) { joint.kind.freedoms() - 3 } else { joint.kind.freedoms() };
             for (component, &symbol) in list.iter().enumerate() {
                 let turns = has_quaternion(joint) && component == straight;
@@ -100,7 +100,7 @@ impl Equations<'_> {
 
     /// All symbols but parameters.
     fn other_symbols(&self) -> Vec<Scalar> {
-        let symbols = &self.symbols;
+        let symbols = &self.scene.symbols;
         let mut list: Vec<Scalar> = vec![symbols.time];
         list.extend(symbols.inputs.iter().flatten().chain(&symbols.states));
         for lists in [&symbols.positions, &symbols.velocities, &symbols.accelerations] {
@@ -110,8 +110,8 @@ impl Equations<'_> {
     }
 
     fn tests_of_loops(&mut self, reduction: &Reduction) -> Vec<Test> {
-        let model = self.model;
-        let structure = std::rc::Rc::clone(&self.structure);
+        let model = self.scene.model;
+        let structure = std::rc::Rc::clone(&self.scene.structure);
         let message = |row: Row| unfit(&row_name(model, row.closing, row.index));
         let mut tests = Vec::new();
         for (&row, residual) in structure.granted.iter().zip(self.granted_residuals()) {
@@ -158,17 +158,17 @@ impl Equations<'_> {
 
     /// The pivots of the mass matrix, from the tips to the root.
     fn tests_of_masses(&mut self, reduction: &Reduction) -> Vec<Test> {
-        let model = self.model;
+        let model = self.scene.model;
         let state: Vec<Coordinate> = match self.is_constrained() {
             // With multipliers a coordinate may rest on its constraints alone.
             true => return Vec::new(),
-            false => self.structure.state.clone(),
+            false => self.scene.structure.state.clone(),
         };
-        let all = self.structure.roles.iter().flatten().all(|&role| role == Role::State);
+        let all = self.scene.structure.roles.iter().flatten().all(|&role| role == Role::State);
         if state.is_empty() || state.len() > MOST_TESTED {
             return Vec::new();
         }
-        let matrix = if all && self.structure.steps.is_empty() {
+        let matrix = if all && self.scene.structure.steps.is_empty() {
             let entries = self.mass_matrix();
             let size: usize = (0..model.joints.len()).map(|k| freedoms_of(model, JointId(k), &model.joints[k])).sum();
             entries.chunks(size.max(1)).map(<[Scalar]>::to_vec).collect()

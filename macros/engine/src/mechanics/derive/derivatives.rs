@@ -3,9 +3,10 @@
 //! In: what the model asks for. Out: candidates for the derivatives of forward and inverse dynamics.
 
 use crate::mechanics::analysis::Complaint;
-use crate::mechanics::equations::{Equations, Method};
+use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::results::linearisation::Accumulation;
+use crate::mechanics::scene::Method;
 use crate::symbolic::graph::Scalar;
 
 use super::{Candidate, Deriving};

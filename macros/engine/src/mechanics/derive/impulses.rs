@@ -3,10 +3,11 @@
 //! In: what the model asks for. Out: candidates, or complaints about mechanisms whose equations these functions can't hold.
 
 use crate::mechanics::analysis::Complaint;
-use crate::mechanics::equations::{Equations, Method, Style, Way};
+use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::constraints::path;
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::results::momentum::Weight;
+use crate::mechanics::scene::{Method, Way};
 use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::site::Sited;
 use crate::model::types::{Coordinate, Request};
@@ -111,7 +112,7 @@ impl Deriving<'_> {
     }
 
     fn floating(&self) -> Way {
-        Way { style: Style::Nested, method: Method::Floating, axes: None, writing: self.writing }
+        Way { method: Method::Floating, ..self.way() }
     }
 
     /// M v

@@ -58,7 +58,7 @@ impl Equations<'_> {
     /// Whether no motion is without energy, by literals alone: every joint moves a body that resists in all directions,
     /// or has an armature, so all is at rest where the energy is zero. Roll, pitch and yaw may move while a body rests.
     fn is_never_singular(&mut self) -> bool {
-        let model = self.model;
+        let model = self.scene.model;
         let resists: Vec<Option<bool>> = model.bodies.iter().map(|body| self.resists(body)).collect();
         resists.iter().all(Option::is_some)
             && model.joints.iter().all(|joint| {

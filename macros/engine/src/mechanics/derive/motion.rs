@@ -5,8 +5,9 @@
 use std::rc::Rc;
 
 use crate::mechanics::analysis::Complaint;
-use crate::mechanics::equations::{Equations, Method, Style, Way};
+use crate::mechanics::equations::Equations;
 use crate::mechanics::results::constrained::Solved;
+use crate::mechanics::scene::{Method, Style, Way};
 use crate::mechanics::strut::forward;
 use crate::mechanics::translate::dependencies::Dependencies;
 use crate::mechanics::translate::values::width;
@@ -37,7 +38,7 @@ impl<'m> Deriving<'m> {
         }
         if floats(model) && freedoms(model) <= MOST_COMPOSITE {
             let name = "composite rigid body, LDL^T, translations first";
-            let way = Way { style: Style::Nested, method: Method::Floating, axes: None, writing: self.writing };
+            let way = Way { method: Method::Floating, ..self.way() };
             candidates.extend(self.candidate(name, way, &kept, &mut { all })?);
         }
         Ok(candidates)
@@ -63,7 +64,7 @@ impl<'m> Deriving<'m> {
         };
         let mut candidates = self.in_all_axes(&METHODS[0].1, Method::Composite, &kept, all)?;
         for at in 0..MOST_STRUT_WAYS {
-            let found = self.maybe(|e| {
+            let found = self.maybe(self.way(), |e| {
                 let reduction = e.reduce()?;
                 let Some(platform) = e.platform(&reduction) else { return Ok(None) };
                 let name = forward::ways(&platform.carrier).get(at).map(|way| way.0);
@@ -78,7 +79,7 @@ impl<'m> Deriving<'m> {
         }
         if floats(model) {
             let name = "composite rigid body, LDL^T, translations first";
-            let way = Way { style: Style::Nested, method: Method::Floating, axes: None, writing: self.writing };
+            let way = Way { method: Method::Floating, ..self.way() };
             candidates.extend(self.candidate(name, way, &kept, &mut { all })?);
         }
         Ok(candidates)
@@ -90,8 +91,8 @@ impl<'m> Deriving<'m> {
         let structure = self.structure.solved(self.model);
         let before = std::mem::replace(&mut self.structure, Rc::new(structure));
         let found = self.only("closed form", |e| {
-            let mut reduction = e.reduce()?;
-            e.verify(&mut reduction)?;
+            let reduction = e.reduce()?;
+            e.verify(&reduction)?;
             e.kinematics(wanted, &reduction)
         });
         self.structure = before;
@@ -121,10 +122,9 @@ impl<'m> Deriving<'m> {
             if open {
                 return flat(equations);
             }
-            let reduction = Rc::new(equations.reduce()?);
-            equations.reduction = Some(Rc::clone(&reduction));
+            let reduction = equations.reduce()?;
             let results = flat(equations)?;
-            match equations.solved.clone() {
+            match equations.solved() {
                 Some(solved) => Ok(equations.put_in_all(&reduction, &solved, &results)),
                 None => Ok(equations.finish(&reduction, &results)),
             }
@@ -145,12 +145,7 @@ impl<'m> Deriving<'m> {
         }
         let mut candidates = Vec::new();
         for (style, method, name) in ways {
-            candidates.extend(self.candidate(
-                name,
-                Way { style, method, axes: None, writing: self.writing },
-                &kept,
-                &mut all,
-            )?);
+            candidates.extend(self.candidate(name, Way { style, method, ..self.way() }, &kept, &mut all)?);
         }
         Ok(candidates)
     }

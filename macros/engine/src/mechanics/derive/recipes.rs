@@ -6,8 +6,9 @@
 use crate::contracts::function::FunctionKind;
 use crate::dynamics::shared_axes::Axes;
 use crate::mechanics::equations::Equations;
-use crate::mechanics::loops::reduction::Reduction;
+use crate::mechanics::loops::reduction::{Newton, Reduction};
 use crate::mechanics::results::euler_singularities;
+use crate::mechanics::translate::forces::LoadCase;
 use crate::symbolic::graph::Scalar;
 
 use super::{AXES, COMPOSITE, Candidates, Deriving, Found, NEWTON_EULER, Names};
@@ -58,12 +59,17 @@ fn recipe(kind: FunctionKind, solves_inputs: bool) -> Recipe {
             const { &[Reduced(NEWTON_EULER, |e, r| e.actuate(r)), Chosen(|d, _| d.strut_inputs())] },
         ),
         F::InverseDynamics => (
-            const { &[InAxes(NEWTON_EULER, |e| Ok(e.inverse_dynamics())), Lumped(|e| Ok(e.inverse_dynamics()))] },
-            const { &[Reduced(NEWTON_EULER, |e, r| Ok(e.reduced_efforts(r, true)))] },
+            const {
+                &[
+                    InAxes(NEWTON_EULER, |e| Ok(e.inverse_dynamics(LoadCase::Declared))),
+                    Lumped(|e| Ok(e.inverse_dynamics(LoadCase::Declared))),
+                ]
+            },
+            const { &[Reduced(NEWTON_EULER, |e, r| Ok(e.reduced_efforts(r, LoadCase::Declared)))] },
         ),
         F::Bias => (
             const { &[InAxes(NEWTON_EULER, |e| Ok(e.bias())), Lumped(|e| Ok(e.bias()))] },
-            const { &[Reduced(NEWTON_EULER, |e, r| Ok(e.reduced_efforts(r, false)))] },
+            const { &[Reduced(NEWTON_EULER, |e, r| Ok(e.reduced_bias(r)))] },
         ),
         F::MassMatrix => (
             const { &[InAxes(COMPOSITE, |e| Ok(e.mass_matrix()))] },
@@ -81,7 +87,7 @@ fn recipe(kind: FunctionKind, solves_inputs: bool) -> Recipe {
         F::ConstraintRate => (NONE, const { &[Written(WITHOUT_CHOICE, |e, r| e.constraint_rate(r))] }),
         F::ConstraintBias => (NONE, const { &[Written(WITHOUT_CHOICE, |e, r| e.constraint_bias(r))] }),
         F::Residual => (
-            const { &[InAxes(NEWTON_EULER, |e| Ok(e.inverse_dynamics()))] },
+            const { &[InAxes(NEWTON_EULER, |e| Ok(e.inverse_dynamics(LoadCase::Declared)))] },
             const { &[Written(&AXES, |e, r| e.residual(r)), Lumped(residual)] },
         ),
         F::Kinematics(_) => (const { &[Chosen(kinematics)] }, const { &[Chosen(kinematics)] }),
@@ -143,20 +149,18 @@ fn dead_centres(e: &mut Equations<'_>, reduction: &Reduction) -> Found {
 
 /// Cosines of the pitches that may stand at a right angle.
 fn pitches(e: &mut Equations<'_>) -> Vec<Scalar> {
-    let pitches = euler_singularities::pitches(e.model, &e.structure);
-    euler_singularities::cosines(&mut e.g, &e.symbols, &pitches)
+    let pitches = euler_singularities::pitches(e.scene.model, &e.scene.structure);
+    euler_singularities::cosines(&mut e.g, &e.scene.symbols, &pitches)
 }
 
 fn margins(e: &mut Equations<'_>) -> Found {
-    e.at_guess = true;
-    let reduction = e.reduce()?;
+    let reduction = e.reduce_by(Newton::AtGuess)?;
     Ok(e.margins(&reduction))
 }
 
 /// What equations leave that were left out for the declared parameters.
 fn granted(e: &mut Equations<'_>) -> Found {
-    e.at_guess = true;
-    let reduction = e.reduce()?;
+    let reduction = e.reduce_by(Newton::AtGuess)?;
     Ok(e.granted(&reduction))
 }
 

@@ -8,9 +8,10 @@ use std::rc::Rc;
 use crate::dynamics::lumped;
 use crate::dynamics::shared_axes::Axes;
 use crate::mechanics::analysis::Complaint;
-use crate::mechanics::equations::{Equations, Method, Style, Way};
+use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::constraints;
 use crate::mechanics::loops::reduction::Reduction;
+use crate::mechanics::scene::{Method, Scene, Way};
 use crate::mechanics::translate::symbols::Symbols;
 use crate::model::types::JointId;
 use crate::symbolic::graph::{Graph, Rotation, Scalar};
@@ -33,9 +34,8 @@ impl<'m> Deriving<'m> {
         &mut self,
         mut f: impl FnMut(&mut Equations<'m>) -> Found,
     ) -> Result<Option<Candidate>, Vec<Complaint>> {
-        self.maybe(|e| {
-            e.lumped = true;
-            if !lumped::differs(&e.mechanism.tree) {
+        self.maybe(Way { lumped: true, ..self.way() }, |e| {
+            if !lumped::differs(&e.scene.mechanism.tree) {
                 return Ok(None);
             }
             Ok(Some((LUMPED, f(e)?)))
@@ -65,12 +65,7 @@ impl<'m> Deriving<'m> {
         let ways = if freedoms(self.model) > MOST_COMPOSITE { 1 } else { AXES.len() };
         let mut candidates = Vec::new();
         for (axes, &name) in AXES.into_iter().zip(names).take(ways) {
-            candidates.extend(self.candidate(
-                name,
-                Way { style: Style::Nested, method, axes, writing: self.writing },
-                kept,
-                &mut f,
-            )?);
+            candidates.extend(self.candidate(name, Way { method, axes, ..self.way() }, kept, &mut f)?);
         }
         Ok(candidates)
     }
@@ -81,22 +76,27 @@ impl<'m> Deriving<'m> {
         name: &'static str,
         mut f: impl FnMut(&mut Equations<'m>) -> Found,
     ) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        let way = Way { style: Style::Nested, method: Method::Composite, axes: None, writing: self.writing };
-        Ok(self.candidate(name, way, &[], &mut f)?.into_iter().collect())
+        Ok(self.candidate(name, self.way(), &[], &mut f)?.into_iter().collect())
+    }
+
+    /// Where there is nothing to choose but the axes in which loops are closed.
+    pub(super) fn way(&self) -> Way {
+        Way { writing: self.writing, ..Way::PLAIN }
     }
 
     /// A way that is there for some models only, with its name.
     pub(super) fn maybe(
         &mut self,
+        way: Way,
         mut f: impl FnMut(&mut Equations<'m>) -> Result<Option<Candidate>, Vec<Complaint>>,
     ) -> Result<Option<Candidate>, Vec<Complaint>> {
         let mut name = None;
-        let found = self.only("", |e| {
+        let found = self.candidate("", way, &[], &mut |e| {
             let candidate = f(e)?;
             name = candidate.as_ref().map(|candidate| candidate.0);
             Ok(candidate.map(|candidate| candidate.1).unwrap_or_default())
         })?;
-        Ok(found.into_iter().next().and_then(|(_, results)| Some((name?, results))))
+        Ok(found.and_then(|(_, results)| Some((name?, results))))
     }
 
     /// Equations of loops, as they are written in the whole model.
@@ -115,7 +115,7 @@ impl<'m> Deriving<'m> {
                 constraints::Axes::ParentBase => "loops in the axes in which the parent's side stands",
                 constraints::Axes::ChildBase => "loops in the axes in which the child's side stands",
             };
-            let way = Way { style: Style::Nested, method: Method::Composite, axes, writing: self.writing };
+            let way = Way { axes, ..self.way() };
             let found = self.candidate(name, way, &[], &mut |e: &mut Equations<'m>| {
                 let reduction = e.reduce()?;
                 Ok(f(e, &reduction))
@@ -165,22 +165,28 @@ impl<'m> Deriving<'m> {
     ) -> Result<Option<Candidate>, Vec<Complaint>> {
         let mut graph = std::mem::take(&mut self.graph);
         graph.forget();
-        let mut equations = Equations::new(self.model, graph, self.symbols.clone(), way, kept);
-        equations.structure = Rc::clone(&self.structure);
-        equations.branches = std::mem::take(&mut self.branches);
-        equations.known = std::mem::take(&mut self.known);
+        let scene = Scene {
+            structure: Rc::clone(&self.structure),
+            way,
+            kept: kept.into(),
+            ..Scene::new(self.model, Rc::clone(&self.symbols))
+        };
+        let mut equations = Equations::new(graph, scene);
+        equations.decided = std::mem::take(&mut self.decided);
         let exists = way.axes.is_none() || equations.shared().turns.iter().any(|&turn| turn != Rotation::IDENTITY);
         let results = if exists { f(&mut equations) } else { Ok(Vec::new()) };
         let unfinished = |g: &Graph, results: &[Scalar]| results.iter().any(|&root| Symbols::is_unfinished(g, root));
         // Nodes are found by value: what is made after definitions were put in may come out as an older node, in which a
         // coordinate outside the state stands and cancels. Put in once more, it goes.
         let results = results.map(|results| {
-            let (g, defined) = (&mut equations.g, &equations.defined);
-            if !defined.is_empty() && unfinished(g, &results) { g.substitute(&results, defined) } else { results }
+            let g = &mut equations.g;
+            match &equations.reduced {
+                Some(reduction) if unfinished(g, &results) => g.substitute(&results, &reduction.map),
+                _ => results,
+            }
         });
         self.graph = equations.g;
-        self.branches = equations.branches;
-        self.known = equations.known;
+        self.decided = equations.decided;
         let results = results?;
         // A net: what a way has left unreplaced has no place in the generated structs.
         let finished = !unfinished(&self.graph, &results);

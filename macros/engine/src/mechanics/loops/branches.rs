@@ -42,12 +42,27 @@ const MOST_TOGETHER: usize = 3;
 
 /// How a loop is solved: the plan, the signs of its roots with the declared parameters, and what other parameters change.
 #[derive(Clone)]
-pub(in crate::mechanics) struct Branch {
-    pub plan: Plan,
+struct Branch {
+    plan: Plan,
     signs: Vec<bool>,
     stages: Vec<Stage>,
     /// Conditions that no root decides.
     guards: Vec<usize>,
+}
+
+/// How loops are solved, by `solve` item: decided once.
+#[derive(Clone, Default)]
+pub(in crate::mechanics) struct Branches(HashMap<usize, Branch>);
+
+impl Branches {
+    pub(super) fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether parameters change nothing about how an item's loop is solved.
+    pub(in crate::mechanics) fn is_fixed(&self, item: usize) -> bool {
+        self.0.get(&item).is_some_and(Branch::is_fixed)
+    }
 }
 
 /// Roots whose signs are chosen at run time, by conditions, all by number.
@@ -66,7 +81,7 @@ struct Candidate {
 
 impl Branch {
     /// Whether parameters may change what is chosen.
-    pub(in crate::mechanics) fn is_fixed(&self) -> bool {
+    fn is_fixed(&self) -> bool {
         self.stages.is_empty() && self.guards.is_empty()
     }
 }
@@ -78,11 +93,11 @@ impl Equations<'_> {
         number: usize,
         reduction: &Reduction,
     ) -> Result<Vec<(Coordinate, Solved)>, Vec<Complaint>> {
-        let model = self.model;
+        let model = self.scene.model;
         let Some(item) = model.solves.get(number) else { return Ok(Vec::new()) };
         let SolveHow::From { closing, branches } = &item.how else { return Ok(Vec::new()) };
         let cycle = self.cycle(*closing, item);
-        if let Some(branch) = self.branches.get(&number).cloned() {
+        if let Some(branch) = self.decided.branches.0.get(&number).cloned() {
             return self.on_branch(item, &cycle, &branch, branches, reduction);
         }
         let plan = match self.plan_alike(*closing, &cycle) {
@@ -101,15 +116,15 @@ impl Equations<'_> {
         let conditions: Vec<Scalar> = branches.iter().map(|condition| self.scalar(condition)).collect();
         let branch = self.choose(item, plan, solutions, &conditions, reduction)?;
         let found = self.on_branch(item, &cycle, &branch, branches, reduction);
-        self.branches.insert(number, branch);
+        self.decided.branches.0.insert(number, branch);
         found
     }
 
     /// The plan of a loop that is identical up to parameters, if it turns out to serve here.
     fn plan_alike(&self, closing: Closing, cycle: &Cycle) -> Option<Plan> {
-        let group = self.structure.groups.iter().find(|group| group.closings.contains(&closing))?;
-        let known = self.model.solves.iter().enumerate().filter_map(|(number, solve)| match &solve.how {
-            SolveHow::From { closing, .. } if group.closings.contains(closing) => self.branches.get(&number),
+        let group = self.scene.structure.groups.iter().find(|group| group.closings.contains(&closing))?;
+        let known = self.scene.model.solves.iter().enumerate().filter_map(|(number, solve)| match &solve.how {
+            SolveHow::From { closing, .. } if group.closings.contains(closing) => self.decided.branches.0.get(&number),
             _ => None,
         });
         known.into_iter().find_map(|branch| branch.plan.adapted(&self.g, cycle))
@@ -327,7 +342,7 @@ impl Equations<'_> {
     ) -> Branch {
         let chosen = &candidates[only];
         let count = chosen.signs.len();
-        let parameters: Vec<Scalar> = self.symbols.parameters();
+        let parameters: Vec<Scalar> = self.scene.symbols.parameters();
         let open = |&k: &usize| {
             let condition = chosen.conditions[k];
             if !self.g.depends_on(condition, &parameters) {
@@ -383,7 +398,7 @@ impl Equations<'_> {
         let texts = solutions.map(|row| {
             let values = item.unknowns.iter().zip(row);
             let texts: Vec<String> = values
-                .map(|(&unknown, value)| format!("{} = {value:.3}", coordinate_name(self.model, unknown)))
+                .map(|(&unknown, value)| format!("{} = {value:.3}", coordinate_name(self.scene.model, unknown)))
                 .collect();
             format!("({})", texts.join(", "))
         });
@@ -393,7 +408,7 @@ impl Equations<'_> {
     /// Values at configurations where all are real and all that the user assumes is so. `map` gives the coordinates
     /// outside the state that assumptions may speak of.
     pub(in crate::mechanics) fn samples(&mut self, roots: &[Scalar], map: &Map) -> Vec<Vec<f64>> {
-        let model = self.model;
+        let model = self.scene.model;
         let assumed: Vec<Scalar> = model.assumptions.iter().map(|condition| self.scalar(condition)).collect();
         let mut all = self.g.substitute(&assumed, map);
         let count = all.len();
@@ -418,13 +433,13 @@ impl Equations<'_> {
     /// A random value of a symbol; parameters have their defaults.
     fn sample(&self, id: SymbolId, draw: u64, scale: f64) -> f64 {
         let random = 2.0 * unit(draw, id.0 as u64 + 1) - 1.0;
-        match self.symbols.table.get(id.0) {
+        match self.scene.symbols.table.get(id.0) {
             Some(&Symbol::Param { param, element }) => {
-                let param = self.model.params.get(param.0);
+                let param = self.scene.model.params.get(param.0);
                 param.and_then(|param| param.default.get(element)).copied().unwrap_or(0.0)
             }
             Some(&Symbol::Position { joint, component }) => {
-                let joint = self.model.joints.get(joint.0);
+                let joint = self.scene.model.joints.get(joint.0);
                 let length = joint.is_some_and(|joint| joint.kind.is_slide(component));
                 if length { scale * random } else { std::f64::consts::PI * random }
             }

@@ -35,11 +35,11 @@ mod view;
 mod winding;
 mod wrenches;
 
-use crate::mechanics::equations::{Equations, Method, Style, Way};
-use crate::mechanics::translate::symbols::Symbols;
+use crate::mechanics::equations::Equations;
+use crate::mechanics::scene::Style;
 use crate::model::joint_kinds::Hold;
 use crate::model::types::{Closing, ConstraintId, ConstraintKind, JointId, Model};
-use crate::symbolic::graph::{Graph, Scalar};
+use crate::symbolic::graph::Scalar;
 
 pub(in crate::mechanics) use names::path;
 pub use names::{coordinate_name, row_name, unfit};
@@ -127,10 +127,7 @@ pub(in crate::mechanics) fn is_uncounted(model: &Model, joint: JointId) -> bool 
     if !model.joints.get(joint.0).is_some_and(|joint| joint.kind.has_pitch) {
         return false;
     }
-    let mut graph = Graph::new();
-    let symbols = Symbols::new(&mut graph, model);
-    let way = Way { style: Style::Nested, method: Method::Composite, axes: None, writing: Writing::PLAIN };
-    Equations::new(model, graph, symbols, way, &[]).turns_unknown(joint)
+    Equations::plain(model).turns_unknown(joint)
 }
 
 impl Equations<'_> {
@@ -139,7 +136,7 @@ impl Equations<'_> {
         match closing {
             Closing::Cut(joint) => self.cut(joint).map_or_else(Vec::new, |cut| self.cut_residuals(&cut, writing)),
             Closing::Constraint(id) => {
-                let model = self.model;
+                let model = self.scene.model;
                 let Some(constraint) = model.constraints.get(id.0) else { return Vec::new() };
                 match &constraint.kind {
                     ConstraintKind::Value(_) => vec![self.expression_residual(id)],

@@ -17,7 +17,7 @@ use super::reduction::Reduction;
 impl Equations<'_> {
     /// Definitions of all driven coordinates.
     pub(in crate::mechanics) fn drive(&mut self, reduction: &mut Reduction) {
-        let model = self.model;
+        let model = self.scene.model;
         for Drive { target, value, .. } in &model.drives {
             match *target {
                 DriveTarget::Coordinate(coordinate) => {
@@ -64,11 +64,11 @@ impl Equations<'_> {
     }
 
     fn follow_orientation(&mut self, joint: JointId, rows: &[[Scalar; 3]; 3], reduction: &mut Reduction) {
-        let positions = Symbols::of(&self.symbols.positions, joint).to_vec();
-        let velocities = Symbols::of(&self.symbols.velocities, joint).to_vec();
-        let accelerations = Symbols::of(&self.symbols.accelerations, joint).to_vec();
+        let positions = Symbols::of(&self.scene.symbols.positions, joint).to_vec();
+        let velocities = Symbols::of(&self.scene.symbols.velocities, joint).to_vec();
+        let accelerations = Symbols::of(&self.scene.symbols.accelerations, joint).to_vec();
         let first = velocities.len().saturating_sub(3);
-        if !self.model.joints.get(joint.0).is_some_and(has_quaternion) {
+        if !self.scene.model.joints.get(joint.0).is_some_and(has_quaternion) {
             for (k, angle) in self.roll_pitch_yaw(rows).into_iter().enumerate() {
                 self.follow(Coordinate { joint, index: first + k }, angle, reduction);
             }
@@ -103,6 +103,6 @@ impl Equations<'_> {
     }
 
     fn by_time(&mut self, s: Scalar) -> Scalar {
-        Differentiator::new(&[(self.symbols.time, Scalar::ONE)]).scalar(&mut self.g, s)
+        Differentiator::new(&[(self.scene.symbols.time, Scalar::ONE)]).scalar(&mut self.g, s)
     }
 }

@@ -1,4 +1,4 @@
-//! Stage `mechanics`: reductions that are known.
+//! Stage `mechanics`: what is decided once for all derivations of a model.
 //!
 //! In: an [`Equations`] to which nothing was added yet. Out: the same after [`Equations::reduce`], from a copy where one of
 //! the same way is known. The functions of a model have some dozen candidates in all. Most of them start with the same
@@ -7,91 +7,72 @@
 
 use std::rc::Rc;
 
-use crate::dynamics::shared_axes::Axes;
 use crate::mechanics::analysis::Complaint;
-use crate::mechanics::equations::{Equations, Method, Style};
-use crate::model::types::JointId;
+use crate::mechanics::equations::{Caches, Equations};
+use crate::mechanics::scene::{Scene, Way};
 use crate::symbolic::graph::Sharing;
 
-use super::constraints::Writing;
-use super::reduction::Reduction;
-use super::structure::Structure;
-
-/// What definitions depend on, the model aside.
-struct Key {
-    structure: Rc<Structure>,
-    way: (Style, Method, Option<Axes>, Writing),
-    kept: Rc<[JointId]>,
-    at_guess: bool,
-}
+use super::branches::Branches;
+use super::reduction::{Newton, Reduction};
 
 /// A derivation just after its reduction, without its graph.
 struct Reduced<'m> {
-    key: Key,
-    equations: Equations<'m>,
+    scene: Rc<Scene<'m>>,
+    newton: Newton,
+    caches: Caches,
     sharing: Sharing,
-    reduction: Reduction,
+    reduction: Rc<Reduction>,
 }
 
-/// Reductions of one model.
-#[derive(Clone, Default)]
-pub(in crate::mechanics) struct Known<'m>(Vec<Rc<Reduced<'m>>>);
+/// What goes from one derivation of a model to the next.
+#[derive(Default)]
+pub(in crate::mechanics) struct Decided<'m> {
+    pub(in crate::mechanics) branches: Branches,
+    reductions: Vec<Rc<Reduced<'m>>>,
+}
 
-impl<'m> Equations<'m> {
+impl Equations<'_> {
     /// Works out all definitions, or takes them from a derivation that began in the same way.
-    pub(in crate::mechanics) fn reduce(&mut self) -> Result<Reduction, Vec<Complaint>> {
-        if self.g.size() != self.born {
-            return self.define_all();
-        }
-        if let Some(reduced) = self.known.0.iter().find(|reduced| self.is_like(&reduced.key)) {
-            let reduced = Rc::clone(reduced);
-            self.g.share(&reduced.sharing);
-            let graph = std::mem::take(&mut self.g);
-            *self = Equations {
-                g: graph,
-                lumped: self.lumped,
-                branches: std::mem::take(&mut self.branches),
-                known: std::mem::take(&mut self.known),
-                ..reduced.equations.clone()
-            };
-            return Ok(reduced.reduction.clone());
-        }
-        let decided = self.branches.len();
-        let reduction = self.define_all()?;
-        // Where signs were decided, the graph has seen more than the definitions.
-        if self.branches.len() == decided {
-            let reduced = Reduced {
-                key: self.key(),
-                sharing: self.g.sharing(),
-                reduction: reduction.clone(),
-                equations: self.without_graph(),
-            };
-            self.known.0.push(Rc::new(reduced));
-        }
+    pub(in crate::mechanics) fn reduce(&mut self) -> Result<Rc<Reduction>, Vec<Complaint>> {
+        self.reduce_by(Newton::Iterated)
+    }
+
+    pub(in crate::mechanics) fn reduce_by(&mut self, newton: Newton) -> Result<Rc<Reduction>, Vec<Complaint>> {
+        let reduction = self.known_reduction(newton)?;
+        self.reduced = Some(Rc::clone(&reduction));
         Ok(reduction)
     }
 
-    fn key(&self) -> Key {
-        Key {
-            structure: Rc::clone(&self.structure),
-            way: (self.style, self.method, self.axes, self.writing),
-            kept: Rc::clone(&self.kept),
-            at_guess: self.at_guess,
+    fn known_reduction(&mut self, newton: Newton) -> Result<Rc<Reduction>, Vec<Complaint>> {
+        if self.g.size() != self.born {
+            return Ok(Rc::new(self.define_all(newton)?));
         }
+        let is_like = |reduced: &&Rc<Reduced<'_>>| reduced.newton == newton && is_like(&reduced.scene, &self.scene);
+        if let Some(reduced) = self.decided.reductions.iter().find(is_like).cloned() {
+            self.g.share(&reduced.sharing);
+            self.scene = Rc::new(Scene { way: self.scene.way, ..(*reduced.scene).clone() });
+            self.caches = reduced.caches.clone();
+            return Ok(Rc::clone(&reduced.reduction));
+        }
+        let decided = self.decided.branches.len();
+        let reduction = Rc::new(self.define_all(newton)?);
+        // Where signs were decided, the graph has seen more than the definitions.
+        if self.decided.branches.len() == decided {
+            self.decided.reductions.push(Rc::new(Reduced {
+                scene: Rc::clone(&self.scene),
+                newton,
+                caches: self.caches.clone(),
+                sharing: self.g.sharing(),
+                reduction: Rc::clone(&reduction),
+            }));
+        }
+        Ok(reduction)
     }
+}
 
-    fn is_like(&self, key: &Key) -> bool {
-        Rc::ptr_eq(&self.structure, &key.structure)
-            && (self.style, self.method, self.axes, self.writing) == key.way
-            && self.kept == key.kept
-            && self.at_guess == key.at_guess
-    }
-
-    /// A copy of all but the graph and what goes from one derivation to the next.
-    fn without_graph(&mut self) -> Equations<'m> {
-        let passed = (std::mem::take(&mut self.g), std::mem::take(&mut self.branches), std::mem::take(&mut self.known));
-        let copy = self.clone();
-        (self.g, self.branches, self.known) = passed;
-        copy
-    }
+/// Whether definitions come out alike in two scenes of a model.
+fn is_like(a: &Scene<'_>, b: &Scene<'_>) -> bool {
+    // No definition asks for inverse dynamics.
+    let way = |scene: &Scene<'_>| Way { lumped: false, ..scene.way };
+    Rc::ptr_eq(&a.structure, &b.structure) && way(a) == way(b) && a.kept == b.kept
 }

@@ -27,14 +27,14 @@ impl Equations<'_> {
     /// The sum of all angles of a loop that counts turns. That of a screw which closes it stands there as its coordinate.
     fn cycle_winding(&mut self, id: JointId) -> Option<Scalar> {
         let sum = self.counted_turns(id)?;
-        let screw = self.model.joints.get(id.0)?.kind.has_pitch;
+        let screw = self.scene.model.joints.get(id.0)?.kind.has_pitch;
         // The first of the closing's own coordinates, see `closing_motions`.
-        let own = if screw { self.symbols.unwanted(0) } else { Scalar::ZERO };
+        let own = if screw { self.scene.symbols.unwanted(0) } else { Scalar::ZERO };
         Some(self.g.sub(sum, own))
     }
 
     fn segments(&mut self, closing: Closing, item: &Solve) -> Vec<Segment> {
-        let model = self.model;
+        let model = self.scene.model;
         let mut cycle = Vec::new();
         match closing {
             Closing::Cut(id) => {
@@ -64,7 +64,7 @@ impl Equations<'_> {
     }
 
     fn outwards_to(&mut self, place: &Place, common: Option<usize>, item: &Solve, cycle: &mut Vec<Segment>) {
-        let mechanism = std::rc::Rc::clone(&self.mechanism);
+        let mechanism = std::rc::Rc::clone(&self.scene.mechanism);
         for index in mechanism.tree.path(common, place.link) {
             let link = &mechanism.tree.links[index];
             cycle.push(Segment::Fixed { rotation: link.rotation, offset: link.offset });
@@ -74,7 +74,7 @@ impl Equations<'_> {
     }
 
     fn back_from(&mut self, place: &Place, common: Option<usize>, item: &Solve, cycle: &mut Vec<Segment>) {
-        let mechanism = std::rc::Rc::clone(&self.mechanism);
+        let mechanism = std::rc::Rc::clone(&self.scene.mechanism);
         self.inverse(place.rotation, place.offset, cycle);
         for index in mechanism.tree.path(common, place.link).into_iter().rev() {
             let link = &mechanism.tree.links[index];
@@ -142,6 +142,6 @@ impl Equations<'_> {
 
     /// An unknown that nobody asks for.
     fn unwanted(&self, motion: Motion, number: usize) -> Segment {
-        Segment::Unknown { motion, symbol: self.symbols.unwanted(number), wanted: false }
+        Segment::Unknown { motion, symbol: self.scene.symbols.unwanted(number), wanted: false }
     }
 }

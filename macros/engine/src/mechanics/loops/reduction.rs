@@ -15,7 +15,7 @@ use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::names;
 use crate::mechanics::translate::symbols::Symbols;
-use crate::model::types::{Closing, Coordinate, JointId, SolveHow};
+use crate::model::types::{Closing, ConstraintId, Coordinate, Expr, JointId, SolveHow};
 use crate::solve::Value as Solved;
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::{BlockKind, Graph, Scalar, SymbolId};
@@ -47,6 +47,14 @@ pub(in crate::mechanics) struct Reduction {
     pub matrices: Vec<Vec<Scalar>>,
 }
 
+/// What Newton's method does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::mechanics) enum Newton {
+    Iterated,
+    /// Nothing: what it finds stands in the guess already.
+    AtGuess,
+}
+
 /// A dependent coordinate before it is put in: expressions on the tree.
 pub(in crate::mechanics) struct Definition {
     pub coordinate: Coordinate,
@@ -57,13 +65,13 @@ pub(in crate::mechanics) struct Definition {
 
 impl Equations<'_> {
     /// Works out all definitions.
-    pub(in crate::mechanics) fn define_all(&mut self) -> Result<Reduction, Vec<Complaint>> {
-        let structure = std::rc::Rc::clone(&self.structure);
+    pub(in crate::mechanics) fn define_all(&mut self, newton: Newton) -> Result<Reduction, Vec<Complaint>> {
+        let structure = std::rc::Rc::clone(&self.scene.structure);
         let mut reduction = Reduction::default();
         self.drive(&mut reduction);
         let mut rates = Map::new();
         for step in &structure.steps {
-            let definitions = self.step(step, &mut reduction)?;
+            let definitions = self.step(step, newton, &mut reduction)?;
             if matches!(step.means, Means::Linear(_)) {
                 let pairs: Vec<(Scalar, Scalar)> =
                     definitions.iter().map(|d| (self.coordinate_symbols(d.coordinate)[0], d.position)).collect();
@@ -73,7 +81,6 @@ impl Equations<'_> {
             self.define(&definitions, &mut reduction, &mut rates);
         }
         self.close(&mut reduction, &rates);
-        self.defined = std::rc::Rc::new(reduction.map.clone());
         Ok(reduction)
     }
 
@@ -109,7 +116,7 @@ impl Equations<'_> {
                 let symbol = self.coordinate_symbols(definition.coordinate)[order];
                 let value = self.g.substitute(&[value(definition)], &reduction.map)[0];
                 if let Some(what) = [None, Some("rate"), Some("accel")][order] {
-                    self.g.label(value, || names::of_freedom(self.model, definition.coordinate, what));
+                    self.g.label(value, || names::of_freedom(self.scene.model, definition.coordinate, what));
                 }
                 reduction.map.extend(self.g.symbol_id(symbol).map(|id| (id, value)));
             }
@@ -117,7 +124,7 @@ impl Equations<'_> {
         for definition in definitions {
             let symbol = self.coordinate_symbols(definition.coordinate)[1];
             let projected = self.g.substitute(&[definition.rate], rates)[0];
-            self.g.label(projected, || names::of_freedom(self.model, definition.coordinate, "rate"));
+            self.g.label(projected, || names::of_freedom(self.scene.model, definition.coordinate, "rate"));
             rates.extend(self.g.symbol_id(symbol).map(|id| (id, projected)));
             reduction.rates.push((self.freedom(definition.coordinate), projected));
         }
@@ -126,14 +133,14 @@ impl Equations<'_> {
     /// Position, velocity and acceleration symbols of a coordinate whose rate is its velocity.
     pub(in crate::mechanics) fn coordinate_symbols(&self, coordinate: Coordinate) -> [Scalar; 3] {
         let Coordinate { joint, index } = coordinate;
-        let symbols = &self.symbols;
+        let symbols = &self.scene.symbols;
         [&symbols.positions, &symbols.velocities, &symbols.accelerations]
             .map(|lists| Symbols::of(lists, joint).get(index).copied().unwrap_or(Scalar::ZERO))
     }
 
     /// Place of a coordinate among all of the tree.
     pub(in crate::mechanics) fn freedom(&self, coordinate: Coordinate) -> usize {
-        self.symbols.first.get(coordinate.joint.0).copied().unwrap_or(0) + coordinate.index
+        self.scene.symbols.first.get(coordinate.joint.0).copied().unwrap_or(0) + coordinate.index
     }
 
     /// A map from symbols to what replaces them.
@@ -141,67 +148,75 @@ impl Equations<'_> {
         pairs.iter().filter_map(|&(symbol, value)| Some((self.g.symbol_id(symbol)?, value))).collect()
     }
 
-    pub(in crate::mechanics) fn step(
+    fn step(
         &mut self,
         step: &Step,
+        newton: Newton,
         reduction: &mut Reduction,
     ) -> Result<Vec<Definition>, Vec<Complaint>> {
-        match &step.means {
-            Means::Linear(id) => {
-                let residual = self.equations_of(Closing::Constraint(*id));
-                let (Some(&residual), Some(&unknown)) = (residual.first(), step.unknowns.first()) else {
-                    return Ok(Vec::new());
-                };
-                let symbol = self.coordinate_symbols(unknown)[0];
-                let slope = self.g.derivative(residual, &[(symbol, Scalar::ONE)]);
-                let off = self.map(&[(symbol, Scalar::ZERO)]);
-                let rest = self.g.substitute(&[residual], &off)[0];
-                let inverse = self.g.reciprocal(slope);
-                let position = -self.g.mul(inverse, rest);
-                Ok(vec![self.implicit(unknown, position, residual, inverse)])
-            }
+        match step.means {
+            Means::Linear(id) => Ok(self.coupling(id, step).into_iter().collect()),
             Means::Solve(item) => {
-                let model = self.model;
-                let Some(solve) = model.solves.get(*item) else { return Ok(Vec::new()) };
-                match &solve.how {
-                    SolveHow::Formulas(formulas) => {
-                        let pairs: Vec<_> = step.unknowns.iter().zip(formulas).collect();
-                        let definitions = pairs.into_iter().map(|(&unknown, formula)| {
-                            let position = self.scalar(formula);
-                            let symbol = self.coordinate_symbols(unknown)[0];
-                            let equation = self.g.sub(symbol, position);
-                            self.implicit(unknown, position, equation, Scalar::ONE)
-                        });
-                        Ok(definitions.collect())
-                    }
-                    SolveHow::From { .. } => {
-                        let found = self.closed_form(*item, reduction)?;
-                        let mut definitions = Vec::with_capacity(found.len());
-                        for (unknown, solved) in found {
-                            let symbol = Symbol::Position { joint: unknown.joint, component: unknown.index };
-                            let name = names::symbol(self.model, symbol);
-                            self.g.label(solved.inverse_slope, || format!("slope_{name}_inv"));
-                            let position = match solved.value {
-                                Solved::Angle { cos, sin } => {
-                                    self.g.label(cos, || format!("cos_{name}"));
-                                    self.g.label(sin, || format!("sin_{name}"));
-                                    self.g.angle(cos, sin)
-                                }
-                                Solved::Length(x) => self.g.label(x, || name.clone()),
-                            };
-                            if let Some(root) = solved.root {
-                                self.g.label(root, || format!("root_{name}"));
-                                reduction.dead_centres.push((unknown, root));
-                            }
-                            reduction.notes.push(format!("`{}`: {}", coordinate_name(self.model, unknown), solved.how));
-                            definitions.push(self.implicit(unknown, position, solved.equation, solved.inverse_slope));
-                        }
-                        Ok(definitions)
-                    }
+                let model = self.scene.model;
+                match model.solves.get(item).map(|solve| &solve.how) {
+                    Some(SolveHow::Formulas(formulas)) => Ok(self.formulas(formulas, step)),
+                    Some(SolveHow::From { .. }) => self.closed_forms(item, reduction),
+                    None => Ok(Vec::new()),
                 }
             }
-            Means::Newton { .. } => Ok(self.iterate(step, reduction)),
+            Means::Newton { .. } => Ok(self.iterate(step, newton, reduction)),
         }
+    }
+
+    /// What a linear coupling gives.
+    pub(in crate::mechanics) fn coupling(&mut self, id: ConstraintId, step: &Step) -> Option<Definition> {
+        let residual = self.equations_of(Closing::Constraint(id));
+        let (&residual, &unknown) = residual.first().zip(step.unknowns.first())?;
+        let symbol = self.coordinate_symbols(unknown)[0];
+        let slope = self.g.derivative(residual, &[(symbol, Scalar::ONE)]);
+        let off = self.map(&[(symbol, Scalar::ZERO)]);
+        let rest = self.g.substitute(&[residual], &off)[0];
+        let inverse = self.g.reciprocal(slope);
+        let position = -self.g.mul(inverse, rest);
+        Some(self.implicit(unknown, position, residual, inverse))
+    }
+
+    /// What the user's formulas give.
+    fn formulas(&mut self, formulas: &[Expr], step: &Step) -> Vec<Definition> {
+        let definitions = step.unknowns.iter().zip(formulas).map(|(&unknown, formula)| {
+            let position = self.scalar(formula);
+            let symbol = self.coordinate_symbols(unknown)[0];
+            let equation = self.g.sub(symbol, position);
+            self.implicit(unknown, position, equation, Scalar::ONE)
+        });
+        definitions.collect()
+    }
+
+    /// What the closed form of a loop gives.
+    fn closed_forms(&mut self, item: usize, reduction: &mut Reduction) -> Result<Vec<Definition>, Vec<Complaint>> {
+        let model = self.scene.model;
+        let found = self.closed_form(item, reduction)?;
+        let mut definitions = Vec::with_capacity(found.len());
+        for (unknown, solved) in found {
+            let symbol = Symbol::Position { joint: unknown.joint, component: unknown.index };
+            let name = names::symbol(model, symbol);
+            self.g.label(solved.inverse_slope, || format!("slope_{name}_inv"));
+            let position = match solved.value {
+                Solved::Angle { cos, sin } => {
+                    self.g.label(cos, || format!("cos_{name}"));
+                    self.g.label(sin, || format!("sin_{name}"));
+                    self.g.angle(cos, sin)
+                }
+                Solved::Length(x) => self.g.label(x, || name.clone()),
+            };
+            if let Some(root) = solved.root {
+                self.g.label(root, || format!("root_{name}"));
+                reduction.dead_centres.push((unknown, root));
+            }
+            reduction.notes.push(format!("`{}`: {}", coordinate_name(model, unknown), solved.how));
+            definitions.push(self.implicit(unknown, position, solved.equation, solved.inverse_slope));
+        }
+        Ok(definitions)
     }
 
     /// Rate and acceleration from an equation with a known slope.
@@ -233,7 +248,7 @@ impl Equations<'_> {
     }
 
     /// Newton's method on the equations of a step, from the guess, a fixed number of times.
-    fn iterate(&mut self, step: &Step, reduction: &mut Reduction) -> Vec<Definition> {
+    fn iterate(&mut self, step: &Step, newton: Newton, reduction: &mut Reduction) -> Vec<Definition> {
         let Means::Newton { rows, guess } = &step.means else { return Vec::new() };
         let size = step.unknowns.len();
         let symbols: Vec<[Scalar; 3]> = step.unknowns.iter().map(|&u| self.coordinate_symbols(u)).collect();
@@ -250,7 +265,7 @@ impl Equations<'_> {
             }
         }
         // Inside the loop the unknowns are symbols of its own; known coordinates are put in, so that the loop reads values.
-        let inner: Vec<Scalar> = (0..size).map(|k| self.symbols.unknown(guess + k)).collect();
+        let inner: Vec<Scalar> = (0..size).map(|k| self.scene.symbols.unknown(guess + k)).collect();
         let mut map = reduction.map.clone();
         let own: Vec<(Scalar, Scalar)> = symbols.iter().zip(&inner).map(|(symbol, &own)| (symbol[0], own)).collect();
         map.extend(self.map(&own));
@@ -265,8 +280,8 @@ impl Equations<'_> {
         });
         let ids = inner.iter().filter_map(|&s| g.symbol_id(s));
         let kind = BlockKind::Iterate { unknowns: ids.collect(), count: ITERATIONS };
-        let start: Vec<Scalar> = (0..size).map(|k| self.symbols.guess(guess + k)).collect();
-        let (outputs, residual): (Vec<Scalar>, Scalar) = if self.at_guess {
+        let start: Vec<Scalar> = (0..size).map(|k| self.scene.symbols.guess(guess + k)).collect();
+        let (outputs, residual): (Vec<Scalar>, Scalar) = if newton == Newton::AtGuess {
             let known: Vec<(Scalar, Scalar)> = inner.iter().copied().zip(start.iter().copied()).collect();
             let known = self.map(&known);
             (start, self.g.substitute(&[residual], &known)[0])
@@ -290,7 +305,7 @@ impl Equations<'_> {
         let mut definitions = Vec::with_capacity(size);
         for (k, &coordinate) in step.unknowns.iter().enumerate() {
             let symbol = Symbol::Position { joint: coordinate.joint, component: coordinate.index };
-            let name = names::symbol(self.model, symbol);
+            let name = names::symbol(self.scene.model, symbol);
             let position = self.g.name(outputs[k], || name);
             definitions.push(Definition { coordinate, position, rate: rates[k], acceleration: accelerations[k] });
         }
@@ -300,7 +315,7 @@ impl Equations<'_> {
     /// Rates from a right-hand side that is linear in them. Solved directly the same matrix is factored anew for rates,
     /// accelerations, the transposed map and every column of it; a small one is inverted once, column by column.
     fn solve_rates(&mut self, size: usize, matrix: &[Scalar], rhs: &[Scalar]) -> Vec<Scalar> {
-        if size > 3 + self.structure.freedoms() {
+        if size > 3 + self.scene.structure.freedoms() {
             return self.solve_block(size, matrix, rhs);
         }
         let unit = |at: usize| (0..size).map(|k| if k == at { Scalar::ONE } else { Scalar::ZERO }).collect();
@@ -315,7 +330,7 @@ impl Equations<'_> {
 
     /// Unknowns of the steps behind this one, at zero.
     fn later_unknowns(&self, step: &Step) -> Map {
-        let behind = self.structure.steps.iter().skip_while(|other| other.unknowns != step.unknowns).skip(1);
+        let behind = self.scene.structure.steps.iter().skip_while(|other| other.unknowns != step.unknowns).skip(1);
         let unknowns = behind.flat_map(|other| other.unknowns.iter().copied());
         let pairs: Vec<(Scalar, Scalar)> =
             unknowns.map(|unknown| (self.coordinate_symbols(unknown)[0], Scalar::ZERO)).collect();
@@ -349,7 +364,7 @@ impl Equations<'_> {
             .iter()
             .map(|&(freedom, rate)| (rate, efforts.get(freedom).copied().unwrap_or(Scalar::ZERO)))
             .unzip();
-        let velocities: Vec<Scalar> = self.symbols.velocities.concat();
+        let velocities: Vec<Scalar> = self.scene.symbols.velocities.concat();
         let dependent: Vec<usize> = reduction.rates.iter().map(|rate| rate.0).collect();
         let free: Vec<usize> = (0..velocities.len()).filter(|k| !dependent.contains(k)).collect();
         let inputs: Vec<Scalar> = free.iter().map(|&k| velocities[k]).collect();
@@ -364,10 +379,10 @@ impl Equations<'_> {
     /// Coordinates of a role, as places among those of the tree.
     pub(in crate::mechanics) fn freedoms_of(&self, wanted: impl Fn(Role) -> bool) -> Vec<usize> {
         let mut list = Vec::new();
-        for (k, velocities) in self.symbols.velocities.iter().enumerate() {
+        for (k, velocities) in self.scene.symbols.velocities.iter().enumerate() {
             for index in 0..velocities.len() {
                 let coordinate = Coordinate { joint: JointId(k), index };
-                if wanted(self.structure.role(coordinate)) {
+                if wanted(self.scene.structure.role(coordinate)) {
                     list.push(self.freedom(coordinate));
                 }
             }

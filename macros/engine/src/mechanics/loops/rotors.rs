@@ -20,12 +20,16 @@ pub(in crate::mechanics) struct Rotor {
     slopes: Vec<(usize, Scalar)>,
 }
 
+/// All of them.
+#[derive(Clone, Default)]
+pub(in crate::mechanics) struct Rotors(Option<Rc<[Rotor]>>);
+
 impl Equations<'_> {
     pub(in crate::mechanics) fn rotors(&mut self) -> Rc<[Rotor]> {
-        if let Some(rotors) = &self.rotors {
+        if let Some(rotors) = &self.caches.rotors.0 {
             return Rc::clone(rotors);
         }
-        let model = self.model;
+        let model = self.scene.model;
         let mut rotors = Vec::new();
         for &joint in &model.cuts {
             let Some(armature) = model.joints.get(joint.0).and_then(|joint| joint.armature.as_ref()) else { continue };
@@ -34,19 +38,19 @@ impl Equations<'_> {
                 continue;
             }
             let rate = self.coordinate(Coordinate { joint, index: 0 }, Order::Rate);
-            let velocities = self.symbols.velocities.concat();
+            let velocities = self.scene.symbols.velocities.concat();
             let slopes = velocities.into_iter().map(|v| self.g.derivative(rate, &[(v, Scalar::ONE)])).enumerate();
             let slopes = slopes.filter(|(_, slope)| *slope != Scalar::ZERO).collect();
             rotors.push(Rotor { joint, armature, rate, slopes });
         }
         let rotors: Rc<[Rotor]> = rotors.into();
-        self.rotors = Some(Rc::clone(&rotors));
+        self.caches.rotors.0 = Some(Rc::clone(&rotors));
         rotors
     }
 
     /// J g g^T, added to a mass matrix of the user's coordinates, row by row.
     pub(in crate::mechanics) fn add_rotors(&mut self, matrix: &mut [Scalar]) {
-        let size = self.symbols.freedoms;
+        let size = self.scene.symbols.freedoms;
         for rotor in self.rotors().iter() {
             for &(i, a) in &rotor.slopes {
                 for &(j, b) in &rotor.slopes {
@@ -75,7 +79,7 @@ impl Equations<'_> {
     /// J r'
     pub(in crate::mechanics) fn rotor_effort(&mut self, rotor: &Rotor, accelerations: &[Scalar]) -> Scalar {
         let mut seeds = self.seeds(1);
-        seeds.extend(self.symbols.velocities.concat().into_iter().zip(accelerations.iter().copied()));
+        seeds.extend(self.scene.symbols.velocities.concat().into_iter().zip(accelerations.iter().copied()));
         let acceleration = Differentiator::new(&seeds).scalar(&mut self.g, rotor.rate);
         self.g.mul(rotor.armature, acceleration)
     }
@@ -86,7 +90,7 @@ impl Equations<'_> {
         if rotors.is_empty() {
             return loads;
         }
-        let mechanism = Rc::clone(&self.mechanism);
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let mut terms = Terms::new(&mechanism);
         for rotor in rotors.iter() {
             let push = self.rotor_effort(rotor, accelerations);

@@ -28,7 +28,7 @@ impl Equations<'_> {
         let symbols: Vec<[Scalar; 3]> = wanted.find.iter().map(|&c| self.coordinate_symbols(c)).collect();
         let roots: Vec<Scalar> = (0..3).flat_map(|order| symbols.iter().map(move |s| s[order])).collect();
         let found = self.finish(reduction, &roots);
-        let joints = self.symbols.positions.iter().enumerate();
+        let joints = self.scene.symbols.positions.iter().enumerate();
         let others: Vec<Scalar> = joints
             .filter(|(k, _)| !wanted.given.contains(&JointId(*k)))
             .flat_map(|(_, positions)| positions.iter().copied())
@@ -37,7 +37,7 @@ impl Equations<'_> {
             None => Ok(found),
             Some(at) => {
                 let coordinate = wanted.find.get(at % wanted.find.len().max(1));
-                let name = coordinate.map_or_else(String::new, |&c| coordinate_name(self.model, c));
+                let name = coordinate.map_or_else(String::new, |&c| coordinate_name(self.scene.model, c));
                 Err(vec![Complaint {
                     at: wanted.site(),
                     message: format!("`{name}` does not follow from what is given"),
@@ -49,16 +49,17 @@ impl Equations<'_> {
 
     fn closing_name(&self, closing: Closing) -> String {
         let place = match closing {
-            Closing::Cut(id) => self.model.joints.get(id.0).map(|joint| &joint.place),
-            Closing::Constraint(id) => self.model.constraints.get(id.0).map(|constraint| &constraint.place),
+            Closing::Cut(id) => self.scene.model.joints.get(id.0).map(|joint| &joint.place),
+            Closing::Constraint(id) => self.scene.model.constraints.get(id.0).map(|constraint| &constraint.place),
         };
-        place.map_or_else(String::new, |place| super::constraints::path(self.model, place))
+        place.map_or_else(String::new, |place| super::constraints::path(self.scene.model, place))
     }
 
-    /// Complaints at the `solve` items whose unknowns stand in equations that stay open.
-    pub(in crate::mechanics) fn verify(&mut self, reduction: &mut Reduction) -> Result<(), Vec<Complaint>> {
-        let (model, structure) = (self.model, std::rc::Rc::clone(&self.structure));
-        let mut complaints = Vec::new();
+    /// Sentences about loops that close in numbers alone, or complaints at the `solve` items whose unknowns stand in equations
+    /// that stay open.
+    pub(in crate::mechanics) fn verify(&mut self, reduction: &Reduction) -> Result<Vec<String>, Vec<Complaint>> {
+        let (model, structure) = (self.scene.model, std::rc::Rc::clone(&self.scene.structure));
+        let (mut complaints, mut notes) = (Vec::new(), Vec::new());
         let step_unknowns: Vec<Vec<Scalar>> = structure
             .steps
             .iter()
@@ -96,9 +97,7 @@ impl Equations<'_> {
                     ),
                 });
             } else if written(blamed) {
-                reduction
-                    .notes
-                    .push(format!("`{name}` closes to {worst:.0e} at random configurations (numerical check)"));
+                notes.push(format!("`{name}` closes to {worst:.0e} at random configurations (numerical check)"));
             }
         }
         for step in (0..structure.steps.len()).filter(|&step| written(step) && !concerned[step]) {
@@ -108,6 +107,6 @@ impl Equations<'_> {
                 help: Some("leave it out, or declare the joint or constraint that it satisfies".to_owned()),
             }));
         }
-        if complaints.is_empty() { Ok(()) } else { Err(complaints) }
+        if complaints.is_empty() { Ok(notes) } else { Err(complaints) }
     }
 }

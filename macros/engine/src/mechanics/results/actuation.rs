@@ -10,6 +10,7 @@ use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::loops::structure::Role;
+use crate::mechanics::translate::forces::LoadCase;
 use crate::mechanics::translate::names;
 use crate::model::site::Sited;
 use crate::symbolic::graph::{BlockKind, Scalar};
@@ -17,9 +18,8 @@ use crate::symbolic::graph::{BlockKind, Scalar};
 impl Equations<'_> {
     /// The inputs that are asked for, then the rank of their system.
     pub(in crate::mechanics) fn actuate(&mut self, reduction: &Reduction) -> Result<Vec<Scalar>, Vec<Complaint>> {
-        let model = self.model;
-        self.multiplied = self.rows_with_multipliers();
-        let efforts = self.projected_efforts(reduction);
+        let model = self.scene.model;
+        let efforts = self.projected_efforts(reduction, LoadCase::Held);
         let mut rows: Vec<usize> = self.freedoms_of(|role| matches!(role, Role::State));
         rows.extend(self.freedoms_of(|role| matches!(role, Role::Driven(_))));
         let efforts: Vec<Scalar> = rows.iter().map(|&freedom| efforts[freedom]).collect();
@@ -27,9 +27,9 @@ impl Equations<'_> {
         let inputs: Vec<Scalar> = model
             .solve_for
             .iter()
-            .filter_map(|wanted| self.symbols.inputs.get(wanted.input.0)?.get(wanted.element).copied())
+            .filter_map(|wanted| self.scene.symbols.inputs.get(wanted.input.0)?.get(wanted.element).copied())
             .collect();
-        let multipliers = self.symbols.multipliers.clone();
+        let multipliers = self.scene.symbols.multipliers.clone();
         let (wanted, size) = (inputs.len(), inputs.len() + multipliers.len());
         let inputs: Vec<Scalar> = inputs.into_iter().chain(multipliers).collect();
         let at = model.solve_for.first().map_or_else(|| model.site(), |wanted| wanted.site());
@@ -74,8 +74,8 @@ impl Equations<'_> {
             self.g.block_outputs(BlockKind::Solve { size, symmetric: false, groups: [].into() }, &operands);
         outputs.drain(wanted..size);
         for (&input, &output) in inputs.iter().zip(&outputs) {
-            if let Some(&symbol) = self.g.symbol_id(input).and_then(|id| self.symbols.table.get(id.0)) {
-                self.g.label(output, || names::symbol(self.model, symbol));
+            if let Some(&symbol) = self.g.symbol_id(input).and_then(|id| self.scene.symbols.table.get(id.0)) {
+                self.g.label(output, || names::symbol(self.scene.model, symbol));
             }
         }
         Ok(outputs)

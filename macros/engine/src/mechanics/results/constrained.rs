@@ -5,7 +5,7 @@
 //! S^T and the mass matrix is S^T M S (the projection of Kane and Maggi). What is left of the equations, G u' = -gamma,
 //! gives multipliers ([`crate::dynamics::saddle`]).
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
 use crate::contracts::call::Call;
@@ -13,7 +13,9 @@ use crate::dynamics::saddle::{Saddle, Solution};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::{Map, Reduction};
 use crate::mechanics::loops::structure::{Role, Row};
-use crate::model::types::{Closing, Coordinate, Handling};
+use crate::mechanics::scene::Method;
+use crate::mechanics::translate::forces::LoadCase;
+use crate::model::types::{Closing, Handling};
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::Scalar;
 
@@ -24,6 +26,10 @@ pub(in crate::mechanics) struct Solved {
     pub multipliers: Vec<Scalar>,
     pub rank: Option<Scalar>,
 }
+
+/// Equations of closings, once they are written.
+#[derive(Clone, Default)]
+pub(in crate::mechanics) struct Residuals(HashMap<Closing, Rc<[Scalar]>>);
 
 /// Constraint equations as the multipliers see them, by row.
 pub(in crate::mechanics) struct Rows {
@@ -36,17 +42,17 @@ pub(in crate::mechanics) struct Rows {
 impl Equations<'_> {
     /// Places of the state's coordinates among those of the tree.
     pub(in crate::mechanics) fn state(&self) -> Vec<usize> {
-        self.structure.state.iter().map(|&coordinate| self.freedom(coordinate)).collect()
+        self.scene.structure.state.iter().map(|&coordinate| self.freedom(coordinate)).collect()
     }
 
     /// Equations of a closing, written once.
     pub(in crate::mechanics) fn equations_of(&mut self, closing: Closing) -> Rc<[Scalar]> {
-        if let Some(known) = self.closed.get(&closing) {
+        if let Some(known) = self.caches.residuals.0.get(&closing) {
             return Rc::clone(known);
         }
-        let writing = self.writing;
+        let writing = self.scene.way.writing;
         let residuals: Rc<[Scalar]> = self.residuals(closing, writing).into();
-        self.closed.insert(closing, Rc::clone(&residuals));
+        self.caches.residuals.0.insert(closing, Rc::clone(&residuals));
         residuals
     }
 
@@ -64,7 +70,7 @@ impl Equations<'_> {
 
     /// The same on the tree.
     pub(in crate::mechanics) fn granted_residuals(&mut self) -> Vec<Scalar> {
-        let structure = Rc::clone(&self.structure);
+        let structure = Rc::clone(&self.scene.structure);
         let rows = structure.granted.iter().map(|&row| {
             let residual = self.row(row);
             let inverse = self.g.decimal(1.0 / structure.scale(row));
@@ -75,27 +81,36 @@ impl Equations<'_> {
 
     /// Efforts that the accelerations take beside all declared forces: of the state, then of driven coordinates, in the
     /// order of the tree.
-    pub(super) fn projected_efforts(&mut self, reduction: &Reduction) -> Vec<Scalar> {
-        let efforts = self.inverse_dynamics();
+    pub(super) fn projected_efforts(&mut self, reduction: &Reduction, case: LoadCase) -> Vec<Scalar> {
+        let efforts = self.inverse_dynamics(case);
         self.project(reduction, &efforts)
     }
 
-    /// Inverse dynamics in the coordinates of the state, without multipliers.
-    pub(in crate::mechanics) fn reduced_efforts(&mut self, reduction: &Reduction, accelerations: bool) -> Vec<Scalar> {
-        let mut efforts = self.projected_efforts(reduction);
-        efforts = self.state().into_iter().map(|freedom| efforts[freedom]).collect();
-        if !accelerations {
-            // Dependents' accelerations hold those of the state: they are put in before these are set to zero.
-            efforts = self.finish(reduction, &efforts);
-            let rest = self.rest();
-            efforts = self.g.substitute(&efforts, &rest);
-        }
+    /// Inverse dynamics in the coordinates of the state.
+    pub(in crate::mechanics) fn reduced_efforts(&mut self, reduction: &Reduction, case: LoadCase) -> Vec<Scalar> {
+        let efforts = self.state_efforts(reduction, case);
         self.finish(reduction, &efforts)
+    }
+
+    /// The same where accelerations of the state are zero, under the declared forces.
+    pub(in crate::mechanics) fn reduced_bias(&mut self, reduction: &Reduction) -> Vec<Scalar> {
+        let efforts = self.state_efforts(reduction, LoadCase::Declared);
+        // Dependents' accelerations hold those of the state: they are put in before these are set to zero.
+        let efforts = self.finish(reduction, &efforts);
+        let rest = self.rest();
+        let efforts = self.g.substitute(&efforts, &rest);
+        self.finish(reduction, &efforts)
+    }
+
+    /// Efforts of the state, before definitions are put in.
+    fn state_efforts(&mut self, reduction: &Reduction, case: LoadCase) -> Vec<Scalar> {
+        let efforts = self.projected_efforts(reduction, case);
+        self.state().into_iter().map(|freedom| efforts[freedom]).collect()
     }
 
     /// Accelerations of the state set to zero.
     fn rest(&self) -> Map {
-        let state = &self.structure.state;
+        let state = &self.scene.structure.state;
         let pairs: Vec<(Scalar, Scalar)> =
             state.iter().map(|&coordinate| (self.coordinate_symbols(coordinate)[2], Scalar::ZERO)).collect();
         self.map(&pairs)
@@ -103,7 +118,7 @@ impl Equations<'_> {
 
     /// S^T M S.
     pub(in crate::mechanics) fn reduced_mass_matrix(&mut self, reduction: &Reduction) -> Vec<Vec<Scalar>> {
-        let n = self.symbols.freedoms;
+        let n = self.scene.symbols.freedoms;
         let entries = self.mass_matrix();
         let matrix: Vec<&[Scalar]> = entries.chunks(n.max(1)).collect();
         let state = self.state();
@@ -135,9 +150,9 @@ impl Equations<'_> {
 
     /// S, a row per coordinate of the tree.
     pub(super) fn velocity_map(&mut self, reduction: &Reduction, state: &[usize]) -> Vec<Vec<Scalar>> {
-        let n = self.symbols.freedoms;
+        let n = self.scene.symbols.freedoms;
         let mut map = vec![vec![Scalar::ZERO; state.len()]; n];
-        let velocities: Vec<Scalar> = self.symbols.velocities.concat();
+        let velocities: Vec<Scalar> = self.scene.symbols.velocities.concat();
         for (j, &freedom) in state.iter().enumerate() {
             map[freedom][j] = Scalar::ONE;
             let mut along = Differentiator::new(&[(velocities[freedom], Scalar::ONE)]);
@@ -150,7 +165,7 @@ impl Equations<'_> {
 
     /// Equations of the multipliers, in the state.
     fn rows(&mut self, reduction: &Reduction) -> Rows {
-        let structure = Rc::clone(&self.structure);
+        let structure = Rc::clone(&self.scene.structure);
         let state = structure.state.clone();
         let mut jacobian = Vec::with_capacity(structure.rows.len());
         let mut bias = Vec::with_capacity(structure.rows.len());
@@ -182,7 +197,7 @@ impl Equations<'_> {
 
     /// Baumgarte's terms.
     fn stabilising(&mut self, residual: Scalar, rate: Scalar, reduction: &Reduction) -> Scalar {
-        let model = self.model;
+        let model = self.scene.model;
         let Handling::Stabilised { rate: damping, position } = &model.handling else { return Scalar::ZERO };
         let (damping, stiffness) = (self.scalar(damping), self.scalar(position));
         let residual = self.finish(reduction, &[residual])[0];
@@ -198,7 +213,7 @@ impl Equations<'_> {
     /// The system that accelerations and multipliers solve, its rows, and its solution.
     pub(in crate::mechanics) fn system(&mut self, reduction: &Reduction) -> (Saddle, Rows, Solved) {
         let matrix = self.reduced_mass_matrix(reduction);
-        let bias = self.reduced_efforts(reduction, false);
+        let bias = self.reduced_bias(reduction);
         let rhs: Vec<Scalar> = bias.iter().map(|&b| -b).collect();
         let rows = self.rows(reduction);
         let held: Vec<Scalar> = rows.bias.iter().map(|&gamma| -gamma).collect();
@@ -211,7 +226,7 @@ impl Equations<'_> {
     pub(in crate::mechanics) fn constrained_jump(&mut self, reduction: &Reduction) -> Solved {
         let matrix = self.reduced_mass_matrix(reduction);
         let jacobian = self.rows(reduction).jacobian;
-        let (impulses, rates) = (self.symbols.impulses.clone(), self.symbols.rates.clone());
+        let (impulses, rates) = (self.scene.symbols.impulses.clone(), self.scene.symbols.rates.clone());
         self.solve_rows(matrix, &impulses, jacobian, &rates).1
     }
 
@@ -224,7 +239,7 @@ impl Equations<'_> {
         held: &[Scalar],
     ) -> (Saddle, Solved) {
         let order = self.state_elimination();
-        let groups = self.structure.row_groups(self.model);
+        let groups = self.scene.structure.row_groups(self.scene.model);
         let saddle = Saddle::new(&mut self.g, matrix, (jacobian, groups), &order);
         let Solution { unknowns: accelerations, multipliers, rank } = saddle.solve(&mut self.g, rhs, held);
         for (k, &multiplier) in multipliers.iter().enumerate() {
@@ -236,13 +251,13 @@ impl Equations<'_> {
     /// Elimination of the state's coordinates from the leaves inwards; by place in the state.
     fn state_elimination(&self) -> Vec<usize> {
         let state = self.state();
-        let order = self.mechanism.elimination(self.method == crate::mechanics::equations::Method::Floating);
+        let order = self.scene.mechanism.elimination(self.scene.way.method == Method::Floating);
         order.into_iter().filter_map(|freedom| state.iter().position(|&k| k == freedom)).collect()
     }
 
     /// Residuals of the equations with multipliers.
     pub(in crate::mechanics) fn constraints(&mut self, reduction: &Reduction) -> Vec<Scalar> {
-        let structure = Rc::clone(&self.structure);
+        let structure = Rc::clone(&self.scene.structure);
         let rows: Vec<Scalar> = structure.rows.iter().map(|&row| self.row(row)).collect();
         self.finish(reduction, &rows)
     }
@@ -253,7 +268,7 @@ impl Equations<'_> {
     }
 
     pub(in crate::mechanics) fn constraint_rate(&mut self, reduction: &Reduction) -> Vec<Scalar> {
-        let structure = Rc::clone(&self.structure);
+        let structure = Rc::clone(&self.scene.structure);
         let mut rates = Vec::with_capacity(structure.rows.len());
         for &row in &structure.rows {
             let residual = self.row(row);
@@ -266,21 +281,6 @@ impl Equations<'_> {
         self.rows(reduction).bias
     }
 
-    /// Accelerations of all coordinates of the tree: those of the state as symbols too, for which [`Self::put_in_all`] puts
-    /// in what the multipliers' system gives.
-    pub(super) fn tree_accelerations(&mut self) -> Rc<[Scalar]> {
-        let accelerations: Rc<[Scalar]> = self.symbols.accelerations.concat().into();
-        self.accelerations = Some(Rc::clone(&accelerations));
-        if let Some(reduction) = self.reduction.clone() {
-            let solved = self.solve_constrained(&reduction);
-            self.solved = Some(Rc::new(solved));
-            // From here on loads are those that reactions see: with the multipliers' forces.
-            self.loads = None;
-            self.multiplied = self.rows_with_multipliers();
-        }
-        accelerations
-    }
-
     /// Puts definitions into results, and the accelerations that were found.
     pub(in crate::mechanics) fn put_in_all(
         &mut self,
@@ -289,9 +289,9 @@ impl Equations<'_> {
         roots: &[Scalar],
     ) -> Vec<Scalar> {
         let roots = self.finish(reduction, roots);
-        let state = self.structure.state.clone();
+        let state = self.scene.structure.state.clone();
         let accelerations = state.iter().map(|&coordinate| self.coordinate_symbols(coordinate)[2]);
-        let symbols = accelerations.chain(self.symbols.multipliers.iter().copied());
+        let symbols = accelerations.chain(self.scene.symbols.multipliers.iter().copied());
         let values = solved.accelerations.iter().chain(&solved.multipliers).copied();
         let pairs: Vec<(Scalar, Scalar)> = symbols.zip(values).collect();
         let map = self.map(&pairs);
@@ -306,31 +306,21 @@ impl Equations<'_> {
         residuals.fold(first, |worst, r| g.call(Call::Max, &[worst, r]))
     }
 
-    /// What a drive exerts on its coordinate beside all declared forces.
-    pub(in crate::mechanics) fn drive_effort(&mut self, coordinate: Coordinate) -> Scalar {
-        let (false, Some(reduction)) = (self.loading, self.reduction.clone()) else { return Scalar::ZERO };
-        // Multipliers and the accelerations of the state are found first: both are in the efforts.
-        self.accelerations();
-        let efforts = self.projected_efforts(&reduction);
-        efforts.get(self.freedom(coordinate)).copied().unwrap_or(Scalar::ZERO)
-    }
-
-    pub(super) fn rows_with_multipliers(&self) -> Vec<(Row, Scalar)> {
-        self.structure.rows.iter().copied().zip(self.symbols.multipliers.iter().copied()).collect()
+    pub(in crate::mechanics) fn rows_with_multipliers(&self) -> Vec<(Row, Scalar)> {
+        self.scene.structure.rows.iter().copied().zip(self.scene.symbols.multipliers.iter().copied()).collect()
     }
 
     /// Dynamic rows with the multipliers' forces, then the equations.
     pub(in crate::mechanics) fn residual(&mut self, reduction: &Reduction) -> Vec<Scalar> {
-        self.multiplied = self.rows_with_multipliers();
-        let mut rows = self.reduced_efforts(reduction, true);
+        let mut rows = self.reduced_efforts(reduction, LoadCase::Held);
         rows.extend(self.constraints(reduction));
         rows
     }
 
     /// Whether coordinates follow from others, or equations keep multipliers.
     pub(in crate::mechanics) fn is_constrained(&self) -> bool {
-        !self.structure.steps.is_empty()
-            || !self.structure.rows.is_empty()
-            || self.structure.roles.iter().flatten().any(|role| matches!(role, Role::Driven(_)))
+        !self.scene.structure.steps.is_empty()
+            || !self.scene.structure.rows.is_empty()
+            || self.scene.structure.roles.iter().flatten().any(|role| matches!(role, Role::Driven(_)))
     }
 }

@@ -10,10 +10,15 @@ use std::rc::Rc;
 
 use crate::mechanics::analysis::blocks::{components, matching};
 use crate::mechanics::equations::Equations;
-use crate::mechanics::loops::reduction::{Map, Reduction};
+use crate::mechanics::loops::reduction::Map;
 use crate::mechanics::loops::structure::{Means, Row};
+use crate::mechanics::translate::forces::LoadCase;
 use crate::model::types::{Closing, ConstraintId, Coordinate};
 use crate::symbolic::graph::Scalar;
+
+/// Multipliers of the equations by which dependent coordinates are found.
+#[derive(Clone, Default)]
+pub(in crate::mechanics) struct Holding(Option<Rc<[(Row, Scalar)]>>);
 
 /// A dependent coordinate's equation of motion.
 struct Balance {
@@ -27,7 +32,7 @@ impl Equations<'_> {
     /// Multipliers of the equations by which dependent coordinates are found, linear couplings left out; in symbols of the
     /// tree's coordinates and accelerations.
     pub(super) fn holding_multipliers(&mut self) -> Rc<[(Row, Scalar)]> {
-        if let Some(known) = &self.constraint_forces {
+        if let Some(known) = &self.caches.holding.0 {
             return Rc::clone(known);
         }
         let (rows, unknowns) = self.held_rows();
@@ -40,13 +45,13 @@ impl Equations<'_> {
             Vec::new()
         };
         let found: Rc<[(Row, Scalar)]> = found.into();
-        self.constraint_forces = Some(Rc::clone(&found));
+        self.caches.holding.0 = Some(Rc::clone(&found));
         found
     }
 
     /// Equations and unknowns of all steps but linear couplings of coordinates.
     fn held_rows(&mut self) -> (Vec<Row>, Vec<Coordinate>) {
-        let structure = Rc::clone(&self.structure);
+        let structure = Rc::clone(&self.scene.structure);
         let mut rows = structure.independent.clone();
         let mut unknowns = Vec::new();
         for step in &structure.steps {
@@ -64,7 +69,7 @@ impl Equations<'_> {
     /// Whether a coupling acts on coordinates of the tree alone.
     fn is_seen_through(&mut self, id: ConstraintId) -> bool {
         let slopes = self.slopes(id);
-        let cuts = &self.model.cuts;
+        let cuts = &self.scene.model.cuts;
         slopes.wrenches.is_empty() && slopes.efforts.iter().all(|(coordinate, _)| !cuts.contains(&coordinate.joint))
     }
 
@@ -80,7 +85,7 @@ impl Equations<'_> {
             let rate = self.implicit_rates(residual, &[]).0;
             rates.extend(self.g.substitute(&[rate], &map));
         }
-        let efforts = self.inverse_dynamics();
+        let efforts = self.inverse_dynamics(LoadCase::Held);
         let effort = |at: usize| efforts.get(at).copied().unwrap_or(Scalar::ZERO);
         let mut balances = Vec::with_capacity(unknowns.len());
         for &unknown in unknowns {
@@ -98,15 +103,14 @@ impl Equations<'_> {
 
     /// Rates of coordinates that linear couplings give, in velocities of the others.
     fn coupled_rates(&mut self) -> Vec<(Coordinate, Scalar)> {
-        let structure = Rc::clone(&self.structure);
+        let structure = Rc::clone(&self.scene.structure);
         let (mut map, mut coupled) = (Map::new(), Vec::new());
         for step in &structure.steps {
             let Means::Linear(id) = step.means else { continue };
             if !self.is_seen_through(id) {
                 continue;
             }
-            // A coupling is always solved.
-            for definition in self.step(step, &mut Reduction::default()).unwrap_or_default() {
+            if let Some(definition) = self.coupling(id, step) {
                 let rate = self.g.substitute(&[definition.rate], &map)[0];
                 let velocity = self.coordinate_symbols(definition.coordinate)[1];
                 map.extend(self.g.symbol_id(velocity).map(|id| (id, rate)));

@@ -10,38 +10,40 @@ use crate::dynamics::kinematics::motions;
 use crate::dynamics::newton_euler::{efforts, transmitted};
 use crate::dynamics::regroup::regroup_but;
 use crate::dynamics::{articulated, composite, lumped};
-use crate::mechanics::equations::{Equations, Method};
+use crate::mechanics::equations::Equations;
+use crate::mechanics::scene::Method;
+use crate::mechanics::translate::forces::LoadCase;
 use crate::symbolic::graph::Scalar;
 use crate::symbolic::linear_algebra::solve_symmetric;
 
 impl Equations<'_> {
     /// Efforts that the accelerations take beside all declared forces.
-    pub(in crate::mechanics) fn inverse_dynamics(&mut self) -> Vec<Scalar> {
-        let mechanism = Rc::clone(&self.mechanism);
-        let list = self.efforts(&mechanism.tree.acceleration);
+    pub(in crate::mechanics) fn inverse_dynamics(&mut self, case: LoadCase) -> Vec<Scalar> {
+        let mechanism = Rc::clone(&self.scene.mechanism);
+        let list = self.efforts(&mechanism.tree.acceleration, case);
         let mut efforts = mechanism.sign(&list);
-        let accelerations = self.symbols.accelerations.concat();
+        let accelerations = self.scene.symbols.accelerations.concat();
         self.add_rotor_efforts(&mut efforts, &accelerations);
         efforts
     }
 
     pub(in crate::mechanics) fn bias(&mut self) -> Vec<Scalar> {
-        let mechanism = Rc::clone(&self.mechanism);
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let still = vec![Scalar::ZERO; mechanism.tree.freedoms()];
-        let list = self.efforts(&still);
+        let list = self.efforts(&still, LoadCase::Declared);
         let mut efforts = mechanism.sign(&list);
         self.add_rotor_efforts(&mut efforts, &still);
         efforts
     }
 
     /// In the tree's coordinates.
-    fn efforts(&mut self, acceleration: &[Scalar]) -> Vec<Scalar> {
-        if self.lumped {
-            return self.lumped_efforts(acceleration);
+    fn efforts(&mut self, acceleration: &[Scalar], case: LoadCase) -> Vec<Scalar> {
+        if self.scene.way.lumped {
+            return self.lumped_efforts(acceleration, case);
         }
         let shared = self.shared();
         let tree = &shared.tree;
-        let loads = self.loads();
+        let loads = self.loads(case);
         let base = self.base();
         let g = &mut self.g;
         let motions = motions(g, tree, &tree.velocity, acceleration, base);
@@ -49,23 +51,23 @@ impl Equations<'_> {
         let wrenches = transmitted(g, tree, &motions, &applied);
         let needed = efforts(g, tree, &wrenches, acceleration);
         let rest = needed.iter().zip(&loads.efforts).map(|(&needed, &given)| g.sub(needed, given));
-        rest.take(self.symbols.freedoms).collect()
+        rest.take(self.scene.symbols.freedoms).collect()
     }
 
     /// The same over groups of links.
-    fn lumped_efforts(&mut self, acceleration: &[Scalar]) -> Vec<Scalar> {
-        let tree = regroup_but(&mut self.g, &self.mechanism.tree, true, &[]);
-        let loads = self.loads();
+    fn lumped_efforts(&mut self, acceleration: &[Scalar], case: LoadCase) -> Vec<Scalar> {
+        let tree = regroup_but(&mut self.g, &self.scene.mechanism.tree, true, &[]);
+        let loads = self.loads(case);
         let base = self.base();
         let g = &mut self.g;
         let needed = lumped::efforts(g, &tree, acceleration, base, &loads.applied, &loads.world);
         let rest = needed.iter().zip(&loads.efforts).map(|(&needed, &given)| g.sub(needed, given));
-        rest.take(self.symbols.freedoms).collect()
+        rest.take(self.scene.symbols.freedoms).collect()
     }
 
     /// Row by row.
     pub(in crate::mechanics) fn mass_matrix(&mut self) -> Vec<Scalar> {
-        let mechanism = Rc::clone(&self.mechanism);
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let shared = self.shared();
         let matrix = composite::mass_matrix(&mut self.g, &shared.tree);
         let mut entries = Vec::new();
@@ -77,31 +79,21 @@ impl Equations<'_> {
         entries
     }
 
-    /// Of the user's coordinates.
-    pub(in crate::mechanics) fn accelerations(&mut self) -> Rc<[Scalar]> {
-        if let Some(accelerations) = &self.accelerations {
-            return Rc::clone(accelerations);
-        }
-        if self.loading {
-            // Forces that depend on accelerations are refused by the checker.
-            return vec![Scalar::ZERO; self.symbols.freedoms].into();
-        }
-        if self.is_constrained() {
-            return self.tree_accelerations();
-        }
-        let mechanism = Rc::clone(&self.mechanism);
+    /// Accelerations of an open tree, in the user's coordinates.
+    pub(super) fn forward_dynamics(&mut self) -> Vec<Scalar> {
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let shared = self.shared();
         let tree = &shared.tree;
-        let list = match self.method {
+        let list = match self.scene.way.method {
             Method::Composite | Method::Floating => {
                 let matrix = composite::mass_matrix(&mut self.g, tree);
-                let bias = self.efforts(&vec![Scalar::ZERO; tree.freedoms()]);
-                let order = mechanism.elimination(self.method == Method::Floating);
+                let bias = self.efforts(&vec![Scalar::ZERO; tree.freedoms()], LoadCase::Declared);
+                let order = mechanism.elimination(self.scene.way.method == Method::Floating);
                 let rhs: Vec<Scalar> = bias.iter().map(|&b| -b).collect();
                 solve_symmetric(&mut self.g, &matrix, &order, &rhs)
             }
             Method::Articulated => {
-                let loads = self.loads();
+                let loads = self.loads(LoadCase::Declared);
                 let base = self.base();
                 let g = &mut self.g;
                 let applied = shared.turn(g, &loads.applied);
@@ -109,8 +101,6 @@ impl Equations<'_> {
                 articulated::forward_dynamics(g, tree, &floating_bases, &tree.velocity, base, &applied, &loads.efforts)
             }
         };
-        let accelerations: Rc<[Scalar]> = mechanism.sign(&list).into();
-        self.accelerations = Some(Rc::clone(&accelerations));
-        accelerations
+        mechanism.sign(&list)
     }
 }

@@ -24,7 +24,7 @@ impl Equations<'_> {
 
     /// J, parts of the potential energy of gravity.
     pub(in crate::mechanics) fn weight(&mut self) -> Vec<Scalar> {
-        let Some(gravity) = self.mechanism.tree.gravity else { return Vec::new() };
+        let Some(gravity) = self.scene.mechanism.tree.gravity else { return Vec::new() };
         let tree = self.regrouped();
         let gravity = self.g.vector(gravity);
         let moments = energy::first_moment(&mut self.g, &tree);
@@ -34,7 +34,7 @@ impl Equations<'_> {
     /// J, zero at the world's origin and with relaxed springs.
     pub(in crate::mechanics) fn potential(&mut self) -> Scalar {
         let mut terms = self.weight();
-        let model = self.model;
+        let model = self.scene.model;
         for (number, force) in model.forces.iter().enumerate() {
             match &force.kind {
                 ForceKind::JointSpring { joint, coordinate, stiffness: stiffness @ Some(_), rest, .. } => {

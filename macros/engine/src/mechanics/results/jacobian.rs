@@ -18,17 +18,17 @@ use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 impl Equations<'_> {
     /// Linear rows, then angular ones.
     pub(in crate::mechanics) fn jacobian(&mut self, place: &Place, axes: &Place) -> Value {
-        let mechanism = Rc::clone(&self.mechanism);
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let tree = &mechanism.tree;
         let plain = axes.link.is_none() && axes.rotation == Rotation::IDENTITY;
         let mut own = Columns::new(axes.link, axes.rotation.transpose());
         let g = &mut self.g;
-        let columns = if plain { &mut self.world } else { &mut own };
-        let mut rows: [Vec<Scalar>; 6] = std::array::from_fn(|_| vec![Scalar::ZERO; self.symbols.freedoms]);
+        let columns = if plain { &mut self.caches.world } else { &mut own };
+        let mut rows: [Vec<Scalar>; 6] = std::array::from_fn(|_| vec![Scalar::ZERO; self.scene.symbols.freedoms]);
         let point = columns.point(g, tree, place.link, place.offset);
         for index in tree.support(place.link) {
             let link = &tree.links[index];
-            if link.freedom >= self.symbols.freedoms {
+            if link.freedom >= self.scene.symbols.freedoms {
                 continue;
             }
             let turned = columns.of(g, tree, Some(index));
@@ -56,7 +56,7 @@ impl Equations<'_> {
                 }
             }
         }
-        let rows = match self.reduction.clone() {
+        let rows = match self.reduced.clone() {
             Some(reduction) => self.by_state(&reduction, &rows),
             None => rows,
         };

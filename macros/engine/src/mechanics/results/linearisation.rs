@@ -14,6 +14,7 @@ use std::collections::HashMap;
 use crate::dynamics::saddle::Saddle;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Reduction;
+use crate::mechanics::translate::forces::LoadCase;
 use crate::mechanics::translate::time::Seeds;
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::{Scalar, ScalarNode};
@@ -50,7 +51,7 @@ impl Equations<'_> {
         reduction: &Reduction,
         accumulation: Accumulation,
     ) -> Vec<Scalar> {
-        let efforts = self.reduced_efforts(reduction, true);
+        let efforts = self.reduced_efforts(reduction, LoadCase::Declared);
         let directions = self.directions(reduction);
         let columns = self.partials(&efforts, &directions.columns, accumulation);
         kinks::guarded(&mut self.g, &efforts, &directions.matrices(&columns))
@@ -65,20 +66,16 @@ impl Equations<'_> {
         let (mut saddle, rows, solved) = self.system(reduction);
         let directions = self.directions(reduction);
         // Positions and velocities move while accelerations and multipliers stay: these are symbols for now.
-        if !rows.bias.is_empty() {
-            self.loads = None;
-            self.multiplied = self.rows_with_multipliers();
-        }
-        let mut residual = self.reduced_efforts(reduction, true);
+        let mut residual = self.reduced_efforts(reduction, LoadCase::Held);
         let freedoms = residual.len();
-        let state = self.structure.state.clone();
+        let state = self.scene.structure.state.clone();
         let accelerations: Vec<Scalar> = state.iter().map(|&at| self.coordinate_symbols(at)[2]).collect();
         for (row, &gamma) in rows.jacobian.iter().zip(&rows.bias) {
             let mut terms: Vec<Scalar> = row.iter().zip(&accelerations).map(|(&c, &a)| self.g.mul(c, a)).collect();
             terms.push(gamma);
             residual.push(self.g.sum(&terms));
         }
-        let model = self.model;
+        let model = self.scene.model;
         saddle.invert(&mut self.g);
         let mut columns = match accumulation {
             Accumulation::Weighted => self.weighted(&saddle, &residual, &directions.columns, freedoms),
@@ -130,9 +127,9 @@ impl Equations<'_> {
 
     /// Puts in the accelerations and multipliers that were found.
     fn settle(&mut self, columns: &mut [Vec<Scalar>], solved: &Solved) {
-        let state = self.structure.state.clone();
+        let state = self.scene.structure.state.clone();
         let accelerations = state.iter().map(|&coordinate| self.coordinate_symbols(coordinate)[2]);
-        let symbols = accelerations.chain(self.symbols.multipliers.iter().copied());
+        let symbols = accelerations.chain(self.scene.symbols.multipliers.iter().copied());
         let values = solved.accelerations.iter().chain(&solved.multipliers).copied();
         let pairs: Vec<(Scalar, Scalar)> = symbols.zip(values).collect();
         let map = self.map(&pairs);
@@ -144,7 +141,7 @@ impl Equations<'_> {
     }
 
     fn directions(&mut self, reduction: &Reduction) -> Directions {
-        let state = self.structure.state.clone();
+        let state = self.scene.structure.state.clone();
         let places = self.state();
         let map = if reduction.rates.is_empty() { Vec::new() } else { self.velocity_map(reduction, &places) };
         let mut columns = Vec::new();
@@ -158,7 +155,7 @@ impl Equations<'_> {
             columns.push(seeds);
         }
         let velocities: Vec<Scalar> = state.iter().map(|&at| self.coordinate_symbols(at)[1]).collect();
-        let (states, inputs) = (self.symbols.states.clone(), self.symbols.inputs.concat());
+        let (states, inputs) = (self.scene.symbols.states.clone(), self.scene.symbols.inputs.concat());
         let counts = [state.len(), state.len(), states.len(), inputs.len()];
         columns.extend(velocities.into_iter().chain(states).chain(inputs).map(|symbol| vec![(symbol, Scalar::ONE)]));
         Directions { columns, counts }
@@ -166,7 +163,7 @@ impl Equations<'_> {
 
     /// Places of dependent coordinates in the tree, and their positions.
     fn dependents(&self, reduction: &Reduction) -> Vec<(usize, Scalar)> {
-        let steps = self.structure.steps.iter();
+        let steps = self.scene.structure.steps.iter();
         let unknowns = steps.flat_map(|step| step.unknowns.iter().copied());
         let found = |freedom: &usize| reduction.rates.iter().any(|rate| rate.0 == *freedom);
         unknowns

@@ -1,6 +1,7 @@
 //! Room `results`: one file per thing that generated functions give, made of the tree's algorithms and of what takes the
 //! place of dependent coordinates.
 
+pub(super) mod accelerations;
 pub(super) mod actuation;
 pub(super) mod constrained;
 pub(super) mod constraint_forces;

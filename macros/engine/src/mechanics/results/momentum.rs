@@ -12,6 +12,7 @@ use crate::dynamics::newton_euler::{efforts, transmitted};
 use crate::dynamics::velocities::velocities;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Reduction;
+use crate::mechanics::translate::forces::LoadCase;
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
@@ -38,7 +39,7 @@ impl Equations<'_> {
     /// The same from the entries of M.
     pub(in crate::mechanics) fn momenta_by_matrix(&mut self) -> Vec<Scalar> {
         let matrix = self.mass_matrix();
-        let velocities = self.symbols.velocities.concat();
+        let velocities = self.scene.symbols.velocities.concat();
         times(&mut self.g, &matrix, &velocities)
     }
 
@@ -65,7 +66,7 @@ impl Equations<'_> {
     /// The same from the entries of S^T M S.
     pub(in crate::mechanics) fn reduced_momenta_by_matrix(&mut self, reduction: &Reduction) -> Vec<Scalar> {
         let matrix = self.reduced_mass_matrix(reduction).concat();
-        let velocities: Vec<Scalar> = self.symbols.velocities.concat();
+        let velocities: Vec<Scalar> = self.scene.symbols.velocities.concat();
         let of_state: Vec<Scalar> = self.state().into_iter().map(|freedom| velocities[freedom]).collect();
         times(&mut self.g, &matrix, &of_state)
     }
@@ -85,7 +86,7 @@ impl Equations<'_> {
 
     /// (S')^T p, by coordinate of the tree. Symbols of accelerations stand for the momenta while S^T is differentiated.
     fn turned_momenta(&mut self, reduction: &Reduction) -> Vec<Scalar> {
-        let weights: Vec<Scalar> = self.symbols.accelerations.concat();
+        let weights: Vec<Scalar> = self.scene.symbols.accelerations.concat();
         if reduction.rates.is_empty() {
             return vec![Scalar::ZERO; weights.len()];
         }
@@ -106,7 +107,7 @@ impl Equations<'_> {
         };
         let shared = self.shared();
         let tree = &shared.tree;
-        let loads = self.loads();
+        let loads = self.loads(LoadCase::Declared);
         let g = &mut self.g;
         let rest = vec![Scalar::ZERO; tree.freedoms()];
         let motions = motions(g, tree, &rest, &rest, base);
@@ -118,15 +119,15 @@ impl Equations<'_> {
         if weight == Weight::Force {
             return given;
         }
-        let positions: Vec<Scalar> = self.symbols.positions.concat();
+        let positions: Vec<Scalar> = self.scene.symbols.positions.concat();
         let parts: Vec<(Scalar, Scalar)> = self.weight().into_iter().map(|part| (part, -Scalar::ONE)).collect();
         let pull = self.g.transpose_linear(&parts, &positions);
         given.iter().zip(&pull).map(|(&given, &pull)| self.g.add(given, pull)).collect()
     }
 
     fn of_user(&self, list: &[Scalar]) -> Vec<Scalar> {
-        let mut list = self.mechanism.sign(list);
-        list.truncate(self.symbols.freedoms);
+        let mut list = self.scene.mechanism.sign(list);
+        list.truncate(self.scene.symbols.freedoms);
         list
     }
 }

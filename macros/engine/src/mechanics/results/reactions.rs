@@ -13,19 +13,24 @@ use crate::dynamics::newton_euler::{Wrench, transmitted};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::structure::Row;
 use crate::mechanics::translate::build::Place;
+use crate::mechanics::translate::forces::LoadCase;
 use crate::mechanics::translate::values::Value;
 use crate::model::types::{Closing, Coordinate, ForceKind, JointId};
 use crate::symbolic::graph::{Scalar, Vector};
 
+/// What joints of the tree transmit, at the links' origins in their axes.
+#[derive(Clone, Default)]
+pub(in crate::mechanics) struct Transmitted(Option<Rc<[Wrench]>>);
+
 impl Equations<'_> {
     /// In the axes of a frame.
     pub(in crate::mechanics) fn reaction(&mut self, joint: JointId, axes: &Place) -> Value {
-        if self.model.cuts.contains(&joint) {
+        if self.scene.model.cuts.contains(&joint) {
             let [force, moment] = self.closing_reaction(joint, axes);
             return Value::Pair(force, moment);
         }
         let wrenches = self.wrenches();
-        let link = self.mechanism.joints.get(joint.0).and_then(|joint| joint.child).and_then(|child| child.link);
+        let link = self.scene.mechanism.joints.get(joint.0).and_then(|joint| joint.child).and_then(|child| child.link);
         let Some(&wrench) = link.and_then(|index| wrenches.get(index)) else {
             return Value::Pair(Vector::ZERO, Vector::ZERO);
         };
@@ -43,7 +48,7 @@ impl Equations<'_> {
 
     /// Of a joint that closes a loop.
     fn closing_reaction(&mut self, joint: JointId, axes: &Place) -> [Vector; 2] {
-        if self.loading {
+        if self.derives_forces() {
             // Forces that depend on reactions are refused by the checker.
             return [Vector::ZERO; 2];
         }
@@ -74,19 +79,21 @@ impl Equations<'_> {
 
     /// Whether a drive holds a measured coordinate to its course.
     pub(in crate::mechanics) fn is_held(&self, coordinate: Coordinate) -> bool {
-        self.model.constraints.iter().any(|constraint| constraint.drive == Some(coordinate))
+        self.scene.model.constraints.iter().any(|constraint| constraint.drive == Some(coordinate))
     }
 
     /// What a drive exerts on a measured coordinate beside all declared forces: less its multiplier.
     pub(in crate::mechanics) fn holding_effort(&mut self, coordinate: Coordinate) -> Scalar {
-        if self.loading {
+        if self.derives_forces() {
             return Scalar::ZERO;
         }
         self.accelerations();
         let mut multiplied = self.rows_with_multipliers();
         multiplied.extend(self.holding_multipliers().iter().copied());
         let drives = |row: &Row| match row.closing {
-            Closing::Constraint(id) => self.model.constraints.get(id.0).is_some_and(|c| c.drive == Some(coordinate)),
+            Closing::Constraint(id) => {
+                self.scene.model.constraints.get(id.0).is_some_and(|c| c.drive == Some(coordinate))
+            }
             Closing::Cut(_) => false,
         };
         multiplied.iter().find(|(row, _)| drives(row)).map_or(Scalar::ZERO, |&(_, multiplier)| -multiplier)
@@ -94,42 +101,42 @@ impl Equations<'_> {
 
     /// Sums of the declared efforts on a joint that closes a loop.
     fn efforts_across(&mut self, joint: JointId) -> Vec<Scalar> {
-        let model = self.model;
-        let mut sums: Vec<Scalar> = Vec::new();
-        self.loading = true;
-        for force in &model.forces {
-            match &force.kind {
-                ForceKind::Effort { joint: at, values } if *at == joint => {
-                    sums.resize(sums.len().max(values.len()), Scalar::ZERO);
-                    for (sum, value) in sums.iter_mut().zip(values) {
-                        let value = self.scalar(value);
-                        *sum = self.g.add(*sum, value);
+        let model = self.scene.model;
+        self.derive_forces(|e| {
+            let mut sums: Vec<Scalar> = Vec::new();
+            for force in &model.forces {
+                match &force.kind {
+                    ForceKind::Effort { joint: at, values } if *at == joint => {
+                        sums.resize(sums.len().max(values.len()), Scalar::ZERO);
+                        for (sum, value) in sums.iter_mut().zip(values) {
+                            let value = e.scalar(value);
+                            *sum = e.g.add(*sum, value);
+                        }
                     }
+                    ForceKind::JointSpring { joint: at, coordinate, stiffness, damping, rest } if *at == joint => {
+                        sums.resize(sums.len().max(coordinate + 1), Scalar::ZERO);
+                        let spring = e.joint_spring(joint, *coordinate, [stiffness, damping, rest]);
+                        let effort = spring.effort(&mut e.g);
+                        sums[*coordinate] = e.g.add(sums[*coordinate], effort);
+                    }
+                    _ => {}
                 }
-                ForceKind::JointSpring { joint: at, coordinate, stiffness, damping, rest } if *at == joint => {
-                    sums.resize(sums.len().max(coordinate + 1), Scalar::ZERO);
-                    let spring = self.joint_spring(joint, *coordinate, [stiffness, damping, rest]);
-                    let effort = spring.effort(&mut self.g);
-                    sums[*coordinate] = self.g.add(sums[*coordinate], effort);
-                }
-                _ => {}
             }
-        }
-        self.loading = false;
-        sums
+            sums
+        })
     }
 
     /// Of all joints of the tree, at the links' origins in their axes.
     fn wrenches(&mut self) -> Rc<[Wrench]> {
-        if let Some(wrenches) = &self.transmitted {
+        if let Some(wrenches) = &self.caches.transmitted.0 {
             return Rc::clone(wrenches);
         }
-        let mechanism = Rc::clone(&self.mechanism);
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let tree = &mechanism.tree;
         let user = self.accelerations();
         let mut acceleration = mechanism.sign(&user);
         acceleration.resize(tree.freedoms(), Scalar::ZERO);
-        let loads = self.loads();
+        let loads = self.loads(LoadCase::Held);
         let mut loads = self.with_rotors(loads, &user);
         let holding = self.holding_multipliers();
         if !holding.is_empty() {
@@ -138,7 +145,7 @@ impl Equations<'_> {
         let base = self.base();
         let motions = motions(&mut self.g, tree, &tree.velocity, &acceleration, base);
         let wrenches: Rc<[Wrench]> = transmitted(&mut self.g, tree, &motions, &loads.applied).into();
-        self.transmitted = Some(Rc::clone(&wrenches));
+        self.caches.transmitted.0 = Some(Rc::clone(&wrenches));
         wrenches
     }
 }

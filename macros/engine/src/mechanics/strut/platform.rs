@@ -10,9 +10,9 @@ use std::rc::Rc;
 
 use crate::dynamics::tree::{Motion, Tree};
 use crate::mechanics::equations::Equations;
-use crate::mechanics::loops::branches::Branch;
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::loops::structure::{Means, Role};
+use crate::mechanics::translate::forces::LoadCase;
 use crate::model::joint_kinds::Hold;
 use crate::model::types::{Closing, Comparison, ExprNode, Joint, SolveHow};
 use crate::symbolic::graph::{Graph, Scalar, Vector};
@@ -48,8 +48,8 @@ impl Platform {
 impl Equations<'_> {
     /// The body on struts that the whole model is, if it is one.
     pub(in crate::mechanics) fn platform(&mut self, reduction: &Reduction) -> Option<Platform> {
-        let model = self.model;
-        let structure = Rc::clone(&self.structure);
+        let model = self.scene.model;
+        let structure = Rc::clone(&self.scene.structure);
         if !structure.rows.is_empty() || structure.steps.is_empty() || !self.rotors().is_empty() {
             return None;
         }
@@ -59,7 +59,7 @@ impl Equations<'_> {
             let Means::Solve(item) = step.means else { return None };
             let SolveHow::From { closing: Closing::Cut(ball), .. } = model.solves.get(item)?.how else { return None };
             // Here each line keeps its sense.
-            if !self.branches.get(&item).is_some_and(Branch::is_fixed) {
+            if !self.decided.branches.is_fixed(item) {
                 return None;
             }
             let (chain, link, pin) = self.chain(model.joints.get(ball.0)?)?;
@@ -69,7 +69,7 @@ impl Equations<'_> {
             chains.push((chain, pin));
         }
         let link = held?;
-        let mechanism = Rc::clone(&self.mechanism);
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let own: usize = chains.iter().map(|(chain, _)| chain.links.len()).sum();
         if mechanism.tree.links.len() != mechanism.tree.path(None, Some(link)).len() + own {
             return None;
@@ -99,7 +99,7 @@ impl Equations<'_> {
             }
         }
         let mut carrier = Carrier::of(&mut self.g, &tree, link, &legs)?;
-        let load = self.loads().applied[link];
+        let load = self.loads(LoadCase::Declared).applied[link];
         // It may depend on driven and dependent coordinates.
         let load = [load.force, load.moment].map(|v| self.g.components(v));
         let load = self.finish(reduction, &load.concat());
@@ -113,7 +113,7 @@ impl Equations<'_> {
         if ball.kind.holds != [Hold::Point] {
             return None;
         }
-        let mechanism = Rc::clone(&self.mechanism);
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let ends = [self.place(&ball.parent), self.place(&ball.child)];
         let mut found = [(0, 1), (1, 0)].into_iter().filter_map(|(tip, body)| {
             let (tip, body) = (ends[tip], ends[body]);
@@ -126,8 +126,8 @@ impl Equations<'_> {
 
     /// Declared efforts along the slides; nothing if anything else acts than these and a load on the body.
     fn strut_efforts(&mut self, chains: &[(Chain, Triple)], body: usize) -> Option<Vec<Scalar>> {
-        let mechanism = Rc::clone(&self.mechanism);
-        let loads = self.loads();
+        let mechanism = Rc::clone(&self.scene.mechanism);
+        let loads = self.loads(LoadCase::Declared);
         let free = |k: usize| loads.applied[k].moment == Vector::ZERO && loads.applied[k].force == Vector::ZERO;
         let slides: Vec<usize> = chains.iter().map(|(chain, _)| mechanism.tree.links[chain.slide].freedom).collect();
         let idle = (0..loads.efforts.len()).all(|k| slides.contains(&k) || loads.efforts[k] == Scalar::ZERO);
@@ -137,10 +137,10 @@ impl Equations<'_> {
 
     /// Whether the strut reaches along the positive axis of its slide on the chosen branch; nothing if that changes.
     fn points_along(&mut self, chain: &Chain, reduction: &Reduction) -> Option<bool> {
-        let travel = self.mechanism.tree.links.get(chain.slide)?.q;
+        let travel = self.scene.mechanism.tree.links.get(chain.slide)?.q;
         let reach = self.g.add(chain.zero, travel);
         let reach = self.finish(reduction, &[reach]);
-        let parameters = self.symbols.parameters();
+        let parameters = self.scene.symbols.parameters();
         let adjustable = self.g.depends_on(reach[0], &parameters);
         if adjustable && !is_positive(&self.g, reach[0]) && !is_positive(&self.g, -reach[0]) {
             return None;
@@ -159,7 +159,7 @@ impl Equations<'_> {
         at: usize,
     ) -> Option<Vec<Scalar>> {
         // A drive may hold all of the rotation, and nothing else.
-        let held = self.structure.roles.iter().flatten().any(|role| matches!(role, Role::Driven(_)));
+        let held = self.scene.structure.roles.iter().flatten().any(|role| matches!(role, Role::Driven(_)));
         let path = platform.tree.path(None, Some(platform.link));
         let moves = |at: &usize| self.state().contains(&platform.tree.links[*at].freedom);
         let (translations, turns) = path.split_at_checked(3)?;
@@ -177,8 +177,9 @@ impl Equations<'_> {
             let line = carrier.legs.get(at)?.strut.moving(g, d, rate);
             let sign = |s: Scalar| if positive { s } else { -s };
             let travel = g.sub(sign(line.length), zero);
-            let link = &self.mechanism.tree.links[slide];
-            travels.extend([(link.q, travel), (self.mechanism.tree.velocity[link.freedom], sign(line.length_rate))]);
+            let link = &self.scene.mechanism.tree.links[slide];
+            travels
+                .extend([(link.q, travel), (self.scene.mechanism.tree.velocity[link.freedom], sign(line.length_rate))]);
         }
         let travels: Vec<(Scalar, Scalar)> =
             travels.into_iter().map(|(s, x)| if s.is_negative() { (-s, -x) } else { (s, x) }).collect();
@@ -188,9 +189,9 @@ impl Equations<'_> {
         let g = &mut self.g;
         let (a, dw) = forward::accelerations(g, carrier, &efforts, (&reference, gather), held);
         let found = motion::coordinates(g, &platform.tree, platform.link, &a, &dw)?;
-        let mut of_tree = vec![None; self.symbols.freedoms];
+        let mut of_tree = vec![None; self.scene.symbols.freedoms];
         for (freedom, value) in found {
-            let flipped = self.mechanism.flipped.get(freedom) == Some(&true);
+            let flipped = self.scene.mechanism.flipped.get(freedom) == Some(&true);
             *of_tree.get_mut(freedom)? = Some(if flipped { -value } else { value });
         }
         self.state().into_iter().map(|freedom| of_tree[freedom]).collect()
@@ -203,18 +204,19 @@ impl Equations<'_> {
         reduction: &Reduction,
         at: usize,
     ) -> Option<Vec<Scalar>> {
-        let model = self.model;
+        let model = self.scene.model;
         let inputs: Vec<Scalar> = model
             .solve_for
             .iter()
-            .filter_map(|wanted| self.symbols.inputs.get(wanted.input.0)?.get(wanted.element).copied())
+            .filter_map(|wanted| self.scene.symbols.inputs.get(wanted.input.0)?.get(wanted.element).copied())
             .collect();
         let (force, moment) = &platform.carrier.load;
         let loaded = force.iter().chain(moment).any(|&c| self.g.depends_on(c, &inputs));
         if inputs.len() != platform.efforts.len() || loaded {
             return None;
         }
-        let parameters: Vec<_> = self.symbols.params.concat().iter().filter_map(|&p| self.g.symbol_id(p)).collect();
+        let parameters: Vec<_> =
+            self.scene.symbols.params.concat().iter().filter_map(|&p| self.g.symbol_id(p)).collect();
         let known = Known {
             parameter: &|id| parameters.contains(&id),
             nonzero: &|g: &Graph, s: Scalar| {
@@ -246,7 +248,7 @@ impl Equations<'_> {
 
     /// Differences that `assume` items say do not vanish.
     fn vouched(&mut self, reduction: &Reduction) -> Vec<Scalar> {
-        let model = self.model;
+        let model = self.scene.model;
         let mut list = Vec::new();
         for condition in &model.assumptions {
             if let ExprNode::Compare(Comparison::Less | Comparison::Greater | Comparison::NotEqual, a, b) =

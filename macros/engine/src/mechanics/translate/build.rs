@@ -95,11 +95,11 @@ impl Mechanism {
 }
 
 impl Equations<'_> {
-    /// Builds the tree. `kept` are `Fixed` joints that get a link of their own.
-    pub(in crate::mechanics) fn build(&mut self, kept: &[JointId]) -> Mechanism {
-        let model = self.model;
-        let velocity: Vec<Scalar> = self.symbols.velocities.concat();
-        let acceleration: Vec<Scalar> = self.symbols.accelerations.concat();
+    /// Builds the tree.
+    pub(in crate::mechanics) fn build(&mut self) -> Mechanism {
+        let model = self.scene.model;
+        let velocity: Vec<Scalar> = self.scene.symbols.velocities.concat();
+        let acceleration: Vec<Scalar> = self.scene.symbols.accelerations.concat();
         let mut mechanism = Mechanism {
             bodies: vec![Place::GROUND; model.bodies.len()],
             joints: vec![JointLinks::default(); model.joints.len()],
@@ -110,7 +110,8 @@ impl Equations<'_> {
         mechanism.tree.acceleration = acceleration;
         for &id in &model.tree {
             if let Some(joint) = model.joints.get(id.0) {
-                self.attach(&mut mechanism, id, joint, kept.contains(&id));
+                let kept = self.scene.kept.contains(&id);
+                self.attach(&mut mechanism, id, joint, kept);
             }
         }
         for (body, place) in model.bodies.iter().zip(mechanism.bodies.clone()) {
@@ -129,7 +130,7 @@ impl Equations<'_> {
     fn attach(&mut self, mechanism: &mut Mechanism, id: JointId, joint: &Joint, kept: bool) {
         let (rotation, offset) = self.steps(&joint.parent);
         let parent = mechanism.body(joint.parent.body).then(&mut self.g, rotation, offset);
-        let name = names::path(self.model, &joint.place);
+        let name = names::path(self.scene.model, &joint.place);
         let start = mechanism.tree.links.len();
         let mut chain = Chain::new(mechanism, parent, name);
         self.append(&mut chain, id, joint, kept);
@@ -197,7 +198,7 @@ impl Equations<'_> {
     /// Where a frame stands on the tree.
     pub(in crate::mechanics) fn place(&mut self, frame: &Frame) -> Place {
         let (rotation, offset) = self.steps(frame);
-        let body = self.mechanism.body(frame.body);
+        let body = self.scene.mechanism.body(frame.body);
         body.then(&mut self.g, rotation, offset)
     }
 }

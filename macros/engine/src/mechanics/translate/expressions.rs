@@ -3,6 +3,7 @@
 //! In: expressions of the checked model, a tree with shared branches. Out: [`Value`]s. Each shared branch is translated
 //! once, and operands go first on a stack of their own, so that a long chain of `let` items needs no deep recursion.
 
+use std::collections::HashMap;
 use std::rc::Rc;
 
 use crate::contracts::call::Call;
@@ -15,21 +16,28 @@ use crate::symbolic::rotations;
 use super::directions;
 use super::values::{Part, Value};
 
+/// Values of expressions.
+#[derive(Clone, Default)]
+pub(in crate::mechanics) struct Memo {
+    /// By address: the model outlives this.
+    known: HashMap<*const ExprNode, Value>,
+}
+
 impl Equations<'_> {
     /// The value of an expression.
     pub(in crate::mechanics) fn value(&mut self, expr: &Expr) -> Value {
         let mut stack = vec![expr];
         while let Some(&top) = stack.last() {
             let key = Rc::as_ptr(&top.node);
-            if !self.memo.contains_key(&key) {
+            if !self.caches.memo.known.contains_key(&key) {
                 let before = stack.len();
-                let open = |e: &&Expr| !self.memo.contains_key(&Rc::as_ptr(&e.node));
+                let open = |e: &&Expr| !self.caches.memo.known.contains_key(&Rc::as_ptr(&e.node));
                 stack.extend(operands(&top.node).into_iter().filter(open));
                 if stack.len() > before {
                     continue;
                 }
                 let value = self.node(&top.node);
-                self.memo.insert(key, value);
+                self.caches.memo.known.insert(key, value);
             }
             stack.pop();
         }
@@ -47,7 +55,7 @@ impl Equations<'_> {
 
     /// The value of an operand, which is there when its user is translated.
     fn known(&self, expr: &Expr) -> Value {
-        self.memo.get(&Rc::as_ptr(&expr.node)).cloned().unwrap_or(Value::ZERO)
+        self.caches.memo.known.get(&Rc::as_ptr(&expr.node)).cloned().unwrap_or(Value::ZERO)
     }
 
     fn known_vector(&mut self, expr: &Expr) -> Vector {
@@ -58,25 +66,25 @@ impl Equations<'_> {
         match node {
             ExprNode::Number(x) => Value::Scalar(self.g.decimal(*x)),
             ExprNode::Pi => Value::Scalar(self.g.pi()),
-            ExprNode::Time => Value::Scalar(self.symbols.time),
+            ExprNode::Time => Value::Scalar(self.scene.symbols.time),
             ExprNode::Param(id) => {
-                let list = self.symbols.params.get(id.0).cloned().unwrap_or_default();
-                let ty = self.model.params.get(id.0).map(|param| &param.ty);
+                let list = self.scene.symbols.params.get(id.0).cloned().unwrap_or_default();
+                let ty = self.scene.model.params.get(id.0).map(|param| &param.ty);
                 self.shaped(&list, ty)
             }
             ExprNode::Input(id) => {
-                let list = self.symbols.inputs.get(id.0).cloned().unwrap_or_default();
-                let ty = self.model.inputs.get(id.0).map(|input| &input.ty);
+                let list = self.scene.symbols.inputs.get(id.0).cloned().unwrap_or_default();
+                let ty = self.scene.model.inputs.get(id.0).map(|input| &input.ty);
                 self.shaped(&list, ty)
             }
-            ExprNode::State(id) => Value::Scalar(self.symbols.states.get(id.0).copied().unwrap_or(Scalar::ZERO)),
+            ExprNode::State(id) => Value::Scalar(self.scene.symbols.states.get(id.0).copied().unwrap_or(Scalar::ZERO)),
             &ExprNode::Coordinate { joint, index, order } => {
                 Value::Scalar(self.coordinate(Coordinate { joint, index }, order))
             }
             &ExprNode::RelativeAngularVelocity(joint) => Value::Vector(self.relative_angular_velocity(joint)),
             &ExprNode::Effort { joint, index } => {
                 let coordinate = Coordinate { joint, index };
-                Value::Scalar(match self.structure.role(coordinate) {
+                Value::Scalar(match self.scene.structure.role(coordinate) {
                     Role::Driven(_) => self.drive_effort(coordinate),
                     _ if self.is_held(coordinate) => self.holding_effort(coordinate),
                     _ => self.effort(joint, index),

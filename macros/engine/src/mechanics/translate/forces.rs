@@ -93,34 +93,75 @@ impl Terms {
     }
 }
 
-impl Equations<'_> {
-    /// All declared forces together.
-    pub(in crate::mechanics) fn loads(&mut self) -> Rc<Loads> {
-        if let Some(loads) = &self.loads {
-            return Rc::clone(loads);
-        }
-        let mechanism = Rc::clone(&self.mechanism);
-        let mut terms = Terms::new(&mechanism);
-        let model = self.model;
-        if !std::mem::replace(&mut self.loading, true) {
-            for (number, force) in model.forces.iter().enumerate() {
-                self.act(&mut terms, ForceId(number), &force.kind);
-            }
-            self.loading = false;
-        }
-        let loads = Rc::new(terms.sums(&mut self.g, &mechanism));
-        let loads = self.with_multipliers(loads);
-        self.loads = Some(Rc::clone(&loads));
-        loads
-    }
+/// Which forces act.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::mechanics) enum LoadCase {
+    /// Those that the model declares.
+    Declared,
+    /// And those of the multipliers, which are symbols.
+    Held,
+}
 
-    /// Declared forces and those of the multipliers that act.
-    fn with_multipliers(&mut self, loads: Rc<Loads>) -> Rc<Loads> {
-        if self.multiplied.is_empty() {
+/// Forces that are derived, or being derived.
+#[derive(Clone, Default)]
+pub(in crate::mechanics) struct Forces {
+    declared: Option<Rc<Loads>>,
+    held: Option<Rc<Loads>>,
+    /// The checker lets no force depend on others, and here that would be an endless regress.
+    deriving: bool,
+}
+
+impl Equations<'_> {
+    /// All forces together.
+    pub(in crate::mechanics) fn loads(&mut self, case: LoadCase) -> Rc<Loads> {
+        let known = |forces: &Forces| match case {
+            LoadCase::Declared => forces.declared.clone(),
+            LoadCase::Held => forces.held.clone(),
+        };
+        if let Some(loads) = known(&self.caches.forces) {
             return loads;
         }
-        let multiplied = std::mem::take(&mut self.multiplied);
-        self.held_by(&loads, &multiplied)
+        match case {
+            LoadCase::Declared => {
+                let loads = self.declared_loads();
+                self.caches.forces.declared = Some(Rc::clone(&loads));
+                loads
+            }
+            LoadCase::Held => {
+                let declared = self.loads(LoadCase::Declared);
+                let multiplied = self.rows_with_multipliers();
+                let loads = if multiplied.is_empty() { declared } else { self.held_by(&declared, &multiplied) };
+                self.caches.forces.held = Some(Rc::clone(&loads));
+                loads
+            }
+        }
+    }
+
+    fn declared_loads(&mut self) -> Rc<Loads> {
+        let mechanism = Rc::clone(&self.scene.mechanism);
+        let mut terms = Terms::new(&mechanism);
+        let model = self.scene.model;
+        self.derive_forces(|e| {
+            for (number, force) in model.forces.iter().enumerate() {
+                e.act(&mut terms, ForceId(number), &force.kind);
+            }
+        });
+        Rc::new(terms.sums(&mut self.g, &mechanism))
+    }
+
+    /// Derives forces; nothing comes of it while others are being derived.
+    pub(in crate::mechanics) fn derive_forces<T: Default>(&mut self, f: impl FnOnce(&mut Self) -> T) -> T {
+        if std::mem::replace(&mut self.caches.forces.deriving, true) {
+            return T::default();
+        }
+        let result = f(self);
+        self.caches.forces.deriving = false;
+        result
+    }
+
+    /// Whether forces are being derived.
+    pub(in crate::mechanics) fn derives_forces(&self) -> bool {
+        self.caches.forces.deriving
     }
 
     /// Loads with the forces of multipliers.
@@ -135,8 +176,8 @@ impl Equations<'_> {
         let mut held: Vec<Held> = Vec::new();
         for &(row, multiplier) in multiplied {
             let at = held.iter().position(|one| one.closing == row.closing).unwrap_or_else(|| {
-                let multipliers = vec![Scalar::ZERO; row_count(self.model, row.closing)];
-                held.push(Held { closing: row.closing, multipliers, writing: self.writing });
+                let multipliers = vec![Scalar::ZERO; row_count(self.scene.model, row.closing)];
+                held.push(Held { closing: row.closing, multipliers, writing: self.scene.way.writing });
                 held.len() - 1
             });
             if let Some(slot) = held[at].multipliers.get_mut(row.index) {
@@ -148,12 +189,12 @@ impl Equations<'_> {
 
     fn act(&mut self, terms: &mut Terms, id: ForceId, kind: &ForceKind) {
         match kind {
-            ForceKind::Effort { joint, values } if self.model.cuts.contains(joint) => {
+            ForceKind::Effort { joint, values } if self.scene.model.cuts.contains(joint) => {
                 let values: Vec<Scalar> = values.iter().map(|value| self.scalar(value)).collect();
                 self.act_across(terms, *joint, &values, false);
             }
             ForceKind::Effort { joint, values } => {
-                let first = self.symbols.first.get(joint.0).copied().unwrap_or(0);
+                let first = self.scene.symbols.first.get(joint.0).copied().unwrap_or(0);
                 for (k, value) in values.iter().enumerate() {
                     let value = self.scalar(value);
                     terms.effort(first + k, value);
@@ -162,7 +203,7 @@ impl Equations<'_> {
             ForceKind::JointSpring { joint, coordinate, stiffness, damping, rest } => {
                 let spring = self.joint_spring(*joint, *coordinate, [stiffness, damping, rest]);
                 let effort = spring.effort(&mut self.g);
-                if self.model.cuts.contains(joint) {
+                if self.scene.model.cuts.contains(joint) {
                     let mut efforts = vec![Scalar::ZERO; *coordinate];
                     efforts.push(effort);
                     self.act_across(terms, *joint, &efforts, false);
@@ -223,7 +264,7 @@ impl Equations<'_> {
         efforts: &[Scalar],
         held: bool,
     ) -> Option<([Place; 2], Wrench)> {
-        let model = self.model;
+        let model = self.scene.model;
         let joint = model.joints.get(id.0)?;
         let effort = |k: usize| efforts.get(k).copied().unwrap_or(Scalar::ZERO);
         let ends = [self.place(&joint.parent), self.place(&joint.child)];
@@ -311,37 +352,37 @@ impl Equations<'_> {
 
     /// Sum of `Effort`s and joint springs on one coordinate.
     pub(in crate::mechanics) fn effort(&mut self, joint: JointId, index: usize) -> Scalar {
-        if std::mem::replace(&mut self.loading, true) {
-            return Scalar::ZERO;
-        }
-        let model = self.model;
-        let mut terms = Vec::new();
-        for force in &model.forces {
-            match &force.kind {
-                ForceKind::Effort { joint: at, values } if *at == joint => {
-                    terms.extend(values.get(index).map(|value| self.scalar(value)));
+        let model = self.scene.model;
+        let terms = self.derive_forces(|e| {
+            let mut terms = Vec::new();
+            for force in &model.forces {
+                match &force.kind {
+                    ForceKind::Effort { joint: at, values } if *at == joint => {
+                        terms.extend(values.get(index).map(|value| e.scalar(value)));
+                    }
+                    ForceKind::JointSpring { joint: at, coordinate, stiffness, damping, rest }
+                        if *at == joint && *coordinate == index =>
+                    {
+                        let spring = e.joint_spring(joint, index, [stiffness, damping, rest]);
+                        terms.push(spring.effort(&mut e.g));
+                    }
+                    _ => {}
                 }
-                ForceKind::JointSpring { joint: at, coordinate, stiffness, damping, rest }
-                    if *at == joint && *coordinate == index =>
-                {
-                    let spring = self.joint_spring(joint, index, [stiffness, damping, rest]);
-                    terms.push(spring.effort(&mut self.g));
-                }
-                _ => {}
             }
-        }
-        self.loading = false;
+            terms
+        });
         self.g.sum(&terms)
     }
 
     /// What a force puts into the mechanism, W.
     pub(super) fn power(&mut self, id: ForceId) -> Scalar {
-        let model = self.model;
+        self.derive_forces(|e| Some(e.derived_power(id))).unwrap_or(Scalar::ZERO)
+    }
+
+    fn derived_power(&mut self, id: ForceId) -> Scalar {
+        let model = self.scene.model;
         let Some(force) = model.forces.get(id.0) else { return Scalar::ZERO };
-        if std::mem::replace(&mut self.loading, true) {
-            return Scalar::ZERO;
-        }
-        let power = match &force.kind {
+        match &force.kind {
             ForceKind::Effort { joint, values } => {
                 let mut terms = Vec::with_capacity(values.len());
                 for (index, value) in values.iter().enumerate() {
@@ -369,9 +410,7 @@ impl Equations<'_> {
             }
             ForceKind::Force { at, value, axes } => self.power_at(at, value, axes, false),
             ForceKind::Torque { at, value, axes } => self.power_at(at, value, axes, true),
-        };
-        self.loading = false;
-        power
+        }
     }
 
     /// Force times velocity or torque times angular velocity, in the world's axes if the force is given in them.

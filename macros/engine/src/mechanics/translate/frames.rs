@@ -3,11 +3,14 @@
 //! In: a frame's place on the tree. Out: its position, orientation, velocity and acceleration in world axes, written in
 //! the derivation's style; vectors from the axes of one frame to those of another.
 
+use std::collections::HashMap;
 use std::rc::Rc;
 
 use crate::dynamics::point_kinematics::PointKinematics;
+use crate::dynamics::velocities::{LinkVelocity, velocities};
 use crate::dynamics::world;
-use crate::mechanics::equations::{Equations, Style};
+use crate::mechanics::equations::Equations;
+use crate::mechanics::scene::Style;
 use crate::model::types::{Expr, ExprNode, FrameQuantity, JointId};
 use crate::symbolic::graph::{Rotation, Scalar, Vector};
 use crate::symbolic::rotations;
@@ -26,6 +29,14 @@ struct FrameMotion {
     acceleration: Vector,
     angular: Vector,
     angular_rate: Vector,
+}
+
+/// How links are turned and move.
+#[derive(Clone, Default)]
+pub(in crate::mechanics) struct Links {
+    /// Rotations to world axes.
+    rotations: HashMap<usize, Rotation>,
+    velocities: Option<Rc<[LinkVelocity]>>,
 }
 
 impl Equations<'_> {
@@ -51,7 +62,7 @@ impl Equations<'_> {
 
     /// `order` 0: position; 1: velocities too; 2: accelerations too.
     fn frame_motion(&mut self, place: &Place, order: u8) -> FrameMotion {
-        let mechanism = Rc::clone(&self.mechanism);
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let tree = &mechanism.tree;
         let acceleration = (order > 1).then(|| {
             let user = self.accelerations();
@@ -59,7 +70,7 @@ impl Equations<'_> {
             list.resize(tree.freedoms(), Scalar::ZERO);
             Rc::from(list)
         });
-        match self.style {
+        match self.scene.way.style {
             Style::Nested => {
                 let still: Rc<[Scalar]> = Rc::from([]);
                 let acceleration = acceleration.unwrap_or(still);
@@ -70,7 +81,7 @@ impl Equations<'_> {
                 FrameMotion { position, velocity, acceleration, angular, angular_rate }
             }
             Style::World => {
-                let (g, columns) = (&mut self.g, &mut self.world);
+                let (g, columns) = (&mut self.g, &mut self.caches.world);
                 let arm = columns.rotate(g, tree, place.link, place.offset);
                 let origin = columns.origin(g, tree, place.link);
                 let position = g.add_vectors(origin, arm);
@@ -100,18 +111,18 @@ impl Equations<'_> {
 
     /// Rotation from a frame to the world, row by row.
     pub(in crate::mechanics) fn frame_rows(&mut self, place: &Place) -> [[Scalar; 3]; 3] {
-        match self.style {
+        match self.scene.way.style {
             Style::Nested => {
                 let link = self.rotation(place.link);
                 let rotation = self.g.compose(link, place.rotation);
                 rotations::rows(&mut self.g, rotation)
             }
             Style::World => {
-                let mechanism = Rc::clone(&self.mechanism);
+                let mechanism = Rc::clone(&self.scene.mechanism);
                 let rows = rotations::rows(&mut self.g, place.rotation);
                 let columns = rotations::transpose(&rows).map(|column| {
                     let column = self.g.vector(column);
-                    let column = self.world.rotate(&mut self.g, &mechanism.tree, place.link, column);
+                    let column = self.caches.world.rotate(&mut self.g, &mechanism.tree, place.link, column);
                     self.g.components(column)
                 });
                 rotations::transpose(&columns)
@@ -121,20 +132,21 @@ impl Equations<'_> {
 
     /// Rotation from a link to the world, as a chain that vectors pass turn by turn.
     pub(in crate::mechanics) fn rotation(&mut self, link: Option<usize>) -> Rotation {
-        let mechanism = Rc::clone(&self.mechanism);
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let tree = &mechanism.tree;
-        let known = tree.support(link).find(|&index| self.rotations[index].is_some());
-        let mut rotation = known.and_then(|index| self.rotations[index]).unwrap_or(Rotation::IDENTITY);
+        let rotations = &self.caches.links.rotations;
+        let known = tree.support(link).find(|index| rotations.contains_key(index));
+        let mut rotation = known.map_or(Rotation::IDENTITY, |index| rotations[&index]);
         for index in tree.path(known, link) {
             rotation = self.outwards(rotation, index);
-            self.rotations[index] = Some(rotation);
+            self.caches.links.rotations.insert(index, rotation);
         }
         rotation
     }
 
     /// A rotation followed outwards through one joint: placement and turn one by one, so that parallel turns meet.
     fn outwards(&mut self, rotation: Rotation, index: usize) -> Rotation {
-        let mechanism = Rc::clone(&self.mechanism);
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let link = &mechanism.tree.links[index];
         let placed = self.g.compose(rotation, link.rotation);
         let turn = link.turn(&mut self.g);
@@ -158,14 +170,14 @@ impl Equations<'_> {
         if carrier.is_none() {
             return self.rotation(link);
         }
-        let mechanism = Rc::clone(&self.mechanism);
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let path = mechanism.tree.path(carrier, link);
         path.into_iter().fold(Rotation::IDENTITY, |rotation, index| self.outwards(rotation, index))
     }
 
     /// The outermost link that carries both.
     pub(in crate::mechanics) fn common(&self, a: Option<usize>, b: Option<usize>) -> Option<usize> {
-        self.mechanism.tree.common(a, b)
+        self.scene.mechanism.tree.common(a, b)
     }
 
     /// Components in a frame's axes of a world vector. Quantities of frames on the same link need no way through the
@@ -227,7 +239,7 @@ impl Equations<'_> {
                 }
                 ExprNode::Neg(a) => stack.push(a),
                 ExprNode::OfFrame(frame, FrameQuantity::Velocity | FrameQuantity::AngularVelocity) => {
-                    found |= self.mechanism.body(frame.body).link == link;
+                    found |= self.scene.mechanism.body(frame.body).link == link;
                 }
                 _ => {}
             }
@@ -250,7 +262,7 @@ impl Equations<'_> {
     /// The vector from one frame's origin to another's and its rate (for order 1), in the axes of the last link that
     /// carries both, as that link sees them.
     pub(in crate::mechanics) fn way(&mut self, from: &Place, to: &Place, order: u8) -> ([Vector; 2], Option<usize>) {
-        let mechanism = Rc::clone(&self.mechanism);
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let common = self.common(from.link, to.link);
         let ends = [from, to].map(|place| {
             let mut kinematics = PointKinematics::new(&mechanism.tree, place.offset, order, &[]);
@@ -259,6 +271,16 @@ impl Equations<'_> {
         });
         let way = [0, 1].map(|k| self.g.sub_vectors(ends[1][k], ends[0][k]));
         (way, common)
+    }
+
+    /// Velocities of all links, in link axes.
+    pub(in crate::mechanics) fn link_velocities(&mut self) -> Rc<[LinkVelocity]> {
+        if let Some(velocities) = &self.caches.links.velocities {
+            return Rc::clone(velocities);
+        }
+        let velocities: Rc<[LinkVelocity]> = velocities(&mut self.g, &self.scene.mechanism.tree).into();
+        self.caches.links.velocities = Some(Rc::clone(&velocities));
+        velocities
     }
 
     /// Angular velocity of a frame and velocity of its origin, in its link's axes.
@@ -273,9 +295,9 @@ impl Equations<'_> {
 
     /// The child's angular velocity relative to the parent, in the axes of the joint's child frame.
     pub(super) fn relative_angular_velocity(&mut self, joint: JointId) -> Vector {
-        let mechanism = Rc::clone(&self.mechanism);
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let tree = &mechanism.tree;
-        if self.model.cuts.contains(&joint) {
+        if self.scene.model.cuts.contains(&joint) {
             return self.measured_angular_velocity(joint);
         }
         let Some(joint) = mechanism.joints.get(joint.0) else { return Vector::ZERO };

@@ -37,7 +37,7 @@ impl Equations<'_> {
 
     /// The rotations from the ground to a frame if one at most is not constant.
     fn few_turns(&mut self, place: &Place) -> Option<Vec<Rotation>> {
-        let mechanism = std::rc::Rc::clone(&self.mechanism);
+        let mechanism = std::rc::Rc::clone(&self.scene.mechanism);
         let tree = &mechanism.tree;
         let g = &mut self.g;
         // Constant, moving, constant.

@@ -55,7 +55,7 @@ impl Equations<'_> {
         data: [&Option<Expr>; 3],
     ) -> LineSpring {
         let [stiffness, damping, natural] = self.optional(data);
-        let ([way, way_rate], axes) = match self.structure.meeting.contains(&id) {
+        let ([way, way_rate], axes) = match self.scene.structure.meeting.contains(&id) {
             true => ([Vector::ZERO; 2], None),
             false => self.way(&ends[0], &ends[1], 1),
         };

@@ -20,13 +20,13 @@ impl Equations<'_> {
     /// How symbols move in time. Order 1: positions by velocities, and time itself; order 2: velocities by
     /// accelerations too.
     pub fn seeds(&mut self, order: u8) -> Seeds {
-        let mut seeds = vec![(self.symbols.time, Scalar::ONE)];
-        for joint in 0..self.model.joints.len() {
+        let mut seeds = vec![(self.scene.symbols.time, Scalar::ONE)];
+        for joint in 0..self.scene.model.joints.len() {
             let id = JointId(joint);
-            let velocities = Symbols::of(&self.symbols.velocities, id).to_vec();
+            let velocities = Symbols::of(&self.scene.symbols.velocities, id).to_vec();
             self.move_joint(id, &velocities, &mut seeds);
             if order > 1 {
-                let accelerations = Symbols::of(&self.symbols.accelerations, id).to_vec();
+                let accelerations = Symbols::of(&self.scene.symbols.accelerations, id).to_vec();
                 let pairs = velocities.into_iter().zip(accelerations);
                 seeds.extend(pairs.filter(|&(v, _)| is_symbol(&self.g, v)));
             }
@@ -51,7 +51,7 @@ impl Equations<'_> {
 
     /// How positions move where this velocity coordinate alone is one.
     pub fn direction(&mut self, coordinate: Coordinate) -> Seeds {
-        let count = Symbols::of(&self.symbols.velocities, coordinate.joint).len();
+        let count = Symbols::of(&self.scene.symbols.velocities, coordinate.joint).len();
         let mut velocities = vec![Scalar::ZERO; count];
         if let Some(slot) = velocities.get_mut(coordinate.index) {
             *slot = Scalar::ONE;
@@ -69,8 +69,8 @@ impl Equations<'_> {
     }
 
     fn move_joint(&mut self, id: JointId, velocities: &[Scalar], seeds: &mut Seeds) {
-        let positions = Symbols::of(&self.symbols.positions, id).to_vec();
-        let turns = self.model.joints.get(id.0).is_some_and(has_quaternion) && positions.len() >= 4;
+        let positions = Symbols::of(&self.scene.symbols.positions, id).to_vec();
+        let turns = self.scene.model.joints.get(id.0).is_some_and(has_quaternion) && positions.len() >= 4;
         let straight = if turns { positions.len() - 4 } else { positions.len() };
         let mut rates: Vec<Scalar> = velocities.iter().copied().take(straight).collect();
         if let (true, [.., w, i, j, k], [.., x, y, z]) = (turns, &positions[..], velocities) {

@@ -13,12 +13,12 @@ use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::loops::structure::Row;
 use crate::mechanics::translate::symbols::{Symbols, has_quaternion};
 use crate::model::types::{Closing, ConstraintKind, Coordinate, Handling, JointId, Model, SolveHow};
-use crate::symbolic::graph::{Graph, Scalar};
+use crate::symbolic::graph::Scalar;
 use crate::symbolic::lower::Lowering;
 
 use super::super::measure::Measure;
 use super::super::tape::Tape;
-use super::{Alignment, Column, Condition, Equation, Mover, Problem, Quaternion, Random, Source, WAY};
+use super::{Alignment, Column, Condition, Equation, Mover, Problem, Quaternion, Random, Source};
 
 /// An equation in symbols.
 struct Draft {
@@ -46,9 +46,7 @@ impl Roots {
 }
 
 pub(super) fn formulate(model: &Model, off: f64, writing: Writing) -> Problem {
-    let mut graph = Graph::new();
-    let symbols = Symbols::new(&mut graph, model);
-    let mut e = Equations::new(model, graph, symbols, WAY, &[]);
+    let mut e = Equations::plain(model);
     let (mut drafts, cosines) = e.closing_drafts(writing);
     drafts.extend(e.formula_drafts());
     let mut roots = Roots::default();
@@ -63,13 +61,13 @@ pub(super) fn formulate(model: &Model, off: f64, writing: Writing) -> Problem {
     let driven: Vec<(usize, usize)> =
         e.driven().into_iter().map(|(symbol, value)| (symbol, roots.push(value))).collect();
     let (movers, quaternions, columns) = columns(model, &e);
-    let positions = e.symbols.positions.iter();
+    let positions = e.scene.symbols.positions.iter();
     let positions = positions.map(|list| list.iter().filter_map(|&s| Some(e.g.symbol_id(s)?.0)).collect()).collect();
     let mut lowering = Lowering::new(&e.g);
     let roots = lowering.run(&roots.0);
     let tape = Tape::new(&lowering.to, &roots);
-    let parameters = parameters(&e.symbols);
-    let time = e.symbols.table.iter().position(|symbol| matches!(symbol, Symbol::Time));
+    let parameters = parameters(&e.scene.symbols);
+    let time = e.scene.symbols.table.iter().position(|symbol| matches!(symbol, Symbol::Time));
     let columns_of = |root: usize| columns_of(&tape.symbols(root), &movers, &quaternions);
     let equations = drafts.iter().zip(measures).zip(residuals).map(|((draft, measure), root)| {
         let symbols = tape.symbols(root);
@@ -89,7 +87,7 @@ pub(super) fn formulate(model: &Model, off: f64, writing: Writing) -> Problem {
     let alignments =
         alignments.map(|(&(closing, _), root)| Alignment { closing, root, columns: columns_of(root) }).collect();
     let conditions = conditions.map(|root| Condition { root, columns: columns_of(root) }).collect();
-    let defaults = defaults(model, &e.symbols, off);
+    let defaults = defaults(model, &e.scene.symbols, off);
     let mut problem = Problem {
         tape,
         equations,
@@ -112,7 +110,7 @@ pub(super) fn formulate(model: &Model, off: f64, writing: Writing) -> Problem {
 impl Equations<'_> {
     /// Equations of all closings, and the cosines that are one where joints are closed as they were meant.
     fn closing_drafts(&mut self, writing: Writing) -> (Vec<Draft>, Vec<(Closing, Scalar)>) {
-        let model = self.model;
+        let model = self.scene.model;
         let (mut drafts, mut cosines) = (Vec::new(), Vec::new());
         for closing in closings(model) {
             let rod = self.rod_length(closing);
@@ -132,13 +130,13 @@ impl Equations<'_> {
 
     /// Unknowns minus the formulas of `solve` items.
     fn formula_drafts(&mut self) -> Vec<Draft> {
-        let model = self.model;
+        let model = self.scene.model;
         let mut drafts = Vec::new();
         for (number, solve) in model.solves.iter().enumerate() {
             let (SolveHow::Formulas(list), Handling::Reduced) = (&solve.how, &model.handling) else { continue };
             for (k, (formula, unknown)) in list.iter().zip(&solve.unknowns).enumerate() {
                 let value = self.scalar(formula);
-                let x = Symbols::of(&self.symbols.positions, unknown.joint).get(unknown.index).copied();
+                let x = Symbols::of(&self.scene.symbols.positions, unknown.joint).get(unknown.index).copied();
                 let residual = self.g.sub(x.unwrap_or(Scalar::ZERO), value);
                 drafts.push(Draft { source: Source::Formula(number, k), residual, measure: Measure::Value });
             }
@@ -148,7 +146,7 @@ impl Equations<'_> {
 
     fn rod_length(&mut self, closing: Closing) -> Option<Scalar> {
         let Closing::Constraint(id) = closing else { return None };
-        match &self.model.constraints.get(id.0)?.kind {
+        match &self.scene.model.constraints.get(id.0)?.kind {
             ConstraintKind::Rod { length, .. } => Some(self.scalar(length)),
             ConstraintKind::Value(_) => None,
         }
@@ -156,19 +154,19 @@ impl Equations<'_> {
 
     /// Symbols of positions that drives give, with the values.
     fn driven(&mut self) -> Vec<(usize, Scalar)> {
-        if self.model.drives.is_empty() {
+        if self.scene.model.drives.is_empty() {
             return Vec::new();
         }
         let mut reduction = Reduction::default();
         self.drive(&mut reduction);
-        let positions: Vec<Scalar> = self.symbols.positions.concat();
+        let positions: Vec<Scalar> = self.scene.symbols.positions.concat();
         let ids = positions.iter().filter_map(|&s| self.g.symbol_id(s));
         ids.filter_map(|id| reduction.map.get(&id).map(|&value| (id.0, value))).collect()
     }
 
     /// Conditions of `solve` items.
     fn conditions(&mut self) -> Vec<Scalar> {
-        let model = self.model;
+        let model = self.scene.model;
         let mut list = Vec::new();
         for solve in &model.solves {
             if let SolveHow::From { branches, .. } = &solve.how {
@@ -180,7 +178,7 @@ impl Equations<'_> {
 
     /// Masses and traces of second moments: how far bodies reach.
     fn spans(&mut self) -> Vec<Scalar> {
-        let mechanism = std::rc::Rc::clone(&self.mechanism);
+        let mechanism = std::rc::Rc::clone(&self.scene.mechanism);
         let mut spans = Vec::new();
         for link in &mechanism.tree.links {
             let [xx, yy, zz, ..] = link.inertia.second;
@@ -191,8 +189,8 @@ impl Equations<'_> {
 
     /// Constant lengths of the mechanism, component by component.
     fn lengths(&mut self) -> Vec<Scalar> {
-        let mechanism = std::rc::Rc::clone(&self.mechanism);
-        let model = self.model;
+        let mechanism = std::rc::Rc::clone(&self.scene.mechanism);
+        let model = self.scene.model;
         let mut offsets: Vec<_> = mechanism.tree.links.iter().map(|link| link.offset).collect();
         let mut lengths = Vec::new();
         let mut frames = Vec::new();
@@ -214,10 +212,10 @@ impl Equations<'_> {
 }
 
 fn columns(model: &Model, e: &Equations<'_>) -> (Vec<Mover>, Vec<Quaternion>, Vec<Column>) {
-    let mut movers = vec![Mover::Rests; e.symbols.table.len()];
+    let mut movers = vec![Mover::Rests; e.scene.symbols.table.len()];
     let mut quaternions: Vec<Quaternion> = Vec::new();
     let mut columns: Vec<Column> = Vec::new();
-    for (joint, velocities) in e.symbols.velocities.iter().enumerate() {
+    for (joint, velocities) in e.scene.symbols.velocities.iter().enumerate() {
         let id = JointId(joint);
         let first = columns.len();
         let turns = model.joints.get(joint).is_some_and(has_quaternion) && velocities.len() >= 3;
@@ -233,7 +231,7 @@ fn columns(model: &Model, e: &Equations<'_>) -> (Vec<Mover>, Vec<Quaternion>, Ve
         if turns {
             quaternions.push(Quaternion { symbol: usize::MAX, column: first + straight });
         }
-        for (id, symbol) in e.symbols.table.iter().enumerate() {
+        for (id, symbol) in e.scene.symbols.table.iter().enumerate() {
             let Symbol::Position { joint: at, component } = *symbol else { continue };
             if at.0 != joint {
                 continue;
@@ -246,7 +244,7 @@ fn columns(model: &Model, e: &Equations<'_>) -> (Vec<Mover>, Vec<Quaternion>, Ve
             }
         }
     }
-    for link in &e.mechanism.tree.links {
+    for link in &e.scene.mechanism.tree.links {
         if let (Motion::Prismatic(_), Some(column)) = (link.motion, columns.get_mut(link.freedom)) {
             // Negative: in units of the size, which is not known yet.
             (column.travels, column.unit) = (true, -1.0);

@@ -41,7 +41,7 @@ pub(super) struct Cut {
 
 impl Equations<'_> {
     pub(super) fn cut(&mut self, id: JointId) -> Option<Cut> {
-        let model = self.model;
+        let model = self.scene.model;
         let joint = model.joints.get(id.0)?;
         let mut ends = [self.place(&joint.parent), self.place(&joint.child)];
         let axes = self.joint_axes(joint);
@@ -83,7 +83,7 @@ impl Equations<'_> {
     /// Whether a screw of the tree stands between two frames.
     fn holds_screw(&self, ends: &[Place; 2]) -> bool {
         let common = self.common(ends[0].link, ends[1].link);
-        let tree = &self.mechanism.tree;
+        let tree = &self.scene.mechanism.tree;
         let is_screw = |index: usize| matches!(tree.links[index].motion, Motion::Screw(..));
         ends.iter().any(|end| tree.path(common, end.link).into_iter().any(is_screw))
     }

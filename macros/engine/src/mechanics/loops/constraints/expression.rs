@@ -8,7 +8,7 @@
 //! As efforts on the coordinates of the tree all of this is -lambda times the partial derivatives of phi, but only wrenches
 //! on bodies load the joints that carry them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
 use crate::dynamics::newton_euler::Wrench;
@@ -23,15 +23,23 @@ use crate::symbolic::rotations::{self, transpose};
 use super::super::reduction::Map;
 use super::super::structure::Row;
 
+/// What expressions that are held read, and what they act with.
+#[derive(Clone, Default)]
+pub(in crate::mechanics) struct Readings {
+    stand_ins: StandIns,
+    /// By constraint.
+    slopes: HashMap<ConstraintId, Rc<Slopes>>,
+}
+
 /// Symbols that stand for what an expression reads.
 #[derive(Clone, Default)]
-pub(in crate::mechanics) struct StandIns {
+struct StandIns {
     /// By link: origin and columns of the rotation, in world axes.
     links: BTreeMap<usize, Link>,
     /// Measured coordinates, of joints that close loops.
     measured: BTreeMap<Coordinate, Scalar>,
     /// What each stands for.
-    pub(in crate::mechanics) map: Map,
+    map: Map,
     /// What is read by the expression at hand; nothing while quantities mean themselves.
     read: Option<Read>,
 }
@@ -59,20 +67,20 @@ pub(in crate::mechanics) struct Slopes {
 impl Equations<'_> {
     /// Whether quantities stand for themselves.
     pub(in crate::mechanics) fn stands_apart(&self) -> bool {
-        self.stand_ins.read.is_some()
+        self.caches.readings.stand_ins.read.is_some()
     }
 
     pub(in crate::mechanics) fn slopes(&mut self, id: ConstraintId) -> Rc<Slopes> {
-        if let Some(known) = self.slopes.get(&id.0) {
+        if let Some(known) = self.caches.readings.slopes.get(&id) {
             return Rc::clone(known);
         }
         let slopes = Rc::new(self.find_slopes(id));
-        self.slopes.insert(id.0, Rc::clone(&slopes));
+        self.caches.readings.slopes.insert(id, Rc::clone(&slopes));
         slopes
     }
 
     fn find_slopes(&mut self, id: ConstraintId) -> Slopes {
-        let model = self.model;
+        let model = self.scene.model;
         let Some(constraint) = model.constraints.get(id.0) else { return Slopes::default() };
         let ConstraintKind::Value(value) = &constraint.kind else { return Slopes::default() };
         if let Some(coordinate) = constraint.drive {
@@ -106,11 +114,11 @@ impl Equations<'_> {
 
     /// An expression in symbols for what it reads.
     fn read(&mut self, value: &Expr) -> (Scalar, Read) {
-        let memo = std::mem::take(&mut self.memo);
-        self.stand_ins.read = Some(Read::default());
+        let memo = std::mem::take(&mut self.caches.memo);
+        self.caches.readings.stand_ins.read = Some(Read::default());
         let phi = self.scalar(value);
-        let read = self.stand_ins.read.take().unwrap_or_default();
-        self.memo = memo;
+        let read = self.caches.readings.stand_ins.read.take().unwrap_or_default();
+        self.caches.memo = memo;
         (phi, read)
     }
 
@@ -145,33 +153,37 @@ impl Equations<'_> {
 
     /// What the symbols stand for in their places.
     pub(in crate::mechanics) fn put_in_stand_ins(&mut self, roots: &[Scalar]) -> Vec<Scalar> {
-        if self.stand_ins.map.is_empty() { roots.to_vec() } else { self.g.substitute(roots, &self.stand_ins.map) }
+        if self.caches.readings.stand_ins.map.is_empty() {
+            roots.to_vec()
+        } else {
+            self.g.substitute(roots, &self.caches.readings.stand_ins.map)
+        }
     }
 
     /// A new symbol for a value. It is replaced in all results, those included that merely look as if they read it.
     fn stand_in(&mut self, value: Scalar) -> Scalar {
         let symbol = self.g.symbol();
         self.g.mark(symbol, Symbols::STAND_INS);
-        self.stand_ins.map.extend(self.g.symbol_id(symbol).map(|id| (id, value)));
+        self.caches.readings.stand_ins.map.extend(self.g.symbol_id(symbol).map(|id| (id, value)));
         symbol
     }
 
     /// A coordinate that an expression reads.
     pub(in crate::mechanics) fn read_coordinate(&mut self, coordinate: Coordinate) -> Scalar {
         let Coordinate { joint, index } = coordinate;
-        let symbol = match Symbols::of(&self.symbols.positions, joint).get(index) {
+        let symbol = match Symbols::of(&self.scene.symbols.positions, joint).get(index) {
             Some(&symbol) => symbol,
-            None => match self.stand_ins.measured.get(&coordinate) {
+            None => match self.caches.readings.stand_ins.measured.get(&coordinate) {
                 Some(&symbol) => symbol,
                 None => {
                     let value = self.meaning_itself(|e| e.measured_position(coordinate));
                     let symbol = self.stand_in(value);
-                    self.stand_ins.measured.insert(coordinate, symbol);
+                    self.caches.readings.stand_ins.measured.insert(coordinate, symbol);
                     symbol
                 }
             },
         };
-        if let Some(read) = &mut self.stand_ins.read {
+        if let Some(read) = &mut self.caches.readings.stand_ins.read {
             read.coordinates.insert(coordinate, symbol);
         }
         symbol
@@ -225,7 +237,7 @@ impl Equations<'_> {
 
     fn read_link(&mut self, link: Option<usize>) -> Option<Link> {
         let index = link?;
-        let found = match self.stand_ins.links.get(&index) {
+        let found = match self.caches.readings.stand_ins.links.get(&index) {
             Some(&found) => found,
             None => {
                 let place = Place { link, ..Place::GROUND };
@@ -240,11 +252,11 @@ impl Equations<'_> {
                 let origin = origin.map(|value| self.stand_in(value));
                 let columns = columns.map(|column| column.map(|value| self.stand_in(value)));
                 let found = Link { origin, columns };
-                self.stand_ins.links.insert(index, found);
+                self.caches.readings.stand_ins.links.insert(index, found);
                 found
             }
         };
-        if let Some(read) = &mut self.stand_ins.read {
+        if let Some(read) = &mut self.caches.readings.stand_ins.read {
             read.links.insert(index, found);
         }
         Some(found)
@@ -252,11 +264,11 @@ impl Equations<'_> {
 
     /// Works something out with quantities that mean themselves.
     fn meaning_itself<T>(&mut self, f: impl FnOnce(&mut Self) -> T) -> T {
-        let read = self.stand_ins.read.take();
-        let memo = std::mem::take(&mut self.memo);
+        let read = self.caches.readings.stand_ins.read.take();
+        let memo = std::mem::take(&mut self.caches.memo);
         let result = f(self);
-        self.memo = memo;
-        self.stand_ins.read = read;
+        self.caches.memo = memo;
+        self.caches.readings.stand_ins.read = read;
         result
     }
 }

@@ -46,7 +46,7 @@ impl Equations<'_> {
         if order == Order::Position && self.stands_apart() {
             return self.read_coordinate(coordinate);
         }
-        if self.model.cuts.contains(&joint) {
+        if self.scene.model.cuts.contains(&joint) {
             return match order {
                 Order::Position => self.measured_position(coordinate),
                 Order::Rate => self.measured_rate(coordinate),
@@ -54,8 +54,8 @@ impl Equations<'_> {
             };
         }
         let found = match order {
-            Order::Position => Symbols::of(&self.symbols.positions, joint).get(index).copied(),
-            Order::Rate => Symbols::of(&self.symbols.velocities, joint).get(index).copied(),
+            Order::Position => Symbols::of(&self.scene.symbols.positions, joint).get(index).copied(),
+            Order::Rate => Symbols::of(&self.scene.symbols.velocities, joint).get(index).copied(),
             Order::Acceleration => {
                 let freedom = self.freedom(coordinate);
                 self.accelerations().get(freedom).copied()
@@ -65,7 +65,7 @@ impl Equations<'_> {
     }
 
     pub(in crate::mechanics) fn measured_position(&mut self, Coordinate { joint, index }: Coordinate) -> Scalar {
-        let model = self.model;
+        let model = self.scene.model;
         let Some(joint) = model.joints.get(joint.0) else { return Scalar::ZERO };
         let ends = [self.place(&joint.parent), self.place(&joint.child)];
         let axes = self.joint_axes(joint);
@@ -96,7 +96,7 @@ impl Equations<'_> {
     /// Whether a measured coordinate is an angle that is known up to whole turns. A pitch is none: it never passes a
     /// quarter.
     pub(super) fn is_angle(&mut self, Coordinate { joint, index }: Coordinate) -> bool {
-        let model = self.model;
+        let model = self.scene.model;
         let Some(joint) = model.joints.get(joint.0) else { return false };
         let turns = joint.kind.freedoms.get(index).is_some_and(|freedom| freedom.motion == Motion::Turns);
         let travels = joint.pitch.as_ref().is_some_and(|pitch| self.scalar(pitch) != Scalar::ZERO);
@@ -168,7 +168,7 @@ impl Equations<'_> {
     }
 
     pub(in crate::mechanics) fn dual(&mut self, Coordinate { joint, index }: Coordinate) -> Option<Dual> {
-        let model = self.model;
+        let model = self.scene.model;
         let joint = model.joints.get(joint.0)?;
         let [parent, child] = [self.place(&joint.parent), self.place(&joint.child)];
         let Some(freedom) = joint.kind.freedoms.get(index) else {
@@ -222,7 +222,7 @@ impl Equations<'_> {
     }
 
     fn measured_rate(&mut self, coordinate: Coordinate) -> Scalar {
-        let model = self.model;
+        let model = self.scene.model;
         let (Some(dual), Some(joint)) = (self.dual(coordinate), model.joints.get(coordinate.joint.0)) else {
             return Scalar::ZERO;
         };
@@ -243,7 +243,7 @@ impl Equations<'_> {
     /// The way between two frames and its rate, and their angular velocities, in the axes of the last link that carries both,
     /// as that link sees them.
     fn motion_between(&mut self, ends: &[Place; 2]) -> (Option<usize>, [Vector; 2], [Vector; 2]) {
-        let mechanism = Rc::clone(&self.mechanism);
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let common = self.common(ends[0].link, ends[1].link);
         let [from, to] = [0, 1].map(|k| {
             let mut kinematics = PointKinematics::new(&mechanism.tree, ends[k].offset, 1, &[]);
@@ -258,13 +258,13 @@ impl Equations<'_> {
         let rate = self.measured_rate(coordinate);
         let accelerations = self.accelerations();
         let mut seeds = self.seeds(1);
-        seeds.extend(self.symbols.velocities.concat().into_iter().zip(accelerations.iter().copied()));
+        seeds.extend(self.scene.symbols.velocities.concat().into_iter().zip(accelerations.iter().copied()));
         Differentiator::new(&seeds).scalar(&mut self.g, rate)
     }
 
     /// The child's angular velocity relative to the parent, in the axes of the joint's child frame.
     pub(in crate::mechanics) fn measured_angular_velocity(&mut self, joint: JointId) -> Vector {
-        let model = self.model;
+        let model = self.scene.model;
         let Some(joint) = model.joints.get(joint.0) else { return Vector::ZERO };
         let ends = [self.place(&joint.parent), self.place(&joint.child)];
         let (common, _, [parent, child]) = self.motion_between(&ends);

@@ -14,7 +14,7 @@ use crate::symbolic::rotations;
 impl Equations<'_> {
     /// Whether it is certain: there may be other reasons for two points to meet.
     pub(in crate::mechanics) fn are_held_together(&mut self, ends: &[Place; 2]) -> bool {
-        let model = self.model;
+        let model = self.scene.model;
         let mut known = vec![ends[0]];
         let mut cuts: Vec<JointId> = model.cuts.clone();
         let mut next = 0;
@@ -41,7 +41,7 @@ impl Equations<'_> {
     /// The same point on the body beyond a cut joint.
     fn beyond(&mut self, point: &Place, id: JointId) -> Option<Place> {
         let cut = self.cut(id)?;
-        let kind = self.model.joints.get(id.0)?.kind;
+        let kind = self.scene.model.joints.get(id.0)?.kind;
         for [near, far] in [cut.ends, [cut.ends[1], cut.ends[0]]] {
             let local = match point.link == near.link {
                 true => {

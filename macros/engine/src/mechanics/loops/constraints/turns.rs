@@ -12,21 +12,20 @@
 //! needs no rule, nor does what is hidden behind names. An angle that adds anything else, a share that is no fraction, that
 //! a parameter changes, or that depends on where things are, can't be held: the equation would jump.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
 use crate::contracts::call::Call;
 use crate::mechanics::analysis::Complaint;
-use crate::mechanics::equations::{Equations, Method, Style, Way};
+use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::expressions::operands;
-use crate::mechanics::translate::symbols::Symbols;
 use crate::model::site::Sited;
 use crate::model::types::{Closing, ConstraintId, ConstraintKind, Coordinate, Expr, ExprNode, Model, Order};
 use crate::symbolic::evaluate::{Evaluator, Real};
-use crate::symbolic::graph::{Graph, Scalar, SymbolId};
+use crate::symbolic::graph::{Scalar, SymbolId};
 use crate::symbolic::number::Number;
 
-use super::{Writing, coordinate_name, row_name};
+use super::{coordinate_name, row_name};
 
 /// Greatest numerator and denominator of a share: with more, turns lie so close that which of them is meant is lost.
 const MOST: i64 = 1000;
@@ -42,10 +41,14 @@ pub(in crate::mechanics) enum Turns {
     Lost(Coordinate),
 }
 
+/// What whole turns of measured angles do, by constraint.
+#[derive(Clone, Default)]
+pub(in crate::mechanics) struct KnownTurns(HashMap<ConstraintId, Turns>);
+
 impl Equations<'_> {
     /// The equation of an expression.
     pub(super) fn expression_residual(&mut self, id: ConstraintId) -> Scalar {
-        let model = self.model;
+        let model = self.scene.model;
         let Some(ConstraintKind::Value(value)) = model.constraints.get(id.0).map(|c| &c.kind) else {
             return Scalar::ZERO;
         };
@@ -60,16 +63,16 @@ impl Equations<'_> {
     }
 
     pub(in crate::mechanics) fn turns(&mut self, id: ConstraintId) -> Turns {
-        if let Some(&known) = self.turns.get(&id.0) {
+        if let Some(&known) = self.caches.turns.0.get(&id) {
             return known;
         }
         let turns = self.find_turns(id);
-        self.turns.insert(id.0, turns);
+        self.caches.turns.0.insert(id, turns);
         turns
     }
 
     fn find_turns(&mut self, id: ConstraintId) -> Turns {
-        let model = self.model;
+        let model = self.scene.model;
         let Some(ConstraintKind::Value(value)) = model.constraints.get(id.0).map(|c| &c.kind) else {
             return Turns::None;
         };
@@ -136,7 +139,7 @@ pub(in crate::mechanics) fn complaints(model: &Model) -> Vec<Complaint> {
     if candidates.is_empty() {
         return Vec::new();
     }
-    let mut e = equations(model);
+    let mut e = Equations::plain(model);
     let lost = candidates.into_iter().filter_map(|id| match e.turns(id) {
         Turns::Lost(coordinate) => Some((id, coordinate)),
         Turns::None | Turns::Whole(..) => None,
@@ -150,19 +153,12 @@ pub(in crate::mechanics) fn periods(model: &Model, constraints: &[ConstraintId])
     if constraints.is_empty() {
         return Vec::new();
     }
-    let mut e = equations(model);
+    let mut e = Equations::plain(model);
     let period = |&id: &ConstraintId| match e.turns(id) {
         Turns::Whole(n, d, angles) => Some((id, std::f64::consts::TAU * d as f64 / n as f64, angles)),
         Turns::None | Turns::Lost(_) => None,
     };
     constraints.iter().filter_map(period).collect()
-}
-
-fn equations(model: &Model) -> Equations<'_> {
-    let mut graph = Graph::new();
-    let symbols = Symbols::new(&mut graph, model);
-    let way = Way { style: Style::Nested, method: Method::Composite, axes: None, writing: Writing::PLAIN };
-    Equations::new(model, graph, symbols, way, &[])
 }
 
 fn complaint(model: &Model, id: ConstraintId, coordinate: Coordinate) -> Complaint {

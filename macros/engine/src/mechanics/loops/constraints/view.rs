@@ -8,7 +8,8 @@
 use std::rc::Rc;
 
 use crate::dynamics::point_kinematics::PointKinematics;
-use crate::mechanics::equations::{Equations, Style};
+use crate::mechanics::equations::Equations;
+use crate::mechanics::scene::Style;
 use crate::mechanics::translate::build::Place;
 use crate::symbolic::graph::{Rotation, Scalar, Vector};
 use crate::symbolic::rotations;
@@ -48,7 +49,7 @@ impl Equations<'_> {
 
     /// The frame that the first joint beyond `common` stands in, on the way to a frame.
     fn base_of(&self, end: &Place, common: Option<usize>) -> (Place, Option<usize>) {
-        let tree = &self.mechanism.tree;
+        let tree = &self.scene.mechanism.tree;
         let Some(&first) = tree.path(common, end.link).first() else { return (*end, None) };
         let link = &tree.links[first];
         (Place { link: common, rotation: link.rotation, offset: link.offset }, Some(first))
@@ -61,7 +62,7 @@ impl Equations<'_> {
 
     /// A frame's origin, from the view's origin in its axes.
     pub(super) fn see_point(&mut self, view: &View, point: &Place) -> Vector {
-        let mechanism = Rc::clone(&self.mechanism);
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let tree = &mechanism.tree;
         if let Some(first) = self.hangs_on(view, point.link) {
             let mut kinematics = PointKinematics::new(tree, point.offset, 0, &[]);
@@ -75,7 +76,7 @@ impl Equations<'_> {
             return rotations::rotate(&mut self.g, to.rotation.transpose(), way);
         }
         let mut seen = if view.shares(false) {
-            self.world.point(&mut self.g, tree, point.link, point.offset)
+            self.caches.world.point(&mut self.g, tree, point.link, point.offset)
         } else {
             let common = self.common(point.link, to.link);
             let mut kinematics = PointKinematics::new(tree, point.offset, 0, &[]);
@@ -89,7 +90,7 @@ impl Equations<'_> {
 
     /// A point as a link further out sees it.
     fn descend(&mut self, from: Option<usize>, to: Option<usize>, mut point: Vector) -> Vector {
-        let mechanism = Rc::clone(&self.mechanism);
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let tree = &mechanism.tree;
         let g = &mut self.g;
         for index in tree.path(from, to) {
@@ -109,7 +110,7 @@ impl Equations<'_> {
         if v == Vector::ZERO {
             return v;
         }
-        let mechanism = Rc::clone(&self.mechanism);
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let tree = &mechanism.tree;
         let to = view.place;
         if let Some(first) = self.hangs_on(view, link) {
@@ -119,7 +120,7 @@ impl Equations<'_> {
         let seen = if link == to.link {
             return rotations::rotate(&mut self.g, to.rotation.transpose(), v);
         } else if view.shares(false) {
-            self.world.rotate(&mut self.g, tree, link, v)
+            self.caches.world.rotate(&mut self.g, tree, link, v)
         } else {
             self.between(link, to.link, v)
         };
@@ -128,7 +129,7 @@ impl Equations<'_> {
 
     /// Rotation from a link's axes to those of the frame that the joint of `first` stands in.
     fn turns_from(&mut self, first: usize, link: Option<usize>) -> Rotation {
-        let mechanism = Rc::clone(&self.mechanism);
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let tree = &mechanism.tree;
         let mut rotation = Rotation::IDENTITY;
         for (k, index) in tree.path(tree.links[first].parent, link).into_iter().enumerate() {

@@ -33,7 +33,7 @@ impl Equations<'_> {
         let g = &mut self.g;
         let products = [g.mul(c, cos), g.mul(s, sin), g.mul(s, cos), -g.mul(c, sin)];
         let (cos, sin) = (g.sum(&products[..2]), g.sum(&products[2..]));
-        let moves: Vec<Scalar> = self.symbols.positions.concat();
+        let moves: Vec<Scalar> = self.scene.symbols.positions.concat();
         if self.g.depends_on(cos, &moves) || self.g.depends_on(sin, &moves) {
             return None;
         }
@@ -45,7 +45,7 @@ impl Equations<'_> {
 
     /// Sum of the coordinates between a frame and a link that carries it which turn about an axis of the frame.
     fn turns_about(&mut self, end: &Place, axis: usize, carrier: Option<usize>) -> Scalar {
-        let mechanism = Rc::clone(&self.mechanism);
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let tree = &mechanism.tree;
         let mut direction = self.axis_in_link(end, axis);
         let mut turns = Scalar::ZERO;

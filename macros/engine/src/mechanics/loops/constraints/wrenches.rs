@@ -50,7 +50,7 @@ struct Gathered {
 impl Equations<'_> {
     /// The wrenches -G^T lambda of several closings together, to be added to other loads.
     pub(in crate::mechanics) fn constraint_wrenches(&mut self, held: &[Held]) -> Loads {
-        let mechanism = Rc::clone(&self.mechanism);
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let mut gathered = Gathered { terms: Terms::new(&mechanism), world: BTreeMap::new() };
         for one in held {
             if one.multipliers.iter().all(|&m| m == Scalar::ZERO) {
@@ -69,7 +69,7 @@ impl Equations<'_> {
         for (link, (moments, forces)) in gathered.world {
             let g = &mut self.g;
             let (moment, force) = (g.sum_vectors(&moments), g.sum_vectors(&forces));
-            if self.lumped {
+            if self.scene.way.lumped {
                 world.push((link, Wrench { moment, force }));
                 continue;
             }
@@ -82,7 +82,7 @@ impl Equations<'_> {
     /// The same as efforts on the user's coordinates.
     pub fn constraint_efforts(&mut self, held: &[Held]) -> Vec<Scalar> {
         let loads = self.constraint_wrenches(held);
-        let mechanism = Rc::clone(&self.mechanism);
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let tree = &mechanism.tree;
         let g = &mut self.g;
         let mut wrenches: Vec<Wrench> = loads.applied.clone();
@@ -98,7 +98,7 @@ impl Equations<'_> {
                 wrenches[parent] = wrenches[parent].add(g, &carried);
             }
         }
-        efforts.truncate(self.symbols.freedoms);
+        efforts.truncate(self.scene.symbols.freedoms);
         mechanism.sign(&efforts)
     }
 
@@ -161,9 +161,9 @@ impl Equations<'_> {
             return;
         }
         if view.shares(self.hangs_on(view, place.link).is_some()) {
-            let mechanism = Rc::clone(&self.mechanism);
+            let mechanism = Rc::clone(&self.scene.mechanism);
             let [force, moment] = [force, moment].map(|v| self.g.rotate(view.place.rotation, v));
-            let arm = self.world.rotate(&mut self.g, &mechanism.tree, place.link, place.offset);
+            let arm = self.caches.world.rotate(&mut self.g, &mechanism.tree, place.link, place.offset);
             let lever = self.g.cross(arm, force);
             let (moments, forces) = gathered.world.entry(link).or_default();
             moments.extend([lever, moment]);
@@ -178,7 +178,7 @@ impl Equations<'_> {
     /// Rods and expressions.
     fn hold(&mut self, gathered: &mut Gathered, held: &Held) {
         let multiplier = held.multipliers.first().copied().unwrap_or(Scalar::ZERO);
-        let model = self.model;
+        let model = self.scene.model;
         let Closing::Constraint(id) = held.closing else { return };
         match model.constraints.get(id.0).map(|constraint| &constraint.kind) {
             Some(ConstraintKind::Rod { between, .. }) => {
@@ -203,7 +203,7 @@ impl Equations<'_> {
         }
         for &(coordinate, slope) in &slopes.efforts {
             let effort = -self.g.mul(multiplier, slope);
-            if self.model.cuts.contains(&coordinate.joint) {
+            if self.scene.model.cuts.contains(&coordinate.joint) {
                 let mut efforts = vec![Scalar::ZERO; coordinate.index];
                 efforts.push(effort);
                 self.act_across(&mut gathered.terms, coordinate.joint, &efforts, true);

@@ -1,0 +1,61 @@
+//! Stage `mechanics`: the tree as the recursions of a way see it.
+//!
+//! In: the scene. Out: the tree with base inertial parameters, and with parallel hinges in common axes.
+
+use std::rc::Rc;
+
+use crate::dynamics::floating_bases::floating_bases;
+use crate::dynamics::regroup::{regroup, regroup_but};
+use crate::dynamics::shared_axes::{Shared, share_axes};
+use crate::dynamics::tree::Tree;
+use crate::symbolic::graph::Vector;
+
+use super::equations::Equations;
+use super::scene::Method;
+
+#[derive(Clone, Default)]
+pub(super) struct Trees {
+    regrouped: Option<Rc<Tree>>,
+    /// The regrouped tree in the axes that the dynamics is written in.
+    shared: Option<Rc<Shared>>,
+}
+
+impl Equations<'_> {
+    /// The tree with regrouped inertias: for totals.
+    pub(super) fn regrouped(&mut self) -> Rc<Tree> {
+        if let Some(tree) = &self.caches.trees.regrouped {
+            return Rc::clone(tree);
+        }
+        let tree = Rc::new(regroup(&mut self.g, &self.scene.mechanism.tree));
+        self.caches.trees.regrouped = Some(Rc::clone(&tree));
+        tree
+    }
+
+    /// The regrouped tree in the axes of this way, and how far wrenches given in link axes must turn.
+    pub(super) fn shared(&mut self) -> Rc<Shared> {
+        if let Some(shared) = &self.caches.trees.shared {
+            return Rc::clone(shared);
+        }
+        let tree = match self.scene.way.method {
+            // What floats is best eliminated whole.
+            Method::Articulated => {
+                let tree = &self.scene.mechanism.tree;
+                let keep: Vec<usize> = floating_bases(tree).iter().map(|floating_base| floating_base.link).collect();
+                Rc::new(regroup_but(&mut self.g, tree, false, &keep))
+            }
+            Method::Composite | Method::Floating => self.regrouped(),
+        };
+        let shared = self.scene.way.axes.and_then(|axes| share_axes(&mut self.g, &tree, axes));
+        let shared = Rc::new(shared.unwrap_or_else(|| Shared::own(&tree)));
+        self.caches.trees.shared = Some(Rc::clone(&shared));
+        shared
+    }
+
+    /// Minus gravity: the acceleration of the ground that acts like it.
+    pub(super) fn base(&mut self) -> Vector {
+        match self.scene.mechanism.tree.gravity {
+            Some(gravity) => self.g.vector(gravity.map(|c| -c)),
+            None => Vector::ZERO,
+        }
+    }
+}
