@@ -18,7 +18,7 @@ mod primitives;
 use std::fmt;
 
 use crate::dynamics::tree::Motion;
-use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
+use crate::symbolic::graph::{Graph, Rotation, Scalar, SymbolId, Vector};
 
 use chain::Link;
 use pairs::{Opened, Winding};
@@ -130,11 +130,16 @@ pub fn of_signs(signs: &[bool]) -> Vec<Scalar> {
 impl Plan {
     /// Decides how a cycle is solved. It depends on the cycle alone, not on what else the graph holds.
     pub fn new(g: &Graph, cycle: &Cycle) -> Result<Plan, Failure> {
+        Plan::at(g, cycle, &[])
+    }
+
+    /// The same from equations alone that tell their unknown at one of these points at least, given as values of symbols.
+    pub fn at(g: &Graph, cycle: &Cycle, points: &[&dyn Fn(SymbolId) -> f64]) -> Result<Plan, Failure> {
         let (links, unknowns) = opened(cycle);
         if unknowns.iter().any(|u| u.wanted && matches!(u.motion, Motion::Ball(_))) {
             return Err(Failure::Ball);
         }
-        let steps = plan::plan(&mut g.clone(), &links, &unknowns, cycle.winding)?;
+        let steps = plan::plan(&mut g.clone(), &links, &unknowns, cycle.winding, points)?;
         Ok(Plan { steps })
     }
 

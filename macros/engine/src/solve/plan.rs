@@ -8,8 +8,10 @@ use std::collections::{HashMap, HashSet};
 
 use crate::contracts::cost::Cost;
 use crate::dynamics::tree::Motion;
-use crate::symbolic::graph::{Graph, Rotation, RotationNode, Scalar, Vector};
+use crate::symbolic::evaluate::Evaluator;
+use crate::symbolic::graph::{Graph, Rotation, RotationNode, Scalar, SymbolId, Vector};
 use crate::symbolic::lower::Lowering;
+use crate::symbolic::sized::WithSizes;
 
 use super::chain::Link;
 use super::pairs::{Candidate, Opened};
@@ -41,14 +43,19 @@ struct Bench {
     solved: Vec<(usize, Candidate, Primitive, Solved)>,
 }
 
-/// The order in which all wanted unknowns are found.
+/// Values of all symbols: a place where the equations have to tell the unknowns.
+pub(super) type Point<'p> = &'p dyn Fn(SymbolId) -> f64;
+
+/// The order in which all wanted unknowns are found. Equations that say nothing at any of the points, if there are some,
+/// are left aside: a coefficient may be zero in value only, that of a parameter or of an inexact literal.
 pub(super) fn plan(
     g: &mut Graph,
     links: &[Link],
     unknowns: &[Unknown],
     winding: Option<Scalar>,
+    points: &[Point<'_>],
 ) -> Result<Vec<Step>, Failure> {
-    let mut search = Search { orders: 0, best: None, furthest: None };
+    let mut search = Search { points, orders: 0, best: None, furthest: None };
     search.extend(Bench::new(g, links, unknowns, winding));
     match (search.best, search.furthest) {
         (Some((_, bench)), _) => Ok(bench.steps()),
@@ -87,14 +94,15 @@ pub(super) fn adapt(
 }
 
 /// Depth first through the orders of unknowns, the cheapest equation first.
-struct Search {
+struct Search<'p> {
+    points: &'p [Point<'p>],
     orders: usize,
     /// Number of signs and operations.
     best: Option<((usize, u32), Bench)>,
     furthest: Option<Bench>,
 }
 
-impl Search {
+impl Search<'_> {
     fn extend(&mut self, bench: Bench) {
         if bench.open_unknowns(true).next().is_none() {
             self.orders += 1;
@@ -105,8 +113,8 @@ impl Search {
             }
             return;
         }
-        let options = match bench.options(true) {
-            list if list.is_empty() => bench.options(false),
+        let options = match bench.options(true, self.points) {
+            list if list.is_empty() => bench.options(false, self.points),
             list => list,
         };
         if options.is_empty() {
@@ -181,14 +189,15 @@ impl Bench {
     }
 
     /// The best equation in each of the unknowns that are still open, as far as they need the fewest signs.
-    fn options(&self, wanted: bool) -> Vec<(usize, Candidate)> {
+    fn options(&self, wanted: bool, points: &[Point<'_>]) -> Vec<(usize, Candidate)> {
         let mut scratch = self.g.clone();
         let mut list: Vec<(usize, usize, usize, Candidate)> = Vec::new();
         for number in self.open_unknowns(wanted) {
             let unknown = &self.unknowns[number];
             let rest = open(&self.links, number);
             let winding = winding_of(&mut scratch, self.winding, &self.unknowns, &self.links, number);
-            let candidates = Opened { motion: unknown.motion, rest: &rest, winding }.candidates(&mut scratch);
+            let mut candidates = Opened { motion: unknown.motion, rest: &rest, winding }.candidates(&mut scratch);
+            candidates.retain(|candidate| points.is_empty() || tells(&scratch, &candidate.primitive, points));
             list.extend(
                 candidates
                     .into_iter()
@@ -292,6 +301,15 @@ fn price(g: &Graph, roots: &[Scalar]) -> u32 {
     let other = compare + other;
     // Sines and cosines are those of knowns, at hand as a rule, or placeholders.
     add + mul + sincos + 8 * (div + sqrt) + 20 * other
+}
+
+/// Whether an equation holds its unknown at one of the points, beyond rounding.
+fn tells(g: &Graph, primitive: &Primitive, points: &[Point<'_>]) -> bool {
+    let leading = primitive.leading();
+    points.iter().any(|symbols| {
+        let values = Evaluator::new(g, WithSizes { symbols }).run(&leading);
+        values.iter().any(|value| !value.is_rounding())
+    })
 }
 
 /// A first estimate of the work that a solution takes.

@@ -99,6 +99,16 @@ impl Primitive {
         }
     }
 
+    /// What the solution is divided by: where all of these vanish the equation says nothing about the unknown.
+    pub(super) fn leading(&self) -> Vec<Scalar> {
+        match *self {
+            Primitive::Turn { near, .. } => near.to_vec(),
+            Primitive::Root { a, b, .. } => vec![a, b],
+            Primitive::Linear { slope, .. } => vec![slope],
+            Primitive::Quadratic { square, .. } => vec![square],
+        }
+    }
+
     /// Words for the report.
     pub(super) fn describe(&self) -> &'static str {
         match self {

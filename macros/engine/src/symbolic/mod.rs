@@ -25,6 +25,7 @@ pub mod radical;
 pub(crate) mod rotations;
 mod scalar;
 pub mod signs;
+pub mod sized;
 pub mod substitute;
 mod trigonometry;
 mod vector;

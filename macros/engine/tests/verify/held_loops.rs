@@ -233,3 +233,55 @@ fn an_equation_may_follow_where_the_others_hold_only() {
     let (structure, _) = compiled(&loop_of(".at([0.3, 0.2, 0])", "Multipliers"));
     assert_eq!(structure.dropped.len(), 0);
 }
+
+/// A four-bar in a plane that is turned twice; what closes it is written once more by hand.
+fn turned(turns: &str, middle: &str, end: &str) -> String {
+    format!(
+        "pub mod m {{
+            param tilt = 0.0;
+            body b0 {{ mass: 1, com: 0.2 * X, inertia: diag(0.1, 0.1, 0.1) }}
+            body b1 {{ mass: 1, com: 0.3 * Y, inertia: diag(0.1, 0.1, 0.1) }}
+            body b2 {{ mass: 1, com: 0 * X, inertia: diag(0.1, 0.1, 0.1) }}
+            joint j0: Revolute {{
+                parent: ground.at([0, sqrt(3), 2 / 3]){turns},
+                child: b0.rotated(X + Y, 2.647),
+                axis: Z,
+            }}
+            joint j1: Revolute {{ parent: b0.rotated(X + Y, 2.647), child: b1, axis: Z }}
+            joint j2: Revolute {{ parent: b1.at([1.347, 0.0, 0.0]){middle}, child: b2, axis: Z }}
+            #[cut]
+            joint j3: Revolute {{ parent: b2.at([0.91, 0.0, 0.0]), child: ground{end}, axis: Z }}
+            solve (j1.angle, j2.angle) from j3 {{ sin(j2) > 0.0 }}
+            formulation {{ constraints: Reduced }}
+            emit forward_dynamics, mass_matrix, energy;
+        }}"
+    )
+}
+
+/// Coefficients that are zero in value only, where a literal is not exact or a parameter is zero as declared: an equation
+/// that would be the simplest says nothing, and another one is taken.
+#[test]
+fn equations_that_say_nothing_as_declared_are_left_aside() {
+    let inexact = ".rotated([sqrt(3), 1, 0], acos(1 / 3)).rotated(Y, acos(1 / 3))";
+    let tilted = ".rotated([sqrt(3), 1, 0], tilt).rotated(Y, 0.3)";
+    let again = |turns: &str, place: &str| format!(".at([0, sqrt(3), 2 / 3]){turns}.at({place})");
+    for (turns, middle, end) in [
+        (
+            inexact,
+            "",
+            ".at([-0.24787193577853456, 3.7591192610267794, -0.034421039952685084]).oriented([\
+             [0.1391745877070883, 0.3028886680740520, 0.9428090415820634], \
+             [0.9086660042221553, -0.4175237631212643, 0.0000000000000001], \
+             [0.3936451789460963, 0.8566985245588934, -0.3333333333333335]])"
+                .to_owned(),
+        ),
+        (inexact, "", again(inexact, "[1.5, 1.2, 0]")),
+        (tilted, "", again(tilted, "[1.5, 1.2, 0]")),
+        (tilted, "", again(tilted, "[1.5, 1.2, sin(tilt)]")),
+        (tilted, ".rotated(X, tilt)", again(tilted, "[1.5, 1.2, 0]")),
+        (".rotated(X, tilt)", "", again(".rotated(X, tilt)", "[1.5, 1.2, 0]")),
+    ] {
+        let (_, compiled) = compiled(&turned(turns, middle, &end));
+        assert!(compiled.unchecked.is_empty(), "{:?}", compiled.unchecked);
+    }
+}

@@ -100,21 +100,27 @@ impl Equations<'_> {
         if let Some(branch) = self.decided.branches.0.get(&number).cloned() {
             return self.on_branch(item, &cycle, &branch, branches, reduction);
         }
+        let conditions: Vec<Scalar> = branches.iter().map(|condition| self.scalar(condition)).collect();
         let plan = match self.plan_alike(*closing, &cycle) {
             Some(plan) => plan,
             None => Plan::new(&self.g, &cycle).map_err(|failure| not_found(item, &failure))?,
         };
-        let first = plan.solve(&mut self.g, &cycle, &[]).map_err(|failure| not_found(item, &failure))?;
-        let count = first.signs.min(MOST_SIGNS);
-        let mut solutions = vec![(vec![true; count], first.solved)];
-        for choice in 1..1_usize << count {
-            let signs: Vec<bool> = (0..count).map(|k| choice >> k & 1 == 0).collect();
-            if let Ok(other) = plan.solve(&mut self.g, &cycle, &of_signs(&signs)) {
-                solutions.push((signs, other.solved));
-            }
+        let mut branch = self.choose(item, &cycle, plan, &conditions, reduction)?;
+        if branch.is_none() {
+            // An equation may say nothing with the declared parameters: others are looked for.
+            let value = |draw: u64| move |e: &Self, id: SymbolId| e.sample(id, draw, 1.0);
+            let [first, second] = [value(0), value(1)];
+            let points: [&dyn Fn(SymbolId) -> f64; 2] = [&|id| first(self, id), &|id| second(self, id)];
+            let plan = Plan::at(&self.g, &cycle, &points).map_err(|failure| not_found(item, &failure))?;
+            branch = self.choose(item, &cycle, plan, &conditions, reduction)?;
         }
-        let conditions: Vec<Scalar> = branches.iter().map(|condition| self.scalar(condition)).collect();
-        let branch = self.choose(item, plan, solutions, &conditions, reduction)?;
+        let branch = branch.ok_or_else(|| {
+            complaint(
+                item,
+                "this loop has no real solution at any configuration that was tried".to_owned(),
+                "check the lengths, the defaults of parameters, and what is assumed",
+            )
+        })?;
         let found = self.on_branch(item, &cycle, &branch, branches, reduction);
         self.decided.branches.0.insert(number, branch);
         found
@@ -273,18 +279,34 @@ impl Equations<'_> {
         solved.into_iter().filter_map(|solved| Some((self.unknown_of(item, &solved)?, solved))).collect()
     }
 
-    /// The candidate for which all conditions hold, and what is left of them for run time.
+    /// What a plan leads to, for every choice of signs.
+    fn solutions(&mut self, cycle: &Cycle, plan: &Plan) -> Result<Vec<(Vec<bool>, Vec<Solved>)>, Failure> {
+        let first = plan.solve(&mut self.g, cycle, &[])?;
+        let count = first.signs.min(MOST_SIGNS);
+        let mut solutions = vec![(vec![true; count], first.solved)];
+        for choice in 1..1_usize << count {
+            let signs: Vec<bool> = (0..count).map(|k| choice >> k & 1 == 0).collect();
+            if let Ok(other) = plan.solve(&mut self.g, cycle, &of_signs(&signs)) {
+                solutions.push((signs, other.solved));
+            }
+        }
+        Ok(solutions)
+    }
+
+    /// The candidate for which all conditions hold, and what is left of them for run time; nothing where none of them is
+    /// real at any configuration.
     fn choose(
         &mut self,
         item: &Solve,
+        cycle: &Cycle,
         plan: Plan,
-        solutions: Vec<(Vec<bool>, Vec<Solved>)>,
         conditions: &[Scalar],
         reduction: &Reduction,
-    ) -> Result<Branch, Vec<Complaint>> {
+    ) -> Result<Option<Branch>, Vec<Complaint>> {
+        let solutions = self.solutions(cycle, &plan).map_err(|failure| not_found(item, &failure))?;
         if solutions.len() == 1 && conditions.is_empty() {
             let signs = solutions.into_iter().next().map_or_else(Vec::new, |one| one.0);
-            return Ok(Branch { plan, signs, stages: Vec::new(), guards: Vec::new() });
+            return Ok(Some(Branch { plan, signs, stages: Vec::new(), guards: Vec::new() }));
         }
         let unknowns: Vec<Scalar> = item.unknowns.iter().map(|&u| self.coordinate_symbols(u)[0]).collect();
         let mut candidates: Vec<Candidate> = Vec::with_capacity(solutions.len());
@@ -309,13 +331,9 @@ impl Equations<'_> {
                     !samples[k].is_empty()
                         && samples[k].iter().all(|row| which.iter().all(|c| row[unknowns.len() + c] != 0.0))
                 };
-                Ok(self.left_open(plan, &candidates, only, holding))
+                Ok(Some(self.left_open(plan, &candidates, only, holding)))
             }
-            [] if samples.iter().all(Vec::is_empty) => Err(complaint(
-                item,
-                "this loop has no real solution at any configuration that was tried".to_owned(),
-                "check the lengths, the defaults of parameters, and what is assumed",
-            )),
+            [] if samples.iter().all(Vec::is_empty) => Ok(None),
             _ => {
                 let list = self.list(item, &samples);
                 let what = if conditions.is_empty() {
