@@ -32,6 +32,8 @@ pub(super) struct Equation {
     pub adjustable: bool,
     /// Whether time has.
     pub timed: bool,
+    /// Whether it holds again with every turn of a thread: along the travel it rises and falls.
+    pub recurs: bool,
     /// Whether what slopes it has are rounding: it has no columns then.
     pub constant: bool,
     pub(super) root: usize,
@@ -70,6 +72,8 @@ struct Quaternion {
 /// Cosine that is one where a joint is closed as it was meant.
 struct Alignment {
     closing: Closing,
+    /// Again with every turn of a thread.
+    recurs: bool,
     root: usize,
     columns: Vec<usize>,
 }
@@ -311,6 +315,11 @@ impl Problem {
     pub(super) fn alignments_of(&self, columns: &[usize]) -> Vec<usize> {
         let own = |&k: &usize| self.alignments[k].columns.iter().any(|column| columns.contains(column));
         (0..self.alignments.len()).filter(own).collect()
+    }
+
+    /// Of these the ones that have one place to be.
+    pub(super) fn without_threads(&self, alignments: &mut Vec<usize>) {
+        alignments.retain(|&k| !self.alignments[k].recurs);
     }
 
     /// Columns that belong together though no equation says so: those that tell a joint from its opposite.

@@ -25,6 +25,14 @@ struct Draft {
     source: Source,
     residual: Scalar,
     measure: Measure<Scalar>,
+    recurs: bool,
+}
+
+/// A cosine that is one where a joint is closed as it was meant.
+struct Cosine {
+    closing: Closing,
+    value: Scalar,
+    recurs: bool,
 }
 
 /// What the tape computes, in the order in which it was asked for.
@@ -51,7 +59,7 @@ pub(super) fn formulate(model: &Model, off: f64, writing: Writing) -> Problem {
     drafts.extend(e.formula_drafts());
     let mut roots = Roots::default();
     let residuals = roots.extend(drafts.iter().map(|draft| draft.residual));
-    let directions = roots.extend(cosines.iter().map(|cosine| cosine.1));
+    let directions = roots.extend(cosines.iter().map(|cosine| cosine.value));
     let first = roots.0.len();
     let measures: Vec<Measure> = drafts.iter().map(|draft| draft.measure.map(|rod| roots.push(rod))).collect();
     roots.extend(e.lengths());
@@ -76,6 +84,7 @@ pub(super) fn formulate(model: &Model, off: f64, writing: Writing) -> Problem {
             columns: columns_of(root),
             adjustable: symbols.iter().any(|&id| matches!(parameters.get(id), Some(Some(_)))),
             timed: symbols.iter().any(|&id| Some(id) == time),
+            recurs: draft.recurs,
             constant: false,
             root,
             measure,
@@ -83,9 +92,11 @@ pub(super) fn formulate(model: &Model, off: f64, writing: Writing) -> Problem {
         }
     });
     let equations = equations.collect();
-    let alignments = cosines.iter().zip(directions);
-    let alignments =
-        alignments.map(|(&(closing, _), root)| Alignment { closing, root, columns: columns_of(root) }).collect();
+    let alignments = cosines.iter().zip(directions).map(|(cosine, root)| {
+        let Cosine { closing, recurs, .. } = *cosine;
+        Alignment { closing, recurs, root, columns: columns_of(root) }
+    });
+    let alignments = alignments.collect();
     let conditions = conditions.map(|root| Condition { root, columns: columns_of(root) }).collect();
     let defaults = defaults(model, &e.scene.symbols, off);
     let mut problem = Problem {
@@ -109,21 +120,29 @@ pub(super) fn formulate(model: &Model, off: f64, writing: Writing) -> Problem {
 
 impl Equations<'_> {
     /// Equations of all closings, and the cosines that are one where joints are closed as they were meant.
-    fn closing_drafts(&mut self, writing: Writing) -> (Vec<Draft>, Vec<(Closing, Scalar)>) {
+    fn closing_drafts(&mut self, writing: Writing) -> (Vec<Draft>, Vec<Cosine>) {
         let model = self.scene.model;
         let (mut drafts, mut cosines) = (Vec::new(), Vec::new());
         for closing in closings(model) {
             let rod = self.rod_length(closing);
-            for (index, residual) in self.residuals(closing, writing).into_iter().enumerate() {
+            // Equation and cosine of a thread come last.
+            let thread = matches!(closing, Closing::Cut(joint) if self.turns_unknown(joint));
+            let residuals = self.residuals(closing, writing);
+            let count = residuals.len();
+            for (index, residual) in residuals.into_iter().enumerate() {
                 let measure = match (closing, rod) {
                     (Closing::Constraint(_), Some(length)) => Measure::Rod(length),
                     (Closing::Constraint(_), None) => Measure::Value,
                     (Closing::Cut(_), _) if is_length(model, closing, index) => Measure::Length,
                     (Closing::Cut(_), _) => Measure::Cosine,
                 };
-                drafts.push(Draft { source: Source::Row(Row { closing, index }), residual, measure });
+                let recurs = thread && index + 1 == count;
+                drafts.push(Draft { source: Source::Row(Row { closing, index }), residual, measure, recurs });
             }
-            cosines.extend(self.alignments(closing).into_iter().map(|cosine| (closing, cosine)));
+            let values = self.alignments(closing);
+            let count = values.len();
+            let cosine = |(k, value)| Cosine { closing, value, recurs: thread && k + 1 == count };
+            cosines.extend(values.into_iter().enumerate().map(cosine));
         }
         (drafts, cosines)
     }
@@ -138,7 +157,12 @@ impl Equations<'_> {
                 let value = self.scalar(formula);
                 let x = Symbols::of(&self.scene.symbols.positions, unknown.joint).get(unknown.index).copied();
                 let residual = self.g.sub(x.unwrap_or(Scalar::ZERO), value);
-                drafts.push(Draft { source: Source::Formula(number, k), residual, measure: Measure::Value });
+                drafts.push(Draft {
+                    source: Source::Formula(number, k),
+                    residual,
+                    measure: Measure::Value,
+                    recurs: false,
+                });
             }
         }
         drafts
