@@ -39,7 +39,7 @@ pub(crate) fn curves(bench: &Bench) -> Vec<Curve<'_>> {
     all
 }
 
-/// An order is told if the work differs by at least that factor.
+/// An order is reported if the work differs by at least that factor.
 const WORK: f64 = 1.5;
 
 /// The slope of errors over the number of steps (over evaluations, where steps were chosen by error), both as logarithms,

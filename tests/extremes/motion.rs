@@ -268,7 +268,7 @@ fn gimbal_lock() {
         println!("gimbal lock missed by {miss:.0e}: quaternion {error:.1e}");
         assert!(error <= 1e-11);
 
-        // By roll, pitch and yaw, with the distance from the lock that is told: right to the tolerance and a thousand
+        // By roll, pitch and yaw, with the distance from the lock that is reported: right to the tolerance and a thousand
         // roundings over that distance, or a typed error. Long steps are right where they stay away from it; near it the
         // states within a step are noise, and the crossings in them have no end.
         let chosen = past_the_lock(Integrator::adaptive(DormandPrince, 1e-10, 1e-10), &exact);

@@ -9,7 +9,7 @@ use crate::{Real, StateSpace, System, Tangent, any};
 /// The end of a step where motions cross.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Doubt {
-    /// None cross near it, or what is not finite is told as such.
+    /// None cross near it, or what is not finite is reported as such.
     None,
     /// It is so near that rounding would decide, but the motion came there as it would go on: a step of given length that is
     /// long beside what is unclear leads on from here.

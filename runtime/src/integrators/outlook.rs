@@ -45,7 +45,7 @@ const TURN: f64 = core::f64::consts::TAU;
 /// ..and what the rounding of greater ones changes a root's square by may be this share of it.
 const ROUNDED: f64 = 1e-2;
 
-/// The signs of roots, in the order in which they are told.
+/// The signs of roots, in the order in which they are given.
 #[derive(Clone, Copy, Default, PartialEq)]
 pub(super) struct Signs {
     /// Which are negative, and which positive, in any lane; of roots that share a place, whether an odd number is.
@@ -343,7 +343,7 @@ pub(super) fn check_start<S: System>(
     state: &S::State,
 ) -> Result<(), IntegrationError> {
     if !is_finite(&magnitude(state)) {
-        return Ok(()); // what is not finite is told as such
+        return Ok(()); // what is not finite is reported as such
     }
     let opening = problem.opening(t, state);
     if !opening.is_open() {

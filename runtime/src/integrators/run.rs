@@ -21,7 +21,7 @@ const CREEPING: f64 = 1e-3;
 pub(super) enum Verdict<Z> {
     /// The integration goes on from its end.
     Continue,
-    /// It goes on from another state, at a time within the step. The end of the shorter step is told to the system by who
+    /// It goes on from another state, at a time within the step. The end of the shorter step is reported to the system by who
     /// found it.
     Restart { time: f64, state: Z },
     /// It ends there.

@@ -232,7 +232,7 @@ fn a_start_is_judged_by_what_its_loops_read() {
     starts_beside!(f32, [1.0]);
 }
 
-/// What Newton's method leaves is told in the mechanism's size too.
+/// What Newton's method leaves is reported in the mechanism's size too.
 #[test]
 fn a_run_is_judged_in_the_size_of_its_mechanism() {
     let model = vast::Model::<f64>::default();

@@ -184,7 +184,7 @@ fn methods_keep_their_order() {
     check(DormandPrince, &rod, 200);
 }
 
-/// A parallelogram turns evenly through flat poses, with every handling; the rank that it had there is told.
+/// A parallelogram turns evenly through flat poses, with every handling; the rank that it had there is reported.
 #[test]
 fn singular_poses() {
     let bars = FourBar::<f64, 8>::new(0.0, [2.0, 1.0, 2.0, 1.0]);
@@ -299,7 +299,7 @@ fn only_states_that_are_reached_count() {
         let (_, _, end) = run.unwrap();
         assert!((end - 0.88).abs() < 1e-12, "{end}");
         assert_eq!(watched.least(), Some((1.0, 0.3)), "no step ends beyond the limit");
-        assert_eq!(*line.ends.borrow(), seen, "a step is told when it is kept");
+        assert_eq!(*line.ends.borrow(), seen, "a step is reported when it is kept");
         assert_eq!(seen.len(), 5);
     }
     check(Rk4);

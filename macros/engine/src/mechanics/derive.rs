@@ -1,7 +1,7 @@
 //! Stage `mechanics`, its whole: from the checked model to expressions of every requested function.
 //!
 //! In: the checked model. Out: a [`Derivation`]. Where there are several ways to a function, each is a candidate, and the
-//! count of the optimised code decides between them (law 5). The graph forgets between candidates: expressions of equal
+//! count of the optimised code decides between them. The graph forgets between candidates: expressions of equal
 //! value are one node, in the form that was made first, so a second way would come out as the first; and what one
 //! function costs must not depend on which others are asked for.
 

@@ -248,7 +248,7 @@ impl<'a> Checker<'a, '_> {
         }
     }
 
-    /// What needs to know the tree. Without one its mistakes are told all the same.
+    /// What needs to know the tree. Without one its mistakes are reported all the same.
     pub(super) fn loops(&mut self, collected: &Collected<'a>, tree: Option<(&Topology, &[Joint])>) -> Loops {
         let mut loops = Loops::default();
         for task in &collected.deferred {

@@ -101,7 +101,7 @@ fn is_part(module: &tree::Module) -> bool {
     items.any(|item| matches!(item.kind, ItemKind::Port { .. }))
 }
 
-/// Modules by name. Two of one name are well where `cfg` chooses between them.
+/// Modules by name. Two may share a name if `cfg` chooses between them.
 fn modules(source: &tree::Source, report: &mut Report<'_>) -> BTreeMap<String, usize> {
     let mut found: BTreeMap<String, usize> = BTreeMap::new();
     for (index, module) in source.modules.iter().enumerate() {

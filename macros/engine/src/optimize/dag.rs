@@ -309,7 +309,7 @@ impl Dag {
         self.roots.iter().map(|&(c, id)| self.nodes[id].print * c.print()).collect()
     }
 
-    /// Whether the roots, computed anew from the symbols, have these values: the identity test of law 7, in every build.
+    /// Whether the roots, computed anew from the symbols, have these values: the identity test, in every build.
     pub fn is_sound(&self, expected: &[Print]) -> bool {
         let mut prints: Vec<Option<Print>> = vec![None; self.nodes.len()];
         for id in self.order() {

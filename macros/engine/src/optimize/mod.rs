@@ -212,8 +212,8 @@ pub fn passes() -> impl Iterator<Item = Pass> {
     FIRST.into_iter().chain([ROUND; 3].into_iter().flatten()).chain(LAST)
 }
 
-/// All rewrites. Each pass pays by its own count, not always by the whole: what comes out dearer than it went in is given
-/// back as it came (law 7), and so is what would not have the same value: then the answer is `false`, and a pass has an
+/// All rewrites. Each pass pays by its own count, not always by the whole: what costs more than what went in is given
+/// back as it came, and so is what would not have the same value: then the answer is `false`, and a pass has an
 /// error.
 pub fn simplify(dag: &mut Dag) -> bool {
     flatten::flatten(dag);

@@ -158,7 +158,7 @@ pub struct Compiled {
     /// What `System::without_inertia` looks at: entries row by row. It reads fields.
     pub inertia: Inertia<Program>,
     /// Whether every rewrite passed the identity test. Where one didn't, the function stands as it was derived: right, but
-    /// dearer than need be. The tests see to it that this never happens.
+    /// more expensive than need be. The tests see to it that this never happens.
     pub sound: bool,
     /// What stage `verify` could not compare with its derived equations.
     pub unchecked: Vec<Unchecked>,

@@ -1,4 +1,4 @@
-//! Stage `symbolic`: the exact randomised identity test (law 7 of the engine).
+//! Stage `symbolic`: the exact randomised identity test, which every rewrite has to pass.
 //!
 //! In: expressions of two graphs whose symbols were made in the same order. Out: a [`Verdict`]. [`identical`] evaluates
 //! both modulo the prime of [`super::check`] (Schwartz 1980, Zippel 1979) at points that are drawn from a seed. The prime,

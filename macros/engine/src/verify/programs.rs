@@ -75,7 +75,7 @@ impl Subject<'_> {
     }
 
     /// What tells that parameters open a loop, where they do. Closed forms rest on all equations there are, and what follows from
-    /// them otherwise is off by squares of what these leave: as long as much less is missing than is left, it is told.
+    /// them otherwise is off by squares of what these leave: as long as much less is missing than is left, it is noticed.
     pub(super) fn compare_open(&self, states: &States<'_>, state: &State) -> Verdict {
         let symbol = |id: SymbolId| state.value(id);
         let exact = Trace::<Doubled>::new(self.tape, &symbol).roots();

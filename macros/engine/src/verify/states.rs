@@ -18,7 +18,7 @@ use super::trace::Trace;
 /// How far parameters are moved, relative to their size.
 const AROUND: f64 = 0.02;
 
-/// How far those are moved that open loops, where it is seen whether that is told.
+/// How far those are moved that open loops, to see whether that is reported.
 const OPENING: f64 = 1e-4;
 
 /// Rounds of Newton's method, each of as many steps as the emitted code takes.

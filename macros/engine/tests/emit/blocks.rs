@@ -1,4 +1,4 @@
-//! Law 11: no more than some hundred `let`s in a row, whatever the length of a function, and rustc copes with it.
+//! No more than some hundred `let`s in a row, whatever the length of a function, and rustc copes with it.
 
 use crate::parsed;
 use std::process::Command;

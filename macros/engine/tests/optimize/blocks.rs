@@ -222,7 +222,7 @@ fn passes_keep_blocks() {
         let verdict = identical(&lowering.to, &roots, &graph, &rebuilt, seed);
         assert!(!matches!(verdict, Verdict::Different(_)), "seed {seed}: {verdict:?}");
         exact += usize::from(verdict == Verdict::Identical);
-        // A changed operand is told.
+        // A changed operand is noticed.
         if let Some(block) = dag.blocks.first_mut()
             && verdict == Verdict::Identical
         {

@@ -291,7 +291,7 @@ fn random_expressions_keep_values() {
     assert!(10 * exactly > 9 * all && 10 * closely > 9 * all, "{exactly} and {closely} of {all}");
 }
 
-/// Each coefficient, sine, cosine and root that a DAG has, changed by itself: all are told.
+/// Each coefficient, sine, cosine and root that a DAG has, changed by itself: all are noticed.
 #[test]
 fn broken_passes_are_told() {
     let pendulum = from_text(PENDULUM);

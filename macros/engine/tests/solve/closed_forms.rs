@@ -303,7 +303,7 @@ fn three_spheres_meet() {
     }
 }
 
-/// What can't be found is told.
+/// What can't be found is reported.
 #[test]
 fn no_closed_form_is_an_error() {
     let mut rng = Rng::new(1);

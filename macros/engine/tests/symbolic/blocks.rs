@@ -192,7 +192,7 @@ fn iterations_converge() {
     assert!((found[0] - expected).abs() < 1e-15, "{found:?}");
 }
 
-/// Lowered, the same in both tests; a wrong operand is told.
+/// Lowered, the same in both tests; a wrong operand is noticed.
 #[test]
 fn blocks_are_compared() {
     let mut g = Graph::new();

@@ -1,4 +1,4 @@
-//! Stage `emit`: statements, grouped into blocks (law 11).
+//! Stage `emit`: statements, grouped into blocks.
 //!
 //! In: a program. Out: `let` statements. Every `let` opens a debug scope, and some thousands in a row overflow rustc's
 //! stack; more than [`MOST`] are therefore grouped into blocks that return their live values as a tuple,

@@ -1,7 +1,7 @@
 //! Stage `mechanics`, its whole: the table of recipes.
 //!
 //! In: a function. Out: the ways to it, each with its name: one list where all coordinates are of the state and no equation
-//! keeps a multiplier, one where some depend on others. What a way does with axes and definitions is told by [`super::ways`].
+//! keeps a multiplier, one where some depend on others. What a way does with axes and definitions is described by [`super::ways`].
 
 use crate::contracts::function::FunctionKind;
 use crate::dynamics::shared_axes::Axes;

@@ -1,7 +1,7 @@
 //! Stage `model`: expressions of the user, from syntax to types.
 //!
 //! In: `syn` expressions and the scope they stand in. Out: typed expressions with what they depend on; `None` where an
-//! error has been reported, so that one mistake is told once.
+//! error has been reported, so that one mistake is reported once.
 
 mod arrays;
 mod broadcast;

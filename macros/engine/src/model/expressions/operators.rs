@@ -90,7 +90,7 @@ impl<'a> Checker<'a, '_> {
             return None;
         };
         let ty = first.expr.ty.clone();
-        // The first term of another type is told, not each.
+        // Only the first term of another type is reported.
         let terms: Vec<(bool, Typed)> =
             terms.into_iter().map(|(minus, term)| Some((minus, self.coerce(term, &ty)?))).collect::<Option<_>>()?;
         // The first term has no sign, and it decides.

@@ -55,7 +55,7 @@ impl Checker<'_, '_> {
         let given: Vec<String> = fields.list.iter().map(|f| f.name.to_string()).collect();
         let unknown: Vec<&str> = given.iter().map(String::as_str).filter(|given| !known.has(given)).collect();
         let meant = |given: &str, name: &str| known.meant(given) == Some(name) || nearest(given, [name]).is_some();
-        // A field under another name is told as such, not as a missing one too.
+        // A field under another name is reported as such, and not as a missing one too.
         let missing = known.required.iter().copied().filter(|name| field(fields, name).is_none());
         let missing: Vec<&str> = missing.filter(|name| !unknown.iter().any(|given| meant(given, name))).collect();
         let strange = unknown.iter().filter(|given| !known.names().any(|name| meant(given, name)));

@@ -78,7 +78,7 @@ impl<'a> Checker<'a, '_> {
         let target = field(fields, "joint").and_then(|expr| self.target(expr, context));
         let value = field(fields, "value");
         let Some((joint, kind, index)) = target else {
-            // Mistakes in the value are told all the same.
+            // Mistakes in the value are reported all the same.
             if let Some(expr) = value {
                 self.value(expr, context);
             }

@@ -124,7 +124,7 @@ impl<'a> Checker<'a, '_> {
             Some(DriveTarget::Orientation(_)) => Type::Rotation,
             Some(DriveTarget::Pose(_)) => Type::Pose,
             None => {
-                // Mistakes in the value are told all the same.
+                // Mistakes in the value are reported all the same.
                 self.value(value, context);
                 return None;
             }

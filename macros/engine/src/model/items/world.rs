@@ -32,7 +32,7 @@ impl<'a> Checker<'a, '_> {
         Some(gravity.expr)
     }
 
-    /// The coordinates have been read before anything else; here their mistakes are told.
+    /// The coordinates have been read before anything else; here their mistakes are reported.
     pub(in crate::model) fn formulation(&mut self, fields: &'a tree::Fields, scope: ScopeId) -> Option<Handling> {
         self.check_given("the formulation", fields, &FORMULATION);
         if let Some(expr) = field(fields, "coordinates") {
