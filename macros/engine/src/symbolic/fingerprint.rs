@@ -122,9 +122,13 @@ impl Neg for Print {
 impl Mul for Print {
     type Output = Print;
     fn mul(self, other: Print) -> Print {
-        let ([a, b], [c, d]) = (self.0.map(u128::from), other.0.map(u128::from));
-        match (self.0[1], other.0[1]) {
+        // Written out: debug builds of users run this unoptimised, more often than anything else.
+        let ([a, b], [c, d]) = (self.0, other.0);
+        let (a, b, c, d) = (u128::from(a), u128::from(b), u128::from(c), u128::from(d));
+        match (b, d) {
             (0, 0) => Print([modular::reduce_wide::<PRIME>(a * c), 0]),
+            (0, _) => Print([modular::reduce_wide::<PRIME>(a * c), modular::reduce_wide::<PRIME>(a * d)]),
+            (_, 0) => Print([modular::reduce_wide::<PRIME>(a * c), modular::reduce_wide::<PRIME>(b * c)]),
             _ => {
                 let last = u128::from(modular::reduce_wide::<PRIME>(b * d));
                 let first = modular::reduce_wide::<PRIME>(a * c + last * u128::from(NON_SQUARE));
