@@ -1,9 +1,11 @@
 //! Functions that are generated: one row each, which all stages read.
 //!
-//! A row says what asks for the function, its name, what it takes, what it gives and its documentation. Results are scalars in
-//! the order that [`FunctionKind`] documents; the [`Shape`] says what they fill.
+//! A row says what asks for the function, its name, what it takes, what it gives and its documentation. The [`Shape`] says
+//! what type it gives, and which slots fill it.
 
 use crate::model::types::Request;
+
+use super::results::{Form, Parts, Slot};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum FunctionKind {
@@ -127,11 +129,6 @@ impl Sizes {
     pub fn has_derivative(&self) -> bool {
         self.states > 0 || self.rows > 0 || self.guesses > 0
     }
-
-    /// Multipliers and the rank of their system.
-    fn multipliers(&self) -> usize {
-        if self.rows > 0 { self.rows + 1 } else { 0 }
-    }
 }
 
 /// What results fill.
@@ -146,6 +143,10 @@ pub enum Shape {
     Derivative,
     /// Inputs, then the rank of their system.
     Solved(usize),
+    /// Dynamic rows, then equations: one vector.
+    Residual,
+    /// So many roots, each with the rate of its square, then the residual, if there is one: one vector.
+    Margins(usize),
     /// Velocities, multipliers, rank.
     Jump,
     Outputs,
@@ -158,20 +159,43 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// Number of scalars.
-    pub fn count(self, sizes: &Sizes) -> usize {
+    /// The slots that fill it.
+    pub fn parts(self, sizes: &Sizes) -> Parts {
+        let one = |form| Parts::default().with(Slot::Value, form);
+        let velocity = || Parts::default().with(Slot::Velocity, Form::Vector(sizes.dof));
+        let any = |parts: Parts, slot, size: usize| if size > 0 { parts.with(slot, Form::Vector(size)) } else { parts };
+        let multipliers = |parts: Parts| {
+            if sizes.rows == 0 {
+                return parts;
+            }
+            parts.with(Slot::Multipliers, Form::Vector(sizes.rows)).with(Slot::Rank, Form::Scalar)
+        };
+        let residual = |parts: Parts| if sizes.guesses > 0 { parts.with(Slot::Residual, Form::Scalar) } else { parts };
         match self {
-            Shape::Scalar => 1,
-            Shape::Vector(size) => size,
-            Shape::Matrix(rows, columns) => rows * columns,
-            Shape::Velocity => sizes.dof,
-            Shape::Derivative => sizes.dof + sizes.states + sizes.multipliers() + usize::from(sizes.guesses > 0),
-            Shape::Solved(inputs) => inputs + 1,
-            Shape::Jump => sizes.dof + sizes.multipliers(),
-            Shape::Outputs => sizes.outputs,
-            Shape::Kinematics(found) => 3 * found,
-            Shape::Derivatives(results) => results * (2 * sizes.dof + sizes.states + sizes.inputs),
-            Shape::Closed => sizes.guesses + 1,
+            Shape::Scalar => one(Form::Scalar),
+            Shape::Vector(size) => one(Form::Vector(size)),
+            Shape::Matrix(rows, columns) => one(Form::Matrix(rows, columns)),
+            Shape::Velocity => velocity(),
+            Shape::Derivative => residual(multipliers(any(velocity(), Slot::States, sizes.states))),
+            Shape::Solved(inputs) => {
+                Parts::default().with(Slot::Inputs, Form::Vector(inputs)).with(Slot::Rank, Form::Scalar)
+            }
+            Shape::Residual => any(velocity(), Slot::Gaps, sizes.rows),
+            Shape::Margins(count) => residual(one(Form::Vector(2 * count))),
+            Shape::Jump => multipliers(velocity()),
+            Shape::Outputs => one(Form::Vector(sizes.outputs)),
+            Shape::Kinematics(found) => [Slot::Positions, Slot::Rates, Slot::Accelerations]
+                .into_iter()
+                .fold(Parts::default(), |parts, slot| parts.with(slot, Form::Vector(found))),
+            Shape::Derivatives(results) => [
+                (Slot::ByPosition, sizes.dof),
+                (Slot::ByVelocity, sizes.dof),
+                (Slot::ByState, sizes.states),
+                (Slot::ByInput, sizes.inputs),
+            ]
+            .into_iter()
+            .fold(Parts::default(), |parts, (slot, columns)| parts.with(slot, Form::Matrix(results, columns))),
+            Shape::Closed => residual(Parts::default().with(Slot::Unknowns, Form::Vector(sizes.guesses))),
         }
     }
 }
@@ -318,7 +342,7 @@ impl FunctionKind {
                 by(R::Residual, "residual", "Residual"),
                 "residual",
                 Arguments { accel: true, multipliers: true, ..Arguments::ALL },
-                |s| Shape::Vector(s.dof + s.rows),
+                |_| Shape::Residual,
                 |_| {
                     "All equations as a residual: `M * accel + bias + G^T * multipliers`, then the residuals of the constraint \
                      equations."
@@ -409,7 +433,7 @@ impl FunctionKind {
                 Asked::Found,
                 "margins",
                 Arguments::TIMED_STATE,
-                |s| Shape::Vector(2 * s.margins + usize::from(s.guesses > 0)),
+                |s| Shape::Margins(s.margins),
                 |_| {
                     "For integrators, at a state whose guess is the solution: how far loops are from dead centres (the root of a \
                      closed form, the determinant of what Newton's method solves), each followed by the rate of its square; then \

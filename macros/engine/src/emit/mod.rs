@@ -59,11 +59,14 @@ pub fn emit(model: &Model, structure: &Structure, compiled: &Compiled) -> TokenS
     tokens
 }
 
-/// The first function whose program doesn't give as many numbers as its value is built from: they would be handed out to
-/// the wrong places.
+/// The first function whose program doesn't fill the slots that its value is built from: numbers would be handed out to the
+/// wrong places.
 pub fn misfit(model: &Model, structure: &Structure, compiled: &Compiled) -> Option<FunctionKind> {
     let layout = Layout::new(model, structure);
-    let fits = |function: &&Function| function.program.results.len() == methods::results::count(&layout, function.kind);
+    let fits = |function: &&Function| {
+        let parts = methods::results::parts(&layout, function.kind);
+        function.parts == parts && function.program.results.len() == parts.count()
+    };
     compiled.functions.iter().find(|function| !fits(function)).map(|function| function.kind)
 }
 

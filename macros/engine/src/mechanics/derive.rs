@@ -17,6 +17,7 @@ mod ways;
 use std::rc::Rc;
 
 use crate::contracts::function::{Asked, FunctionKind};
+use crate::contracts::results::Results;
 use crate::dynamics::shared_axes::Axes;
 use crate::model::site::Sited;
 use crate::model::types::{BodyRef, Coordinate, Joint, JointId, Model, Request};
@@ -125,7 +126,7 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
     let checks = deriving.checks()?;
     let inertia = deriving.inertia()?;
     for function in &functions {
-        function.candidates.iter().for_each(|candidate| deriving.label(function.kind, &candidate.1));
+        function.candidates.iter().for_each(|candidate| deriving.label(function.kind, &candidate.1.list));
     }
     if let Inertia::Own(entries) = &inertia {
         deriving.label(FunctionKind::MassMatrix, entries);
@@ -158,7 +159,7 @@ fn kinds(model: &Model, structure: &Structure) -> Vec<FunctionKind> {
     FunctionKind::ALL.into_iter().flat_map(wanted).collect()
 }
 
-type Candidate = (&'static str, Vec<Scalar>);
+type Candidate = (&'static str, Results<Scalar>);
 
 type Candidates = Result<Vec<Candidate>, Vec<Complaint>>;
 
@@ -179,7 +180,7 @@ struct Deriving<'m> {
 }
 
 /// Results of one way, or what is wrong with the model.
-type Found = Result<Vec<Scalar>, Vec<Complaint>>;
+type Found = Result<Results<Scalar>, Vec<Complaint>>;
 
 impl<'m> Deriving<'m> {
     /// Inputs of a body on struts.
@@ -226,7 +227,7 @@ impl<'m> Deriving<'m> {
                 notes.extend(e.verify(&reduction)?);
                 Ok(())
             });
-            Ok(Vec::new())
+            Ok(Results::default())
         })?;
         centres.extend(pitches);
         (self.notes, self.dead_centres) = (notes, centres);
@@ -255,10 +256,10 @@ impl<'m> Deriving<'m> {
                 let mut all = e.constraints(reduction);
                 all.extend(e.constraint_jacobian(reduction));
                 all.extend(e.constraint_bias(reduction));
-                all
+                Results::vector(all)
             })?;
             let Some((_, results)) = found.into_iter().next() else { continue };
-            let weight = self.weight(&results);
+            let weight = self.weight(&results.list);
             if least.is_none_or(|(known, _)| weight < known) {
                 least = Some((weight, writing));
             }

@@ -18,6 +18,7 @@ mod trees;
 pub use derive::{MOST_FREEDOMS, derive, freedoms};
 
 use crate::contracts::function::FunctionKind;
+use crate::contracts::results::Results;
 use crate::contracts::symbol::Symbol;
 use crate::model::types::{Coordinate, Model};
 use crate::symbolic::graph::{Graph, Scalar};
@@ -65,8 +66,8 @@ pub struct Test {
 /// One function with the ways in which it was derived; the cheapest will be taken, ties by order.
 pub struct Derived {
     pub kind: FunctionKind,
-    /// Name of the method and results in the order that [`FunctionKind`] documents.
-    pub candidates: Vec<(&'static str, Vec<Scalar>)>,
+    /// Name of the method, and results in the slots of the function.
+    pub candidates: Vec<(&'static str, Results<Scalar>)>,
 }
 
 /// The mass matrix, where it may become singular.

@@ -20,6 +20,7 @@ pub mod stage;
 
 use crate::contracts::cost::Cost;
 use crate::contracts::function::FunctionKind;
+use crate::contracts::results::Parts;
 use crate::mechanics::{Derivation, Inertia};
 use crate::symbolic::graph::Scalar;
 use crate::symbolic::lower::Lowering;
@@ -86,7 +87,7 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>) -> Result<Compile
         let mut best: Option<(u32, Chosen)> = None;
         for (candidate, (method, results)) in function.candidates.iter().enumerate() {
             let mut lowering = Lowering::new(&derivation.graph);
-            let roots = lowering.run(results);
+            let roots = lowering.run(&results.list);
             if lowering.to.len() > MOST_OPERATIONS {
                 return Err(Refusal::TooLarge(Excess::Operations(function.kind, lowering.to.len())));
             }
@@ -98,7 +99,10 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>) -> Result<Compile
             }
             let weight = dag.cost().0.weight();
             if best.as_ref().is_none_or(|(least, _)| weight < *least) {
-                best = Some((weight, Chosen { kind: function.kind, method, candidate, before, dag }));
+                best = Some((
+                    weight,
+                    Chosen { kind: function.kind, parts: results.parts.clone(), method, candidate, before, dag },
+                ));
             }
         }
         chosen.extend(best.map(|(_, chosen)| chosen));
@@ -117,8 +121,9 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>) -> Result<Compile
     let prelude_cost = prelude.cost().1;
     let functions: Vec<Function> = chosen
         .iter()
-        .map(|Chosen { kind, method, candidate, before, dag }| Function {
+        .map(|Chosen { kind, parts, method, candidate, before, dag }| Function {
             kind: *kind,
+            parts: parts.clone(),
             program: schedule::schedule(dag, &fields),
             before: *before,
             after: dag.cost().0,
@@ -187,6 +192,7 @@ fn checks(derivation: &Derivation, plain: bool, sound: &mut bool) -> Checks {
 /// The cheapest way to a function.
 struct Chosen {
     kind: FunctionKind,
+    parts: Parts,
     method: &'static str,
     candidate: usize,
     before: Cost,

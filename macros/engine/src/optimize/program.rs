@@ -7,6 +7,7 @@
 use crate::contracts::call::Call;
 use crate::contracts::cost::Cost;
 use crate::contracts::function::FunctionKind;
+use crate::contracts::results::Parts;
 use crate::contracts::symbol::Symbol;
 use crate::mechanics::{Condition, Inertia};
 
@@ -133,6 +134,8 @@ impl Program {
 #[derive(Clone, Debug)]
 pub struct Function {
     pub kind: FunctionKind,
+    /// What its results are.
+    pub parts: Parts,
     pub program: Program,
     /// As derived, before optimisation.
     pub before: Cost,

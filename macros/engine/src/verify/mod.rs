@@ -218,8 +218,7 @@ fn judge(
     }
     check_checks(derivation, compiled, plain, &mut drawn, &mut found);
     check_inertia(derivation, compiled, &mut drawn, &mut found);
-    let functions: Vec<(FunctionKind, &Tape)> =
-        compiled.functions.iter().map(|function| function.kind).zip(&tapes).collect();
+    let functions: Vec<(&Function, &Tape)> = compiled.functions.iter().zip(&tapes).collect();
     let laws = Laws { model, structure, states: &states, functions: &functions };
     let mut pending = laws.all();
     let everywhere = [(1, 0..ATTEMPTS), (0, 0..ATTEMPTS), (0, ATTEMPTS..ATTEMPTS + FURTHER)];
@@ -281,7 +280,7 @@ fn check_inertia(derivation: &Derivation, compiled: &Compiled, drawn: &mut Drawn
 /// Results of a function as they were derived.
 fn of<'d>(derivation: &'d Derivation, function: &Function) -> &'d [Scalar] {
     let derived = derivation.functions.iter().find(|derived| derived.kind == function.kind);
-    derived.and_then(|derived| derived.candidates.get(function.candidate)).map_or(&[], |(_, roots)| roots)
+    derived.and_then(|derived| derived.candidates.get(function.candidate)).map_or(&[], |(_, roots)| &roots.list)
 }
 
 /// The operations of equations that stand as they were derived, component by component.

@@ -5,6 +5,7 @@ use std::process::Command;
 
 use crate::samples::*;
 use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::results::Results;
 use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::emit::source;
 use multibody_engine::mechanics::{Derivation, Derived};
@@ -98,7 +99,10 @@ fn case(k: usize) -> (Model, Compiled, f64) {
         Symbol::Unknown { index: 1 },
     ];
     let symbol_names = ["q", "v", "coupler", "follower"].map(String::from).to_vec();
-    let functions = vec![Derived { kind: FunctionKind::ForwardDynamics, candidates: vec![("loop", vec![value])] }];
+    let functions = vec![Derived {
+        kind: FunctionKind::ForwardDynamics,
+        candidates: vec![("loop", Results::velocity(vec![value]))],
+    }];
     let compiled = compile(&Derivation {
         graph: g,
         symbols,

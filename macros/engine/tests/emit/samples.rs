@@ -7,6 +7,7 @@ use std::rc::Rc;
 use multibody_engine::contracts::call::Call;
 use multibody_engine::contracts::cost::Cost;
 use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::results::Parts;
 use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics::loops::structure::Structure;
 use multibody_engine::model::joint_kinds::{self, JointKind, Written};
@@ -222,6 +223,7 @@ pub fn sin_cos(sin: usize, cos: usize, angle: Expression) -> Statement {
 pub fn derived(kind: FunctionKind, program: Program) -> Derived {
     Derived {
         kind,
+        parts: Parts::default(),
         program,
         before: Cost { add: 7, mul: 9, div: 1, sqrt: 0, sincos: 1, compare: 0, other: 0 },
         after: Cost { add: 0, mul: 1, div: 0, sqrt: 0, sincos: 1, compare: 0, other: 0 },

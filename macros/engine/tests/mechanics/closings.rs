@@ -2,6 +2,7 @@
 //! at all times, its equations leave free what the joint leaves free and nothing else, and multipliers act as the
 //! transposed Jacobian.
 
+use multibody_engine::contracts::results::Results;
 use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics::equations::Equations;
 use multibody_engine::mechanics::loops::constraints::{Axes, Held, Writing, closings, row_count, row_name};
@@ -369,7 +370,10 @@ fn a_leg_costs_what_it_should() {
                 symbols: e.scene.symbols.table.clone(),
                 graph: e.g,
                 symbol_names,
-                functions: vec![Derived { kind: FunctionKind::Constraints, candidates: vec![("one", residuals)] }],
+                functions: vec![Derived {
+                    kind: FunctionKind::Constraints,
+                    candidates: vec![("one", Results::vector(residuals))],
+                }],
                 notes: Vec::new(),
                 dead_centres: Vec::new(),
                 checks: Vec::new(),

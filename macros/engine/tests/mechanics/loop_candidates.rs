@@ -30,7 +30,7 @@ fn compare(text: &str) -> (usize, f64) {
             };
             let values = |k: usize| {
                 let field = Real { symbols: &value };
-                Evaluator::new(&derivation.graph, field).run(&function.candidates[k].1)
+                Evaluator::new(&derivation.graph, field).run(&function.candidates[k].1.list)
             };
             let first = values(0);
             for k in 1..function.candidates.len() {
@@ -146,7 +146,7 @@ fn loops_in_any_plane() {
         assert!(diagnostics.is_empty(), "{}", diagnostics.to_tokens());
         let Ok((structure, derivation)) = mechanics::of(&models[0]) else { panic!("refused: {text}") };
         assert_eq!(structure.rows.len(), 2, "{:?}", structure.notes);
-        let found = &derivation.functions[0].candidates[0].1;
+        let found = &derivation.functions[0].candidates[0].1.list;
         let value = |id: SymbolId| 0.2 + 0.6 * (mix(mix(0xCA5E) ^ id.0 as u64) >> 11) as f64 / (1_u64 << 53) as f64;
         let field = Real { symbols: &value };
         Evaluator::new(&derivation.graph, field).run(&found[..3])

@@ -115,10 +115,9 @@ fn count(text: &str, kind: FunctionKind) -> Cost {
     let derivation = mechanics::of(models.last().unwrap()).unwrap_or_else(|c| panic!("{}", c[0].message)).1;
     for function in derivation.functions.iter().filter(|f| f.kind == kind) {
         let values = |id: SymbolId| ((id.0 * id.0 * 31 + id.0 * 7919 + 13) % 997) as f64 / 997.0 * 1.3 - 0.6;
-        let mut list = function
-            .candidates
-            .iter()
-            .map(|(name, results)| (name, Evaluator::new(&derivation.graph, Real { symbols: &values }).run(results)));
+        let mut list = function.candidates.iter().map(|(name, results)| {
+            (name, Evaluator::new(&derivation.graph, Real { symbols: &values }).run(&results.list))
+        });
         let (_, first) = list.next().unwrap();
         for (name, values) in list {
             for (a, b) in first.iter().zip(&values) {

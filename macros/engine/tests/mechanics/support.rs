@@ -140,7 +140,7 @@ impl Case {
     /// All numbers of a function by its candidate.
     pub(crate) fn candidate(&self, kind: FunctionKind, candidate: usize, point: &Point) -> Vec<f64> {
         let function = self.derivation.functions.iter().find(|f| f.kind == kind).expect("derived");
-        let results = &function.candidates[candidate].1;
+        let results = &function.candidates[candidate].1.list;
         let symbols = |id: SymbolId| point.values[&self.derivation.symbols[id.0]];
         Evaluator::new(&self.derivation.graph, Real { symbols: &symbols }).run(results)
     }

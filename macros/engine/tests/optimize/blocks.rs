@@ -5,6 +5,7 @@ use crate::interpreter;
 use crate::rebuild::rebuild;
 use crate::rng::Rng;
 use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::results::Results;
 use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics::{Derivation, Derived};
 use multibody_engine::model::types::{InputId, JointId, ParamId};
@@ -121,7 +122,8 @@ fn case(seed: u64) -> Case {
     }
     let symbols = symbols(&g, count);
     let symbol_names = (0..count).map(|k| format!("symbol{k}")).collect();
-    let functions = vec![Derived { kind: FunctionKind::Outputs, candidates: vec![("random", results)] }];
+    let functions =
+        vec![Derived { kind: FunctionKind::Outputs, candidates: vec![("random", Results::vector(results))] }];
     let derivation = Derivation {
         graph: g,
         symbols,
@@ -152,7 +154,7 @@ fn takes_roots(case: &Case) -> bool {
 
 fn any_node(case: &Case, is: impl Fn(&ScalarNode) -> bool) -> bool {
     let mut lowering = Lowering::new(&case.derivation.graph);
-    let roots = lowering.run(&case.derivation.functions[0].candidates[0].1);
+    let roots = lowering.run(&case.derivation.functions[0].candidates[0].1.list);
     let g = &lowering.to;
     g.reachable_scalars(&roots).into_iter().any(|index| is(g.node(g.scalar_at(index))))
 }
@@ -183,7 +185,7 @@ fn programs_are_what_was_derived() {
     let (mut solves, mut loops, mut told) = (0, 0, 0);
     for seed in 0..260 {
         let case = case(seed);
-        let roots = case.derivation.functions[0].candidates[0].1.clone();
+        let roots = case.derivation.functions[0].candidates[0].1.list.clone();
         let expected = truth(&case, &roots);
         if divides_by_zero(&case) || !expected.iter().all(|x| x.is_finite()) {
             continue;
@@ -215,7 +217,7 @@ fn passes_keep_blocks() {
             continue;
         }
         let mut lowering = Lowering::new(&case.derivation.graph);
-        let roots = lowering.run(&case.derivation.functions[0].candidates[0].1);
+        let roots = lowering.run(&case.derivation.functions[0].candidates[0].1.list);
         let mut dag = Dag::import(&lowering.to, &roots, &case.derivation.symbols);
         assert!(simplify(&mut dag), "seed {seed}");
         let (graph, rebuilt) = rebuild(&lowering.to, &dag);

@@ -7,6 +7,7 @@ use crate::formulations;
 use crate::rebuild::rebuild;
 use crate::rng::Rng;
 use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::results::Results;
 use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::dynamics::regroup::regroup;
@@ -73,12 +74,12 @@ fn check(what: &str, derivation: &Derivation) {
     let mut simplified = Vec::new();
     for function in &derivation.functions {
         for (method, results) in &function.candidates {
-            for (pass, exact, real) in said(derivation, results, 17) {
+            for (pass, exact, real) in said(derivation, &results.list, 17) {
                 let place = format!("{what}, {:?}, {method}, {pass}", function.kind);
                 assert_eq!(exact, Verdict::Identical, "{place}");
                 assert_eq!(real, Verdict::Identical, "{place}, in double precision");
             }
-            let (_, mut dag) = lower(derivation, results);
+            let (_, mut dag) = lower(derivation, &results.list);
             simplify(&mut dag);
             simplified.push(dag);
         }
@@ -136,7 +137,7 @@ fn derivation(
     results: Vec<Scalar>,
 ) -> Derivation {
     let symbol_names = (0..symbols.len()).map(|k| format!("symbol{k}")).collect();
-    let functions = vec![Derived { kind, candidates: vec![(method, results)] }];
+    let functions = vec![Derived { kind, candidates: vec![(method, Results::vector(results))] }];
     Derivation {
         graph,
         symbols,
@@ -260,7 +261,7 @@ const STAGES: [Symbol; SYMBOLS] = [
 
 /// Whether a quotient by nothing is left: `compile` refuses it, and there is no value that a pass could keep.
 fn divides_by_zero(derivation: &Derivation) -> bool {
-    let (Reference { graph, roots }, _) = lower(derivation, &derivation.functions[0].candidates[0].1);
+    let (Reference { graph, roots }, _) = lower(derivation, &derivation.functions[0].candidates[0].1.list);
     let nothing = |index| matches!(graph.node(graph.scalar_at(index)), ScalarNode::Reciprocal(x) if *x == Scalar::ZERO);
     graph.reachable_scalars(&roots).into_iter().any(nothing)
 }
@@ -279,7 +280,7 @@ fn random_expressions_keep_values() {
         if divides_by_zero(&derivation) {
             continue;
         }
-        for (pass, exact, real) in said(&derivation, &derivation.functions[0].candidates[0].1, 100 * seed) {
+        for (pass, exact, real) in said(&derivation, &derivation.functions[0].candidates[0].1.list, 100 * seed) {
             assert!(!matches!(exact, Verdict::Different(_)), "seed {seed}, {pass}, {exact:?}: {list:?}");
             assert!(!matches!(real, Verdict::Different(_)), "seed {seed}, {pass}, {real:?}: {list:?}");
             exactly += usize::from(exact == Verdict::Identical);
@@ -295,10 +296,10 @@ fn random_expressions_keep_values() {
 #[test]
 fn broken_passes_are_told() {
     let pendulum = from_text(PENDULUM);
-    let cases = pendulum.functions.iter().map(|f| (&pendulum, &f.candidates[0].1));
+    let cases = pendulum.functions.iter().map(|f| (&pendulum, &f.candidates[0].1.list));
     let arm = arm("cart5", FUNCTIONS[2]);
     let (mut coefficients, mut swaps) = (0, 0);
-    for (derivation, results) in cases.chain([(&arm, &arm.functions[0].candidates[0].1)]) {
+    for (derivation, results) in cases.chain([(&arm, &arm.functions[0].candidates[0].1.list)]) {
         let (reference, mut dag) = lower(derivation, results);
         simplify(&mut dag);
         let told = |broken: &Dag, what: &str| {

@@ -1,6 +1,8 @@
 //! Errors that are put into compiled programs one at a time, and into derived equations.
 
 use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::results::{Form, Parts, Slot};
+use multibody_engine::emit;
 use multibody_engine::mechanics::{self, Derivation};
 use multibody_engine::model::types::Model;
 use multibody_engine::optimize::program::{Compiled, Expression, Program, Statement};
@@ -108,7 +110,7 @@ fn every_break_of_derived_equations_is_told() {
                 let candidate = std::mem::take(&mut case.compiled.functions[number].candidate);
                 let ways = &mut case.derivation.functions[number].candidates;
                 *ways = vec![ways.swap_remove(candidate)];
-                let roots = &mut case.derivation.functions[number].candidates[0].1;
+                let roots = &mut case.derivation.functions[number].candidates[0].1.list;
                 // One that is not zero everywhere.
                 let zero = multibody_engine::symbolic::graph::Scalar::ZERO;
                 let Some(root) = roots.iter_mut().find(|root| **root != zero) else { continue };
@@ -122,6 +124,26 @@ fn every_break_of_derived_equations_is_told() {
             }
         }
         assert!(told >= 10, "{told}");
+    }
+}
+
+/// Results in other slots than those that the function's value is built from, or one too few.
+#[test]
+fn slots_that_do_not_fit_are_told() {
+    for text in MODELS {
+        let case = Case::new(text);
+        let misfit = |compiled: &Compiled| emit::misfit(&case.model, &case.structure, compiled);
+        assert_eq!(misfit(&case.compiled), None, "{}", case.model.name);
+        for number in 0..case.compiled.functions.len() {
+            let kind = case.compiled.functions[number].kind;
+            let mut short = case.compiled.clone();
+            short.functions[number].program.results.pop();
+            assert_eq!(misfit(&short), Some(kind));
+            let mut other = case.compiled.clone();
+            let parts = &mut other.functions[number].parts;
+            *parts = Parts::default().with(Slot::Rank, Form::Vector(parts.count()));
+            assert_eq!(misfit(&other), Some(kind));
+        }
     }
 }
 

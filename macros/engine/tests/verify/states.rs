@@ -75,10 +75,11 @@ fn parameters_of_zero() {
         emit forward_dynamics, inverse_dynamics, mass_matrix, energy;");
     assert_eq!(case.check(&case.compiled).broken, None);
     let outputs = case.derivation.functions.iter().find(|f| f.kind == FunctionKind::Outputs).unwrap();
-    let extra = outputs.candidates[0].1[0];
+    let extra = outputs.candidates[0].1.list[0];
     let energy = case.derivation.functions.iter().position(|f| f.kind == FunctionKind::KineticEnergy).unwrap();
     for candidate in &mut case.derivation.functions[energy].candidates {
-        candidate.1[0] = case.derivation.graph.add(candidate.1[0], extra);
+        let results = &mut candidate.1.list;
+        results[0] = case.derivation.graph.add(results[0], extra);
     }
     let compiled = optimize::compile(&case.derivation).unwrap();
     let found = case.check(&compiled);
@@ -293,7 +294,7 @@ fn laws_without_a_value() {
     // As if equations followed from others everywhere.
     for function in &mut case.derivation.functions {
         if matches!(function.kind, FunctionKind::ForwardDynamics | FunctionKind::Impulse) {
-            let results = function.candidates.iter_mut().map(|candidate| &mut candidate.1);
+            let results = function.candidates.iter_mut().map(|candidate| &mut candidate.1.list);
             results.for_each(|results| *results.last_mut().unwrap() = Scalar::ZERO);
         }
     }
@@ -311,7 +312,7 @@ fn forms_that_lose_digits_are_refused() {
         let mut case = arm("input u; output bad = u; output good = j; output same = u + 1.0;");
         let at = case.derivation.functions.iter().position(|f| f.kind == FunctionKind::Outputs).unwrap();
         let g = &mut case.derivation.graph;
-        let [u, ..] = case.derivation.functions[at].candidates[0].1[..] else { panic!() };
+        let [u, ..] = case.derivation.functions[at].candidates[0].1.list[..] else { panic!() };
         let literal = g.decimal(c);
         let shifted = g.add(u, literal);
         let (square, less) = (g.mul(shifted, shifted), g.mul(literal, literal));
@@ -322,7 +323,7 @@ fn forms_that_lose_digits_are_refused() {
         let good = g.mul(u, shifted);
         assert_ne!(bad, good);
         for candidate in &mut case.derivation.functions[at].candidates {
-            candidate.1 = vec![bad, good, good];
+            candidate.1.list = vec![bad, good, good];
         }
         let compiled = verify::compile(&case.model, &case.structure, &case.derivation);
         println!("{c:e} {:?}", compiled.as_ref().err());

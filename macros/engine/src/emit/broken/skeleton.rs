@@ -8,6 +8,7 @@ use proc_macro2::TokenStream;
 
 use crate::contracts::cost::Cost;
 use crate::contracts::function::{Asked, FunctionKind};
+use crate::contracts::results::Parts;
 use crate::emit::{context, module};
 use crate::mechanics;
 use crate::model::{Checked, Soundness};
@@ -31,6 +32,7 @@ pub fn skeleton(checked: &Checked) -> TokenStream {
     });
     compiled.functions.extend(kinds.map(|kind| Function {
         kind,
+        parts: Parts::default(),
         program: Program::default(),
         before: Cost::default(),
         after: Cost::default(),

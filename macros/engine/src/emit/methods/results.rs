@@ -1,12 +1,13 @@
 //! Stage `emit`: what methods of `Model` give back.
 //!
-//! In: a function's kind and its scalars, in the order that [`FunctionKind`] documents. Out: the return type, and the value
-//! built from the scalars.
+//! In: a function's kind and its scalars, in the slots of its shape. Out: the return type, and the value built from the
+//! scalars.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use crate::contracts::function::{FunctionKind, Shape, Sizes};
+use crate::contracts::results::{Parts, Results, Slot};
 use crate::contracts::symbol::Symbol;
 use crate::emit::layout::{Group, Layout, leaf};
 use crate::emit::names;
@@ -62,9 +63,9 @@ impl Layout<'_> {
     }
 }
 
-/// Number of scalars that the method's value is built from.
-pub(in crate::emit) fn count(layout: &Layout<'_>, kind: FunctionKind) -> usize {
-    layout.shape(kind).count(&layout.sizes(kind))
+/// What the method's value is built from.
+pub(in crate::emit) fn parts(layout: &Layout<'_>, kind: FunctionKind) -> Parts {
+    layout.shape(kind).parts(&layout.sizes(kind))
 }
 
 /// Expands to the method's return type.
@@ -74,6 +75,7 @@ pub(in crate::emit) fn ty(layout: &Layout<'_>, kind: FunctionKind) -> TokenStrea
         Shape::Scalar => quote!(T),
         Shape::Vector(size) => vector_type(layout, size),
         Shape::Matrix(rows, columns) => matrix_type(layout, rows, columns),
+        Shape::Residual | Shape::Margins(_) => vector_type(layout, parts(layout, kind).count()),
         Shape::Velocity => quote!(Velocity<T>),
         Shape::Derivative => quote!(Derivative<T>),
         Shape::Solved(_) => quote!(Solved<T>),
@@ -96,86 +98,83 @@ pub(in crate::emit) fn ty(layout: &Layout<'_>, kind: FunctionKind) -> TokenStrea
 /// Expands to the method's value, from its scalars.
 pub(in crate::emit) fn value(layout: &Layout<'_>, kind: FunctionKind, results: Vec<TokenStream>) -> TokenStream {
     let krate = layout.krate();
+    let results = Results { parts: parts(layout, kind), list: results };
     match layout.shape(kind) {
-        Shape::Scalar => quote!(#(#results)*),
-        Shape::Vector(_) => vector(layout, results),
-        Shape::Matrix(rows, columns) => leaf::matrix(krate, rows, columns, &mut results.into_iter()),
-        Shape::Velocity => filled(layout, Group::Velocity, &results),
-        Shape::Derivative => derivative(layout, results),
-        Shape::Solved(_) => solved(layout, results),
-        Shape::Jump => jump(layout, results),
-        Shape::Outputs => filled(layout, Group::Output, &results),
-        Shape::Kinematics(found) => {
-            let mut results = results.into_iter();
-            let mut next = || vector(layout, results.by_ref().take(found).collect());
-            let (position, velocity, acceleration) = (next(), next(), next());
+        Shape::Scalar => scalar(&results, Slot::Value),
+        Shape::Vector(_) | Shape::Residual | Shape::Margins(_) => vector(layout, &results.list),
+        Shape::Matrix(rows, columns) => leaf::matrix(krate, rows, columns, &mut results.list.into_iter()),
+        Shape::Velocity => filled(layout, Group::Velocity, results.of(Slot::Velocity)),
+        Shape::Derivative => derivative(layout, &results),
+        Shape::Solved(_) => solved(layout, &results),
+        Shape::Jump => jump(layout, &results),
+        Shape::Outputs => filled(layout, Group::Output, results.of(Slot::Value)),
+        Shape::Kinematics(_) => {
+            let [position, velocity, acceleration] =
+                [Slot::Positions, Slot::Rates, Slot::Accelerations].map(|slot| vector(layout, results.of(slot)));
             quote!(#krate::Kinematics { position: #position, velocity: #velocity, acceleration: #acceleration })
         }
         Shape::Derivatives(rows) => {
-            let mut results = results.into_iter();
-            let mut next = |group| {
+            let matrix = |slot, group| {
                 let columns = layout.table(group).size;
-                leaf::matrix(krate, rows, columns, &mut results.by_ref().take(rows * columns))
+                leaf::matrix(krate, rows, columns, &mut results.of(slot).iter().cloned())
             };
-            let [position, velocity] = [next(Group::Velocity), next(Group::Velocity)];
-            let [states, input] = [next(Group::States), next(Group::Input)];
+            let position = matrix(Slot::ByPosition, Group::Velocity);
+            let velocity = matrix(Slot::ByVelocity, Group::Velocity);
+            let states = matrix(Slot::ByState, Group::States);
+            let input = matrix(Slot::ByInput, Group::Input);
             quote! {
                 #krate::Derivatives { position: #position, velocity: #velocity, states: #states, input: #input }
             }
         }
         Shape::Closed => {
-            let (mut results, state) = (results, names::ident("state"));
-            let residual = results.split_off(layout.structure.guesses().min(results.len()));
-            let guess = filled(layout, Group::Guess, &layout.in_leaves(&results));
-            quote!(Closed { state: State { guess: #guess, ..*#state }, residual: #(#residual)* })
+            let state = names::ident("state");
+            let residual = scalar(&results, Slot::Residual);
+            let guess = filled(layout, Group::Guess, &layout.in_leaves(results.of(Slot::Unknowns)));
+            quote!(Closed { state: State { guess: #guess, ..*#state }, residual: #residual })
         }
     }
 }
 
 /// Expands to `Derivative { v: .., x: .., multipliers: .., rank: .., residual: .. }`.
-fn derivative(layout: &Layout<'_>, results: Vec<TokenStream>) -> TokenStream {
-    let mut results = results.into_iter();
-    let mut next = |count: usize| -> Vec<TokenStream> { results.by_ref().take(count).collect() };
-    let v = filled(layout, Group::Velocity, &next(layout.dof()));
+fn derivative(layout: &Layout<'_>, results: &Results<TokenStream>) -> TokenStream {
+    let v = filled(layout, Group::Velocity, results.of(Slot::Velocity));
     let x = layout.has_states().then(|| {
-        let x = filled(layout, Group::States, &next(layout.table(Group::States).size));
+        let x = filled(layout, Group::States, results.of(Slot::States));
         quote!(x: #x,)
     });
     let rows = (layout.rows() > 0).then(|| {
-        let multipliers = vector(layout, next(layout.rows()));
-        let rank = next(1);
-        quote!(multipliers: #multipliers, rank: #(#rank)*,)
+        let multipliers = vector(layout, results.of(Slot::Multipliers));
+        let rank = scalar(results, Slot::Rank);
+        quote!(multipliers: #multipliers, rank: #rank,)
     });
     let residual = (layout.structure.guesses() > 0).then(|| {
-        let residual = next(1);
-        quote!(residual: #(#residual)*,)
+        let residual = scalar(results, Slot::Residual);
+        quote!(residual: #residual,)
     });
     quote!(Derivative { v: #v, #x #rows #residual })
 }
 
 /// Expands to `Jump { v: .., multipliers: .., rank: .. }`.
-fn jump(layout: &Layout<'_>, results: Vec<TokenStream>) -> TokenStream {
-    let mut results = results.into_iter();
-    let mut next = |count: usize| -> Vec<TokenStream> { results.by_ref().take(count).collect() };
-    let v = filled(layout, Group::Velocity, &next(layout.dof()));
-    let multipliers = vector(layout, next(layout.rows()));
-    let rank = next(1);
-    quote!(Jump { v: #v, multipliers: #multipliers, rank: #(#rank)* })
+fn jump(layout: &Layout<'_>, results: &Results<TokenStream>) -> TokenStream {
+    let v = filled(layout, Group::Velocity, results.of(Slot::Velocity));
+    let multipliers = vector(layout, results.of(Slot::Multipliers));
+    let rank = scalar(results, Slot::Rank);
+    quote!(Jump { v: #v, multipliers: #multipliers, rank: #rank })
 }
 
 /// Expands to `{ let mut solved = *input; solved.force = ..; Solved { input: solved, rank: .. } }`.
-fn solved(layout: &Layout<'_>, results: Vec<TokenStream>) -> TokenStream {
+fn solved(layout: &Layout<'_>, results: &Results<TokenStream>) -> TokenStream {
     let [input, solved] = ["input", "solved"].map(names::ident);
     let inputs = &layout.model.solve_for;
-    let rank = results.get(inputs.len()).into_iter();
-    let set = inputs.iter().zip(&results).map(|(SolveFor { input, element, .. }, value)| {
+    let rank = scalar(results, Slot::Rank);
+    let set = inputs.iter().zip(results.of(Slot::Inputs)).map(|(SolveFor { input, element, .. }, value)| {
         let place = layout.path_of(Symbol::Input { input: *input, element: *element });
         quote!(#solved #place = #value;)
     });
     quote! {
         let mut #solved = *#input;
         #(#set)*
-        Solved { input: #solved, rank: #(#rank)* }
+        Solved { input: #solved, rank: #rank }
     }
 }
 
@@ -190,13 +189,19 @@ fn matrix_type(layout: &Layout<'_>, rows: usize, columns: usize) -> TokenStream 
     quote!(#krate::nalgebra::SMatrix<T, #rows, #columns>)
 }
 
+/// Expands to what stands in a slot that holds one number.
+fn scalar(results: &Results<TokenStream>, slot: Slot) -> TokenStream {
+    let value = results.of(slot);
+    quote!(#(#value)*)
+}
+
 /// Expands to `SVector::from([..])`.
-fn vector(layout: &Layout<'_>, scalars: Vec<TokenStream>) -> TokenStream {
+fn vector(layout: &Layout<'_>, scalars: &[TokenStream]) -> TokenStream {
     let krate = layout.krate();
     if scalars.is_empty() {
         return quote!(#krate::nalgebra::SVector::zeros());
     }
-    let scalars = scalars.into_iter().map(leaf::element);
+    let scalars = scalars.iter().cloned().map(leaf::element);
     quote!(#krate::nalgebra::SVector::from([#(#scalars),*]))
 }
 

@@ -6,6 +6,7 @@
 //! parameters already (a loop that can't be closed at zero, a singular position) it says nothing and is left out, and so
 //! is what no parameter changes.
 
+use crate::contracts::results::Results;
 use crate::contracts::symbol::Symbol;
 use crate::mechanics::Condition;
 use crate::mechanics::loops::constraints::{closings, coordinate_name, row_name, unfit};
@@ -34,11 +35,11 @@ impl Deriving<'_> {
         let found = self.only("", |e| {
             let reduction = e.reduce()?;
             tests = e.parameter_tests(&reduction);
-            Ok(tests.iter().flat_map(|test: &Test| test.values.iter().copied()).collect())
+            Ok(Results::vector(tests.iter().flat_map(|test: &Test| test.values.iter().copied()).collect()))
         })?;
         // As they came out, where nothing is left that parameters don't give.
         let Some((_, values)) = found.into_iter().next() else { return Ok(Vec::new()) };
-        let mut values = values.into_iter();
+        let mut values = values.list.into_iter();
         for test in &mut tests {
             test.values.iter_mut().zip(&mut values).for_each(|(slot, value)| *slot = value);
         }

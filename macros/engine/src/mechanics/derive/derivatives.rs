@@ -2,6 +2,7 @@
 //!
 //! In: what the model asks for. Out: candidates for the derivatives of forward and inverse dynamics.
 
+use crate::contracts::results::Results;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Reduction;
@@ -39,7 +40,7 @@ impl<'m> Deriving<'m> {
     fn linearised(
         &mut self,
         sides: &[(Accumulation, &[&'static str])],
-        f: impl Fn(&mut Equations<'m>, &Reduction, Accumulation) -> Vec<Scalar>,
+        f: impl Fn(&mut Equations<'m>, &Reduction, Accumulation) -> Results<Scalar>,
     ) -> Result<Vec<Candidate>, Vec<Complaint>> {
         let mut candidates = Vec::new();
         for &(side, names) in sides {
@@ -49,7 +50,7 @@ impl<'m> Deriving<'m> {
             })?);
         }
         // The functions are long: only ways that may come out as the cheapest are worth optimising.
-        let weights: Vec<u32> = candidates.iter().map(|candidate| self.weight(&candidate.1)).collect();
+        let weights: Vec<u32> = candidates.iter().map(|candidate| self.weight(&candidate.1.list)).collect();
         let least = weights.iter().copied().min().unwrap_or(0);
         let mut kept = weights.into_iter().map(|weight| 10 * weight <= 11 * least);
         candidates.retain(|_| kept.next() == Some(true));

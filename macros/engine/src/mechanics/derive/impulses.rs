@@ -2,6 +2,7 @@
 //!
 //! In: what the model asks for. Out: candidates, or complaints about mechanisms whose equations these functions can't hold.
 
+use crate::contracts::results::Results;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::constraints::path;
@@ -86,10 +87,11 @@ impl Deriving<'_> {
         };
         let mut candidates = Vec::new();
         for &(method, names) in methods {
-            candidates.extend(self.in_all_axes(&names, method, &[], |e| Ok(e.jump()))?);
+            candidates.extend(self.in_all_axes(&names, method, &[], |e| Ok(Results::velocity(e.jump())))?);
         }
         if floats(model) && freedoms(model) <= MOST_COMPOSITE {
-            candidates.extend(self.candidate(FLOATING, self.floating(), &[], &mut |e| Ok(e.jump()))?);
+            candidates
+                .extend(self.candidate(FLOATING, self.floating(), &[], &mut |e| Ok(Results::velocity(e.jump())))?);
         }
         Ok(candidates)
     }
@@ -99,10 +101,7 @@ impl Deriving<'_> {
         let mut all = |e: &mut Equations<'_>| {
             let reduction = e.reduce()?;
             let solved = e.constrained_jump(&reduction);
-            let mut results = solved.accelerations;
-            results.extend(solved.multipliers);
-            results.extend(solved.rank);
-            Ok(results)
+            Ok(solved.results(Vec::new()))
         };
         let mut candidates = self.in_all_axes(&METHODS[0].1, Method::Composite, &[], &mut all)?;
         if floats(self.model) {
@@ -117,9 +116,9 @@ impl Deriving<'_> {
 
     /// M v
     pub(super) fn momenta(&mut self) -> Candidates {
-        let mut candidates = self.one(MOMENTA, |e| Ok(e.momenta()))?;
+        let mut candidates = self.one(MOMENTA, |e| Ok(Results::velocity(e.momenta())))?;
         if freedoms(self.model) <= MOST_COMPOSITE {
-            candidates.extend(self.one(COMPOSITE, |e| Ok(e.momenta_by_matrix()))?);
+            candidates.extend(self.one(COMPOSITE, |e| Ok(Results::velocity(e.momenta_by_matrix())))?);
         }
         Ok(candidates)
     }
@@ -128,23 +127,27 @@ impl Deriving<'_> {
         let still = Still { time: self.symbols.time, complaint: self.complaint(Request::Momentum, LATE, SYMMETRIC) };
         let mut candidates = self.reduced(MOMENTA, |e, reduction| {
             still.check(&e.g, reduction)?;
-            Ok(e.reduced_momenta(reduction))
+            Ok(Results::velocity(e.reduced_momenta(reduction)))
         })?;
-        candidates.extend(self.reduced(COMPOSITE, |e, reduction| Ok(e.reduced_momenta_by_matrix(reduction)))?);
+        candidates.extend(
+            self.reduced(COMPOSITE, |e, reduction| Ok(Results::velocity(e.reduced_momenta_by_matrix(reduction))))?,
+        );
         Ok(candidates)
     }
 
     /// p'
     pub(super) fn momentum_rates(&mut self) -> Candidates {
-        let mut candidates = self.one(MOMENTA, |e| Ok(e.momentum_rates(Weight::Force)))?;
+        let mut candidates = self.one(MOMENTA, |e| Ok(Results::velocity(e.momentum_rates(Weight::Force))))?;
         if self.is_straight() {
-            candidates.extend(self.one(POTENTIAL, |e| Ok(e.momentum_rates(Weight::Gradient)))?);
+            candidates.extend(self.one(POTENTIAL, |e| Ok(Results::velocity(e.momentum_rates(Weight::Gradient))))?);
         }
         Ok(candidates)
     }
 
     pub(super) fn reduced_momentum_rates(&mut self) -> Candidates {
-        let rates = |weight| move |e: &mut Equations<'_>, r: &Reduction| Ok(e.reduced_momentum_rates(r, weight));
+        let rates = |weight| {
+            move |e: &mut Equations<'_>, r: &Reduction| Ok(Results::velocity(e.reduced_momentum_rates(r, weight)))
+        };
         let mut candidates = self.reduced(MOMENTA, rates(Weight::Force))?;
         if self.is_straight() {
             candidates.extend(self.reduced(POTENTIAL, rates(Weight::Gradient))?);

@@ -5,6 +5,7 @@
 //! hold what is idle: then a pivot says nothing. Lengths and masses that are parameters may be zero, whatever
 //! `Params::check` says of them, so they prove nothing.
 
+use crate::contracts::results::Results;
 use crate::mechanics::Inertia;
 use crate::model::types::{Body, BodyRef, Expr, Joint, Request};
 use crate::symbolic::graph::Scalar;
@@ -26,7 +27,7 @@ impl Deriving<'_> {
         let (open, held) = (self.is_open(), !self.structure.rows.is_empty());
         let found = self.only("", |e| {
             if e.is_never_singular() {
-                return Ok(Vec::new());
+                return Ok(Results::default());
             }
             let entries = if open {
                 e.mass_matrix()
@@ -36,9 +37,12 @@ impl Deriving<'_> {
             };
             let idle = held && e.is_singular(&entries, size);
             let literal = entries.iter().all(|&entry| e.g.literal(entry).is_some()) && !e.is_singular(&entries, size);
-            Ok(if idle || literal || entries.len() != size * size { Vec::new() } else { entries })
+            Ok(match idle || literal || entries.len() != size * size {
+                true => Results::default(),
+                false => Results::matrix(size, size, entries),
+            })
         })?;
-        let entries = found.into_iter().next().map(|(_, entries)| entries).unwrap_or_default();
+        let entries = found.into_iter().next().map(|(_, entries)| entries.list).unwrap_or_default();
         Ok(match entries.is_empty() {
             true => Inertia::Regular,
             false if self.model.emit.contains(&Request::MassMatrix) => Inertia::Requested,

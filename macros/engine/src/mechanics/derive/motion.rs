@@ -4,6 +4,7 @@
 
 use std::rc::Rc;
 
+use crate::contracts::results::{Results, Slot};
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::results::constrained::Solved;
@@ -23,9 +24,9 @@ impl<'m> Deriving<'m> {
         let needs = Dependencies::of(model.states.iter().map(|state| &state.rate));
         let kept = needs.kept(model);
         let all = |equations: &mut Equations<'m>| {
-            let mut results = equations.accelerations().to_vec();
-            results.extend(model.states.iter().map(|state| equations.scalar(&state.rate)));
-            Ok(results)
+            let accelerations = equations.accelerations().to_vec();
+            let rates = model.states.iter().map(|state| equations.scalar(&state.rate)).collect();
+            Ok(Results::velocity(accelerations).with_any(Slot::States, rates))
         };
         let methods = match articulates(model, &kept) {
             true if freedoms(model) > MOST_COMPOSITE => &METHODS[1..],
@@ -52,13 +53,11 @@ impl<'m> Deriving<'m> {
             let reduction = equations.reduce()?;
             let solved = equations.solve_constrained(&reduction);
             let rates: Vec<Scalar> = model.states.iter().map(|state| equations.scalar(&state.rate)).collect();
-            let mut results = solved.accelerations.clone();
-            results.extend(equations.put_in_all(&reduction, &solved, &rates));
-            results.extend(&solved.multipliers);
-            results.extend(solved.rank);
+            let mut results = solved.results(equations.put_in_all(&reduction, &solved, &rates));
             if !reduction.residuals.is_empty() {
                 let residual = equations.worst_residual(&reduction);
-                results.extend(equations.finish(&reduction, &[residual]));
+                let residual = equations.finish(&reduction, &[residual])[0];
+                results = results.with_scalar(Slot::Residual, residual);
             }
             Ok(results)
         };
@@ -68,11 +67,11 @@ impl<'m> Deriving<'m> {
                 let reduction = e.reduce()?;
                 let Some(platform) = e.platform(&reduction) else { return Ok(None) };
                 let name = forward::ways(&platform.carrier).get(at).map(|way| way.0);
-                let Some(mut results) = e.platform_accelerations(&platform, &reduction, at) else { return Ok(None) };
-                let solved = Solved { accelerations: results.clone(), multipliers: Vec::new(), rank: None };
+                let Some(accelerations) = e.platform_accelerations(&platform, &reduction, at) else { return Ok(None) };
+                let solved = Solved { accelerations, multipliers: Vec::new(), rank: None };
                 let rates: Vec<Scalar> = model.states.iter().map(|state| e.scalar(&state.rate)).collect();
-                results.extend(e.put_in_all(&reduction, &solved, &rates));
-                Ok(name.map(|name| (name, results)))
+                let rates = e.put_in_all(&reduction, &solved, &rates);
+                Ok(name.map(|name| (name, solved.results(rates))))
             })?;
             let Some(found) = found else { break };
             candidates.push(found);
@@ -120,14 +119,14 @@ impl<'m> Deriving<'m> {
                 Ok(results)
             };
             if open {
-                return flat(equations);
+                return flat(equations).map(Results::vector);
             }
             let reduction = equations.reduce()?;
             let results = flat(equations)?;
-            match equations.solved() {
-                Some(solved) => Ok(equations.put_in_all(&reduction, &solved, &results)),
-                None => Ok(equations.finish(&reduction, &results)),
-            }
+            Ok(Results::vector(match equations.solved() {
+                Some(solved) => equations.put_in_all(&reduction, &solved, &results),
+                None => equations.finish(&reduction, &results),
+            }))
         };
         let articulates = open && needs.accelerations && articulates(model, &kept);
         let mut ways = Vec::new();

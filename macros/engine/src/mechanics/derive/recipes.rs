@@ -4,6 +4,7 @@
 //! keeps a multiplier, one where some depend on others. What a way does with axes and definitions is described by [`super::ways`].
 
 use crate::contracts::function::FunctionKind;
+use crate::contracts::results::{Results, Slot};
 use crate::dynamics::shared_axes::Axes;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::{Newton, Reduction};
@@ -30,7 +31,7 @@ pub(super) enum Way {
     PutIn(&'static str, OnTree),
     Defined(&'static str, OnLoops),
     /// In the axes in which loops are closed, which give the name; in those axes for parallel hinges.
-    Written(&'static [Option<Axes>], fn(&mut Equations<'_>, &Reduction) -> Vec<Scalar>),
+    Written(&'static [Option<Axes>], fn(&mut Equations<'_>, &Reduction) -> Results<Scalar>),
     /// Ways that depend on the model.
     Chosen(fn(&mut Deriving<'_>, FunctionKind) -> Candidates),
 }
@@ -61,40 +62,42 @@ fn recipe(kind: FunctionKind, solves_inputs: bool) -> Recipe {
         F::InverseDynamics => (
             const {
                 &[
-                    InAxes(NEWTON_EULER, |e| Ok(e.inverse_dynamics(LoadCase::Declared))),
-                    Lumped(|e| Ok(e.inverse_dynamics(LoadCase::Declared))),
+                    InAxes(NEWTON_EULER, |e| Ok(Results::velocity(e.inverse_dynamics(LoadCase::Declared)))),
+                    Lumped(|e| Ok(Results::velocity(e.inverse_dynamics(LoadCase::Declared)))),
                 ]
             },
-            const { &[Reduced(NEWTON_EULER, |e, r| Ok(e.reduced_efforts(r, LoadCase::Declared)))] },
+            const { &[Reduced(NEWTON_EULER, |e, r| Ok(Results::velocity(e.reduced_efforts(r, LoadCase::Declared))))] },
         ),
         F::Bias => (
-            const { &[InAxes(NEWTON_EULER, |e| Ok(e.bias())), Lumped(|e| Ok(e.bias()))] },
-            const { &[Reduced(NEWTON_EULER, |e, r| Ok(e.reduced_bias(r)))] },
+            const { &[InAxes(NEWTON_EULER, |e| Ok(Results::vector(e.bias()))), Lumped(|e| Ok(Results::vector(e.bias())))] },
+            const { &[Reduced(NEWTON_EULER, |e, r| Ok(Results::vector(e.reduced_bias(r))))] },
         ),
         F::MassMatrix => (
-            const { &[InAxes(COMPOSITE, |e| Ok(e.mass_matrix()))] },
-            const { &[Reduced(COMPOSITE, |e, r| Ok(e.reduced_mass_matrix(r).concat()))] },
+            const { &[InAxes(COMPOSITE, |e| Ok(square(e.mass_matrix())))] },
+            const { &[Reduced(COMPOSITE, |e, r| Ok(square(e.reduced_mass_matrix(r).concat())))] },
         ),
-        F::KineticEnergy => {
-            (const { &[Plain(LINKS, |e| Ok(vec![e.kinetic()]))] }, const { &[PutIn(LINKS, |e| Ok(vec![e.kinetic()]))] })
-        }
+        F::KineticEnergy => (
+            const { &[Plain(LINKS, |e| Ok(Results::scalar(e.kinetic())))] },
+            const { &[PutIn(LINKS, |e| Ok(Results::scalar(e.kinetic())))] },
+        ),
         F::PotentialEnergy => (
-            const { &[Plain(FIRST_MOMENT, |e| Ok(vec![e.potential()]))] },
-            const { &[PutIn(FIRST_MOMENT, |e| Ok(vec![e.potential()]))] },
+            const { &[Plain(FIRST_MOMENT, |e| Ok(Results::scalar(e.potential())))] },
+            const { &[PutIn(FIRST_MOMENT, |e| Ok(Results::scalar(e.potential())))] },
         ),
-        F::Constraints => (NONE, const { &[Written(WITHOUT_CHOICE, |e, r| e.constraints(r))] }),
-        F::ConstraintJacobian => (NONE, const { &[Written(WITHOUT_CHOICE, |e, r| e.constraint_jacobian(r))] }),
-        F::ConstraintRate => (NONE, const { &[Written(WITHOUT_CHOICE, |e, r| e.constraint_rate(r))] }),
-        F::ConstraintBias => (NONE, const { &[Written(WITHOUT_CHOICE, |e, r| e.constraint_bias(r))] }),
+        F::Constraints => (NONE, const { &[Written(WITHOUT_CHOICE, |e, r| Results::vector(e.constraints(r)))] }),
+        F::ConstraintJacobian => (NONE, const { &[Written(WITHOUT_CHOICE, jacobian)] }),
+        F::ConstraintRate => (NONE, const { &[Written(WITHOUT_CHOICE, |e, r| Results::vector(e.constraint_rate(r)))] }),
+        F::ConstraintBias => (NONE, const { &[Written(WITHOUT_CHOICE, |e, r| Results::vector(e.constraint_bias(r)))] }),
         F::Residual => (
-            const { &[InAxes(NEWTON_EULER, |e| Ok(e.inverse_dynamics(LoadCase::Declared)))] },
+            const { &[InAxes(NEWTON_EULER, |e| Ok(Results::velocity(e.inverse_dynamics(LoadCase::Declared))))] },
             const { &[Written(&AXES, |e, r| e.residual(r)), Lumped(residual)] },
         ),
         F::Kinematics(_) => (const { &[Chosen(kinematics)] }, const { &[Chosen(kinematics)] }),
         F::Guess => (NONE, const { &[Defined("Newton's method", guess)] }),
-        F::DeadCentres => {
-            (const { &[Plain("closed forms", |e| Ok(pitches(e)))] }, const { &[Defined("closed forms", dead_centres)] })
-        }
+        F::DeadCentres => (
+            const { &[Plain("closed forms", |e| Ok(Results::vector(pitches(e))))] },
+            const { &[Defined("closed forms", dead_centres)] },
+        ),
         F::Margins => (NONE, const { &[Plain("closed forms, determinants", margins)] }),
         F::Granted => {
             const GRANTED: &[Way] = &[Plain("equations that were left out", granted)];
@@ -130,21 +133,31 @@ fn kinematics(deriving: &mut Deriving<'_>, kind: FunctionKind) -> Candidates {
     }
 }
 
+fn square(entries: Vec<Scalar>) -> Results<Scalar> {
+    let size = entries.len().isqrt();
+    Results::matrix(size, size, entries)
+}
+
+fn jacobian(e: &mut Equations<'_>, reduction: &Reduction) -> Results<Scalar> {
+    let (rows, columns) = (e.scene.structure.rows.len(), e.scene.structure.state.len());
+    Results::matrix(rows, columns, e.constraint_jacobian(reduction))
+}
+
 fn residual(e: &mut Equations<'_>) -> Found {
     let reduction = e.reduce()?;
     Ok(e.residual(&reduction))
 }
 
 fn guess(e: &mut Equations<'_>, reduction: &Reduction) -> Found {
-    let mut results = reduction.guesses.clone();
-    results.push(e.worst_residual(reduction));
-    Ok(e.finish(reduction, &results))
+    let worst = e.worst_residual(reduction);
+    let results = Results::default().with(Slot::Unknowns, reduction.guesses.clone()).with_scalar(Slot::Residual, worst);
+    Ok(Results { list: e.finish(reduction, &results.list), ..results })
 }
 
 fn dead_centres(e: &mut Equations<'_>, reduction: &Reduction) -> Found {
     let mut roots: Vec<Scalar> = reduction.dead_centres.iter().map(|centre| centre.1).collect();
     roots.extend(pitches(e));
-    Ok(e.finish(reduction, &roots))
+    Ok(Results::vector(e.finish(reduction, &roots)))
 }
 
 /// Cosines of the pitches that may stand at a right angle.
@@ -161,7 +174,7 @@ fn margins(e: &mut Equations<'_>) -> Found {
 /// What equations leave that were left out for the declared parameters.
 fn granted(e: &mut Equations<'_>) -> Found {
     let reduction = e.reduce_by(Newton::AtGuess)?;
-    Ok(e.granted(&reduction))
+    Ok(Results::vector(e.granted(&reduction)))
 }
 
 impl Deriving<'_> {

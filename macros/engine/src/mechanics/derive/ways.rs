@@ -5,6 +5,7 @@
 
 use std::rc::Rc;
 
+use crate::contracts::results::Results;
 use crate::dynamics::lumped;
 use crate::dynamics::shared_axes::Axes;
 use crate::mechanics::analysis::Complaint;
@@ -103,7 +104,7 @@ impl<'m> Deriving<'m> {
     pub(super) fn written(
         &mut self,
         axes: &[Option<Axes>],
-        f: impl Fn(&mut Equations<'m>, &Reduction) -> Vec<Scalar>,
+        f: impl Fn(&mut Equations<'m>, &Reduction) -> Results<Scalar>,
     ) -> Result<Vec<Candidate>, Vec<Complaint>> {
         let mut candidates = Vec::new();
         for &axes in axes {
@@ -152,7 +153,7 @@ impl<'m> Deriving<'m> {
     ) -> Result<Vec<Candidate>, Vec<Complaint>> {
         self.equations(name, |e, reduction| {
             let results = f(e)?;
-            Ok(e.finish(reduction, &results))
+            Ok(Results { list: e.finish(reduction, &results.list), ..results })
         })
     }
 
@@ -174,22 +175,22 @@ impl<'m> Deriving<'m> {
         let mut equations = Equations::new(graph, scene);
         equations.decided = std::mem::take(&mut self.decided);
         let exists = way.axes.is_none() || equations.shared().turns.iter().any(|&turn| turn != Rotation::IDENTITY);
-        let results = if exists { f(&mut equations) } else { Ok(Vec::new()) };
+        let results = if exists { f(&mut equations) } else { Ok(Results::default()) };
         let unfinished = |g: &Graph, results: &[Scalar]| results.iter().any(|&root| Symbols::is_unfinished(g, root));
         // Nodes are found by value: what is made after definitions were put in may come out as an older node, in which a
         // coordinate outside the state stands and cancels. Put in once more, it goes.
-        let results = results.map(|results| {
+        let results = results.map(|mut results| {
             let g = &mut equations.g;
-            match &equations.reduced {
-                Some(reduction) if unfinished(g, &results) => g.substitute(&results, &reduction.map),
-                _ => results,
+            if let Some(reduction) = equations.reduced.as_ref().filter(|_| unfinished(g, &results.list)) {
+                results.list = g.substitute(&results.list, &reduction.map);
             }
+            results
         });
         self.graph = equations.g;
         self.decided = equations.decided;
         let results = results?;
         // A net: what a way has left unreplaced has no place in the generated structs.
-        let finished = !unfinished(&self.graph, &results);
+        let finished = !unfinished(&self.graph, &results.list);
         debug_assert!(finished, "{name} leaves a coordinate that is not in the state");
         Ok((exists && finished).then_some((name, results)))
     }

@@ -6,6 +6,7 @@
 //! configurations in double precision. An equation is asked for once the last of its unknowns is found: what a user wrote
 //! may close a loop together with a closed form.
 
+use crate::contracts::results::{Results, Slot};
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::model::site::Sited;
@@ -24,7 +25,7 @@ impl Equations<'_> {
         &mut self,
         wanted: &Kinematics,
         reduction: &Reduction,
-    ) -> Result<Vec<Scalar>, Vec<Complaint>> {
+    ) -> Result<Results<Scalar>, Vec<Complaint>> {
         let symbols: Vec<[Scalar; 3]> = wanted.find.iter().map(|&c| self.coordinate_symbols(c)).collect();
         let roots: Vec<Scalar> = (0..3).flat_map(|order| symbols.iter().map(move |s| s[order])).collect();
         let found = self.finish(reduction, &roots);
@@ -34,7 +35,11 @@ impl Equations<'_> {
             .flat_map(|(_, positions)| positions.iter().copied())
             .collect();
         match found.iter().position(|&s| self.g.depends_on(s, &others)) {
-            None => Ok(found),
+            None => {
+                let slots = [Slot::Positions, Slot::Rates, Slot::Accelerations].into_iter();
+                let orders = (0..3).map(|order| found[order * symbols.len()..][..symbols.len()].to_vec());
+                Ok(slots.zip(orders).fold(Results::default(), |results, (slot, list)| results.with(slot, list)))
+            }
             Some(at) => {
                 let coordinate = wanted.find.get(at % wanted.find.len().max(1));
                 let name = coordinate.map_or_else(String::new, |&c| coordinate_name(self.scene.model, c));

@@ -6,6 +6,7 @@
 //! with pivots in the runtime, which reports its rank: a rank below the number of inputs means that they cannot produce
 //! every motion at this configuration.
 
+use crate::contracts::results::{Results, Slot};
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Reduction;
@@ -17,7 +18,7 @@ use crate::symbolic::graph::{BlockKind, Scalar};
 
 impl Equations<'_> {
     /// The inputs that are asked for, then the rank of their system.
-    pub(in crate::mechanics) fn actuate(&mut self, reduction: &Reduction) -> Result<Vec<Scalar>, Vec<Complaint>> {
+    pub(in crate::mechanics) fn actuate(&mut self, reduction: &Reduction) -> Result<Results<Scalar>, Vec<Complaint>> {
         let model = self.scene.model;
         let efforts = self.projected_efforts(reduction, LoadCase::Held);
         let mut rows: Vec<usize> = self.freedoms_of(|role| matches!(role, Role::State));
@@ -78,7 +79,10 @@ impl Equations<'_> {
                 self.g.label(output, || names::symbol(self.scene.model, symbol));
             }
         }
-        Ok(outputs)
+        let rank = outputs.split_off(wanted);
+        Ok(rank.into_iter().fold(Results::default().with(Slot::Inputs, outputs), |results, rank| {
+            results.with_scalar(Slot::Rank, rank)
+        }))
     }
 }
 

@@ -9,6 +9,7 @@ use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
 use crate::contracts::call::Call;
+use crate::contracts::results::{Results, Slot};
 use crate::dynamics::saddle::{Saddle, Solution};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::{Map, Reduction};
@@ -30,6 +31,18 @@ pub(in crate::mechanics) struct Solved {
 /// Equations of closings, once they are written.
 #[derive(Clone, Default)]
 pub(in crate::mechanics) struct Residuals(HashMap<Closing, Rc<[Scalar]>>);
+
+impl Solved {
+    /// Accelerations with the rates of own states, multipliers and the rank of their system.
+    pub(in crate::mechanics) fn results(&self, rates: Vec<Scalar>) -> Results<Scalar> {
+        let results = Results::velocity(self.accelerations.clone()).with_any(Slot::States, rates);
+        let results = results.with_any(Slot::Multipliers, self.multipliers.clone());
+        match self.rank {
+            Some(rank) => results.with_scalar(Slot::Rank, rank),
+            None => results,
+        }
+    }
+}
 
 /// Constraint equations as the multipliers see them, by row.
 pub(in crate::mechanics) struct Rows {
@@ -311,10 +324,9 @@ impl Equations<'_> {
     }
 
     /// Dynamic rows with the multipliers' forces, then the equations.
-    pub(in crate::mechanics) fn residual(&mut self, reduction: &Reduction) -> Vec<Scalar> {
-        let mut rows = self.reduced_efforts(reduction, LoadCase::Held);
-        rows.extend(self.constraints(reduction));
-        rows
+    pub(in crate::mechanics) fn residual(&mut self, reduction: &Reduction) -> Results<Scalar> {
+        let efforts = self.reduced_efforts(reduction, LoadCase::Held);
+        Results::velocity(efforts).with_any(Slot::Gaps, self.constraints(reduction))
     }
 
     /// Whether coordinates follow from others, or equations keep multipliers.

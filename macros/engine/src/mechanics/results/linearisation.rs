@@ -11,6 +11,7 @@
 
 use std::collections::HashMap;
 
+use crate::contracts::results::{Results, Slot};
 use crate::dynamics::saddle::Saddle;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Reduction;
@@ -50,11 +51,12 @@ impl Equations<'_> {
         &mut self,
         reduction: &Reduction,
         accumulation: Accumulation,
-    ) -> Vec<Scalar> {
+    ) -> Results<Scalar> {
         let efforts = self.reduced_efforts(reduction, LoadCase::Declared);
         let directions = self.directions(reduction);
         let columns = self.partials(&efforts, &directions.columns, accumulation);
-        kinks::guarded(&mut self.g, &efforts, &directions.matrices(&columns))
+        let results = directions.matrices(&columns, efforts.len());
+        Results { list: kinks::guarded(&mut self.g, &efforts, &results.list), ..results }
     }
 
     /// Derivatives of the accelerations and of the rates of own states, in the same order.
@@ -62,7 +64,7 @@ impl Equations<'_> {
         &mut self,
         reduction: &Reduction,
         accumulation: Accumulation,
-    ) -> Vec<Scalar> {
+    ) -> Results<Scalar> {
         let (mut saddle, rows, solved) = self.system(reduction);
         let directions = self.directions(reduction);
         // Positions and velocities move while accelerations and multipliers stay: these are symbols for now.
@@ -93,7 +95,8 @@ impl Equations<'_> {
         for (column, rates) in columns.iter_mut().zip(rates) {
             column.extend(rates);
         }
-        kinks::guarded(&mut self.g, &values, &directions.matrices(&columns))
+        let results = directions.matrices(&columns, freedoms + model.states.len());
+        Results { list: kinks::guarded(&mut self.g, &values, &results.list), ..results }
     }
 
     /// -(dF/dz)^-1 dF/dx, column by column; a column holds what the matrix has to solve.
@@ -232,15 +235,16 @@ impl Equations<'_> {
 
 impl Directions {
     /// A matrix for positions, velocities, own states and inputs, each row by row.
-    fn matrices(&self, columns: &[Vec<Scalar>]) -> Vec<Scalar> {
-        let mut entries = Vec::new();
+    fn matrices(&self, columns: &[Vec<Scalar>], rows: usize) -> Results<Scalar> {
+        let mut results = Results::default();
         let mut from = 0;
-        for count in self.counts {
-            let matrix = columns.get(from..from + count).unwrap_or_default();
-            let rows = columns.first().map_or(0, Vec::len);
-            entries.extend((0..rows).flat_map(|row| matrix.iter().map(move |column| column[row])));
+        let slots = [Slot::ByPosition, Slot::ByVelocity, Slot::ByState, Slot::ByInput];
+        for (slot, count) in slots.into_iter().zip(self.counts) {
+            let matrix = &columns[from..from + count];
+            let entries = (0..rows).flat_map(|row| matrix.iter().map(move |column| column[row])).collect();
+            results = results.with_matrix(slot, (rows, count), entries);
             from += count;
         }
-        entries
+        results
     }
 }

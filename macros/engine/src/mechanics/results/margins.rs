@@ -13,6 +13,7 @@
 use std::collections::HashMap;
 
 use crate::contracts::call::Call;
+use crate::contracts::results::{Results, Slot};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::loops::structure::{Means, Role, Structure};
@@ -36,7 +37,7 @@ impl Structure {
 impl Equations<'_> {
     /// Roots with the rates of their squares, then the greatest residual if there are iterations. The reduction has to be one
     /// at the guess.
-    pub(in crate::mechanics) fn margins(&mut self, reduction: &Reduction) -> Vec<Scalar> {
+    pub(in crate::mechanics) fn margins(&mut self, reduction: &Reduction) -> Results<Scalar> {
         let mut roots: Vec<Scalar> = reduction.dead_centres.iter().map(|centre| centre.1).collect();
         for entries in &reduction.matrices {
             let size = entries.len().isqrt();
@@ -49,11 +50,12 @@ impl Equations<'_> {
         }
         let squares: Vec<Scalar> = roots.iter().map(|&root| self.g.mul(root, root)).collect();
         let rates = self.time_derivative(&squares);
-        let mut results: Vec<Scalar> = roots.into_iter().zip(rates).flat_map(|(root, rate)| [root, rate]).collect();
+        let pairs = roots.into_iter().zip(rates).flat_map(|(root, rate)| [root, rate]).collect();
+        let mut results = Results::vector(pairs);
         if !reduction.residuals.is_empty() {
-            results.push(self.worst_residual(reduction));
+            results = results.with_scalar(Slot::Residual, self.worst_residual(reduction));
         }
-        self.finish(reduction, &results)
+        Results { list: self.finish(reduction, &results.list), ..results }
     }
 
     /// What vanishes with the determinant of a large matrix.

@@ -8,6 +8,7 @@
 
 use std::rc::Rc;
 
+use crate::contracts::results::{Results, Slot};
 use crate::dynamics::tree::{Motion, Tree};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Reduction;
@@ -203,7 +204,7 @@ impl Equations<'_> {
         platform: &Platform,
         reduction: &Reduction,
         at: usize,
-    ) -> Option<Vec<Scalar>> {
+    ) -> Option<Results<Scalar>> {
         let model = self.scene.model;
         let inputs: Vec<Scalar> = model
             .solve_for
@@ -241,9 +242,8 @@ impl Equations<'_> {
             let rest = self.g.sub(force, given);
             *results.get_mut(at)? = Some(self.g.div(rest, slopes[at]));
         }
-        let mut results: Vec<Scalar> = results.into_iter().collect::<Option<_>>()?;
-        results.push(found.rank);
-        Some(results)
+        let inputs: Vec<Scalar> = results.into_iter().collect::<Option<_>>()?;
+        Some(Results::default().with(Slot::Inputs, inputs).with_scalar(Slot::Rank, found.rank))
     }
 
     /// Differences that `assume` items say do not vanish.

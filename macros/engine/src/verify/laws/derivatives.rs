@@ -1,6 +1,7 @@
 //! Stage `verify`: derivatives are the slopes of what they are derivatives of.
 
 use crate::contracts::function::FunctionKind;
+use crate::contracts::results::Slot;
 use crate::contracts::symbol::Symbol;
 use crate::model::types::{InputId, StateId};
 use crate::symbolic::doubled::Doubled;
@@ -44,8 +45,10 @@ impl At<'_, '_> {
         let blocks: [Vec<Doubled>; 4] = [positions, velocities, own, inputs];
         let given = self.values(derivative)?;
         let mut weights = vec![0.0; given.len()];
-        let (mut sum, mut first) = (Sum::default(), 0);
-        for block in &blocks {
+        let mut sum = Sum::default();
+        let slots = [Slot::ByPosition, Slot::ByVelocity, Slot::ByState, Slot::ByInput];
+        for (block, slot) in blocks.iter().zip(slots) {
+            let first = self.place(derivative, slot).start;
             let s = self.weights(block.len());
             block.iter().zip(&s).for_each(|(&x, &s)| sum.product(&[-x, Doubled::new(s)]));
             for (i, &r) in rows_weights.iter().enumerate() {
@@ -55,7 +58,6 @@ impl At<'_, '_> {
                     weights[at] = r * s;
                 }
             }
-            first += rows * block.len();
         }
         if sum.holds() != Some(true) {
             // A reverse sweep rounds as often as there are operations, and each may count as much as the function itself.

@@ -1,6 +1,7 @@
 //! Stage `verify`: inverse dynamics, forward dynamics and the residual of the equations.
 
 use crate::contracts::function::FunctionKind;
+use crate::contracts::results::Slot;
 use crate::contracts::symbol::Symbol;
 use crate::symbolic::doubled::Doubled;
 
@@ -118,8 +119,8 @@ impl At<'_, '_> {
         if rows == 0 || !self.has(whole) || !self.has(phi) {
             return Some(None);
         }
-        let (n, r) = (self.dof(), self.weights(rows));
-        let mut weights = vec![0.0; n];
+        let r = self.weights(rows);
+        let mut weights = vec![0.0; self.place(whole, Slot::Gaps).start];
         weights.extend(&r);
         let mut sum = Sum::default();
         self.values(whole)?.iter().zip(&weights).for_each(|(&x, &r)| sum.product(&[x, Doubled::new(r)]));
@@ -142,9 +143,9 @@ impl At<'_, '_> {
         }
         let (n, rows) = (self.dof(), self.laws.structure.rows.len());
         let found = self.values(fd)?;
-        let accelerations = found.get(..n)?.to_vec();
-        let states = self.laws.model.states.len();
-        let multipliers = if rows == 0 { Vec::new() } else { found.get(n + states..n + states + rows)?.to_vec() };
+        let accelerations = found.get(self.place(fd, Slot::Velocity))?.to_vec();
+        let held = self.place(fd, Slot::Multipliers);
+        let multipliers = found.get(held.clone())?.to_vec();
         let r = self.weights(n);
         let mut changed: Vec<(Symbol, Doubled)> = Vec::new();
         changed.extend(self.coordinates().iter().zip(&accelerations).map(|(&c, &a)| (acceleration(c), a)));
@@ -171,7 +172,7 @@ impl At<'_, '_> {
             for row in 0..rows {
                 let place = self.laws.states.place(Symbol::Multiplier { row });
                 let slope = place.and_then(|at| slopes.symbols.get(at)).map_or(0.0, |x| x.high);
-                back[n + states + row] = slope;
+                back[held.start + row] = slope;
             }
             sum.bound += slopes.bound;
             FunctionKind::Residual
@@ -195,7 +196,7 @@ impl At<'_, '_> {
                 let (row, column) = (at / n, at % n);
                 sum.product(&[x, multipliers[row], Doubled::new(r[column])]);
                 weights[at] = multipliers[row].high * r[column];
-                back[n + states + row] += x.high * r[column];
+                back[held.start + row] += x.high * r[column];
             }
             sum.bound += self.bound(g, &weights);
         }
@@ -212,10 +213,9 @@ impl At<'_, '_> {
         if rows == 0 || ![fd, g, b].iter().all(|&kind| self.has(kind)) {
             return Some(None);
         }
-        let (n, states, r) = (self.dof(), self.laws.model.states.len(), self.weights(rows));
+        let (n, r) = (self.dof(), self.weights(rows));
         let found = self.values(fd)?;
-        let rank = found.get(n + states + rows).map_or(0.0, |rank| rank.high);
-        if rank < rows as f64 {
+        if self.rank(fd)? < rows as f64 {
             return self.deficient();
         }
         let jacobian = self.values(g)?;

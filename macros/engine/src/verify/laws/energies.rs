@@ -1,6 +1,7 @@
 //! Stage `verify`: energies and the mass matrix.
 
 use crate::contracts::function::FunctionKind;
+use crate::contracts::results::Slot;
 use crate::contracts::symbol::Symbol;
 use crate::model::types::InputId;
 use crate::optimize::program::Doubt;
@@ -191,10 +192,10 @@ impl At<'_, '_> {
             momenta.iter().zip(&mean).for_each(|(&p, &a)| sum.product(&[p, a]));
             momenta.iter().zip(&mut weights).for_each(|(p, weight)| *weight = p.high);
             if rows > 0 {
-                let (n, states) = (v.len(), model.states.len());
+                let (n, held) = (v.len(), self.place(fd, Slot::Multipliers));
                 let jacobian = self.with(g, &still)?.roots();
                 for (at, &x) in jacobian.iter().enumerate() {
-                    let (row, column) = (n + states + at / n, at % n);
+                    let (row, column) = (held.start + at / n, at % n);
                     sum.product(&[x, *mean.get(row)?, v[column]]);
                     weights[row] += x.high * v[column].high;
                 }

@@ -13,12 +13,15 @@ mod forces;
 mod momenta;
 mod outputs;
 
+use std::ops::Range;
+
 use crate::contracts::function::FunctionKind;
+use crate::contracts::results::Slot;
 use crate::contracts::symbol::Symbol;
 use crate::mechanics::loops::structure::{Role, Structure};
 use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::types::{Coordinate, Model};
-use crate::optimize::program::Doubt;
+use crate::optimize::program::{Doubt, Function};
 use crate::symbolic::doubled::Doubled;
 use crate::symbolic::graph::SymbolId;
 
@@ -60,7 +63,7 @@ pub(super) struct Laws<'a> {
     pub model: &'a Model,
     pub structure: &'a Structure,
     pub states: &'a States<'a>,
-    pub functions: &'a [(FunctionKind, &'a Tape)],
+    pub functions: &'a [(&'a Function, &'a Tape)],
 }
 
 /// A law under way: terms of one sum.
@@ -145,11 +148,23 @@ fn judged(sum: &Sum, a: FunctionKind, b: FunctionKind) -> Judged {
 
 impl<'a> At<'a, '_> {
     fn has(&self, kind: FunctionKind) -> bool {
-        self.laws.functions.iter().any(|function| function.0 == kind)
+        self.laws.functions.iter().any(|function| function.0.kind == kind)
+    }
+
+    /// Where a function's results stand that fill a slot.
+    fn place(&self, kind: FunctionKind, slot: Slot) -> Range<usize> {
+        let function = self.laws.functions.iter().find(|function| function.0.kind == kind);
+        function.map_or(0..0, |function| function.0.parts.range(slot))
+    }
+
+    /// The rank of a function's system; zero where it has none.
+    fn rank(&mut self, kind: FunctionKind) -> Option<f64> {
+        let place = self.place(kind, Slot::Rank);
+        Some(self.values(kind)?.get(place).and_then(<[Doubled]>::first).map_or(0.0, |rank| rank.high))
     }
 
     fn tape(&self, kind: FunctionKind) -> Option<&'a Tape> {
-        self.laws.functions.iter().find(|function| function.0 == kind).map(|function| function.1)
+        self.laws.functions.iter().find(|function| function.0.kind == kind).map(|function| function.1)
     }
 
     /// A function with some symbols set otherwise.
@@ -169,7 +184,7 @@ impl<'a> At<'a, '_> {
 
     /// A function as the state is.
     fn trace(&mut self, kind: FunctionKind) -> Option<&Trace<'a, Doubled>> {
-        let at = self.laws.functions.iter().position(|function| function.0 == kind)?;
+        let at = self.laws.functions.iter().position(|function| function.0.kind == kind)?;
         if self.traces[at].is_none() {
             self.traces[at] = self.with(kind, &[]);
         }

@@ -1,6 +1,7 @@
 //! Stage `verify`: momenta, their rates, and jumps of velocities.
 
 use crate::contracts::function::FunctionKind;
+use crate::contracts::results::Slot;
 use crate::contracts::symbol::Symbol;
 use crate::symbolic::doubled::Doubled;
 
@@ -125,9 +126,10 @@ impl At<'_, '_> {
         }
         if rows > 0 {
             let jacobian = self.values(g)?;
+            let held = self.place(jump, Slot::Multipliers);
             let mut weights = vec![0.0; jacobian.len()];
             for (at, &x) in jacobian.iter().enumerate() {
-                let (row, column) = (n + at / n, at % n);
+                let (row, column) = (held.start + at / n, at % n);
                 sum.product(&[x, *jumps.get(row)?, Doubled::new(r[column])]);
                 weights[at] = jumps[row].high * r[column];
                 back[row] += x.high * r[column];
@@ -147,7 +149,7 @@ impl At<'_, '_> {
             return Some(None);
         }
         let (n, r, jumps) = (self.dof(), self.weights(rows), self.values(jump)?);
-        if jumps.get(n + rows).map_or(0.0, |rank| rank.high) < rows as f64 {
+        if self.rank(jump)? < rows as f64 {
             return self.deficient();
         }
         let (mut sum, mut weights, mut back) = (Sum::default(), vec![0.0; rows * n], vec![0.0; jumps.len()]);
