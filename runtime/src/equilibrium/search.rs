@@ -123,6 +123,37 @@ struct Excursion<S: System, U> {
     steps: u32,
 }
 
+/// How far a search has come.
+struct Course<S: System, U> {
+    state: S::State,
+    value: U,
+    /// What the equations leave there.
+    residual: Rates<S>,
+    iterations: u32,
+    excursion: Option<Excursion<S, U>>,
+    /// Steps after all equations held.
+    polished: u32,
+    shakes: u32,
+    random: u32,
+    best: Best<S::Scalar>,
+}
+
+/// The best that was seen of each lane, for errors.
+struct Best<T> {
+    /// What the equations left where the loops were closed, and the rank there.
+    residual: T,
+    rank: T,
+    /// How far the loops ever were from closed.
+    gap: T,
+}
+
+/// What a search ends with.
+struct End<S: System> {
+    /// Whether all equations hold.
+    closed: Mask<S>,
+    rank: S::Scalar,
+}
+
 impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
     /// Searches for a state and values of the inputs.
     pub(super) fn run(
@@ -134,123 +165,177 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
         value: I::Value,
         free: &'a Unknowns<S, I::Value>,
     ) -> Found<S, I::Value> {
-        let lit = S::Scalar::lit;
-        let zero = lit(0.0);
         let search = Self { system, source, closing, t, free };
-        let never = Real::lt(zero, zero);
-        let (mut state, mut value) = (*guess, value);
-        let mut residual = search.rates(&state, &value);
-        let sizes = search.sizes(&state, &value);
+        let mut course = search.start(guess, value)?;
+        let end = loop {
+            if let Some(end) = search.step(&mut course)? {
+                break end;
+            }
+        };
+        if !all(end.closed) {
+            return Err(search.failure(course, end.closed));
+        }
+        let Course { state, value, residual, iterations, .. } = course;
+        Ok(Equilibrium { state, input: value, rank: end.rank, residual: greatest(&residual), iterations })
+    }
+
+    fn start(&self, guess: &S::State, value: I::Value) -> Result<Course<S, I::Value>, EquilibriumError> {
+        let lit = S::Scalar::lit;
+        let residual = self.rates(guess, &value);
+        let sizes = self.sizes(guess, &value);
         if !all(Real::is_finite(greatest(&residual))
             & Real::is_finite(greatest(&sizes))
-            & Real::is_finite(greatest(free)))
+            & Real::is_finite(greatest(self.free)))
         {
             return Err(EquilibriumError::NotFinite);
         }
+        let best = Best { residual: lit(f64::INFINITY), rank: lit(0.0), gap: lit(f64::INFINITY) };
+        Ok(Course {
+            state: *guess,
+            value,
+            residual,
+            iterations: 0,
+            excursion: None,
+            polished: 0,
+            shakes: 0,
+            random: 1,
+            best,
+        })
+    }
 
-        let (mut shakes, mut shake, mut polish, mut iterations) = (0, SHAKE, 0, 0);
-        let mut excursion: Option<Excursion<S, I::Value>> = None;
-        let mut random = 1_u32;
-        // The best that was seen of each lane, for errors: where its loops were closed, and how far they ever were.
-        let (mut best, mut best_rank, mut least_gap) = (lit(f64::INFINITY), zero, lit(f64::INFINITY));
-        let closed = loop {
-            let proposal = search.propose(&state, &value, &residual);
-            let closed = search.holds(&state, &residual, &proposal.scale);
-            let (size, gap) = (greatest(&residual), search.closing.gap(t, &state));
-            least_gap = Real::min(least_gap, gap);
-            let better = Real::lt(size, best) & Real::le(search.relative(gap, &state), lit(NEARLY));
-            best = Real::select(better, size, best);
-            best_rank = Real::select(better, proposal.rank, best_rank);
-            if all(closed) && polish == POLISH {
-                break Ok((closed, proposal.rank));
-            }
-            if !all(proposal.finite) {
-                break Err(EquilibriumError::NotFinite);
-            }
-            if iterations == ITERATIONS {
-                break Ok((closed, proposal.rank));
-            }
-
-            // On the way through a bent valley: full steps until Newton's step is shorter than where it began.
-            let length = search.length(&proposal.step, &state, &value);
-            if let Some(left) = excursion.as_mut() {
-                if all(closed | Real::lt(length, left.length * lit(1.0 - GAIN))) {
-                    excursion = None;
-                } else if left.steps < EXCURSION && all(Real::gt(length, zero)) {
-                    left.steps += 1;
-                    (state, value) = search.moved(&state, &value, &search.limited(&proposal.step, &state, &value).0);
-                    residual = search.rates(&state, &value);
-                    iterations += 1;
-                    continue;
-                } else {
-                    (state, value) = left.fallback;
-                    residual = search.rates(&state, &value);
-                    excursion = None;
-                    iterations += 1;
-                    continue;
-                }
-            }
-
-            let (step, share) = search.limited(&proposal.step, &state, &value);
-            let (factor, stalled) = search.damping(&state, &value, &proposal, &step, share);
-            if all(closed) {
-                if all(Real::eq(factor, zero)) {
-                    break Ok((closed, proposal.rank)); // nothing makes it better
-                }
-                polish += 1;
-            }
-            let shaken = stalled & !closed;
-            let moved = if any(shaken) {
-                if shakes == SHAKES {
-                    break Ok((closed, proposal.rank));
-                }
-                shakes += 1;
-                let shaking = shaking(free, &mut random, lit(shake));
-                shake *= 4.0;
-                step.zip(&shaking, &mut |d, s| Real::select(shaken, s, chosen(factor, d)))
-            } else {
-                step.map(&mut |d| chosen(factor, d))
-            };
-            let next = search.moved(&state, &value, &moved);
-            if all(Real::gt(length, zero) | closed) && any(Real::lt(factor, lit(SMALL)) & !closed) {
-                excursion = Some(Excursion { fallback: next, length, steps: 1 });
-                (state, value) = search.moved(&state, &value, &step);
-            } else {
-                (state, value) = next;
-            }
-            residual = search.rates(&state, &value);
-            iterations += 1;
-        };
-        let (closed, rank) = closed?;
-        if all(closed) {
-            return Ok(Equilibrium { state, input: value, rank, residual: greatest(&residual), iterations });
+    /// One step, unless the search is at its end.
+    fn step(&self, course: &mut Course<S, I::Value>) -> Result<Option<End<S>>, EquilibriumError> {
+        let proposal = self.propose(&course.state, &course.value, &course.residual);
+        let closed = self.holds(&course.state, &course.residual, &proposal.scale);
+        self.remember(course, proposal.rank);
+        let end = Ok(Some(End { closed, rank: proposal.rank }));
+        if all(closed) && course.polished == POLISH {
+            return end;
         }
-        let unmet = !closed & Real::gt(best, lit(f64::MAX)) & Real::is_finite(least_gap);
+        if !all(proposal.finite) {
+            return Err(EquilibriumError::NotFinite);
+        }
+        if course.iterations == ITERATIONS {
+            return end;
+        }
+        let length = self.length(&proposal.step, &course.state, &course.value);
+        if !self.go_on(course, &proposal, closed, length) && !self.gain(course, &proposal, closed, length) {
+            return end;
+        }
+        course.residual = self.rates(&course.state, &course.value);
+        course.iterations += 1;
+        Ok(None)
+    }
+
+    /// Keeps what is best so far.
+    fn remember(&self, course: &mut Course<S, I::Value>, rank: S::Scalar) {
+        let (size, gap) = (greatest(&course.residual), self.closing.gap(self.t, &course.state));
+        let nearly = Real::le(self.relative(gap, &course.state), S::Scalar::lit(NEARLY));
+        let best = &mut course.best;
+        best.gap = Real::min(best.gap, gap);
+        let better = Real::lt(size, best.residual) & nearly;
+        best.residual = Real::select(better, size, best.residual);
+        best.rank = Real::select(better, rank, best.rank);
+    }
+
+    /// On the way through a bent valley: full steps until Newton's step is shorter than where it began. Whether one was taken,
+    /// or the way back.
+    fn go_on(
+        &self,
+        course: &mut Course<S, I::Value>,
+        proposal: &Proposal<S, I::Value>,
+        closed: Mask<S>,
+        length: S::Scalar,
+    ) -> bool {
+        let lit = S::Scalar::lit;
+        let Some(left) = course.excursion.as_mut() else { return false };
+        if all(closed | Real::lt(length, left.length * lit(1.0 - GAIN))) {
+            course.excursion = None;
+            return false;
+        }
+        if left.steps < EXCURSION && all(Real::gt(length, lit(0.0))) {
+            left.steps += 1;
+            let (step, _) = self.limited(&proposal.step, &course.state, &course.value);
+            (course.state, course.value) = self.moved(&course.state, &course.value, &step);
+        } else {
+            (course.state, course.value) = left.fallback;
+            course.excursion = None;
+        }
+        true
+    }
+
+    /// A step that gains something, or is shaken where none does; or the first of an excursion. Whether there was one to take.
+    fn gain(
+        &self,
+        course: &mut Course<S, I::Value>,
+        proposal: &Proposal<S, I::Value>,
+        closed: Mask<S>,
+        length: S::Scalar,
+    ) -> bool {
+        let lit = S::Scalar::lit;
+        let zero = lit(0.0);
+        let (step, share) = self.limited(&proposal.step, &course.state, &course.value);
+        let (factor, stalled) = self.damping(&course.state, &course.value, proposal, &step, share);
+        if all(closed) {
+            if all(Real::eq(factor, zero)) {
+                return false; // nothing makes it better
+            }
+            course.polished += 1;
+        }
+        let shaken = stalled & !closed;
+        let moved = if any(shaken) {
+            if course.shakes == SHAKES {
+                return false;
+            }
+            let reach = (0..course.shakes).fold(SHAKE, |reach, _| 4.0 * reach);
+            course.shakes += 1;
+            let shaking = shaking(self.free, &mut course.random, lit(reach));
+            step.zip(&shaking, &mut |d, s| Real::select(shaken, s, chosen(factor, d)))
+        } else {
+            step.map(&mut |d| chosen(factor, d))
+        };
+        let next = self.moved(&course.state, &course.value, &moved);
+        if all(Real::gt(length, zero) | closed) && any(Real::lt(factor, lit(SMALL)) & !closed) {
+            course.excursion = Some(Excursion { fallback: next, length, steps: 1 });
+            (course.state, course.value) = self.moved(&course.state, &course.value, &step);
+        } else {
+            (course.state, course.value) = next;
+        }
+        true
+    }
+
+    /// What is said where not all equations hold.
+    fn failure(&self, course: Course<S, I::Value>, closed: Mask<S>) -> EquilibriumError {
+        let lit = S::Scalar::lit;
+        let zero = lit(0.0);
+        let Course { mut state, value, iterations, mut best, .. } = course;
+        let unmet = !closed & Real::gt(best.residual, lit(f64::MAX)) & Real::is_finite(best.gap);
         let mut open = unmet;
         if any(unmet) {
             // No closed state was met: what is left where the last one is closed.
-            state = search.closed(&state);
-            let gap = search.closing.gap(t, &state);
-            least_gap = Real::select(Real::lt(gap, least_gap), gap, least_gap);
-            let proposal = search.propose(&state, &value, &search.rates(&state, &value));
-            let found = unmet & Real::le(search.relative(gap, &state), lit(NEARLY));
-            best = Real::select(found, greatest(&search.rates(&state, &value)), best);
-            best_rank = Real::select(found, proposal.rank, best_rank);
+            state = self.closed(&state);
+            let gap = self.closing.gap(self.t, &state);
+            best.gap = Real::select(Real::lt(gap, best.gap), gap, best.gap);
+            let residual = self.rates(&state, &value);
+            let proposal = self.propose(&state, &value, &residual);
+            let found = unmet & Real::le(self.relative(gap, &state), lit(NEARLY));
+            best.residual = Real::select(found, greatest(&residual), best.residual);
+            best.rank = Real::select(found, proposal.rank, best.rank);
             open = open & !found;
         }
         if any(open) {
-            return Err(EquilibriumError::Open { gap: Real::select(open, least_gap, zero).greatest(), iterations });
+            return EquilibriumError::Open { gap: Real::select(open, best.gap, zero).greatest(), iterations };
         }
         // As many as loops close hold by themselves.
-        let equations = S::Matrix::SIZE.saturating_sub(search.loops(&state));
-        let residual = Real::select(closed | !Real::is_finite(best), zero, best).greatest();
-        let rank = Real::select(closed | never, lit(f64::from(u32::MAX)), best_rank);
+        let equations = S::Matrix::SIZE.saturating_sub(self.loops(&state));
+        let residual = Real::select(closed | !Real::is_finite(best.residual), zero, best.residual).greatest();
+        let rank = Real::select(closed, lit(f64::from(u32::MAX)), best.rank);
         let rank = -(-rank).greatest() as usize;
-        Err(if rank < equations {
+        if rank < equations {
             EquilibriumError::Singular { residual, rank, equations }
         } else {
             EquilibriumError::NotFound { residual, iterations }
-        })
+        }
     }
 
     /// Accelerations and rates of own states.
