@@ -72,6 +72,9 @@ struct Stage {
     conditions: Vec<usize>,
 }
 
+/// Signs of roots, and the solution with them.
+type Choice = (Vec<bool>, Vec<Solved>);
+
 /// Signs, and what they lead to.
 struct Candidate {
     signs: Vec<bool>,
@@ -280,7 +283,7 @@ impl Equations<'_> {
     }
 
     /// What a plan leads to, for every choice of signs.
-    fn solutions(&mut self, cycle: &Cycle, plan: &Plan) -> Result<Vec<(Vec<bool>, Vec<Solved>)>, Failure> {
+    fn solutions(&mut self, cycle: &Cycle, plan: &Plan) -> Result<Vec<Choice>, Failure> {
         let first = plan.solve(&mut self.g, cycle, &[])?;
         let count = first.signs.min(MOST_SIGNS);
         let mut solutions = vec![(vec![true; count], first.solved)];
