@@ -117,6 +117,10 @@ impl Relative {
                 [point(), vec![row]].concat()
             }
             Kind::Planar(k, _) => [vec![self.along(UNITS[*k])], axis(UNITS[*k])].concat(),
+            Kind::PlanarAlong(a, b) => {
+                let n = unit(cross(a.value(at), b.value(at)));
+                [vec![self.along(n)], axis(n)].concat()
+            }
             Kind::Ball(_) => point(),
             Kind::Free(_) => Vec::new(),
         }

@@ -183,6 +183,7 @@ impl Lines {
             7 => ("Screw", format!(", axis: {a}, pitch: 0.1{armature}"), &["angle"]),
             8 => ("Cylindrical", format!(", axis: {a}"), &["travel", "angle"]),
             9 => ("Universal", ", axes: [X, Z]".into(), &["first", "second"]),
+            10 if random.chance(50) => ("Planar", ", axes: [X, [0, 3, -4]]".into(), &["x", "y", "angle"]),
             10 => ("Planar", ", axis: Y".into(), &["x", "y", "angle"]),
             11 => ("Ball", ", coordinates: RollPitchYaw".into(), &["roll", "pitch", "yaw"]),
             12 => ("Free", ", coordinates: RollPitchYaw".into(), &["x", "y", "z", "roll", "pitch", "yaw"]),

@@ -104,6 +104,10 @@ impl Mechanism {
                 let (a, b) = perpendicular(random);
                 Kind::Universal(a, b)
             }
+            19 if random.chance(50) => {
+                let (a, b) = perpendicular(random);
+                Kind::PlanarAlong(a, b)
+            }
             19 => Kind::Planar(random.below(3), random.chance(40)),
             20 => Kind::Ball(false),
             21 => Kind::Ball(true),

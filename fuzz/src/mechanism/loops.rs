@@ -106,6 +106,10 @@ impl Mechanism {
                 let (a, b) = perpendicular(random);
                 (Kind::Universal(a, b), 4)
             }
+            12 if random.chance(50) => {
+                let (a, b) = perpendicular(random);
+                (Kind::PlanarAlong(a, b), 3)
+            }
             12 => (Kind::Planar(random.below(3), random.chance(50)), 3),
             _ => (Kind::Fixed, 6),
         };

@@ -119,6 +119,8 @@ pub enum Kind {
     Universal(Vector, Vector),
     /// x, y, angle; the number of the axis and its sign
     Planar(usize, bool),
+    /// x, y, angle; the two directions
+    PlanarAlong(Vector, Vector),
     /// With roll, pitch, yaw or not.
     Ball(bool),
     /// With roll, pitch, yaw or not.
@@ -190,7 +192,7 @@ impl Kind {
             Kind::Fixed => 0,
             Kind::Revolute(_) | Kind::Prismatic(_) | Kind::Screw(..) => 1,
             Kind::Cylindrical(_) | Kind::Universal(..) => 2,
-            Kind::Planar(..) | Kind::Ball(_) => 3,
+            Kind::Planar(..) | Kind::PlanarAlong(..) | Kind::Ball(_) => 3,
             Kind::Free(_) => 6,
         }
     }
@@ -217,7 +219,7 @@ impl Kind {
             Kind::Prismatic(_) => &["travel"],
             Kind::Cylindrical(_) => &["travel", "angle"],
             Kind::Universal(..) => &["first", "second"],
-            Kind::Planar(..) => &["x", "y", "angle"],
+            Kind::Planar(..) | Kind::PlanarAlong(..) => &["x", "y", "angle"],
             Kind::Ball(true) => &["roll", "pitch", "yaw"],
             Kind::Free(false) => &["x", "y", "z"],
             Kind::Free(true) => &["x", "y", "z", "roll", "pitch", "yaw"],

@@ -29,9 +29,9 @@ pub struct Cylindrical<T = f64> {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Planar<T = f64> {
-    /// `[m]` first displacement, in parent axes
+    /// `[m]` first displacement, in parent axes: along the first of `axes`, if these are given
     pub x: T,
-    /// `[m]` second displacement, in parent axes
+    /// `[m]` second displacement, in parent axes: along the second of `axes`
     pub y: T,
     /// `[rad]` angle about the normal
     pub angle: T,

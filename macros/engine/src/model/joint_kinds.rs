@@ -37,6 +37,8 @@ pub enum Written {
     Axis,
     /// `axes`
     Crossed,
+    /// `axis`, or `axes` across it.
+    Plane,
 }
 
 /// A motion with a coordinate of its own.
@@ -164,7 +166,7 @@ pub static PLANAR: JointKind = JointKind {
     name: "Planar",
     word: "planar",
     elsewhere: &[],
-    written: Written::Axis,
+    written: Written::Plane,
     has_pitch: false,
     freedoms: &[slides("x", 1), slides("y", 2), turns("angle", 0)],
     orientation: None,
@@ -221,8 +223,16 @@ impl Written {
     pub fn fields(self) -> &'static [&'static str] {
         match self {
             Written::Frame => &[],
-            Written::Axis => &["axis"],
+            Written::Axis | Written::Plane => &["axis"],
             Written::Crossed => &["axes"],
+        }
+    }
+
+    /// Those that may stand in their place.
+    pub fn instead(self) -> &'static [&'static str] {
+        match self {
+            Written::Frame | Written::Axis | Written::Crossed => &[],
+            Written::Plane => &["axes"],
         }
     }
 }

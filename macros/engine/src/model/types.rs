@@ -328,6 +328,9 @@ pub enum Directions {
     Axis(Expr),
     /// One of the parent and, perpendicular to it, one of the child.
     Crossed(Box<[Expr; 2]>),
+    /// Two of the parent, perpendicular to each other, in which the joint slides, behind their normal: it turns the first
+    /// towards the second.
+    Plane(Box<[Expr; 2]>),
 }
 
 impl Directions {
@@ -336,7 +339,7 @@ impl Directions {
         match self {
             Directions::Frame => Vec::new(),
             Directions::Axis(axis) => vec![axis],
-            Directions::Crossed(axes) => axes.iter().collect(),
+            Directions::Crossed(axes) | Directions::Plane(axes) => axes.iter().collect(),
         }
     }
 }

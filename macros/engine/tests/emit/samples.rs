@@ -107,7 +107,7 @@ pub fn add_joint(model: &mut Model, place: Place, kind: &'static JointKind) -> J
     };
     let directions = match kind.written {
         Written::Frame => Directions::Frame,
-        Written::Axis => Directions::Axis(vector([0.0, 0.0, 1.0])),
+        Written::Axis | Written::Plane => Directions::Axis(vector([0.0, 0.0, 1.0])),
         Written::Crossed => Directions::Crossed(Box::new([vector([1.0, 0.0, 0.0]), vector([0.0, 1.0, 0.0])])),
     };
     model.joints.push(Joint {

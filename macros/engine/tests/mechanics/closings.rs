@@ -14,7 +14,7 @@ use multibody_engine::symbolic::graph::{Scalar, SymbolId};
 use super::support::{Random, close, model_of};
 
 /// Every kind with what it needs besides its frames.
-const KINDS: [(&str, &str, usize); 15] = [
+const KINDS: [(&str, &str, usize); 18] = [
     ("Ball", "", 3),
     ("Universal", ", axes: [X, Y]", 4),
     ("Universal", ", axes: [[0.6, 0.8, 0.0], Z]", 4),
@@ -28,6 +28,9 @@ const KINDS: [(&str, &str, usize); 15] = [
     ("Screw", ", axis: -Z, pitch: 0.3", 5),
     ("Screw", ", axis: Z, pitch: 0.0", 5),
     ("Planar", ", axis: X", 3),
+    ("Planar", ", axes: [X, Z]", 3),
+    ("Planar", ", axes: [-Z, Y]", 3),
+    ("Planar", ", axes: [[1.0, 1.0, 1.0], [1.0, -1.0, 0.0]]", 3),
     ("Fixed", "", 6),
     ("Free", "", 0),
 ];

@@ -109,6 +109,7 @@ fn couplings_of_all_angles() {
         ("Universal { axes: [[1, 1, 0], [1, -1, 3]]", "two.second + two.first - one"),
         ("Cylindrical { axis: [1, 0.3, -0.2]", "two.travel - 0.2 * two.angle + 0.1 * one"),
         ("Planar { axis: -Z", "0.3 * two.angle + two.x - 0.6 * one"),
+        ("Planar { axes: [X, Z]", "0.3 * two.angle + two.y - 0.6 * one"),
         ("Screw { axis: [0.2, 0.3, -1], pitch: 0.2", "two.angle + 0.37 * two.angle - one"),
         ("Ball { coordinates: RollPitchYaw", "two.roll - 2 * one + two.pitch * two.pitch"),
         ("Ball { coordinates: RollPitchYaw", "two.yaw + 0.5 * one"),
@@ -198,6 +199,8 @@ fn joints_are_measured() {
         ("Universal { axes: [[1, 1, 0], [1, -1, 3]]", "first second", 2),
         ("Planar { axis: -Z", "x y angle", 3),
         ("Planar { axis: [1, 0.3, -0.2]", "x y angle", 3),
+        ("Planar { axes: [X, Z]", "x y angle", 3),
+        ("Planar { axes: [[1, 1, 0], [1, -1, 3]]", "x y angle", 3),
         ("Ball { coordinates: RollPitchYaw", "roll pitch yaw", 3),
         ("Free { coordinates: RollPitchYaw", "x y z roll pitch yaw", 6),
     ];

@@ -203,6 +203,32 @@ fn planar() {
     }
 }
 
+/// Pairs of perpendicular directions: along coordinate axes, oblique, typed, and of parameters.
+const PAIRS: [(&str, [f64; 3], [f64; 3]); 9] = [
+    ("X, Z", [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]),
+    ("X, Y", [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
+    ("-Z, Y", [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]),
+    ("Y, -2.0 * Z", [0.0, 1.0, 0.0], [0.0, 0.0, -2.0]),
+    ("X, [0.0, -1.0, 1.0]", [1.0, 0.0, 0.0], [0.0, -1.0, 1.0]),
+    ("[1.0, 1.0, 1.0], [1.0, -1.0, 0.0]", [1.0, 1.0, 1.0], [1.0, -1.0, 0.0]),
+    ("[-3.0, 0.0, 4.0], -Y", [-3.0, 0.0, 4.0], [0.0, -1.0, 0.0]),
+    ("[0.3, -0.4, 1.2], [0.8, 0.6, 0.0]", [0.3, -0.4, 1.2], [0.8, 0.6, 0.0]),
+    ("[p.x, p.y, 0.0], [-p.y, p.x, 0.0]", [0.3, -0.2, 0.0], [0.2, 0.3, 0.0]),
+];
+
+#[test]
+fn planar_along_two_axes() {
+    for (text, first, second) in PAIRS {
+        check(&format!("Planar {{ axes: [{text}]"), |q| {
+            (turn(cross(first, second), q[2]), plus(&along(first, q[0]), &along(second, q[1])))
+        });
+    }
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
 fn roll_pitch_yaw(q: &[f64]) -> Matrix {
     let (roll, pitch, yaw) = (turn([1.0, 0.0, 0.0], q[0]), turn([0.0, 1.0, 0.0], q[1]), turn([0.0, 0.0, 1.0], q[2]));
     times(&times(&yaw, &pitch), &roll)

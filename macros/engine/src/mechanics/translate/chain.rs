@@ -123,6 +123,14 @@ impl Equations<'_> {
                 let [first, second] = axes.each_ref().map(|axis| self.axis(axis));
                 [first, second, first.next(2)]
             }
+            Directions::Plane(axes) => {
+                let [first, second] = axes.each_ref().map(|axis| {
+                    let axis = self.vector(axis);
+                    self.g.components(axis)
+                });
+                let [x, y, normal] = directions::frame(&mut self.g, first, second);
+                [normal, x, y]
+            }
         }
     }
 

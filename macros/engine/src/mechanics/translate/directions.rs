@@ -65,6 +65,33 @@ pub(in crate::mechanics) fn axis(g: &mut Graph, direction: [Scalar; 3]) -> Axis 
     Axis { turn: compose(g, first, second), index: 2, flipped: false }
 }
 
+/// Two directions and the third of their right-handed frame, as axes of one turned frame. Of the second counts what is across
+/// the first, so that the three are perpendicular whatever parameters do.
+pub(in crate::mechanics) fn frame(g: &mut Graph, first: [Scalar; 3], second: [Scalar; 3]) -> [Axis; 3] {
+    let one = axis(g, first);
+    let typed = [first, second].as_flattened().iter().any(|&c| g.literal(c).is_some_and(Number::is_rounded_decimal));
+    let second = typed::direction(g, second);
+    let second = g.vector(second);
+    let local = g.rotate(one.turn.transpose(), second);
+    let mut local = g.components(local);
+    local[one.index] = Scalar::ZERO;
+    let local = typed::direction(g, local);
+    let [i, j] = [1, 2].map(|next| (one.index + next) % 3);
+    let (turn, index, flipped) = match [i, j].map(|k| (local[k], g.literal(local[k]).map(|n| n.is_negative()))) {
+        [(_, Some(negative)), (Scalar::ZERO, _)] => (Rotation::IDENTITY, i, negative),
+        [(Scalar::ZERO, _), (_, Some(negative))] => (Rotation::IDENTITY, j, negative),
+        [(x, _), (y, _)] => {
+            let length = |g: &mut Graph| g.length([x, y, Scalar::ZERO]);
+            (towards(g, one.index, [x, y], length, typed), i, false)
+        }
+    };
+    let turn = compose(g, one.turn, turn);
+    // The cross product of axes i and i + 1 is i + 2, that of i and i + 2 is minus i + 1.
+    let against = (one.index + 1) % 3 != index;
+    let third = Axis { turn, index: 3 - one.index - index, flipped: one.flipped ^ flipped ^ against };
+    [Axis { turn, ..one }, Axis { turn, index, flipped }, third]
+}
+
 /// The turn about a coordinate axis by the angle of the point (x, y). Of literals it is made of cosine and sine, so that it
 /// is exact; `typed` ones were rounded, and mean the quarter of a degree that they round.
 fn towards(

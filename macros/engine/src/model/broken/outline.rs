@@ -119,7 +119,7 @@ impl<'a> Checker<'a, '_> {
             return None;
         };
         let meant_kind = slot.kind.unwrap_or_else(|| meant(&kind.to_string(), fields));
-        let fields = self.corrected_fields(fields, &fields_of(meant_kind), context);
+        let fields = self.corrected_fields(fields, &fields_of(meant_kind, fields), context);
         let frames = ["parent", "child"].map(|name| {
             let found = field(&fields, name).and_then(|expr| self.near_frame(expr, context));
             *whole &= matches!(found, Some((_, true)));
@@ -362,7 +362,7 @@ fn unread(kind: &JointKind) -> (Directions, Option<Expr>) {
     let axis = || zero(Type::Vec3);
     let directions = match kind.written {
         joint_kinds::Written::Frame => Directions::Frame,
-        joint_kinds::Written::Axis => Directions::Axis(axis()),
+        joint_kinds::Written::Axis | joint_kinds::Written::Plane => Directions::Axis(axis()),
         joint_kinds::Written::Crossed => Directions::Crossed(Box::new([axis(), axis()])),
     };
     (directions, kind.has_pitch.then(|| zero(Type::Scalar)))

@@ -207,6 +207,12 @@ impl Checker<'_, '_> {
                 let (first, second) = (first?, second?);
                 [first, second, cross(first, second)]
             }
+            Directions::Plane(axes) => {
+                let [first, second] = axes.each_ref().map(axis);
+                let first = first?;
+                let normal = unit(cross(first, second?));
+                [normal, first, cross(normal, first)]
+            }
         })
     }
 

@@ -40,8 +40,8 @@ impl<'a> Checker<'a, '_> {
             return None;
         };
         let owner = format!("the {} joint `{name}`", kind.name);
-        let known = Known { required: &required(kind), optional: optional(kind) };
-        self.check_fields(&owner, name, fields, &known);
+        let (required, optional) = (required(kind, fields), optional(kind, fields));
+        self.check_fields(&owner, name, fields, &Known { required: &required, optional: &optional });
         let context = root(scope);
         let parts = self.joint_directions(kind, fields, context);
         let armature = match field(fields, "armature").filter(|_| kind.freedoms() == 1) {
@@ -157,9 +157,21 @@ impl<'a> Checker<'a, '_> {
                 axis.map(|axis| Directions::Axis(axis.expr))
             }
             Written::Crossed => {
-                let axes = field(fields, "axes").and_then(|expr| self.universal_axes(expr, context));
+                let axes = field(fields, "axes").and_then(|expr| self.two_axes(kind, expr, context));
                 axes.map(|axes| Directions::Crossed(Box::new(axes)))
             }
+            Written::Plane => match (field(fields, "axis"), field(fields, "axes")) {
+                (Some(_), Some(axes)) => {
+                    let message = format!("a {} joint has `axis` or `axes`, not both", kind.word);
+                    self.report.help(axes.span(), message, "`axes` are in the plane, `axis` is across it");
+                    None
+                }
+                (axis, None) => axis.and_then(|expr| self.axis(expr, context)).map(|axis| Directions::Axis(axis.expr)),
+                (None, Some(expr)) => {
+                    let axes = self.two_axes(kind, expr, context);
+                    axes.map(|axes| Directions::Plane(Box::new(axes)))
+                }
+            },
         };
         let pitch = match field(fields, "pitch").filter(|_| kind.has_pitch) {
             Some(expr) => {
@@ -171,13 +183,13 @@ impl<'a> Checker<'a, '_> {
         Some((directions?, pitch?))
     }
 
-    fn universal_axes(&mut self, expr: &Expr, context: Context<'a>) -> Option<[types::Expr; 2]> {
+    fn two_axes(&mut self, kind: &JointKind, expr: &Expr, context: Context<'a>) -> Option<[types::Expr; 2]> {
         let axes = match expr {
             // Element by element, so that errors stand at one of them.
             Expr::Array(array) => {
                 let list: Vec<Option<Typed>> = array.elems.iter().map(|e| self.axis(e, context)).collect();
                 if list.len() != 2 {
-                    let message = format!("a universal joint has 2 axes, found {}", list.len());
+                    let message = format!("a {} joint has 2 axes, found {}", kind.word, list.len());
                     self.report.error(expr.span(), message);
                     return None;
                 }
@@ -199,11 +211,14 @@ impl<'a> Checker<'a, '_> {
             return None;
         }
         if dot(a, b).abs() > PERPENDICULAR * (dot(a, a) * dot(b, b)).sqrt() {
-            self.report.help(
-                expr.span(),
-                "the two axes of a universal joint must be perpendicular",
-                "tilted axes are two revolute joints with a massless body between them",
-            );
+            let help = match kind.written {
+                Written::Plane => "take the second across the first: both lie in the plane in which the joint slides",
+                Written::Crossed | Written::Axis | Written::Frame => {
+                    "tilted axes are two revolute joints with a massless body between them"
+                }
+            };
+            let message = format!("the two axes of a {} joint must be perpendicular", kind.word);
+            self.report.help(expr.span(), message, help);
             return None;
         }
         Some([first, second])
@@ -251,21 +266,26 @@ pub(in crate::model) fn meant(word: &str, fields: &tree::Fields) -> &'static Joi
 }
 
 /// The names of the fields that a joint has.
-pub(in crate::model) fn fields_of(kind: &JointKind) -> Vec<&'static str> {
-    [required(kind).as_slice(), optional(kind)].concat()
+pub(in crate::model) fn fields_of(kind: &JointKind, given: &tree::Fields) -> Vec<&'static str> {
+    [required(kind, given), optional(kind, given)].concat()
 }
 
-fn required(kind: &JointKind) -> Vec<&'static str> {
+/// `axis`, unless what may stand in its place is given.
+fn required(kind: &JointKind, given: &tree::Fields) -> Vec<&'static str> {
     let pitch: &[&str] = if kind.has_pitch { &["pitch"] } else { &[] };
-    [&["parent", "child"], kind.written.fields(), pitch].concat()
+    let instead = kind.written.instead();
+    let axes = if instead.iter().any(|name| field(given, name).is_some()) { instead } else { kind.written.fields() };
+    [&["parent", "child"], axes, pitch].concat()
 }
 
-fn optional(kind: &JointKind) -> &'static [&'static str] {
+fn optional(kind: &JointKind, given: &tree::Fields) -> Vec<&'static str> {
+    let required = required(kind, given);
+    let others = [kind.written.fields(), kind.written.instead()].concat();
+    let mut optional: Vec<&str> = others.into_iter().filter(|name| !required.contains(name)).collect();
     if kind.turns_freely() {
-        &["coordinates"]
+        optional.push("coordinates");
     } else if kind.freedoms() == 1 {
-        &["armature"]
-    } else {
-        &[]
+        optional.push("armature");
     }
+    optional
 }

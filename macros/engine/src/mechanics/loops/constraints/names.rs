@@ -58,6 +58,13 @@ pub(in crate::mechanics) fn path(model: &Model, place: &Place) -> String {
 fn of_joint(joint: &Joint) -> Vec<String> {
     let axes = match &joint.directions {
         Directions::Axis(axis) => [0, 1, 2].map(|next| (coordinate_axis(axis) + next) % 3),
+        Directions::Plane(axes) => {
+            let [x, y] = match axes.each_ref().map(|axis| written_axis(axis)) {
+                [Some(x), Some(y)] if x != y => [x, y],
+                _ => [0, 1],
+            };
+            [3 - x - y, x, y]
+        }
         Directions::Frame | Directions::Crossed(_) => [0, 1, 2],
     };
     let across = |direction: usize| [1, 2].map(|next| (axes[direction % 3] + next) % 3);
@@ -81,12 +88,16 @@ fn of_joint(joint: &Joint) -> Vec<String> {
 
 /// The coordinate axis behind a written axis; any other axis is turned into z.
 fn coordinate_axis(axis: &Expr) -> usize {
+    written_axis(axis).unwrap_or(2)
+}
+
+fn written_axis(axis: &Expr) -> Option<usize> {
     let mut expr = axis;
     while let ExprNode::Neg(inner) = &*expr.node {
         expr = inner;
     }
-    let ExprNode::Vec3(components) = &*expr.node else { return 2 };
+    let ExprNode::Vec3(components) = &*expr.node else { return None };
     let zero = |e: &Expr| matches!(&*e.node, ExprNode::Number(x) if *x == 0.0);
     let nonzero: Vec<usize> = (0..3).filter(|&k| !zero(&components[k])).collect();
-    if let [k] = nonzero[..] { k } else { 2 }
+    if let [k] = nonzero[..] { Some(k) } else { None }
 }
