@@ -117,6 +117,7 @@ impl Relative {
                 [point(), vec![row]].concat()
             }
             Kind::Planar(k, _) => [vec![self.along(UNITS[*k])], axis(UNITS[*k])].concat(),
+            Kind::PinSlot(a, b) => [line(unit(b.value(at))), axis(unit(a.value(at)))].concat(),
             Kind::PlanarAlong(a, b) => {
                 let n = unit(cross(a.value(at), b.value(at)));
                 [vec![self.along(n)], axis(n)].concat()

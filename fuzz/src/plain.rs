@@ -131,6 +131,7 @@ pub fn beyond(joint: &Joint, from: Motion, q: &[f64], v: &[f64], a: &[f64], at: 
             let axis = scaled(if *minus { -1.0 } else { 1.0 }, unit(*k));
             turn(slide(slide(from, unit((k + 1) % 3), 0), unit((k + 2) % 3), 1), axis, 2)
         }
+        Kind::PinSlot(axis, along) => turn(slide(from, along.value(at), 0), axis.value(at), 1),
         Kind::PlanarAlong(first, second) => {
             let (x, y) = (first.value(at), second.value(at));
             turn(slide(slide(from, x, 0), y, 1), cross(x, y), 2)

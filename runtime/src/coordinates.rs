@@ -8,5 +8,5 @@ mod fields;
 mod joint;
 mod spatial;
 
-pub use joint::{Cylindrical, FreeRollPitchYaw, Planar, RollPitchYaw, Universal};
+pub use joint::{Cylindrical, FreeRollPitchYaw, PinSlot, Planar, RollPitchYaw, Universal};
 pub use spatial::{Pose, Twist, Wrench};

@@ -109,7 +109,7 @@ mod verify;
 pub use canonical::{Canonical, Separable};
 pub use configuration::Configuration;
 pub use constrained::{Constrained, Kinematics};
-pub use coordinates::{Cylindrical, FreeRollPitchYaw, Planar, Pose, RollPitchYaw, Twist, Universal, Wrench};
+pub use coordinates::{Cylindrical, FreeRollPitchYaw, PinSlot, Planar, Pose, RollPitchYaw, Twist, Universal, Wrench};
 pub use cost::Cost;
 pub use differentiable::{Derivatives, Differentiable, Jacobian};
 pub use equilibrium::{Equilibrium, EquilibriumError, Free, constrained_equilibrium, equilibrium, trim};

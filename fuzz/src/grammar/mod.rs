@@ -182,6 +182,7 @@ impl Lines {
             5 | 6 => ("Prismatic", format!(", axis: {a}{armature}"), &["travel"]),
             7 => ("Screw", format!(", axis: {a}, pitch: 0.1{armature}"), &["angle"]),
             8 => ("Cylindrical", format!(", axis: {a}"), &["travel", "angle"]),
+            9 if random.chance(50) => ("PinSlot", ", axis: [0, 3, -4], slide: -X".into(), &["travel", "angle"]),
             9 => ("Universal", ", axes: [X, Z]".into(), &["first", "second"]),
             10 if random.chance(50) => ("Planar", ", axes: [X, [0, 3, -4]]".into(), &["x", "y", "angle"]),
             10 => ("Planar", ", axis: Y".into(), &["x", "y", "angle"]),

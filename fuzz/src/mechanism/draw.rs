@@ -89,9 +89,9 @@ impl Mechanism {
         axis(random)
     }
 
-    /// One of the nine, hinges most often.
+    /// One of the ten, hinges most often.
     pub fn kind(&self, random: &mut Random) -> Kind {
-        match random.below(24) {
+        match random.below(25) {
             0 => Kind::Fixed,
             1..=10 => Kind::Revolute(self.axis(random)),
             11..=13 => Kind::Prismatic(self.axis(random)),
@@ -103,6 +103,10 @@ impl Mechanism {
             17 | 18 => {
                 let (a, b) = perpendicular(random);
                 Kind::Universal(a, b)
+            }
+            24 => {
+                let (a, b) = perpendicular(random);
+                Kind::PinSlot(a, b)
             }
             19 if random.chance(50) => {
                 let (a, b) = perpendicular(random);

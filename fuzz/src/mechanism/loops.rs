@@ -96,7 +96,7 @@ impl Mechanism {
             }
             m.hang(random, kind);
         }
-        let (kind, equations) = match random.below(14) {
+        let (kind, equations) = match random.below(15) {
             0..=5 => (Kind::Ball(false), 3),
             6 => (Kind::Revolute(axis(random)), 5),
             7 => (Kind::Prismatic(axis(random)), 5),
@@ -105,6 +105,10 @@ impl Mechanism {
             10 | 11 => {
                 let (a, b) = perpendicular(random);
                 (Kind::Universal(a, b), 4)
+            }
+            14 => {
+                let (a, b) = perpendicular(random);
+                (Kind::PinSlot(a, b), 4)
             }
             12 if random.chance(50) => {
                 let (a, b) = perpendicular(random);

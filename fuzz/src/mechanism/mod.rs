@@ -102,7 +102,7 @@ pub struct Joint {
     pub armature: Option<Expr>,
 }
 
-/// The nine kinds; two of them with two orientation coordinates.
+/// The ten kinds; two of them with two orientation coordinates.
 #[derive(Clone, Debug)]
 pub enum Kind {
     /// None.
@@ -119,6 +119,8 @@ pub enum Kind {
     Universal(Vector, Vector),
     /// x, y, angle; the number of the axis and its sign
     Planar(usize, bool),
+    /// travel, angle; the axis and the direction of the slot
+    PinSlot(Vector, Vector),
     /// x, y, angle; the two directions
     PlanarAlong(Vector, Vector),
     /// With roll, pitch, yaw or not.
@@ -191,7 +193,7 @@ impl Kind {
         match self {
             Kind::Fixed => 0,
             Kind::Revolute(_) | Kind::Prismatic(_) | Kind::Screw(..) => 1,
-            Kind::Cylindrical(_) | Kind::Universal(..) => 2,
+            Kind::Cylindrical(_) | Kind::Universal(..) | Kind::PinSlot(..) => 2,
             Kind::Planar(..) | Kind::PlanarAlong(..) | Kind::Ball(_) => 3,
             Kind::Free(_) => 6,
         }
@@ -217,7 +219,7 @@ impl Kind {
             Kind::Fixed | Kind::Ball(false) => &[],
             Kind::Revolute(_) | Kind::Screw(..) => &["angle"],
             Kind::Prismatic(_) => &["travel"],
-            Kind::Cylindrical(_) => &["travel", "angle"],
+            Kind::Cylindrical(_) | Kind::PinSlot(..) => &["travel", "angle"],
             Kind::Universal(..) => &["first", "second"],
             Kind::Planar(..) | Kind::PlanarAlong(..) => &["x", "y", "angle"],
             Kind::Ball(true) => &["roll", "pitch", "yaw"],

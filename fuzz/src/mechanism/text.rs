@@ -156,6 +156,7 @@ impl Kind {
             Kind::Planar(k, minus) => {
                 ("Planar", format!(", axis: {}{}", if *minus { "-" } else { "" }, ["X", "Y", "Z"][*k]))
             }
+            Kind::PinSlot(a, b) => ("PinSlot", format!(", axis: {}, slide: {}", a.text(), b.text())),
             Kind::PlanarAlong(a, b) => ("Planar", format!(", axes: [{}, {}]", a.text(), b.text())),
             Kind::Ball(yes) => ("Ball", angles(*yes)),
             Kind::Free(yes) => ("Free", angles(*yes)),

@@ -37,6 +37,16 @@ pub struct Planar<T = f64> {
     pub angle: T,
 }
 
+/// Coordinates of a pin in a slot: it slides along the slot, which the parent carries, and turns about an axis across it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PinSlot<T = f64> {
+    /// `[m]` displacement along the slot
+    pub travel: T,
+    /// `[rad]` angle about the axis
+    pub angle: T,
+}
+
 /// Roll, pitch and yaw: the rotation `Rz(yaw) * Ry(pitch) * Rx(roll)` from child to parent components.
 ///
 /// Singular at a pitch of a right angle, where roll and yaw turn about one axis.
@@ -64,5 +74,6 @@ pub struct FreeRollPitchYaw<T = f64> {
 field_by_field! { coordinates Universal { first, second } }
 field_by_field! { coordinates Cylindrical { travel, angle } }
 field_by_field! { coordinates Planar { x, y, angle } }
+field_by_field! { coordinates PinSlot { travel, angle } }
 field_by_field! { coordinates RollPitchYaw { roll, pitch, yaw } }
 field_by_field! { coordinates FreeRollPitchYaw { position, orientation } }

@@ -39,6 +39,8 @@ pub enum Written {
     Crossed,
     /// `axis`, or `axes` across it.
     Plane,
+    /// `axis`, and `slide` across it.
+    Slot,
 }
 
 /// A motion with a coordinate of its own.
@@ -76,7 +78,7 @@ pub enum Hold {
 }
 
 /// All kinds, in the order of messages. Ball and Free have a row for each way to write orientations, the default first.
-pub static ALL: [&JointKind; 11] = [
+pub static ALL: [&JointKind; 12] = [
     &FIXED,
     &REVOLUTE,
     &PRISMATIC,
@@ -84,6 +86,7 @@ pub static ALL: [&JointKind; 11] = [
     &CYLINDRICAL,
     &UNIVERSAL,
     &PLANAR,
+    &PIN_SLOT,
     &BALL,
     &BALL_BY_ANGLES,
     &FREE,
@@ -174,6 +177,18 @@ pub static PLANAR: JointKind = JointKind {
     struct_name: "Planar",
 };
 
+pub static PIN_SLOT: JointKind = JointKind {
+    name: "PinSlot",
+    word: "pin-slot",
+    elsewhere: &["PinInSlot", "SlottedPin"],
+    written: Written::Slot,
+    has_pitch: false,
+    freedoms: &[slides("travel", 1), turns("angle", 0)],
+    orientation: None,
+    holds: &[Hold::Line(1), Hold::Axis(0)],
+    struct_name: "PinSlot",
+};
+
 pub static BALL: JointKind = JointKind {
     name: "Ball",
     word: "ball",
@@ -225,13 +240,14 @@ impl Written {
             Written::Frame => &[],
             Written::Axis | Written::Plane => &["axis"],
             Written::Crossed => &["axes"],
+            Written::Slot => &["axis", "slide"],
         }
     }
 
     /// Those that may stand in their place.
     pub fn instead(self) -> &'static [&'static str] {
         match self {
-            Written::Frame | Written::Axis | Written::Crossed => &[],
+            Written::Frame | Written::Axis | Written::Crossed | Written::Slot => &[],
             Written::Plane => &["axes"],
         }
     }

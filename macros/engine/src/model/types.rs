@@ -331,6 +331,8 @@ pub enum Directions {
     /// Two of the parent, perpendicular to each other, in which the joint slides, behind their normal: it turns the first
     /// towards the second.
     Plane(Box<[Expr; 2]>),
+    /// An axis of the parent and, perpendicular to it, the direction of the slot.
+    Slot(Box<[Expr; 2]>),
 }
 
 impl Directions {
@@ -339,7 +341,7 @@ impl Directions {
         match self {
             Directions::Frame => Vec::new(),
             Directions::Axis(axis) => vec![axis],
-            Directions::Crossed(axes) | Directions::Plane(axes) => axes.iter().collect(),
+            Directions::Crossed(axes) | Directions::Plane(axes) | Directions::Slot(axes) => axes.iter().collect(),
         }
     }
 }

@@ -129,7 +129,7 @@ fn fields_are_in_the_order_of_coordinates() {
         _ => None,
     });
     let fields: Vec<String> = position.unwrap().fields.iter().map(|f| f.ident.as_ref().unwrap().to_string()).collect();
-    assert_eq!(fields, ["legs", "base", "float", "neck", "slide", "rod", "thread", "type_"]);
+    assert_eq!(fields, ["legs", "base", "float", "neck", "slide", "rod", "pin", "thread", "type_"]);
 }
 
 #[test]

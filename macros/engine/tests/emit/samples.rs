@@ -108,6 +108,7 @@ pub fn add_joint(model: &mut Model, place: Place, kind: &'static JointKind) -> J
     let directions = match kind.written {
         Written::Frame => Directions::Frame,
         Written::Axis | Written::Plane => Directions::Axis(vector([0.0, 0.0, 1.0])),
+        Written::Slot => Directions::Slot(Box::new([vector([0.0, 0.0, 1.0]), vector([1.0, 0.0, 0.0])])),
         Written::Crossed => Directions::Crossed(Box::new([vector([1.0, 0.0, 0.0]), vector([0.0, 1.0, 0.0])])),
     };
     model.joints.push(Joint {
@@ -354,6 +355,7 @@ pub fn zoo() -> (Model, Compiled) {
         ("neck", &joint_kinds::BALL_BY_ANGLES),
         ("slide", &joint_kinds::PLANAR),
         ("rod", &joint_kinds::CYLINDRICAL),
+        ("pin", &joint_kinds::PIN_SLOT),
         ("thread", &joint_kinds::SCREW),
         ("type_", revolute()),
     ];

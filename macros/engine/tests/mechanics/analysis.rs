@@ -444,9 +444,10 @@ fn random_loops_close() {
                 ("Cylindrical", ", axis: X", 2),
                 ("Screw", ", axis: Y, pitch: 0.3", 1),
                 ("Planar", ", axis: Y", 3),
+                ("PinSlot", ", axis: Y, slide: [1.0, 0.0, 2.0]", 2),
                 ("Ball", "", 3),
                 ("Ball", ", coordinates: RollPitchYaw", 3),
-            ][((random.next() + 1.0) * 3.999) as usize]
+            ][((random.next() + 1.0) * 4.499) as usize]
         };
         let last = kind(&mut random);
         while freedoms + last.2 < 7 {

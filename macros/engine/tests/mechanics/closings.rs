@@ -14,7 +14,7 @@ use multibody_engine::symbolic::graph::{Scalar, SymbolId};
 use super::support::{Random, close, model_of};
 
 /// Every kind with what it needs besides its frames.
-const KINDS: [(&str, &str, usize); 18] = [
+const KINDS: [(&str, &str, usize); 21] = [
     ("Ball", "", 3),
     ("Universal", ", axes: [X, Y]", 4),
     ("Universal", ", axes: [[0.6, 0.8, 0.0], Z]", 4),
@@ -31,6 +31,9 @@ const KINDS: [(&str, &str, usize); 18] = [
     ("Planar", ", axes: [X, Z]", 3),
     ("Planar", ", axes: [-Z, Y]", 3),
     ("Planar", ", axes: [[1.0, 1.0, 1.0], [1.0, -1.0, 0.0]]", 3),
+    ("PinSlot", ", axis: Z, slide: X", 4),
+    ("PinSlot", ", axis: -Y, slide: [3.0, 0.0, -4.0]", 4),
+    ("PinSlot", ", axis: [1.0, 1.0, 1.0], slide: [1.0, -1.0, 0.0]", 4),
     ("Fixed", "", 6),
     ("Free", "", 0),
 ];
@@ -257,7 +260,11 @@ fn writings_say_the_same() {
             let r = values.of(&one, &residuals);
             assert_eq!(r.len(), rows);
             // The way's components depend on the axes, its length does not; nor does any other row.
-            let gap = if rows > 0 && !matches!(kind, "Prismatic" | "Cylindrical" | "Screw" | "Planar") { 3 } else { 0 };
+            let gap = if rows > 0 && !matches!(kind, "Prismatic" | "Cylindrical" | "Screw" | "Planar" | "PinSlot") {
+                3
+            } else {
+                0
+            };
             let mut list = vec![r[..gap].iter().map(|x| x * x).sum::<f64>()];
             list.extend(&r[gap..]);
             squares.push(list);

@@ -225,6 +225,20 @@ fn planar_along_two_axes() {
     }
 }
 
+#[test]
+fn pin_in_a_slot() {
+    for (text, axis, slide) in PAIRS {
+        let (a, b) = split(text);
+        check(&format!("PinSlot {{ axis: {a}, slide: {b}"), |q| (turn(axis, q[1]), along(slide, q[0])));
+    }
+}
+
+/// At the comma between two directions.
+fn split(text: &str) -> (&str, &str) {
+    let at = if text.starts_with('[') { text.find("],").map_or(0, |at| at + 1) } else { text.find(',').unwrap_or(0) };
+    (&text[..at], text[at + 1..].trim())
+}
+
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

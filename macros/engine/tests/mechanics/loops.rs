@@ -393,6 +393,7 @@ fn every_closing_balances() {
         "Prismatic { axis: -X,",
         "Screw { axis: Y, pitch: 0.3,",
         "Planar { axis: Y,",
+        "PinSlot { axis: [0.0, -1.0, 1.0], slide: [2.0, 1.0, 1.0],",
         "Planar { axes: [-X, [0.0, 1.0, 1.0]],",
         "Fixed {",
     ] {

@@ -17,6 +17,7 @@ mod loop_candidates;
 mod loop_counts;
 mod loops;
 mod motion;
+mod pin_slot;
 mod random_loops;
 mod random_outputs;
 mod ranks;

@@ -94,6 +94,7 @@ enum Kind {
     Cylindrical,
     Universal,
     Planar,
+    PinSlot,
     Ball,
     Fixed,
 }
@@ -105,7 +106,7 @@ impl Kind {
         match self {
             Fixed => 0,
             Revolute | Prismatic | Screw => 1,
-            Cylindrical | Universal => 2,
+            Cylindrical | Universal | PinSlot => 2,
             Planar | Ball => 3,
         }
     }
@@ -137,6 +138,7 @@ impl Joint {
             Prismatic => along(a, q[0]),
             Screw => along(a, self.pitch * q[0]).then(&turned(a, q[0])),
             Cylindrical => along(a, q[0]).then(&turned(a, q[1])),
+            PinSlot => along(b, q[0]).then(&turned(a, q[1])),
             Universal => turned(a, q[0]).then(&turned(b, q[1])),
             Ball => turned(&[1.0, 0.0, 0.0], q[0])
                 .then(&turned(&[0.0, 1.0, 0.0], q[1]))
@@ -156,6 +158,7 @@ impl Joint {
             Fixed => String::new(),
             Ball => ", coordinates: RollPitchYaw".to_owned(),
             Universal => format!(", axes: [{}, {}]", axis(&self.axes[0]), axis(&self.axes[1])),
+            PinSlot => format!(", axis: {}, slide: {}", axis(&self.axes[0]), axis(&self.axes[1])),
             Screw => format!(", axis: {}, pitch: {:?}", axis(&self.axes[0]), self.pitch),
             _ => format!(", axis: {}", axis(&self.axes[0])),
         }
@@ -375,12 +378,12 @@ fn made(seed: u64) -> Mechanism {
     let kinds: &[Kind] = if planar {
         &[Revolute, Revolute, Revolute, Prismatic, Planar]
     } else {
-        &[Revolute, Revolute, Revolute, Prismatic, Screw, Cylindrical, Universal, Planar, Ball]
+        &[Revolute, Revolute, Revolute, Prismatic, Screw, Cylindrical, Universal, Planar, PinSlot, Ball]
     };
     let closers: &[Kind] = if planar {
         &[Revolute, Revolute, Prismatic, Cylindrical, Universal, Ball, Planar, Fixed, Screw]
     } else {
-        &[Fixed, Revolute, Prismatic, Screw, Cylindrical, Universal, Planar, Ball, Revolute]
+        &[Fixed, Revolute, Prismatic, Screw, Cylindrical, Universal, Planar, PinSlot, Ball, Revolute]
     };
     let axis = |random: &mut Random, kind: Kind| -> Vector {
         if planar {

@@ -129,7 +129,7 @@ fn sample(seed: u64) -> Sample {
     let (mut joints, mut loads) = (Vec::new(), Vec::new());
     let mut told = vec!["moving".to_owned()];
     text += "output moving = kinetic();";
-    let kinds: [(&str, &[&str]); 11] = [
+    let kinds: [(&str, &[&str]); 12] = [
         ("Revolute { axis: AXIS", &["angle"]),
         ("Revolute { armature: 0.25, axis: AXIS", &["angle"]),
         ("Prismatic { axis: AXIS", &["travel"]),
@@ -137,6 +137,7 @@ fn sample(seed: u64) -> Sample {
         ("Cylindrical { axis: AXIS", &["travel", "angle"]),
         ("Universal { axes: [X, -Z]", &["first", "second"]),
         ("Planar { axis: AXIS", &["x", "y", "angle"]),
+        ("PinSlot { axis: [1, 2, 2], slide: [2, 1, -2]", &["travel", "angle"]),
         ("Planar { axes: [[1, 2, 2], [2, 1, -2]]", &["x", "y", "angle"]),
         ("Ball { coordinates: RollPitchYaw", &["roll", "pitch", "yaw"]),
         ("Ball { coordinates: Quaternion", &[]),

@@ -78,6 +78,7 @@ fn newton_and_euler_at_every_kind() {
         "Cylindrical { axis: -Y",
         "Universal { axes: [X, Z]",
         "Planar { axis: Y",
+        "PinSlot { axis: Y, slide: [1, 0, 2]",
         "Planar { axes: [X, Z]",
         "Ball {",
         "Ball { coordinates: RollPitchYaw",

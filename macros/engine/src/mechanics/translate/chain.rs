@@ -124,14 +124,20 @@ impl Equations<'_> {
                 [first, second, first.next(2)]
             }
             Directions::Plane(axes) => {
-                let [first, second] = axes.each_ref().map(|axis| {
-                    let axis = self.vector(axis);
-                    self.g.components(axis)
-                });
-                let [x, y, normal] = directions::frame(&mut self.g, first, second);
+                let [x, y, normal] = self.frame_of(axes);
                 [normal, x, y]
             }
+            Directions::Slot(axes) => self.frame_of(axes),
         }
+    }
+
+    /// Two perpendicular directions and their normal.
+    fn frame_of(&mut self, axes: &[Expr; 2]) -> [Axis; 3] {
+        let [first, second] = axes.each_ref().map(|axis| {
+            let axis = self.vector(axis);
+            self.g.components(axis)
+        });
+        directions::frame(&mut self.g, first, second)
     }
 
     /// The axis that an expression means.

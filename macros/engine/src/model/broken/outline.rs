@@ -363,6 +363,7 @@ fn unread(kind: &JointKind) -> (Directions, Option<Expr>) {
     let directions = match kind.written {
         joint_kinds::Written::Frame => Directions::Frame,
         joint_kinds::Written::Axis | joint_kinds::Written::Plane => Directions::Axis(axis()),
+        joint_kinds::Written::Slot => Directions::Slot(Box::new([axis(), axis()])),
         joint_kinds::Written::Crossed => Directions::Crossed(Box::new([axis(), axis()])),
     };
     (directions, kind.has_pitch.then(|| zero(Type::Scalar)))

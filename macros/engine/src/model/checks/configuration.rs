@@ -207,6 +207,12 @@ impl Checker<'_, '_> {
                 let (first, second) = (first?, second?);
                 [first, second, cross(first, second)]
             }
+            Directions::Slot(axes) => {
+                let [axis, slide] = axes.each_ref().map(axis);
+                let axis = axis?;
+                let third = unit(cross(axis, slide?));
+                [axis, cross(third, axis), third]
+            }
             Directions::Plane(axes) => {
                 let [first, second] = axes.each_ref().map(axis);
                 let first = first?;

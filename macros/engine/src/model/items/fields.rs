@@ -117,6 +117,7 @@ fn example(name: &str, known: &Known<'_>) -> &'static str {
         "axes" if known.has("at") => "ground",
         "mass" => "1.0",
         "axis" => "Z",
+        "slide" => "X",
         "axes" => "[X, Y]",
         "parent" | "child" | "at" => "<frame>",
         "between" => "[<frame>, <frame>]",

@@ -19,7 +19,7 @@ use crate::syntax::tree::{self, ItemKind};
 
 use super::fields::{Known, field};
 
-/// How far from perpendicular the axes of a universal joint may be: the sine of the angle that is missing.
+/// How far from perpendicular two axes of a joint may be: the sine of the angle that is missing.
 const PERPENDICULAR: f64 = 1e-6;
 
 /// Sequences of angles that other tools know.
@@ -160,6 +160,7 @@ impl<'a> Checker<'a, '_> {
                 let axes = field(fields, "axes").and_then(|expr| self.two_axes(kind, expr, context));
                 axes.map(|axes| Directions::Crossed(Box::new(axes)))
             }
+            Written::Slot => self.slot(kind, fields, context).map(|axes| Directions::Slot(Box::new(axes))),
             Written::Plane => match (field(fields, "axis"), field(fields, "axes")) {
                 (Some(_), Some(axes)) => {
                     let message = format!("a {} joint has `axis` or `axes`, not both", kind.word);
@@ -183,6 +184,7 @@ impl<'a> Checker<'a, '_> {
         Some((directions?, pitch?))
     }
 
+    /// `axes: [a, b]`
     fn two_axes(&mut self, kind: &JointKind, expr: &Expr, context: Context<'a>) -> Option<[types::Expr; 2]> {
         let axes = match expr {
             // Element by element, so that errors stand at one of them.
@@ -204,24 +206,53 @@ impl<'a> Checker<'a, '_> {
                 vec![element(0)?, element(1)?]
             }
         };
-        let [first, second] = <[types::Expr; 2]>::try_from(axes).ok()?;
-        let (a, b) = (self.evaluator.vector(&first)?, self.evaluator.vector(&second)?);
-        if dot(a, a) == 0.0 || dot(b, b) == 0.0 {
-            self.report.error(expr.span(), "an axis must not be zero");
-            return None;
-        }
-        if dot(a, b).abs() > PERPENDICULAR * (dot(a, a) * dot(b, b)).sqrt() {
-            let help = match kind.written {
-                Written::Plane => "take the second across the first: both lie in the plane in which the joint slides",
-                Written::Crossed | Written::Axis | Written::Frame => {
-                    "tilted axes are two revolute joints with a massless body between them"
-                }
-            };
+        let axes = <[types::Expr; 2]>::try_from(axes).ok()?;
+        let help = match kind.written {
+            Written::Plane => "take the second across the first: both lie in the plane in which the joint slides",
+            Written::Crossed | Written::Slot | Written::Axis | Written::Frame => {
+                "tilted axes are two revolute joints with a massless body between them"
+            }
+        };
+        if self.cosine(&axes, expr)?.abs() > PERPENDICULAR {
             let message = format!("the two axes of a {} joint must be perpendicular", kind.word);
             self.report.help(expr.span(), message, help);
             return None;
         }
-        Some([first, second])
+        Some(axes)
+    }
+
+    /// `axis: a, slide: b`
+    fn slot(&mut self, kind: &JointKind, fields: &tree::Fields, context: Context<'a>) -> Option<[types::Expr; 2]> {
+        let mut direction = |name| {
+            let expr = field(fields, name)?;
+            self.axis(expr, context).map(|axis| axis.expr)
+        };
+        let (axis, slide) = (direction("axis"), direction("slide"));
+        let (axes, site) = ([axis?, slide?], field(fields, "slide")?);
+        let cosine = self.cosine(&axes, site)?.abs();
+        if cosine <= PERPENDICULAR {
+            return Some(axes);
+        }
+        let (message, help) = if cosine >= 1.0 - PERPENDICULAR {
+            ("slides along the axis that it turns about", "that is a `Cylindrical` joint: write it with `axis` alone")
+        } else {
+            (
+                "must slide perpendicular to its axis",
+                "a tilted axis is a prismatic and a revolute joint with a massless body between them",
+            )
+        };
+        self.report.help(site.span(), format!("a {} joint {message}", kind.word), help);
+        None
+    }
+
+    /// Of the angle between two axes, at the declared defaults.
+    fn cosine(&mut self, [first, second]: &[types::Expr; 2], site: &Expr) -> Option<f64> {
+        let (a, b) = (self.evaluator.vector(first)?, self.evaluator.vector(second)?);
+        if dot(a, a) == 0.0 || dot(b, b) == 0.0 {
+            self.report.error(site.span(), "an axis must not be zero");
+            return None;
+        }
+        Some(dot(a, b) / (dot(a, a) * dot(b, b)).sqrt())
     }
 
     /// `coordinates:` of Ball and Free; the kind has read what it needs.

@@ -47,7 +47,7 @@ impl Equations<'_> {
         let axes = self.joint_axes(joint);
         // Both frames so that the directions are coordinate axes, or the opposite of one: no equation minds.
         let [of_parent, of_child] = match joint.directions {
-            Directions::Frame | Directions::Axis(_) | Directions::Plane(_) => [axes[0], axes[0]],
+            Directions::Frame | Directions::Axis(_) | Directions::Plane(_) | Directions::Slot(_) => [axes[0], axes[0]],
             Directions::Crossed(_) => [axes[0], axes[1]],
         };
         self.turn_end(&mut ends[0], &of_parent);

@@ -127,7 +127,7 @@ impl Equations<'_> {
                     Angle { u: (child, first), v: (child, v), x: (parent, first) }
                 })
             }
-            Directions::Frame | Directions::Axis(_) | Directions::Plane(_) => {
+            Directions::Frame | Directions::Axis(_) | Directions::Plane(_) | Directions::Slot(_) => {
                 let axis = axes[freedom.direction % 3];
                 let [u, v] = [1, 2].map(|next| self.along(axis.next(next), Scalar::ONE));
                 let v = if axis.flipped { -v } else { v };

@@ -56,14 +56,19 @@ pub(in crate::mechanics) fn path(model: &Model, place: &Place) -> String {
 }
 
 fn of_joint(joint: &Joint) -> Vec<String> {
+    let two = |axes: &[Expr; 2], otherwise| match axes.each_ref().map(written_axis) {
+        [Some(one), Some(other)] if one != other => [one, other],
+        _ => otherwise,
+    };
     let axes = match &joint.directions {
         Directions::Axis(axis) => [0, 1, 2].map(|next| (coordinate_axis(axis) + next) % 3),
         Directions::Plane(axes) => {
-            let [x, y] = match axes.each_ref().map(|axis| written_axis(axis)) {
-                [Some(x), Some(y)] if x != y => [x, y],
-                _ => [0, 1],
-            };
+            let [x, y] = two(axes, [0, 1]);
             [3 - x - y, x, y]
+        }
+        Directions::Slot(axes) => {
+            let [axis, slide] = two(axes, [2, 0]);
+            [axis, slide, 3 - axis - slide]
         }
         Directions::Frame | Directions::Crossed(_) => [0, 1, 2],
     };
