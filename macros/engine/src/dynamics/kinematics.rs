@@ -118,7 +118,7 @@ pub fn motions(
                 let turn = g.cross(carried_w, v);
                 g.add_vectors(turn, turn)
             }
-            _ => Vector::ZERO,
+            Motion::Revolute(_) | Motion::Ball(_) => Vector::ZERO,
         };
         let name = &link.name;
         motions.push(LinkMotion {

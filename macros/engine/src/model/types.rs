@@ -336,6 +336,14 @@ pub enum Directions {
 }
 
 impl Directions {
+    /// Whether a direction is one of the child.
+    pub fn is_of_child(&self, direction: usize) -> bool {
+        match self {
+            Directions::Crossed(_) => direction == 1,
+            Directions::Frame | Directions::Axis(_) | Directions::Plane(_) | Directions::Slot(_) => false,
+        }
+    }
+
     /// As they are written, in this order.
     pub fn written(&self) -> Vec<&Expr> {
         match self {

@@ -144,7 +144,11 @@ fn lengths(layout: &Layout<'_>) -> Vec<(Expression, &'static str, String)> {
         ForceKind::LineSpring { length: Some(length), .. } => {
             Some((adjustable(model, length)?, "negative", layout.name(&force.place)))
         }
-        _ => None,
+        ForceKind::LineSpring { length: None, .. }
+        | ForceKind::Effort { .. }
+        | ForceKind::JointSpring { .. }
+        | ForceKind::Force { .. }
+        | ForceKind::Torque { .. } => None,
     });
     rods.chain(springs).collect()
 }

@@ -22,7 +22,10 @@ const NO_WAY: f64 = 1e-9;
 pub(super) fn meeting(model: &Model, problem: &Problem, structure: &Structure) -> Result<Vec<ForceId>, Vec<Complaint>> {
     let lines = model.forces.iter().enumerate().filter_map(|(number, force)| match &force.kind {
         ForceKind::LineSpring { between, damping, length, .. } => Some((ForceId(number), between, [damping, length])),
-        _ => None,
+        ForceKind::Effort { .. }
+        | ForceKind::JointSpring { .. }
+        | ForceKind::Force { .. }
+        | ForceKind::Torque { .. } => None,
     });
     let lines: Vec<_> = lines.collect();
     if lines.is_empty() {

@@ -46,7 +46,12 @@ impl Equations<'_> {
                     let line = self.line_spring(ForceId(number), &ends, [stiffness, &None, length]);
                     terms.push(line.energy(&mut self.g));
                 }
-                _ => {}
+                // What does not come from a potential.
+                ForceKind::JointSpring { stiffness: None, .. }
+                | ForceKind::LineSpring { stiffness: None, .. }
+                | ForceKind::Effort { .. }
+                | ForceKind::Force { .. }
+                | ForceKind::Torque { .. } => {}
             }
         }
         self.g.sum(&terms)

@@ -119,7 +119,12 @@ impl Equations<'_> {
                         let effort = spring.effort(&mut e.g);
                         sums[*coordinate] = e.g.add(sums[*coordinate], effort);
                     }
-                    _ => {}
+                    // Elsewhere, or on no joint.
+                    ForceKind::Effort { .. }
+                    | ForceKind::JointSpring { .. }
+                    | ForceKind::LineSpring { .. }
+                    | ForceKind::Force { .. }
+                    | ForceKind::Torque { .. } => {}
                 }
             }
             sums

@@ -13,7 +13,7 @@ use crate::mechanics::loops::constraints::{Held, row_count};
 use crate::mechanics::loops::structure::Row;
 use crate::mechanics::translate::directions::Axis;
 use crate::model::joint_kinds::Motion;
-use crate::model::types::{Coordinate, Directions, Expr, ForceId, ForceKind, Frame, JointId, Order};
+use crate::model::types::{Coordinate, Expr, ForceId, ForceKind, Frame, JointId, Order};
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
 use super::build::{Mechanism, Place};
@@ -283,11 +283,11 @@ impl Equations<'_> {
         } else {
             for (index, freedom) in joint.kind.freedoms.iter().enumerate() {
                 let along = self.along(axes[freedom.direction % 3], effort(index));
-                let slot = match (freedom.motion, &joint.directions) {
-                    (Motion::Slides, _) => &mut force,
+                let slot = match freedom.motion {
+                    Motion::Slides => &mut force,
                     // The axes are perpendicular, so each moment works on its own angle alone.
-                    (Motion::Turns, Directions::Crossed(_)) if index == 1 => &mut own,
-                    (Motion::Turns, _) => &mut moment,
+                    Motion::Turns if joint.directions.is_of_child(freedom.direction) => &mut own,
+                    Motion::Turns => &mut moment,
                 };
                 *slot = self.g.add_vectors(*slot, along);
             }
@@ -366,7 +366,12 @@ impl Equations<'_> {
                         let spring = e.joint_spring(joint, index, [stiffness, damping, rest]);
                         terms.push(spring.effort(&mut e.g));
                     }
-                    _ => {}
+                    // Elsewhere, or on no joint.
+                    ForceKind::Effort { .. }
+                    | ForceKind::JointSpring { .. }
+                    | ForceKind::LineSpring { .. }
+                    | ForceKind::Force { .. }
+                    | ForceKind::Torque { .. } => {}
                 }
             }
             terms

@@ -40,7 +40,10 @@ pub(super) fn are_balanced(model: &Model) -> bool {
 pub(super) fn on_closed_joints(model: &Model) -> bool {
     model.forces.iter().any(|force| match &force.kind {
         ForceKind::JointSpring { joint, .. } => model.cuts.contains(joint),
-        _ => false,
+        ForceKind::Effort { .. }
+        | ForceKind::LineSpring { .. }
+        | ForceKind::Force { .. }
+        | ForceKind::Torque { .. } => false,
     })
 }
 

@@ -177,16 +177,16 @@ impl Equations<'_> {
         };
         let axes = self.joint_axes(joint);
         let axis = axes[freedom.direction % 3];
-        let direction = match (freedom.motion, &joint.directions) {
-            (Motion::Slides, _) => return Some(Dual::Slides(self.direction_in(&parent, axis))),
-            (Motion::Turns, _) if joint.kind.has_angles() => {
+        let direction = match freedom.motion {
+            Motion::Slides => return Some(Dual::Slides(self.direction_in(&parent, axis))),
+            Motion::Turns if joint.kind.has_angles() => {
                 self.gimbal(&[parent, child], index - joint.kind.turning().start)
             }
-            (Motion::Turns, Directions::Crossed(_)) if index == 1 => {
+            Motion::Turns if joint.directions.is_of_child(freedom.direction) => {
                 let own = self.direction_in(&child, axis);
                 return Some(Dual::Turns(self.between(child.link, parent.link, own)));
             }
-            (Motion::Turns, _) => self.along(axis, Scalar::ONE),
+            Motion::Turns => self.along(axis, Scalar::ONE),
         };
         Some(Dual::Turns(self.g.rotate(parent.rotation, direction)))
     }
