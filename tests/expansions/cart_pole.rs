@@ -215,12 +215,12 @@ pub mod cart_pole {
                     what: "no rigid body can have the inertia of `pole`",
                 });
             }
-            let pivot_1_part = params.mp * params.l;
-            let second_hinge_yy = T::lit(0.3333333333333333) * params.l * pivot_1_part;
+            let mp_times_l = params.mp * params.l;
+            let second_hinge_yy = T::lit(0.3333333333333333) * params.l * mp_times_l;
             let mass_track = params.mc + params.mp;
             let inverse_2 = T::lit(1.0) / second_hinge_yy;
             let pivot_1 = mass_track
-                - T::lit(0.25) * pivot_1_part * pivot_1_part * inverse_2;
+                - T::lit(0.25) * mp_times_l * mp_times_l * inverse_2;
             if !::multibody::all(
                 Real::gt(
                     second_hinge_yy,
@@ -351,15 +351,15 @@ pub mod cart_pole {
         /// `mp + mc`
         mass_track: T,
         /// `mp * l * g`
-        acceleration_factor: T,
-        /// `0.75 / l`
-        acceleration_1_factor: T,
-        /// `0.5 * mp * l`
-        acceleration_1_factor_v2: T,
-        /// `1.5 / (l^2 * mp)`
         acceleration_2_factor: T,
-        /// `1.5 / l`
+        /// `0.75 / l`
+        rest_1_factor: T,
+        /// `0.5 * mp * l`
+        half_mp_times_l: T,
+        /// `1.5 / (l^2 * mp)`
         acceleration_2_factor_v2: T,
+        /// `1.5 / l`
+        acceleration_2_factor_v3: T,
         /// `g`
         g: T,
         /// `1 / 3 * l^2 * mp`
@@ -367,7 +367,7 @@ pub mod cart_pole {
         /// `mp * l`
         second_hinge_yy_factor: T,
         /// `l^2 * mp`
-        second_hinge_yy_factor_v2: T,
+        l_times_mp_times_l: T,
         /// `l`
         l: T,
     }
@@ -379,22 +379,23 @@ pub mod cart_pole {
         pub fn new(params: &Params<T>) -> Self {
             let mass_track = params.mp + params.mc;
             let second_hinge_yy_factor = params.mp * params.l;
-            let second_hinge_yy_factor_v2 = params.l * second_hinge_yy_factor;
-            let second_hinge_yy_factor_v2_inv = T::lit(1.0) / second_hinge_yy_factor_v2;
-            let acceleration_1_factor_part = second_hinge_yy_factor
-                * second_hinge_yy_factor_v2_inv;
+            let l_times_mp_times_l = params.l * second_hinge_yy_factor;
+            let l_times_mp_times_l_inv = T::lit(1.0) / l_times_mp_times_l;
+            let rest_1_factor_with_second_hinge_yy_factor = second_hinge_yy_factor
+                * l_times_mp_times_l_inv;
             Self {
                 pivot_1_factor: T::lit(0.75) * params.mp,
                 mass_track,
-                acceleration_factor: second_hinge_yy_factor * params.g,
-                acceleration_1_factor: T::lit(0.75) * acceleration_1_factor_part,
-                acceleration_1_factor_v2: T::lit(0.5) * second_hinge_yy_factor,
-                acceleration_2_factor: T::lit(1.5) * second_hinge_yy_factor_v2_inv,
-                acceleration_2_factor_v2: T::lit(1.5) * acceleration_1_factor_part,
+                acceleration_2_factor: second_hinge_yy_factor * params.g,
+                rest_1_factor: T::lit(0.75) * rest_1_factor_with_second_hinge_yy_factor,
+                half_mp_times_l: T::lit(0.5) * second_hinge_yy_factor,
+                acceleration_2_factor_v2: T::lit(1.5) * l_times_mp_times_l_inv,
+                acceleration_2_factor_v3: T::lit(1.5)
+                    * rest_1_factor_with_second_hinge_yy_factor,
                 g: params.g,
-                n_hinge_z_factor: T::lit(0.3333333333333333) * second_hinge_yy_factor_v2,
+                n_hinge_z_factor: T::lit(0.3333333333333333) * l_times_mp_times_l,
                 second_hinge_yy_factor,
-                second_hinge_yy_factor_v2,
+                l_times_mp_times_l,
                 l: params.l,
             }
         }
@@ -414,13 +415,14 @@ pub mod cart_pole {
             let v = &state.v;
             let (sin_hinge, cos_hinge) = Real::sin_cos(q.hinge);
             let pivot_1 = self.mass_track - cos_hinge * cos_hinge * self.pivot_1_factor;
-            let acceleration_part_v2 = sin_hinge * self.acceleration_factor;
+            let sin_hinge_times_acceleration_2_factor = sin_hinge
+                * self.acceleration_2_factor;
             let acceleration_1 = (input.push
-                + cos_hinge * acceleration_part_v2 * self.acceleration_1_factor
-                - v.hinge * v.hinge * sin_hinge * self.acceleration_1_factor_v2)
-                / pivot_1;
-            let acceleration_2 = acceleration_part_v2 * self.acceleration_2_factor
-                + cos_hinge * acceleration_1 * self.acceleration_2_factor_v2;
+                + cos_hinge * sin_hinge_times_acceleration_2_factor * self.rest_1_factor
+                - v.hinge * v.hinge * sin_hinge * self.half_mp_times_l) / pivot_1;
+            let acceleration_2 = sin_hinge_times_acceleration_2_factor
+                * self.acceleration_2_factor_v2
+                + cos_hinge * acceleration_1 * self.acceleration_2_factor_v3;
             Velocity {
                 track: acceleration_1,
                 hinge: acceleration_2,
@@ -443,12 +445,12 @@ pub mod cart_pole {
             let v = &state.v;
             let (sin_hinge, cos_hinge) = Real::sin_cos(q.hinge);
             let a_hinge_x = accel.track * cos_hinge + self.g * sin_hinge;
-            let minus_n_hinge_z = a_hinge_x * self.acceleration_1_factor_v2
+            let minus_n_hinge_z = a_hinge_x * self.half_mp_times_l
                 - accel.hinge * self.n_hinge_z_factor;
             Velocity {
                 track: -(input.push - accel.track * self.mass_track
-                    + accel.hinge * cos_hinge * self.acceleration_1_factor_v2
-                    - v.hinge * v.hinge * sin_hinge * self.acceleration_1_factor_v2),
+                    + accel.hinge * cos_hinge * self.half_mp_times_l
+                    - v.hinge * v.hinge * sin_hinge * self.half_mp_times_l),
                 hinge: -minus_n_hinge_z,
             }
         }
@@ -466,10 +468,7 @@ pub mod cart_pole {
             let minus_m_1_2 = T::lit(0.5) * self.second_hinge_yy_factor * cos_hinge;
             ::multibody::nalgebra::SMatrix::from([
                 [self.mass_track, -minus_m_1_2],
-                [
-                    -minus_m_1_2,
-                    (T::lit(0.3333333333333333) * self.second_hinge_yy_factor_v2),
-                ],
+                [-minus_m_1_2, (T::lit(0.3333333333333333) * self.l_times_mp_times_l)],
             ])
         }
         /// The efforts at zero acceleration, `bias` of `M * accel + bias = effort`; declared forces and gravity are in it.
@@ -488,9 +487,8 @@ pub mod cart_pole {
             let v = &state.v;
             let (sin_hinge, _) = Real::sin_cos(q.hinge);
             ::multibody::nalgebra::SVector::from([
-                -(input.push
-                    - v.hinge * v.hinge * sin_hinge * self.acceleration_1_factor_v2),
-                (T::lit(-0.5) * sin_hinge * self.acceleration_factor),
+                -(input.push - v.hinge * v.hinge * sin_hinge * self.half_mp_times_l),
+                (T::lit(-0.5) * sin_hinge * self.acceleration_2_factor),
             ])
         }
         /// `[J]` Kinetic energy of all bodies.
@@ -517,7 +515,7 @@ pub mod cart_pole {
         #[must_use]
         pub fn potential_energy(&self, q: &Position<T>) -> T {
             let (_, cos_hinge) = Real::sin_cos(q.hinge);
-            T::lit(0.5) * cos_hinge * self.acceleration_factor
+            T::lit(0.5) * cos_hinge * self.acceleration_2_factor
         }
         /// Outputs.
         ///

@@ -283,66 +283,80 @@ pub(crate) mod engine {
             let root_cylinder = Real::sqrt(
                 T::lit(0.018) + T::lit(0.0016) * cos_shaft * cos_shaft,
             );
-            let shaft_accel_part = T::lit(0.04) * cos_shaft;
-            let cylinder = root_cylinder + shaft_accel_part;
-            let pivot_1_part = sin_shaft * cylinder;
-            let accel_part = v.shaft * sin_shaft;
+            let cos_shaft_times_0_04 = T::lit(0.04) * cos_shaft;
+            let cylinder = root_cylinder + cos_shaft_times_0_04;
+            let minus_big_end_v = sin_shaft * cylinder;
+            let shaft_rate_times_sin_shaft = v.shaft * sin_shaft;
             let slope_cylinder_inv = T::lit(1.0) / root_cylinder;
-            let accel_part_v2 = cylinder * accel_part;
-            let accel_part_v3 = slope_cylinder_inv * accel_part_v2;
-            let accel_part_v4 = accel_part * accel_part_v3;
-            let pivot_1_part_v2 = cos_shaft * cylinder;
-            let shaft_accel_part_v2 = v.shaft * pivot_1_part_v2
-                - T::lit(0.04) * sin_shaft * accel_part_v3;
+            let cylinder_times_shaft_rate_times_sin_shaft = cylinder
+                * shaft_rate_times_sin_shaft;
+            let gap_accel_with_slope_cylinder_inv = slope_cylinder_inv
+                * cylinder_times_shaft_rate_times_sin_shaft;
+            let gap_accel_with_shaft_rate = shaft_rate_times_sin_shaft
+                * gap_accel_with_slope_cylinder_inv;
+            let cos_shaft_times_cylinder = cos_shaft * cylinder;
+            let side_1_with_shaft_rate = v.shaft * cos_shaft_times_cylinder
+                - T::lit(0.04) * sin_shaft * gap_accel_with_slope_cylinder_inv;
             let w2_shaft_z = v.shaft * v.shaft;
             let minus_cylinder_accel = slope_cylinder_inv
-                * (T::lit(0.0016) * accel_part_v3 * accel_part_v3
-                    - T::lit(0.0032) * accel_part_v4
-                    + T::lit(0.04) * pivot_1_part_v2 * w2_shaft_z);
-            let pivot_1_part_v3 = pivot_1_part_v2 - T::lit(0.04);
-            let shaft_accel_part_v3 = accel_part_v3 * shaft_accel_part;
-            let shaft_accel_part_v4 = accel_part_v2 + shaft_accel_part_v3;
-            let shaft_accel_part_v5 = pivot_1_part
-                * (v.shaft * shaft_accel_part_v2 - T::lit(0.04) * accel_part_v4
+                * (T::lit(0.0016) * gap_accel_with_slope_cylinder_inv
+                    * gap_accel_with_slope_cylinder_inv
+                    - T::lit(0.0032) * gap_accel_with_shaft_rate
+                    + T::lit(0.04) * cos_shaft_times_cylinder * w2_shaft_z);
+            let big_end_u = cos_shaft_times_cylinder - T::lit(0.04);
+            let big_end_gap_accel_with_slope_cylinder_inv = gap_accel_with_slope_cylinder_inv
+                * cos_shaft_times_0_04;
+            let side_1_with_cylinder = cylinder_times_shaft_rate_times_sin_shaft
+                + big_end_gap_accel_with_slope_cylinder_inv;
+            let big_end_gap_accel_with_v = minus_big_end_v
+                * (v.shaft * side_1_with_shaft_rate
+                    - T::lit(0.04) * gap_accel_with_shaft_rate
                     + cos_shaft * minus_cylinder_accel)
-                - pivot_1_part_v3
-                    * (v.shaft * shaft_accel_part_v4 + sin_shaft * minus_cylinder_accel
-                        + v.shaft * shaft_accel_part_v3);
-            let shaft_accel_part_v6 = T::lit(0.004285714285714286) * pivot_1_part;
-            let minus_n_big_end_z = T::lit(0.06326530612244897) * shaft_accel_part_v5
-                + w2_shaft_z * shaft_accel_part_v6;
-            let shaft_accel_part_v7 = pivot_1_part_v3 * minus_n_big_end_z;
-            let shaft_accel_part_v8 = pivot_1_part * minus_n_big_end_z;
-            let pivot_1_part_v4 = slope_cylinder_inv * pivot_1_part;
-            let pivot_1_part_v5 = T::lit(0.04) * pivot_1_part_v4;
-            let shaft_accel_part_v9 = v.shaft
+                - big_end_u
+                    * (v.shaft * side_1_with_cylinder + sin_shaft * minus_cylinder_accel
+                        + v.shaft * big_end_gap_accel_with_slope_cylinder_inv);
+            let minus_big_end_v_times_0_00429 = T::lit(0.004285714285714286)
+                * minus_big_end_v;
+            let minus_n_big_end_z = T::lit(0.06326530612244897)
+                * big_end_gap_accel_with_v + w2_shaft_z * minus_big_end_v_times_0_00429;
+            let big_end_u_times_minus_n_big_end_z = big_end_u * minus_n_big_end_z;
+            let minus_big_end_v_times_n_big_end_z = minus_big_end_v * minus_n_big_end_z;
+            let slope_cylinder_inv_times_minus_big_end_v = slope_cylinder_inv
+                * minus_big_end_v;
+            let pivot_1_with_slope_cylinder_inv = T::lit(0.04)
+                * slope_cylinder_inv_times_minus_big_end_v;
+            let side_1_with_big_end_u = v.shaft
                 - T::lit(51.02040816326531)
-                    * (pivot_1_part_v3 * shaft_accel_part_v2
-                        + pivot_1_part * shaft_accel_part_v4);
-            let shaft_accel_part_v10 = self.load * v.shaft - minus_n_big_end_z
-                - T::lit(0.21865889212827988) * pivot_1_part_v3 * shaft_accel_part_v5
+                    * (big_end_u * side_1_with_shaft_rate
+                        + minus_big_end_v * side_1_with_cylinder);
+            let minus_side_1 = self.load * v.shaft - minus_n_big_end_z
+                - T::lit(0.21865889212827988) * big_end_u * big_end_gap_accel_with_v
                 + T::lit(51.02040816326531)
-                    * (pivot_1_part_v2 * shaft_accel_part_v7
-                        + pivot_1_part * shaft_accel_part_v8)
+                    * (cos_shaft_times_cylinder * big_end_u_times_minus_n_big_end_z
+                        + minus_big_end_v * minus_big_end_v_times_n_big_end_z)
                 - (input.gas - T::lit(0.4) * minus_cylinder_accel
                     - T::lit(51.02040816326531)
-                        * (cos_shaft * shaft_accel_part_v8
-                            - sin_shaft * shaft_accel_part_v7)) * pivot_1_part_v5
-                + shaft_accel_part_v9 * shaft_accel_part_v9 * shaft_accel_part_v6;
-            let m_1_2 = T::lit(0.00124) + T::lit(0.004285714285714286) * pivot_1_part_v3;
-            let pivot_1_part_v6 = T::lit(7.142857142857143) * pivot_1_part
-                * (pivot_1_part + cos_shaft * pivot_1_part_v5)
-                + T::lit(7.142857142857143) * pivot_1_part_v3
-                    * (pivot_1_part_v2 - sin_shaft * pivot_1_part_v5);
-            let pivot_1 = T::lit(0.01172)
-                + T::lit(0.008571428571428572) * pivot_1_part_v3
-                + T::lit(0.00064) * pivot_1_part_v4 * pivot_1_part_v4
+                        * (cos_shaft * minus_big_end_v_times_n_big_end_z
+                            - sin_shaft * big_end_u_times_minus_n_big_end_z))
+                    * pivot_1_with_slope_cylinder_inv
+                + side_1_with_big_end_u * side_1_with_big_end_u
+                    * minus_big_end_v_times_0_00429;
+            let m_1_2 = T::lit(0.00124) + T::lit(0.004285714285714286) * big_end_u;
+            let pivot_1_with_big_end_v = T::lit(7.142857142857143) * minus_big_end_v
+                * (minus_big_end_v + cos_shaft * pivot_1_with_slope_cylinder_inv)
+                + T::lit(7.142857142857143) * big_end_u
+                    * (cos_shaft_times_cylinder
+                        - sin_shaft * pivot_1_with_slope_cylinder_inv);
+            let pivot_1 = T::lit(0.01172) + T::lit(0.008571428571428572) * big_end_u
+                + T::lit(0.00064) * slope_cylinder_inv_times_minus_big_end_v
+                    * slope_cylinder_inv_times_minus_big_end_v
                 - T::lit(7.142857142857143)
-                    * (m_1_2 * pivot_1_part_v6
-                        + pivot_1_part_v6
-                            * (m_1_2 - T::lit(0.008857142857142857) * pivot_1_part_v6));
+                    * (m_1_2 * pivot_1_with_big_end_v
+                        + pivot_1_with_big_end_v
+                            * (m_1_2
+                                - T::lit(0.008857142857142857) * pivot_1_with_big_end_v));
             Velocity {
-                shaft: -shaft_accel_part_v10 / pivot_1,
+                shaft: -minus_side_1 / pivot_1,
             }
         }
         /// Efforts that the accelerations `accel` need beside all declared forces.
@@ -364,59 +378,68 @@ pub(crate) mod engine {
             let root_cylinder = Real::sqrt(
                 T::lit(0.018) + T::lit(0.0016) * cos_shaft * cos_shaft,
             );
-            let u_big_end_yx_part = T::lit(0.04) * cos_shaft;
-            let cylinder = root_cylinder + u_big_end_yx_part;
-            let shaft_effort_part = sin_shaft * cylinder;
+            let cos_shaft_times_0_04 = T::lit(0.04) * cos_shaft;
+            let cylinder = root_cylinder + cos_shaft_times_0_04;
+            let minus_big_end_v = sin_shaft * cylinder;
             let w2_shaft_z = v.shaft * v.shaft;
-            let shaft_effort_part_v2 = cos_shaft * cylinder;
-            let shaft_effort_part_v3 = shaft_effort_part_v2 - T::lit(0.04);
-            let u_big_end_yx_part_v2 = v.shaft * sin_shaft;
+            let cos_shaft_times_cylinder = cos_shaft * cylinder;
+            let big_end_u = cos_shaft_times_cylinder - T::lit(0.04);
+            let shaft_rate_times_sin_shaft = v.shaft * sin_shaft;
             let slope_cylinder_inv = T::lit(1.0) / root_cylinder;
-            let shaft_effort_part_v4 = cylinder * u_big_end_yx_part_v2;
-            let u_big_end_yx_part_v3 = slope_cylinder_inv * shaft_effort_part_v4;
-            let u_big_end_yx_part_v4 = u_big_end_yx_part_v2 * u_big_end_yx_part_v3;
-            let cylinder_accel_part = T::lit(0.0016) * u_big_end_yx_part_v3
-                * u_big_end_yx_part_v3 - T::lit(0.0032) * u_big_end_yx_part_v4
+            let cylinder_times_shaft_rate_times_sin_shaft = cylinder
+                * shaft_rate_times_sin_shaft;
+            let u_big_end_yx_with_slope_cylinder_inv = slope_cylinder_inv
+                * cylinder_times_shaft_rate_times_sin_shaft;
+            let u_big_end_yx_with_shaft_rate = shaft_rate_times_sin_shaft
+                * u_big_end_yx_with_slope_cylinder_inv;
+            let cylinder_gap_accel = T::lit(0.0016)
+                * u_big_end_yx_with_slope_cylinder_inv
+                * u_big_end_yx_with_slope_cylinder_inv
+                - T::lit(0.0032) * u_big_end_yx_with_shaft_rate
                 + T::lit(0.04) * cylinder
                     * (accel.shaft * sin_shaft + cos_shaft * w2_shaft_z);
-            let minus_cylinder_accel = slope_cylinder_inv * cylinder_accel_part;
-            let shaft_effort_part_v5 = v.shaft * shaft_effort_part_v2
-                - T::lit(0.04) * sin_shaft * u_big_end_yx_part_v3;
-            let u_big_end_yx_part_v5 = u_big_end_yx_part_v3 * u_big_end_yx_part;
-            let shaft_effort_part_v6 = shaft_effort_part_v4 + u_big_end_yx_part_v5;
-            let u_big_end_yx_part_v6 = shaft_effort_part
-                * (T::lit(0.04) * u_big_end_yx_part_v4 - cos_shaft * minus_cylinder_accel
-                    - accel.shaft * shaft_effort_part - v.shaft * shaft_effort_part_v5)
-                + shaft_effort_part_v3
+            let minus_cylinder_accel = slope_cylinder_inv * cylinder_gap_accel;
+            let shaft_effort_with_rate = v.shaft * cos_shaft_times_cylinder
+                - T::lit(0.04) * sin_shaft * u_big_end_yx_with_slope_cylinder_inv;
+            let u_big_end_yx_with_cylinder = u_big_end_yx_with_slope_cylinder_inv
+                * cos_shaft_times_0_04;
+            let shaft_effort_with_cylinder = cylinder_times_shaft_rate_times_sin_shaft
+                + u_big_end_yx_with_cylinder;
+            let u_big_end_yx_with_big_end_v = minus_big_end_v
+                * (T::lit(0.04) * u_big_end_yx_with_shaft_rate
+                    - cos_shaft * minus_cylinder_accel - accel.shaft * minus_big_end_v
+                    - v.shaft * shaft_effort_with_rate)
+                + big_end_u
                     * (sin_shaft * minus_cylinder_accel
-                        - accel.shaft * shaft_effort_part_v2
-                        + v.shaft * shaft_effort_part_v6
-                        + v.shaft * u_big_end_yx_part_v5);
+                        - accel.shaft * cos_shaft_times_cylinder
+                        + v.shaft * shaft_effort_with_cylinder
+                        + v.shaft * u_big_end_yx_with_cylinder);
             let u_big_end_yx = accel.shaft
-                + T::lit(51.02040816326531) * u_big_end_yx_part_v6;
+                + T::lit(51.02040816326531) * u_big_end_yx_with_big_end_v;
             let minus_n_big_end_z = T::lit(0.004285714285714286)
-                * (shaft_effort_part * w2_shaft_z - accel.shaft * shaft_effort_part_v3)
+                * (minus_big_end_v * w2_shaft_z - accel.shaft * big_end_u)
                 - T::lit(0.00124) * u_big_end_yx;
-            let shaft_effort_part_v7 = v.shaft
+            let shaft_effort_with_big_end_u = v.shaft
                 - T::lit(51.02040816326531)
-                    * (shaft_effort_part_v3 * shaft_effort_part_v5
-                        + shaft_effort_part * shaft_effort_part_v6);
-            let shaft_effort_part_v8 = shaft_effort_part * minus_n_big_end_z;
-            let shaft_effort_part_v9 = shaft_effort_part_v3 * minus_n_big_end_z;
-            let shaft_effort_part_v10 = shaft_effort_part * shaft_effort_part_v7
-                * shaft_effort_part_v7 + shaft_effort_part_v3 * u_big_end_yx
-                - T::lit(9.333333333333334) * slope_cylinder_inv * shaft_effort_part
+                    * (big_end_u * shaft_effort_with_rate
+                        + minus_big_end_v * shaft_effort_with_cylinder);
+            let minus_big_end_v_times_n_big_end_z = minus_big_end_v * minus_n_big_end_z;
+            let big_end_u_times_minus_n_big_end_z = big_end_u * minus_n_big_end_z;
+            let shaft_effort_with_big_end_v = minus_big_end_v
+                * shaft_effort_with_big_end_u * shaft_effort_with_big_end_u
+                + big_end_u * u_big_end_yx
+                - T::lit(9.333333333333334) * slope_cylinder_inv * minus_big_end_v
                     * (input.gas - T::lit(0.4) * minus_cylinder_accel
                         - T::lit(51.02040816326531)
-                            * (cos_shaft * shaft_effort_part_v8
-                                - sin_shaft * shaft_effort_part_v9));
+                            * (cos_shaft * minus_big_end_v_times_n_big_end_z
+                                - sin_shaft * big_end_u_times_minus_n_big_end_z));
             Velocity {
                 shaft: T::lit(0.01048) * accel.shaft + self.load * v.shaft
                     - minus_n_big_end_z
-                    + T::lit(0.004285714285714286) * shaft_effort_part_v10
+                    + T::lit(0.004285714285714286) * shaft_effort_with_big_end_v
                     + T::lit(51.02040816326531)
-                        * (shaft_effort_part_v2 * shaft_effort_part_v9
-                            + shaft_effort_part * shaft_effort_part_v8),
+                        * (cos_shaft_times_cylinder * big_end_u_times_minus_n_big_end_z
+                            + minus_big_end_v * minus_big_end_v_times_n_big_end_z),
             }
         }
         /// Positions, rates and accelerations, in this order: `cylinder`.
@@ -439,20 +462,21 @@ pub(crate) mod engine {
             );
             let cylinder = T::lit(0.04) * cos_shaft + root_cylinder;
             let slope_cylinder_inv = T::lit(1.0) / root_cylinder;
-            let cylinder_part = v.shaft * sin_shaft;
-            let cylinder_rate_part = cylinder * slope_cylinder_inv * cylinder_part;
-            let cylinder_accel_part = T::lit(0.04) * cylinder
+            let shaft_rate_times_sin_shaft = v.shaft * sin_shaft;
+            let cylinder_rate_with_cylinder = cylinder * slope_cylinder_inv
+                * shaft_rate_times_sin_shaft;
+            let cylinder_gap_accel = T::lit(0.04) * cylinder
                 * (accel.shaft * sin_shaft + v.shaft * v.shaft * cos_shaft)
-                + cylinder_rate_part
-                    * (T::lit(0.0016) * cylinder_rate_part
-                        - T::lit(0.0032) * cylinder_part);
+                + cylinder_rate_with_cylinder
+                    * (T::lit(0.0016) * cylinder_rate_with_cylinder
+                        - T::lit(0.0032) * shaft_rate_times_sin_shaft);
             ::multibody::Kinematics {
                 position: ::multibody::nalgebra::SVector::from([cylinder]),
                 velocity: ::multibody::nalgebra::SVector::from([
-                    (T::lit(-0.04) * cylinder_rate_part),
+                    (T::lit(-0.04) * cylinder_rate_with_cylinder),
                 ]),
                 acceleration: ::multibody::nalgebra::SVector::from([
-                    (-slope_cylinder_inv * cylinder_accel_part),
+                    (-slope_cylinder_inv * cylinder_gap_accel),
                 ]),
             }
         }
@@ -469,118 +493,140 @@ pub(crate) mod engine {
             let root_cylinder = Real::sqrt(
                 T::lit(0.018) + T::lit(0.0016) * cos_shaft * cos_shaft,
             );
-            let pivot_1_part = T::lit(0.04) * cos_shaft;
-            let cylinder = root_cylinder + pivot_1_part;
-            let u_big_end_yx_part = sin_shaft * cylinder;
+            let cos_shaft_times_0_04 = T::lit(0.04) * cos_shaft;
+            let cylinder = root_cylinder + cos_shaft_times_0_04;
+            let minus_big_end_v = sin_shaft * cylinder;
             let w2_shaft_z = v.shaft * v.shaft;
-            let a_big_end_y_part = u_big_end_yx_part * w2_shaft_z;
-            let u_big_end_yx_part_v2 = cos_shaft * cylinder;
-            let big_end_part = u_big_end_yx_part_v2 - T::lit(0.04);
+            let minus_big_end_v_times_w2_shaft_z = minus_big_end_v * w2_shaft_z;
+            let cos_shaft_times_cylinder = cos_shaft * cylinder;
+            let big_end_u = cos_shaft_times_cylinder - T::lit(0.04);
             let slope_cylinder_inv = T::lit(1.0) / root_cylinder;
-            let u_big_end_yx_part_v3 = v.shaft * sin_shaft;
-            let w_big_end_z_part = cylinder * u_big_end_yx_part_v3;
-            let w_big_end_z_part_v2 = slope_cylinder_inv * w_big_end_z_part;
-            let cylinder_accel_part = w_big_end_z_part_v2 * w_big_end_z_part_v2;
-            let u_big_end_yx_part_v4 = u_big_end_yx_part_v3 * w_big_end_z_part_v2;
-            let cylinder_accel_part_v2 = T::lit(0.0016) * cylinder_accel_part
-                - T::lit(0.0032) * u_big_end_yx_part_v4;
-            let cylinder_accel_part_v3 = cos_shaft * w2_shaft_z;
-            let cylinder_accel_part_v4 = T::lit(0.04) * cylinder;
+            let shaft_rate_times_sin_shaft = v.shaft * sin_shaft;
+            let cylinder_times_shaft_rate_times_sin_shaft = cylinder
+                * shaft_rate_times_sin_shaft;
+            let w_big_end_z_with_slope_cylinder_inv = slope_cylinder_inv
+                * cylinder_times_shaft_rate_times_sin_shaft;
+            let cylinder_gap_accel_with_slope_cylinder_inv = w_big_end_z_with_slope_cylinder_inv
+                * w_big_end_z_with_slope_cylinder_inv;
+            let u_big_end_yx_with_shaft_rate = shaft_rate_times_sin_shaft
+                * w_big_end_z_with_slope_cylinder_inv;
+            let cylinder_gap_accel_with_cylinder = T::lit(0.0016)
+                * cylinder_gap_accel_with_slope_cylinder_inv
+                - T::lit(0.0032) * u_big_end_yx_with_shaft_rate;
+            let cos_shaft_times_w2_shaft_z = cos_shaft * w2_shaft_z;
+            let cylinder_times_0_04 = T::lit(0.04) * cylinder;
             let minus_cylinder_accel = slope_cylinder_inv
-                * (cylinder_accel_part_v2
-                    + cylinder_accel_part_v3 * cylinder_accel_part_v4);
-            let multiplier_2_part = T::lit(0.04) * sin_shaft;
-            let w_big_end_z_part_v3 = v.shaft * u_big_end_yx_part_v2
-                - w_big_end_z_part_v2 * multiplier_2_part;
-            let u_big_end_yx_part_v5 = T::lit(0.04) * u_big_end_yx_part_v4
-                - v.shaft * w_big_end_z_part_v3;
-            let w_big_end_z_part_v4 = w_big_end_z_part_v2 * pivot_1_part;
-            let w_big_end_z_part_v5 = w_big_end_z_part + w_big_end_z_part_v4;
-            let u_big_end_yx_part_v6 = v.shaft * w_big_end_z_part_v4
-                + v.shaft * w_big_end_z_part_v5;
-            let dw_shaft_z_part = u_big_end_yx_part
-                * (cos_shaft * minus_cylinder_accel - u_big_end_yx_part_v5)
-                - big_end_part
-                    * (sin_shaft * minus_cylinder_accel + u_big_end_yx_part_v6);
-            let minus_n_big_end_z = T::lit(0.06326530612244897) * dw_shaft_z_part
-                + T::lit(0.004285714285714286) * a_big_end_y_part;
+                * (cylinder_gap_accel_with_cylinder
+                    + cos_shaft_times_w2_shaft_z * cylinder_times_0_04);
+            let sin_shaft_times_0_04 = T::lit(0.04) * sin_shaft;
+            let w_big_end_z_with_shaft_rate = v.shaft * cos_shaft_times_cylinder
+                - w_big_end_z_with_slope_cylinder_inv * sin_shaft_times_0_04;
+            let u_big_end_yx_with_sin_shaft = T::lit(0.04) * u_big_end_yx_with_shaft_rate
+                - v.shaft * w_big_end_z_with_shaft_rate;
+            let w_big_end_z_with_cylinder = w_big_end_z_with_slope_cylinder_inv
+                * cos_shaft_times_0_04;
+            let w_big_end_z_with_sin_shaft = cylinder_times_shaft_rate_times_sin_shaft
+                + w_big_end_z_with_cylinder;
+            let u_big_end_yx_with_slope_cylinder_inv = v.shaft
+                * w_big_end_z_with_cylinder + v.shaft * w_big_end_z_with_sin_shaft;
+            let big_end_gap_accel_with_v = minus_big_end_v
+                * (cos_shaft * minus_cylinder_accel - u_big_end_yx_with_sin_shaft)
+                - big_end_u
+                    * (sin_shaft * minus_cylinder_accel
+                        + u_big_end_yx_with_slope_cylinder_inv);
+            let minus_n_big_end_z = T::lit(0.06326530612244897)
+                * big_end_gap_accel_with_v
+                + T::lit(0.004285714285714286) * minus_big_end_v_times_w2_shaft_z;
             let w_big_end_z = v.shaft
                 - T::lit(51.02040816326531)
-                    * (big_end_part * w_big_end_z_part_v3
-                        + u_big_end_yx_part * w_big_end_z_part_v5);
+                    * (big_end_u * w_big_end_z_with_shaft_rate
+                        + minus_big_end_v * w_big_end_z_with_sin_shaft);
             let w2_big_end_z = w_big_end_z * w_big_end_z;
-            let pivot_1_part_v2 = slope_cylinder_inv * u_big_end_yx_part;
-            let dw_shaft_z_part_v2 = u_big_end_yx_part * minus_n_big_end_z;
-            let dw_shaft_z_part_v3 = big_end_part * minus_n_big_end_z;
-            let dw_shaft_z_part_v4 = T::lit(0.10714285714285714) * u_big_end_yx_part
+            let slope_cylinder_inv_times_minus_big_end_v = slope_cylinder_inv
+                * minus_big_end_v;
+            let minus_big_end_v_times_n_big_end_z = minus_big_end_v * minus_n_big_end_z;
+            let big_end_u_times_minus_n_big_end_z = big_end_u * minus_n_big_end_z;
+            let side_1_with_big_end_v = T::lit(0.10714285714285714) * minus_big_end_v
                 * w2_big_end_z
-                - T::lit(5.466472303206997) * big_end_part * dw_shaft_z_part
-                - pivot_1_part_v2
+                - T::lit(5.466472303206997) * big_end_u * big_end_gap_accel_with_v
+                - slope_cylinder_inv_times_minus_big_end_v
                     * (input.gas - T::lit(0.4) * minus_cylinder_accel
                         - T::lit(51.02040816326531)
-                            * (cos_shaft * dw_shaft_z_part_v2
-                                - sin_shaft * dw_shaft_z_part_v3));
-            let m_1_2_part = T::lit(0.004285714285714286) * big_end_part;
-            let m_1_2 = T::lit(0.00124) + m_1_2_part;
-            let f_big_end_part = T::lit(7.142857142857143) * u_big_end_yx_part;
-            let f_big_end_part_v2 = T::lit(7.142857142857143) * big_end_part;
-            let pivot_1_part_v3 = (u_big_end_yx_part + pivot_1_part_v2 * pivot_1_part)
-                * f_big_end_part
-                + (u_big_end_yx_part_v2 - pivot_1_part_v2 * multiplier_2_part)
-                    * f_big_end_part_v2;
-            let pivot_1 = T::lit(0.01172) + T::lit(0.008571428571428572) * big_end_part
-                + T::lit(0.00064) * pivot_1_part_v2 * pivot_1_part_v2
+                            * (cos_shaft * minus_big_end_v_times_n_big_end_z
+                                - sin_shaft * big_end_u_times_minus_n_big_end_z));
+            let big_end_u_times_0_00429 = T::lit(0.004285714285714286) * big_end_u;
+            let m_1_2 = T::lit(0.00124) + big_end_u_times_0_00429;
+            let minus_big_end_v_times_7_14 = T::lit(7.142857142857143) * minus_big_end_v;
+            let big_end_u_times_7_14 = T::lit(7.142857142857143) * big_end_u;
+            let pivot_1_with_big_end_v = (minus_big_end_v
+                + slope_cylinder_inv_times_minus_big_end_v * cos_shaft_times_0_04)
+                * minus_big_end_v_times_7_14
+                + (cos_shaft_times_cylinder
+                    - slope_cylinder_inv_times_minus_big_end_v * sin_shaft_times_0_04)
+                    * big_end_u_times_7_14;
+            let pivot_1 = T::lit(0.01172) + T::lit(0.008571428571428572) * big_end_u
+                + T::lit(0.00064) * slope_cylinder_inv_times_minus_big_end_v
+                    * slope_cylinder_inv_times_minus_big_end_v
                 - T::lit(7.142857142857143)
-                    * (m_1_2 * pivot_1_part_v3
-                        + pivot_1_part_v3
-                            * (m_1_2 - T::lit(0.008857142857142857) * pivot_1_part_v3));
+                    * (m_1_2 * pivot_1_with_big_end_v
+                        + pivot_1_with_big_end_v
+                            * (m_1_2
+                                - T::lit(0.008857142857142857) * pivot_1_with_big_end_v));
             let minus_dw_shaft_z = (self.load * v.shaft - minus_n_big_end_z
-                + T::lit(0.04) * dw_shaft_z_part_v4
+                + T::lit(0.04) * side_1_with_big_end_v
                 + T::lit(51.02040816326531)
-                    * (u_big_end_yx_part_v2 * dw_shaft_z_part_v3
-                        + u_big_end_yx_part * dw_shaft_z_part_v2)) / pivot_1;
-            let a_big_end_y_part_v2 = a_big_end_y_part + big_end_part * minus_dw_shaft_z;
-            let minus_cylinder_accel_v2 = slope_cylinder_inv
-                * (cylinder_accel_part_v2
-                    + (cylinder_accel_part_v3 - sin_shaft * minus_dw_shaft_z)
-                        * cylinder_accel_part_v4);
-            let f_big_end_x_part = u_big_end_yx_part * minus_dw_shaft_z;
-            let u_big_end_yx_part_v7 = u_big_end_yx_part
-                * (f_big_end_x_part - cos_shaft * minus_cylinder_accel_v2
-                    + u_big_end_yx_part_v5)
-                + big_end_part
-                    * (sin_shaft * minus_cylinder_accel_v2
-                        + u_big_end_yx_part_v2 * minus_dw_shaft_z
-                        + u_big_end_yx_part_v6);
+                    * (cos_shaft_times_cylinder * big_end_u_times_minus_n_big_end_z
+                        + minus_big_end_v * minus_big_end_v_times_n_big_end_z))
+                / pivot_1;
+            let a_big_end_y_with_big_end_u = minus_big_end_v_times_w2_shaft_z
+                + big_end_u * minus_dw_shaft_z;
+            let minus_cylinder_accel_with_slope_cylinder_inv = slope_cylinder_inv
+                * (cylinder_gap_accel_with_cylinder
+                    + (cos_shaft_times_w2_shaft_z - sin_shaft * minus_dw_shaft_z)
+                        * cylinder_times_0_04);
+            let minus_big_end_v_times_dw_shaft_z = minus_big_end_v * minus_dw_shaft_z;
+            let u_big_end_yx_with_big_end_v = minus_big_end_v
+                * (minus_big_end_v_times_dw_shaft_z
+                    - cos_shaft * minus_cylinder_accel_with_slope_cylinder_inv
+                    + u_big_end_yx_with_sin_shaft)
+                + big_end_u
+                    * (sin_shaft * minus_cylinder_accel_with_slope_cylinder_inv
+                        + cos_shaft_times_cylinder * minus_dw_shaft_z
+                        + u_big_end_yx_with_slope_cylinder_inv);
             let minus_u_big_end_yx = minus_dw_shaft_z
-                - T::lit(51.02040816326531) * u_big_end_yx_part_v7;
+                - T::lit(51.02040816326531) * u_big_end_yx_with_big_end_v;
             let ([multiplier_1], _) = ::multibody::linear::solve(
                 [[T::lit(1.0)]],
-                [(T::lit(0.4) * minus_cylinder_accel_v2 - input.gas)],
+                [
+                    (T::lit(0.4) * minus_cylinder_accel_with_slope_cylinder_inv
+                        - input.gas),
+                ],
             );
-            let f_big_end_part_v3 = sin_shaft * f_big_end_part_v2
-                - cos_shaft * f_big_end_part;
+            let f_big_end_with_sin_shaft = sin_shaft * big_end_u_times_7_14
+                - cos_shaft * minus_big_end_v_times_7_14;
             let ([multiplier_2], _) = ::multibody::linear::solve(
                 [[-root_cylinder]],
                 [
-                    (T::lit(0.004285714285714286) * a_big_end_y_part_v2
+                    (T::lit(0.004285714285714286) * a_big_end_y_with_big_end_u
                         + T::lit(0.00124) * minus_u_big_end_yx
-                        + multiplier_1 * multiplier_2_part),
+                        + multiplier_1 * sin_shaft_times_0_04),
                 ],
             );
-            let f_big_end_part_v4 = sin_shaft * f_big_end_part
-                + cos_shaft * f_big_end_part_v2;
-            let f_big_end_y = multiplier_1 * f_big_end_part_v3
-                - T::lit(0.08571428571428572) * a_big_end_y_part_v2
-                - T::lit(0.015) * minus_u_big_end_yx - multiplier_2 * f_big_end_part_v4;
+            let f_big_end_with_cos_shaft = sin_shaft * minus_big_end_v_times_7_14
+                + cos_shaft * big_end_u_times_7_14;
+            let f_big_end_y = multiplier_1 * f_big_end_with_sin_shaft
+                - T::lit(0.08571428571428572) * a_big_end_y_with_big_end_u
+                - T::lit(0.015) * minus_u_big_end_yx
+                - multiplier_2 * f_big_end_with_cos_shaft;
             let minus_f_big_end_x = T::lit(0.015) * w2_big_end_z
-                + multiplier_1 * f_big_end_part_v4 + multiplier_2 * f_big_end_part_v3
+                + multiplier_1 * f_big_end_with_cos_shaft
+                + multiplier_2 * f_big_end_with_sin_shaft
                 + T::lit(0.08571428571428572)
-                    * (big_end_part * w2_shaft_z - f_big_end_x_part);
-            let minus_f_big_end_passed_x = minus_f_big_end_x * f_big_end_part_v2
-                - f_big_end_y * f_big_end_part;
-            let f_big_end_passed_y = minus_f_big_end_x * f_big_end_part
-                + f_big_end_y * f_big_end_part_v2;
+                    * (big_end_u * w2_shaft_z - minus_big_end_v_times_dw_shaft_z);
+            let minus_f_big_end_passed_x = minus_f_big_end_x * big_end_u_times_7_14
+                - f_big_end_y * minus_big_end_v_times_7_14;
+            let f_big_end_passed_y = minus_f_big_end_x * minus_big_end_v_times_7_14
+                + f_big_end_y * big_end_u_times_7_14;
             Output {
                 bearing: ::multibody::nalgebra::Vector3::from([
                     -(cos_shaft * minus_f_big_end_passed_x
@@ -589,9 +635,9 @@ pub(crate) mod engine {
                         - cos_shaft * f_big_end_passed_y),
                     T::lit(0.0),
                 ]),
-                energy: T::lit(0.00032) * cylinder_accel_part
+                energy: T::lit(0.00032) * cylinder_gap_accel_with_slope_cylinder_inv
                     + T::lit(0.00524) * w2_shaft_z + T::lit(0.00062) * w2_big_end_z
-                    + v.shaft * w_big_end_z * m_1_2_part,
+                    + v.shaft * w_big_end_z * big_end_u_times_0_00429,
             }
         }
         /// Distances from dead centres, in the order of `DEAD_CENTRES`. Of a loop's solution: its square root, a product of lengths, zero where two solutions meet and NaN where the loop cannot be closed. Of roll, pitch and yaw: the cosine of the pitch, zero where roll and yaw turn about one axis. Rates grow without bound there.
@@ -790,31 +836,35 @@ pub(crate) mod engine {
                 T::lit(0.018) + T::lit(0.0016) * cos_shaft * cos_shaft,
             );
             let cylinder = T::lit(0.04) * cos_shaft + root_cylinder;
-            let mass_matrix_0_part = cos_shaft * cylinder;
-            let mass_matrix_0_part_v2 = mass_matrix_0_part - T::lit(0.04);
-            let m_1_1_part = T::lit(0.06326530612244897) * mass_matrix_0_part_v2
-                * mass_matrix_0_part_v2;
+            let cos_shaft_times_cylinder = cos_shaft * cylinder;
+            let big_end_u = cos_shaft_times_cylinder - T::lit(0.04);
+            let big_end_u_squared_times_0_0633 = T::lit(0.06326530612244897) * big_end_u
+                * big_end_u;
             let m_1_1 = T::lit(0.00548)
-                + (T::lit(0.008571428571428572) * mass_matrix_0_part_v2 + m_1_1_part)
-                - (m_1_1_part - T::lit(0.00124) - T::lit(0.005));
-            let m_1_2 = T::lit(0.00124)
-                + T::lit(0.004285714285714286) * mass_matrix_0_part_v2;
-            let mass_matrix_0_part_v3 = sin_shaft * cylinder;
-            let mass_matrix_0_part_v4 = mass_matrix_0_part_v3 / root_cylinder;
-            let mass_matrix_0_part_v5 = T::lit(7.142857142857143) * mass_matrix_0_part_v3
-                * (mass_matrix_0_part_v3
-                    + T::lit(0.04) * cos_shaft * mass_matrix_0_part_v4)
-                + T::lit(7.142857142857143) * mass_matrix_0_part_v2
-                    * (mass_matrix_0_part
-                        - T::lit(0.04) * sin_shaft * mass_matrix_0_part_v4);
+                + (T::lit(0.008571428571428572) * big_end_u
+                    + big_end_u_squared_times_0_0633)
+                - (big_end_u_squared_times_0_0633 - T::lit(0.00124) - T::lit(0.005));
+            let m_1_2 = T::lit(0.00124) + T::lit(0.004285714285714286) * big_end_u;
+            let minus_big_end_v = sin_shaft * cylinder;
+            let minus_big_end_v_over_root_cylinder = minus_big_end_v / root_cylinder;
+            let mass_matrix_0_with_big_end_v = T::lit(7.142857142857143)
+                * minus_big_end_v
+                * (minus_big_end_v
+                    + T::lit(0.04) * cos_shaft * minus_big_end_v_over_root_cylinder)
+                + T::lit(7.142857142857143) * big_end_u
+                    * (cos_shaft_times_cylinder
+                        - T::lit(0.04) * sin_shaft * minus_big_end_v_over_root_cylinder);
             let matrix: ::multibody::nalgebra::SMatrix<T, 1, 1> = ::multibody::nalgebra::SMatrix::from([
                 [
-                    (m_1_1 - T::lit(7.142857142857143) * m_1_2 * mass_matrix_0_part_v5
-                        - T::lit(7.142857142857143) * mass_matrix_0_part_v5
+                    (m_1_1
+                        - T::lit(7.142857142857143) * m_1_2
+                            * mass_matrix_0_with_big_end_v
+                        - T::lit(7.142857142857143) * mass_matrix_0_with_big_end_v
                             * (m_1_2
-                                - T::lit(0.008857142857142857) * mass_matrix_0_part_v5)
-                        + T::lit(0.00064) * mass_matrix_0_part_v4
-                            * mass_matrix_0_part_v4),
+                                - T::lit(0.008857142857142857)
+                                    * mass_matrix_0_with_big_end_v)
+                        + T::lit(0.00064) * minus_big_end_v_over_root_cylinder
+                            * minus_big_end_v_over_root_cylinder),
                 ],
             ]);
             ::multibody::pivots::without_inertia(&matrix, &["shaft"])

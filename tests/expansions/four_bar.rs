@@ -276,151 +276,174 @@ pub mod four_bar {
             let q = &state.q;
             let v = &state.v;
             let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
-            let accel_part = cos_crank - T::lit(4.0);
-            let rocker_part = accel_part * accel_part + sin_crank * sin_crank;
-            let rocker_part_v2 = T::lit(1.0) / rocker_part;
-            let rocker_part_v3 = T::lit(0.16666666666666666) * rocker_part
+            let minus_rocker_a = cos_crank - T::lit(4.0);
+            let rocker_d = minus_rocker_a * minus_rocker_a + sin_crank * sin_crank;
+            let rocker_d_inv = T::lit(1.0) / rocker_d;
+            let minus_rocker_c = T::lit(0.16666666666666666) * rocker_d
                 - T::lit(0.5416666666666666);
-            let root_rocker = Real::sqrt(rocker_part - rocker_part_v3 * rocker_part_v3);
-            let cos_rocker = rocker_part_v2
-                * (accel_part * rocker_part_v3 + sin_crank * root_rocker);
-            let crank_accel_part = T::lit(3.0) * cos_rocker;
-            let pivot_1_part = T::lit(4.0) + crank_accel_part;
-            let sin_rocker = rocker_part_v2
-                * (sin_crank * rocker_part_v3 - accel_part * root_rocker);
-            let w2_coupler_z_part = T::lit(3.0) * sin_crank;
-            let pivot_1_part_v2 = cos_crank * pivot_1_part
-                + sin_rocker * w2_coupler_z_part;
-            let pivot_1_part_v3 = pivot_1_part_v2 - T::lit(1.0);
-            let pivot_1_part_v4 = cos_crank * sin_rocker;
-            let pivot_1_part_v5 = sin_crank * pivot_1_part
-                - T::lit(3.0) * pivot_1_part_v4;
-            let f_coupler_passed_part = cos_crank * pivot_1_part_v3
-                + sin_crank * pivot_1_part_v5;
-            let f_coupler_part = sin_crank * pivot_1_part_v3
-                - cos_crank * pivot_1_part_v5;
-            let f_coupler_x_part = cos_crank
-                - T::lit(0.5714285714285714) * f_coupler_part;
-            let crank_accel_part_v2 = sin_crank
-                + T::lit(0.5714285714285714) * f_coupler_passed_part;
-            let crank_accel_part_v3 = Real::sqrt(
-                f_coupler_x_part * f_coupler_x_part
-                    + crank_accel_part_v2 * crank_accel_part_v2,
+            let root_rocker = Real::sqrt(rocker_d - minus_rocker_c * minus_rocker_c);
+            let cos_rocker = rocker_d_inv
+                * (minus_rocker_a * minus_rocker_c + sin_crank * root_rocker);
+            let cos_rocker_times_3 = T::lit(3.0) * cos_rocker;
+            let cos_rocker_times_3_plus_4 = T::lit(4.0) + cos_rocker_times_3;
+            let sin_rocker = rocker_d_inv
+                * (sin_crank * minus_rocker_c - minus_rocker_a * root_rocker);
+            let sin_crank_times_3 = T::lit(3.0) * sin_crank;
+            let pivot_1_with_cos_crank = cos_crank * cos_rocker_times_3_plus_4
+                + sin_rocker * sin_crank_times_3;
+            let coupler_u = pivot_1_with_cos_crank - T::lit(1.0);
+            let cos_crank_times_sin_rocker = cos_crank * sin_rocker;
+            let minus_coupler_v = sin_crank * cos_rocker_times_3_plus_4
+                - T::lit(3.0) * cos_crank_times_sin_rocker;
+            let f_coupler_passed_with_cos_crank = cos_crank * coupler_u
+                + sin_crank * minus_coupler_v;
+            let f_coupler_with_sin_crank = sin_crank * coupler_u
+                - cos_crank * minus_coupler_v;
+            let f_coupler_x_with_cos_crank = cos_crank
+                - T::lit(0.5714285714285714) * f_coupler_with_sin_crank;
+            let side_1_with_sin_crank = sin_crank
+                + T::lit(0.5714285714285714) * f_coupler_passed_with_cos_crank;
+            let side_1_with_cos_crank = Real::sqrt(
+                f_coupler_x_with_cos_crank * f_coupler_x_with_cos_crank
+                    + side_1_with_sin_crank * side_1_with_sin_crank,
             );
-            let crank_accel_part_v4 = (crank_accel_part_v3 - T::lit(0.5))
-                / crank_accel_part_v3;
-            let f_coupler_x_part_v2 = f_coupler_x_part * crank_accel_part_v4;
-            let crank_accel_part_v5 = crank_accel_part_v2 * crank_accel_part_v4;
+            let side_1_with_coupler_u = (side_1_with_cos_crank - T::lit(0.5))
+                / side_1_with_cos_crank;
+            let f_coupler_x_with_sin_crank = f_coupler_x_with_cos_crank
+                * side_1_with_coupler_u;
+            let side_1_with_sin_crank_times_coupler_u = side_1_with_sin_crank
+                * side_1_with_coupler_u;
             let minus_slope_rocker_inv = T::lit(1.0) / root_rocker;
-            let rocker_part_v4 = v.crank * sin_crank;
-            let rocker_part_v5 = v.crank * cos_crank;
+            let crank_rate_times_sin_crank = v.crank * sin_crank;
+            let crank_rate_times_cos_crank = v.crank * cos_crank;
             let minus_rocker_rate = minus_slope_rocker_inv
                 * (T::lit(0.3333333333333333)
-                    * (accel_part * rocker_part_v4 - sin_crank * rocker_part_v5)
-                    + sin_rocker * rocker_part_v5 - cos_rocker * rocker_part_v4);
-            let w2_coupler_z_part_v2 = sin_rocker * minus_rocker_rate;
-            let w2_coupler_z_part_v3 = cos_rocker * minus_rocker_rate;
-            let w2_coupler_z_part_v4 = T::lit(3.0) * cos_crank;
-            let w2_coupler_z_part_v5 = w2_coupler_z_part_v2 * w2_coupler_z_part
-                + w2_coupler_z_part_v3 * w2_coupler_z_part_v4;
-            let w2_coupler_z_part_v6 = v.crank * pivot_1_part_v2 + w2_coupler_z_part_v5;
-            let accel_part_v2 = minus_rocker_rate * w2_coupler_z_part_v3;
-            let accel_part_v3 = minus_rocker_rate * w2_coupler_z_part_v2;
-            let a_coupler_y_part = v.crank * rocker_part_v4;
-            let minus_a_coupler_x = v.crank * rocker_part_v5;
-            let pivot_1_part_v6 = T::lit(0.3333333333333333) * pivot_1_part;
-            let rocker_accel_part = accel_part * accel_part_v2
-                + sin_crank * accel_part_v3 + sin_rocker * a_coupler_y_part
-                + minus_a_coupler_x * pivot_1_part_v6
+                    * (minus_rocker_a * crank_rate_times_sin_crank
+                        - sin_crank * crank_rate_times_cos_crank)
+                    + sin_rocker * crank_rate_times_cos_crank
+                    - cos_rocker * crank_rate_times_sin_crank);
+            let sin_rocker_times_minus_rocker_rate = sin_rocker * minus_rocker_rate;
+            let cos_rocker_times_minus_rocker_rate = cos_rocker * minus_rocker_rate;
+            let cos_crank_times_3 = T::lit(3.0) * cos_crank;
+            let w2_coupler_z_with_sin_rocker = sin_rocker_times_minus_rocker_rate
+                * sin_crank_times_3
+                + cos_rocker_times_minus_rocker_rate * cos_crank_times_3;
+            let w2_coupler_z_with_crank_rate = v.crank * pivot_1_with_cos_crank
+                + w2_coupler_z_with_sin_rocker;
+            let gap_accel_with_rocker_rate = minus_rocker_rate
+                * cos_rocker_times_minus_rocker_rate;
+            let gap_accel_with_sin_rocker = minus_rocker_rate
+                * sin_rocker_times_minus_rocker_rate;
+            let crank_rate_times_times_sin_crank = v.crank * crank_rate_times_sin_crank;
+            let minus_a_coupler_x = v.crank * crank_rate_times_cos_crank;
+            let cos_rocker_times_3_plus_4_times_0_333 = T::lit(0.3333333333333333)
+                * cos_rocker_times_3_plus_4;
+            let rocker_gap_accel = minus_rocker_a * gap_accel_with_rocker_rate
+                + sin_crank * gap_accel_with_sin_rocker
+                + sin_rocker * crank_rate_times_times_sin_crank
+                + minus_a_coupler_x * cos_rocker_times_3_plus_4_times_0_333
                 + T::lit(2.0)
-                    * (rocker_part_v4 * w2_coupler_z_part_v2
-                        + rocker_part_v5 * w2_coupler_z_part_v3);
-            let rocker_accel = minus_slope_rocker_inv * rocker_accel_part;
-            let crank_accel_part_v6 = T::lit(3.0) * accel_part_v2
-                + T::lit(3.0) * sin_rocker * rocker_accel;
-            let crank_accel_part_v7 = T::lit(3.0) * accel_part_v3
-                - rocker_accel * crank_accel_part;
-            let w2_coupler_z_part_v7 = w2_coupler_z_part_v2 * w2_coupler_z_part_v4
-                - w2_coupler_z_part_v3 * w2_coupler_z_part;
-            let w2_coupler_z_part_v8 = v.crank * pivot_1_part_v5 - w2_coupler_z_part_v7;
-            let crank_accel_part_v8 = pivot_1_part_v5
-                * (v.crank * w2_coupler_z_part_v5 + v.crank * w2_coupler_z_part_v6
-                    + cos_crank * crank_accel_part_v6 + sin_crank * crank_accel_part_v7)
-                - pivot_1_part_v3
-                    * (v.crank * w2_coupler_z_part_v8 - v.crank * w2_coupler_z_part_v7
-                        + sin_crank * crank_accel_part_v6
-                        - cos_crank * crank_accel_part_v7);
-            let f_coupler_passed_y = T::lit(1.7) * f_coupler_passed_part
-                - T::lit(0.2) * f_coupler_part;
-            let minus_a_coupler_y = a_coupler_y_part - T::lit(9.81);
-            let minus_f_coupler_passed_x = T::lit(0.2) * f_coupler_passed_part
-                + T::lit(1.7) * f_coupler_part;
+                    * (crank_rate_times_sin_crank * sin_rocker_times_minus_rocker_rate
+                        + crank_rate_times_cos_crank
+                            * cos_rocker_times_minus_rocker_rate);
+            let rocker_accel = minus_slope_rocker_inv * rocker_gap_accel;
+            let coupler_gap_accel_with_sin_rocker = T::lit(3.0)
+                * gap_accel_with_rocker_rate + T::lit(3.0) * sin_rocker * rocker_accel;
+            let coupler_gap_accel_with_rocker_accel = T::lit(3.0)
+                * gap_accel_with_sin_rocker - rocker_accel * cos_rocker_times_3;
+            let w2_coupler_z_with_rocker_rate = sin_rocker_times_minus_rocker_rate
+                * cos_crank_times_3
+                - cos_rocker_times_minus_rocker_rate * sin_crank_times_3;
+            let w2_coupler_z_with_coupler_v = v.crank * minus_coupler_v
+                - w2_coupler_z_with_rocker_rate;
+            let coupler_gap_accel_with_v = minus_coupler_v
+                * (v.crank * w2_coupler_z_with_sin_rocker
+                    + v.crank * w2_coupler_z_with_crank_rate
+                    + cos_crank * coupler_gap_accel_with_sin_rocker
+                    + sin_crank * coupler_gap_accel_with_rocker_accel)
+                - coupler_u
+                    * (v.crank * w2_coupler_z_with_coupler_v
+                        - v.crank * w2_coupler_z_with_rocker_rate
+                        + sin_crank * coupler_gap_accel_with_sin_rocker
+                        - cos_crank * coupler_gap_accel_with_rocker_accel);
+            let f_coupler_passed_y = T::lit(1.7) * f_coupler_passed_with_cos_crank
+                - T::lit(0.2) * f_coupler_with_sin_crank;
+            let minus_a_coupler_y = crank_rate_times_times_sin_crank - T::lit(9.81);
+            let minus_f_coupler_passed_x = T::lit(0.2) * f_coupler_passed_with_cos_crank
+                + T::lit(1.7) * f_coupler_with_sin_crank;
             let minus_n_coupler_z = T::lit(4.571428571428571)
-                * (f_coupler_passed_part * f_coupler_x_part_v2
-                    + f_coupler_part * crank_accel_part_v5)
-                + T::lit(1.090204081632653) * crank_accel_part_v8
+                * (f_coupler_passed_with_cos_crank * f_coupler_x_with_sin_crank
+                    + f_coupler_with_sin_crank * side_1_with_sin_crank_times_coupler_u)
+                + T::lit(1.090204081632653) * coupler_gap_accel_with_v
                 + f_coupler_passed_y * minus_a_coupler_y
                 - minus_a_coupler_x * minus_f_coupler_passed_x;
-            let w2_coupler_z_part_v9 = v.crank
+            let w2_coupler_z_with_coupler_u = v.crank
                 - T::lit(0.08163265306122448)
-                    * (pivot_1_part_v3 * w2_coupler_z_part_v6
-                        + pivot_1_part_v5 * w2_coupler_z_part_v8);
-            let w2_coupler_z = w2_coupler_z_part_v9 * w2_coupler_z_part_v9;
-            let crank_accel_part_v9 = T::lit(0.08163265306122448) * crank_accel_part_v8;
-            let f_coupler_x = T::lit(8.0) * f_coupler_x_part_v2
+                    * (coupler_u * w2_coupler_z_with_crank_rate
+                        + minus_coupler_v * w2_coupler_z_with_coupler_v);
+            let w2_coupler_z = w2_coupler_z_with_coupler_u * w2_coupler_z_with_coupler_u;
+            let coupler_gap_accel_with_v_times_0_0816 = T::lit(0.08163265306122448)
+                * coupler_gap_accel_with_v;
+            let f_coupler_x = T::lit(8.0) * f_coupler_x_with_sin_crank
                 - f_coupler_passed_y * w2_coupler_z
-                + minus_f_coupler_passed_x * crank_accel_part_v9;
-            let crank_accel_part_v10 = pivot_1_part_v5 * minus_n_coupler_z;
-            let crank_accel_part_v11 = pivot_1_part_v3 * minus_n_coupler_z;
-            let crank_accel_part_v12 = T::lit(9.0) * rocker_accel
+                + minus_f_coupler_passed_x * coupler_gap_accel_with_v_times_0_0816;
+            let minus_coupler_v_times_n_coupler_z = minus_coupler_v * minus_n_coupler_z;
+            let coupler_u_times_minus_n_coupler_z = coupler_u * minus_n_coupler_z;
+            let side_1_with_rocker_accel = T::lit(9.0) * rocker_accel
                 + T::lit(0.24489795918367346) * sin_rocker
-                    * (cos_crank * crank_accel_part_v10
-                        - sin_crank * crank_accel_part_v11)
+                    * (cos_crank * minus_coupler_v_times_n_coupler_z
+                        - sin_crank * coupler_u_times_minus_n_coupler_z)
                 + cos_rocker
                     * (T::lit(44.145)
                         - T::lit(0.24489795918367346)
-                            * (sin_crank * crank_accel_part_v10
-                                + cos_crank * crank_accel_part_v11));
-            let crank_accel_part_v13 = minus_slope_rocker_inv * crank_accel_part_v12;
-            let crank_accel_part_v14 = T::lit(0.3333333333333333) * crank_accel_part_v13;
-            let crank_accel_part_v15 = minus_f_coupler_passed_x * w2_coupler_z
-                - T::lit(39.24) - T::lit(8.0) * crank_accel_part_v5
-                + sin_rocker * crank_accel_part_v13
-                + f_coupler_passed_y * crank_accel_part_v9
-                - sin_crank * crank_accel_part_v14;
-            let crank_accel_part_v16 = input.torque + minus_n_coupler_z
-                + sin_crank * f_coupler_x
+                            * (sin_crank * minus_coupler_v_times_n_coupler_z
+                                + cos_crank * coupler_u_times_minus_n_coupler_z));
+            let side_1_with_slope_rocker_inv = minus_slope_rocker_inv
+                * side_1_with_rocker_accel;
+            let side_1_with_slope_rocker_inv_times_0_333 = T::lit(0.3333333333333333)
+                * side_1_with_slope_rocker_inv;
+            let side_1_with_f_coupler_passed_x = minus_f_coupler_passed_x * w2_coupler_z
+                - T::lit(39.24) - T::lit(8.0) * side_1_with_sin_crank_times_coupler_u
+                + sin_rocker * side_1_with_slope_rocker_inv
+                + f_coupler_passed_y * coupler_gap_accel_with_v_times_0_0816
+                - sin_crank * side_1_with_slope_rocker_inv_times_0_333;
+            let side_1 = input.torque + minus_n_coupler_z + sin_crank * f_coupler_x
                 + sin_crank
-                    * (accel_part * crank_accel_part_v14
-                        - cos_rocker * crank_accel_part_v13)
-                + cos_crank * crank_accel_part_v15
+                    * (minus_rocker_a * side_1_with_slope_rocker_inv_times_0_333
+                        - cos_rocker * side_1_with_slope_rocker_inv)
+                + cos_crank * side_1_with_f_coupler_passed_x
                 - T::lit(0.08163265306122448)
-                    * (pivot_1_part_v2 * crank_accel_part_v11
-                        + pivot_1_part_v5 * crank_accel_part_v10);
-            let pivot_1_part_v7 = cos_crank * f_coupler_passed_y
+                    * (pivot_1_with_cos_crank * coupler_u_times_minus_n_coupler_z
+                        + minus_coupler_v * minus_coupler_v_times_n_coupler_z);
+            let pivot_1_with_f_coupler_passed_y = cos_crank * f_coupler_passed_y
                 + sin_crank * minus_f_coupler_passed_x;
-            let pivot_1_part_v8 = minus_slope_rocker_inv
-                * (sin_crank * pivot_1_part_v6 - pivot_1_part_v4);
-            let m_1_2 = T::lit(13.355) + pivot_1_part_v7;
-            let pivot_1_part_v9 = sin_rocker * pivot_1_part_v8;
-            let pivot_1_part_v10 = cos_rocker * pivot_1_part_v8;
-            let pivot_1_part_v11 = T::lit(0.2857142857142857) * pivot_1_part_v5
-                * (pivot_1_part_v5
+            let pivot_1_with_slope_rocker_inv = minus_slope_rocker_inv
+                * (sin_crank * cos_rocker_times_3_plus_4_times_0_333
+                    - cos_crank_times_sin_rocker);
+            let m_1_2 = T::lit(13.355) + pivot_1_with_f_coupler_passed_y;
+            let pivot_1_with_sin_rocker = sin_rocker * pivot_1_with_slope_rocker_inv;
+            let pivot_1_with_cos_rocker = cos_rocker * pivot_1_with_slope_rocker_inv;
+            let pivot_1_with_coupler_v = T::lit(0.2857142857142857) * minus_coupler_v
+                * (minus_coupler_v
                     + T::lit(3.0)
-                        * (cos_crank * pivot_1_part_v9 - sin_crank * pivot_1_part_v10))
-                + T::lit(0.2857142857142857) * pivot_1_part_v3
-                    * (pivot_1_part_v2
+                        * (cos_crank * pivot_1_with_sin_rocker
+                            - sin_crank * pivot_1_with_cos_rocker))
+                + T::lit(0.2857142857142857) * coupler_u
+                    * (pivot_1_with_cos_crank
                         - T::lit(3.0)
-                            * (sin_crank * pivot_1_part_v9
-                                + cos_crank * pivot_1_part_v10));
-            let pivot_1 = T::lit(17.188333333333333) + T::lit(2.0) * pivot_1_part_v7
-                + T::lit(9.0) * pivot_1_part_v8 * pivot_1_part_v8
+                            * (sin_crank * pivot_1_with_sin_rocker
+                                + cos_crank * pivot_1_with_cos_rocker));
+            let pivot_1 = T::lit(17.188333333333333)
+                + T::lit(2.0) * pivot_1_with_f_coupler_passed_y
+                + T::lit(9.0) * pivot_1_with_slope_rocker_inv
+                    * pivot_1_with_slope_rocker_inv
                 - T::lit(0.2857142857142857)
-                    * (m_1_2 * pivot_1_part_v11
-                        + pivot_1_part_v11
-                            * (m_1_2 - T::lit(3.815714285714286) * pivot_1_part_v11));
+                    * (m_1_2 * pivot_1_with_coupler_v
+                        + pivot_1_with_coupler_v
+                            * (m_1_2
+                                - T::lit(3.815714285714286) * pivot_1_with_coupler_v));
             Velocity {
-                crank: crank_accel_part_v16 / pivot_1,
+                crank: side_1 / pivot_1,
             }
         }
         /// Efforts that the accelerations `accel` need beside all declared forces.
@@ -439,136 +462,158 @@ pub mod four_bar {
             let q = &state.q;
             let v = &state.v;
             let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
-            let crank_effort_part = cos_crank - T::lit(4.0);
-            let rocker_part = crank_effort_part * crank_effort_part
-                + sin_crank * sin_crank;
-            let rocker_part_v2 = T::lit(1.0) / rocker_part;
-            let rocker_part_v3 = T::lit(0.16666666666666666) * rocker_part
+            let minus_rocker_a = cos_crank - T::lit(4.0);
+            let rocker_d = minus_rocker_a * minus_rocker_a + sin_crank * sin_crank;
+            let rocker_d_inv = T::lit(1.0) / rocker_d;
+            let minus_rocker_c = T::lit(0.16666666666666666) * rocker_d
                 - T::lit(0.5416666666666666);
-            let root_rocker = Real::sqrt(rocker_part - rocker_part_v3 * rocker_part_v3);
-            let cos_rocker = rocker_part_v2
-                * (crank_effort_part * rocker_part_v3 + sin_crank * root_rocker);
-            let u_coupler_xy_part = T::lit(3.0) * cos_rocker;
-            let crank_effort_part_v2 = T::lit(4.0) + u_coupler_xy_part;
-            let sin_rocker = rocker_part_v2
-                * (sin_crank * rocker_part_v3 - crank_effort_part * root_rocker);
-            let w2_coupler_z_part = T::lit(3.0) * sin_crank;
-            let crank_effort_part_v3 = cos_crank * crank_effort_part_v2
-                + sin_rocker * w2_coupler_z_part;
-            let crank_effort_part_v4 = crank_effort_part_v3 - T::lit(1.0);
-            let w2_coupler_z_part_v2 = T::lit(3.0) * cos_crank;
-            let crank_effort_part_v5 = sin_crank * crank_effort_part_v2
-                - sin_rocker * w2_coupler_z_part_v2;
-            let crank_effort_part_v6 = cos_crank * crank_effort_part_v4
-                + sin_crank * crank_effort_part_v5;
-            let crank_effort_part_v7 = sin_crank * crank_effort_part_v4
-                - cos_crank * crank_effort_part_v5;
-            let f_coupler_x_part = cos_crank
-                - T::lit(0.5714285714285714) * crank_effort_part_v7;
-            let crank_effort_part_v8 = sin_crank
-                + T::lit(0.5714285714285714) * crank_effort_part_v6;
-            let crank_effort_part_v9 = Real::sqrt(
-                f_coupler_x_part * f_coupler_x_part
-                    + crank_effort_part_v8 * crank_effort_part_v8,
+            let root_rocker = Real::sqrt(rocker_d - minus_rocker_c * minus_rocker_c);
+            let cos_rocker = rocker_d_inv
+                * (minus_rocker_a * minus_rocker_c + sin_crank * root_rocker);
+            let cos_rocker_times_3 = T::lit(3.0) * cos_rocker;
+            let cos_rocker_times_3_plus_4 = T::lit(4.0) + cos_rocker_times_3;
+            let sin_rocker = rocker_d_inv
+                * (sin_crank * minus_rocker_c - minus_rocker_a * root_rocker);
+            let sin_crank_times_3 = T::lit(3.0) * sin_crank;
+            let crank_effort_with_cos_crank = cos_crank * cos_rocker_times_3_plus_4
+                + sin_rocker * sin_crank_times_3;
+            let coupler_u = crank_effort_with_cos_crank - T::lit(1.0);
+            let cos_crank_times_3 = T::lit(3.0) * cos_crank;
+            let minus_coupler_v = sin_crank * cos_rocker_times_3_plus_4
+                - sin_rocker * cos_crank_times_3;
+            let crank_effort_with_coupler_u = cos_crank * coupler_u
+                + sin_crank * minus_coupler_v;
+            let crank_effort_with_sin_crank = sin_crank * coupler_u
+                - cos_crank * minus_coupler_v;
+            let f_coupler_x_with_cos_crank = cos_crank
+                - T::lit(0.5714285714285714) * crank_effort_with_sin_crank;
+            let crank_effort_with_coupler_v = sin_crank
+                + T::lit(0.5714285714285714) * crank_effort_with_coupler_u;
+            let crank_effort_with_cos_crank_and_sin_crank = Real::sqrt(
+                f_coupler_x_with_cos_crank * f_coupler_x_with_cos_crank
+                    + crank_effort_with_coupler_v * crank_effort_with_coupler_v,
             );
-            let crank_effort_part_v10 = (crank_effort_part_v9 - T::lit(0.5))
-                / crank_effort_part_v9;
-            let f_coupler_x_part_v2 = f_coupler_x_part * crank_effort_part_v10;
-            let crank_effort_part_v11 = crank_effort_part_v8 * crank_effort_part_v10;
+            let crank_effort_with_cos_crank_and_coupler_u = (crank_effort_with_cos_crank_and_sin_crank
+                - T::lit(0.5)) / crank_effort_with_cos_crank_and_sin_crank;
+            let f_coupler_x_with_sin_crank = f_coupler_x_with_cos_crank
+                * crank_effort_with_cos_crank_and_coupler_u;
+            let crank_effort_with_sin_crank_and_cos_crank = crank_effort_with_coupler_v
+                * crank_effort_with_cos_crank_and_coupler_u;
             let minus_slope_rocker_inv = T::lit(1.0) / root_rocker;
-            let rocker_part_v4 = v.crank * sin_crank;
-            let rocker_part_v5 = v.crank * cos_crank;
+            let crank_rate_times_sin_crank = v.crank * sin_crank;
+            let crank_rate_times_cos_crank = v.crank * cos_crank;
             let minus_rocker_rate = minus_slope_rocker_inv
                 * (T::lit(0.3333333333333333)
-                    * (crank_effort_part * rocker_part_v4 - sin_crank * rocker_part_v5)
-                    + sin_rocker * rocker_part_v5 - cos_rocker * rocker_part_v4);
-            let w2_coupler_z_part_v3 = sin_rocker * minus_rocker_rate;
-            let w2_coupler_z_part_v4 = cos_rocker * minus_rocker_rate;
-            let w2_coupler_z_part_v5 = w2_coupler_z_part_v3 * w2_coupler_z_part
-                + w2_coupler_z_part_v4 * w2_coupler_z_part_v2;
-            let u_coupler_xy_part_v2 = minus_rocker_rate * w2_coupler_z_part_v4;
-            let minus_a_coupler_x = accel.crank * sin_crank + v.crank * rocker_part_v5;
-            let a_coupler_y_part = accel.crank * cos_crank - v.crank * rocker_part_v4;
-            let u_coupler_xy_part_v3 = minus_rocker_rate * w2_coupler_z_part_v3;
-            let rocker_accel_part = T::lit(0.3333333333333333)
-                * (crank_effort_part * minus_a_coupler_x - sin_crank * a_coupler_y_part
-                    - rocker_part_v4 * rocker_part_v4 - rocker_part_v5 * rocker_part_v5)
-                - cos_rocker * minus_a_coupler_x + sin_rocker * a_coupler_y_part
-                - crank_effort_part * u_coupler_xy_part_v2
-                - sin_crank * u_coupler_xy_part_v3
+                    * (minus_rocker_a * crank_rate_times_sin_crank
+                        - sin_crank * crank_rate_times_cos_crank)
+                    + sin_rocker * crank_rate_times_cos_crank
+                    - cos_rocker * crank_rate_times_sin_crank);
+            let sin_rocker_times_minus_rocker_rate = sin_rocker * minus_rocker_rate;
+            let cos_rocker_times_minus_rocker_rate = cos_rocker * minus_rocker_rate;
+            let w2_coupler_z_with_sin_rocker = sin_rocker_times_minus_rocker_rate
+                * sin_crank_times_3
+                + cos_rocker_times_minus_rocker_rate * cos_crank_times_3;
+            let u_coupler_xy_with_rocker_rate = minus_rocker_rate
+                * cos_rocker_times_minus_rocker_rate;
+            let minus_a_coupler_x = accel.crank * sin_crank
+                + v.crank * crank_rate_times_cos_crank;
+            let a_coupler_y_with_crank_accel = accel.crank * cos_crank
+                - v.crank * crank_rate_times_sin_crank;
+            let u_coupler_xy_with_sin_rocker = minus_rocker_rate
+                * sin_rocker_times_minus_rocker_rate;
+            let minus_rocker_gap_accel = T::lit(0.3333333333333333)
+                * (minus_rocker_a * minus_a_coupler_x
+                    - sin_crank * a_coupler_y_with_crank_accel
+                    - crank_rate_times_sin_crank * crank_rate_times_sin_crank
+                    - crank_rate_times_cos_crank * crank_rate_times_cos_crank)
+                - cos_rocker * minus_a_coupler_x
+                + sin_rocker * a_coupler_y_with_crank_accel
+                - minus_rocker_a * u_coupler_xy_with_rocker_rate
+                - sin_crank * u_coupler_xy_with_sin_rocker
                 - T::lit(2.0)
-                    * (rocker_part_v4 * w2_coupler_z_part_v3
-                        + rocker_part_v5 * w2_coupler_z_part_v4);
-            let minus_rocker_accel = minus_slope_rocker_inv * rocker_accel_part;
-            let u_coupler_xy_part_v4 = T::lit(3.0) * sin_rocker * minus_rocker_accel
-                - T::lit(3.0) * u_coupler_xy_part_v2;
-            let u_coupler_xy_part_v5 = T::lit(3.0) * u_coupler_xy_part_v3
-                + minus_rocker_accel * u_coupler_xy_part;
-            let w2_coupler_z_part_v6 = v.crank * crank_effort_part_v3
-                + w2_coupler_z_part_v5;
-            let u_coupler_xy_part_v6 = crank_effort_part_v5
-                * (v.crank * w2_coupler_z_part_v5 - cos_crank * u_coupler_xy_part_v4
-                    + sin_crank * u_coupler_xy_part_v5
-                    + accel.crank * crank_effort_part_v5
-                    + v.crank * w2_coupler_z_part_v6);
-            let w2_coupler_z_part_v7 = w2_coupler_z_part_v3 * w2_coupler_z_part_v2
-                - w2_coupler_z_part_v4 * w2_coupler_z_part;
-            let w2_coupler_z_part_v8 = v.crank * crank_effort_part_v5
-                - w2_coupler_z_part_v7;
-            let u_coupler_xy_part_v7 = crank_effort_part_v4
-                * (v.crank * w2_coupler_z_part_v7 + sin_crank * u_coupler_xy_part_v4
-                    + cos_crank * u_coupler_xy_part_v5
-                    + accel.crank * crank_effort_part_v3
-                    - v.crank * w2_coupler_z_part_v8);
+                    * (crank_rate_times_sin_crank * sin_rocker_times_minus_rocker_rate
+                        + crank_rate_times_cos_crank
+                            * cos_rocker_times_minus_rocker_rate);
+            let minus_rocker_accel = minus_slope_rocker_inv * minus_rocker_gap_accel;
+            let u_coupler_xy_with_rocker_accel = T::lit(3.0) * sin_rocker
+                * minus_rocker_accel - T::lit(3.0) * u_coupler_xy_with_rocker_rate;
+            let u_coupler_xy_with_cos_rocker = T::lit(3.0) * u_coupler_xy_with_sin_rocker
+                + minus_rocker_accel * cos_rocker_times_3;
+            let w2_coupler_z_with_crank_rate = v.crank * crank_effort_with_cos_crank
+                + w2_coupler_z_with_sin_rocker;
+            let u_coupler_xy_with_coupler_v = minus_coupler_v
+                * (v.crank * w2_coupler_z_with_sin_rocker
+                    - cos_crank * u_coupler_xy_with_rocker_accel
+                    + sin_crank * u_coupler_xy_with_cos_rocker
+                    + accel.crank * minus_coupler_v
+                    + v.crank * w2_coupler_z_with_crank_rate);
+            let w2_coupler_z_with_rocker_rate = sin_rocker_times_minus_rocker_rate
+                * cos_crank_times_3
+                - cos_rocker_times_minus_rocker_rate * sin_crank_times_3;
+            let w2_coupler_z_with_coupler_v = v.crank * minus_coupler_v
+                - w2_coupler_z_with_rocker_rate;
+            let u_coupler_xy_with_coupler_u = coupler_u
+                * (v.crank * w2_coupler_z_with_rocker_rate
+                    + sin_crank * u_coupler_xy_with_rocker_accel
+                    + cos_crank * u_coupler_xy_with_cos_rocker
+                    + accel.crank * crank_effort_with_cos_crank
+                    - v.crank * w2_coupler_z_with_coupler_v);
             let minus_u_coupler_xy = accel.crank
                 - T::lit(0.08163265306122448)
-                    * (u_coupler_xy_part_v6 + u_coupler_xy_part_v7);
-            let a_coupler_y = T::lit(9.81) + a_coupler_y_part;
-            let crank_effort_part_v12 = T::lit(1.7) * crank_effort_part_v6
-                - T::lit(0.2) * crank_effort_part_v7;
-            let crank_effort_part_v13 = T::lit(0.2) * crank_effort_part_v6
-                + T::lit(1.7) * crank_effort_part_v7;
+                    * (u_coupler_xy_with_coupler_v + u_coupler_xy_with_coupler_u);
+            let a_coupler_y = T::lit(9.81) + a_coupler_y_with_crank_accel;
+            let crank_effort_with_cos_crank_and_coupler_v = T::lit(1.7)
+                * crank_effort_with_coupler_u
+                - T::lit(0.2) * crank_effort_with_sin_crank;
+            let crank_effort_with_coupler_u_and_sin_crank = T::lit(0.2)
+                * crank_effort_with_coupler_u
+                + T::lit(1.7) * crank_effort_with_sin_crank;
             let minus_n_coupler_z = T::lit(4.571428571428571)
-                * (crank_effort_part_v6 * f_coupler_x_part_v2
-                    + crank_effort_part_v7 * crank_effort_part_v11)
+                * (crank_effort_with_coupler_u * f_coupler_x_with_sin_crank
+                    + crank_effort_with_sin_crank
+                        * crank_effort_with_sin_crank_and_cos_crank)
                 - T::lit(13.355) * minus_u_coupler_xy
-                - a_coupler_y * crank_effort_part_v12
-                - minus_a_coupler_x * crank_effort_part_v13;
-            let w2_coupler_z_part_v9 = v.crank
+                - a_coupler_y * crank_effort_with_cos_crank_and_coupler_v
+                - minus_a_coupler_x * crank_effort_with_coupler_u_and_sin_crank;
+            let w2_coupler_z_with_coupler_u = v.crank
                 - T::lit(0.08163265306122448)
-                    * (crank_effort_part_v4 * w2_coupler_z_part_v6
-                        + crank_effort_part_v5 * w2_coupler_z_part_v8);
-            let w2_coupler_z = w2_coupler_z_part_v9 * w2_coupler_z_part_v9;
-            let f_coupler_x = T::lit(8.0) * f_coupler_x_part_v2
-                - crank_effort_part_v12 * w2_coupler_z
-                - crank_effort_part_v13 * minus_u_coupler_xy;
-            let crank_effort_part_v14 = crank_effort_part_v5 * minus_n_coupler_z;
-            let crank_effort_part_v15 = crank_effort_part_v4 * minus_n_coupler_z;
-            let crank_effort_part_v16 = T::lit(0.24489795918367346) * sin_rocker
-                * (cos_crank * crank_effort_part_v14 - sin_crank * crank_effort_part_v15)
+                    * (coupler_u * w2_coupler_z_with_crank_rate
+                        + minus_coupler_v * w2_coupler_z_with_coupler_v);
+            let w2_coupler_z = w2_coupler_z_with_coupler_u * w2_coupler_z_with_coupler_u;
+            let f_coupler_x = T::lit(8.0) * f_coupler_x_with_sin_crank
+                - crank_effort_with_cos_crank_and_coupler_v * w2_coupler_z
+                - crank_effort_with_coupler_u_and_sin_crank * minus_u_coupler_xy;
+            let minus_coupler_v_times_n_coupler_z = minus_coupler_v * minus_n_coupler_z;
+            let coupler_u_times_minus_n_coupler_z = coupler_u * minus_n_coupler_z;
+            let crank_effort_with_sin_rocker = T::lit(0.24489795918367346) * sin_rocker
+                * (cos_crank * minus_coupler_v_times_n_coupler_z
+                    - sin_crank * coupler_u_times_minus_n_coupler_z)
                 - T::lit(9.0) * minus_rocker_accel
                 + cos_rocker
                     * (T::lit(44.145)
                         - T::lit(0.24489795918367346)
-                            * (sin_crank * crank_effort_part_v14
-                                + cos_crank * crank_effort_part_v15));
-            let crank_effort_part_v17 = minus_slope_rocker_inv * crank_effort_part_v16;
-            let crank_effort_part_v18 = T::lit(0.3333333333333333)
-                * crank_effort_part_v17;
-            let crank_effort_part_v19 = crank_effort_part_v13 * w2_coupler_z
-                - T::lit(39.24) - T::lit(8.0) * crank_effort_part_v11
-                - crank_effort_part_v12 * minus_u_coupler_xy
-                + sin_rocker * crank_effort_part_v17 - sin_crank * crank_effort_part_v18;
+                            * (sin_crank * minus_coupler_v_times_n_coupler_z
+                                + cos_crank * coupler_u_times_minus_n_coupler_z));
+            let crank_effort_with_slope_rocker_inv = minus_slope_rocker_inv
+                * crank_effort_with_sin_rocker;
+            let crank_effort_with_rocker_accel = T::lit(0.3333333333333333)
+                * crank_effort_with_slope_rocker_inv;
+            let crank_effort_with_w2_coupler_z = crank_effort_with_coupler_u_and_sin_crank
+                * w2_coupler_z - T::lit(39.24)
+                - T::lit(8.0) * crank_effort_with_sin_crank_and_cos_crank
+                - crank_effort_with_cos_crank_and_coupler_v * minus_u_coupler_xy
+                + sin_rocker * crank_effort_with_slope_rocker_inv
+                - sin_crank * crank_effort_with_rocker_accel;
             let minus_crank_effort = input.torque
                 - T::lit(3.8333333333333335) * accel.crank + minus_n_coupler_z
                 + sin_crank * f_coupler_x
                 + sin_crank
-                    * (crank_effort_part * crank_effort_part_v18
-                        - cos_rocker * crank_effort_part_v17)
-                + cos_crank * crank_effort_part_v19
+                    * (minus_rocker_a * crank_effort_with_rocker_accel
+                        - cos_rocker * crank_effort_with_slope_rocker_inv)
+                + cos_crank * crank_effort_with_w2_coupler_z
                 - T::lit(0.08163265306122448)
-                    * (crank_effort_part_v3 * crank_effort_part_v15
-                        + crank_effort_part_v5 * crank_effort_part_v14);
+                    * (crank_effort_with_cos_crank * coupler_u_times_minus_n_coupler_z
+                        + minus_coupler_v * minus_coupler_v_times_n_coupler_z);
             Velocity {
                 crank: -minus_crank_effort,
             }
@@ -584,50 +629,53 @@ pub mod four_bar {
             q: &Position<T>,
         ) -> ::multibody::nalgebra::SMatrix<T, 1, 1> {
             let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
-            let mass_matrix_0_part = cos_crank - T::lit(4.0);
-            let rocker_part = mass_matrix_0_part * mass_matrix_0_part
-                + sin_crank * sin_crank;
-            let rocker_part_v2 = T::lit(1.0) / rocker_part;
-            let rocker_part_v3 = T::lit(0.16666666666666666) * rocker_part
+            let minus_rocker_a = cos_crank - T::lit(4.0);
+            let rocker_d = minus_rocker_a * minus_rocker_a + sin_crank * sin_crank;
+            let rocker_d_inv = T::lit(1.0) / rocker_d;
+            let minus_rocker_c = T::lit(0.16666666666666666) * rocker_d
                 - T::lit(0.5416666666666666);
-            let root_rocker = Real::sqrt(rocker_part - rocker_part_v3 * rocker_part_v3);
-            let cos_rocker = rocker_part_v2
-                * (mass_matrix_0_part * rocker_part_v3 + sin_crank * root_rocker);
-            let mass_matrix_0_part_v2 = T::lit(4.0) + T::lit(3.0) * cos_rocker;
-            let sin_rocker = rocker_part_v2
-                * (sin_crank * rocker_part_v3 - mass_matrix_0_part * root_rocker);
-            let mass_matrix_0_part_v3 = cos_crank * sin_rocker;
-            let mass_matrix_0_part_v4 = sin_crank * mass_matrix_0_part_v2
-                - T::lit(3.0) * mass_matrix_0_part_v3;
-            let mass_matrix_0_part_v5 = cos_crank * mass_matrix_0_part_v2
+            let root_rocker = Real::sqrt(rocker_d - minus_rocker_c * minus_rocker_c);
+            let cos_rocker = rocker_d_inv
+                * (minus_rocker_a * minus_rocker_c + sin_crank * root_rocker);
+            let cos_rocker_times_3_plus_4 = T::lit(4.0) + T::lit(3.0) * cos_rocker;
+            let sin_rocker = rocker_d_inv
+                * (sin_crank * minus_rocker_c - minus_rocker_a * root_rocker);
+            let cos_crank_times_sin_rocker = cos_crank * sin_rocker;
+            let minus_coupler_v = sin_crank * cos_rocker_times_3_plus_4
+                - T::lit(3.0) * cos_crank_times_sin_rocker;
+            let mass_matrix_0_with_cos_crank = cos_crank * cos_rocker_times_3_plus_4
                 + T::lit(3.0) * sin_crank * sin_rocker;
-            let mass_matrix_0_part_v6 = mass_matrix_0_part_v5 - T::lit(1.0);
-            let f_coupler_passed_y = T::lit(0.2) * mass_matrix_0_part_v4
-                + T::lit(1.7) * mass_matrix_0_part_v6;
-            let mass_matrix_0_part_v7 = (mass_matrix_0_part_v3
+            let coupler_u = mass_matrix_0_with_cos_crank - T::lit(1.0);
+            let f_coupler_passed_y = T::lit(0.2) * minus_coupler_v
+                + T::lit(1.7) * coupler_u;
+            let mass_matrix_0_with_sin_crank = (cos_crank_times_sin_rocker
                 + T::lit(0.3333333333333333)
-                    * (sin_crank * mass_matrix_0_part - cos_crank * sin_crank)
+                    * (sin_crank * minus_rocker_a - cos_crank * sin_crank)
                 - sin_crank * cos_rocker) / root_rocker;
             let m_1_2 = T::lit(13.355) + f_coupler_passed_y;
-            let mass_matrix_0_part_v8 = sin_rocker * mass_matrix_0_part_v7;
-            let mass_matrix_0_part_v9 = cos_rocker * mass_matrix_0_part_v7;
-            let mass_matrix_0_part_v10 = T::lit(0.2857142857142857)
-                * mass_matrix_0_part_v4
-                * (mass_matrix_0_part_v4
+            let mass_matrix_0_with_sin_rocker = sin_rocker
+                * mass_matrix_0_with_sin_crank;
+            let mass_matrix_0_with_cos_rocker = cos_rocker
+                * mass_matrix_0_with_sin_crank;
+            let mass_matrix_0_with_coupler_v = T::lit(0.2857142857142857)
+                * minus_coupler_v
+                * (minus_coupler_v
                     - T::lit(3.0)
-                        * (cos_crank * mass_matrix_0_part_v8
-                            - sin_crank * mass_matrix_0_part_v9))
-                + T::lit(0.2857142857142857) * mass_matrix_0_part_v6
-                    * (mass_matrix_0_part_v5
+                        * (cos_crank * mass_matrix_0_with_sin_rocker
+                            - sin_crank * mass_matrix_0_with_cos_rocker))
+                + T::lit(0.2857142857142857) * coupler_u
+                    * (mass_matrix_0_with_cos_crank
                         + T::lit(3.0)
-                            * (sin_crank * mass_matrix_0_part_v8
-                                + cos_crank * mass_matrix_0_part_v9));
+                            * (sin_crank * mass_matrix_0_with_sin_rocker
+                                + cos_crank * mass_matrix_0_with_cos_rocker));
             let minus_mass_matrix_0 = T::lit(0.2857142857142857)
-                * (m_1_2 * mass_matrix_0_part_v10
-                    + mass_matrix_0_part_v10
-                        * (m_1_2 - T::lit(3.815714285714286) * mass_matrix_0_part_v10))
+                * (m_1_2 * mass_matrix_0_with_coupler_v
+                    + mass_matrix_0_with_coupler_v
+                        * (m_1_2
+                            - T::lit(3.815714285714286) * mass_matrix_0_with_coupler_v))
                 - T::lit(17.188333333333333) - T::lit(2.0) * f_coupler_passed_y
-                - T::lit(9.0) * mass_matrix_0_part_v7 * mass_matrix_0_part_v7;
+                - T::lit(9.0) * mass_matrix_0_with_sin_crank
+                    * mass_matrix_0_with_sin_crank;
             ::multibody::nalgebra::SMatrix::from([[-minus_mass_matrix_0]])
         }
         /// The efforts at zero acceleration, `bias` of `M * accel + bias = effort`; declared forces and gravity are in it.
@@ -645,131 +693,150 @@ pub mod four_bar {
             let q = &state.q;
             let v = &state.v;
             let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
-            let crank_effort_part = cos_crank - T::lit(4.0);
-            let rocker_part = crank_effort_part * crank_effort_part
-                + sin_crank * sin_crank;
-            let rocker_part_v2 = T::lit(1.0) / rocker_part;
-            let rocker_part_v3 = T::lit(0.16666666666666666) * rocker_part
+            let minus_rocker_a = cos_crank - T::lit(4.0);
+            let rocker_d = minus_rocker_a * minus_rocker_a + sin_crank * sin_crank;
+            let rocker_d_inv = T::lit(1.0) / rocker_d;
+            let minus_rocker_c = T::lit(0.16666666666666666) * rocker_d
                 - T::lit(0.5416666666666666);
-            let root_rocker = Real::sqrt(rocker_part - rocker_part_v3 * rocker_part_v3);
-            let cos_rocker = rocker_part_v2
-                * (crank_effort_part * rocker_part_v3 + sin_crank * root_rocker);
-            let crank_effort_part_v2 = T::lit(3.0) * cos_rocker;
-            let rocker_accel_part = T::lit(4.0) + crank_effort_part_v2;
-            let sin_rocker = rocker_part_v2
-                * (sin_crank * rocker_part_v3 - crank_effort_part * root_rocker);
-            let w2_coupler_z_part = T::lit(3.0) * sin_crank;
-            let crank_effort_part_v3 = cos_crank * rocker_accel_part
-                + sin_rocker * w2_coupler_z_part;
-            let crank_effort_part_v4 = crank_effort_part_v3 - T::lit(1.0);
-            let w2_coupler_z_part_v2 = T::lit(3.0) * cos_crank;
-            let crank_effort_part_v5 = sin_crank * rocker_accel_part
-                - sin_rocker * w2_coupler_z_part_v2;
-            let crank_effort_part_v6 = cos_crank * crank_effort_part_v4
-                + sin_crank * crank_effort_part_v5;
-            let crank_effort_part_v7 = sin_crank * crank_effort_part_v4
-                - cos_crank * crank_effort_part_v5;
-            let f_coupler_x_part = cos_crank
-                - T::lit(0.5714285714285714) * crank_effort_part_v7;
-            let crank_effort_part_v8 = sin_crank
-                + T::lit(0.5714285714285714) * crank_effort_part_v6;
-            let crank_effort_part_v9 = Real::sqrt(
-                f_coupler_x_part * f_coupler_x_part
-                    + crank_effort_part_v8 * crank_effort_part_v8,
+            let root_rocker = Real::sqrt(rocker_d - minus_rocker_c * minus_rocker_c);
+            let cos_rocker = rocker_d_inv
+                * (minus_rocker_a * minus_rocker_c + sin_crank * root_rocker);
+            let cos_rocker_times_3 = T::lit(3.0) * cos_rocker;
+            let cos_rocker_times_3_plus_4 = T::lit(4.0) + cos_rocker_times_3;
+            let sin_rocker = rocker_d_inv
+                * (sin_crank * minus_rocker_c - minus_rocker_a * root_rocker);
+            let sin_crank_times_3 = T::lit(3.0) * sin_crank;
+            let crank_effort_with_cos_crank = cos_crank * cos_rocker_times_3_plus_4
+                + sin_rocker * sin_crank_times_3;
+            let coupler_u = crank_effort_with_cos_crank - T::lit(1.0);
+            let cos_crank_times_3 = T::lit(3.0) * cos_crank;
+            let minus_coupler_v = sin_crank * cos_rocker_times_3_plus_4
+                - sin_rocker * cos_crank_times_3;
+            let crank_effort_with_coupler_u = cos_crank * coupler_u
+                + sin_crank * minus_coupler_v;
+            let crank_effort_with_sin_crank = sin_crank * coupler_u
+                - cos_crank * minus_coupler_v;
+            let f_coupler_x_with_cos_crank = cos_crank
+                - T::lit(0.5714285714285714) * crank_effort_with_sin_crank;
+            let crank_effort_with_coupler_v = sin_crank
+                + T::lit(0.5714285714285714) * crank_effort_with_coupler_u;
+            let crank_effort_with_cos_crank_and_sin_crank = Real::sqrt(
+                f_coupler_x_with_cos_crank * f_coupler_x_with_cos_crank
+                    + crank_effort_with_coupler_v * crank_effort_with_coupler_v,
             );
-            let crank_effort_part_v10 = (crank_effort_part_v9 - T::lit(0.5))
-                / crank_effort_part_v9;
-            let f_coupler_x_part_v2 = f_coupler_x_part * crank_effort_part_v10;
-            let crank_effort_part_v11 = crank_effort_part_v8 * crank_effort_part_v10;
+            let crank_effort_with_cos_crank_and_coupler_u = (crank_effort_with_cos_crank_and_sin_crank
+                - T::lit(0.5)) / crank_effort_with_cos_crank_and_sin_crank;
+            let f_coupler_x_with_sin_crank = f_coupler_x_with_cos_crank
+                * crank_effort_with_cos_crank_and_coupler_u;
+            let crank_effort_with_sin_crank_and_cos_crank = crank_effort_with_coupler_v
+                * crank_effort_with_cos_crank_and_coupler_u;
             let minus_slope_rocker_inv = T::lit(1.0) / root_rocker;
-            let rocker_part_v4 = v.crank * sin_crank;
-            let rocker_part_v5 = v.crank * cos_crank;
+            let crank_rate_times_sin_crank = v.crank * sin_crank;
+            let crank_rate_times_cos_crank = v.crank * cos_crank;
             let minus_rocker_rate = minus_slope_rocker_inv
                 * (T::lit(0.3333333333333333)
-                    * (crank_effort_part * rocker_part_v4 - sin_crank * rocker_part_v5)
-                    + sin_rocker * rocker_part_v5 - cos_rocker * rocker_part_v4);
-            let w2_coupler_z_part_v3 = sin_rocker * minus_rocker_rate;
-            let w2_coupler_z_part_v4 = cos_rocker * minus_rocker_rate;
-            let w2_coupler_z_part_v5 = w2_coupler_z_part_v3 * w2_coupler_z_part
-                + w2_coupler_z_part_v4 * w2_coupler_z_part_v2;
-            let w2_coupler_z_part_v6 = v.crank * crank_effort_part_v3
-                + w2_coupler_z_part_v5;
-            let crank_effort_part_v12 = minus_rocker_rate * w2_coupler_z_part_v4;
-            let crank_effort_part_v13 = minus_rocker_rate * w2_coupler_z_part_v3;
-            let a_coupler_y_part = v.crank * rocker_part_v4;
-            let minus_a_coupler_x = v.crank * rocker_part_v5;
-            let rocker_accel_part_v2 = crank_effort_part * crank_effort_part_v12
-                + sin_crank * crank_effort_part_v13 + sin_rocker * a_coupler_y_part
-                + minus_a_coupler_x * T::lit(0.3333333333333333) * rocker_accel_part
+                    * (minus_rocker_a * crank_rate_times_sin_crank
+                        - sin_crank * crank_rate_times_cos_crank)
+                    + sin_rocker * crank_rate_times_cos_crank
+                    - cos_rocker * crank_rate_times_sin_crank);
+            let sin_rocker_times_minus_rocker_rate = sin_rocker * minus_rocker_rate;
+            let cos_rocker_times_minus_rocker_rate = cos_rocker * minus_rocker_rate;
+            let w2_coupler_z_with_sin_rocker = sin_rocker_times_minus_rocker_rate
+                * sin_crank_times_3
+                + cos_rocker_times_minus_rocker_rate * cos_crank_times_3;
+            let w2_coupler_z_with_crank_rate = v.crank * crank_effort_with_cos_crank
+                + w2_coupler_z_with_sin_rocker;
+            let gap_accel_with_rocker_rate = minus_rocker_rate
+                * cos_rocker_times_minus_rocker_rate;
+            let gap_accel_with_sin_rocker = minus_rocker_rate
+                * sin_rocker_times_minus_rocker_rate;
+            let crank_rate_times_times_sin_crank = v.crank * crank_rate_times_sin_crank;
+            let minus_a_coupler_x = v.crank * crank_rate_times_cos_crank;
+            let rocker_gap_accel = minus_rocker_a * gap_accel_with_rocker_rate
+                + sin_crank * gap_accel_with_sin_rocker
+                + sin_rocker * crank_rate_times_times_sin_crank
+                + minus_a_coupler_x * T::lit(0.3333333333333333)
+                    * cos_rocker_times_3_plus_4
                 + T::lit(2.0)
-                    * (rocker_part_v4 * w2_coupler_z_part_v3
-                        + rocker_part_v5 * w2_coupler_z_part_v4);
-            let rocker_accel = minus_slope_rocker_inv * rocker_accel_part_v2;
-            let crank_effort_part_v14 = T::lit(3.0) * crank_effort_part_v12
-                + T::lit(3.0) * sin_rocker * rocker_accel;
-            let crank_effort_part_v15 = T::lit(3.0) * crank_effort_part_v13
-                - rocker_accel * crank_effort_part_v2;
-            let w2_coupler_z_part_v7 = w2_coupler_z_part_v3 * w2_coupler_z_part_v2
-                - w2_coupler_z_part_v4 * w2_coupler_z_part;
-            let w2_coupler_z_part_v8 = v.crank * crank_effort_part_v5
-                - w2_coupler_z_part_v7;
-            let crank_effort_part_v16 = crank_effort_part_v5
-                * (v.crank * w2_coupler_z_part_v5 + v.crank * w2_coupler_z_part_v6
-                    + cos_crank * crank_effort_part_v14
-                    + sin_crank * crank_effort_part_v15)
-                - crank_effort_part_v4
-                    * (v.crank * w2_coupler_z_part_v8 - v.crank * w2_coupler_z_part_v7
-                        + sin_crank * crank_effort_part_v14
-                        - cos_crank * crank_effort_part_v15);
-            let crank_effort_part_v17 = T::lit(1.7) * crank_effort_part_v6
-                - T::lit(0.2) * crank_effort_part_v7;
-            let minus_a_coupler_y = a_coupler_y_part - T::lit(9.81);
-            let crank_effort_part_v18 = T::lit(0.2) * crank_effort_part_v6
-                + T::lit(1.7) * crank_effort_part_v7;
+                    * (crank_rate_times_sin_crank * sin_rocker_times_minus_rocker_rate
+                        + crank_rate_times_cos_crank
+                            * cos_rocker_times_minus_rocker_rate);
+            let rocker_accel = minus_slope_rocker_inv * rocker_gap_accel;
+            let coupler_gap_accel_with_sin_rocker = T::lit(3.0)
+                * gap_accel_with_rocker_rate + T::lit(3.0) * sin_rocker * rocker_accel;
+            let coupler_gap_accel_with_rocker_accel = T::lit(3.0)
+                * gap_accel_with_sin_rocker - rocker_accel * cos_rocker_times_3;
+            let w2_coupler_z_with_rocker_rate = sin_rocker_times_minus_rocker_rate
+                * cos_crank_times_3
+                - cos_rocker_times_minus_rocker_rate * sin_crank_times_3;
+            let w2_coupler_z_with_coupler_v = v.crank * minus_coupler_v
+                - w2_coupler_z_with_rocker_rate;
+            let coupler_gap_accel_with_v = minus_coupler_v
+                * (v.crank * w2_coupler_z_with_sin_rocker
+                    + v.crank * w2_coupler_z_with_crank_rate
+                    + cos_crank * coupler_gap_accel_with_sin_rocker
+                    + sin_crank * coupler_gap_accel_with_rocker_accel)
+                - coupler_u
+                    * (v.crank * w2_coupler_z_with_coupler_v
+                        - v.crank * w2_coupler_z_with_rocker_rate
+                        + sin_crank * coupler_gap_accel_with_sin_rocker
+                        - cos_crank * coupler_gap_accel_with_rocker_accel);
+            let crank_effort_with_cos_crank_and_coupler_v = T::lit(1.7)
+                * crank_effort_with_coupler_u
+                - T::lit(0.2) * crank_effort_with_sin_crank;
+            let minus_a_coupler_y = crank_rate_times_times_sin_crank - T::lit(9.81);
+            let crank_effort_with_coupler_u_and_sin_crank = T::lit(0.2)
+                * crank_effort_with_coupler_u
+                + T::lit(1.7) * crank_effort_with_sin_crank;
             let minus_n_coupler_z = T::lit(4.571428571428571)
-                * (crank_effort_part_v6 * f_coupler_x_part_v2
-                    + crank_effort_part_v7 * crank_effort_part_v11)
-                + T::lit(1.090204081632653) * crank_effort_part_v16
-                + crank_effort_part_v17 * minus_a_coupler_y
-                - minus_a_coupler_x * crank_effort_part_v18;
-            let w2_coupler_z_part_v9 = v.crank
+                * (crank_effort_with_coupler_u * f_coupler_x_with_sin_crank
+                    + crank_effort_with_sin_crank
+                        * crank_effort_with_sin_crank_and_cos_crank)
+                + T::lit(1.090204081632653) * coupler_gap_accel_with_v
+                + crank_effort_with_cos_crank_and_coupler_v * minus_a_coupler_y
+                - minus_a_coupler_x * crank_effort_with_coupler_u_and_sin_crank;
+            let w2_coupler_z_with_coupler_u = v.crank
                 - T::lit(0.08163265306122448)
-                    * (crank_effort_part_v4 * w2_coupler_z_part_v6
-                        + crank_effort_part_v5 * w2_coupler_z_part_v8);
-            let w2_coupler_z = w2_coupler_z_part_v9 * w2_coupler_z_part_v9;
-            let crank_effort_part_v19 = T::lit(0.08163265306122448)
-                * crank_effort_part_v16;
-            let f_coupler_x = T::lit(8.0) * f_coupler_x_part_v2
-                - crank_effort_part_v17 * w2_coupler_z
-                + crank_effort_part_v18 * crank_effort_part_v19;
-            let crank_effort_part_v20 = crank_effort_part_v5 * minus_n_coupler_z;
-            let crank_effort_part_v21 = crank_effort_part_v4 * minus_n_coupler_z;
-            let crank_effort_part_v22 = T::lit(9.0) * rocker_accel
+                    * (coupler_u * w2_coupler_z_with_crank_rate
+                        + minus_coupler_v * w2_coupler_z_with_coupler_v);
+            let w2_coupler_z = w2_coupler_z_with_coupler_u * w2_coupler_z_with_coupler_u;
+            let coupler_gap_accel_with_v_times_0_0816 = T::lit(0.08163265306122448)
+                * coupler_gap_accel_with_v;
+            let f_coupler_x = T::lit(8.0) * f_coupler_x_with_sin_crank
+                - crank_effort_with_cos_crank_and_coupler_v * w2_coupler_z
+                + crank_effort_with_coupler_u_and_sin_crank
+                    * coupler_gap_accel_with_v_times_0_0816;
+            let minus_coupler_v_times_n_coupler_z = minus_coupler_v * minus_n_coupler_z;
+            let coupler_u_times_minus_n_coupler_z = coupler_u * minus_n_coupler_z;
+            let crank_effort_with_rocker_accel = T::lit(9.0) * rocker_accel
                 + T::lit(0.24489795918367346) * sin_rocker
-                    * (cos_crank * crank_effort_part_v20
-                        - sin_crank * crank_effort_part_v21)
+                    * (cos_crank * minus_coupler_v_times_n_coupler_z
+                        - sin_crank * coupler_u_times_minus_n_coupler_z)
                 + cos_rocker
                     * (T::lit(44.145)
                         - T::lit(0.24489795918367346)
-                            * (sin_crank * crank_effort_part_v20
-                                + cos_crank * crank_effort_part_v21));
-            let crank_effort_part_v23 = minus_slope_rocker_inv * crank_effort_part_v22;
-            let crank_effort_part_v24 = T::lit(0.3333333333333333)
-                * crank_effort_part_v23;
-            let crank_effort_part_v25 = crank_effort_part_v18 * w2_coupler_z
-                - T::lit(39.24) - T::lit(8.0) * crank_effort_part_v11
-                + sin_rocker * crank_effort_part_v23
-                + crank_effort_part_v17 * crank_effort_part_v19
-                - sin_crank * crank_effort_part_v24;
+                            * (sin_crank * minus_coupler_v_times_n_coupler_z
+                                + cos_crank * coupler_u_times_minus_n_coupler_z));
+            let crank_effort_with_slope_rocker_inv = minus_slope_rocker_inv
+                * crank_effort_with_rocker_accel;
+            let crank_effort_with_sin_rocker = T::lit(0.3333333333333333)
+                * crank_effort_with_slope_rocker_inv;
+            let crank_effort_with_w2_coupler_z = crank_effort_with_coupler_u_and_sin_crank
+                * w2_coupler_z - T::lit(39.24)
+                - T::lit(8.0) * crank_effort_with_sin_crank_and_cos_crank
+                + sin_rocker * crank_effort_with_slope_rocker_inv
+                + crank_effort_with_cos_crank_and_coupler_v
+                    * coupler_gap_accel_with_v_times_0_0816
+                - sin_crank * crank_effort_with_sin_rocker;
             let minus_crank_effort = input.torque + minus_n_coupler_z
                 + sin_crank * f_coupler_x
                 + sin_crank
-                    * (crank_effort_part * crank_effort_part_v24
-                        - cos_rocker * crank_effort_part_v23)
-                + cos_crank * crank_effort_part_v25
+                    * (minus_rocker_a * crank_effort_with_sin_rocker
+                        - cos_rocker * crank_effort_with_slope_rocker_inv)
+                + cos_crank * crank_effort_with_w2_coupler_z
                 - T::lit(0.08163265306122448)
-                    * (crank_effort_part_v3 * crank_effort_part_v21
-                        + crank_effort_part_v5 * crank_effort_part_v20);
+                    * (crank_effort_with_cos_crank * coupler_u_times_minus_n_coupler_z
+                        + minus_coupler_v * minus_coupler_v_times_n_coupler_z);
             ::multibody::nalgebra::SVector::from([-minus_crank_effort])
         }
         /// Outputs.
@@ -782,239 +849,294 @@ pub mod four_bar {
             let q = &state.q;
             let v = &state.v;
             let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
-            let rocker_part = cos_crank - T::lit(4.0);
-            let rocker_part_v2 = rocker_part * rocker_part + sin_crank * sin_crank;
-            let rocker_part_v3 = T::lit(1.0) / rocker_part_v2;
-            let rocker_part_v4 = T::lit(0.16666666666666666) * rocker_part_v2
+            let minus_rocker_a = cos_crank - T::lit(4.0);
+            let rocker_d = minus_rocker_a * minus_rocker_a + sin_crank * sin_crank;
+            let rocker_d_inv = T::lit(1.0) / rocker_d;
+            let minus_rocker_c = T::lit(0.16666666666666666) * rocker_d
                 - T::lit(0.5416666666666666);
-            let root_rocker = Real::sqrt(
-                rocker_part_v2 - rocker_part_v4 * rocker_part_v4,
-            );
-            let cos_rocker = rocker_part_v3
-                * (rocker_part * rocker_part_v4 + sin_crank * root_rocker);
-            let multiplier_part = T::lit(3.0) * cos_rocker;
-            let coupler_part = T::lit(4.0) + multiplier_part;
-            let sin_rocker = rocker_part_v3
-                * (sin_crank * rocker_part_v4 - rocker_part * root_rocker);
-            let pivot_1_part = cos_crank * sin_rocker;
-            let sin_coupler_part = sin_crank * coupler_part - T::lit(3.0) * pivot_1_part;
-            let pivot_1_part_v2 = T::lit(0.2857142857142857) * sin_coupler_part;
-            let multiplier_part_v2 = T::lit(3.0) * sin_rocker;
-            let coupler_part_v2 = cos_crank * coupler_part
-                + sin_crank * multiplier_part_v2;
-            let cos_coupler_part = coupler_part_v2 - T::lit(1.0);
-            let pivot_1_part_v3 = T::lit(0.2857142857142857) * cos_coupler_part;
-            let energy_part = v.crank * sin_coupler_part;
+            let root_rocker = Real::sqrt(rocker_d - minus_rocker_c * minus_rocker_c);
+            let cos_rocker = rocker_d_inv
+                * (minus_rocker_a * minus_rocker_c + sin_crank * root_rocker);
+            let cos_rocker_times_3 = T::lit(3.0) * cos_rocker;
+            let cos_rocker_times_3_plus_4 = T::lit(4.0) + cos_rocker_times_3;
+            let sin_rocker = rocker_d_inv
+                * (sin_crank * minus_rocker_c - minus_rocker_a * root_rocker);
+            let cos_crank_times_sin_rocker = cos_crank * sin_rocker;
+            let minus_coupler_v = sin_crank * cos_rocker_times_3_plus_4
+                - T::lit(3.0) * cos_crank_times_sin_rocker;
+            let minus_coupler_v_times_0_286 = T::lit(0.2857142857142857)
+                * minus_coupler_v;
+            let sin_rocker_times_3 = T::lit(3.0) * sin_rocker;
+            let coupler_with_cos_crank = cos_crank * cos_rocker_times_3_plus_4
+                + sin_crank * sin_rocker_times_3;
+            let coupler_u = coupler_with_cos_crank - T::lit(1.0);
+            let coupler_u_times_0_286 = T::lit(0.2857142857142857) * coupler_u;
+            let crank_rate_times_minus_coupler_v = v.crank * minus_coupler_v;
             let minus_slope_rocker_inv = T::lit(1.0) / root_rocker;
-            let w2_crank_z_part = v.crank * sin_crank;
-            let rocker_accel_part = v.crank * cos_crank;
+            let crank_rate_times_sin_crank = v.crank * sin_crank;
+            let crank_rate_times_cos_crank = v.crank * cos_crank;
             let minus_w_rocker_z = minus_slope_rocker_inv
                 * (T::lit(0.3333333333333333)
-                    * (rocker_part * w2_crank_z_part - sin_crank * rocker_accel_part)
-                    + sin_rocker * rocker_accel_part - cos_rocker * w2_crank_z_part);
-            let accel_part = cos_rocker * minus_w_rocker_z;
-            let coupler_part_v3 = T::lit(3.0) * sin_crank;
-            let accel_part_v2 = sin_rocker * minus_w_rocker_z;
-            let coupler_part_v4 = T::lit(3.0) * cos_crank;
-            let coupler_part_v5 = accel_part_v2 * coupler_part_v4
-                - accel_part * coupler_part_v3;
-            let coupler_part_v6 = energy_part - coupler_part_v5;
-            let coupler_part_v7 = T::lit(0.08163265306122448) * sin_coupler_part;
-            let coupler_part_v8 = accel_part_v2 * coupler_part_v3
-                + accel_part * coupler_part_v4;
-            let coupler_part_v9 = v.crank * coupler_part_v2 + coupler_part_v8;
-            let coupler_part_v10 = T::lit(0.08163265306122448) * cos_coupler_part;
-            let minus_coupler_rate = coupler_part_v6 * coupler_part_v7
-                + coupler_part_v9 * coupler_part_v10;
-            let a_coupler_y_part = cos_crank * cos_coupler_part;
-            let energy_part_v2 = T::lit(0.2857142857142857) * a_coupler_y_part
-                + sin_crank * pivot_1_part_v2;
-            let a_coupler_x_part = cos_crank * sin_coupler_part;
-            let energy_part_v3 = sin_crank * pivot_1_part_v3
-                - T::lit(0.2857142857142857) * a_coupler_x_part;
-            let f_coupler_part = cos_crank - T::lit(2.0) * energy_part_v3;
-            let f_coupler_part_v2 = sin_crank + T::lit(2.0) * energy_part_v2;
-            let energy_part_v4 = Real::sqrt(
-                f_coupler_part * f_coupler_part + f_coupler_part_v2 * f_coupler_part_v2,
+                    * (minus_rocker_a * crank_rate_times_sin_crank
+                        - sin_crank * crank_rate_times_cos_crank)
+                    + sin_rocker * crank_rate_times_cos_crank
+                    - cos_rocker * crank_rate_times_sin_crank);
+            let cos_rocker_times_minus_w_rocker_z = cos_rocker * minus_w_rocker_z;
+            let sin_crank_times_3 = T::lit(3.0) * sin_crank;
+            let sin_rocker_times_minus_w_rocker_z = sin_rocker * minus_w_rocker_z;
+            let cos_crank_times_3 = T::lit(3.0) * cos_crank;
+            let coupler_with_sin_rocker = sin_rocker_times_minus_w_rocker_z
+                * cos_crank_times_3
+                - cos_rocker_times_minus_w_rocker_z * sin_crank_times_3;
+            let coupler_with_crank_rate = crank_rate_times_minus_coupler_v
+                - coupler_with_sin_rocker;
+            let minus_coupler_v_times_0_0816 = T::lit(0.08163265306122448)
+                * minus_coupler_v;
+            let coupler_with_w_rocker_z = sin_rocker_times_minus_w_rocker_z
+                * sin_crank_times_3
+                + cos_rocker_times_minus_w_rocker_z * cos_crank_times_3;
+            let coupler_with_sin_crank = v.crank * coupler_with_cos_crank
+                + coupler_with_w_rocker_z;
+            let coupler_u_times_0_0816 = T::lit(0.08163265306122448) * coupler_u;
+            let minus_coupler_rate = coupler_with_crank_rate
+                * minus_coupler_v_times_0_0816
+                + coupler_with_sin_crank * coupler_u_times_0_0816;
+            let cos_crank_times_coupler_u = cos_crank * coupler_u;
+            let energy_with_sin_crank = T::lit(0.2857142857142857)
+                * cos_crank_times_coupler_u + sin_crank * minus_coupler_v_times_0_286;
+            let cos_crank_times_minus_coupler_v = cos_crank * minus_coupler_v;
+            let energy_with_coupler_u = sin_crank * coupler_u_times_0_286
+                - T::lit(0.2857142857142857) * cos_crank_times_minus_coupler_v;
+            let f_coupler_with_cos_crank = cos_crank
+                - T::lit(2.0) * energy_with_coupler_u;
+            let sin_crank_plus_twice_energy_with_sin_crank = sin_crank
+                + T::lit(2.0) * energy_with_sin_crank;
+            let energy_with_cos_crank = Real::sqrt(
+                f_coupler_with_cos_crank * f_coupler_with_cos_crank
+                    + sin_crank_plus_twice_energy_with_sin_crank
+                        * sin_crank_plus_twice_energy_with_sin_crank,
             );
-            let energy_part_v5 = energy_part_v4 - T::lit(0.5);
-            let f_coupler_part_v3 = energy_part_v5 / energy_part_v4;
-            let f_coupler_part_v4 = f_coupler_part * f_coupler_part_v3;
-            let f_coupler_part_v5 = f_coupler_part_v2 * f_coupler_part_v3;
-            let f_coupler_x_part = energy_part_v2 * f_coupler_part_v4
-                + energy_part_v3 * f_coupler_part_v5;
-            let n_coupler_z_part = T::lit(16.0) * f_coupler_x_part;
-            let accel_part_v3 = minus_w_rocker_z * accel_part;
-            let coupler_accel_part = T::lit(3.0) * accel_part_v3;
-            let w2_crank_z_part_v2 = rocker_accel_part * rocker_accel_part;
-            let rocker_accel_part_v2 = v.crank * rocker_accel_part;
-            let rocker_accel_part_v3 = v.crank * w2_crank_z_part;
-            let accel_part_v4 = minus_w_rocker_z * accel_part_v2;
-            let rocker_accel_part_v4 = rocker_part * accel_part_v3
-                + sin_crank * accel_part_v4
+            let energy_with_cos_crank_minus_0_5 = energy_with_cos_crank - T::lit(0.5);
+            let f_coupler_with_sin_crank = energy_with_cos_crank_minus_0_5
+                / energy_with_cos_crank;
+            let f_coupler_with_cos_crank_times_sin_crank = f_coupler_with_cos_crank
+                * f_coupler_with_sin_crank;
+            let f_coupler_with_coupler_u = sin_crank_plus_twice_energy_with_sin_crank
+                * f_coupler_with_sin_crank;
+            let f_coupler_x_with_sin_crank = energy_with_sin_crank
+                * f_coupler_with_cos_crank_times_sin_crank
+                + energy_with_coupler_u * f_coupler_with_coupler_u;
+            let f_coupler_x_with_sin_crank_times_16 = T::lit(16.0)
+                * f_coupler_x_with_sin_crank;
+            let accel_with_w_rocker_z = minus_w_rocker_z
+                * cos_rocker_times_minus_w_rocker_z;
+            let accel_with_w_rocker_z_times_3 = T::lit(3.0) * accel_with_w_rocker_z;
+            let crank_rate_times_cos_crank_squared = crank_rate_times_cos_crank
+                * crank_rate_times_cos_crank;
+            let crank_rate_times_times_cos_crank = v.crank * crank_rate_times_cos_crank;
+            let crank_rate_times_times_sin_crank = v.crank * crank_rate_times_sin_crank;
+            let accel_with_sin_rocker = minus_w_rocker_z
+                * sin_rocker_times_minus_w_rocker_z;
+            let rocker_gap_accel_with_a = minus_rocker_a * accel_with_w_rocker_z
+                + sin_crank * accel_with_sin_rocker
                 + T::lit(2.0)
-                    * (w2_crank_z_part * accel_part_v2 + rocker_accel_part * accel_part);
+                    * (crank_rate_times_sin_crank * sin_rocker_times_minus_w_rocker_z
+                        + crank_rate_times_cos_crank
+                            * cos_rocker_times_minus_w_rocker_z);
             let rocker_accel = minus_slope_rocker_inv
                 * (T::lit(0.3333333333333333)
-                    * (w2_crank_z_part_v2 - rocker_part * rocker_accel_part_v2)
-                    + cos_rocker * rocker_accel_part_v2
-                    + sin_rocker * rocker_accel_part_v3 + rocker_accel_part_v4);
-            let f_coupler_part_v6 = coupler_accel_part
-                + rocker_accel * multiplier_part_v2;
-            let coupler_accel_part_v2 = T::lit(3.0) * accel_part_v4;
-            let f_coupler_part_v7 = coupler_accel_part_v2
-                - multiplier_part * rocker_accel;
-            let coupler_accel_part_v3 = v.crank * coupler_part_v8
-                + v.crank * coupler_part_v9;
-            let coupler_accel_part_v4 = v.crank * coupler_part_v5
-                - v.crank * coupler_part_v6;
-            let f_coupler_part_v8 = sin_coupler_part
-                * (cos_crank * f_coupler_part_v6 + sin_crank * f_coupler_part_v7
-                    + coupler_accel_part_v3)
-                - cos_coupler_part
-                    * (sin_crank * f_coupler_part_v6 - cos_crank * f_coupler_part_v7
-                        - coupler_accel_part_v4);
-            let w2_crank_z = w2_crank_z_part * w2_crank_z_part + w2_crank_z_part_v2;
-            let a_coupler_part = w2_crank_z - T::lit(9.81) * sin_crank;
-            let a_coupler_x_part_v2 = cos_coupler_part * a_coupler_part;
-            let a_coupler_y_part_v2 = sin_coupler_part * a_coupler_part;
-            let minus_n_coupler_z = n_coupler_z_part
-                + T::lit(1.090204081632653) * f_coupler_part_v8
+                    * (crank_rate_times_cos_crank_squared
+                        - minus_rocker_a * crank_rate_times_times_cos_crank)
+                    + cos_rocker * crank_rate_times_times_cos_crank
+                    + sin_rocker * crank_rate_times_times_sin_crank
+                    + rocker_gap_accel_with_a);
+            let coupler_gap_accel_with_rocker_accel = accel_with_w_rocker_z_times_3
+                + rocker_accel * sin_rocker_times_3;
+            let accel_with_sin_rocker_times_3 = T::lit(3.0) * accel_with_sin_rocker;
+            let coupler_gap_accel_with_w_rocker_z = accel_with_sin_rocker_times_3
+                - cos_rocker_times_3 * rocker_accel;
+            let coupler_accel_with_crank_rate = v.crank * coupler_with_w_rocker_z
+                + v.crank * coupler_with_sin_crank;
+            let coupler_accel_with_sin_rocker = v.crank * coupler_with_sin_rocker
+                - v.crank * coupler_with_crank_rate;
+            let coupler_gap_accel_with_v = minus_coupler_v
+                * (cos_crank * coupler_gap_accel_with_rocker_accel
+                    + sin_crank * coupler_gap_accel_with_w_rocker_z
+                    + coupler_accel_with_crank_rate)
+                - coupler_u
+                    * (sin_crank * coupler_gap_accel_with_rocker_accel
+                        - cos_crank * coupler_gap_accel_with_w_rocker_z
+                        - coupler_accel_with_sin_rocker);
+            let w2_crank_z = crank_rate_times_sin_crank * crank_rate_times_sin_crank
+                + crank_rate_times_cos_crank_squared;
+            let w2_crank_z_minus_sin_crank_times_9_81 = w2_crank_z
+                - T::lit(9.81) * sin_crank;
+            let a_coupler_x_with_coupler_u = coupler_u
+                * w2_crank_z_minus_sin_crank_times_9_81;
+            let a_coupler_y_with_coupler_v = minus_coupler_v
+                * w2_crank_z_minus_sin_crank_times_9_81;
+            let minus_n_coupler_z = f_coupler_x_with_sin_crank_times_16
+                + T::lit(1.090204081632653) * coupler_gap_accel_with_v
                 - T::lit(1.962)
-                    * (a_coupler_x_part
-                        + T::lit(0.1019367991845056) * a_coupler_x_part_v2)
+                    * (cos_crank_times_minus_coupler_v
+                        + T::lit(0.1019367991845056) * a_coupler_x_with_coupler_u)
                 + T::lit(16.677)
-                    * (T::lit(0.1019367991845056) * a_coupler_y_part_v2
-                        - a_coupler_y_part);
-            let multiplier_part_v3 = T::lit(44.145) * cos_rocker;
-            let dw_crank_z_part = sin_coupler_part * minus_n_coupler_z;
-            let dw_crank_z_part_v2 = cos_coupler_part * minus_n_coupler_z;
-            let dw_crank_z_part_v3 = multiplier_part_v3 + T::lit(9.0) * rocker_accel
+                    * (T::lit(0.1019367991845056) * a_coupler_y_with_coupler_v
+                        - cos_crank_times_coupler_u);
+            let cos_rocker_times_44_145 = T::lit(44.145) * cos_rocker;
+            let minus_coupler_v_times_n_coupler_z = minus_coupler_v * minus_n_coupler_z;
+            let coupler_u_times_minus_n_coupler_z = coupler_u * minus_n_coupler_z;
+            let side_1_with_rocker_accel = cos_rocker_times_44_145
+                + T::lit(9.0) * rocker_accel
                 - T::lit(0.24489795918367346)
                     * (cos_rocker
-                        * (sin_crank * dw_crank_z_part + cos_crank * dw_crank_z_part_v2)
+                        * (sin_crank * minus_coupler_v_times_n_coupler_z
+                            + cos_crank * coupler_u_times_minus_n_coupler_z)
                         - sin_rocker
-                            * (cos_crank * dw_crank_z_part
-                                - sin_crank * dw_crank_z_part_v2));
-            let dw_crank_z_part_v4 = minus_slope_rocker_inv * dw_crank_z_part_v3;
-            let dw_crank_z_part_v5 = T::lit(0.3333333333333333) * dw_crank_z_part_v4;
+                            * (cos_crank * minus_coupler_v_times_n_coupler_z
+                                - sin_crank * coupler_u_times_minus_n_coupler_z));
+            let side_1_with_slope_rocker_inv = minus_slope_rocker_inv
+                * side_1_with_rocker_accel;
+            let side_1_with_slope_rocker_inv_times_0_333 = T::lit(0.3333333333333333)
+                * side_1_with_slope_rocker_inv;
             let w_coupler_z = v.crank - minus_coupler_rate;
             let w2_coupler_z = w_coupler_z * w_coupler_z;
-            let f_coupler_x_part_v2 = T::lit(8.0) * f_coupler_x_part
+            let f_coupler_x_with_w2_coupler_z = T::lit(8.0) * f_coupler_x_with_sin_crank
                 - T::lit(5.95) * w2_coupler_z;
-            let f_coupler_x = T::lit(0.05714285714285714) * f_coupler_part_v8
-                + f_coupler_x_part_v2;
-            let f_coupler_y_part = T::lit(8.0)
-                * (energy_part_v3 * f_coupler_part_v4
-                    - energy_part_v2 * f_coupler_part_v5) + T::lit(0.7) * w2_coupler_z;
-            let minus_f_coupler_y = T::lit(0.4857142857142857) * f_coupler_part_v8
-                + f_coupler_y_part;
-            let dw_crank_z_part_v6 = input.torque + minus_n_coupler_z
+            let f_coupler_x = T::lit(0.05714285714285714) * coupler_gap_accel_with_v
+                + f_coupler_x_with_w2_coupler_z;
+            let f_coupler_y_with_w2_coupler_z = T::lit(8.0)
+                * (energy_with_coupler_u * f_coupler_with_cos_crank_times_sin_crank
+                    - energy_with_sin_crank * f_coupler_with_coupler_u)
+                + T::lit(0.7) * w2_coupler_z;
+            let minus_f_coupler_y = T::lit(0.4857142857142857) * coupler_gap_accel_with_v
+                + f_coupler_y_with_w2_coupler_z;
+            let side_1 = input.torque + minus_n_coupler_z
                 + sin_crank
-                    * (rocker_part * dw_crank_z_part_v5
-                        - cos_rocker * dw_crank_z_part_v4)
+                    * (minus_rocker_a * side_1_with_slope_rocker_inv_times_0_333
+                        - cos_rocker * side_1_with_slope_rocker_inv)
                 + cos_crank
-                    * (sin_rocker * dw_crank_z_part_v4 - T::lit(39.24)
-                        - sin_crank * dw_crank_z_part_v5)
+                    * (sin_rocker * side_1_with_slope_rocker_inv - T::lit(39.24)
+                        - sin_crank * side_1_with_slope_rocker_inv_times_0_333)
                 + T::lit(0.2857142857142857)
-                    * (sin_coupler_part * f_coupler_x
-                        + cos_coupler_part * minus_f_coupler_y)
+                    * (minus_coupler_v * f_coupler_x + coupler_u * minus_f_coupler_y)
                 - T::lit(0.08163265306122448)
-                    * (coupler_part_v2 * dw_crank_z_part_v2
-                        + sin_coupler_part * dw_crank_z_part);
-            let f_coupler_passed_y = T::lit(0.2) * sin_coupler_part
-                + T::lit(1.7) * cos_coupler_part;
-            let energy_part_v6 = sin_crank * rocker_part - cos_crank * sin_crank;
-            let pivot_1_part_v4 = minus_slope_rocker_inv
-                * (pivot_1_part + T::lit(0.3333333333333333) * energy_part_v6
+                    * (coupler_with_cos_crank * coupler_u_times_minus_n_coupler_z
+                        + minus_coupler_v * minus_coupler_v_times_n_coupler_z);
+            let f_coupler_passed_y = T::lit(0.2) * minus_coupler_v
+                + T::lit(1.7) * coupler_u;
+            let energy_with_rocker_a = sin_crank * minus_rocker_a
+                - cos_crank * sin_crank;
+            let pivot_1_with_slope_rocker_inv = minus_slope_rocker_inv
+                * (cos_crank_times_sin_rocker
+                    + T::lit(0.3333333333333333) * energy_with_rocker_a
                     - sin_crank * cos_rocker);
             let m_1_2 = T::lit(13.355) + f_coupler_passed_y;
-            let pivot_1_part_v5 = sin_rocker * pivot_1_part_v4;
-            let pivot_1_part_v6 = cos_rocker * pivot_1_part_v4;
-            let pivot_1_part_v7 = pivot_1_part_v2
-                * (sin_coupler_part
+            let pivot_1_with_sin_rocker = sin_rocker * pivot_1_with_slope_rocker_inv;
+            let pivot_1_with_cos_rocker = cos_rocker * pivot_1_with_slope_rocker_inv;
+            let pivot_1_with_coupler_v = minus_coupler_v_times_0_286
+                * (minus_coupler_v
                     - T::lit(3.0)
-                        * (cos_crank * pivot_1_part_v5 - sin_crank * pivot_1_part_v6))
-                + pivot_1_part_v3
-                    * (coupler_part_v2
+                        * (cos_crank * pivot_1_with_sin_rocker
+                            - sin_crank * pivot_1_with_cos_rocker))
+                + coupler_u_times_0_286
+                    * (coupler_with_cos_crank
                         + T::lit(3.0)
-                            * (sin_crank * pivot_1_part_v5
-                                + cos_crank * pivot_1_part_v6));
+                            * (sin_crank * pivot_1_with_sin_rocker
+                                + cos_crank * pivot_1_with_cos_rocker));
             let minus_pivot_1 = T::lit(0.2857142857142857)
-                * (m_1_2 * pivot_1_part_v7
-                    + pivot_1_part_v7
-                        * (m_1_2 - T::lit(3.815714285714286) * pivot_1_part_v7))
+                * (m_1_2 * pivot_1_with_coupler_v
+                    + pivot_1_with_coupler_v
+                        * (m_1_2 - T::lit(3.815714285714286) * pivot_1_with_coupler_v))
                 - T::lit(17.188333333333333) - T::lit(2.0) * f_coupler_passed_y
-                - T::lit(9.0) * pivot_1_part_v4 * pivot_1_part_v4;
-            let minus_dw_crank_z = dw_crank_z_part_v6 / minus_pivot_1;
-            let rocker_accel_part_v5 = rocker_accel_part_v2
+                - T::lit(9.0) * pivot_1_with_slope_rocker_inv
+                    * pivot_1_with_slope_rocker_inv;
+            let minus_dw_crank_z = side_1 / minus_pivot_1;
+            let rocker_gap_accel_with_sin_crank = crank_rate_times_times_cos_crank
                 - sin_crank * minus_dw_crank_z;
-            let rocker_accel_part_v6 = rocker_accel_part_v3
+            let rocker_gap_accel_with_cos_crank = crank_rate_times_times_sin_crank
                 + cos_crank * minus_dw_crank_z;
-            let rocker_accel_part_v7 = T::lit(0.3333333333333333)
-                * (w2_crank_z - rocker_part * rocker_accel_part_v5
-                    - sin_crank * rocker_accel_part_v6)
-                + cos_rocker * rocker_accel_part_v5 + sin_rocker * rocker_accel_part_v6
-                + rocker_accel_part_v4;
-            let rocker_accel_v2 = minus_slope_rocker_inv * rocker_accel_part_v7;
-            let coupler_accel_part_v5 = coupler_accel_part
-                + rocker_accel_v2 * multiplier_part_v2;
-            let coupler_accel_part_v6 = coupler_accel_part_v2
-                - multiplier_part * rocker_accel_v2;
-            let minus_coupler_accel = (cos_crank * coupler_accel_part_v5
-                + sin_crank * coupler_accel_part_v6 - sin_coupler_part * minus_dw_crank_z
-                + coupler_accel_part_v3) * coupler_part_v7
-                + (cos_crank * coupler_accel_part_v6 - sin_crank * coupler_accel_part_v5
-                    - coupler_part_v2 * minus_dw_crank_z + coupler_accel_part_v4)
-                    * coupler_part_v10;
-            let a_coupler_part_v2 = T::lit(9.81) * cos_crank - minus_dw_crank_z;
-            let a_coupler_x_part_v3 = a_coupler_x_part_v2
-                + sin_coupler_part * a_coupler_part_v2;
+            let rocker_gap_accel = T::lit(0.3333333333333333)
+                * (w2_crank_z - minus_rocker_a * rocker_gap_accel_with_sin_crank
+                    - sin_crank * rocker_gap_accel_with_cos_crank)
+                + cos_rocker * rocker_gap_accel_with_sin_crank
+                + sin_rocker * rocker_gap_accel_with_cos_crank + rocker_gap_accel_with_a;
+            let rocker_accel_with_slope_rocker_inv = minus_slope_rocker_inv
+                * rocker_gap_accel;
+            let coupler_accel_with_w_rocker_z = accel_with_w_rocker_z_times_3
+                + rocker_accel_with_slope_rocker_inv * sin_rocker_times_3;
+            let coupler_accel_with_cos_rocker = accel_with_sin_rocker_times_3
+                - cos_rocker_times_3 * rocker_accel_with_slope_rocker_inv;
+            let minus_coupler_accel = (cos_crank * coupler_accel_with_w_rocker_z
+                + sin_crank * coupler_accel_with_cos_rocker
+                - minus_coupler_v * minus_dw_crank_z + coupler_accel_with_crank_rate)
+                * minus_coupler_v_times_0_0816
+                + (cos_crank * coupler_accel_with_cos_rocker
+                    - sin_crank * coupler_accel_with_w_rocker_z
+                    - coupler_with_cos_crank * minus_dw_crank_z
+                    + coupler_accel_with_sin_rocker) * coupler_u_times_0_0816;
+            let a_coupler_with_cos_crank = T::lit(9.81) * cos_crank - minus_dw_crank_z;
+            let a_coupler_x_with_coupler_v = a_coupler_x_with_coupler_u
+                + minus_coupler_v * a_coupler_with_cos_crank;
             let u_coupler_xy = minus_dw_crank_z + minus_coupler_accel;
-            let a_coupler_y_part_v3 = a_coupler_y_part_v2
-                - cos_coupler_part * a_coupler_part_v2;
-            let minus_n_coupler_z_v2 = n_coupler_z_part
-                - T::lit(0.2) * a_coupler_x_part_v3 + T::lit(1.7) * a_coupler_y_part_v3
+            let a_coupler_y_with_coupler_u = a_coupler_y_with_coupler_v
+                - coupler_u * a_coupler_with_cos_crank;
+            let minus_n_coupler_z_with_u_coupler_xy = f_coupler_x_with_sin_crank_times_16
+                - T::lit(0.2) * a_coupler_x_with_coupler_v
+                + T::lit(1.7) * a_coupler_y_with_coupler_u
                 + T::lit(13.355) * u_coupler_xy;
             let ([multiplier_2, multiplier_1], _) = ::multibody::linear::solve(
                 [
-                    [(T::lit(-3.5) * energy_part_v2), (T::lit(3.5) * energy_part_v3)],
-                    [multiplier_part, -multiplier_part_v2],
+                    [
+                        (T::lit(-3.5) * energy_with_sin_crank),
+                        (T::lit(3.5) * energy_with_coupler_u),
+                    ],
+                    [cos_rocker_times_3, -sin_rocker_times_3],
                 ],
                 [
-                    minus_n_coupler_z_v2,
-                    -(multiplier_part_v3 + T::lit(9.0) * rocker_accel_v2),
+                    minus_n_coupler_z_with_u_coupler_xy,
+                    -(cos_rocker_times_44_145
+                        + T::lit(9.0) * rocker_accel_with_slope_rocker_inv),
                 ],
             );
-            let f_coupler_x_v2 = T::lit(0.7) * u_coupler_xy - a_coupler_x_part_v3
-                - energy_part_v2 * multiplier_1 - energy_part_v3 * multiplier_2
-                + f_coupler_x_part_v2;
-            let minus_f_coupler_y_v2 = a_coupler_y_part_v3 + T::lit(5.95) * u_coupler_xy
-                - energy_part_v3 * multiplier_1 + energy_part_v2 * multiplier_2
-                + f_coupler_y_part;
-            let energy_part_v7 = w2_crank_z + T::lit(3.483913043478261) * w2_coupler_z
-                + T::lit(0.10434782608695652) * energy_part * w_coupler_z
-                + T::lit(0.8869565217391304) * v.crank * cos_coupler_part * w_coupler_z
+            let f_coupler_x_with_u_coupler_xy = T::lit(0.7) * u_coupler_xy
+                - a_coupler_x_with_coupler_v - energy_with_sin_crank * multiplier_1
+                - energy_with_coupler_u * multiplier_2 + f_coupler_x_with_w2_coupler_z;
+            let minus_f_coupler_y_with_u_coupler_xy = a_coupler_y_with_coupler_u
+                + T::lit(5.95) * u_coupler_xy - energy_with_coupler_u * multiplier_1
+                + energy_with_sin_crank * multiplier_2 + f_coupler_y_with_w2_coupler_z;
+            let energy_with_w2_crank_z = w2_crank_z
+                + T::lit(3.483913043478261) * w2_coupler_z
+                + T::lit(0.10434782608695652) * crank_rate_times_minus_coupler_v
+                    * w_coupler_z
+                + T::lit(0.8869565217391304) * v.crank * coupler_u * w_coupler_z
                 + T::lit(2.347826086956522) * minus_w_rocker_z * minus_w_rocker_z;
             let minus_energy = T::lit(9.81)
-                * (energy_part_v6 - T::lit(0.7) * energy_part_v2
-                    - T::lit(5.95) * energy_part_v3) - T::lit(44.145) * sin_rocker
-                - T::lit(4.0) * energy_part_v5 * energy_part_v5
-                - T::lit(1.9166666666666667) * energy_part_v7;
+                * (energy_with_rocker_a - T::lit(0.7) * energy_with_sin_crank
+                    - T::lit(5.95) * energy_with_coupler_u) - T::lit(44.145) * sin_rocker
+                - T::lit(4.0) * energy_with_cos_crank_minus_0_5
+                    * energy_with_cos_crank_minus_0_5
+                - T::lit(1.9166666666666667) * energy_with_w2_crank_z;
             Output {
                 angles: [
                     q.crank,
-                    -Real::atan2(pivot_1_part_v2, pivot_1_part_v3),
+                    -Real::atan2(minus_coupler_v_times_0_286, coupler_u_times_0_286),
                     Real::atan2(sin_rocker, cos_rocker),
                 ],
                 rates: [v.crank, -minus_coupler_rate, -minus_w_rocker_z],
-                accels: [-minus_dw_crank_z, -minus_coupler_accel, rocker_accel_v2],
+                accels: [
+                    -minus_dw_crank_z,
+                    -minus_coupler_accel,
+                    rocker_accel_with_slope_rocker_inv,
+                ],
                 reactions: [
                     ::multibody::nalgebra::Vector3::from([
-                        (energy_part_v2 * f_coupler_x_v2
-                            + energy_part_v3 * minus_f_coupler_y_v2),
-                        (energy_part_v3 * f_coupler_x_v2
-                            - energy_part_v2 * minus_f_coupler_y_v2),
+                        (energy_with_sin_crank * f_coupler_x_with_u_coupler_xy
+                            + energy_with_coupler_u
+                                * minus_f_coupler_y_with_u_coupler_xy),
+                        (energy_with_coupler_u * f_coupler_x_with_u_coupler_xy
+                            - energy_with_sin_crank
+                                * minus_f_coupler_y_with_u_coupler_xy),
                         T::lit(0.0),
                     ]),
                     ::multibody::nalgebra::Vector3::from([
@@ -1038,15 +1160,12 @@ pub mod four_bar {
             q: &Position<T>,
         ) -> ::multibody::nalgebra::SVector<T, 1> {
             let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
-            let root_rocker_part = cos_crank - T::lit(4.0);
-            let root_rocker_part_v2 = root_rocker_part * root_rocker_part
-                + sin_crank * sin_crank;
-            let root_rocker_part_v3 = T::lit(0.16666666666666666) * root_rocker_part_v2
+            let cos_crank_minus_4 = cos_crank - T::lit(4.0);
+            let rocker_d = cos_crank_minus_4 * cos_crank_minus_4 + sin_crank * sin_crank;
+            let minus_rocker_c = T::lit(0.16666666666666666) * rocker_d
                 - T::lit(0.5416666666666666);
             ::multibody::nalgebra::SVector::from([
-                Real::sqrt(
-                    root_rocker_part_v2 - root_rocker_part_v3 * root_rocker_part_v3,
-                ),
+                Real::sqrt(rocker_d - minus_rocker_c * minus_rocker_c),
             ])
         }
         /// For integrators, at a state whose guess is the solution: how far loops are from dead centres (the root of a closed form, the determinant of what Newton's method solves), each followed by the rate of its square; then the greatest residual of Newton's method, if it closes loops.
@@ -1063,15 +1182,16 @@ pub mod four_bar {
             let q = &state.q;
             let v = &state.v;
             let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
-            let margin_1_part = cos_crank - T::lit(4.0);
-            let root_rocker_part = margin_1_part * margin_1_part + sin_crank * sin_crank;
-            let margin_1_part_v2 = T::lit(0.16666666666666666) * root_rocker_part
+            let cos_crank_minus_4 = cos_crank - T::lit(4.0);
+            let rocker_d = cos_crank_minus_4 * cos_crank_minus_4 + sin_crank * sin_crank;
+            let minus_rocker_c = T::lit(0.16666666666666666) * rocker_d
                 - T::lit(0.5416666666666666);
-            let margin_1_part_v3 = v.crank * sin_crank;
+            let crank_rate_times_sin_crank = v.crank * sin_crank;
             ::multibody::nalgebra::SVector::from([
-                Real::sqrt(root_rocker_part - margin_1_part_v2 * margin_1_part_v2),
-                (-(margin_1_part * margin_1_part_v3 - cos_crank * margin_1_part_v3)
-                    * (T::lit(2.0) - T::lit(0.6666666666666666) * margin_1_part_v2)),
+                Real::sqrt(rocker_d - minus_rocker_c * minus_rocker_c),
+                (-(cos_crank_minus_4 * crank_rate_times_sin_crank
+                    - cos_crank * crank_rate_times_sin_crank)
+                    * (T::lit(2.0) - T::lit(0.6666666666666666) * minus_rocker_c)),
             ])
         }
     }

@@ -384,13 +384,13 @@ pub mod free_body {
         #[must_use]
         pub fn new(params: &Params<T>) -> Self {
             let inverse_4 = T::lit(1.0) / params.i[0];
-            let second_free_part = params.i[0] + params.i[1] + params.i[2];
-            let minus_second_free_yy = params.i[1] - T::lit(0.5) * second_free_part;
-            let minus_second_free_zz = params.i[2] - T::lit(0.5) * second_free_part;
+            let i_0_plus_i_1_plus_i_2 = params.i[0] + params.i[1] + params.i[2];
+            let minus_second_free_yy = params.i[1] - T::lit(0.5) * i_0_plus_i_1_plus_i_2;
+            let minus_second_free_zz = params.i[2] - T::lit(0.5) * i_0_plus_i_1_plus_i_2;
             let free_angular_effort_x_factor = minus_second_free_yy
                 - minus_second_free_zz;
             let inverse_5 = T::lit(1.0) / params.i[1];
-            let minus_second_free_xx = params.i[0] - T::lit(0.5) * second_free_part;
+            let minus_second_free_xx = params.i[0] - T::lit(0.5) * i_0_plus_i_1_plus_i_2;
             let free_angular_effort_y_factor = minus_second_free_zz
                 - minus_second_free_xx;
             let inverse_6 = T::lit(1.0) / params.i[2];
@@ -457,15 +457,15 @@ pub mod free_body {
             accel: &Velocity<T>,
         ) -> Velocity<T> {
             let v = &state.v;
-            let u_free_part = v.free.angular.y * v.free.angular.z;
-            let u_free_zy = accel.free.angular.x + u_free_part;
-            let minus_u_free_yz = accel.free.angular.x - u_free_part;
-            let u_free_part_v2 = v.free.angular.x * v.free.angular.z;
-            let u_free_xz = accel.free.angular.y + u_free_part_v2;
-            let minus_u_free_zx = accel.free.angular.y - u_free_part_v2;
-            let u_free_part_v3 = v.free.angular.x * v.free.angular.y;
-            let u_free_yx = accel.free.angular.z + u_free_part_v3;
-            let minus_u_free_xy = accel.free.angular.z - u_free_part_v3;
+            let free_angular_rate_y_times_z = v.free.angular.y * v.free.angular.z;
+            let u_free_zy = accel.free.angular.x + free_angular_rate_y_times_z;
+            let minus_u_free_yz = accel.free.angular.x - free_angular_rate_y_times_z;
+            let free_angular_rate_x_times_z = v.free.angular.x * v.free.angular.z;
+            let u_free_xz = accel.free.angular.y + free_angular_rate_x_times_z;
+            let minus_u_free_zx = accel.free.angular.y - free_angular_rate_x_times_z;
+            let free_angular_rate_x_times_y = v.free.angular.x * v.free.angular.y;
+            let u_free_yx = accel.free.angular.z + free_angular_rate_x_times_y;
+            let minus_u_free_xy = accel.free.angular.z - free_angular_rate_x_times_y;
             Velocity {
                 free: ::multibody::Twist {
                     linear: ::multibody::nalgebra::Vector3::from([
@@ -578,13 +578,13 @@ pub mod free_body {
         #[must_use]
         pub fn kinetic_energy(&self, state: &State<T>) -> T {
             let v = &state.v;
-            let kinetic_energy_part = self.m * v.free.linear.x * v.free.linear.x
-                + self.m * v.free.linear.y * v.free.linear.y
+            let kinetic_energy_with_free_x_rate = self.m * v.free.linear.x
+                * v.free.linear.x + self.m * v.free.linear.y * v.free.linear.y
                 + self.m * v.free.linear.z * v.free.linear.z
                 + self.i_0 * v.free.angular.x * v.free.angular.x
                 + self.i_1 * v.free.angular.y * v.free.angular.y
                 + self.i_2 * v.free.angular.z * v.free.angular.z;
-            T::lit(0.5) * kinetic_energy_part
+            T::lit(0.5) * kinetic_energy_with_free_x_rate
         }
         /// `[J]` Potential energy: gravity's, zero at the world's origin, plus the springs'.
         ///

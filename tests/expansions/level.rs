@@ -13,18 +13,8 @@
 /// | joint | kind | parent | child | freedoms |  |
 /// |---|---|---|---|---|---|
 /// | `platform` | free | ground | `platform` | 3 of 6 |  |
-/// | `legs[0].gimbal` | universal | ground | `legs[0].cylinder` | 0 of 2 |  |
-/// | `legs[0].stroke` | prismatic | `legs[0].cylinder` | `legs[0].piston` | 0 of 1 |  |
-/// | `legs[1].gimbal` | universal | ground | `legs[1].cylinder` | 0 of 2 |  |
-/// | `legs[1].stroke` | prismatic | `legs[1].cylinder` | `legs[1].piston` | 0 of 1 |  |
-/// | `legs[2].gimbal` | universal | ground | `legs[2].cylinder` | 0 of 2 |  |
-/// | `legs[2].stroke` | prismatic | `legs[2].cylinder` | `legs[2].piston` | 0 of 1 |  |
-/// | `legs[3].gimbal` | universal | ground | `legs[3].cylinder` | 0 of 2 |  |
-/// | `legs[3].stroke` | prismatic | `legs[3].cylinder` | `legs[3].piston` | 0 of 1 |  |
-/// | `legs[4].gimbal` | universal | ground | `legs[4].cylinder` | 0 of 2 |  |
-/// | `legs[4].stroke` | prismatic | `legs[4].cylinder` | `legs[4].piston` | 0 of 1 |  |
-/// | `legs[5].gimbal` | universal | ground | `legs[5].cylinder` | 0 of 2 |  |
-/// | `legs[5].stroke` | prismatic | `legs[5].cylinder` | `legs[5].piston` | 0 of 1 |  |
+/// | `legs[_].gimbal` | universal | ground | `legs[_].cylinder` | 0 of 2 |  |
+/// | `legs[_].stroke` | prismatic | `legs[_].cylinder` | `legs[_].piston` | 0 of 1 |  |
 ///
 /// ## Inputs
 ///
@@ -44,46 +34,16 @@
 ///
 /// | closed by | kind | between | and | equations |  |
 /// |---|---|---|---|---|---|
-/// | `legs[0].ball` | ball | `legs[0].piston` | `platform` | solved |  |
-/// | `legs[1].ball` | ball | `legs[1].piston` | `platform` | solved |  |
-/// | `legs[2].ball` | ball | `legs[2].piston` | `platform` | solved |  |
-/// | `legs[3].ball` | ball | `legs[3].piston` | `platform` | solved |  |
-/// | `legs[4].ball` | ball | `legs[4].piston` | `platform` | solved |  |
-/// | `legs[5].ball` | ball | `legs[5].piston` | `platform` | solved |  |
+/// | `legs[_].ball` | ball | `legs[_].piston` | `platform` | solved |  |
 ///
 /// 3 velocity coordinates + 0 constraint equations = 3 equations.
 ///
-/// - `legs[_].gimbal.first`, `legs[_].gimbal.second`, `legs[_].stroke`: in closed form from `legs[_].ball`, where `legs[0].stroke > -1.0`, `cos(legs[0].gimbal.second) > 0.0`
-/// - `legs[_].gimbal.first`, `legs[_].gimbal.second`, `legs[_].stroke`: in closed form from `legs[_].ball`, where `legs[1].stroke > -1.0`, `cos(legs[1].gimbal.second) > 0.0`
-/// - `legs[_].gimbal.first`, `legs[_].gimbal.second`, `legs[_].stroke`: in closed form from `legs[_].ball`, where `legs[2].stroke > -1.0`, `cos(legs[2].gimbal.second) > 0.0`
-/// - `legs[_].gimbal.first`, `legs[_].gimbal.second`, `legs[_].stroke`: in closed form from `legs[_].ball`, where `legs[3].stroke > -1.0`, `cos(legs[3].gimbal.second) > 0.0`
-/// - `legs[_].gimbal.first`, `legs[_].gimbal.second`, `legs[_].stroke`: in closed form from `legs[_].ball`, where `legs[4].stroke > -1.0`, `cos(legs[4].gimbal.second) > 0.0`
-/// - `legs[_].gimbal.first`, `legs[_].gimbal.second`, `legs[_].stroke`: in closed form from `legs[_].ball`, where `legs[5].stroke > -1.0`, `cos(legs[5].gimbal.second) > 0.0`
+/// - `legs[_].gimbal.first`, `legs[_].gimbal.second`, `legs[_].stroke`: in closed form from `legs[_].ball`, where `legs[_].stroke > -1.0`, `cos(legs[_].gimbal.second) > 0.0`
 /// - `platform.orientation` is driven: `identity()`
-/// - found in closed form: `legs[0].gimbal.first`, `legs[0].gimbal.second`, `legs[0].stroke`
-/// - found in closed form: `legs[1].gimbal.first`, `legs[1].gimbal.second`, `legs[1].stroke`
-/// - found in closed form: `legs[2].gimbal.first`, `legs[2].gimbal.second`, `legs[2].stroke`
-/// - found in closed form: `legs[3].gimbal.first`, `legs[3].gimbal.second`, `legs[3].stroke`
-/// - found in closed form: `legs[4].gimbal.first`, `legs[4].gimbal.second`, `legs[4].stroke`
-/// - found in closed form: `legs[5].gimbal.first`, `legs[5].gimbal.second`, `legs[5].stroke`
-/// - `legs[0].stroke`: distance of two points: quadratic in the travel
-/// - `legs[0].gimbal.first`: distance of a point from a plane: A cos x + B sin x = 0
-/// - `legs[0].gimbal.second`: a point on both sides: (r cos x, r sin x) = (u, v)
-/// - `legs[1].stroke`: distance of two points: quadratic in the travel
-/// - `legs[1].gimbal.first`: distance of a point from a plane: A cos x + B sin x = 0
-/// - `legs[1].gimbal.second`: a point on both sides: (r cos x, r sin x) = (u, v)
-/// - `legs[2].stroke`: distance of two points: quadratic in the travel
-/// - `legs[2].gimbal.first`: distance of a point from a plane: A cos x + B sin x = 0
-/// - `legs[2].gimbal.second`: a point on both sides: (r cos x, r sin x) = (u, v)
-/// - `legs[3].stroke`: distance of two points: quadratic in the travel
-/// - `legs[3].gimbal.first`: distance of a point from a plane: A cos x + B sin x = 0
-/// - `legs[3].gimbal.second`: a point on both sides: (r cos x, r sin x) = (u, v)
-/// - `legs[4].stroke`: distance of two points: quadratic in the travel
-/// - `legs[4].gimbal.first`: distance of a point from a plane: A cos x + B sin x = 0
-/// - `legs[4].gimbal.second`: a point on both sides: (r cos x, r sin x) = (u, v)
-/// - `legs[5].stroke`: distance of two points: quadratic in the travel
-/// - `legs[5].gimbal.first`: distance of a point from a plane: A cos x + B sin x = 0
-/// - `legs[5].gimbal.second`: a point on both sides: (r cos x, r sin x) = (u, v)
+/// - found in closed form: `legs[_].gimbal.first`, `legs[_].gimbal.second`, `legs[_].stroke`
+/// - `legs[_].stroke`: distance of two points: quadratic in the travel
+/// - `legs[_].gimbal.first`: distance of a point from a plane: A cos x + B sin x = 0
+/// - `legs[_].gimbal.second`: a point on both sides: (r cos x, r sin x) = (u, v)
 ///
 /// ## Repeated parts
 ///
@@ -398,37 +358,37 @@ pub mod level {
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Model<T = f64> {
         /// `1 + legs[0].s0`
-        platform_accel_factor: T,
+        legs_0_force_factor: T,
         /// `legs[0].k`
         legs_0_k: T,
         /// `legs[0].c`
         legs_0_c: T,
         /// `1 + legs[1].s0`
-        platform_accel_factor_v2: T,
+        legs_1_force_factor: T,
         /// `legs[1].k`
         legs_1_k: T,
         /// `legs[1].c`
         legs_1_c: T,
         /// `1 + legs[2].s0`
-        platform_accel_factor_v3: T,
+        legs_2_force_factor: T,
         /// `legs[2].k`
         legs_2_k: T,
         /// `legs[2].c`
         legs_2_c: T,
         /// `1 + legs[3].s0`
-        platform_accel_factor_v4: T,
+        legs_3_force_factor: T,
         /// `legs[3].k`
         legs_3_k: T,
         /// `legs[3].c`
         legs_3_c: T,
         /// `1 + legs[4].s0`
-        platform_accel_factor_v5: T,
+        legs_4_force_factor: T,
         /// `legs[4].k`
         legs_4_k: T,
         /// `legs[4].c`
         legs_4_c: T,
         /// `1 + legs[5].s0`
-        platform_accel_factor_v6: T,
+        legs_5_force_factor: T,
         /// `legs[5].k`
         legs_5_k: T,
         /// `legs[5].c`
@@ -441,22 +401,22 @@ pub mod level {
         #[must_use]
         pub fn new(params: &Params<T>) -> Self {
             Self {
-                platform_accel_factor: T::lit(1.0) + params.legs[0].s0,
+                legs_0_force_factor: T::lit(1.0) + params.legs[0].s0,
                 legs_0_k: params.legs[0].k,
                 legs_0_c: params.legs[0].c,
-                platform_accel_factor_v2: T::lit(1.0) + params.legs[1].s0,
+                legs_1_force_factor: T::lit(1.0) + params.legs[1].s0,
                 legs_1_k: params.legs[1].k,
                 legs_1_c: params.legs[1].c,
-                platform_accel_factor_v3: T::lit(1.0) + params.legs[2].s0,
+                legs_2_force_factor: T::lit(1.0) + params.legs[2].s0,
                 legs_2_k: params.legs[2].k,
                 legs_2_c: params.legs[2].c,
-                platform_accel_factor_v4: T::lit(1.0) + params.legs[3].s0,
+                legs_3_force_factor: T::lit(1.0) + params.legs[3].s0,
                 legs_3_k: params.legs[3].k,
                 legs_3_c: params.legs[3].c,
-                platform_accel_factor_v5: T::lit(1.0) + params.legs[4].s0,
+                legs_4_force_factor: T::lit(1.0) + params.legs[4].s0,
                 legs_4_k: params.legs[4].k,
                 legs_4_c: params.legs[4].c,
-                platform_accel_factor_v6: T::lit(1.0) + params.legs[5].s0,
+                legs_5_force_factor: T::lit(1.0) + params.legs[5].s0,
                 legs_5_k: params.legs[5].k,
                 legs_5_c: params.legs[5].c,
             }
@@ -479,213 +439,231 @@ pub mod level {
             let legs_0_line_y = q.platform.y - T::lit(0.779);
             let legs_0_line_z = q.platform.z - T::lit(0.4);
             let legs_0_line_z_squared = legs_0_line_z * legs_0_line_z;
-            let legs_length_part = legs_0_line_x * legs_0_line_x + legs_0_line_z_squared;
+            let legs_0_line_x_squared_plus_z_squared = legs_0_line_x * legs_0_line_x
+                + legs_0_line_z_squared;
             let legs_0_length = Real::sqrt(
-                legs_0_line_y * legs_0_line_y + legs_length_part,
+                legs_0_line_y * legs_0_line_y + legs_0_line_x_squared_plus_z_squared,
             );
             let legs_0_length_inv = T::lit(1.0) / legs_0_length;
-            let platform_accel_part = v.platform.x * v.platform.x
+            let legs_swing_with_platform_x_rate = v.platform.x * v.platform.x
                 + v.platform.y * v.platform.y + v.platform.z * v.platform.z;
-            let legs_length_rate_part = v.platform.z * legs_0_line_z;
-            let legs_length_rate_part_v2 = v.platform.x * legs_0_line_x
-                + legs_length_rate_part;
+            let platform_z_rate_times_legs_0_line_z = v.platform.z * legs_0_line_z;
+            let legs_line_by_rate_with_platform_x_rate = v.platform.x * legs_0_line_x
+                + platform_z_rate_times_legs_0_line_z;
             let legs_0_length_rate = legs_0_length_inv
-                * (v.platform.y * legs_0_line_y + legs_length_rate_part_v2);
+                * (v.platform.y * legs_0_line_y
+                    + legs_line_by_rate_with_platform_x_rate);
             let legs_0_length_inv_squared = legs_0_length_inv * legs_0_length_inv;
-            let legs_0_part = T::lit(0.0625) * legs_0_length_inv;
-            let legs_0_swell = legs_0_part - T::lit(0.1);
-            let minus_legs_0_beta = legs_0_length_rate * (legs_0_part + legs_0_swell)
+            let legs_0_length_inv_times_0_0625 = T::lit(0.0625) * legs_0_length_inv;
+            let legs_0_swell = legs_0_length_inv_times_0_0625 - T::lit(0.1);
+            let minus_legs_0_beta = legs_0_length_rate
+                * (legs_0_length_inv_times_0_0625 + legs_0_swell)
                 * legs_0_length_inv_squared;
-            let platform_accel_part_v2 = T::lit(0.05)
-                * (platform_accel_part - legs_0_length_rate * legs_0_length_rate)
+            let minus_legs_0_force = T::lit(0.05)
+                * (legs_swing_with_platform_x_rate
+                    - legs_0_length_rate * legs_0_length_rate)
                 * legs_0_length_inv_squared - input.legs[0].thrust
-                - self.legs_0_k * (self.platform_accel_factor - legs_0_length)
+                - self.legs_0_k * (self.legs_0_force_factor - legs_0_length)
                 + legs_0_length_rate * (self.legs_0_c + minus_legs_0_beta);
-            let platform_accel_part_v3 = legs_0_length_inv * platform_accel_part_v2;
+            let minus_legs_0_force_by_length = legs_0_length_inv * minus_legs_0_force;
             let legs_1_line_x = T::lit(1.78) + q.platform.x;
             let legs_1_line_y = q.platform.y - T::lit(1.074);
-            let legs_length_part_v2 = legs_0_line_z_squared
+            let legs_length_squared_with_legs_0_line_z_squared = legs_0_line_z_squared
                 + legs_1_line_x * legs_1_line_x;
             let legs_1_length = Real::sqrt(
-                legs_1_line_y * legs_1_line_y + legs_length_part_v2,
+                legs_1_line_y * legs_1_line_y
+                    + legs_length_squared_with_legs_0_line_z_squared,
             );
             let legs_1_length_inv = T::lit(1.0) / legs_1_length;
-            let legs_length_rate_part_v3 = legs_length_rate_part
+            let legs_line_by_rate_with_legs_1_line_x = platform_z_rate_times_legs_0_line_z
                 + v.platform.x * legs_1_line_x;
             let legs_1_length_rate = legs_1_length_inv
-                * (v.platform.y * legs_1_line_y + legs_length_rate_part_v3);
+                * (v.platform.y * legs_1_line_y + legs_line_by_rate_with_legs_1_line_x);
             let legs_1_length_inv_squared = legs_1_length_inv * legs_1_length_inv;
-            let legs_1_part = T::lit(0.0625) * legs_1_length_inv;
-            let legs_1_swell = legs_1_part - T::lit(0.1);
-            let minus_legs_1_beta = legs_1_length_rate * (legs_1_part + legs_1_swell)
+            let legs_1_length_inv_times_0_0625 = T::lit(0.0625) * legs_1_length_inv;
+            let legs_1_swell = legs_1_length_inv_times_0_0625 - T::lit(0.1);
+            let minus_legs_1_beta = legs_1_length_rate
+                * (legs_1_length_inv_times_0_0625 + legs_1_swell)
                 * legs_1_length_inv_squared;
-            let platform_accel_part_v4 = T::lit(0.05)
-                * (platform_accel_part - legs_1_length_rate * legs_1_length_rate)
+            let minus_legs_1_force = T::lit(0.05)
+                * (legs_swing_with_platform_x_rate
+                    - legs_1_length_rate * legs_1_length_rate)
                 * legs_1_length_inv_squared - input.legs[1].thrust
-                - self.legs_1_k * (self.platform_accel_factor_v2 - legs_1_length)
+                - self.legs_1_k * (self.legs_1_force_factor - legs_1_length)
                 + legs_1_length_rate * (self.legs_1_c + minus_legs_1_beta);
-            let platform_accel_part_v5 = legs_1_length_inv * platform_accel_part_v4;
+            let minus_legs_1_force_by_length = legs_1_length_inv * minus_legs_1_force;
             let legs_2_line_y = T::lit(1.074) + q.platform.y;
             let legs_2_length = Real::sqrt(
-                legs_2_line_y * legs_2_line_y + legs_length_part_v2,
+                legs_2_line_y * legs_2_line_y
+                    + legs_length_squared_with_legs_0_line_z_squared,
             );
             let legs_2_length_inv = T::lit(1.0) / legs_2_length;
             let legs_2_length_rate = legs_2_length_inv
-                * (v.platform.y * legs_2_line_y + legs_length_rate_part_v3);
+                * (v.platform.y * legs_2_line_y + legs_line_by_rate_with_legs_1_line_x);
             let legs_2_length_inv_squared = legs_2_length_inv * legs_2_length_inv;
-            let legs_2_part = T::lit(0.0625) * legs_2_length_inv;
-            let legs_2_swell = legs_2_part - T::lit(0.1);
-            let minus_legs_2_beta = legs_2_length_rate * (legs_2_part + legs_2_swell)
+            let legs_2_length_inv_times_0_0625 = T::lit(0.0625) * legs_2_length_inv;
+            let legs_2_swell = legs_2_length_inv_times_0_0625 - T::lit(0.1);
+            let minus_legs_2_beta = legs_2_length_rate
+                * (legs_2_length_inv_times_0_0625 + legs_2_swell)
                 * legs_2_length_inv_squared;
-            let platform_accel_part_v6 = T::lit(0.05)
-                * (platform_accel_part - legs_2_length_rate * legs_2_length_rate)
+            let minus_legs_2_force = T::lit(0.05)
+                * (legs_swing_with_platform_x_rate
+                    - legs_2_length_rate * legs_2_length_rate)
                 * legs_2_length_inv_squared - input.legs[2].thrust
-                - self.legs_2_k * (self.platform_accel_factor_v3 - legs_2_length)
+                - self.legs_2_k * (self.legs_2_force_factor - legs_2_length)
                 + legs_2_length_rate * (self.legs_2_c + minus_legs_2_beta);
-            let platform_accel_part_v7 = legs_2_length_inv * platform_accel_part_v6;
+            let minus_legs_2_force_by_length = legs_2_length_inv * minus_legs_2_force;
             let legs_3_line_y = T::lit(0.779) + q.platform.y;
             let legs_3_length = Real::sqrt(
-                legs_3_line_y * legs_3_line_y + legs_length_part,
+                legs_3_line_y * legs_3_line_y + legs_0_line_x_squared_plus_z_squared,
             );
             let legs_3_length_inv = T::lit(1.0) / legs_3_length;
             let legs_3_length_rate = legs_3_length_inv
-                * (v.platform.y * legs_3_line_y + legs_length_rate_part_v2);
+                * (v.platform.y * legs_3_line_y
+                    + legs_line_by_rate_with_platform_x_rate);
             let legs_3_length_inv_squared = legs_3_length_inv * legs_3_length_inv;
-            let legs_3_part = T::lit(0.0625) * legs_3_length_inv;
-            let legs_3_swell = legs_3_part - T::lit(0.1);
-            let minus_legs_3_beta = legs_3_length_rate * (legs_3_part + legs_3_swell)
+            let legs_3_length_inv_times_0_0625 = T::lit(0.0625) * legs_3_length_inv;
+            let legs_3_swell = legs_3_length_inv_times_0_0625 - T::lit(0.1);
+            let minus_legs_3_beta = legs_3_length_rate
+                * (legs_3_length_inv_times_0_0625 + legs_3_swell)
                 * legs_3_length_inv_squared;
-            let platform_accel_part_v8 = T::lit(0.05)
-                * (platform_accel_part - legs_3_length_rate * legs_3_length_rate)
+            let minus_legs_3_force = T::lit(0.05)
+                * (legs_swing_with_platform_x_rate
+                    - legs_3_length_rate * legs_3_length_rate)
                 * legs_3_length_inv_squared - input.legs[3].thrust
-                - self.legs_3_k * (self.platform_accel_factor_v4 - legs_3_length)
+                - self.legs_3_k * (self.legs_3_force_factor - legs_3_length)
                 + legs_3_length_rate * (self.legs_3_c + minus_legs_3_beta);
-            let platform_accel_part_v9 = legs_3_length_inv * platform_accel_part_v8;
+            let minus_legs_3_force_by_length = legs_3_length_inv * minus_legs_3_force;
             let legs_4_line_x = T::lit(43.0 / 100.0) + q.platform.x;
             let legs_4_line_y = q.platform.y - T::lit(0.295);
-            let legs_length_part_v3 = legs_0_line_z_squared
+            let legs_length_squared_with_legs_4_line_x = legs_0_line_z_squared
                 + legs_4_line_x * legs_4_line_x;
             let legs_4_length = Real::sqrt(
-                legs_4_line_y * legs_4_line_y + legs_length_part_v3,
+                legs_4_line_y * legs_4_line_y + legs_length_squared_with_legs_4_line_x,
             );
             let legs_4_length_inv = T::lit(1.0) / legs_4_length;
-            let legs_length_rate_part_v4 = legs_length_rate_part
+            let legs_line_by_rate_with_legs_4_line_x = platform_z_rate_times_legs_0_line_z
                 + v.platform.x * legs_4_line_x;
             let legs_4_length_rate = legs_4_length_inv
-                * (v.platform.y * legs_4_line_y + legs_length_rate_part_v4);
+                * (v.platform.y * legs_4_line_y + legs_line_by_rate_with_legs_4_line_x);
             let legs_4_length_inv_squared = legs_4_length_inv * legs_4_length_inv;
-            let legs_4_part = T::lit(0.0625) * legs_4_length_inv;
-            let legs_4_swell = legs_4_part - T::lit(0.1);
-            let minus_legs_4_beta = legs_4_length_rate * (legs_4_part + legs_4_swell)
+            let legs_4_length_inv_times_0_0625 = T::lit(0.0625) * legs_4_length_inv;
+            let legs_4_swell = legs_4_length_inv_times_0_0625 - T::lit(0.1);
+            let minus_legs_4_beta = legs_4_length_rate
+                * (legs_4_length_inv_times_0_0625 + legs_4_swell)
                 * legs_4_length_inv_squared;
-            let platform_accel_part_v10 = T::lit(0.05)
-                * (platform_accel_part - legs_4_length_rate * legs_4_length_rate)
+            let minus_legs_4_force = T::lit(0.05)
+                * (legs_swing_with_platform_x_rate
+                    - legs_4_length_rate * legs_4_length_rate)
                 * legs_4_length_inv_squared - input.legs[4].thrust
-                - self.legs_4_k * (self.platform_accel_factor_v5 - legs_4_length)
+                - self.legs_4_k * (self.legs_4_force_factor - legs_4_length)
                 + legs_4_length_rate * (self.legs_4_c + minus_legs_4_beta);
-            let platform_accel_part_v11 = legs_4_length_inv * platform_accel_part_v10;
+            let minus_legs_4_force_by_length = legs_4_length_inv * minus_legs_4_force;
             let legs_5_line_y = T::lit(0.295) + q.platform.y;
             let legs_5_length = Real::sqrt(
-                legs_5_line_y * legs_5_line_y + legs_length_part_v3,
+                legs_5_line_y * legs_5_line_y + legs_length_squared_with_legs_4_line_x,
             );
             let legs_5_length_inv = T::lit(1.0) / legs_5_length;
             let legs_5_length_rate = legs_5_length_inv
-                * (v.platform.y * legs_5_line_y + legs_length_rate_part_v4);
+                * (v.platform.y * legs_5_line_y + legs_line_by_rate_with_legs_4_line_x);
             let legs_5_length_inv_squared = legs_5_length_inv * legs_5_length_inv;
-            let legs_5_part = T::lit(0.0625) * legs_5_length_inv;
-            let legs_5_swell = legs_5_part - T::lit(0.1);
-            let minus_legs_5_beta = legs_5_length_rate * (legs_5_part + legs_5_swell)
+            let legs_5_length_inv_times_0_0625 = T::lit(0.0625) * legs_5_length_inv;
+            let legs_5_swell = legs_5_length_inv_times_0_0625 - T::lit(0.1);
+            let minus_legs_5_beta = legs_5_length_rate
+                * (legs_5_length_inv_times_0_0625 + legs_5_swell)
                 * legs_5_length_inv_squared;
-            let platform_accel_part_v12 = T::lit(0.05)
-                * (platform_accel_part - legs_5_length_rate * legs_5_length_rate)
+            let minus_legs_5_force = T::lit(0.05)
+                * (legs_swing_with_platform_x_rate
+                    - legs_5_length_rate * legs_5_length_rate)
                 * legs_5_length_inv_squared - input.legs[5].thrust
-                - self.legs_5_k * (self.platform_accel_factor_v6 - legs_5_length)
+                - self.legs_5_k * (self.legs_5_force_factor - legs_5_length)
                 + legs_5_length_rate * (self.legs_5_c + minus_legs_5_beta);
-            let platform_accel_part_v13 = legs_5_length_inv * platform_accel_part_v12;
-            let platform_accel_part_v14 = minus_legs_0_beta + minus_legs_1_beta
+            let minus_legs_5_force_by_length = legs_5_length_inv * minus_legs_5_force;
+            let side_with_legs_0_beta = minus_legs_0_beta + minus_legs_1_beta
                 + minus_legs_2_beta + minus_legs_3_beta + minus_legs_4_beta
                 + minus_legs_5_beta;
-            let platform_accel_part_v15 = legs_0_line_x * platform_accel_part_v3
-                + legs_1_line_x * platform_accel_part_v5
-                + legs_1_line_x * platform_accel_part_v7
-                + legs_0_line_x * platform_accel_part_v9
-                + legs_4_line_x * platform_accel_part_v11
-                + legs_4_line_x * platform_accel_part_v13
-                - v.platform.x * platform_accel_part_v14;
+            let minus_body_force_x = legs_0_line_x * minus_legs_0_force_by_length
+                + legs_1_line_x * minus_legs_1_force_by_length
+                + legs_1_line_x * minus_legs_2_force_by_length
+                + legs_0_line_x * minus_legs_3_force_by_length
+                + legs_4_line_x * minus_legs_4_force_by_length
+                + legs_4_line_x * minus_legs_5_force_by_length
+                - v.platform.x * side_with_legs_0_beta;
             let legs_0_mu = legs_0_length_inv * legs_0_swell;
-            let pivot_part = legs_0_mu * legs_0_length_inv_squared;
-            let pivot_part_v2 = legs_0_line_x * pivot_part;
+            let legs_0_nu = legs_0_mu * legs_0_length_inv_squared;
+            let legs_0_nu_line_x = legs_0_line_x * legs_0_nu;
             let legs_1_mu = legs_1_length_inv * legs_1_swell;
-            let pivot_part_v3 = legs_1_mu * legs_1_length_inv_squared;
-            let pivot_part_v4 = legs_1_line_x * pivot_part_v3;
+            let legs_1_nu = legs_1_mu * legs_1_length_inv_squared;
+            let legs_1_nu_line_x = legs_1_line_x * legs_1_nu;
             let legs_2_mu = legs_2_length_inv * legs_2_swell;
-            let pivot_part_v5 = legs_2_mu * legs_2_length_inv_squared;
-            let pivot_part_v6 = legs_1_line_x * pivot_part_v5;
+            let legs_2_nu = legs_2_mu * legs_2_length_inv_squared;
+            let legs_2_nu_line_x = legs_1_line_x * legs_2_nu;
             let legs_3_mu = legs_3_length_inv * legs_3_swell;
-            let pivot_part_v7 = legs_3_mu * legs_3_length_inv_squared;
-            let pivot_part_v8 = legs_0_line_x * pivot_part_v7;
+            let legs_3_nu = legs_3_mu * legs_3_length_inv_squared;
+            let legs_3_nu_line_x = legs_0_line_x * legs_3_nu;
             let legs_4_mu = legs_4_length_inv * legs_4_swell;
-            let pivot_part_v9 = legs_4_mu * legs_4_length_inv_squared;
-            let pivot_part_v10 = legs_4_line_x * pivot_part_v9;
+            let legs_4_nu = legs_4_mu * legs_4_length_inv_squared;
+            let legs_4_nu_line_x = legs_4_line_x * legs_4_nu;
             let legs_5_mu = legs_5_length_inv * legs_5_swell;
-            let pivot_part_v11 = T::lit(2.1) + legs_0_mu + legs_1_mu + legs_2_mu
+            let body_and_struts_mass = T::lit(2.1) + legs_0_mu + legs_1_mu + legs_2_mu
                 + legs_3_mu + legs_4_mu + legs_5_mu;
-            let pivot_part_v12 = legs_5_mu * legs_5_length_inv_squared;
-            let pivot_part_v13 = legs_4_line_x * pivot_part_v12;
-            let minus_pivot_1 = legs_0_line_x * pivot_part_v2
-                + legs_1_line_x * pivot_part_v4 + legs_1_line_x * pivot_part_v6
-                + legs_0_line_x * pivot_part_v8 + legs_4_line_x * pivot_part_v10
-                - pivot_part_v11 + legs_4_line_x * pivot_part_v13;
+            let legs_5_nu = legs_5_mu * legs_5_length_inv_squared;
+            let legs_5_nu_line_x = legs_4_line_x * legs_5_nu;
+            let minus_pivot_1 = legs_0_line_x * legs_0_nu_line_x
+                + legs_1_line_x * legs_1_nu_line_x + legs_1_line_x * legs_2_nu_line_x
+                + legs_0_line_x * legs_3_nu_line_x + legs_4_line_x * legs_4_nu_line_x
+                - body_and_struts_mass + legs_4_line_x * legs_5_nu_line_x;
             let minus_inverse_1 = T::lit(1.0) / minus_pivot_1;
-            let pivot_2_part = legs_0_line_y * pivot_part_v2
-                + legs_1_line_y * pivot_part_v4 + legs_2_line_y * pivot_part_v6
-                + legs_3_line_y * pivot_part_v8 + legs_4_line_y * pivot_part_v10
-                + legs_5_line_y * pivot_part_v13;
-            let l_1_2 = pivot_2_part * minus_inverse_1;
-            let platform_accel_part_v16 = legs_0_line_y * platform_accel_part_v3
-                + legs_1_line_y * platform_accel_part_v5
-                + legs_2_line_y * platform_accel_part_v7
-                + legs_3_line_y * platform_accel_part_v9
-                + legs_4_line_y * platform_accel_part_v11
-                + legs_5_line_y * platform_accel_part_v13
-                - platform_accel_part_v15 * l_1_2
-                - v.platform.y * platform_accel_part_v14;
-            let pivot_part_v14 = legs_0_line_y * pivot_part;
-            let pivot_part_v15 = legs_1_line_y * pivot_part_v3;
-            let pivot_part_v16 = legs_2_line_y * pivot_part_v5;
-            let pivot_part_v17 = legs_3_line_y * pivot_part_v7;
-            let pivot_part_v18 = legs_4_line_y * pivot_part_v9;
-            let pivot_part_v19 = legs_5_line_y * pivot_part_v12;
-            let minus_pivot_2 = legs_0_line_y * pivot_part_v14
-                + legs_1_line_y * pivot_part_v15 + legs_2_line_y * pivot_part_v16
-                + legs_3_line_y * pivot_part_v17 + legs_4_line_y * pivot_part_v18
-                - pivot_part_v11 + legs_5_line_y * pivot_part_v19 - pivot_2_part * l_1_2;
+            let minus_inertia_x_y = legs_0_line_y * legs_0_nu_line_x
+                + legs_1_line_y * legs_1_nu_line_x + legs_2_line_y * legs_2_nu_line_x
+                + legs_3_line_y * legs_3_nu_line_x + legs_4_line_y * legs_4_nu_line_x
+                + legs_5_line_y * legs_5_nu_line_x;
+            let l_1_2 = minus_inertia_x_y * minus_inverse_1;
+            let minus_side_2 = legs_0_line_y * minus_legs_0_force_by_length
+                + legs_1_line_y * minus_legs_1_force_by_length
+                + legs_2_line_y * minus_legs_2_force_by_length
+                + legs_3_line_y * minus_legs_3_force_by_length
+                + legs_4_line_y * minus_legs_4_force_by_length
+                + legs_5_line_y * minus_legs_5_force_by_length
+                - minus_body_force_x * l_1_2 - v.platform.y * side_with_legs_0_beta;
+            let legs_0_nu_line_y = legs_0_line_y * legs_0_nu;
+            let legs_1_nu_line_y = legs_1_line_y * legs_1_nu;
+            let legs_2_nu_line_y = legs_2_line_y * legs_2_nu;
+            let legs_3_nu_line_y = legs_3_line_y * legs_3_nu;
+            let legs_4_nu_line_y = legs_4_line_y * legs_4_nu;
+            let legs_5_nu_line_y = legs_5_line_y * legs_5_nu;
+            let minus_pivot_2 = legs_0_line_y * legs_0_nu_line_y
+                + legs_1_line_y * legs_1_nu_line_y + legs_2_line_y * legs_2_nu_line_y
+                + legs_3_line_y * legs_3_nu_line_y + legs_4_line_y * legs_4_nu_line_y
+                - body_and_struts_mass + legs_5_line_y * legs_5_nu_line_y
+                - minus_inertia_x_y * l_1_2;
             let minus_inverse_2 = T::lit(1.0) / minus_pivot_2;
-            let pivot_3_part = pivot_part_v2 + pivot_part_v4 + pivot_part_v6
-                + pivot_part_v8 + pivot_part_v10 + pivot_part_v13;
-            let pivot_3_part_v2 = legs_0_line_z
-                * (pivot_part_v14 + pivot_part_v15 + pivot_part_v16 + pivot_part_v17
-                    + pivot_part_v18 + pivot_part_v19 - l_1_2 * pivot_3_part);
-            let l_2_3 = pivot_3_part_v2 * minus_inverse_2;
-            let pivot_3_part_v3 = legs_0_line_z * pivot_3_part;
-            let l_1_3 = pivot_3_part_v3 * minus_inverse_1;
-            let platform_z_accel_part = T::lit(20.593965)
-                - platform_accel_part_v15 * l_1_3 - platform_accel_part_v16 * l_2_3
-                - v.platform.z * platform_accel_part_v14
+            let inertia_x_z_with_legs_0_nu_line_x = legs_0_nu_line_x + legs_1_nu_line_x
+                + legs_2_nu_line_x + legs_3_nu_line_x + legs_4_nu_line_x
+                + legs_5_nu_line_x;
+            let minus_entry_2_3 = legs_0_line_z
+                * (legs_0_nu_line_y + legs_1_nu_line_y + legs_2_nu_line_y
+                    + legs_3_nu_line_y + legs_4_nu_line_y + legs_5_nu_line_y
+                    - l_1_2 * inertia_x_z_with_legs_0_nu_line_x);
+            let l_2_3 = minus_entry_2_3 * minus_inverse_2;
+            let minus_inertia_x_z = legs_0_line_z * inertia_x_z_with_legs_0_nu_line_x;
+            let l_1_3 = minus_inertia_x_z * minus_inverse_1;
+            let minus_side_3 = T::lit(20.593965) - minus_body_force_x * l_1_3
+                - minus_side_2 * l_2_3 - v.platform.z * side_with_legs_0_beta
                 + legs_0_line_z
-                    * (platform_accel_part_v3 + platform_accel_part_v5
-                        + platform_accel_part_v7 + platform_accel_part_v9
-                        + platform_accel_part_v11 + platform_accel_part_v13);
+                    * (minus_legs_0_force_by_length + minus_legs_1_force_by_length
+                        + minus_legs_2_force_by_length + minus_legs_3_force_by_length
+                        + minus_legs_4_force_by_length + minus_legs_5_force_by_length);
             let minus_pivot_3 = legs_0_line_z_squared
-                * (pivot_part + pivot_part_v3 + pivot_part_v5 + pivot_part_v7
-                    + pivot_part_v9 + pivot_part_v12) - pivot_part_v11
-                - pivot_3_part_v3 * l_1_3 - pivot_3_part_v2 * l_2_3;
-            let platform_z_accel = platform_z_accel_part / minus_pivot_3;
-            let platform_y_accel = platform_accel_part_v16 * minus_inverse_2
+                * (legs_0_nu + legs_1_nu + legs_2_nu + legs_3_nu + legs_4_nu + legs_5_nu)
+                - body_and_struts_mass - minus_inertia_x_z * l_1_3
+                - minus_entry_2_3 * l_2_3;
+            let platform_z_accel = minus_side_3 / minus_pivot_3;
+            let platform_y_accel = minus_side_2 * minus_inverse_2
                 - l_2_3 * platform_z_accel;
             Velocity {
                 platform: ::multibody::nalgebra::Vector3::from([
-                    (platform_accel_part_v15 * minus_inverse_1 - l_1_2 * platform_y_accel
+                    (minus_body_force_x * minus_inverse_1 - l_1_2 * platform_y_accel
                         - l_1_3 * platform_z_accel),
                     platform_y_accel,
                     platform_z_accel,
@@ -709,303 +687,339 @@ pub mod level {
             let v = &state.v;
             let legs_0_line_y = q.platform.y - T::lit(0.779);
             let legs_0_line_x = T::lit(2.29) + q.platform.x;
-            let legs_stroke_rate_part = T::lit(0.7316888688738209) * legs_0_line_x;
-            let legs_0_stroke_rate_part = legs_stroke_rate_part
+            let legs_0_line_x_times_0_732 = T::lit(0.7316888688738209) * legs_0_line_x;
+            let legs_0_stroke_with_line_y = legs_0_line_x_times_0_732
                 - T::lit(0.6816387600233341) * legs_0_line_y;
-            let legs_stroke_rate_part_v2 = T::lit(0.6816387600233341) * legs_0_line_x;
-            let legs_0_stroke_rate_part_v2 = T::lit(0.7316888688738209) * legs_0_line_y
-                + legs_stroke_rate_part_v2;
-            let legs_0_line_z = q.platform.z - T::lit(0.4);
-            let legs_0_line_z_squared = legs_0_line_z * legs_0_line_z;
+            let legs_0_line_x_times_0_682 = T::lit(0.6816387600233341) * legs_0_line_x;
+            let legs_0_stroke_with_line_x = T::lit(0.7316888688738209) * legs_0_line_y
+                + legs_0_line_x_times_0_682;
+            let minus_legs_0_gimbal_first_b = q.platform.z - T::lit(0.4);
+            let minus_legs_0_gimbal_first_b_squared = minus_legs_0_gimbal_first_b
+                * minus_legs_0_gimbal_first_b;
             let root_legs_0_stroke = Real::sqrt(
-                legs_0_stroke_rate_part * legs_0_stroke_rate_part
-                    + legs_0_stroke_rate_part_v2 * legs_0_stroke_rate_part_v2
-                    + legs_0_line_z_squared,
+                legs_0_stroke_with_line_y * legs_0_stroke_with_line_y
+                    + legs_0_stroke_with_line_x * legs_0_stroke_with_line_x
+                    + minus_legs_0_gimbal_first_b_squared,
             );
             let slope_legs_0_stroke_inv = T::lit(1.0) / root_legs_0_stroke;
-            let legs_0_part = T::lit(0.0625) * slope_legs_0_stroke_inv;
-            let legs_0_swell = legs_0_part - T::lit(0.1);
-            let legs_thrust_part = accel.platform.z * legs_0_line_z;
-            let legs_thrust_part_v2 = accel.platform.x * legs_0_line_x
-                + legs_thrust_part;
-            let legs_thrust_part_v3 = T::lit(0.05)
+            let slope_legs_0_stroke_inv_times_0_0625 = T::lit(0.0625)
+                * slope_legs_0_stroke_inv;
+            let legs_0_swell = slope_legs_0_stroke_inv_times_0_0625 - T::lit(0.1);
+            let legs_thrust_with_platform_z_accel = accel.platform.z
+                * minus_legs_0_gimbal_first_b;
+            let legs_thrust_with_platform_x_accel = accel.platform.x * legs_0_line_x
+                + legs_thrust_with_platform_z_accel;
+            let legs_thrust_with_platform_x_rate = T::lit(0.05)
                 * (v.platform.x * v.platform.x + v.platform.y * v.platform.y
                     + v.platform.z * v.platform.z);
-            let legs_stroke_rate_part_v3 = T::lit(0.7316888688738209) * v.platform.x;
-            let legs_stroke_rate_part_v4 = T::lit(0.6816387600233341) * v.platform.y;
-            let legs_stroke_rate_part_v5 = T::lit(0.6816387600233341) * v.platform.x;
-            let legs_stroke_rate_part_v6 = T::lit(0.7316888688738209) * v.platform.y;
-            let legs_stroke_rate_part_v7 = v.platform.z * legs_0_line_z;
+            let platform_x_rate_times_0_732 = T::lit(0.7316888688738209) * v.platform.x;
+            let platform_y_rate_times_0_682 = T::lit(0.6816387600233341) * v.platform.y;
+            let platform_x_rate_times_0_682 = T::lit(0.6816387600233341) * v.platform.x;
+            let platform_y_rate_times_0_732 = T::lit(0.7316888688738209) * v.platform.y;
+            let legs_stroke_gap_rate_with_platform_z_rate = v.platform.z
+                * minus_legs_0_gimbal_first_b;
             let legs_0_stroke_rate = slope_legs_0_stroke_inv
-                * (legs_0_stroke_rate_part
-                    * (legs_stroke_rate_part_v3 - legs_stroke_rate_part_v4)
-                    + legs_0_stroke_rate_part_v2
-                        * (legs_stroke_rate_part_v5 + legs_stroke_rate_part_v6)
-                    + legs_stroke_rate_part_v7);
-            let legs_0_bend = legs_0_part + legs_0_swell;
+                * (legs_0_stroke_with_line_y
+                    * (platform_x_rate_times_0_732 - platform_y_rate_times_0_682)
+                    + legs_0_stroke_with_line_x
+                        * (platform_x_rate_times_0_682 + platform_y_rate_times_0_732)
+                    + legs_stroke_gap_rate_with_platform_z_rate);
+            let legs_0_bend = slope_legs_0_stroke_inv_times_0_0625 + legs_0_swell;
             let slope_legs_0_stroke_inv_squared = slope_legs_0_stroke_inv
                 * slope_legs_0_stroke_inv;
             let legs_0_mu = slope_legs_0_stroke_inv * legs_0_swell;
             let legs_3_line_y = T::lit(0.779) + q.platform.y;
-            let legs_3_stroke_rate_part = legs_stroke_rate_part
+            let legs_3_stroke_with_line_y = legs_0_line_x_times_0_732
                 + T::lit(0.6816387600233341) * legs_3_line_y;
-            let legs_3_stroke_rate_part_v2 = legs_stroke_rate_part_v2
+            let legs_3_stroke_with_legs_0_line_x = legs_0_line_x_times_0_682
                 - T::lit(0.7316888688738209) * legs_3_line_y;
             let root_legs_3_stroke = Real::sqrt(
-                legs_0_line_z_squared + legs_3_stroke_rate_part * legs_3_stroke_rate_part
-                    + legs_3_stroke_rate_part_v2 * legs_3_stroke_rate_part_v2,
+                minus_legs_0_gimbal_first_b_squared
+                    + legs_3_stroke_with_line_y * legs_3_stroke_with_line_y
+                    + legs_3_stroke_with_legs_0_line_x * legs_3_stroke_with_legs_0_line_x,
             );
             let slope_legs_3_stroke_inv = T::lit(1.0) / root_legs_3_stroke;
-            let legs_3_part = T::lit(0.0625) * slope_legs_3_stroke_inv;
-            let legs_3_swell = legs_3_part - T::lit(0.1);
+            let slope_legs_3_stroke_inv_times_0_0625 = T::lit(0.0625)
+                * slope_legs_3_stroke_inv;
+            let legs_3_swell = slope_legs_3_stroke_inv_times_0_0625 - T::lit(0.1);
             let legs_3_mu = slope_legs_3_stroke_inv * legs_3_swell;
-            let legs_tension_part = legs_0_mu + legs_3_mu;
+            let legs_0_mu_plus_legs_3_mu = legs_0_mu + legs_3_mu;
             let legs_1_line_y = q.platform.y - T::lit(1.074);
             let legs_1_line_x = T::lit(1.78) + q.platform.x;
-            let legs_stroke_rate_part_v8 = T::lit(0.8525245220595058) * legs_1_line_x;
-            let legs_1_stroke_rate_part = legs_stroke_rate_part_v8
+            let legs_1_line_x_times_0_853 = T::lit(0.8525245220595058) * legs_1_line_x;
+            let legs_1_stroke_with_line_y = legs_1_line_x_times_0_853
                 - T::lit(0.5226872289306592) * legs_1_line_y;
-            let legs_stroke_rate_part_v9 = T::lit(0.5226872289306592) * legs_1_line_x;
-            let legs_1_stroke_rate_part_v2 = T::lit(0.8525245220595058) * legs_1_line_y
-                + legs_stroke_rate_part_v9;
+            let legs_1_line_x_times_0_523 = T::lit(0.5226872289306592) * legs_1_line_x;
+            let legs_1_stroke_with_line_x = T::lit(0.8525245220595058) * legs_1_line_y
+                + legs_1_line_x_times_0_523;
             let root_legs_1_stroke = Real::sqrt(
-                legs_0_line_z_squared + legs_1_stroke_rate_part * legs_1_stroke_rate_part
-                    + legs_1_stroke_rate_part_v2 * legs_1_stroke_rate_part_v2,
+                minus_legs_0_gimbal_first_b_squared
+                    + legs_1_stroke_with_line_y * legs_1_stroke_with_line_y
+                    + legs_1_stroke_with_line_x * legs_1_stroke_with_line_x,
             );
             let slope_legs_1_stroke_inv = T::lit(1.0) / root_legs_1_stroke;
-            let legs_1_part = T::lit(0.0625) * slope_legs_1_stroke_inv;
-            let legs_1_swell = legs_1_part - T::lit(0.1);
+            let slope_legs_1_stroke_inv_times_0_0625 = T::lit(0.0625)
+                * slope_legs_1_stroke_inv;
+            let legs_1_swell = slope_legs_1_stroke_inv_times_0_0625 - T::lit(0.1);
             let legs_1_mu = slope_legs_1_stroke_inv * legs_1_swell;
             let legs_2_line_y = T::lit(1.074) + q.platform.y;
-            let legs_2_stroke_rate_part = legs_stroke_rate_part_v8
+            let legs_2_stroke_with_line_y = legs_1_line_x_times_0_853
                 + T::lit(0.5226872289306592) * legs_2_line_y;
-            let legs_2_stroke_rate_part_v2 = legs_stroke_rate_part_v9
+            let legs_2_stroke_with_legs_1_line_x = legs_1_line_x_times_0_523
                 - T::lit(0.8525245220595058) * legs_2_line_y;
             let root_legs_2_stroke = Real::sqrt(
-                legs_0_line_z_squared + legs_2_stroke_rate_part * legs_2_stroke_rate_part
-                    + legs_2_stroke_rate_part_v2 * legs_2_stroke_rate_part_v2,
+                minus_legs_0_gimbal_first_b_squared
+                    + legs_2_stroke_with_line_y * legs_2_stroke_with_line_y
+                    + legs_2_stroke_with_legs_1_line_x * legs_2_stroke_with_legs_1_line_x,
             );
             let slope_legs_2_stroke_inv = T::lit(1.0) / root_legs_2_stroke;
-            let legs_2_part = T::lit(0.0625) * slope_legs_2_stroke_inv;
-            let legs_2_swell = legs_2_part - T::lit(0.1);
+            let slope_legs_2_stroke_inv_times_0_0625 = T::lit(0.0625)
+                * slope_legs_2_stroke_inv;
+            let legs_2_swell = slope_legs_2_stroke_inv_times_0_0625 - T::lit(0.1);
             let legs_2_mu = slope_legs_2_stroke_inv * legs_2_swell;
-            let legs_tension_part_v2 = legs_1_mu + legs_2_mu;
+            let legs_1_mu_plus_legs_2_mu = legs_1_mu + legs_2_mu;
             let legs_4_line_y = q.platform.y - T::lit(0.295);
             let legs_4_line_x = T::lit(43.0 / 100.0) + q.platform.x;
-            let legs_stroke_rate_part_v10 = T::lit(0.9577872375530903) * legs_4_line_x;
-            let legs_4_stroke_rate_part = T::lit(0.2874780123425445) * legs_4_line_y
-                + legs_stroke_rate_part_v10;
-            let legs_stroke_rate_part_v11 = T::lit(0.2874780123425445) * legs_4_line_x;
-            let legs_4_stroke_rate_part_v2 = legs_stroke_rate_part_v11
+            let legs_4_line_x_times_0_958 = T::lit(0.9577872375530903) * legs_4_line_x;
+            let legs_4_stroke_with_line_y = T::lit(0.2874780123425445) * legs_4_line_y
+                + legs_4_line_x_times_0_958;
+            let legs_4_line_x_times_0_287 = T::lit(0.2874780123425445) * legs_4_line_x;
+            let legs_4_stroke_with_line_x = legs_4_line_x_times_0_287
                 - T::lit(0.9577872375530903) * legs_4_line_y;
             let root_legs_4_stroke = Real::sqrt(
-                legs_0_line_z_squared + legs_4_stroke_rate_part * legs_4_stroke_rate_part
-                    + legs_4_stroke_rate_part_v2 * legs_4_stroke_rate_part_v2,
+                minus_legs_0_gimbal_first_b_squared
+                    + legs_4_stroke_with_line_y * legs_4_stroke_with_line_y
+                    + legs_4_stroke_with_line_x * legs_4_stroke_with_line_x,
             );
             let slope_legs_4_stroke_inv = T::lit(1.0) / root_legs_4_stroke;
-            let legs_4_part = T::lit(0.0625) * slope_legs_4_stroke_inv;
-            let legs_4_swell = legs_4_part - T::lit(0.1);
+            let slope_legs_4_stroke_inv_times_0_0625 = T::lit(0.0625)
+                * slope_legs_4_stroke_inv;
+            let legs_4_swell = slope_legs_4_stroke_inv_times_0_0625 - T::lit(0.1);
             let legs_4_mu = slope_legs_4_stroke_inv * legs_4_swell;
             let legs_5_line_y = T::lit(0.295) + q.platform.y;
-            let legs_5_stroke_rate_part = legs_stroke_rate_part_v10
+            let legs_5_stroke_with_line_y = legs_4_line_x_times_0_958
                 - T::lit(0.2874780123425445) * legs_5_line_y;
-            let legs_5_stroke_rate_part_v2 = legs_stroke_rate_part_v11
+            let legs_5_stroke_with_legs_4_line_x = legs_4_line_x_times_0_287
                 + T::lit(0.9577872375530903) * legs_5_line_y;
             let root_legs_5_stroke = Real::sqrt(
-                legs_0_line_z_squared + legs_5_stroke_rate_part * legs_5_stroke_rate_part
-                    + legs_5_stroke_rate_part_v2 * legs_5_stroke_rate_part_v2,
+                minus_legs_0_gimbal_first_b_squared
+                    + legs_5_stroke_with_line_y * legs_5_stroke_with_line_y
+                    + legs_5_stroke_with_legs_4_line_x * legs_5_stroke_with_legs_4_line_x,
             );
             let slope_legs_5_stroke_inv = T::lit(1.0) / root_legs_5_stroke;
-            let legs_5_part = T::lit(0.0625) * slope_legs_5_stroke_inv;
-            let legs_5_swell = legs_5_part - T::lit(0.1);
+            let slope_legs_5_stroke_inv_times_0_0625 = T::lit(0.0625)
+                * slope_legs_5_stroke_inv;
+            let legs_5_swell = slope_legs_5_stroke_inv_times_0_0625 - T::lit(0.1);
             let legs_5_mu = slope_legs_5_stroke_inv * legs_5_swell;
-            let legs_tension_part_v3 = legs_4_mu + legs_5_mu;
-            let legs_tension_part_v4 = T::lit(2.1) + legs_tension_part
-                + legs_tension_part_v2 + legs_tension_part_v3;
+            let legs_4_mu_plus_legs_5_mu = legs_4_mu + legs_5_mu;
+            let legs_tension_with_legs_0_mu = T::lit(2.1) + legs_0_mu_plus_legs_3_mu
+                + legs_1_mu_plus_legs_2_mu + legs_4_mu_plus_legs_5_mu;
             let minus_legs_0_beta = legs_0_stroke_rate * legs_0_bend
                 * slope_legs_0_stroke_inv_squared;
             let legs_3_stroke_rate = slope_legs_3_stroke_inv
-                * (legs_stroke_rate_part_v7
-                    + legs_3_stroke_rate_part
-                        * (legs_stroke_rate_part_v3 + legs_stroke_rate_part_v4)
-                    + legs_3_stroke_rate_part_v2
-                        * (legs_stroke_rate_part_v5 - legs_stroke_rate_part_v6));
-            let legs_3_bend = legs_3_part + legs_3_swell;
+                * (legs_stroke_gap_rate_with_platform_z_rate
+                    + legs_3_stroke_with_line_y
+                        * (platform_x_rate_times_0_732 + platform_y_rate_times_0_682)
+                    + legs_3_stroke_with_legs_0_line_x
+                        * (platform_x_rate_times_0_682 - platform_y_rate_times_0_732));
+            let legs_3_bend = slope_legs_3_stroke_inv_times_0_0625 + legs_3_swell;
             let slope_legs_3_stroke_inv_squared = slope_legs_3_stroke_inv
                 * slope_legs_3_stroke_inv;
             let minus_legs_3_beta = legs_3_stroke_rate * legs_3_bend
                 * slope_legs_3_stroke_inv_squared;
-            let legs_tension_part_v5 = minus_legs_0_beta + minus_legs_3_beta;
-            let legs_stroke_rate_part_v12 = T::lit(0.8525245220595058) * v.platform.x;
-            let legs_stroke_rate_part_v13 = T::lit(0.5226872289306592) * v.platform.y;
-            let legs_stroke_rate_part_v14 = T::lit(0.5226872289306592) * v.platform.x;
-            let legs_stroke_rate_part_v15 = T::lit(0.8525245220595058) * v.platform.y;
+            let minus_legs_0_beta_plus_minus_legs_3_beta = minus_legs_0_beta
+                + minus_legs_3_beta;
+            let platform_x_rate_times_0_853 = T::lit(0.8525245220595058) * v.platform.x;
+            let platform_y_rate_times_0_523 = T::lit(0.5226872289306592) * v.platform.y;
+            let platform_x_rate_times_0_523 = T::lit(0.5226872289306592) * v.platform.x;
+            let platform_y_rate_times_0_853 = T::lit(0.8525245220595058) * v.platform.y;
             let legs_1_stroke_rate = slope_legs_1_stroke_inv
-                * (legs_stroke_rate_part_v7
-                    + legs_1_stroke_rate_part
-                        * (legs_stroke_rate_part_v12 - legs_stroke_rate_part_v13)
-                    + legs_1_stroke_rate_part_v2
-                        * (legs_stroke_rate_part_v14 + legs_stroke_rate_part_v15));
-            let legs_1_bend = legs_1_part + legs_1_swell;
+                * (legs_stroke_gap_rate_with_platform_z_rate
+                    + legs_1_stroke_with_line_y
+                        * (platform_x_rate_times_0_853 - platform_y_rate_times_0_523)
+                    + legs_1_stroke_with_line_x
+                        * (platform_x_rate_times_0_523 + platform_y_rate_times_0_853));
+            let legs_1_bend = slope_legs_1_stroke_inv_times_0_0625 + legs_1_swell;
             let slope_legs_1_stroke_inv_squared = slope_legs_1_stroke_inv
                 * slope_legs_1_stroke_inv;
             let minus_legs_1_beta = legs_1_stroke_rate * legs_1_bend
                 * slope_legs_1_stroke_inv_squared;
             let legs_2_stroke_rate = slope_legs_2_stroke_inv
-                * (legs_stroke_rate_part_v7
-                    + legs_2_stroke_rate_part
-                        * (legs_stroke_rate_part_v12 + legs_stroke_rate_part_v13)
-                    + legs_2_stroke_rate_part_v2
-                        * (legs_stroke_rate_part_v14 - legs_stroke_rate_part_v15));
-            let legs_2_bend = legs_2_part + legs_2_swell;
+                * (legs_stroke_gap_rate_with_platform_z_rate
+                    + legs_2_stroke_with_line_y
+                        * (platform_x_rate_times_0_853 + platform_y_rate_times_0_523)
+                    + legs_2_stroke_with_legs_1_line_x
+                        * (platform_x_rate_times_0_523 - platform_y_rate_times_0_853));
+            let legs_2_bend = slope_legs_2_stroke_inv_times_0_0625 + legs_2_swell;
             let slope_legs_2_stroke_inv_squared = slope_legs_2_stroke_inv
                 * slope_legs_2_stroke_inv;
             let minus_legs_2_beta = legs_2_stroke_rate * legs_2_bend
                 * slope_legs_2_stroke_inv_squared;
-            let legs_tension_part_v6 = minus_legs_1_beta + minus_legs_2_beta;
-            let legs_stroke_rate_part_v16 = T::lit(0.9577872375530903) * v.platform.x;
-            let legs_stroke_rate_part_v17 = T::lit(0.2874780123425445) * v.platform.y;
-            let legs_stroke_rate_part_v18 = T::lit(0.2874780123425445) * v.platform.x;
-            let legs_stroke_rate_part_v19 = T::lit(0.9577872375530903) * v.platform.y;
+            let minus_legs_1_beta_plus_minus_legs_2_beta = minus_legs_1_beta
+                + minus_legs_2_beta;
+            let platform_x_rate_times_0_958 = T::lit(0.9577872375530903) * v.platform.x;
+            let platform_y_rate_times_0_287 = T::lit(0.2874780123425445) * v.platform.y;
+            let platform_x_rate_times_0_287 = T::lit(0.2874780123425445) * v.platform.x;
+            let platform_y_rate_times_0_958 = T::lit(0.9577872375530903) * v.platform.y;
             let legs_4_stroke_rate = slope_legs_4_stroke_inv
-                * (legs_stroke_rate_part_v7
-                    + legs_4_stroke_rate_part
-                        * (legs_stroke_rate_part_v16 + legs_stroke_rate_part_v17)
-                    + legs_4_stroke_rate_part_v2
-                        * (legs_stroke_rate_part_v18 - legs_stroke_rate_part_v19));
-            let legs_4_bend = legs_4_part + legs_4_swell;
+                * (legs_stroke_gap_rate_with_platform_z_rate
+                    + legs_4_stroke_with_line_y
+                        * (platform_x_rate_times_0_958 + platform_y_rate_times_0_287)
+                    + legs_4_stroke_with_line_x
+                        * (platform_x_rate_times_0_287 - platform_y_rate_times_0_958));
+            let legs_4_bend = slope_legs_4_stroke_inv_times_0_0625 + legs_4_swell;
             let slope_legs_4_stroke_inv_squared = slope_legs_4_stroke_inv
                 * slope_legs_4_stroke_inv;
             let minus_legs_4_beta = legs_4_stroke_rate * legs_4_bend
                 * slope_legs_4_stroke_inv_squared;
             let legs_5_stroke_rate = slope_legs_5_stroke_inv
-                * (legs_stroke_rate_part_v7
-                    + legs_5_stroke_rate_part
-                        * (legs_stroke_rate_part_v16 - legs_stroke_rate_part_v17)
-                    + legs_5_stroke_rate_part_v2
-                        * (legs_stroke_rate_part_v18 + legs_stroke_rate_part_v19));
-            let legs_5_bend = legs_5_part + legs_5_swell;
+                * (legs_stroke_gap_rate_with_platform_z_rate
+                    + legs_5_stroke_with_line_y
+                        * (platform_x_rate_times_0_958 - platform_y_rate_times_0_287)
+                    + legs_5_stroke_with_legs_4_line_x
+                        * (platform_x_rate_times_0_287 + platform_y_rate_times_0_958));
+            let legs_5_bend = slope_legs_5_stroke_inv_times_0_0625 + legs_5_swell;
             let slope_legs_5_stroke_inv_squared = slope_legs_5_stroke_inv
                 * slope_legs_5_stroke_inv;
             let minus_legs_5_beta = legs_5_stroke_rate * legs_5_bend
                 * slope_legs_5_stroke_inv_squared;
-            let legs_tension_part_v7 = minus_legs_4_beta + minus_legs_5_beta;
-            let legs_tension_part_v8 = legs_tension_part_v5 + legs_tension_part_v6
-                + legs_tension_part_v7;
-            let rank_0_part = Real::abs(legs_0_line_z);
-            let rank_0_part_v2 = T::lit(450.0) * <T as Real>::epsilon();
-            let legs_tension_part_v9 = Real::select(
-                Real::le(rank_0_part, rank_0_part_v2),
+            let minus_legs_4_beta_plus_minus_legs_5_beta = minus_legs_4_beta
+                + minus_legs_5_beta;
+            let minus_mass_struts_beta = minus_legs_0_beta_plus_minus_legs_3_beta
+                + minus_legs_1_beta_plus_minus_legs_2_beta
+                + minus_legs_4_beta_plus_minus_legs_5_beta;
+            let abs_minus_legs_0_gimbal_first_b = Real::abs(minus_legs_0_gimbal_first_b);
+            let rank_0_part = T::lit(450.0) * <T as Real>::epsilon();
+            let legs_tension_with_legs_0_gimbal_first_b = Real::select(
+                Real::le(abs_minus_legs_0_gimbal_first_b, rank_0_part),
                 T::lit(0.0),
-                T::lit(1.0) / legs_0_line_z,
+                T::lit(1.0) / minus_legs_0_gimbal_first_b,
             );
-            let legs_tension_part_v10 = (T::lit(20.593965)
-                + accel.platform.z * legs_tension_part_v4
-                - v.platform.z * legs_tension_part_v8) * legs_tension_part_v9;
-            let legs_tension_part_v11 = accel.platform.x * legs_tension_part_v4
-                - v.platform.x * legs_tension_part_v8
-                - q.platform.x * legs_tension_part_v10;
-            let legs_tension_part_v12 = T::lit(0.17) * legs_tension_part
-                - T::lit(0.6) * legs_tension_part_v2
-                + T::lit(43.0 / 100.0) * legs_tension_part_v3;
-            let legs_tension_part_v13 = T::lit(0.17) * legs_tension_part_v5
-                - T::lit(0.6) * legs_tension_part_v6
-                + T::lit(43.0 / 100.0) * legs_tension_part_v7;
-            let legs_tension_part_v14 = (accel.platform.z * legs_tension_part_v12
-                - T::lit(0.6) * accel.platform.x - v.platform.z * legs_tension_part_v13)
-                * legs_tension_part_v9;
-            let legs_tension_part_v15 = T::lit(0.32911554192229037)
-                * legs_tension_part_v11
-                - T::lit(0.3270066462167689) * legs_tension_part_v10
-                + T::lit(0.4313650306748466) * legs_tension_part_v14;
-            let legs_tension_part_v16 = accel.platform.y * legs_tension_part_v4
-                - v.platform.y * legs_tension_part_v8
-                - q.platform.y * legs_tension_part_v10;
-            let legs_tension_part_v17 = T::lit(0.595) * (legs_0_mu - legs_3_mu)
+            let legs_tension_with_platform_z_accel = (T::lit(20.593965)
+                + accel.platform.z * legs_tension_with_legs_0_mu
+                - v.platform.z * minus_mass_struts_beta)
+                * legs_tension_with_legs_0_gimbal_first_b;
+            let legs_tension_with_platform_x_accel = accel.platform.x
+                * legs_tension_with_legs_0_mu - v.platform.x * minus_mass_struts_beta
+                - q.platform.x * legs_tension_with_platform_z_accel;
+            let first_struts_mu_x = T::lit(0.17) * legs_0_mu_plus_legs_3_mu
+                - T::lit(0.6) * legs_1_mu_plus_legs_2_mu
+                + T::lit(43.0 / 100.0) * legs_4_mu_plus_legs_5_mu;
+            let minus_first_struts_beta_x = T::lit(0.17)
+                * minus_legs_0_beta_plus_minus_legs_3_beta
+                - T::lit(0.6) * minus_legs_1_beta_plus_minus_legs_2_beta
+                + T::lit(43.0 / 100.0) * minus_legs_4_beta_plus_minus_legs_5_beta;
+            let legs_tension_with_first_struts_mu_x = (accel.platform.z
+                * first_struts_mu_x - T::lit(0.6) * accel.platform.x
+                - v.platform.z * minus_first_struts_beta_x)
+                * legs_tension_with_legs_0_gimbal_first_b;
+            let legs_tension_with_platform_x_rate = T::lit(0.32911554192229037)
+                * legs_tension_with_platform_x_accel
+                - T::lit(0.3270066462167689) * legs_tension_with_platform_z_accel
+                + T::lit(0.4313650306748466) * legs_tension_with_first_struts_mu_x;
+            let legs_tension_with_platform_y_accel = accel.platform.y
+                * legs_tension_with_legs_0_mu - v.platform.y * minus_mass_struts_beta
+                - q.platform.y * legs_tension_with_platform_z_accel;
+            let first_struts_mu_y = T::lit(0.595) * (legs_0_mu - legs_3_mu)
                 + T::lit(0.15) * (legs_1_mu - legs_2_mu)
                 - T::lit(0.445) * (legs_4_mu - legs_5_mu);
-            let legs_tension_part_v18 = T::lit(0.595)
+            let minus_first_struts_beta_y = T::lit(0.595)
                 * (minus_legs_0_beta - minus_legs_3_beta)
                 + T::lit(0.15) * (minus_legs_1_beta - minus_legs_2_beta)
                 - T::lit(0.445) * (minus_legs_4_beta - minus_legs_5_beta);
-            let legs_tension_part_v19 = (accel.platform.z * legs_tension_part_v17
-                - T::lit(0.6) * accel.platform.y - v.platform.z * legs_tension_part_v18)
-                * legs_tension_part_v9;
-            let legs_tension_part_v20 = accel.platform.y * legs_tension_part_v12
-                - v.platform.y * legs_tension_part_v13
-                - accel.platform.x * legs_tension_part_v17
-                + v.platform.x * legs_tension_part_v18
-                + q.platform.x * legs_tension_part_v19
-                - q.platform.y * legs_tension_part_v14;
-            let legs_tension_part_v21 = T::lit(0.27656702878509637)
-                * legs_tension_part_v20;
-            let legs_tension_part_v22 = T::lit(0.09407346608210052)
-                * legs_tension_part_v16
-                - T::lit(0.022276627275462778) * legs_tension_part_v19
-                + legs_tension_part_v21;
+            let legs_tension_with_first_struts_mu_y = (accel.platform.z
+                * first_struts_mu_y - T::lit(0.6) * accel.platform.y
+                - v.platform.z * minus_first_struts_beta_y)
+                * legs_tension_with_legs_0_gimbal_first_b;
+            let legs_tension_with_platform_y_rate = accel.platform.y * first_struts_mu_x
+                - v.platform.y * minus_first_struts_beta_x
+                - accel.platform.x * first_struts_mu_y
+                + v.platform.x * minus_first_struts_beta_y
+                + q.platform.x * legs_tension_with_first_struts_mu_y
+                - q.platform.y * legs_tension_with_first_struts_mu_x;
+            let legs_tension_with_first_struts_beta_x = T::lit(0.27656702878509637)
+                * legs_tension_with_platform_y_rate;
+            let legs_tension_with_mass_struts_beta = T::lit(0.09407346608210052)
+                * legs_tension_with_platform_y_accel
+                - T::lit(0.022276627275462778) * legs_tension_with_first_struts_mu_y
+                + legs_tension_with_first_struts_beta_x;
             let minus_legs_0_thrust = (legs_0_swell
-                * (accel.platform.y * legs_0_line_y + legs_thrust_part_v2)
-                - legs_thrust_part_v3
+                * (accel.platform.y * legs_0_line_y + legs_thrust_with_platform_x_accel)
+                - legs_thrust_with_platform_x_rate
                 - legs_0_stroke_rate * legs_0_stroke_rate * (legs_0_bend - T::lit(0.05)))
                 * slope_legs_0_stroke_inv_squared
-                + root_legs_0_stroke * (legs_tension_part_v22 - legs_tension_part_v15)
+                + root_legs_0_stroke
+                    * (legs_tension_with_mass_struts_beta
+                        - legs_tension_with_platform_x_rate)
                 - self.legs_0_c * legs_0_stroke_rate
-                + self.legs_0_k * (self.platform_accel_factor - root_legs_0_stroke);
-            let legs_thrust_part_v4 = legs_thrust_part
+                + self.legs_0_k * (self.legs_0_force_factor - root_legs_0_stroke);
+            let legs_thrust_with_legs_1_line_x = legs_thrust_with_platform_z_accel
                 + accel.platform.x * legs_1_line_x;
-            let legs_tension_part_v23 = T::lit(0.2601930192065932)
-                * legs_tension_part_v19
-                - T::lit(0.33202481420439073) * legs_tension_part_v16
-                + legs_tension_part_v21;
-            let legs_tension_part_v24 = T::lit(0.08307770961145194)
-                * legs_tension_part_v11
-                - T::lit(0.2912832310838446) * legs_tension_part_v10
-                + T::lit(0.5943251533742331) * legs_tension_part_v14;
-            let legs_1_thrust = (legs_thrust_part_v3
-                - legs_1_swell * (accel.platform.y * legs_1_line_y + legs_thrust_part_v4)
+            let legs_tension_with_platform_z_rate = T::lit(0.2601930192065932)
+                * legs_tension_with_first_struts_mu_y
+                - T::lit(0.33202481420439073) * legs_tension_with_platform_y_accel
+                + legs_tension_with_first_struts_beta_x;
+            let legs_tension_with_platform_x = T::lit(0.08307770961145194)
+                * legs_tension_with_platform_x_accel
+                - T::lit(0.2912832310838446) * legs_tension_with_platform_z_accel
+                + T::lit(0.5943251533742331) * legs_tension_with_first_struts_mu_x;
+            let legs_1_thrust = (legs_thrust_with_platform_x_rate
+                - legs_1_swell
+                    * (accel.platform.y * legs_1_line_y + legs_thrust_with_legs_1_line_x)
                 + legs_1_stroke_rate * legs_1_stroke_rate * (legs_1_bend - T::lit(0.05)))
                 * slope_legs_1_stroke_inv_squared
-                + root_legs_1_stroke * (legs_tension_part_v23 - legs_tension_part_v24)
+                + root_legs_1_stroke
+                    * (legs_tension_with_platform_z_rate - legs_tension_with_platform_x)
                 + self.legs_1_c * legs_1_stroke_rate
-                - self.legs_1_k * (self.platform_accel_factor_v2 - root_legs_1_stroke);
-            let legs_2_thrust = (legs_thrust_part_v3
-                - legs_2_swell * (accel.platform.y * legs_2_line_y + legs_thrust_part_v4)
+                - self.legs_1_k * (self.legs_1_force_factor - root_legs_1_stroke);
+            let legs_2_thrust = (legs_thrust_with_platform_x_rate
+                - legs_2_swell
+                    * (accel.platform.y * legs_2_line_y + legs_thrust_with_legs_1_line_x)
                 + legs_2_stroke_rate * legs_2_stroke_rate * (legs_2_bend - T::lit(0.05)))
                 * slope_legs_2_stroke_inv_squared
-                - root_legs_2_stroke * (legs_tension_part_v23 + legs_tension_part_v24)
+                - root_legs_2_stroke
+                    * (legs_tension_with_platform_z_rate + legs_tension_with_platform_x)
                 + self.legs_2_c * legs_2_stroke_rate
-                - self.legs_2_k * (self.platform_accel_factor_v3 - root_legs_2_stroke);
-            let legs_3_thrust = (legs_thrust_part_v3
-                - legs_3_swell * (accel.platform.y * legs_3_line_y + legs_thrust_part_v2)
+                - self.legs_2_k * (self.legs_2_force_factor - root_legs_2_stroke);
+            let legs_3_thrust = (legs_thrust_with_platform_x_rate
+                - legs_3_swell
+                    * (accel.platform.y * legs_3_line_y
+                        + legs_thrust_with_platform_x_accel)
                 + legs_3_stroke_rate * legs_3_stroke_rate * (legs_3_bend - T::lit(0.05)))
                 * slope_legs_3_stroke_inv_squared
-                + root_legs_3_stroke * (legs_tension_part_v15 + legs_tension_part_v22)
+                + root_legs_3_stroke
+                    * (legs_tension_with_platform_x_rate
+                        + legs_tension_with_mass_struts_beta)
                 + self.legs_3_c * legs_3_stroke_rate
-                - self.legs_3_k * (self.platform_accel_factor_v4 - root_legs_3_stroke);
-            let legs_thrust_part_v5 = legs_thrust_part
+                - self.legs_3_k * (self.legs_3_force_factor - root_legs_3_stroke);
+            let legs_thrust_with_legs_4_line_x = legs_thrust_with_platform_z_accel
                 + accel.platform.x * legs_4_line_x;
-            let legs_tension_part_v25 = T::lit(0.23770209988653576)
-                * legs_tension_part_v16
-                + T::lit(1.0061043907642937) * legs_tension_part_v19
-                + legs_tension_part_v21;
-            let legs_tension_part_v26 = T::lit(0.5357234151329243)
-                * legs_tension_part_v10
-                - T::lit(0.24603783231083845) * legs_tension_part_v11
-                + T::lit(0.1629601226993865) * legs_tension_part_v14;
-            let legs_4_thrust = (legs_thrust_part_v3
-                - legs_4_swell * (accel.platform.y * legs_4_line_y + legs_thrust_part_v5)
+            let legs_tension_with_platform_y = T::lit(0.23770209988653576)
+                * legs_tension_with_platform_y_accel
+                + T::lit(1.0061043907642937) * legs_tension_with_first_struts_mu_y
+                + legs_tension_with_first_struts_beta_x;
+            let legs_tension_with_legs_3_mu = T::lit(0.5357234151329243)
+                * legs_tension_with_platform_z_accel
+                - T::lit(0.24603783231083845) * legs_tension_with_platform_x_accel
+                + T::lit(0.1629601226993865) * legs_tension_with_first_struts_mu_x;
+            let legs_4_thrust = (legs_thrust_with_platform_x_rate
+                - legs_4_swell
+                    * (accel.platform.y * legs_4_line_y + legs_thrust_with_legs_4_line_x)
                 + legs_4_stroke_rate * legs_4_stroke_rate * (legs_4_bend - T::lit(0.05)))
                 * slope_legs_4_stroke_inv_squared
-                - root_legs_4_stroke * (legs_tension_part_v25 - legs_tension_part_v26)
+                - root_legs_4_stroke
+                    * (legs_tension_with_platform_y - legs_tension_with_legs_3_mu)
                 + self.legs_4_c * legs_4_stroke_rate
-                - self.legs_4_k * (self.platform_accel_factor_v5 - root_legs_4_stroke);
-            let legs_5_thrust = (legs_thrust_part_v3
-                - legs_5_swell * (accel.platform.y * legs_5_line_y + legs_thrust_part_v5)
+                - self.legs_4_k * (self.legs_4_force_factor - root_legs_4_stroke);
+            let legs_5_thrust = (legs_thrust_with_platform_x_rate
+                - legs_5_swell
+                    * (accel.platform.y * legs_5_line_y + legs_thrust_with_legs_4_line_x)
                 + legs_5_stroke_rate * legs_5_stroke_rate * (legs_5_bend - T::lit(0.05)))
                 * slope_legs_5_stroke_inv_squared
-                + root_legs_5_stroke * (legs_tension_part_v25 + legs_tension_part_v26)
+                + root_legs_5_stroke
+                    * (legs_tension_with_platform_y + legs_tension_with_legs_3_mu)
                 + self.legs_5_c * legs_5_stroke_rate
-                - self.legs_5_k * (self.platform_accel_factor_v6 - root_legs_5_stroke);
+                - self.legs_5_k * (self.legs_5_force_factor - root_legs_5_stroke);
             let mut solved = *input;
             solved.legs[0].thrust = -minus_legs_0_thrust;
             solved.legs[1].thrust = legs_1_thrust;
@@ -1018,7 +1032,7 @@ pub mod level {
                 rank: T::lit(3.0)
                     + T::lit(3.0)
                         * Real::select(
-                            Real::lt(rank_0_part_v2, rank_0_part),
+                            Real::lt(rank_0_part, abs_minus_legs_0_gimbal_first_b),
                             T::lit(1.0),
                             T::lit(0.0),
                         ),
@@ -1035,92 +1049,103 @@ pub mod level {
             _t: T,
             q: &Position<T>,
         ) -> ::multibody::nalgebra::SVector<T, 12> {
-            let root_legs_0_part = q.platform.y - T::lit(0.779);
-            let root_legs_part = T::lit(2.29) + q.platform.x;
-            let root_legs_stroke_part = T::lit(0.7316888688738209) * root_legs_part;
-            let root_legs_0_stroke_part = root_legs_stroke_part
-                - T::lit(0.6816387600233341) * root_legs_0_part;
-            let root_legs_part_v2 = T::lit(0.6816387600233341) * root_legs_part;
-            let root_legs_0_part_v2 = T::lit(0.7316888688738209) * root_legs_0_part
-                + root_legs_part_v2;
-            let root_legs_part_v3 = q.platform.z - T::lit(0.4);
-            let root_legs_part_v4 = root_legs_part_v3 * root_legs_part_v3;
-            let root_legs_0_part_v3 = root_legs_0_part_v2 * root_legs_0_part_v2
-                + root_legs_part_v4;
-            let root_legs_1_part = q.platform.y - T::lit(1.074);
-            let root_legs_part_v5 = T::lit(1.78) + q.platform.x;
-            let root_legs_stroke_part_v2 = T::lit(0.8525245220595058)
-                * root_legs_part_v5;
-            let root_legs_1_stroke_part = root_legs_stroke_part_v2
-                - T::lit(0.5226872289306592) * root_legs_1_part;
-            let root_legs_part_v6 = T::lit(0.5226872289306592) * root_legs_part_v5;
-            let root_legs_1_part_v2 = T::lit(0.8525245220595058) * root_legs_1_part
-                + root_legs_part_v6;
-            let root_legs_1_part_v3 = root_legs_part_v4
-                + root_legs_1_part_v2 * root_legs_1_part_v2;
-            let root_legs_2_part = T::lit(1.074) + q.platform.y;
-            let root_legs_2_stroke_part = root_legs_stroke_part_v2
-                + T::lit(0.5226872289306592) * root_legs_2_part;
-            let root_legs_2_part_v2 = root_legs_part_v6
-                - T::lit(0.8525245220595058) * root_legs_2_part;
-            let root_legs_2_part_v3 = root_legs_part_v4
-                + root_legs_2_part_v2 * root_legs_2_part_v2;
-            let root_legs_3_part = T::lit(0.779) + q.platform.y;
-            let root_legs_3_stroke_part = root_legs_stroke_part
-                + T::lit(0.6816387600233341) * root_legs_3_part;
-            let root_legs_3_part_v2 = root_legs_part_v2
-                - T::lit(0.7316888688738209) * root_legs_3_part;
-            let root_legs_3_part_v3 = root_legs_part_v4
-                + root_legs_3_part_v2 * root_legs_3_part_v2;
-            let root_legs_4_part = q.platform.y - T::lit(0.295);
-            let root_legs_part_v7 = T::lit(43.0 / 100.0) + q.platform.x;
-            let root_legs_stroke_part_v3 = T::lit(0.9577872375530903)
-                * root_legs_part_v7;
-            let root_legs_4_stroke_part = T::lit(0.2874780123425445) * root_legs_4_part
-                + root_legs_stroke_part_v3;
-            let root_legs_part_v8 = T::lit(0.2874780123425445) * root_legs_part_v7;
-            let root_legs_4_part_v2 = root_legs_part_v8
-                - T::lit(0.9577872375530903) * root_legs_4_part;
-            let root_legs_4_part_v3 = root_legs_part_v4
-                + root_legs_4_part_v2 * root_legs_4_part_v2;
-            let root_legs_5_part = T::lit(0.295) + q.platform.y;
-            let root_legs_5_stroke_part = root_legs_stroke_part_v3
-                - T::lit(0.2874780123425445) * root_legs_5_part;
-            let root_legs_5_part_v2 = root_legs_part_v8
-                + T::lit(0.9577872375530903) * root_legs_5_part;
-            let root_legs_5_part_v3 = root_legs_part_v4
-                + root_legs_5_part_v2 * root_legs_5_part_v2;
+            let platform_y_minus_0_779 = q.platform.y - T::lit(0.779);
+            let platform_x_plus_2_29 = T::lit(2.29) + q.platform.x;
+            let platform_x_plus_2_29_times_0_732 = T::lit(0.7316888688738209)
+                * platform_x_plus_2_29;
+            let legs_0_stroke_discriminant_with_platform_x = platform_x_plus_2_29_times_0_732
+                - T::lit(0.6816387600233341) * platform_y_minus_0_779;
+            let platform_x_plus_2_29_times_0_682 = T::lit(0.6816387600233341)
+                * platform_x_plus_2_29;
+            let minus_legs_0_gimbal_first_a = T::lit(0.7316888688738209)
+                * platform_y_minus_0_779 + platform_x_plus_2_29_times_0_682;
+            let minus_legs_0_gimbal_first_b = q.platform.z - T::lit(0.4);
+            let minus_legs_0_gimbal_first_b_squared = minus_legs_0_gimbal_first_b
+                * minus_legs_0_gimbal_first_b;
+            let legs_0_gimbal_first_d = minus_legs_0_gimbal_first_a
+                * minus_legs_0_gimbal_first_a + minus_legs_0_gimbal_first_b_squared;
+            let platform_y_minus_1_074 = q.platform.y - T::lit(1.074);
+            let platform_x_plus_1_78 = T::lit(1.78) + q.platform.x;
+            let platform_x_plus_1_78_times_0_853 = T::lit(0.8525245220595058)
+                * platform_x_plus_1_78;
+            let legs_1_stroke_discriminant_with_platform_x = platform_x_plus_1_78_times_0_853
+                - T::lit(0.5226872289306592) * platform_y_minus_1_074;
+            let platform_x_plus_1_78_times_0_523 = T::lit(0.5226872289306592)
+                * platform_x_plus_1_78;
+            let minus_legs_1_gimbal_first_a = T::lit(0.8525245220595058)
+                * platform_y_minus_1_074 + platform_x_plus_1_78_times_0_523;
+            let legs_1_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
+                + minus_legs_1_gimbal_first_a * minus_legs_1_gimbal_first_a;
+            let platform_y_plus_1_074 = T::lit(1.074) + q.platform.y;
+            let legs_2_stroke_discriminant_with_platform_x = platform_x_plus_1_78_times_0_853
+                + T::lit(0.5226872289306592) * platform_y_plus_1_074;
+            let legs_2_gimbal_first_a = platform_x_plus_1_78_times_0_523
+                - T::lit(0.8525245220595058) * platform_y_plus_1_074;
+            let legs_2_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
+                + legs_2_gimbal_first_a * legs_2_gimbal_first_a;
+            let platform_y_plus_0_779 = T::lit(0.779) + q.platform.y;
+            let legs_3_stroke_discriminant_with_platform_x = platform_x_plus_2_29_times_0_732
+                + T::lit(0.6816387600233341) * platform_y_plus_0_779;
+            let legs_3_gimbal_first_a = platform_x_plus_2_29_times_0_682
+                - T::lit(0.7316888688738209) * platform_y_plus_0_779;
+            let legs_3_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
+                + legs_3_gimbal_first_a * legs_3_gimbal_first_a;
+            let platform_y_minus_0_295 = q.platform.y - T::lit(0.295);
+            let platform_x_plus_0_43 = T::lit(43.0 / 100.0) + q.platform.x;
+            let platform_x_plus_0_43_times_0_958 = T::lit(0.9577872375530903)
+                * platform_x_plus_0_43;
+            let legs_4_stroke_discriminant_with_platform_y = T::lit(0.2874780123425445)
+                * platform_y_minus_0_295 + platform_x_plus_0_43_times_0_958;
+            let platform_x_plus_0_43_times_0_287 = T::lit(0.2874780123425445)
+                * platform_x_plus_0_43;
+            let minus_legs_4_gimbal_first_a = platform_x_plus_0_43_times_0_287
+                - T::lit(0.9577872375530903) * platform_y_minus_0_295;
+            let legs_4_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
+                + minus_legs_4_gimbal_first_a * minus_legs_4_gimbal_first_a;
+            let platform_y_plus_0_295 = T::lit(0.295) + q.platform.y;
+            let legs_5_stroke_discriminant_with_platform_x = platform_x_plus_0_43_times_0_958
+                - T::lit(0.2874780123425445) * platform_y_plus_0_295;
+            let legs_5_gimbal_first_a = platform_x_plus_0_43_times_0_287
+                + T::lit(0.9577872375530903) * platform_y_plus_0_295;
+            let legs_5_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
+                + legs_5_gimbal_first_a * legs_5_gimbal_first_a;
             ::multibody::nalgebra::SVector::from([
                 Real::sqrt(
-                    root_legs_0_stroke_part * root_legs_0_stroke_part
-                        + root_legs_0_part_v3,
+                    legs_0_stroke_discriminant_with_platform_x
+                        * legs_0_stroke_discriminant_with_platform_x
+                        + legs_0_gimbal_first_d,
                 ),
-                Real::sqrt(root_legs_0_part_v3),
+                Real::sqrt(legs_0_gimbal_first_d),
                 Real::sqrt(
-                    root_legs_1_stroke_part * root_legs_1_stroke_part
-                        + root_legs_1_part_v3,
+                    legs_1_stroke_discriminant_with_platform_x
+                        * legs_1_stroke_discriminant_with_platform_x
+                        + legs_1_gimbal_first_d,
                 ),
-                Real::sqrt(root_legs_1_part_v3),
+                Real::sqrt(legs_1_gimbal_first_d),
                 Real::sqrt(
-                    root_legs_2_stroke_part * root_legs_2_stroke_part
-                        + root_legs_2_part_v3,
+                    legs_2_stroke_discriminant_with_platform_x
+                        * legs_2_stroke_discriminant_with_platform_x
+                        + legs_2_gimbal_first_d,
                 ),
-                Real::sqrt(root_legs_2_part_v3),
+                Real::sqrt(legs_2_gimbal_first_d),
                 Real::sqrt(
-                    root_legs_3_stroke_part * root_legs_3_stroke_part
-                        + root_legs_3_part_v3,
+                    legs_3_stroke_discriminant_with_platform_x
+                        * legs_3_stroke_discriminant_with_platform_x
+                        + legs_3_gimbal_first_d,
                 ),
-                Real::sqrt(root_legs_3_part_v3),
+                Real::sqrt(legs_3_gimbal_first_d),
                 Real::sqrt(
-                    root_legs_4_stroke_part * root_legs_4_stroke_part
-                        + root_legs_4_part_v3,
+                    legs_4_stroke_discriminant_with_platform_y
+                        * legs_4_stroke_discriminant_with_platform_y
+                        + legs_4_gimbal_first_d,
                 ),
-                Real::sqrt(root_legs_4_part_v3),
+                Real::sqrt(legs_4_gimbal_first_d),
                 Real::sqrt(
-                    root_legs_5_stroke_part * root_legs_5_stroke_part
-                        + root_legs_5_part_v3,
+                    legs_5_stroke_discriminant_with_platform_x
+                        * legs_5_stroke_discriminant_with_platform_x
+                        + legs_5_gimbal_first_d,
                 ),
-                Real::sqrt(root_legs_5_part_v3),
+                Real::sqrt(legs_5_gimbal_first_d),
             ])
         }
         /// For integrators, at a state whose guess is the solution: how far loops are from dead centres (the root of a closed form, the determinant of what Newton's method solves), each followed by the rate of its square; then the greatest residual of Newton's method, if it closes loops.
@@ -1136,115 +1161,167 @@ pub mod level {
         ) -> ::multibody::nalgebra::SVector<T, 24> {
             let q = &state.q;
             let v = &state.v;
-            let margin_part = q.platform.y - T::lit(0.779);
-            let margin_part_v2 = T::lit(2.29) + q.platform.x;
-            let margin_part_v3 = T::lit(0.7316888688738209) * margin_part_v2;
-            let margin_1_part = margin_part_v3
-                - T::lit(0.6816387600233341) * margin_part;
-            let margin_part_v4 = T::lit(0.6816387600233341) * margin_part_v2;
-            let margin_part_v5 = T::lit(0.7316888688738209) * margin_part
-                + margin_part_v4;
-            let margin_part_v6 = q.platform.z - T::lit(0.4);
-            let root_legs_part = margin_part_v6 * margin_part_v6;
-            let root_legs_0_part = margin_part_v5 * margin_part_v5 + root_legs_part;
-            let margin_part_v7 = T::lit(0.7316888688738209) * v.platform.x;
-            let margin_part_v8 = T::lit(0.6816387600233341) * v.platform.y;
-            let margin_part_v9 = T::lit(0.6816387600233341) * v.platform.x;
-            let margin_part_v10 = T::lit(0.7316888688738209) * v.platform.y;
-            let margin_part_v11 = margin_part_v5 * (margin_part_v9 + margin_part_v10);
-            let margin_part_v12 = v.platform.z * margin_part_v6;
-            let margin_part_v13 = T::lit(2.0) * margin_part_v12;
-            let margin_part_v14 = q.platform.y - T::lit(1.074);
-            let margin_part_v15 = T::lit(1.78) + q.platform.x;
-            let margin_part_v16 = T::lit(0.8525245220595058) * margin_part_v15;
-            let margin_5_part = margin_part_v16
-                - T::lit(0.5226872289306592) * margin_part_v14;
-            let margin_part_v17 = T::lit(0.5226872289306592) * margin_part_v15;
-            let margin_part_v18 = T::lit(0.8525245220595058) * margin_part_v14
-                + margin_part_v17;
-            let root_legs_1_part = root_legs_part + margin_part_v18 * margin_part_v18;
-            let margin_part_v19 = T::lit(0.8525245220595058) * v.platform.x;
-            let margin_part_v20 = T::lit(0.5226872289306592) * v.platform.y;
-            let margin_part_v21 = T::lit(0.5226872289306592) * v.platform.x;
-            let margin_part_v22 = T::lit(0.8525245220595058) * v.platform.y;
-            let margin_part_v23 = margin_part_v18 * (margin_part_v21 + margin_part_v22);
-            let margin_part_v24 = T::lit(1.074) + q.platform.y;
-            let margin_9_part = margin_part_v16
-                + T::lit(0.5226872289306592) * margin_part_v24;
-            let margin_part_v25 = margin_part_v17
-                - T::lit(0.8525245220595058) * margin_part_v24;
-            let root_legs_2_part = root_legs_part + margin_part_v25 * margin_part_v25;
-            let margin_part_v26 = margin_part_v25 * (margin_part_v21 - margin_part_v22);
-            let margin_part_v27 = T::lit(0.779) + q.platform.y;
-            let margin_13_part = margin_part_v3
-                + T::lit(0.6816387600233341) * margin_part_v27;
-            let margin_part_v28 = margin_part_v4
-                - T::lit(0.7316888688738209) * margin_part_v27;
-            let root_legs_3_part = root_legs_part + margin_part_v28 * margin_part_v28;
-            let margin_part_v29 = margin_part_v28 * (margin_part_v9 - margin_part_v10);
-            let margin_part_v30 = q.platform.y - T::lit(0.295);
-            let margin_part_v31 = T::lit(43.0 / 100.0) + q.platform.x;
-            let margin_part_v32 = T::lit(0.9577872375530903) * margin_part_v31;
-            let margin_17_part = T::lit(0.2874780123425445) * margin_part_v30
-                + margin_part_v32;
-            let margin_part_v33 = T::lit(0.2874780123425445) * margin_part_v31;
-            let margin_part_v34 = margin_part_v33
-                - T::lit(0.9577872375530903) * margin_part_v30;
-            let root_legs_4_part = root_legs_part + margin_part_v34 * margin_part_v34;
-            let margin_part_v35 = T::lit(0.9577872375530903) * v.platform.x;
-            let margin_part_v36 = T::lit(0.2874780123425445) * v.platform.y;
-            let margin_part_v37 = T::lit(0.2874780123425445) * v.platform.x;
-            let margin_part_v38 = T::lit(0.9577872375530903) * v.platform.y;
-            let margin_part_v39 = margin_part_v34 * (margin_part_v37 - margin_part_v38);
-            let margin_part_v40 = T::lit(0.295) + q.platform.y;
-            let margin_21_part = margin_part_v32
-                - T::lit(0.2874780123425445) * margin_part_v40;
-            let margin_part_v41 = margin_part_v33
-                + T::lit(0.9577872375530903) * margin_part_v40;
-            let root_legs_5_part = root_legs_part + margin_part_v41 * margin_part_v41;
-            let margin_part_v42 = margin_part_v41 * (margin_part_v37 + margin_part_v38);
+            let platform_y_minus_0_779 = q.platform.y - T::lit(0.779);
+            let platform_x_plus_2_29 = T::lit(2.29) + q.platform.x;
+            let platform_x_plus_2_29_times_0_732 = T::lit(0.7316888688738209)
+                * platform_x_plus_2_29;
+            let legs_0_stroke_with_platform_x = platform_x_plus_2_29_times_0_732
+                - T::lit(0.6816387600233341) * platform_y_minus_0_779;
+            let platform_x_plus_2_29_times_0_682 = T::lit(0.6816387600233341)
+                * platform_x_plus_2_29;
+            let minus_legs_0_gimbal_first_a = T::lit(0.7316888688738209)
+                * platform_y_minus_0_779 + platform_x_plus_2_29_times_0_682;
+            let minus_legs_0_gimbal_first_b = q.platform.z - T::lit(0.4);
+            let minus_legs_0_gimbal_first_b_squared = minus_legs_0_gimbal_first_b
+                * minus_legs_0_gimbal_first_b;
+            let legs_0_gimbal_first_d = minus_legs_0_gimbal_first_a
+                * minus_legs_0_gimbal_first_a + minus_legs_0_gimbal_first_b_squared;
+            let platform_x_rate_times_0_732 = T::lit(0.7316888688738209) * v.platform.x;
+            let platform_y_rate_times_0_682 = T::lit(0.6816387600233341) * v.platform.y;
+            let platform_x_rate_times_0_682 = T::lit(0.6816387600233341) * v.platform.x;
+            let platform_y_rate_times_0_732 = T::lit(0.7316888688738209) * v.platform.y;
+            let margin_3_with_legs_0_gimbal_first_a = minus_legs_0_gimbal_first_a
+                * (platform_x_rate_times_0_682 + platform_y_rate_times_0_732);
+            let legs_stroke_gap_rate_with_platform_z_rate = v.platform.z
+                * minus_legs_0_gimbal_first_b;
+            let margin_with_platform_z_rate = T::lit(2.0)
+                * legs_stroke_gap_rate_with_platform_z_rate;
+            let platform_y_minus_1_074 = q.platform.y - T::lit(1.074);
+            let platform_x_plus_1_78 = T::lit(1.78) + q.platform.x;
+            let platform_x_plus_1_78_times_0_853 = T::lit(0.8525245220595058)
+                * platform_x_plus_1_78;
+            let legs_1_stroke_with_platform_x = platform_x_plus_1_78_times_0_853
+                - T::lit(0.5226872289306592) * platform_y_minus_1_074;
+            let platform_x_plus_1_78_times_0_523 = T::lit(0.5226872289306592)
+                * platform_x_plus_1_78;
+            let minus_legs_1_gimbal_first_a = T::lit(0.8525245220595058)
+                * platform_y_minus_1_074 + platform_x_plus_1_78_times_0_523;
+            let legs_1_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
+                + minus_legs_1_gimbal_first_a * minus_legs_1_gimbal_first_a;
+            let platform_x_rate_times_0_853 = T::lit(0.8525245220595058) * v.platform.x;
+            let platform_y_rate_times_0_523 = T::lit(0.5226872289306592) * v.platform.y;
+            let platform_x_rate_times_0_523 = T::lit(0.5226872289306592) * v.platform.x;
+            let platform_y_rate_times_0_853 = T::lit(0.8525245220595058) * v.platform.y;
+            let margin_7_with_legs_1_gimbal_first_a = minus_legs_1_gimbal_first_a
+                * (platform_x_rate_times_0_523 + platform_y_rate_times_0_853);
+            let platform_y_plus_1_074 = T::lit(1.074) + q.platform.y;
+            let legs_2_stroke_with_platform_x = platform_x_plus_1_78_times_0_853
+                + T::lit(0.5226872289306592) * platform_y_plus_1_074;
+            let legs_2_gimbal_first_a = platform_x_plus_1_78_times_0_523
+                - T::lit(0.8525245220595058) * platform_y_plus_1_074;
+            let legs_2_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
+                + legs_2_gimbal_first_a * legs_2_gimbal_first_a;
+            let margin_11_with_legs_2_gimbal_first_a = legs_2_gimbal_first_a
+                * (platform_x_rate_times_0_523 - platform_y_rate_times_0_853);
+            let platform_y_plus_0_779 = T::lit(0.779) + q.platform.y;
+            let legs_3_stroke_with_platform_x = platform_x_plus_2_29_times_0_732
+                + T::lit(0.6816387600233341) * platform_y_plus_0_779;
+            let legs_3_gimbal_first_a = platform_x_plus_2_29_times_0_682
+                - T::lit(0.7316888688738209) * platform_y_plus_0_779;
+            let legs_3_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
+                + legs_3_gimbal_first_a * legs_3_gimbal_first_a;
+            let margin_15_with_legs_3_gimbal_first_a = legs_3_gimbal_first_a
+                * (platform_x_rate_times_0_682 - platform_y_rate_times_0_732);
+            let platform_y_minus_0_295 = q.platform.y - T::lit(0.295);
+            let platform_x_plus_0_43 = T::lit(43.0 / 100.0) + q.platform.x;
+            let platform_x_plus_0_43_times_0_958 = T::lit(0.9577872375530903)
+                * platform_x_plus_0_43;
+            let legs_4_stroke_with_platform_y = T::lit(0.2874780123425445)
+                * platform_y_minus_0_295 + platform_x_plus_0_43_times_0_958;
+            let platform_x_plus_0_43_times_0_287 = T::lit(0.2874780123425445)
+                * platform_x_plus_0_43;
+            let minus_legs_4_gimbal_first_a = platform_x_plus_0_43_times_0_287
+                - T::lit(0.9577872375530903) * platform_y_minus_0_295;
+            let legs_4_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
+                + minus_legs_4_gimbal_first_a * minus_legs_4_gimbal_first_a;
+            let platform_x_rate_times_0_958 = T::lit(0.9577872375530903) * v.platform.x;
+            let platform_y_rate_times_0_287 = T::lit(0.2874780123425445) * v.platform.y;
+            let platform_x_rate_times_0_287 = T::lit(0.2874780123425445) * v.platform.x;
+            let platform_y_rate_times_0_958 = T::lit(0.9577872375530903) * v.platform.y;
+            let margin_19_with_legs_4_gimbal_first_a = minus_legs_4_gimbal_first_a
+                * (platform_x_rate_times_0_287 - platform_y_rate_times_0_958);
+            let platform_y_plus_0_295 = T::lit(0.295) + q.platform.y;
+            let legs_5_stroke_with_platform_x = platform_x_plus_0_43_times_0_958
+                - T::lit(0.2874780123425445) * platform_y_plus_0_295;
+            let legs_5_gimbal_first_a = platform_x_plus_0_43_times_0_287
+                + T::lit(0.9577872375530903) * platform_y_plus_0_295;
+            let legs_5_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
+                + legs_5_gimbal_first_a * legs_5_gimbal_first_a;
+            let margin_23_with_legs_5_gimbal_first_a = legs_5_gimbal_first_a
+                * (platform_x_rate_times_0_287 + platform_y_rate_times_0_958);
             ::multibody::nalgebra::SVector::from([
-                Real::sqrt(margin_1_part * margin_1_part + root_legs_0_part),
+                Real::sqrt(
+                    legs_0_stroke_with_platform_x * legs_0_stroke_with_platform_x
+                        + legs_0_gimbal_first_d,
+                ),
                 (T::lit(2.0)
-                    * (margin_1_part * (margin_part_v7 - margin_part_v8)
-                        + margin_part_v11 + margin_part_v12)),
-                Real::sqrt(root_legs_0_part),
-                (T::lit(2.0) * margin_part_v11 + margin_part_v13),
-                Real::sqrt(margin_5_part * margin_5_part + root_legs_1_part),
+                    * (legs_0_stroke_with_platform_x
+                        * (platform_x_rate_times_0_732 - platform_y_rate_times_0_682)
+                        + margin_3_with_legs_0_gimbal_first_a
+                        + legs_stroke_gap_rate_with_platform_z_rate)),
+                Real::sqrt(legs_0_gimbal_first_d),
+                (T::lit(2.0) * margin_3_with_legs_0_gimbal_first_a
+                    + margin_with_platform_z_rate),
+                Real::sqrt(
+                    legs_1_stroke_with_platform_x * legs_1_stroke_with_platform_x
+                        + legs_1_gimbal_first_d,
+                ),
                 (T::lit(2.0)
-                    * (margin_part_v12
-                        + margin_5_part * (margin_part_v19 - margin_part_v20)
-                        + margin_part_v23)),
-                Real::sqrt(root_legs_1_part),
-                (T::lit(2.0) * margin_part_v23 + margin_part_v13),
-                Real::sqrt(margin_9_part * margin_9_part + root_legs_2_part),
+                    * (legs_stroke_gap_rate_with_platform_z_rate
+                        + legs_1_stroke_with_platform_x
+                            * (platform_x_rate_times_0_853 - platform_y_rate_times_0_523)
+                        + margin_7_with_legs_1_gimbal_first_a)),
+                Real::sqrt(legs_1_gimbal_first_d),
+                (T::lit(2.0) * margin_7_with_legs_1_gimbal_first_a
+                    + margin_with_platform_z_rate),
+                Real::sqrt(
+                    legs_2_stroke_with_platform_x * legs_2_stroke_with_platform_x
+                        + legs_2_gimbal_first_d,
+                ),
                 (T::lit(2.0)
-                    * (margin_part_v12
-                        + margin_9_part * (margin_part_v19 + margin_part_v20)
-                        + margin_part_v26)),
-                Real::sqrt(root_legs_2_part),
-                (T::lit(2.0) * margin_part_v26 + margin_part_v13),
-                Real::sqrt(margin_13_part * margin_13_part + root_legs_3_part),
+                    * (legs_stroke_gap_rate_with_platform_z_rate
+                        + legs_2_stroke_with_platform_x
+                            * (platform_x_rate_times_0_853 + platform_y_rate_times_0_523)
+                        + margin_11_with_legs_2_gimbal_first_a)),
+                Real::sqrt(legs_2_gimbal_first_d),
+                (T::lit(2.0) * margin_11_with_legs_2_gimbal_first_a
+                    + margin_with_platform_z_rate),
+                Real::sqrt(
+                    legs_3_stroke_with_platform_x * legs_3_stroke_with_platform_x
+                        + legs_3_gimbal_first_d,
+                ),
                 (T::lit(2.0)
-                    * (margin_part_v12
-                        + margin_13_part * (margin_part_v7 + margin_part_v8)
-                        + margin_part_v29)),
-                Real::sqrt(root_legs_3_part),
-                (T::lit(2.0) * margin_part_v29 + margin_part_v13),
-                Real::sqrt(margin_17_part * margin_17_part + root_legs_4_part),
+                    * (legs_stroke_gap_rate_with_platform_z_rate
+                        + legs_3_stroke_with_platform_x
+                            * (platform_x_rate_times_0_732 + platform_y_rate_times_0_682)
+                        + margin_15_with_legs_3_gimbal_first_a)),
+                Real::sqrt(legs_3_gimbal_first_d),
+                (T::lit(2.0) * margin_15_with_legs_3_gimbal_first_a
+                    + margin_with_platform_z_rate),
+                Real::sqrt(
+                    legs_4_stroke_with_platform_y * legs_4_stroke_with_platform_y
+                        + legs_4_gimbal_first_d,
+                ),
                 (T::lit(2.0)
-                    * (margin_part_v12
-                        + margin_17_part * (margin_part_v35 + margin_part_v36)
-                        + margin_part_v39)),
-                Real::sqrt(root_legs_4_part),
-                (T::lit(2.0) * margin_part_v39 + margin_part_v13),
-                Real::sqrt(margin_21_part * margin_21_part + root_legs_5_part),
+                    * (legs_stroke_gap_rate_with_platform_z_rate
+                        + legs_4_stroke_with_platform_y
+                            * (platform_x_rate_times_0_958 + platform_y_rate_times_0_287)
+                        + margin_19_with_legs_4_gimbal_first_a)),
+                Real::sqrt(legs_4_gimbal_first_d),
+                (T::lit(2.0) * margin_19_with_legs_4_gimbal_first_a
+                    + margin_with_platform_z_rate),
+                Real::sqrt(
+                    legs_5_stroke_with_platform_x * legs_5_stroke_with_platform_x
+                        + legs_5_gimbal_first_d,
+                ),
                 (T::lit(2.0)
-                    * (margin_part_v12
-                        + margin_21_part * (margin_part_v35 - margin_part_v36)
-                        + margin_part_v42)),
-                Real::sqrt(root_legs_5_part),
-                (T::lit(2.0) * margin_part_v42 + margin_part_v13),
+                    * (legs_stroke_gap_rate_with_platform_z_rate
+                        + legs_5_stroke_with_platform_x
+                            * (platform_x_rate_times_0_958 - platform_y_rate_times_0_287)
+                        + margin_23_with_legs_5_gimbal_first_a)),
+                Real::sqrt(legs_5_gimbal_first_d),
+                (T::lit(2.0) * margin_23_with_legs_5_gimbal_first_a
+                    + margin_with_platform_z_rate),
             ])
         }
     }
@@ -1480,424 +1557,562 @@ pub mod level {
             _input: &Input<T>,
         ) -> Option<&'static str> {
             let q = &state.q;
-            let mass_matrix_part = T::lit(0.595) + q.platform.y - T::lit(1.374);
-            let mass_matrix_part_v2 = T::lit(2.12) + (T::lit(0.17) + q.platform.x);
-            let sin_legs_gimbal_first_part = T::lit(0.6816387600233341)
-                * mass_matrix_part_v2;
-            let sin_legs_0_gimbal_first_part = T::lit(0.7316888688738209)
-                * mass_matrix_part + sin_legs_gimbal_first_part;
-            let m_8_8_part = sin_legs_0_gimbal_first_part * sin_legs_0_gimbal_first_part;
-            let mass_matrix_part_v3 = q.platform.z - T::lit(0.4);
-            let m_23_23_part = mass_matrix_part_v3 * mass_matrix_part_v3;
-            let root_legs_0_gimbal_first = Real::sqrt(m_8_8_part + m_23_23_part);
+            let platform_y_plus_0_595_minus_1_374 = T::lit(0.595) + q.platform.y
+                - T::lit(1.374);
+            let platform_x_plus_0_17_plus_2_12 = T::lit(2.12)
+                + (T::lit(0.17) + q.platform.x);
+            let platform_x_plus_0_17_plus_2_12_times_0_682 = T::lit(0.6816387600233341)
+                * platform_x_plus_0_17_plus_2_12;
+            let minus_legs_0_gimbal_first_a = T::lit(0.7316888688738209)
+                * platform_y_plus_0_595_minus_1_374
+                + platform_x_plus_0_17_plus_2_12_times_0_682;
+            let minus_legs_0_gimbal_first_a_squared = minus_legs_0_gimbal_first_a
+                * minus_legs_0_gimbal_first_a;
+            let minus_legs_0_gimbal_first_b = q.platform.z - T::lit(0.4);
+            let minus_legs_0_gimbal_first_b_squared = minus_legs_0_gimbal_first_b
+                * minus_legs_0_gimbal_first_b;
+            let root_legs_0_gimbal_first = Real::sqrt(
+                minus_legs_0_gimbal_first_a_squared + minus_legs_0_gimbal_first_b_squared,
+            );
             let minus_slope_legs_0_gimbal_first_inv = T::lit(1.0)
                 / root_legs_0_gimbal_first;
-            let cos_legs_0_gimbal_first = mass_matrix_part_v3
+            let cos_legs_0_gimbal_first = minus_legs_0_gimbal_first_b
                 * minus_slope_legs_0_gimbal_first_inv;
-            let mass_matrix_part_v4 = minus_slope_legs_0_gimbal_first_inv
+            let mass_matrix_with_slope_legs_0_gimbal_first_inv = minus_slope_legs_0_gimbal_first_inv
                 * cos_legs_0_gimbal_first;
-            let sin_legs_gimbal_second_part = T::lit(0.7316888688738209)
-                * mass_matrix_part_v2;
-            let sin_legs_0_gimbal_second_part = sin_legs_gimbal_second_part
-                - T::lit(0.6816387600233341) * mass_matrix_part;
-            let m_8_8_part_v2 = sin_legs_0_gimbal_second_part
-                * sin_legs_0_gimbal_second_part + m_8_8_part + m_23_23_part;
-            let root_legs_0_stroke = Real::sqrt(m_8_8_part_v2);
+            let platform_x_plus_0_17_plus_2_12_times_0_732 = T::lit(0.7316888688738209)
+                * platform_x_plus_0_17_plus_2_12;
+            let legs_0_gimbal_second_v = platform_x_plus_0_17_plus_2_12_times_0_732
+                - T::lit(0.6816387600233341) * platform_y_plus_0_595_minus_1_374;
+            let legs_0_stroke_discriminant = legs_0_gimbal_second_v
+                * legs_0_gimbal_second_v + minus_legs_0_gimbal_first_a_squared
+                + minus_legs_0_gimbal_first_b_squared;
+            let root_legs_0_stroke = Real::sqrt(legs_0_stroke_discriminant);
             let slope_legs_0_stroke_inv = T::lit(1.0) / root_legs_0_stroke;
             let cos_legs_0_gimbal_second = root_legs_0_gimbal_first
                 * slope_legs_0_stroke_inv;
             let m_8_8 = T::lit(0.0625)
-                + (T::lit(0.1) * m_8_8_part_v2 - T::lit(0.1) * root_legs_0_stroke);
+                + (T::lit(0.1) * legs_0_stroke_discriminant
+                    - T::lit(0.1) * root_legs_0_stroke);
             let m_7_7 = cos_legs_0_gimbal_second * cos_legs_0_gimbal_second * m_8_8;
-            let mass_matrix_part_v5 = mass_matrix_part_v4 * m_7_7 * mass_matrix_part_v4;
-            let minus_sin_legs_0_gimbal_first = sin_legs_0_gimbal_first_part
+            let mass_matrix_with_m_7_7 = mass_matrix_with_slope_legs_0_gimbal_first_inv
+                * m_7_7 * mass_matrix_with_slope_legs_0_gimbal_first_inv;
+            let minus_sin_legs_0_gimbal_first = minus_legs_0_gimbal_first_a
                 * minus_slope_legs_0_gimbal_first_inv;
-            let sin_legs_0_gimbal_second = sin_legs_0_gimbal_second_part
+            let sin_legs_0_gimbal_second = legs_0_gimbal_second_v
                 * slope_legs_0_stroke_inv;
-            let mass_matrix_part_v6 = minus_sin_legs_0_gimbal_first
+            let mass_matrix_with_sin_legs_0_gimbal_first = minus_sin_legs_0_gimbal_first
                 * sin_legs_0_gimbal_second;
-            let mass_matrix_part_v7 = slope_legs_0_stroke_inv
-                * (T::lit(0.6816387600233341) * mass_matrix_part_v6
+            let mass_matrix_with_slope_legs_0_stroke_inv = slope_legs_0_stroke_inv
+                * (T::lit(0.6816387600233341) * mass_matrix_with_sin_legs_0_gimbal_first
                     - T::lit(0.7316888688738209) * cos_legs_0_gimbal_second);
-            let mass_matrix_part_v8 = mass_matrix_part_v2 * slope_legs_0_stroke_inv;
-            let mass_matrix_part_v9 = T::lit(0.15) + q.platform.y - T::lit(1.224);
-            let mass_matrix_part_v10 = T::lit(2.38) + (q.platform.x - T::lit(0.6));
-            let sin_legs_gimbal_first_part_v2 = T::lit(0.5226872289306592)
-                * mass_matrix_part_v10;
-            let sin_legs_1_gimbal_first_part = T::lit(0.8525245220595058)
-                * mass_matrix_part_v9 + sin_legs_gimbal_first_part_v2;
-            let m_11_11_part = sin_legs_1_gimbal_first_part
-                * sin_legs_1_gimbal_first_part;
-            let root_legs_1_gimbal_first = Real::sqrt(m_23_23_part + m_11_11_part);
+            let mass_matrix_with_platform_x = platform_x_plus_0_17_plus_2_12
+                * slope_legs_0_stroke_inv;
+            let platform_y_plus_0_15_minus_1_224 = T::lit(0.15) + q.platform.y
+                - T::lit(1.224);
+            let platform_x_minus_0_6_plus_2_38 = T::lit(2.38)
+                + (q.platform.x - T::lit(0.6));
+            let platform_x_minus_0_6_plus_2_38_times_0_523 = T::lit(0.5226872289306592)
+                * platform_x_minus_0_6_plus_2_38;
+            let minus_legs_1_gimbal_first_a = T::lit(0.8525245220595058)
+                * platform_y_plus_0_15_minus_1_224
+                + platform_x_minus_0_6_plus_2_38_times_0_523;
+            let minus_legs_1_gimbal_first_a_squared = minus_legs_1_gimbal_first_a
+                * minus_legs_1_gimbal_first_a;
+            let root_legs_1_gimbal_first = Real::sqrt(
+                minus_legs_0_gimbal_first_b_squared + minus_legs_1_gimbal_first_a_squared,
+            );
             let minus_slope_legs_1_gimbal_first_inv = T::lit(1.0)
                 / root_legs_1_gimbal_first;
-            let cos_legs_1_gimbal_first = mass_matrix_part_v3
+            let cos_legs_1_gimbal_first = minus_legs_0_gimbal_first_b
                 * minus_slope_legs_1_gimbal_first_inv;
-            let mass_matrix_part_v11 = minus_slope_legs_1_gimbal_first_inv
+            let mass_matrix_with_slope_legs_1_gimbal_first_inv = minus_slope_legs_1_gimbal_first_inv
                 * cos_legs_1_gimbal_first;
-            let sin_legs_gimbal_second_part_v2 = T::lit(0.8525245220595058)
-                * mass_matrix_part_v10;
-            let sin_legs_1_gimbal_second_part = sin_legs_gimbal_second_part_v2
-                - T::lit(0.5226872289306592) * mass_matrix_part_v9;
-            let m_11_11_part_v2 = m_23_23_part
-                + sin_legs_1_gimbal_second_part * sin_legs_1_gimbal_second_part
-                + m_11_11_part;
-            let root_legs_1_stroke = Real::sqrt(m_11_11_part_v2);
+            let platform_x_minus_0_6_plus_2_38_times_0_853 = T::lit(0.8525245220595058)
+                * platform_x_minus_0_6_plus_2_38;
+            let legs_1_gimbal_second_v = platform_x_minus_0_6_plus_2_38_times_0_853
+                - T::lit(0.5226872289306592) * platform_y_plus_0_15_minus_1_224;
+            let legs_1_stroke_discriminant = minus_legs_0_gimbal_first_b_squared
+                + legs_1_gimbal_second_v * legs_1_gimbal_second_v
+                + minus_legs_1_gimbal_first_a_squared;
+            let root_legs_1_stroke = Real::sqrt(legs_1_stroke_discriminant);
             let slope_legs_1_stroke_inv = T::lit(1.0) / root_legs_1_stroke;
             let cos_legs_1_gimbal_second = root_legs_1_gimbal_first
                 * slope_legs_1_stroke_inv;
             let m_11_11 = T::lit(0.0625)
-                + (T::lit(0.1) * m_11_11_part_v2 - T::lit(0.1) * root_legs_1_stroke);
+                + (T::lit(0.1) * legs_1_stroke_discriminant
+                    - T::lit(0.1) * root_legs_1_stroke);
             let m_10_10 = cos_legs_1_gimbal_second * cos_legs_1_gimbal_second * m_11_11;
-            let mass_matrix_part_v12 = mass_matrix_part_v11 * m_10_10
-                * mass_matrix_part_v11;
-            let minus_sin_legs_1_gimbal_first = sin_legs_1_gimbal_first_part
+            let mass_matrix_with_m_10_10 = mass_matrix_with_slope_legs_1_gimbal_first_inv
+                * m_10_10 * mass_matrix_with_slope_legs_1_gimbal_first_inv;
+            let minus_sin_legs_1_gimbal_first = minus_legs_1_gimbal_first_a
                 * minus_slope_legs_1_gimbal_first_inv;
-            let sin_legs_1_gimbal_second = sin_legs_1_gimbal_second_part
+            let sin_legs_1_gimbal_second = legs_1_gimbal_second_v
                 * slope_legs_1_stroke_inv;
-            let mass_matrix_part_v13 = minus_sin_legs_1_gimbal_first
+            let mass_matrix_with_sin_legs_1_gimbal_first = minus_sin_legs_1_gimbal_first
                 * sin_legs_1_gimbal_second;
-            let mass_matrix_part_v14 = slope_legs_1_stroke_inv
-                * (T::lit(0.5226872289306592) * mass_matrix_part_v13
+            let mass_matrix_with_slope_legs_1_stroke_inv = slope_legs_1_stroke_inv
+                * (T::lit(0.5226872289306592) * mass_matrix_with_sin_legs_1_gimbal_first
                     - T::lit(0.8525245220595058) * cos_legs_1_gimbal_second);
-            let mass_matrix_part_v15 = mass_matrix_part_v10 * slope_legs_1_stroke_inv;
-            let mass_matrix_part_v16 = T::lit(1.224) + (q.platform.y - T::lit(0.15));
-            let sin_legs_2_gimbal_first_part = sin_legs_gimbal_first_part_v2
-                - T::lit(0.8525245220595058) * mass_matrix_part_v16;
-            let m_14_14_part = sin_legs_2_gimbal_first_part
-                * sin_legs_2_gimbal_first_part;
-            let root_legs_2_gimbal_first = Real::sqrt(m_23_23_part + m_14_14_part);
+            let mass_matrix_with_slope_legs_1_stroke_inv_and_platform_x = platform_x_minus_0_6_plus_2_38
+                * slope_legs_1_stroke_inv;
+            let platform_y_minus_0_15_plus_1_224 = T::lit(1.224)
+                + (q.platform.y - T::lit(0.15));
+            let legs_2_gimbal_first_a = platform_x_minus_0_6_plus_2_38_times_0_523
+                - T::lit(0.8525245220595058) * platform_y_minus_0_15_plus_1_224;
+            let legs_2_gimbal_first_a_squared = legs_2_gimbal_first_a
+                * legs_2_gimbal_first_a;
+            let root_legs_2_gimbal_first = Real::sqrt(
+                minus_legs_0_gimbal_first_b_squared + legs_2_gimbal_first_a_squared,
+            );
             let minus_slope_legs_2_gimbal_first_inv = T::lit(1.0)
                 / root_legs_2_gimbal_first;
-            let cos_legs_2_gimbal_first = mass_matrix_part_v3
+            let cos_legs_2_gimbal_first = minus_legs_0_gimbal_first_b
                 * minus_slope_legs_2_gimbal_first_inv;
-            let mass_matrix_part_v17 = minus_slope_legs_2_gimbal_first_inv
+            let mass_matrix_with_slope_legs_2_gimbal_first_inv = minus_slope_legs_2_gimbal_first_inv
                 * cos_legs_2_gimbal_first;
-            let sin_legs_2_gimbal_second_part = sin_legs_gimbal_second_part_v2
-                + T::lit(0.5226872289306592) * mass_matrix_part_v16;
-            let m_14_14_part_v2 = m_23_23_part
-                + sin_legs_2_gimbal_second_part * sin_legs_2_gimbal_second_part
-                + m_14_14_part;
-            let root_legs_2_stroke = Real::sqrt(m_14_14_part_v2);
+            let legs_2_gimbal_second_v = platform_x_minus_0_6_plus_2_38_times_0_853
+                + T::lit(0.5226872289306592) * platform_y_minus_0_15_plus_1_224;
+            let legs_2_stroke_discriminant = minus_legs_0_gimbal_first_b_squared
+                + legs_2_gimbal_second_v * legs_2_gimbal_second_v
+                + legs_2_gimbal_first_a_squared;
+            let root_legs_2_stroke = Real::sqrt(legs_2_stroke_discriminant);
             let slope_legs_2_stroke_inv = T::lit(1.0) / root_legs_2_stroke;
             let cos_legs_2_gimbal_second = root_legs_2_gimbal_first
                 * slope_legs_2_stroke_inv;
             let m_14_14 = T::lit(0.0625)
-                + (T::lit(0.1) * m_14_14_part_v2 - T::lit(0.1) * root_legs_2_stroke);
+                + (T::lit(0.1) * legs_2_stroke_discriminant
+                    - T::lit(0.1) * root_legs_2_stroke);
             let m_13_13 = cos_legs_2_gimbal_second * cos_legs_2_gimbal_second * m_14_14;
-            let mass_matrix_part_v18 = mass_matrix_part_v17 * m_13_13
-                * mass_matrix_part_v17;
-            let sin_legs_2_gimbal_first = sin_legs_2_gimbal_first_part
+            let mass_matrix_with_m_13_13 = mass_matrix_with_slope_legs_2_gimbal_first_inv
+                * m_13_13 * mass_matrix_with_slope_legs_2_gimbal_first_inv;
+            let sin_legs_2_gimbal_first = legs_2_gimbal_first_a
                 * minus_slope_legs_2_gimbal_first_inv;
-            let sin_legs_2_gimbal_second = sin_legs_2_gimbal_second_part
+            let sin_legs_2_gimbal_second = legs_2_gimbal_second_v
                 * slope_legs_2_stroke_inv;
-            let mass_matrix_part_v19 = sin_legs_2_gimbal_first
+            let sin_legs_2_gimbal_first_times_second = sin_legs_2_gimbal_first
                 * sin_legs_2_gimbal_second;
-            let mass_matrix_part_v20 = slope_legs_2_stroke_inv
-                * (T::lit(0.5226872289306592) * mass_matrix_part_v19
+            let mass_matrix_with_slope_legs_2_stroke_inv = slope_legs_2_stroke_inv
+                * (T::lit(0.5226872289306592) * sin_legs_2_gimbal_first_times_second
                     - T::lit(0.8525245220595058) * cos_legs_2_gimbal_second);
-            let mass_matrix_part_v21 = mass_matrix_part_v10 * slope_legs_2_stroke_inv;
-            let mass_matrix_part_v22 = T::lit(1.374) + (q.platform.y - T::lit(0.595));
-            let sin_legs_3_gimbal_first_part = sin_legs_gimbal_first_part
-                - T::lit(0.7316888688738209) * mass_matrix_part_v22;
-            let m_17_17_part = sin_legs_3_gimbal_first_part
-                * sin_legs_3_gimbal_first_part;
-            let root_legs_3_gimbal_first = Real::sqrt(m_23_23_part + m_17_17_part);
+            let mass_matrix_with_slope_legs_2_stroke_inv_and_platform_x = platform_x_minus_0_6_plus_2_38
+                * slope_legs_2_stroke_inv;
+            let platform_y_minus_0_595_plus_1_374 = T::lit(1.374)
+                + (q.platform.y - T::lit(0.595));
+            let legs_3_gimbal_first_a = platform_x_plus_0_17_plus_2_12_times_0_682
+                - T::lit(0.7316888688738209) * platform_y_minus_0_595_plus_1_374;
+            let legs_3_gimbal_first_a_squared = legs_3_gimbal_first_a
+                * legs_3_gimbal_first_a;
+            let root_legs_3_gimbal_first = Real::sqrt(
+                minus_legs_0_gimbal_first_b_squared + legs_3_gimbal_first_a_squared,
+            );
             let minus_slope_legs_3_gimbal_first_inv = T::lit(1.0)
                 / root_legs_3_gimbal_first;
-            let cos_legs_3_gimbal_first = mass_matrix_part_v3
+            let cos_legs_3_gimbal_first = minus_legs_0_gimbal_first_b
                 * minus_slope_legs_3_gimbal_first_inv;
-            let mass_matrix_part_v23 = minus_slope_legs_3_gimbal_first_inv
+            let mass_matrix_with_slope_legs_3_gimbal_first_inv = minus_slope_legs_3_gimbal_first_inv
                 * cos_legs_3_gimbal_first;
-            let sin_legs_3_gimbal_second_part = sin_legs_gimbal_second_part
-                + T::lit(0.6816387600233341) * mass_matrix_part_v22;
-            let m_17_17_part_v2 = m_23_23_part
-                + sin_legs_3_gimbal_second_part * sin_legs_3_gimbal_second_part
-                + m_17_17_part;
-            let root_legs_3_stroke = Real::sqrt(m_17_17_part_v2);
+            let legs_3_gimbal_second_v = platform_x_plus_0_17_plus_2_12_times_0_732
+                + T::lit(0.6816387600233341) * platform_y_minus_0_595_plus_1_374;
+            let legs_3_stroke_discriminant = minus_legs_0_gimbal_first_b_squared
+                + legs_3_gimbal_second_v * legs_3_gimbal_second_v
+                + legs_3_gimbal_first_a_squared;
+            let root_legs_3_stroke = Real::sqrt(legs_3_stroke_discriminant);
             let slope_legs_3_stroke_inv = T::lit(1.0) / root_legs_3_stroke;
             let cos_legs_3_gimbal_second = root_legs_3_gimbal_first
                 * slope_legs_3_stroke_inv;
             let m_17_17 = T::lit(0.0625)
-                + (T::lit(0.1) * m_17_17_part_v2 - T::lit(0.1) * root_legs_3_stroke);
+                + (T::lit(0.1) * legs_3_stroke_discriminant
+                    - T::lit(0.1) * root_legs_3_stroke);
             let m_16_16 = cos_legs_3_gimbal_second * cos_legs_3_gimbal_second * m_17_17;
-            let mass_matrix_part_v24 = mass_matrix_part_v23 * m_16_16
-                * mass_matrix_part_v23;
-            let sin_legs_3_gimbal_first = sin_legs_3_gimbal_first_part
+            let mass_matrix_with_m_16_16 = mass_matrix_with_slope_legs_3_gimbal_first_inv
+                * m_16_16 * mass_matrix_with_slope_legs_3_gimbal_first_inv;
+            let sin_legs_3_gimbal_first = legs_3_gimbal_first_a
                 * minus_slope_legs_3_gimbal_first_inv;
-            let sin_legs_3_gimbal_second = sin_legs_3_gimbal_second_part
+            let sin_legs_3_gimbal_second = legs_3_gimbal_second_v
                 * slope_legs_3_stroke_inv;
-            let mass_matrix_part_v25 = sin_legs_3_gimbal_first
+            let sin_legs_3_gimbal_first_times_second = sin_legs_3_gimbal_first
                 * sin_legs_3_gimbal_second;
-            let mass_matrix_part_v26 = slope_legs_3_stroke_inv
-                * (T::lit(0.6816387600233341) * mass_matrix_part_v25
+            let mass_matrix_with_slope_legs_3_stroke_inv = slope_legs_3_stroke_inv
+                * (T::lit(0.6816387600233341) * sin_legs_3_gimbal_first_times_second
                     - T::lit(0.7316888688738209) * cos_legs_3_gimbal_second);
-            let mass_matrix_part_v27 = mass_matrix_part_v2 * slope_legs_3_stroke_inv;
-            let mass_matrix_part_v28 = T::lit(0.15) + (q.platform.y - T::lit(0.445));
-            let mass_matrix_part_v29 = T::lit(43.0 / 100.0) + q.platform.x;
-            let sin_legs_gimbal_first_part_v3 = T::lit(0.2874780123425445)
-                * mass_matrix_part_v29;
-            let sin_legs_4_gimbal_first_part = sin_legs_gimbal_first_part_v3
-                - T::lit(0.9577872375530903) * mass_matrix_part_v28;
-            let m_20_20_part = sin_legs_4_gimbal_first_part
-                * sin_legs_4_gimbal_first_part;
-            let root_legs_4_gimbal_first = Real::sqrt(m_23_23_part + m_20_20_part);
+            let mass_matrix_with_slope_legs_3_stroke_inv_and_platform_x = platform_x_plus_0_17_plus_2_12
+                * slope_legs_3_stroke_inv;
+            let platform_y_minus_0_445_plus_0_15 = T::lit(0.15)
+                + (q.platform.y - T::lit(0.445));
+            let platform_x_plus_0_43 = T::lit(43.0 / 100.0) + q.platform.x;
+            let platform_x_plus_0_43_times_0_287 = T::lit(0.2874780123425445)
+                * platform_x_plus_0_43;
+            let minus_legs_4_gimbal_first_a = platform_x_plus_0_43_times_0_287
+                - T::lit(0.9577872375530903) * platform_y_minus_0_445_plus_0_15;
+            let minus_legs_4_gimbal_first_a_squared = minus_legs_4_gimbal_first_a
+                * minus_legs_4_gimbal_first_a;
+            let root_legs_4_gimbal_first = Real::sqrt(
+                minus_legs_0_gimbal_first_b_squared + minus_legs_4_gimbal_first_a_squared,
+            );
             let minus_slope_legs_4_gimbal_first_inv = T::lit(1.0)
                 / root_legs_4_gimbal_first;
-            let cos_legs_4_gimbal_first = mass_matrix_part_v3
+            let cos_legs_4_gimbal_first = minus_legs_0_gimbal_first_b
                 * minus_slope_legs_4_gimbal_first_inv;
-            let mass_matrix_part_v30 = minus_slope_legs_4_gimbal_first_inv
+            let mass_matrix_with_slope_legs_4_gimbal_first_inv = minus_slope_legs_4_gimbal_first_inv
                 * cos_legs_4_gimbal_first;
-            let sin_legs_gimbal_second_part_v3 = T::lit(0.9577872375530903)
-                * mass_matrix_part_v29;
-            let sin_legs_4_gimbal_second_part = T::lit(0.2874780123425445)
-                * mass_matrix_part_v28 + sin_legs_gimbal_second_part_v3;
-            let m_20_20_part_v2 = m_23_23_part
-                + sin_legs_4_gimbal_second_part * sin_legs_4_gimbal_second_part
-                + m_20_20_part;
-            let root_legs_4_stroke = Real::sqrt(m_20_20_part_v2);
+            let platform_x_plus_0_43_times_0_958 = T::lit(0.9577872375530903)
+                * platform_x_plus_0_43;
+            let minus_legs_4_gimbal_second_v = T::lit(0.2874780123425445)
+                * platform_y_minus_0_445_plus_0_15 + platform_x_plus_0_43_times_0_958;
+            let legs_4_stroke_discriminant = minus_legs_0_gimbal_first_b_squared
+                + minus_legs_4_gimbal_second_v * minus_legs_4_gimbal_second_v
+                + minus_legs_4_gimbal_first_a_squared;
+            let root_legs_4_stroke = Real::sqrt(legs_4_stroke_discriminant);
             let slope_legs_4_stroke_inv = T::lit(1.0) / root_legs_4_stroke;
             let cos_legs_4_gimbal_second = root_legs_4_gimbal_first
                 * slope_legs_4_stroke_inv;
             let m_20_20 = T::lit(0.0625)
-                + (T::lit(0.1) * m_20_20_part_v2 - T::lit(0.1) * root_legs_4_stroke);
+                + (T::lit(0.1) * legs_4_stroke_discriminant
+                    - T::lit(0.1) * root_legs_4_stroke);
             let m_19_19 = cos_legs_4_gimbal_second * cos_legs_4_gimbal_second * m_20_20;
-            let mass_matrix_part_v31 = mass_matrix_part_v30 * m_19_19
-                * mass_matrix_part_v30;
-            let minus_sin_legs_4_gimbal_first = sin_legs_4_gimbal_first_part
+            let mass_matrix_with_m_19_19 = mass_matrix_with_slope_legs_4_gimbal_first_inv
+                * m_19_19 * mass_matrix_with_slope_legs_4_gimbal_first_inv;
+            let minus_sin_legs_4_gimbal_first = minus_legs_4_gimbal_first_a
                 * minus_slope_legs_4_gimbal_first_inv;
-            let minus_sin_legs_4_gimbal_second = sin_legs_4_gimbal_second_part
+            let minus_sin_legs_4_gimbal_second = minus_legs_4_gimbal_second_v
                 * slope_legs_4_stroke_inv;
-            let mass_matrix_part_v32 = minus_sin_legs_4_gimbal_first
+            let minus_sin_legs_4_gimbal_first_times_second = minus_sin_legs_4_gimbal_first
                 * minus_sin_legs_4_gimbal_second;
-            let mass_matrix_part_v33 = slope_legs_4_stroke_inv
-                * (T::lit(0.2874780123425445) * mass_matrix_part_v32
+            let mass_matrix_with_slope_legs_4_stroke_inv = slope_legs_4_stroke_inv
+                * (T::lit(0.2874780123425445)
+                    * minus_sin_legs_4_gimbal_first_times_second
                     - T::lit(0.9577872375530903) * cos_legs_4_gimbal_second);
-            let mass_matrix_part_v34 = mass_matrix_part_v29 * slope_legs_4_stroke_inv;
-            let mass_matrix_part_v35 = T::lit(0.445) + q.platform.y - T::lit(0.15);
-            let sin_legs_5_gimbal_first_part = sin_legs_gimbal_first_part_v3
-                + T::lit(0.9577872375530903) * mass_matrix_part_v35;
-            let m_23_23_part_v2 = sin_legs_5_gimbal_first_part
-                * sin_legs_5_gimbal_first_part;
-            let root_legs_5_gimbal_first = Real::sqrt(m_23_23_part + m_23_23_part_v2);
+            let mass_matrix_with_slope_legs_4_stroke_inv_and_platform_x = platform_x_plus_0_43
+                * slope_legs_4_stroke_inv;
+            let platform_y_plus_0_445_minus_0_15 = T::lit(0.445) + q.platform.y
+                - T::lit(0.15);
+            let legs_5_gimbal_first_a = platform_x_plus_0_43_times_0_287
+                + T::lit(0.9577872375530903) * platform_y_plus_0_445_minus_0_15;
+            let legs_5_gimbal_first_a_squared = legs_5_gimbal_first_a
+                * legs_5_gimbal_first_a;
+            let root_legs_5_gimbal_first = Real::sqrt(
+                minus_legs_0_gimbal_first_b_squared + legs_5_gimbal_first_a_squared,
+            );
             let minus_slope_legs_5_gimbal_first_inv = T::lit(1.0)
                 / root_legs_5_gimbal_first;
-            let cos_legs_5_gimbal_first = mass_matrix_part_v3
+            let cos_legs_5_gimbal_first = minus_legs_0_gimbal_first_b
                 * minus_slope_legs_5_gimbal_first_inv;
-            let mass_matrix_part_v36 = minus_slope_legs_5_gimbal_first_inv
+            let mass_matrix_with_slope_legs_5_gimbal_first_inv = minus_slope_legs_5_gimbal_first_inv
                 * cos_legs_5_gimbal_first;
-            let sin_legs_5_gimbal_second_part = sin_legs_gimbal_second_part_v3
-                - T::lit(0.2874780123425445) * mass_matrix_part_v35;
-            let m_23_23_part_v3 = m_23_23_part
-                + sin_legs_5_gimbal_second_part * sin_legs_5_gimbal_second_part
-                + m_23_23_part_v2;
-            let root_legs_5_stroke = Real::sqrt(m_23_23_part_v3);
+            let minus_legs_5_gimbal_second_v = platform_x_plus_0_43_times_0_958
+                - T::lit(0.2874780123425445) * platform_y_plus_0_445_minus_0_15;
+            let legs_5_stroke_discriminant = minus_legs_0_gimbal_first_b_squared
+                + minus_legs_5_gimbal_second_v * minus_legs_5_gimbal_second_v
+                + legs_5_gimbal_first_a_squared;
+            let root_legs_5_stroke = Real::sqrt(legs_5_stroke_discriminant);
             let slope_legs_5_stroke_inv = T::lit(1.0) / root_legs_5_stroke;
             let cos_legs_5_gimbal_second = root_legs_5_gimbal_first
                 * slope_legs_5_stroke_inv;
             let m_23_23 = T::lit(0.0625)
-                + (T::lit(0.1) * m_23_23_part_v3 - T::lit(0.1) * root_legs_5_stroke);
+                + (T::lit(0.1) * legs_5_stroke_discriminant
+                    - T::lit(0.1) * root_legs_5_stroke);
             let m_22_22 = cos_legs_5_gimbal_second * cos_legs_5_gimbal_second * m_23_23;
-            let mass_matrix_part_v37 = mass_matrix_part_v36 * m_22_22
-                * mass_matrix_part_v36;
-            let sin_legs_5_gimbal_first = sin_legs_5_gimbal_first_part
+            let mass_matrix_with_m_22_22 = mass_matrix_with_slope_legs_5_gimbal_first_inv
+                * m_22_22 * mass_matrix_with_slope_legs_5_gimbal_first_inv;
+            let sin_legs_5_gimbal_first = legs_5_gimbal_first_a
                 * minus_slope_legs_5_gimbal_first_inv;
-            let minus_sin_legs_5_gimbal_second = sin_legs_5_gimbal_second_part
+            let minus_sin_legs_5_gimbal_second = minus_legs_5_gimbal_second_v
                 * slope_legs_5_stroke_inv;
-            let mass_matrix_part_v38 = sin_legs_5_gimbal_first
+            let mass_matrix_with_sin_legs_5_gimbal_first = sin_legs_5_gimbal_first
                 * minus_sin_legs_5_gimbal_second;
-            let mass_matrix_part_v39 = slope_legs_5_stroke_inv
-                * (T::lit(0.2874780123425445) * mass_matrix_part_v38
+            let mass_matrix_with_slope_legs_5_stroke_inv = slope_legs_5_stroke_inv
+                * (T::lit(0.2874780123425445) * mass_matrix_with_sin_legs_5_gimbal_first
                     - T::lit(0.9577872375530903) * cos_legs_5_gimbal_second);
-            let mass_matrix_part_v40 = mass_matrix_part_v29 * slope_legs_5_stroke_inv;
+            let mass_matrix_with_slope_legs_5_stroke_inv_and_platform_x = platform_x_plus_0_43
+                * slope_legs_5_stroke_inv;
             let mass_matrix_0 = T::lit(1.5)
-                + T::lit(0.46463139916614854) * mass_matrix_part_v5
-                + mass_matrix_part_v7 * m_8_8 * mass_matrix_part_v7
-                + T::lit(0.1) * mass_matrix_part_v8 * mass_matrix_part_v8
-                + T::lit(0.2732019392872113) * mass_matrix_part_v12
-                + mass_matrix_part_v14 * m_11_11 * mass_matrix_part_v14
-                + T::lit(0.1) * mass_matrix_part_v15 * mass_matrix_part_v15
-                + T::lit(0.2732019392872113) * mass_matrix_part_v18
-                + mass_matrix_part_v20 * m_14_14 * mass_matrix_part_v20
-                + T::lit(0.1) * mass_matrix_part_v21 * mass_matrix_part_v21
-                + T::lit(0.46463139916614854) * mass_matrix_part_v24
-                + mass_matrix_part_v26 * m_17_17 * mass_matrix_part_v26
-                + T::lit(0.1) * mass_matrix_part_v27 * mass_matrix_part_v27
-                + T::lit(0.08264360758042016) * mass_matrix_part_v31
-                + mass_matrix_part_v33 * m_20_20 * mass_matrix_part_v33
-                + T::lit(0.1) * mass_matrix_part_v34 * mass_matrix_part_v34
-                + T::lit(0.08264360758042016) * mass_matrix_part_v37
-                + mass_matrix_part_v39 * m_23_23 * mass_matrix_part_v39
-                + T::lit(0.1) * mass_matrix_part_v40 * mass_matrix_part_v40;
-            let mass_matrix_part_v41 = slope_legs_0_stroke_inv
+                + T::lit(0.46463139916614854) * mass_matrix_with_m_7_7
+                + mass_matrix_with_slope_legs_0_stroke_inv * m_8_8
+                    * mass_matrix_with_slope_legs_0_stroke_inv
+                + T::lit(0.1) * mass_matrix_with_platform_x * mass_matrix_with_platform_x
+                + T::lit(0.2732019392872113) * mass_matrix_with_m_10_10
+                + mass_matrix_with_slope_legs_1_stroke_inv * m_11_11
+                    * mass_matrix_with_slope_legs_1_stroke_inv
+                + T::lit(0.1) * mass_matrix_with_slope_legs_1_stroke_inv_and_platform_x
+                    * mass_matrix_with_slope_legs_1_stroke_inv_and_platform_x
+                + T::lit(0.2732019392872113) * mass_matrix_with_m_13_13
+                + mass_matrix_with_slope_legs_2_stroke_inv * m_14_14
+                    * mass_matrix_with_slope_legs_2_stroke_inv
+                + T::lit(0.1) * mass_matrix_with_slope_legs_2_stroke_inv_and_platform_x
+                    * mass_matrix_with_slope_legs_2_stroke_inv_and_platform_x
+                + T::lit(0.46463139916614854) * mass_matrix_with_m_16_16
+                + mass_matrix_with_slope_legs_3_stroke_inv * m_17_17
+                    * mass_matrix_with_slope_legs_3_stroke_inv
+                + T::lit(0.1) * mass_matrix_with_slope_legs_3_stroke_inv_and_platform_x
+                    * mass_matrix_with_slope_legs_3_stroke_inv_and_platform_x
+                + T::lit(0.08264360758042016) * mass_matrix_with_m_19_19
+                + mass_matrix_with_slope_legs_4_stroke_inv * m_20_20
+                    * mass_matrix_with_slope_legs_4_stroke_inv
+                + T::lit(0.1) * mass_matrix_with_slope_legs_4_stroke_inv_and_platform_x
+                    * mass_matrix_with_slope_legs_4_stroke_inv_and_platform_x
+                + T::lit(0.08264360758042016) * mass_matrix_with_m_22_22
+                + mass_matrix_with_slope_legs_5_stroke_inv * m_23_23
+                    * mass_matrix_with_slope_legs_5_stroke_inv
+                + T::lit(0.1) * mass_matrix_with_slope_legs_5_stroke_inv_and_platform_x
+                    * mass_matrix_with_slope_legs_5_stroke_inv_and_platform_x;
+            let mass_matrix_with_cos_legs_0_gimbal_second = slope_legs_0_stroke_inv
                 * (T::lit(0.6816387600233341) * cos_legs_0_gimbal_second
-                    + T::lit(0.7316888688738209) * mass_matrix_part_v6);
-            let mass_matrix_part_v42 = m_8_8 * mass_matrix_part_v41;
-            let mass_matrix_part_v43 = mass_matrix_part * slope_legs_0_stroke_inv;
-            let mass_matrix_part_v44 = slope_legs_1_stroke_inv
+                    + T::lit(0.7316888688738209)
+                        * mass_matrix_with_sin_legs_0_gimbal_first);
+            let mass_matrix_with_m_8_8 = m_8_8
+                * mass_matrix_with_cos_legs_0_gimbal_second;
+            let mass_matrix_with_platform_y = platform_y_plus_0_595_minus_1_374
+                * slope_legs_0_stroke_inv;
+            let mass_matrix_with_cos_legs_1_gimbal_second = slope_legs_1_stroke_inv
                 * (T::lit(0.5226872289306592) * cos_legs_1_gimbal_second
-                    + T::lit(0.8525245220595058) * mass_matrix_part_v13);
-            let mass_matrix_part_v45 = m_11_11 * mass_matrix_part_v44;
-            let mass_matrix_part_v46 = mass_matrix_part_v9 * slope_legs_1_stroke_inv;
-            let mass_matrix_part_v47 = slope_legs_2_stroke_inv
+                    + T::lit(0.8525245220595058)
+                        * mass_matrix_with_sin_legs_1_gimbal_first);
+            let mass_matrix_with_m_11_11 = m_11_11
+                * mass_matrix_with_cos_legs_1_gimbal_second;
+            let mass_matrix_with_slope_legs_1_stroke_inv_and_platform_y = platform_y_plus_0_15_minus_1_224
+                * slope_legs_1_stroke_inv;
+            let mass_matrix_with_cos_legs_2_gimbal_second = slope_legs_2_stroke_inv
                 * (T::lit(0.5226872289306592) * cos_legs_2_gimbal_second
-                    + T::lit(0.8525245220595058) * mass_matrix_part_v19);
-            let mass_matrix_part_v48 = m_14_14 * mass_matrix_part_v47;
-            let mass_matrix_part_v49 = mass_matrix_part_v16 * slope_legs_2_stroke_inv;
-            let mass_matrix_part_v50 = slope_legs_3_stroke_inv
+                    + T::lit(0.8525245220595058) * sin_legs_2_gimbal_first_times_second);
+            let mass_matrix_with_m_14_14 = m_14_14
+                * mass_matrix_with_cos_legs_2_gimbal_second;
+            let mass_matrix_with_slope_legs_2_stroke_inv_and_platform_y = platform_y_minus_0_15_plus_1_224
+                * slope_legs_2_stroke_inv;
+            let mass_matrix_with_cos_legs_3_gimbal_second = slope_legs_3_stroke_inv
                 * (T::lit(0.6816387600233341) * cos_legs_3_gimbal_second
-                    + T::lit(0.7316888688738209) * mass_matrix_part_v25);
-            let mass_matrix_part_v51 = m_17_17 * mass_matrix_part_v50;
-            let mass_matrix_part_v52 = mass_matrix_part_v22 * slope_legs_3_stroke_inv;
-            let mass_matrix_part_v53 = slope_legs_4_stroke_inv
+                    + T::lit(0.7316888688738209) * sin_legs_3_gimbal_first_times_second);
+            let mass_matrix_with_m_17_17 = m_17_17
+                * mass_matrix_with_cos_legs_3_gimbal_second;
+            let mass_matrix_with_slope_legs_3_stroke_inv_and_platform_y = platform_y_minus_0_595_plus_1_374
+                * slope_legs_3_stroke_inv;
+            let mass_matrix_with_cos_legs_4_gimbal_second = slope_legs_4_stroke_inv
                 * (T::lit(0.2874780123425445) * cos_legs_4_gimbal_second
-                    + T::lit(0.9577872375530903) * mass_matrix_part_v32);
-            let mass_matrix_part_v54 = m_20_20 * mass_matrix_part_v53;
-            let mass_matrix_part_v55 = mass_matrix_part_v28 * slope_legs_4_stroke_inv;
-            let mass_matrix_part_v56 = slope_legs_5_stroke_inv
+                    + T::lit(0.9577872375530903)
+                        * minus_sin_legs_4_gimbal_first_times_second);
+            let mass_matrix_with_m_20_20 = m_20_20
+                * mass_matrix_with_cos_legs_4_gimbal_second;
+            let mass_matrix_with_slope_legs_4_stroke_inv_and_platform_y = platform_y_minus_0_445_plus_0_15
+                * slope_legs_4_stroke_inv;
+            let mass_matrix_with_cos_legs_5_gimbal_second = slope_legs_5_stroke_inv
                 * (T::lit(0.2874780123425445) * cos_legs_5_gimbal_second
-                    + T::lit(0.9577872375530903) * mass_matrix_part_v38);
-            let mass_matrix_part_v57 = m_23_23 * mass_matrix_part_v56;
-            let mass_matrix_part_v58 = mass_matrix_part_v35 * slope_legs_5_stroke_inv;
-            let mass_matrix_1 = T::lit(0.4987474933020272) * mass_matrix_part_v5
-                + T::lit(0.44560368003071765) * mass_matrix_part_v12
-                - T::lit(0.44560368003071765) * mass_matrix_part_v18
-                - T::lit(0.4987474933020272) * mass_matrix_part_v24
-                - T::lit(0.2753427712988189) * mass_matrix_part_v31
-                + T::lit(0.2753427712988189) * mass_matrix_part_v37
-                + mass_matrix_part_v7 * mass_matrix_part_v42
-                + T::lit(0.1) * mass_matrix_part_v8 * mass_matrix_part_v43
-                + mass_matrix_part_v14 * mass_matrix_part_v45
-                + T::lit(0.1) * mass_matrix_part_v15 * mass_matrix_part_v46
-                - mass_matrix_part_v20 * mass_matrix_part_v48
-                + T::lit(0.1) * mass_matrix_part_v21 * mass_matrix_part_v49
-                - mass_matrix_part_v26 * mass_matrix_part_v51
-                + T::lit(0.1) * mass_matrix_part_v27 * mass_matrix_part_v52
-                - mass_matrix_part_v33 * mass_matrix_part_v54
-                + T::lit(0.1) * mass_matrix_part_v34 * mass_matrix_part_v55
-                + mass_matrix_part_v39 * mass_matrix_part_v57
-                + T::lit(0.1) * mass_matrix_part_v40 * mass_matrix_part_v58;
-            let mass_matrix_part_v59 = minus_slope_legs_0_gimbal_first_inv
+                    + T::lit(0.9577872375530903)
+                        * mass_matrix_with_sin_legs_5_gimbal_first);
+            let mass_matrix_with_m_23_23 = m_23_23
+                * mass_matrix_with_cos_legs_5_gimbal_second;
+            let mass_matrix_with_slope_legs_5_stroke_inv_and_platform_y = platform_y_plus_0_445_minus_0_15
+                * slope_legs_5_stroke_inv;
+            let mass_matrix_1 = T::lit(0.4987474933020272) * mass_matrix_with_m_7_7
+                + T::lit(0.44560368003071765) * mass_matrix_with_m_10_10
+                - T::lit(0.44560368003071765) * mass_matrix_with_m_13_13
+                - T::lit(0.4987474933020272) * mass_matrix_with_m_16_16
+                - T::lit(0.2753427712988189) * mass_matrix_with_m_19_19
+                + T::lit(0.2753427712988189) * mass_matrix_with_m_22_22
+                + mass_matrix_with_slope_legs_0_stroke_inv * mass_matrix_with_m_8_8
+                + T::lit(0.1) * mass_matrix_with_platform_x * mass_matrix_with_platform_y
+                + mass_matrix_with_slope_legs_1_stroke_inv * mass_matrix_with_m_11_11
+                + T::lit(0.1) * mass_matrix_with_slope_legs_1_stroke_inv_and_platform_x
+                    * mass_matrix_with_slope_legs_1_stroke_inv_and_platform_y
+                - mass_matrix_with_slope_legs_2_stroke_inv * mass_matrix_with_m_14_14
+                + T::lit(0.1) * mass_matrix_with_slope_legs_2_stroke_inv_and_platform_x
+                    * mass_matrix_with_slope_legs_2_stroke_inv_and_platform_y
+                - mass_matrix_with_slope_legs_3_stroke_inv * mass_matrix_with_m_17_17
+                + T::lit(0.1) * mass_matrix_with_slope_legs_3_stroke_inv_and_platform_x
+                    * mass_matrix_with_slope_legs_3_stroke_inv_and_platform_y
+                - mass_matrix_with_slope_legs_4_stroke_inv * mass_matrix_with_m_20_20
+                + T::lit(0.1) * mass_matrix_with_slope_legs_4_stroke_inv_and_platform_x
+                    * mass_matrix_with_slope_legs_4_stroke_inv_and_platform_y
+                + mass_matrix_with_slope_legs_5_stroke_inv * mass_matrix_with_m_23_23
+                + T::lit(0.1) * mass_matrix_with_slope_legs_5_stroke_inv_and_platform_x
+                    * mass_matrix_with_slope_legs_5_stroke_inv_and_platform_y;
+            let mass_matrix_part = minus_slope_legs_0_gimbal_first_inv
                 * minus_sin_legs_0_gimbal_first;
-            let mass_matrix_part_v60 = m_7_7 * mass_matrix_part_v59;
-            let mass_matrix_part_v61 = mass_matrix_part_v4 * mass_matrix_part_v60;
-            let mass_matrix_part_v62 = slope_legs_0_stroke_inv * cos_legs_0_gimbal_first
-                * sin_legs_0_gimbal_second;
-            let mass_matrix_part_v63 = m_8_8 * mass_matrix_part_v62;
-            let mass_matrix_part_v64 = mass_matrix_part_v3 * slope_legs_0_stroke_inv;
-            let mass_matrix_part_v65 = minus_slope_legs_1_gimbal_first_inv
+            let m_7_7_times_mass_matrix_part = m_7_7 * mass_matrix_part;
+            let mass_matrix_with_cos_legs_0_gimbal_first = mass_matrix_with_slope_legs_0_gimbal_first_inv
+                * m_7_7_times_mass_matrix_part;
+            let mass_matrix_with_sin_legs_0_gimbal_second = slope_legs_0_stroke_inv
+                * cos_legs_0_gimbal_first * sin_legs_0_gimbal_second;
+            let mass_matrix_with_m_8_8_and_slope_legs_0_stroke_inv = m_8_8
+                * mass_matrix_with_sin_legs_0_gimbal_second;
+            let mass_matrix_with_legs_0_gimbal_first_b = minus_legs_0_gimbal_first_b
+                * slope_legs_0_stroke_inv;
+            let mass_matrix_part_v2 = minus_slope_legs_1_gimbal_first_inv
                 * minus_sin_legs_1_gimbal_first;
-            let mass_matrix_part_v66 = m_10_10 * mass_matrix_part_v65;
-            let mass_matrix_part_v67 = mass_matrix_part_v11 * mass_matrix_part_v66;
-            let mass_matrix_part_v68 = slope_legs_1_stroke_inv * cos_legs_1_gimbal_first
-                * sin_legs_1_gimbal_second;
-            let mass_matrix_part_v69 = m_11_11 * mass_matrix_part_v68;
-            let mass_matrix_part_v70 = mass_matrix_part_v3 * slope_legs_1_stroke_inv;
-            let mass_matrix_part_v71 = minus_slope_legs_2_gimbal_first_inv
+            let mass_matrix_with_m_10_10_and_slope_legs_1_gimbal_first_inv = m_10_10
+                * mass_matrix_part_v2;
+            let mass_matrix_with_cos_legs_1_gimbal_first = mass_matrix_with_slope_legs_1_gimbal_first_inv
+                * mass_matrix_with_m_10_10_and_slope_legs_1_gimbal_first_inv;
+            let mass_matrix_with_sin_legs_1_gimbal_second = slope_legs_1_stroke_inv
+                * cos_legs_1_gimbal_first * sin_legs_1_gimbal_second;
+            let mass_matrix_with_m_11_11_and_slope_legs_1_stroke_inv = m_11_11
+                * mass_matrix_with_sin_legs_1_gimbal_second;
+            let mass_matrix_part_v3 = minus_legs_0_gimbal_first_b
+                * slope_legs_1_stroke_inv;
+            let mass_matrix_with_sin_legs_2_gimbal_first = minus_slope_legs_2_gimbal_first_inv
                 * sin_legs_2_gimbal_first;
-            let mass_matrix_part_v72 = m_13_13 * mass_matrix_part_v71;
-            let mass_matrix_part_v73 = mass_matrix_part_v17 * mass_matrix_part_v72;
-            let mass_matrix_part_v74 = slope_legs_2_stroke_inv * cos_legs_2_gimbal_first
-                * sin_legs_2_gimbal_second;
-            let mass_matrix_part_v75 = m_14_14 * mass_matrix_part_v74;
-            let mass_matrix_part_v76 = mass_matrix_part_v3 * slope_legs_2_stroke_inv;
-            let mass_matrix_part_v77 = minus_slope_legs_3_gimbal_first_inv
+            let mass_matrix_with_m_13_13_and_slope_legs_2_gimbal_first_inv = m_13_13
+                * mass_matrix_with_sin_legs_2_gimbal_first;
+            let mass_matrix_with_cos_legs_2_gimbal_first = mass_matrix_with_slope_legs_2_gimbal_first_inv
+                * mass_matrix_with_m_13_13_and_slope_legs_2_gimbal_first_inv;
+            let mass_matrix_with_sin_legs_2_gimbal_second = slope_legs_2_stroke_inv
+                * cos_legs_2_gimbal_first * sin_legs_2_gimbal_second;
+            let mass_matrix_with_m_14_14_and_slope_legs_2_stroke_inv = m_14_14
+                * mass_matrix_with_sin_legs_2_gimbal_second;
+            let mass_matrix_part_v4 = minus_legs_0_gimbal_first_b
+                * slope_legs_2_stroke_inv;
+            let mass_matrix_with_sin_legs_3_gimbal_first = minus_slope_legs_3_gimbal_first_inv
                 * sin_legs_3_gimbal_first;
-            let mass_matrix_part_v78 = m_16_16 * mass_matrix_part_v77;
-            let mass_matrix_part_v79 = mass_matrix_part_v23 * mass_matrix_part_v78;
-            let mass_matrix_part_v80 = slope_legs_3_stroke_inv * cos_legs_3_gimbal_first
-                * sin_legs_3_gimbal_second;
-            let mass_matrix_part_v81 = m_17_17 * mass_matrix_part_v80;
-            let mass_matrix_part_v82 = mass_matrix_part_v3 * slope_legs_3_stroke_inv;
-            let mass_matrix_part_v83 = minus_slope_legs_4_gimbal_first_inv
+            let mass_matrix_with_m_16_16_and_slope_legs_3_gimbal_first_inv = m_16_16
+                * mass_matrix_with_sin_legs_3_gimbal_first;
+            let mass_matrix_with_cos_legs_3_gimbal_first = mass_matrix_with_slope_legs_3_gimbal_first_inv
+                * mass_matrix_with_m_16_16_and_slope_legs_3_gimbal_first_inv;
+            let mass_matrix_with_sin_legs_3_gimbal_second = slope_legs_3_stroke_inv
+                * cos_legs_3_gimbal_first * sin_legs_3_gimbal_second;
+            let mass_matrix_with_m_17_17_and_slope_legs_3_stroke_inv = m_17_17
+                * mass_matrix_with_sin_legs_3_gimbal_second;
+            let mass_matrix_part_v5 = minus_legs_0_gimbal_first_b
+                * slope_legs_3_stroke_inv;
+            let mass_matrix_with_sin_legs_4_gimbal_first = minus_slope_legs_4_gimbal_first_inv
                 * minus_sin_legs_4_gimbal_first;
-            let mass_matrix_part_v84 = m_19_19 * mass_matrix_part_v83;
-            let mass_matrix_part_v85 = mass_matrix_part_v30 * mass_matrix_part_v84;
-            let mass_matrix_part_v86 = slope_legs_4_stroke_inv * cos_legs_4_gimbal_first
-                * minus_sin_legs_4_gimbal_second;
-            let mass_matrix_part_v87 = m_20_20 * mass_matrix_part_v86;
-            let mass_matrix_part_v88 = mass_matrix_part_v3 * slope_legs_4_stroke_inv;
-            let mass_matrix_part_v89 = minus_slope_legs_5_gimbal_first_inv
+            let mass_matrix_with_m_19_19_and_slope_legs_4_gimbal_first_inv = m_19_19
+                * mass_matrix_with_sin_legs_4_gimbal_first;
+            let mass_matrix_with_cos_legs_4_gimbal_first = mass_matrix_with_slope_legs_4_gimbal_first_inv
+                * mass_matrix_with_m_19_19_and_slope_legs_4_gimbal_first_inv;
+            let mass_matrix_with_sin_legs_4_gimbal_second = slope_legs_4_stroke_inv
+                * cos_legs_4_gimbal_first * minus_sin_legs_4_gimbal_second;
+            let mass_matrix_with_m_20_20_and_slope_legs_4_stroke_inv = m_20_20
+                * mass_matrix_with_sin_legs_4_gimbal_second;
+            let mass_matrix_part_v6 = minus_legs_0_gimbal_first_b
+                * slope_legs_4_stroke_inv;
+            let mass_matrix_part_v7 = minus_slope_legs_5_gimbal_first_inv
                 * sin_legs_5_gimbal_first;
-            let mass_matrix_part_v90 = m_22_22 * mass_matrix_part_v89;
-            let mass_matrix_part_v91 = mass_matrix_part_v36 * mass_matrix_part_v90;
-            let mass_matrix_part_v92 = slope_legs_5_stroke_inv * cos_legs_5_gimbal_first
-                * minus_sin_legs_5_gimbal_second;
-            let mass_matrix_part_v93 = m_23_23 * mass_matrix_part_v92;
-            let mass_matrix_part_v94 = mass_matrix_part_v3 * slope_legs_5_stroke_inv;
-            let minus_mass_matrix_2 = T::lit(0.6816387600233341) * mass_matrix_part_v61
-                - mass_matrix_part_v7 * mass_matrix_part_v63
-                - T::lit(0.1) * mass_matrix_part_v8 * mass_matrix_part_v64
-                + T::lit(0.5226872289306592) * mass_matrix_part_v67
-                - mass_matrix_part_v14 * mass_matrix_part_v69
-                - T::lit(0.1) * mass_matrix_part_v15 * mass_matrix_part_v70
-                + T::lit(0.5226872289306592) * mass_matrix_part_v73
-                - mass_matrix_part_v20 * mass_matrix_part_v75
-                - T::lit(0.1) * mass_matrix_part_v21 * mass_matrix_part_v76
-                + T::lit(0.6816387600233341) * mass_matrix_part_v79
-                - mass_matrix_part_v26 * mass_matrix_part_v81
-                - T::lit(0.1) * mass_matrix_part_v27 * mass_matrix_part_v82
-                + T::lit(0.2874780123425445) * mass_matrix_part_v85
-                - mass_matrix_part_v33 * mass_matrix_part_v87
-                - T::lit(0.1) * mass_matrix_part_v34 * mass_matrix_part_v88
-                + T::lit(0.2874780123425445) * mass_matrix_part_v91
-                - mass_matrix_part_v39 * mass_matrix_part_v93
-                - T::lit(0.1) * mass_matrix_part_v40 * mass_matrix_part_v94;
+            let mass_matrix_with_m_22_22_and_slope_legs_5_gimbal_first_inv = m_22_22
+                * mass_matrix_part_v7;
+            let mass_matrix_with_cos_legs_5_gimbal_first = mass_matrix_with_slope_legs_5_gimbal_first_inv
+                * mass_matrix_with_m_22_22_and_slope_legs_5_gimbal_first_inv;
+            let mass_matrix_with_sin_legs_5_gimbal_second = slope_legs_5_stroke_inv
+                * cos_legs_5_gimbal_first * minus_sin_legs_5_gimbal_second;
+            let mass_matrix_with_m_23_23_and_slope_legs_5_stroke_inv = m_23_23
+                * mass_matrix_with_sin_legs_5_gimbal_second;
+            let mass_matrix_part_v8 = minus_legs_0_gimbal_first_b
+                * slope_legs_5_stroke_inv;
+            let minus_mass_matrix_2 = T::lit(0.6816387600233341)
+                * mass_matrix_with_cos_legs_0_gimbal_first
+                - mass_matrix_with_slope_legs_0_stroke_inv
+                    * mass_matrix_with_m_8_8_and_slope_legs_0_stroke_inv
+                - T::lit(0.1) * mass_matrix_with_platform_x
+                    * mass_matrix_with_legs_0_gimbal_first_b
+                + T::lit(0.5226872289306592) * mass_matrix_with_cos_legs_1_gimbal_first
+                - mass_matrix_with_slope_legs_1_stroke_inv
+                    * mass_matrix_with_m_11_11_and_slope_legs_1_stroke_inv
+                - T::lit(0.1) * mass_matrix_with_slope_legs_1_stroke_inv_and_platform_x
+                    * mass_matrix_part_v3
+                + T::lit(0.5226872289306592) * mass_matrix_with_cos_legs_2_gimbal_first
+                - mass_matrix_with_slope_legs_2_stroke_inv
+                    * mass_matrix_with_m_14_14_and_slope_legs_2_stroke_inv
+                - T::lit(0.1) * mass_matrix_with_slope_legs_2_stroke_inv_and_platform_x
+                    * mass_matrix_part_v4
+                + T::lit(0.6816387600233341) * mass_matrix_with_cos_legs_3_gimbal_first
+                - mass_matrix_with_slope_legs_3_stroke_inv
+                    * mass_matrix_with_m_17_17_and_slope_legs_3_stroke_inv
+                - T::lit(0.1) * mass_matrix_with_slope_legs_3_stroke_inv_and_platform_x
+                    * mass_matrix_part_v5
+                + T::lit(0.2874780123425445) * mass_matrix_with_cos_legs_4_gimbal_first
+                - mass_matrix_with_slope_legs_4_stroke_inv
+                    * mass_matrix_with_m_20_20_and_slope_legs_4_stroke_inv
+                - T::lit(0.1) * mass_matrix_with_slope_legs_4_stroke_inv_and_platform_x
+                    * mass_matrix_part_v6
+                + T::lit(0.2874780123425445) * mass_matrix_with_cos_legs_5_gimbal_first
+                - mass_matrix_with_slope_legs_5_stroke_inv
+                    * mass_matrix_with_m_23_23_and_slope_legs_5_stroke_inv
+                - T::lit(0.1) * mass_matrix_with_slope_legs_5_stroke_inv_and_platform_x
+                    * mass_matrix_part_v8;
             let mass_matrix_4 = T::lit(1.5)
-                + T::lit(0.5353686008338514) * mass_matrix_part_v5
-                + T::lit(0.7267980607127887) * mass_matrix_part_v12
-                + T::lit(0.7267980607127887) * mass_matrix_part_v18
-                + T::lit(0.5353686008338514) * mass_matrix_part_v24
-                + T::lit(0.9173563924195799) * mass_matrix_part_v31
-                + T::lit(0.9173563924195799) * mass_matrix_part_v37
-                + mass_matrix_part_v41 * mass_matrix_part_v42
-                + T::lit(0.1) * mass_matrix_part_v43 * mass_matrix_part_v43
-                + mass_matrix_part_v44 * mass_matrix_part_v45
-                + T::lit(0.1) * mass_matrix_part_v46 * mass_matrix_part_v46
-                + mass_matrix_part_v47 * mass_matrix_part_v48
-                + T::lit(0.1) * mass_matrix_part_v49 * mass_matrix_part_v49
-                + mass_matrix_part_v50 * mass_matrix_part_v51
-                + T::lit(0.1) * mass_matrix_part_v52 * mass_matrix_part_v52
-                + mass_matrix_part_v53 * mass_matrix_part_v54
-                + T::lit(0.1) * mass_matrix_part_v55 * mass_matrix_part_v55
-                + mass_matrix_part_v56 * mass_matrix_part_v57
-                + T::lit(0.1) * mass_matrix_part_v58 * mass_matrix_part_v58;
-            let minus_mass_matrix_5 = T::lit(0.7316888688738209) * mass_matrix_part_v61
-                + T::lit(0.8525245220595058) * mass_matrix_part_v67
-                - T::lit(0.8525245220595058) * mass_matrix_part_v73
-                - T::lit(0.7316888688738209) * mass_matrix_part_v79
-                - T::lit(0.9577872375530903) * mass_matrix_part_v85
-                + T::lit(0.9577872375530903) * mass_matrix_part_v91
-                - mass_matrix_part_v41 * mass_matrix_part_v63
-                - T::lit(0.1) * mass_matrix_part_v43 * mass_matrix_part_v64
-                - mass_matrix_part_v44 * mass_matrix_part_v69
-                - T::lit(0.1) * mass_matrix_part_v46 * mass_matrix_part_v70
-                + mass_matrix_part_v47 * mass_matrix_part_v75
-                - T::lit(0.1) * mass_matrix_part_v49 * mass_matrix_part_v76
-                + mass_matrix_part_v50 * mass_matrix_part_v81
-                - T::lit(0.1) * mass_matrix_part_v52 * mass_matrix_part_v82
-                + mass_matrix_part_v53 * mass_matrix_part_v87
-                - T::lit(0.1) * mass_matrix_part_v55 * mass_matrix_part_v88
-                - mass_matrix_part_v56 * mass_matrix_part_v93
-                - T::lit(0.1) * mass_matrix_part_v58 * mass_matrix_part_v94;
-            let mass_matrix_8 = T::lit(1.5) + mass_matrix_part_v59 * mass_matrix_part_v60
-                + mass_matrix_part_v62 * mass_matrix_part_v63
-                + T::lit(0.1) * mass_matrix_part_v64 * mass_matrix_part_v64
-                + mass_matrix_part_v65 * mass_matrix_part_v66
-                + mass_matrix_part_v68 * mass_matrix_part_v69
-                + T::lit(0.1) * mass_matrix_part_v70 * mass_matrix_part_v70
-                + mass_matrix_part_v71 * mass_matrix_part_v72
-                + mass_matrix_part_v74 * mass_matrix_part_v75
-                + T::lit(0.1) * mass_matrix_part_v76 * mass_matrix_part_v76
-                + mass_matrix_part_v77 * mass_matrix_part_v78
-                + mass_matrix_part_v80 * mass_matrix_part_v81
-                + T::lit(0.1) * mass_matrix_part_v82 * mass_matrix_part_v82
-                + mass_matrix_part_v83 * mass_matrix_part_v84
-                + mass_matrix_part_v86 * mass_matrix_part_v87
-                + T::lit(0.1) * mass_matrix_part_v88 * mass_matrix_part_v88
-                + mass_matrix_part_v89 * mass_matrix_part_v90
-                + mass_matrix_part_v92 * mass_matrix_part_v93
-                + T::lit(0.1) * mass_matrix_part_v94 * mass_matrix_part_v94;
+                + T::lit(0.5353686008338514) * mass_matrix_with_m_7_7
+                + T::lit(0.7267980607127887) * mass_matrix_with_m_10_10
+                + T::lit(0.7267980607127887) * mass_matrix_with_m_13_13
+                + T::lit(0.5353686008338514) * mass_matrix_with_m_16_16
+                + T::lit(0.9173563924195799) * mass_matrix_with_m_19_19
+                + T::lit(0.9173563924195799) * mass_matrix_with_m_22_22
+                + mass_matrix_with_cos_legs_0_gimbal_second * mass_matrix_with_m_8_8
+                + T::lit(0.1) * mass_matrix_with_platform_y * mass_matrix_with_platform_y
+                + mass_matrix_with_cos_legs_1_gimbal_second * mass_matrix_with_m_11_11
+                + T::lit(0.1) * mass_matrix_with_slope_legs_1_stroke_inv_and_platform_y
+                    * mass_matrix_with_slope_legs_1_stroke_inv_and_platform_y
+                + mass_matrix_with_cos_legs_2_gimbal_second * mass_matrix_with_m_14_14
+                + T::lit(0.1) * mass_matrix_with_slope_legs_2_stroke_inv_and_platform_y
+                    * mass_matrix_with_slope_legs_2_stroke_inv_and_platform_y
+                + mass_matrix_with_cos_legs_3_gimbal_second * mass_matrix_with_m_17_17
+                + T::lit(0.1) * mass_matrix_with_slope_legs_3_stroke_inv_and_platform_y
+                    * mass_matrix_with_slope_legs_3_stroke_inv_and_platform_y
+                + mass_matrix_with_cos_legs_4_gimbal_second * mass_matrix_with_m_20_20
+                + T::lit(0.1) * mass_matrix_with_slope_legs_4_stroke_inv_and_platform_y
+                    * mass_matrix_with_slope_legs_4_stroke_inv_and_platform_y
+                + mass_matrix_with_cos_legs_5_gimbal_second * mass_matrix_with_m_23_23
+                + T::lit(0.1) * mass_matrix_with_slope_legs_5_stroke_inv_and_platform_y
+                    * mass_matrix_with_slope_legs_5_stroke_inv_and_platform_y;
+            let minus_mass_matrix_5 = T::lit(0.7316888688738209)
+                * mass_matrix_with_cos_legs_0_gimbal_first
+                + T::lit(0.8525245220595058) * mass_matrix_with_cos_legs_1_gimbal_first
+                - T::lit(0.8525245220595058) * mass_matrix_with_cos_legs_2_gimbal_first
+                - T::lit(0.7316888688738209) * mass_matrix_with_cos_legs_3_gimbal_first
+                - T::lit(0.9577872375530903) * mass_matrix_with_cos_legs_4_gimbal_first
+                + T::lit(0.9577872375530903) * mass_matrix_with_cos_legs_5_gimbal_first
+                - mass_matrix_with_cos_legs_0_gimbal_second
+                    * mass_matrix_with_m_8_8_and_slope_legs_0_stroke_inv
+                - T::lit(0.1) * mass_matrix_with_platform_y
+                    * mass_matrix_with_legs_0_gimbal_first_b
+                - mass_matrix_with_cos_legs_1_gimbal_second
+                    * mass_matrix_with_m_11_11_and_slope_legs_1_stroke_inv
+                - T::lit(0.1) * mass_matrix_with_slope_legs_1_stroke_inv_and_platform_y
+                    * mass_matrix_part_v3
+                + mass_matrix_with_cos_legs_2_gimbal_second
+                    * mass_matrix_with_m_14_14_and_slope_legs_2_stroke_inv
+                - T::lit(0.1) * mass_matrix_with_slope_legs_2_stroke_inv_and_platform_y
+                    * mass_matrix_part_v4
+                + mass_matrix_with_cos_legs_3_gimbal_second
+                    * mass_matrix_with_m_17_17_and_slope_legs_3_stroke_inv
+                - T::lit(0.1) * mass_matrix_with_slope_legs_3_stroke_inv_and_platform_y
+                    * mass_matrix_part_v5
+                + mass_matrix_with_cos_legs_4_gimbal_second
+                    * mass_matrix_with_m_20_20_and_slope_legs_4_stroke_inv
+                - T::lit(0.1) * mass_matrix_with_slope_legs_4_stroke_inv_and_platform_y
+                    * mass_matrix_part_v6
+                - mass_matrix_with_cos_legs_5_gimbal_second
+                    * mass_matrix_with_m_23_23_and_slope_legs_5_stroke_inv
+                - T::lit(0.1) * mass_matrix_with_slope_legs_5_stroke_inv_and_platform_y
+                    * mass_matrix_part_v8;
+            let mass_matrix_8 = T::lit(1.5)
+                + mass_matrix_part * m_7_7_times_mass_matrix_part
+                + mass_matrix_with_sin_legs_0_gimbal_second
+                    * mass_matrix_with_m_8_8_and_slope_legs_0_stroke_inv
+                + T::lit(0.1) * mass_matrix_with_legs_0_gimbal_first_b
+                    * mass_matrix_with_legs_0_gimbal_first_b
+                + mass_matrix_part_v2
+                    * mass_matrix_with_m_10_10_and_slope_legs_1_gimbal_first_inv
+                + mass_matrix_with_sin_legs_1_gimbal_second
+                    * mass_matrix_with_m_11_11_and_slope_legs_1_stroke_inv
+                + T::lit(0.1) * mass_matrix_part_v3 * mass_matrix_part_v3
+                + mass_matrix_with_sin_legs_2_gimbal_first
+                    * mass_matrix_with_m_13_13_and_slope_legs_2_gimbal_first_inv
+                + mass_matrix_with_sin_legs_2_gimbal_second
+                    * mass_matrix_with_m_14_14_and_slope_legs_2_stroke_inv
+                + T::lit(0.1) * mass_matrix_part_v4 * mass_matrix_part_v4
+                + mass_matrix_with_sin_legs_3_gimbal_first
+                    * mass_matrix_with_m_16_16_and_slope_legs_3_gimbal_first_inv
+                + mass_matrix_with_sin_legs_3_gimbal_second
+                    * mass_matrix_with_m_17_17_and_slope_legs_3_stroke_inv
+                + T::lit(0.1) * mass_matrix_part_v5 * mass_matrix_part_v5
+                + mass_matrix_with_sin_legs_4_gimbal_first
+                    * mass_matrix_with_m_19_19_and_slope_legs_4_gimbal_first_inv
+                + mass_matrix_with_sin_legs_4_gimbal_second
+                    * mass_matrix_with_m_20_20_and_slope_legs_4_stroke_inv
+                + T::lit(0.1) * mass_matrix_part_v6 * mass_matrix_part_v6
+                + mass_matrix_part_v7
+                    * mass_matrix_with_m_22_22_and_slope_legs_5_gimbal_first_inv
+                + mass_matrix_with_sin_legs_5_gimbal_second
+                    * mass_matrix_with_m_23_23_and_slope_legs_5_stroke_inv
+                + T::lit(0.1) * mass_matrix_part_v8 * mass_matrix_part_v8;
             let matrix: ::multibody::nalgebra::SMatrix<T, 3, 3> = ::multibody::nalgebra::SMatrix::from([
                 [mass_matrix_0, mass_matrix_1, -minus_mass_matrix_2],
                 [mass_matrix_1, mass_matrix_4, -minus_mass_matrix_5],

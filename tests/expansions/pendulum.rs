@@ -262,7 +262,7 @@ pub mod pendulum {
         /// `l^2 * m`
         second_hinge_yy_factor: T,
         /// `g * m * l`
-        n_hinge_z_factor_v3: T,
+        g_times_m_times_l: T,
     }
     impl<T: Real> Model<T> {
         /// Does the work that depends on parameters alone.
@@ -270,16 +270,16 @@ pub mod pendulum {
         /// Operations: 6 mul, 1 div.
         #[must_use]
         pub fn new(params: &Params<T>) -> Self {
-            let n_hinge_z_factor_v3_part = params.m * params.l;
-            let second_hinge_yy_factor = params.l * n_hinge_z_factor_v3_part;
-            let n_hinge_z_factor_v3 = params.g * n_hinge_z_factor_v3_part;
+            let m_times_l = params.m * params.l;
+            let second_hinge_yy_factor = params.l * m_times_l;
+            let g_times_m_times_l = params.g * m_times_l;
             Self {
                 hinge_accel_factor: T::lit(1.0) / second_hinge_yy_factor
-                    * n_hinge_z_factor_v3,
-                n_hinge_z_factor: T::lit(0.5) * n_hinge_z_factor_v3,
+                    * g_times_m_times_l,
+                n_hinge_z_factor: T::lit(0.5) * g_times_m_times_l,
                 n_hinge_z_factor_v2: T::lit(0.3333333333333333) * second_hinge_yy_factor,
                 second_hinge_yy_factor,
-                n_hinge_z_factor_v3,
+                g_times_m_times_l,
             }
         }
         /// Accelerations.
@@ -349,7 +349,7 @@ pub mod pendulum {
             let q = &state.q;
             let (sin_hinge, _) = Real::sin_cos(q.hinge);
             ::multibody::nalgebra::SVector::from([
-                (T::lit(0.5) * sin_hinge * self.n_hinge_z_factor_v3),
+                (T::lit(0.5) * sin_hinge * self.g_times_m_times_l),
             ])
         }
         /// `[J]` Kinetic energy of all bodies.
@@ -370,7 +370,7 @@ pub mod pendulum {
         #[must_use]
         pub fn potential_energy(&self, q: &Position<T>) -> T {
             let (_, cos_hinge) = Real::sin_cos(q.hinge);
-            T::lit(-0.5) * cos_hinge * self.n_hinge_z_factor_v3
+            T::lit(-0.5) * cos_hinge * self.g_times_m_times_l
         }
     }
     impl<T: Real> Default for Model<T> {

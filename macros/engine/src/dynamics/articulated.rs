@@ -162,6 +162,13 @@ fn eliminate(
             let gain = column.map(|u| g.mul(u, inverse));
             g.name(pivot, || format!("pivot_{}", freedom.name(link)));
             g.name(inverse, || format!("inverse_{}", freedom.name(link)));
+            let name = freedom.name(link);
+            g.label(rest, || format!("rest_{name}"));
+            g.label(drive, || format!("drive_{name}"));
+            for (k, motion) in ["wx", "wy", "wz", "x", "y", "z"].iter().enumerate() {
+                g.label(column[k], || format!("column_{name}_{motion}"));
+                g.label(gain[k], || format!("gain_{name}_{motion}"));
+            }
             inertia = inertia.less(g, &column, &gain);
             wrench = std::array::from_fn(|k| {
                 let handed = g.mul(gain[k], rest);

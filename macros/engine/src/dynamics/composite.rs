@@ -13,6 +13,9 @@ use super::tree::{Motion, Tree};
 /// The symmetric mass matrix.
 pub fn mass_matrix(g: &mut Graph, tree: &Tree) -> Vec<Vec<Scalar>> {
     let composites = composites(g, tree);
+    for (link, composite) in tree.links.iter().zip(&composites) {
+        composite.label(g, &format!("{}_outward", link.name));
+    }
     let n = tree.freedoms();
     let mut matrix = vec![vec![Scalar::ZERO; n]; n];
     for (index, link) in tree.links.iter().enumerate() {
@@ -23,6 +26,10 @@ pub fn mass_matrix(g: &mut Graph, tree: &Tree) -> Vec<Vec<Scalar>> {
                 if let Some(child) = child.replace(ancestor) {
                     wrench = to_parent(g, tree, child, &wrench);
                 }
+                // What a unit acceleration of the column's coordinate asks for at each link below.
+                let at = &tree.links[ancestor].name;
+                g.label_vector(wrench.force, || format!("f_{}_by_{}", at, column + 1));
+                g.label_vector(wrench.moment, || format!("n_{}_by_{}", at, column + 1));
                 for (row, effort) in tree.project(g, &tree.links[ancestor], wrench.moment, wrench.force) {
                     matrix[row][column] = effort;
                     matrix[column][row] = effort;

@@ -17,6 +17,19 @@ pub struct Inertia {
     pub second: [Scalar; 6],
 }
 
+impl Inertia {
+    /// Says what the moments are: `mass_upper`, `first_upper_x`, `second_upper_xx`, ..
+    pub fn label(&self, g: &mut Graph, of: &str) {
+        g.label(self.mass, || format!("mass_{of}"));
+        for (axis, &moment) in ["x", "y", "z"].iter().zip(&self.first) {
+            g.label(moment, || format!("first_{of}_{axis}"));
+        }
+        for (axes, &moment) in ["xx", "yy", "zz", "xy", "xz", "yz"].iter().zip(&self.second) {
+            g.label(moment, || format!("second_{of}_{axes}"));
+        }
+    }
+}
+
 /// Where entry (i, j) of a symmetric matrix stands.
 pub fn entry(i: usize, j: usize) -> usize {
     match (i.min(j), i.max(j)) {

@@ -15,6 +15,7 @@ use super::names::Names;
 use super::program::FieldId;
 use super::schedule::Fields;
 use super::stage::Stage;
+use super::wording::Wording;
 
 /// What `Model` stores.
 pub struct Gathered {
@@ -62,6 +63,7 @@ pub fn gather(functions: &[&Dag], symbols: &[Symbol]) -> Gathered {
     for &dag in functions {
         let mut map = HashMap::new();
         let hints = hints(dag);
+        let wording = Wording::new(dag, &[]);
         for id in frontier(dag) {
             let print = dag.nodes[id].print.canonical();
             if fields.contains_key(&print) {
@@ -70,7 +72,9 @@ pub fn gather(functions: &[&Dag], symbols: &[Symbol]) -> Gathered {
             fields.insert(print, (FieldId(prelude.roots.len()), dag.nodes[id].print));
             let adopted = prelude.adopt(dag, id, &mut map);
             prelude.roots.push(adopted);
-            let text = names.unique(&hint(dag, id, &hints));
+            let text = hint(dag, id, &hints);
+            let words = if names.is_free(&text) { None } else { wording.of_node(dag, id) };
+            let text = names.unique(words.as_ref().unwrap_or(&text));
             prelude.name(adopted, &Name { text: text.clone(), stands_alone: false, is_minus: false });
             list.push(text);
         }

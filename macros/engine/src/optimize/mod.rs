@@ -17,6 +17,7 @@ pub mod names;
 pub mod program;
 pub mod schedule;
 pub mod stage;
+mod wording;
 
 use crate::contracts::cost::Cost;
 use crate::contracts::function::FunctionKind;
@@ -124,16 +125,16 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>) -> Result<Compile
         .map(|Chosen { kind, parts, method, candidate, before, dag }| Function {
             kind: *kind,
             parts: parts.clone(),
-            program: schedule::schedule(dag, &fields),
+            program: schedule::schedule(dag, &fields, &names),
             before: *before,
             after: dag.cost().0,
             method,
             candidate: *candidate,
         })
         .collect();
-    let prelude = schedule::schedule(&prelude, &schedule::Fields::new());
+    let prelude = schedule::schedule(&prelude, &schedule::Fields::new(), &[]);
     let inertia = match inertia {
-        Inertia::Own(dag) => own(schedule::schedule(&dag, &fields)),
+        Inertia::Own(dag) => own(schedule::schedule(&dag, &fields, &names)),
         Inertia::Requested => Inertia::Requested,
         Inertia::Regular => Inertia::Regular,
     };
@@ -181,7 +182,7 @@ fn checks(derivation: &Derivation, plain: bool, sound: &mut bool) -> Checks {
     if !plain {
         *sound &= simplify(&mut dag);
     }
-    let program = schedule::schedule(&dag, &schedule::Fields::new());
+    let program = schedule::schedule(&dag, &schedule::Fields::new(), &[]);
     if !program.literals().all(f64::is_finite) {
         return Checks::default();
     }

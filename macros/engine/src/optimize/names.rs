@@ -17,6 +17,12 @@ pub struct Names {
 const RESERVED: &[&str] = &["t", "state", "input", "accel", "q", "v", "params"];
 
 impl Names {
+    /// Whether a hint is given back as it is.
+    pub fn is_free(&self, hint: &str) -> bool {
+        let base = identifier(hint);
+        !self.used.contains_key(&base) && !RESERVED.contains(&base.as_str()) && !is_keyword(&base)
+    }
+
     /// The hint itself if it is free, else with a number.
     pub fn unique(&mut self, hint: &str) -> String {
         let base = identifier(hint);

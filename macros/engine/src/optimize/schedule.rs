@@ -18,6 +18,7 @@ use super::hints::hints;
 use super::names::Names;
 use super::program::{Expression, FieldId, Local, Program, Statement};
 use super::stage::Stage;
+use super::wording::Wording;
 
 /// Operands that one expression may hold before a part of it becomes a statement.
 const READABLE: usize = 10;
@@ -25,9 +26,9 @@ const READABLE: usize = 10;
 /// Fields of `Model` by the print that stands for their value and its negative, with the print of the value itself.
 pub type Fields = HashMap<Print, (FieldId, Print)>;
 
-/// Prints a DAG as a program. Nodes found in `fields` are read from there.
-pub fn schedule(dag: &Dag, fields: &Fields) -> Program {
-    let mut scheduler = Scheduler::new(dag, fields);
+/// Prints a DAG as a program. Nodes found in `fields` are read from there; `names` are those of fields.
+pub fn schedule(dag: &Dag, fields: &Fields, names: &[String]) -> Program {
+    let mut scheduler = Scheduler::new(dag, fields, names);
     scheduler.make(dag.roots.iter().map(|root| root.1));
     let results = dag.roots.iter().map(|&root| scheduler.term(root)).collect();
     let mut program = scheduler.program;
@@ -49,6 +50,7 @@ struct Scheduler<'a> {
     cosines: HashSet<Id>,
     hints: Vec<Option<String>>,
     names: Names,
+    wording: Wording<'a>,
     /// What belongs into the body of each iteration, and what its body reads.
     loops: Vec<Loop>,
     /// What the bodies read.
@@ -59,7 +61,7 @@ struct Scheduler<'a> {
 }
 
 impl<'a> Scheduler<'a> {
-    fn new(dag: &'a Dag, fields: &'a Fields) -> Self {
+    fn new(dag: &'a Dag, fields: &'a Fields, names: &'a [String]) -> Self {
         let order = dag.order();
         let loops = Loop::all(dag, &order);
         Scheduler {
@@ -73,6 +75,7 @@ impl<'a> Scheduler<'a> {
             cosines: of_kind(dag, &order, |kind| if let Kind::Cos(x) = kind { Some(*x) } else { None }),
             hints: hints(dag),
             names: Names::default(),
+            wording: Wording::new(dag, names),
             boundary: loops.iter().flat_map(|l| l.frontier.iter().copied()).collect(),
             loops,
             results: HashMap::new(),
@@ -143,9 +146,15 @@ impl<'a> Scheduler<'a> {
                 let (size, symmetric) = (*size, *symmetric);
                 let matrix: Vec<Expression> = operands.iter().map(|&id| self.signed(id).0).collect();
                 let (matrix, rhs) = matrix.split_at(size * size);
-                let named = |k| self.output(block, k).unwrap_or(if k == size { "rank" } else { "solution" }.to_owned());
+                let named = |k| {
+                    self.output(block, k).unwrap_or(if k == size {
+                        "rank".to_owned()
+                    } else {
+                        format!("solution_{}", k + 1)
+                    })
+                };
                 let names: Vec<String> = (0..=size).map(named).collect();
-                let results: Vec<Local> = names.into_iter().map(|name| self.local(name)).collect();
+                let results: Vec<Local> = names.iter().map(|name| self.local(name, &[])).collect();
                 self.program.statements.push(Statement::Solve {
                     size,
                     symmetric,
@@ -176,7 +185,7 @@ impl<'a> Scheduler<'a> {
             self.output(block, k).or(named.cloned()).unwrap_or("unknown".to_owned())
         });
         let names: Vec<String> = names.collect();
-        let mut locals: Vec<Local> = names.into_iter().map(|name| self.local(name)).collect();
+        let mut locals: Vec<Local> = names.iter().map(|name| self.local(name, &[])).collect();
         let inside = self.loops[block].inside.clone();
         let is_inside: HashSet<Id> = inside.iter().copied().collect();
         let outer = std::mem::take(&mut self.program.statements);
@@ -201,7 +210,7 @@ impl<'a> Scheduler<'a> {
         let body = std::mem::replace(&mut self.program.statements, outer);
         let unknowns = locals.clone();
         let name = self.output(block, symbols.len()).unwrap_or("residual".to_owned());
-        let local = self.local(name);
+        let local = self.local(&name, &[]);
         locals.push(local);
         let residual = (local, residual);
         self.program.statements.push(Statement::Iterate { count, unknowns, start, body, next, residual });
@@ -254,7 +263,7 @@ impl<'a> Scheduler<'a> {
         self.written[id] = Some(if alone {
             (expression, size)
         } else {
-            let local = self.local(self.name_of(id));
+            let local = self.local_of(id, &expression);
             self.program.statements.push(Statement::Let { local, value: expression });
             (Expression::Local(local), 1)
         });
@@ -265,9 +274,8 @@ impl<'a> Scheduler<'a> {
         self.dag.is_quotient(id) && self.uses[id] == 1
     }
 
-    /// A value's own name, or that it is a part of a named one.
-    /// Its own name, one by what it is of a named value, or that of the value which it serves.
-    fn name_of(&self, id: Id) -> String {
+    /// A local with the value's own name, one by what it is of a named value, or by what it does.
+    fn local_of(&mut self, id: Id, expression: &Expression) -> Local {
         let dag = self.dag;
         let named = |id: Id| dag.nodes[id].name.as_ref().map(|name| name.of_sign(self.flipped[id]));
         let by_form = || match &dag.nodes[id].kind {
@@ -279,12 +287,23 @@ impl<'a> Scheduler<'a> {
             },
             _ => None,
         };
-        let served = || self.hints[id].as_ref().map(|hint| format!("{hint}_part"));
-        named(id).or_else(by_form).or_else(served).unwrap_or_else(|| "value".to_owned())
+        match named(id).or_else(by_form) {
+            Some(name) => self.local(&name, &[expression]),
+            None => {
+                let hint = self.hints[id].as_deref();
+                let name = self.wording.described(&mut self.names, hint, expression);
+                self.push(name)
+            }
+        }
     }
 
-    fn local(&mut self, name: String) -> Local {
-        self.program.locals.push(self.names.unique(&name));
+    fn local(&mut self, name: &str, values: &[&Expression]) -> Local {
+        let name = self.wording.named(&mut self.names, name, values);
+        self.push(name)
+    }
+
+    fn push(&mut self, name: String) -> Local {
+        self.program.locals.push(name);
         Local(self.program.locals.len() - 1)
     }
 
@@ -299,7 +318,8 @@ impl<'a> Scheduler<'a> {
         };
         let (sin, cos) = (self.sines.contains(&angle), self.cosines.contains(&angle));
         let prefix = |used: bool, f: &str| format!("{}{f}_{name}", if used { "" } else { "_" });
-        let locals = (self.local(prefix(sin, "sin")), self.local(prefix(cos, "cos")));
+        let values = [&expression];
+        let locals = (self.local(&prefix(sin, "sin"), &values), self.local(&prefix(cos, "cos"), &values));
         self.program.statements.push(Statement::SinCos { sin: locals.0, cos: locals.1, angle: expression });
         self.angles.insert(angle, locals);
         locals

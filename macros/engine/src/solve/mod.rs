@@ -68,6 +68,8 @@ pub struct Solved {
     pub how: String,
     /// Where this vanishes two solutions meet: a dead centre.
     pub root: Option<Scalar>,
+    /// What it was found from, with a word for each.
+    pub parts: Vec<(&'static str, Scalar)>,
 }
 
 /// All that was asked for, in the order in which it follows.

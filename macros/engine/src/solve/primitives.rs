@@ -123,9 +123,11 @@ impl Primitive {
 
     /// The solution. `sign`, one or minus one, chooses between two.
     pub(super) fn solve(&self, g: &mut Graph, symbol: Scalar, sign: Scalar, known: &mut Known, how: String) -> Solved {
+        let mut parts = Parts::default();
+        let parts = &mut parts;
         let (value, equation, inverse_slope, root) = match *self {
-            Primitive::Turn { near, far } => turn(g, symbol, near, far, known),
-            Primitive::Root { a, b, c } => root(g, symbol, [a, b, c], sign, known),
+            Primitive::Turn { near, far } => turn(g, symbol, near, far, (known, parts)),
+            Primitive::Root { a, b, c } => root(g, symbol, [a, b, c], sign, (known, parts)),
             Primitive::Linear { slope, one } => {
                 let [simple_slope, simple_one] = known.simplest(g, [slope, one]);
                 let inverse = g.reciprocal(simple_slope);
@@ -133,16 +135,19 @@ impl Primitive {
                 let product = g.mul(slope, symbol);
                 (Value::Length(value), g.add(product, one), inverse, None)
             }
-            Primitive::Quadratic { square, half, one } => quadratic(g, symbol, [square, half, one], sign, known),
+            Primitive::Quadratic { square, half, one } => {
+                quadratic(g, symbol, [square, half, one], sign, (known, parts))
+            }
         };
-        Solved { symbol, value, equation, inverse_slope, how, root }
+        Solved { symbol, value, equation, inverse_slope, how, root, parts: std::mem::take(parts) }
     }
 }
 
-type Parts = (Value, Scalar, Scalar, Option<Scalar>);
+type Parts = Vec<(&'static str, Scalar)>;
+type Found = (Value, Scalar, Scalar, Option<Scalar>);
 
 /// R w = v in a plane.
-fn turn(g: &mut Graph, x: Scalar, w: [Scalar; 2], v: [Scalar; 2], known: &mut Known) -> Parts {
+fn turn(g: &mut Graph, x: Scalar, w: [Scalar; 2], v: [Scalar; 2], (known, parts): (&mut Known, &mut Parts)) -> Found {
     let [wi, wj, vi, vj] = known.simplest(g, [w[0], w[1], v[0], v[1]]);
     // (r cos x, r sin x), with the coefficients as they stand in placeholders too.
     let zero = Scalar::ZERO;
@@ -163,6 +168,7 @@ fn turn(g: &mut Graph, x: Scalar, w: [Scalar; 2], v: [Scalar; 2], known: &mut Kn
         (cross(g, [wi, wj], [vi, vj]), cross(g, w, v), scale)
     };
     let inverse = g.reciprocal(scale);
+    parts.extend([("u", u[0]), ("v", u[1]), ("radius", scale), ("radius_inv", inverse)]);
     let [cos, sin] = u.map(|u| g.mul(u, inverse));
     let (c, s) = (g.cos(x), g.sin(x));
     let equation = combine(g, [raw[0], -raw[1]], [s, c]);
@@ -175,11 +181,12 @@ fn turn(g: &mut Graph, x: Scalar, w: [Scalar; 2], v: [Scalar; 2], known: &mut Kn
 }
 
 /// a cos x + b sin x = c
-fn root(g: &mut Graph, x: Scalar, raw: [Scalar; 3], sign: Scalar, known: &mut Known) -> Parts {
+fn root(g: &mut Graph, x: Scalar, raw: [Scalar; 3], sign: Scalar, (known, parts): (&mut Known, &mut Parts)) -> Found {
     let [a, b, c] = known.simplest(g, raw);
     let whole = squares(g, [a, b]);
     let square = g.mul(c, c);
     let rest = g.sub(whole, square);
+    parts.extend([("a", a), ("b", b), ("c", c), ("d", whole), ("discriminant", rest)]);
     let root = g.sqrt(rest);
     let r = g.mul(sign, root);
     let zero = Scalar::ZERO;
@@ -206,10 +213,17 @@ fn root(g: &mut Graph, x: Scalar, raw: [Scalar; 3], sign: Scalar, known: &mut Kn
 }
 
 /// square x^2 + 2 half x + one = 0
-fn quadratic(g: &mut Graph, x: Scalar, raw: [Scalar; 3], sign: Scalar, known: &mut Known) -> Parts {
+fn quadratic(
+    g: &mut Graph,
+    x: Scalar,
+    raw: [Scalar; 3],
+    sign: Scalar,
+    (known, parts): (&mut Known, &mut Parts),
+) -> Found {
     let [square, half, one] = known.simplest(g, raw);
     let (whole, product) = (g.mul(half, half), g.mul(square, one));
     let rest = g.sub(whole, product);
+    parts.extend([("square", square), ("half", half), ("constant", one), ("discriminant", rest)]);
     let root = g.sqrt(rest);
     let r = g.mul(sign, root);
     let inverse = g.reciprocal(square);

@@ -512,8 +512,19 @@ impl Graph {
 
     /// Names a vector; its components get the name with `_x`, `_y`, `_z`.
     pub fn name_vector(&mut self, v: Vector, name: impl FnOnce() -> String) -> Vector {
-        let name = || Name { text: name(), stands_alone: true, is_minus: v.is_negative() };
-        self.vector_names.entry(v.index() as u32).or_insert_with(name);
+        self.named_vector(v, true, name)
+    }
+
+    /// Says what a vector is, should components of it get statements.
+    pub fn label_vector(&mut self, v: Vector, name: impl FnOnce() -> String) -> Vector {
+        self.named_vector(v, false, name)
+    }
+
+    fn named_vector(&mut self, v: Vector, stands_alone: bool, text: impl FnOnce() -> String) -> Vector {
+        let index = v.index() as u32;
+        if self.vector_names.get(&index).is_none_or(|known| stands_alone && !known.stands_alone) {
+            self.vector_names.insert(index, Name { text: text(), stands_alone, is_minus: v.is_negative() });
+        }
         v
     }
 
@@ -534,7 +545,7 @@ impl Graph {
 
     /// The same of a vector.
     pub fn name_vector_like(&mut self, v: Vector, name: &Name) {
-        self.name_vector(v.flip_if(name.is_minus), || name.text.clone());
+        self.named_vector(v.flip_if(name.is_minus), name.stands_alone, || name.text.clone());
     }
 
     /// What the value at this handle's place is called, whatever the handle's sign.

@@ -44,8 +44,12 @@ impl Factors {
             let name = format!("{}", k + 1);
             g.name(pivot, || format!("pivot_{name}"));
             g.name(reciprocal[k], || format!("inverse_{name}"));
+            if let Some(&b) = rhs.get(k) {
+                g.label(b, || format!("side_{name}"));
+            }
             let rest: Vec<usize> = order[step + 1..].iter().copied().filter(|&i| a[k][i] != Scalar::ZERO).collect();
             for &i in &rest {
+                g.label(a[k][i], || format!("entry_{}_{}", k + 1, i + 1));
                 factors[k][i] = g.mul(a[k][i], reciprocal[k]);
                 let l = factors[k][i];
                 g.name(l, || format!("l_{}_{}", k + 1, i + 1));
@@ -80,6 +84,7 @@ impl Factors {
     pub fn forward(&self, g: &mut Graph, rhs: &[Scalar]) -> Vec<Scalar> {
         let mut b = rhs.to_vec();
         for (step, &k) in self.order.iter().enumerate() {
+            g.label(b[k], || format!("side_{}", k + 1));
             for &i in &self.order[step + 1..] {
                 let update = g.mul(self.factors[k][i], b[k]);
                 b[i] = g.sub(b[i], update);

@@ -7,7 +7,7 @@
 
 use std::collections::HashMap;
 
-use super::graph::{AnyNode, Graph, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode};
+use super::graph::{AnyNode, Graph, Name, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode};
 
 /// Copies expressions of one graph into another, as scalars.
 pub struct Lowering<'g> {
@@ -114,7 +114,7 @@ impl<'g> Lowering<'g> {
                 let value = self.vector_node(v);
                 if let Some(name) = self.from.vector_name_of(v) {
                     for (axis, c) in ["x", "y", "z"].iter().zip(value) {
-                        self.to.name(c.flip_if(name.is_minus), || format!("{}_{axis}", name.text));
+                        self.to.name_like(c, &Name { text: format!("{}_{axis}", name.text), ..name.clone() });
                     }
                 }
                 self.vectors.insert(v.index(), value);

@@ -152,7 +152,7 @@ fn the_report_says_how_loops_are_closed() {
         "- `table.x` is driven: `0.5 * sin(t)`",
         "- `platform.orientation` is driven: `0.0`",
         "- `head.position` is driven: `[0.0, 0.0, 0.0]`",
-        "- left out, since they follow from the other equations: `legs[_].ball.z`",
+        "- left out, since they follow from the other equations: `legs[1].ball.z`",
         "- assumed: `legs[0].gimbal.first > 0.0`",
         "- `legs[_].ball` closes the loop: the cheapest joint",
         "- `#[cut]` on `legs[0].ball` says nothing new",

@@ -12,9 +12,9 @@ use crate::mechanics::loops::structure::{Means, Row, Step};
 use crate::model::types::{Closing, ConstraintId, ConstraintKind, Coordinate, DriveTarget, JointId, Place, SolveHow};
 use crate::optimize::program::Expression;
 
-use super::formula;
 use super::report::Row as Line;
-use super::report::{frame, general, row, section, text};
+use super::report::{frame, row, section, text};
+use super::{alike, formula};
 
 impl Layout<'_> {
     /// Names of the components of a velocity, in order: `legs[0].gimbal.first`.
@@ -84,18 +84,12 @@ pub(super) fn section_lines(context: &Context<'_>) -> Vec<String> {
         };
         format!("{} is driven: {}", quoted(&target), quoted(&formula::text(layout, &drive.value)))
     }));
-    let dropped = structure.dropped.iter().map(|row| quoted(&general(&layout.row(*row))));
+    let dropped = structure.dropped.iter().map(|row| quoted(&layout.row(*row)));
     items.extend(listed(dropped).map(|names| format!("left out, since they follow from the other equations: {names}")));
     let assumed = model.assumptions.iter();
     items.extend(assumed.map(|condition| format!("assumed: {}", quoted(&formula::text(layout, condition)))));
     items.extend(structure.notes.iter().chain(&model.skipped).cloned());
-    let mut unique: Vec<String> = Vec::new();
-    for item in items {
-        let line = format!("- {}", item.replace('\n', " "));
-        if !unique.contains(&line) {
-            unique.push(line);
-        }
-    }
+    let unique = alike::once(items.iter().map(|item| format!("- {}", item.replace('\n', " "))).collect());
     let mut lines = Vec::new();
     let closings = closings(layout);
     if closings.is_empty() && unique.is_empty() {
@@ -168,14 +162,14 @@ fn closings(layout: &Layout<'_>) -> Vec<Line> {
 /// What a step finds, and how.
 fn dependents(layout: &Layout<'_>, step: &Step) -> String {
     let model = layout.model;
-    let unknowns = step.unknowns.iter().map(|unknown| quoted(&general(&layout.coordinate(*unknown))));
+    let unknowns = step.unknowns.iter().map(|unknown| quoted(&layout.coordinate(*unknown)));
     let unknowns = listed(unknowns).unwrap_or_default();
     let closing = |closing: Closing| {
         let place = match closing {
             Closing::Cut(joint) => model.joints.get(joint.0).map(|joint| &joint.place),
             Closing::Constraint(id) => model.constraints.get(id.0).map(|constraint| &constraint.place),
         };
-        place.map_or_else(String::new, |place| quoted(&general(&layout.name(place))))
+        place.map_or_else(String::new, |place| quoted(&layout.name(place)))
     };
     match &step.means {
         Means::Linear(constraint) => {
@@ -190,7 +184,7 @@ fn dependents(layout: &Layout<'_>, step: &Step) -> String {
             _ => format!("{unknowns}: by the declared formulas"),
         },
         Means::Newton { rows, .. } => {
-            let rows = rows.iter().map(|row| quoted(&general(&layout.row(*row))));
+            let rows = rows.iter().map(|row| quoted(&layout.row(*row)));
             format!("{unknowns}: by Newton's method on {}", listed(rows).unwrap_or_default())
         }
     }
@@ -207,11 +201,6 @@ fn quoted(text: &str) -> String {
 
 /// Each once, with commas between; nothing for none.
 fn listed(items: impl Iterator<Item = String>) -> Option<String> {
-    let mut unique: Vec<String> = Vec::new();
-    for item in items {
-        if !unique.contains(&item) {
-            unique.push(item);
-        }
-    }
+    let unique = alike::once(items.collect());
     (!unique.is_empty()).then(|| unique.join(", "))
 }

@@ -1,8 +1,8 @@
 //! Stage `emit`: the model's report, which is the documentation of the generated module.
 //!
 //! In: the checked model and its programs. Out: Markdown: parameters, coordinates, inputs, outputs, bodies, the defaults
-//! in force, the functions with their methods and operation counts. Rows of an array of parts that say the same stand
-//! once.
+//! in force, the functions with their methods and operation counts. What is alike for an array of parts stands once
+//! ([`alike`]).
 
 use crate::contracts::function::FunctionKind;
 use crate::emit::items::separable::is_separable;
@@ -14,7 +14,7 @@ use crate::mechanics::loops::structure::Structure;
 use crate::model::types::{Body, BodyRef, Docs, ExprNode, Frame, JointId, Model, Place, Type};
 use crate::optimize::program::Compiled;
 
-use super::{code, cost, loops, unchecked, values};
+use super::{alike, code, cost, loops, unchecked, values};
 
 /// The report as a Markdown document.
 pub fn report(model: &Model, structure: &Structure, compiled: &Compiled) -> String {
@@ -116,21 +116,15 @@ pub(in crate::emit) fn lines(context: &Context<'_>) -> Vec<String> {
     lines
 }
 
-/// A row of a table: name, the same with indices left open, other cells.
-pub(in crate::emit) struct Row {
-    name: String,
-    general: String,
-    rest: Vec<String>,
-}
+/// A row of a table.
+pub(in crate::emit) struct Row(String);
 
 pub(in crate::emit) fn row(layout: &Layout<'_>, place: &Place, rest: Vec<String>) -> Row {
-    let name = layout.name(place);
-    let general = general(&name);
-    Row { name, general, rest }
+    plain_row(&layout.name(place), rest)
 }
 
 /// `legs[_].m` for `legs[2].m`
-pub(super) fn general(name: &str) -> String {
+fn general(name: &str) -> String {
     let mut general = String::new();
     for (number, piece) in name.split('[').enumerate() {
         match piece.split_once(']') {
@@ -142,27 +136,19 @@ pub(super) fn general(name: &str) -> String {
 }
 
 fn plain_row(name: &str, rest: Vec<String>) -> Row {
-    Row { name: name.to_string(), general: name.to_string(), rest }
+    Row(format!("| `{name}` | {} |", rest.join(" | ")))
 }
 
 /// A table under a heading; nothing where there are no rows.
 pub(super) fn section(lines: &mut Vec<String>, heading: &str, columns: &[&str], rows: impl Iterator<Item = Row>) {
-    let rows: Vec<Row> = rows.collect();
+    let rows: Vec<String> = rows.map(|row| row.0).collect();
     if rows.is_empty() {
         return;
     }
     lines.extend([String::new(), format!("## {heading}"), String::new()]);
     lines.push(format!("| {} |", columns.join(" | ")));
     lines.push(format!("|{}", "---|".repeat(columns.len())));
-    let mut written: Vec<&str> = Vec::new();
-    for row in &rows {
-        let mut same = rows.iter().filter(|other| other.general == row.general);
-        let name = if same.all(|other| other.rest == row.rest) { &row.general } else { &row.name };
-        if !written.contains(&name.as_str()) {
-            written.push(name);
-            lines.push(format!("| `{name}` | {} |", row.rest.join(" | ")));
-        }
-    }
+    lines.extend(alike::once(rows));
 }
 
 /// Text for a cell of a table: one line, no bars.

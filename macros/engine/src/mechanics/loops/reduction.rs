@@ -201,6 +201,10 @@ impl Equations<'_> {
             let symbol = Symbol::Position { joint: unknown.joint, component: unknown.index };
             let name = names::symbol(model, symbol);
             self.g.label(solved.inverse_slope, || format!("slope_{name}_inv"));
+            // As in the report: A cos x + B sin x = C, (r cos x, r sin x) = (u, v).
+            for (word, part) in solved.parts {
+                self.g.label(part, || format!("{name}_{word}"));
+            }
             let position = match solved.value {
                 Solved::Angle { cos, sin } => {
                     self.g.label(cos, || format!("cos_{name}"));
@@ -223,6 +227,9 @@ impl Equations<'_> {
     fn implicit(&mut self, coordinate: Coordinate, position: Scalar, equation: Scalar, inverse: Scalar) -> Definition {
         let [_, velocity, acceleration] = self.coordinate_symbols(coordinate);
         let (first, second) = self.implicit_rates(equation, &[(velocity, acceleration)]);
+        let name = names::of_freedom(self.scene.model, coordinate, "gap");
+        self.g.label(first, || format!("{name}_rate"));
+        self.g.label(second, || format!("{name}_accel"));
         let rate = -self.g.mul(inverse, first);
         let acceleration = -self.g.mul(inverse, second);
         Definition { coordinate, position, rate, acceleration }

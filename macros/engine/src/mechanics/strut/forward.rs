@@ -22,6 +22,9 @@ use super::triple::{Triple, ZERO, apply, combine, cross, dot, label, minus, scal
 /// The order in which unknowns are eliminated: translations are 0, 1, 2, rotations 3, 4, 5.
 const ORDER: [usize; 6] = [5, 4, 3, 2, 1, 0];
 
+/// What these are called.
+const MOTIONS: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
+
 /// How what struts take off the body's inertia is added up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gather {
@@ -65,6 +68,8 @@ pub fn accelerations(
         inertia = inertia.add(g, &point);
         let nu = g.product(&[line.mu, line.inverse, line.inverse]);
         let along = scale(g, nu, &d);
+        g.label(nu, || format!("{}_nu", leg.name));
+        label(g, &along, &format!("{}_nu_line", leg.name));
         match gather {
             Gather::Sums => {
                 let n = [0, 1, 2].map(|i| [0, 1, 2].map(|j| g.mul(along[i], d[j])));
@@ -95,9 +100,12 @@ pub fn accelerations(
         let pull = g.product(&[leg.strut.tail, line.inverse, line.inverse, swing]);
         let bent = g.mul(line.beta, line.length_rate);
         let s = g.sum(&[forces[at], centripetal, fall, pull, bent]);
+        g.label(s, || format!("{}_force", leg.name));
         let s = g.mul(s, line.inverse);
+        g.label(s, || format!("{}_force_by_length", leg.name));
         let push = scale(g, s, &d);
         let drag = scale(g, -line.beta, &rate);
+        label(g, &drag, &format!("{}_drag", leg.name));
         let weight = scale(g, -line.kappa, &view.gravity);
         let push = total(g, &[push, drag, weight]);
         label(g, &push, &format!("{}_push", leg.name));
@@ -108,6 +116,7 @@ pub fn accelerations(
             let rigid = rigid(g, &inertia, i, j);
             let terms: Vec<Scalar> = taken[i][j].iter().map(|&t| -t).chain([rigid]).collect();
             matrix[i][j] = g.sum(&terms);
+            g.label(matrix[i][j], || format!("inertia_{}_{}", MOTIONS[i.min(j)], MOTIONS[i.max(j)]));
         }
     }
     let (force, moment) = view.wrench(g, &pushes, &[ZERO; 3]);
@@ -120,6 +129,9 @@ pub fn accelerations(
     let spin = spin_matrix(g, &view.omega, &ZERO);
     let gyroscopic = axial(g, &spin, &inertia);
     let moment = total(g, &[moment, tilt, minus(&gyroscopic), view.load.1]);
+    label(g, &force, "body_force");
+    label(g, &moment, "body_moment");
+    g.label(inertia.mass, || "body_and_struts_mass".to_owned());
     let side: Vec<Scalar> = force.into_iter().chain(moment).collect();
     let (at, d_omega) = if held {
         let d_omega = carrier.d_omega;

@@ -171,8 +171,11 @@ fn balance(g: &mut Graph, view: &View, lines: &[Moving], transverse: &[Triple]) 
             .map(|get| lines.iter().map(get).collect::<Vec<Scalar>>());
         let mu = moments(g, view, &mu);
         inertia = inertia.add(g, &mu);
+        mu.label(g, "struts_mu");
         drag = moments(g, view, &beta);
+        drag.label(g, "struts_beta");
         let kappa = moments(g, view, &kappa);
+        kappa.label(g, "struts_kappa");
         weight = weight.add(g, &kappa);
     }
     let fields = [
@@ -201,6 +204,7 @@ fn balance(g: &mut Graph, view: &View, lines: &[Moving], transverse: &[Triple]) 
         terms.push(combine(g, columns, &moments.first));
     }
     let force = total(g, &terms);
+    weight.label(g, "falling");
     let two = g.integer(2);
     let twice = g.mul(two, common);
     let spin = scale(g, twice, &view.d_omega);

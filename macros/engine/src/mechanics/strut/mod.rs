@@ -99,6 +99,12 @@ impl Moving {
             g.label(self.d[k], || format!("{leg}_line_{axis}"));
             g.label(self.rate[k], || format!("{leg}_pin_rate_{axis}"));
         }
+        // Equal values are one node: these are there.
+        let (square, along) = (dot(g, &self.d, &self.d), dot(g, &self.d, &self.rate));
+        g.label(square, || format!("{leg}_length_squared"));
+        g.label(along, || format!("{leg}_line_by_rate"));
+        let swing = self.swing(g);
+        g.label(swing, || format!("{leg}_swing"));
         g.label(self.length, || format!("{leg}_length"));
         g.label(self.inverse, || format!("{leg}_length_inv"));
         g.label(self.length_rate, || format!("{leg}_length_rate"));
