@@ -215,6 +215,7 @@ pub mod cart_pole {
                     what: "no rigid body can have the inertia of `pole`",
                 });
             }
+            // Factorisation L^T D L.
             let mp_times_l = params.mp * params.l;
             let second_hinge_yy = T::lit(0.3333333333333333) * params.l * mp_times_l;
             let mass_track = params.mc + params.mp;
@@ -413,6 +414,7 @@ pub mod cart_pole {
         ) -> Velocity<T> {
             let q = &state.q;
             let v = &state.v;
+            // Articulated inertia of track.
             let (sin_hinge, cos_hinge) = Real::sin_cos(q.hinge);
             let pivot_1 = self.mass_track - cos_hinge * cos_hinge * self.pivot_1_factor;
             let sin_hinge_times_acceleration_2_factor = sin_hinge
@@ -420,6 +422,7 @@ pub mod cart_pole {
             let acceleration_1 = (input.push
                 + cos_hinge * sin_hinge_times_acceleration_2_factor * self.rest_1_factor
                 - v.hinge * v.hinge * sin_hinge * self.half_mp_times_l) / pivot_1;
+            // Acceleration of hinge.
             let acceleration_2 = sin_hinge_times_acceleration_2_factor
                 * self.acceleration_2_factor_v2
                 + cos_hinge * acceleration_1 * self.acceleration_2_factor_v3;
@@ -443,6 +446,7 @@ pub mod cart_pole {
         ) -> Velocity<T> {
             let q = &state.q;
             let v = &state.v;
+            // Force and moment through hinge.
             let (sin_hinge, cos_hinge) = Real::sin_cos(q.hinge);
             let a_hinge_x = accel.track * cos_hinge + self.g * sin_hinge;
             let minus_n_hinge_z = a_hinge_x * self.half_mp_times_l
@@ -464,6 +468,7 @@ pub mod cart_pole {
             &self,
             q: &Position<T>,
         ) -> ::multibody::nalgebra::SMatrix<T, 2, 2> {
+            // Mass matrix.
             let (_, cos_hinge) = Real::sin_cos(q.hinge);
             let minus_m_1_2 = T::lit(0.5) * self.second_hinge_yy_factor * cos_hinge;
             ::multibody::nalgebra::SMatrix::from([
@@ -485,6 +490,7 @@ pub mod cart_pole {
         ) -> ::multibody::nalgebra::SVector<T, 2> {
             let q = &state.q;
             let v = &state.v;
+            // Results.
             let (sin_hinge, _) = Real::sin_cos(q.hinge);
             ::multibody::nalgebra::SVector::from([
                 -(input.push - v.hinge * v.hinge * sin_hinge * self.half_mp_times_l),
@@ -525,6 +531,7 @@ pub mod cart_pole {
         #[must_use]
         pub fn outputs(&self, _t: T, state: &State<T>, _input: &Input<T>) -> Output<T> {
             let q = &state.q;
+            // Results.
             let (sin_hinge, cos_hinge) = Real::sin_cos(q.hinge);
             Output {
                 tip: ::multibody::nalgebra::Vector3::from([

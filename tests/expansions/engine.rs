@@ -279,6 +279,7 @@ pub(crate) mod engine {
         ) -> Velocity<T> {
             let q = &state.q;
             let v = &state.v;
+            // Closed form of cylinder.
             let (sin_shaft, cos_shaft) = Real::sin_cos(q.shaft);
             let root_cylinder = Real::sqrt(
                 T::lit(0.018) + T::lit(0.0016) * cos_shaft * cos_shaft,
@@ -286,6 +287,7 @@ pub(crate) mod engine {
             let cos_shaft_times_0_04 = T::lit(0.04) * cos_shaft;
             let cylinder = root_cylinder + cos_shaft_times_0_04;
             let minus_big_end_v = sin_shaft * cylinder;
+            // Accelerations of what follows.
             let shaft_rate_times_sin_shaft = v.shaft * sin_shaft;
             let slope_cylinder_inv = T::lit(1.0) / root_cylinder;
             let cylinder_times_shaft_rate_times_sin_shaft = cylinder
@@ -304,6 +306,7 @@ pub(crate) mod engine {
                     - T::lit(0.0032) * gap_accel_with_shaft_rate
                     + T::lit(0.04) * cos_shaft_times_cylinder * w2_shaft_z);
             let big_end_u = cos_shaft_times_cylinder - T::lit(0.04);
+            // Force and moment through big_end.
             let big_end_gap_accel_with_slope_cylinder_inv = gap_accel_with_slope_cylinder_inv
                 * cos_shaft_times_0_04;
             let side_1_with_cylinder = cylinder_times_shaft_rate_times_sin_shaft
@@ -319,6 +322,7 @@ pub(crate) mod engine {
                 * minus_big_end_v;
             let minus_n_big_end_z = T::lit(0.06326530612244897)
                 * big_end_gap_accel_with_v + w2_shaft_z * minus_big_end_v_times_0_00429;
+            // Results.
             let big_end_u_times_minus_n_big_end_z = big_end_u * minus_n_big_end_z;
             let minus_big_end_v_times_n_big_end_z = minus_big_end_v * minus_n_big_end_z;
             let slope_cylinder_inv_times_minus_big_end_v = slope_cylinder_inv
@@ -342,6 +346,7 @@ pub(crate) mod engine {
                 + side_1_with_big_end_u * side_1_with_big_end_u
                     * minus_big_end_v_times_0_00429;
             let m_1_2 = T::lit(0.00124) + T::lit(0.004285714285714286) * big_end_u;
+            // Factorisation L^T D L.
             let pivot_1_with_big_end_v = T::lit(7.142857142857143) * minus_big_end_v
                 * (minus_big_end_v + cos_shaft * pivot_1_with_slope_cylinder_inv)
                 + T::lit(7.142857142857143) * big_end_u
@@ -374,6 +379,7 @@ pub(crate) mod engine {
         ) -> Velocity<T> {
             let q = &state.q;
             let v = &state.v;
+            // Closed form of cylinder.
             let (sin_shaft, cos_shaft) = Real::sin_cos(q.shaft);
             let root_cylinder = Real::sqrt(
                 T::lit(0.018) + T::lit(0.0016) * cos_shaft * cos_shaft,
@@ -384,6 +390,7 @@ pub(crate) mod engine {
             let w2_shaft_z = v.shaft * v.shaft;
             let cos_shaft_times_cylinder = cos_shaft * cylinder;
             let big_end_u = cos_shaft_times_cylinder - T::lit(0.04);
+            // Accelerations of what follows.
             let shaft_rate_times_sin_shaft = v.shaft * sin_shaft;
             let slope_cylinder_inv = T::lit(1.0) / root_cylinder;
             let cylinder_times_shaft_rate_times_sin_shaft = cylinder
@@ -399,6 +406,7 @@ pub(crate) mod engine {
                 + T::lit(0.04) * cylinder
                     * (accel.shaft * sin_shaft + cos_shaft * w2_shaft_z);
             let minus_cylinder_accel = slope_cylinder_inv * cylinder_gap_accel;
+            // Force and moment through big_end.
             let shaft_effort_with_rate = v.shaft * cos_shaft_times_cylinder
                 - T::lit(0.04) * sin_shaft * u_big_end_yx_with_slope_cylinder_inv;
             let u_big_end_yx_with_cylinder = u_big_end_yx_with_slope_cylinder_inv
@@ -419,6 +427,7 @@ pub(crate) mod engine {
             let minus_n_big_end_z = T::lit(0.004285714285714286)
                 * (minus_big_end_v * w2_shaft_z - accel.shaft * big_end_u)
                 - T::lit(0.00124) * u_big_end_yx;
+            // Results.
             let shaft_effort_with_big_end_u = v.shaft
                 - T::lit(51.02040816326531)
                     * (big_end_u * shaft_effort_with_rate
@@ -456,11 +465,13 @@ pub(crate) mod engine {
         ) -> ::multibody::Kinematics<T, 1> {
             let q = &state.q;
             let v = &state.v;
+            // Closed form of cylinder.
             let (sin_shaft, cos_shaft) = Real::sin_cos(q.shaft);
             let root_cylinder = Real::sqrt(
                 T::lit(0.018) + T::lit(0.0016) * cos_shaft * cos_shaft,
             );
             let cylinder = T::lit(0.04) * cos_shaft + root_cylinder;
+            // Accelerations of what follows.
             let slope_cylinder_inv = T::lit(1.0) / root_cylinder;
             let shaft_rate_times_sin_shaft = v.shaft * sin_shaft;
             let cylinder_rate_with_cylinder = cylinder * slope_cylinder_inv
@@ -489,6 +500,7 @@ pub(crate) mod engine {
         pub fn outputs(&self, _t: T, state: &State<T>, input: &Input<T>) -> Output<T> {
             let q = &state.q;
             let v = &state.v;
+            // Closed form of cylinder.
             let (sin_shaft, cos_shaft) = Real::sin_cos(q.shaft);
             let root_cylinder = Real::sqrt(
                 T::lit(0.018) + T::lit(0.0016) * cos_shaft * cos_shaft,
@@ -500,6 +512,7 @@ pub(crate) mod engine {
             let minus_big_end_v_times_w2_shaft_z = minus_big_end_v * w2_shaft_z;
             let cos_shaft_times_cylinder = cos_shaft * cylinder;
             let big_end_u = cos_shaft_times_cylinder - T::lit(0.04);
+            // Accelerations of what follows.
             let slope_cylinder_inv = T::lit(1.0) / root_cylinder;
             let shaft_rate_times_sin_shaft = v.shaft * sin_shaft;
             let cylinder_times_shaft_rate_times_sin_shaft = cylinder
@@ -518,6 +531,7 @@ pub(crate) mod engine {
             let minus_cylinder_accel = slope_cylinder_inv
                 * (cylinder_gap_accel_with_cylinder
                     + cos_shaft_times_w2_shaft_z * cylinder_times_0_04);
+            // Force and moment through big_end.
             let sin_shaft_times_0_04 = T::lit(0.04) * sin_shaft;
             let w_big_end_z_with_shaft_rate = v.shaft * cos_shaft_times_cylinder
                 - w_big_end_z_with_slope_cylinder_inv * sin_shaft_times_0_04;
@@ -541,6 +555,7 @@ pub(crate) mod engine {
                 - T::lit(51.02040816326531)
                     * (big_end_u * w_big_end_z_with_shaft_rate
                         + minus_big_end_v * w_big_end_z_with_sin_shaft);
+            // Motion of shaft.
             let w2_big_end_z = w_big_end_z * w_big_end_z;
             let slope_cylinder_inv_times_minus_big_end_v = slope_cylinder_inv
                 * minus_big_end_v;
@@ -556,6 +571,7 @@ pub(crate) mod engine {
                                 - sin_shaft * big_end_u_times_minus_n_big_end_z));
             let big_end_u_times_0_00429 = T::lit(0.004285714285714286) * big_end_u;
             let m_1_2 = T::lit(0.00124) + big_end_u_times_0_00429;
+            // Factorisation L^T D L.
             let minus_big_end_v_times_7_14 = T::lit(7.142857142857143) * minus_big_end_v;
             let big_end_u_times_7_14 = T::lit(7.142857142857143) * big_end_u;
             let pivot_1_with_big_end_v = (minus_big_end_v
@@ -584,6 +600,7 @@ pub(crate) mod engine {
                 * (cylinder_gap_accel_with_cylinder
                     + (cos_shaft_times_w2_shaft_z - sin_shaft * minus_dw_shaft_z)
                         * cylinder_times_0_04);
+            // Force and moment through big_end.
             let minus_big_end_v_times_dw_shaft_z = minus_big_end_v * minus_dw_shaft_z;
             let u_big_end_yx_with_big_end_v = minus_big_end_v
                 * (minus_big_end_v_times_dw_shaft_z
@@ -623,6 +640,7 @@ pub(crate) mod engine {
                 + multiplier_2 * f_big_end_with_sin_shaft
                 + T::lit(0.08571428571428572)
                     * (big_end_u * w2_shaft_z - minus_big_end_v_times_dw_shaft_z);
+            // Results.
             let minus_f_big_end_passed_x = minus_f_big_end_x * big_end_u_times_7_14
                 - f_big_end_y * minus_big_end_v_times_7_14;
             let f_big_end_passed_y = minus_f_big_end_x * minus_big_end_v_times_7_14
@@ -651,6 +669,7 @@ pub(crate) mod engine {
             _t: T,
             q: &Position<T>,
         ) -> ::multibody::nalgebra::SVector<T, 1> {
+            // Closed form of cylinder.
             let (_, cos_shaft) = Real::sin_cos(q.shaft);
             ::multibody::nalgebra::SVector::from([
                 Real::sqrt(T::lit(0.018) + T::lit(0.0016) * cos_shaft * cos_shaft),
@@ -669,6 +688,7 @@ pub(crate) mod engine {
         ) -> ::multibody::nalgebra::SVector<T, 2> {
             let q = &state.q;
             let v = &state.v;
+            // Closed form of cylinder.
             let (sin_shaft, cos_shaft) = Real::sin_cos(q.shaft);
             ::multibody::nalgebra::SVector::from([
                 Real::sqrt(T::lit(0.018) + T::lit(0.0016) * cos_shaft * cos_shaft),
@@ -831,6 +851,7 @@ pub(crate) mod engine {
             _input: &Input<T>,
         ) -> Option<&'static str> {
             let q = &state.q;
+            // Closed form of cylinder.
             let (sin_shaft, cos_shaft) = Real::sin_cos(q.shaft);
             let root_cylinder = Real::sqrt(
                 T::lit(0.018) + T::lit(0.0016) * cos_shaft * cos_shaft,
@@ -846,6 +867,7 @@ pub(crate) mod engine {
                 - (big_end_u_squared_times_0_0633 - T::lit(0.00124) - T::lit(0.005));
             let m_1_2 = T::lit(0.00124) + T::lit(0.004285714285714286) * big_end_u;
             let minus_big_end_v = sin_shaft * cylinder;
+            // Results.
             let minus_big_end_v_over_root_cylinder = minus_big_end_v / root_cylinder;
             let mass_matrix_0_with_big_end_v = T::lit(7.142857142857143)
                 * minus_big_end_v

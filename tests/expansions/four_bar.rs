@@ -275,6 +275,7 @@ pub mod four_bar {
         ) -> Velocity<T> {
             let q = &state.q;
             let v = &state.v;
+            // Closed form of rocker.
             let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
             let minus_rocker_a = cos_crank - T::lit(4.0);
             let rocker_d = minus_rocker_a * minus_rocker_a + sin_crank * sin_crank;
@@ -288,6 +289,7 @@ pub mod four_bar {
             let cos_rocker_times_3_plus_4 = T::lit(4.0) + cos_rocker_times_3;
             let sin_rocker = rocker_d_inv
                 * (sin_crank * minus_rocker_c - minus_rocker_a * root_rocker);
+            // Closed form of coupler.
             let sin_crank_times_3 = T::lit(3.0) * sin_crank;
             let pivot_1_with_cos_crank = cos_crank * cos_rocker_times_3_plus_4
                 + sin_rocker * sin_crank_times_3;
@@ -295,6 +297,7 @@ pub mod four_bar {
             let cos_crank_times_sin_rocker = cos_crank * sin_rocker;
             let minus_coupler_v = sin_crank * cos_rocker_times_3_plus_4
                 - T::lit(3.0) * cos_crank_times_sin_rocker;
+            // Force and moment through coupler.
             let f_coupler_passed_with_cos_crank = cos_crank * coupler_u
                 + sin_crank * minus_coupler_v;
             let f_coupler_with_sin_crank = sin_crank * coupler_u
@@ -313,6 +316,7 @@ pub mod four_bar {
                 * side_1_with_coupler_u;
             let side_1_with_sin_crank_times_coupler_u = side_1_with_sin_crank
                 * side_1_with_coupler_u;
+            // Velocities of what follows.
             let minus_slope_rocker_inv = T::lit(1.0) / root_rocker;
             let crank_rate_times_sin_crank = v.crank * sin_crank;
             let crank_rate_times_cos_crank = v.crank * cos_crank;
@@ -322,6 +326,7 @@ pub mod four_bar {
                         - sin_crank * crank_rate_times_cos_crank)
                     + sin_rocker * crank_rate_times_cos_crank
                     - cos_rocker * crank_rate_times_sin_crank);
+            // Force and moment through coupler.
             let sin_rocker_times_minus_rocker_rate = sin_rocker * minus_rocker_rate;
             let cos_rocker_times_minus_rocker_rate = cos_rocker * minus_rocker_rate;
             let cos_crank_times_3 = T::lit(3.0) * cos_crank;
@@ -330,6 +335,7 @@ pub mod four_bar {
                 + cos_rocker_times_minus_rocker_rate * cos_crank_times_3;
             let w2_coupler_z_with_crank_rate = v.crank * pivot_1_with_cos_crank
                 + w2_coupler_z_with_sin_rocker;
+            // Accelerations of what follows.
             let gap_accel_with_rocker_rate = minus_rocker_rate
                 * cos_rocker_times_minus_rocker_rate;
             let gap_accel_with_sin_rocker = minus_rocker_rate
@@ -347,6 +353,7 @@ pub mod four_bar {
                         + crank_rate_times_cos_crank
                             * cos_rocker_times_minus_rocker_rate);
             let rocker_accel = minus_slope_rocker_inv * rocker_gap_accel;
+            // Force and moment through coupler.
             let coupler_gap_accel_with_sin_rocker = T::lit(3.0)
                 * gap_accel_with_rocker_rate + T::lit(3.0) * sin_rocker * rocker_accel;
             let coupler_gap_accel_with_rocker_accel = T::lit(3.0)
@@ -387,6 +394,7 @@ pub mod four_bar {
             let f_coupler_x = T::lit(8.0) * f_coupler_x_with_sin_crank
                 - f_coupler_passed_y * w2_coupler_z
                 + minus_f_coupler_passed_x * coupler_gap_accel_with_v_times_0_0816;
+            // Results.
             let minus_coupler_v_times_n_coupler_z = minus_coupler_v * minus_n_coupler_z;
             let coupler_u_times_minus_n_coupler_z = coupler_u * minus_n_coupler_z;
             let side_1_with_rocker_accel = T::lit(9.0) * rocker_accel
@@ -421,6 +429,7 @@ pub mod four_bar {
                 * (sin_crank * cos_rocker_times_3_plus_4_times_0_333
                     - cos_crank_times_sin_rocker);
             let m_1_2 = T::lit(13.355) + pivot_1_with_f_coupler_passed_y;
+            // Factorisation L^T D L.
             let pivot_1_with_sin_rocker = sin_rocker * pivot_1_with_slope_rocker_inv;
             let pivot_1_with_cos_rocker = cos_rocker * pivot_1_with_slope_rocker_inv;
             let pivot_1_with_coupler_v = T::lit(0.2857142857142857) * minus_coupler_v
@@ -461,6 +470,7 @@ pub mod four_bar {
         ) -> Velocity<T> {
             let q = &state.q;
             let v = &state.v;
+            // Closed form of rocker.
             let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
             let minus_rocker_a = cos_crank - T::lit(4.0);
             let rocker_d = minus_rocker_a * minus_rocker_a + sin_crank * sin_crank;
@@ -474,6 +484,7 @@ pub mod four_bar {
             let cos_rocker_times_3_plus_4 = T::lit(4.0) + cos_rocker_times_3;
             let sin_rocker = rocker_d_inv
                 * (sin_crank * minus_rocker_c - minus_rocker_a * root_rocker);
+            // Closed form of coupler.
             let sin_crank_times_3 = T::lit(3.0) * sin_crank;
             let crank_effort_with_cos_crank = cos_crank * cos_rocker_times_3_plus_4
                 + sin_rocker * sin_crank_times_3;
@@ -481,6 +492,7 @@ pub mod four_bar {
             let cos_crank_times_3 = T::lit(3.0) * cos_crank;
             let minus_coupler_v = sin_crank * cos_rocker_times_3_plus_4
                 - sin_rocker * cos_crank_times_3;
+            // Force and moment through coupler.
             let crank_effort_with_coupler_u = cos_crank * coupler_u
                 + sin_crank * minus_coupler_v;
             let crank_effort_with_sin_crank = sin_crank * coupler_u
@@ -499,6 +511,7 @@ pub mod four_bar {
                 * crank_effort_with_cos_crank_and_coupler_u;
             let crank_effort_with_sin_crank_and_cos_crank = crank_effort_with_coupler_v
                 * crank_effort_with_cos_crank_and_coupler_u;
+            // Velocities of what follows.
             let minus_slope_rocker_inv = T::lit(1.0) / root_rocker;
             let crank_rate_times_sin_crank = v.crank * sin_crank;
             let crank_rate_times_cos_crank = v.crank * cos_crank;
@@ -508,6 +521,7 @@ pub mod four_bar {
                         - sin_crank * crank_rate_times_cos_crank)
                     + sin_rocker * crank_rate_times_cos_crank
                     - cos_rocker * crank_rate_times_sin_crank);
+            // Force and moment through coupler.
             let sin_rocker_times_minus_rocker_rate = sin_rocker * minus_rocker_rate;
             let cos_rocker_times_minus_rocker_rate = cos_rocker * minus_rocker_rate;
             let w2_coupler_z_with_sin_rocker = sin_rocker_times_minus_rocker_rate
@@ -517,6 +531,7 @@ pub mod four_bar {
                 * cos_rocker_times_minus_rocker_rate;
             let minus_a_coupler_x = accel.crank * sin_crank
                 + v.crank * crank_rate_times_cos_crank;
+            // Accelerations of what follows.
             let a_coupler_y_with_crank_accel = accel.crank * cos_crank
                 - v.crank * crank_rate_times_sin_crank;
             let u_coupler_xy_with_sin_rocker = minus_rocker_rate
@@ -535,6 +550,7 @@ pub mod four_bar {
                         + crank_rate_times_cos_crank
                             * cos_rocker_times_minus_rocker_rate);
             let minus_rocker_accel = minus_slope_rocker_inv * minus_rocker_gap_accel;
+            // Force and moment through coupler.
             let u_coupler_xy_with_rocker_accel = T::lit(3.0) * sin_rocker
                 * minus_rocker_accel - T::lit(3.0) * u_coupler_xy_with_rocker_rate;
             let u_coupler_xy_with_cos_rocker = T::lit(3.0) * u_coupler_xy_with_sin_rocker
@@ -583,6 +599,7 @@ pub mod four_bar {
             let f_coupler_x = T::lit(8.0) * f_coupler_x_with_sin_crank
                 - crank_effort_with_cos_crank_and_coupler_v * w2_coupler_z
                 - crank_effort_with_coupler_u_and_sin_crank * minus_u_coupler_xy;
+            // Results.
             let minus_coupler_v_times_n_coupler_z = minus_coupler_v * minus_n_coupler_z;
             let coupler_u_times_minus_n_coupler_z = coupler_u * minus_n_coupler_z;
             let crank_effort_with_sin_rocker = T::lit(0.24489795918367346) * sin_rocker
@@ -628,6 +645,7 @@ pub mod four_bar {
             &self,
             q: &Position<T>,
         ) -> ::multibody::nalgebra::SMatrix<T, 1, 1> {
+            // Closed form of rocker.
             let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
             let minus_rocker_a = cos_crank - T::lit(4.0);
             let rocker_d = minus_rocker_a * minus_rocker_a + sin_crank * sin_crank;
@@ -640,6 +658,7 @@ pub mod four_bar {
             let cos_rocker_times_3_plus_4 = T::lit(4.0) + T::lit(3.0) * cos_rocker;
             let sin_rocker = rocker_d_inv
                 * (sin_crank * minus_rocker_c - minus_rocker_a * root_rocker);
+            // Closed form of coupler.
             let cos_crank_times_sin_rocker = cos_crank * sin_rocker;
             let minus_coupler_v = sin_crank * cos_rocker_times_3_plus_4
                 - T::lit(3.0) * cos_crank_times_sin_rocker;
@@ -653,6 +672,7 @@ pub mod four_bar {
                     * (sin_crank * minus_rocker_a - cos_crank * sin_crank)
                 - sin_crank * cos_rocker) / root_rocker;
             let m_1_2 = T::lit(13.355) + f_coupler_passed_y;
+            // Results.
             let mass_matrix_0_with_sin_rocker = sin_rocker
                 * mass_matrix_0_with_sin_crank;
             let mass_matrix_0_with_cos_rocker = cos_rocker
@@ -692,6 +712,7 @@ pub mod four_bar {
         ) -> ::multibody::nalgebra::SVector<T, 1> {
             let q = &state.q;
             let v = &state.v;
+            // Closed form of rocker.
             let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
             let minus_rocker_a = cos_crank - T::lit(4.0);
             let rocker_d = minus_rocker_a * minus_rocker_a + sin_crank * sin_crank;
@@ -705,6 +726,7 @@ pub mod four_bar {
             let cos_rocker_times_3_plus_4 = T::lit(4.0) + cos_rocker_times_3;
             let sin_rocker = rocker_d_inv
                 * (sin_crank * minus_rocker_c - minus_rocker_a * root_rocker);
+            // Closed form of coupler.
             let sin_crank_times_3 = T::lit(3.0) * sin_crank;
             let crank_effort_with_cos_crank = cos_crank * cos_rocker_times_3_plus_4
                 + sin_rocker * sin_crank_times_3;
@@ -712,6 +734,7 @@ pub mod four_bar {
             let cos_crank_times_3 = T::lit(3.0) * cos_crank;
             let minus_coupler_v = sin_crank * cos_rocker_times_3_plus_4
                 - sin_rocker * cos_crank_times_3;
+            // Force and moment through coupler.
             let crank_effort_with_coupler_u = cos_crank * coupler_u
                 + sin_crank * minus_coupler_v;
             let crank_effort_with_sin_crank = sin_crank * coupler_u
@@ -730,6 +753,7 @@ pub mod four_bar {
                 * crank_effort_with_cos_crank_and_coupler_u;
             let crank_effort_with_sin_crank_and_cos_crank = crank_effort_with_coupler_v
                 * crank_effort_with_cos_crank_and_coupler_u;
+            // Velocities of what follows.
             let minus_slope_rocker_inv = T::lit(1.0) / root_rocker;
             let crank_rate_times_sin_crank = v.crank * sin_crank;
             let crank_rate_times_cos_crank = v.crank * cos_crank;
@@ -739,6 +763,7 @@ pub mod four_bar {
                         - sin_crank * crank_rate_times_cos_crank)
                     + sin_rocker * crank_rate_times_cos_crank
                     - cos_rocker * crank_rate_times_sin_crank);
+            // Force and moment through coupler.
             let sin_rocker_times_minus_rocker_rate = sin_rocker * minus_rocker_rate;
             let cos_rocker_times_minus_rocker_rate = cos_rocker * minus_rocker_rate;
             let w2_coupler_z_with_sin_rocker = sin_rocker_times_minus_rocker_rate
@@ -746,6 +771,7 @@ pub mod four_bar {
                 + cos_rocker_times_minus_rocker_rate * cos_crank_times_3;
             let w2_coupler_z_with_crank_rate = v.crank * crank_effort_with_cos_crank
                 + w2_coupler_z_with_sin_rocker;
+            // Accelerations of what follows.
             let gap_accel_with_rocker_rate = minus_rocker_rate
                 * cos_rocker_times_minus_rocker_rate;
             let gap_accel_with_sin_rocker = minus_rocker_rate
@@ -762,6 +788,7 @@ pub mod four_bar {
                         + crank_rate_times_cos_crank
                             * cos_rocker_times_minus_rocker_rate);
             let rocker_accel = minus_slope_rocker_inv * rocker_gap_accel;
+            // Force and moment through coupler.
             let coupler_gap_accel_with_sin_rocker = T::lit(3.0)
                 * gap_accel_with_rocker_rate + T::lit(3.0) * sin_rocker * rocker_accel;
             let coupler_gap_accel_with_rocker_accel = T::lit(3.0)
@@ -806,6 +833,7 @@ pub mod four_bar {
                 - crank_effort_with_cos_crank_and_coupler_v * w2_coupler_z
                 + crank_effort_with_coupler_u_and_sin_crank
                     * coupler_gap_accel_with_v_times_0_0816;
+            // Results.
             let minus_coupler_v_times_n_coupler_z = minus_coupler_v * minus_n_coupler_z;
             let coupler_u_times_minus_n_coupler_z = coupler_u * minus_n_coupler_z;
             let crank_effort_with_rocker_accel = T::lit(9.0) * rocker_accel
@@ -848,6 +876,7 @@ pub mod four_bar {
         pub fn outputs(&self, _t: T, state: &State<T>, input: &Input<T>) -> Output<T> {
             let q = &state.q;
             let v = &state.v;
+            // Closed form of rocker.
             let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
             let minus_rocker_a = cos_crank - T::lit(4.0);
             let rocker_d = minus_rocker_a * minus_rocker_a + sin_crank * sin_crank;
@@ -866,6 +895,7 @@ pub mod four_bar {
                 - T::lit(3.0) * cos_crank_times_sin_rocker;
             let minus_coupler_v_times_0_286 = T::lit(0.2857142857142857)
                 * minus_coupler_v;
+            // Closed form of coupler.
             let sin_rocker_times_3 = T::lit(3.0) * sin_rocker;
             let coupler_with_cos_crank = cos_crank * cos_rocker_times_3_plus_4
                 + sin_crank * sin_rocker_times_3;
@@ -881,6 +911,7 @@ pub mod four_bar {
                         - sin_crank * crank_rate_times_cos_crank)
                     + sin_rocker * crank_rate_times_cos_crank
                     - cos_rocker * crank_rate_times_sin_crank);
+            // Velocities of what follows.
             let cos_rocker_times_minus_w_rocker_z = cos_rocker * minus_w_rocker_z;
             let sin_crank_times_3 = T::lit(3.0) * sin_crank;
             let sin_rocker_times_minus_w_rocker_z = sin_rocker * minus_w_rocker_z;
@@ -901,6 +932,7 @@ pub mod four_bar {
             let minus_coupler_rate = coupler_with_crank_rate
                 * minus_coupler_v_times_0_0816
                 + coupler_with_sin_crank * coupler_u_times_0_0816;
+            // Force and moment through coupler.
             let cos_crank_times_coupler_u = cos_crank * coupler_u;
             let energy_with_sin_crank = T::lit(0.2857142857142857)
                 * cos_crank_times_coupler_u + sin_crank * minus_coupler_v_times_0_286;
@@ -931,6 +963,7 @@ pub mod four_bar {
             let accel_with_w_rocker_z = minus_w_rocker_z
                 * cos_rocker_times_minus_w_rocker_z;
             let accel_with_w_rocker_z_times_3 = T::lit(3.0) * accel_with_w_rocker_z;
+            // Accelerations of what follows.
             let crank_rate_times_cos_crank_squared = crank_rate_times_cos_crank
                 * crank_rate_times_cos_crank;
             let crank_rate_times_times_cos_crank = v.crank * crank_rate_times_cos_crank;
@@ -950,6 +983,7 @@ pub mod four_bar {
                     + cos_rocker * crank_rate_times_times_cos_crank
                     + sin_rocker * crank_rate_times_times_sin_crank
                     + rocker_gap_accel_with_a);
+            // Force and moment through coupler.
             let coupler_gap_accel_with_rocker_accel = accel_with_w_rocker_z_times_3
                 + rocker_accel * sin_rocker_times_3;
             let accel_with_sin_rocker_times_3 = T::lit(3.0) * accel_with_sin_rocker;
@@ -983,6 +1017,7 @@ pub mod four_bar {
                 + T::lit(16.677)
                     * (T::lit(0.1019367991845056) * a_coupler_y_with_coupler_v
                         - cos_crank_times_coupler_u);
+            // Motion of crank.
             let cos_rocker_times_44_145 = T::lit(44.145) * cos_rocker;
             let minus_coupler_v_times_n_coupler_z = minus_coupler_v * minus_n_coupler_z;
             let coupler_u_times_minus_n_coupler_z = coupler_u * minus_n_coupler_z;
@@ -1000,6 +1035,7 @@ pub mod four_bar {
             let side_1_with_slope_rocker_inv_times_0_333 = T::lit(0.3333333333333333)
                 * side_1_with_slope_rocker_inv;
             let w_coupler_z = v.crank - minus_coupler_rate;
+            // Force and moment through coupler.
             let w2_coupler_z = w_coupler_z * w_coupler_z;
             let f_coupler_x_with_w2_coupler_z = T::lit(8.0) * f_coupler_x_with_sin_crank
                 - T::lit(5.95) * w2_coupler_z;
@@ -1032,6 +1068,7 @@ pub mod four_bar {
                     + T::lit(0.3333333333333333) * energy_with_rocker_a
                     - sin_crank * cos_rocker);
             let m_1_2 = T::lit(13.355) + f_coupler_passed_y;
+            // Factorisation L^T D L.
             let pivot_1_with_sin_rocker = sin_rocker * pivot_1_with_slope_rocker_inv;
             let pivot_1_with_cos_rocker = cos_rocker * pivot_1_with_slope_rocker_inv;
             let pivot_1_with_coupler_v = minus_coupler_v_times_0_286
@@ -1052,6 +1089,7 @@ pub mod four_bar {
                 - T::lit(9.0) * pivot_1_with_slope_rocker_inv
                     * pivot_1_with_slope_rocker_inv;
             let minus_dw_crank_z = side_1 / minus_pivot_1;
+            // Accelerations of what follows.
             let rocker_gap_accel_with_sin_crank = crank_rate_times_times_cos_crank
                 - sin_crank * minus_dw_crank_z;
             let rocker_gap_accel_with_cos_crank = crank_rate_times_times_sin_crank
@@ -1075,6 +1113,7 @@ pub mod four_bar {
                     - sin_crank * coupler_accel_with_w_rocker_z
                     - coupler_with_cos_crank * minus_dw_crank_z
                     + coupler_accel_with_sin_rocker) * coupler_u_times_0_0816;
+            // Force and moment through coupler.
             let a_coupler_with_cos_crank = T::lit(9.81) * cos_crank - minus_dw_crank_z;
             let a_coupler_x_with_coupler_v = a_coupler_x_with_coupler_u
                 + minus_coupler_v * a_coupler_with_cos_crank;
@@ -1105,6 +1144,7 @@ pub mod four_bar {
             let minus_f_coupler_y_with_u_coupler_xy = a_coupler_y_with_coupler_u
                 + T::lit(5.95) * u_coupler_xy - energy_with_coupler_u * multiplier_1
                 + energy_with_sin_crank * multiplier_2 + f_coupler_y_with_w2_coupler_z;
+            // Results.
             let energy_with_w2_crank_z = w2_crank_z
                 + T::lit(3.483913043478261) * w2_coupler_z
                 + T::lit(0.10434782608695652) * crank_rate_times_minus_coupler_v
@@ -1159,6 +1199,7 @@ pub mod four_bar {
             _t: T,
             q: &Position<T>,
         ) -> ::multibody::nalgebra::SVector<T, 1> {
+            // Closed form of rocker.
             let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
             let cos_crank_minus_4 = cos_crank - T::lit(4.0);
             let rocker_d = cos_crank_minus_4 * cos_crank_minus_4 + sin_crank * sin_crank;
@@ -1181,11 +1222,13 @@ pub mod four_bar {
         ) -> ::multibody::nalgebra::SVector<T, 2> {
             let q = &state.q;
             let v = &state.v;
+            // Closed form of rocker.
             let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
             let cos_crank_minus_4 = cos_crank - T::lit(4.0);
             let rocker_d = cos_crank_minus_4 * cos_crank_minus_4 + sin_crank * sin_crank;
             let minus_rocker_c = T::lit(0.16666666666666666) * rocker_d
                 - T::lit(0.5416666666666666);
+            // Results.
             let crank_rate_times_sin_crank = v.crank * sin_crank;
             ::multibody::nalgebra::SVector::from([
                 Real::sqrt(rocker_d - minus_rocker_c * minus_rocker_c),

@@ -383,6 +383,7 @@ pub mod free_body {
         /// Operations: 8 add, 6 mul, 3 div.
         #[must_use]
         pub fn new(params: &Params<T>) -> Self {
+            // Factorisation L^T D L.
             let inverse_4 = T::lit(1.0) / params.i[0];
             let i_0_plus_i_1_plus_i_2 = params.i[0] + params.i[1] + params.i[2];
             let minus_second_free_yy = params.i[1] - T::lit(0.5) * i_0_plus_i_1_plus_i_2;
@@ -457,6 +458,7 @@ pub mod free_body {
             accel: &Velocity<T>,
         ) -> Velocity<T> {
             let v = &state.v;
+            // Results.
             let free_angular_rate_y_times_z = v.free.angular.y * v.free.angular.z;
             let u_free_zy = accel.free.angular.x + free_angular_rate_y_times_z;
             let minus_u_free_yz = accel.free.angular.x - free_angular_rate_y_times_z;

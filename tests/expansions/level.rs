@@ -435,6 +435,7 @@ pub mod level {
         ) -> Velocity<T> {
             let q = &state.q;
             let v = &state.v;
+            // Strut legs_0.
             let legs_0_line_x = T::lit(2.29) + q.platform.x;
             let legs_0_line_y = q.platform.y - T::lit(0.779);
             let legs_0_line_z = q.platform.z - T::lit(0.4);
@@ -466,6 +467,7 @@ pub mod level {
                 - self.legs_0_k * (self.legs_0_force_factor - legs_0_length)
                 + legs_0_length_rate * (self.legs_0_c + minus_legs_0_beta);
             let minus_legs_0_force_by_length = legs_0_length_inv * minus_legs_0_force;
+            // Strut legs_1.
             let legs_1_line_x = T::lit(1.78) + q.platform.x;
             let legs_1_line_y = q.platform.y - T::lit(1.074);
             let legs_length_squared_with_legs_0_line_z_squared = legs_0_line_z_squared
@@ -492,6 +494,7 @@ pub mod level {
                 - self.legs_1_k * (self.legs_1_force_factor - legs_1_length)
                 + legs_1_length_rate * (self.legs_1_c + minus_legs_1_beta);
             let minus_legs_1_force_by_length = legs_1_length_inv * minus_legs_1_force;
+            // Strut legs_2.
             let legs_2_line_y = T::lit(1.074) + q.platform.y;
             let legs_2_length = Real::sqrt(
                 legs_2_line_y * legs_2_line_y
@@ -513,6 +516,7 @@ pub mod level {
                 - self.legs_2_k * (self.legs_2_force_factor - legs_2_length)
                 + legs_2_length_rate * (self.legs_2_c + minus_legs_2_beta);
             let minus_legs_2_force_by_length = legs_2_length_inv * minus_legs_2_force;
+            // Strut legs_3.
             let legs_3_line_y = T::lit(0.779) + q.platform.y;
             let legs_3_length = Real::sqrt(
                 legs_3_line_y * legs_3_line_y + legs_0_line_x_squared_plus_z_squared,
@@ -534,6 +538,7 @@ pub mod level {
                 - self.legs_3_k * (self.legs_3_force_factor - legs_3_length)
                 + legs_3_length_rate * (self.legs_3_c + minus_legs_3_beta);
             let minus_legs_3_force_by_length = legs_3_length_inv * minus_legs_3_force;
+            // Strut legs_4.
             let legs_4_line_x = T::lit(43.0 / 100.0) + q.platform.x;
             let legs_4_line_y = q.platform.y - T::lit(0.295);
             let legs_length_squared_with_legs_4_line_x = legs_0_line_z_squared
@@ -559,6 +564,7 @@ pub mod level {
                 - self.legs_4_k * (self.legs_4_force_factor - legs_4_length)
                 + legs_4_length_rate * (self.legs_4_c + minus_legs_4_beta);
             let minus_legs_4_force_by_length = legs_4_length_inv * minus_legs_4_force;
+            // Strut legs_5.
             let legs_5_line_y = T::lit(0.295) + q.platform.y;
             let legs_5_length = Real::sqrt(
                 legs_5_line_y * legs_5_line_y + legs_length_squared_with_legs_4_line_x,
@@ -589,18 +595,23 @@ pub mod level {
                 + legs_4_line_x * minus_legs_4_force_by_length
                 + legs_4_line_x * minus_legs_5_force_by_length
                 - v.platform.x * side_with_legs_0_beta;
+            // Strut legs_0.
             let legs_0_mu = legs_0_length_inv * legs_0_swell;
             let legs_0_nu = legs_0_mu * legs_0_length_inv_squared;
             let legs_0_nu_line_x = legs_0_line_x * legs_0_nu;
+            // Strut legs_1.
             let legs_1_mu = legs_1_length_inv * legs_1_swell;
             let legs_1_nu = legs_1_mu * legs_1_length_inv_squared;
             let legs_1_nu_line_x = legs_1_line_x * legs_1_nu;
+            // Strut legs_2.
             let legs_2_mu = legs_2_length_inv * legs_2_swell;
             let legs_2_nu = legs_2_mu * legs_2_length_inv_squared;
             let legs_2_nu_line_x = legs_1_line_x * legs_2_nu;
+            // Strut legs_3.
             let legs_3_mu = legs_3_length_inv * legs_3_swell;
             let legs_3_nu = legs_3_mu * legs_3_length_inv_squared;
             let legs_3_nu_line_x = legs_0_line_x * legs_3_nu;
+            // Strut legs_4.
             let legs_4_mu = legs_4_length_inv * legs_4_swell;
             let legs_4_nu = legs_4_mu * legs_4_length_inv_squared;
             let legs_4_nu_line_x = legs_4_line_x * legs_4_nu;
@@ -632,6 +643,7 @@ pub mod level {
             let legs_3_nu_line_y = legs_3_line_y * legs_3_nu;
             let legs_4_nu_line_y = legs_4_line_y * legs_4_nu;
             let legs_5_nu_line_y = legs_5_line_y * legs_5_nu;
+            // Factorisation L^T D L.
             let minus_pivot_2 = legs_0_line_y * legs_0_nu_line_y
                 + legs_1_line_y * legs_1_nu_line_y + legs_2_line_y * legs_2_nu_line_y
                 + legs_3_line_y * legs_3_nu_line_y + legs_4_line_y * legs_4_nu_line_y
@@ -658,6 +670,7 @@ pub mod level {
                 * (legs_0_nu + legs_1_nu + legs_2_nu + legs_3_nu + legs_4_nu + legs_5_nu)
                 - body_and_struts_mass - minus_inertia_x_z * l_1_3
                 - minus_entry_2_3 * l_2_3;
+            // Results.
             let platform_z_accel = minus_side_3 / minus_pivot_3;
             let platform_y_accel = minus_side_2 * minus_inverse_2
                 - l_2_3 * platform_z_accel;
@@ -685,6 +698,7 @@ pub mod level {
         ) -> Solved<T> {
             let q = &state.q;
             let v = &state.v;
+            // Closed form of legs_0_stroke.
             let legs_0_line_y = q.platform.y - T::lit(0.779);
             let legs_0_line_x = T::lit(2.29) + q.platform.x;
             let legs_0_line_x_times_0_732 = T::lit(0.7316888688738209) * legs_0_line_x;
@@ -701,10 +715,12 @@ pub mod level {
                     + legs_0_stroke_with_line_x * legs_0_stroke_with_line_x
                     + minus_legs_0_gimbal_first_b_squared,
             );
+            // Strut legs_0.
             let slope_legs_0_stroke_inv = T::lit(1.0) / root_legs_0_stroke;
             let slope_legs_0_stroke_inv_times_0_0625 = T::lit(0.0625)
                 * slope_legs_0_stroke_inv;
             let legs_0_swell = slope_legs_0_stroke_inv_times_0_0625 - T::lit(0.1);
+            // Results.
             let legs_thrust_with_platform_z_accel = accel.platform.z
                 * minus_legs_0_gimbal_first_b;
             let legs_thrust_with_platform_x_accel = accel.platform.x * legs_0_line_x
@@ -712,6 +728,7 @@ pub mod level {
             let legs_thrust_with_platform_x_rate = T::lit(0.05)
                 * (v.platform.x * v.platform.x + v.platform.y * v.platform.y
                     + v.platform.z * v.platform.z);
+            // Velocities of what follows.
             let platform_x_rate_times_0_732 = T::lit(0.7316888688738209) * v.platform.x;
             let platform_y_rate_times_0_682 = T::lit(0.6816387600233341) * v.platform.y;
             let platform_x_rate_times_0_682 = T::lit(0.6816387600233341) * v.platform.x;
@@ -729,6 +746,7 @@ pub mod level {
                 * slope_legs_0_stroke_inv;
             let legs_0_mu = slope_legs_0_stroke_inv * legs_0_swell;
             let legs_3_line_y = T::lit(0.779) + q.platform.y;
+            // Closed form of legs_3_stroke.
             let legs_3_stroke_with_line_y = legs_0_line_x_times_0_732
                 + T::lit(0.6816387600233341) * legs_3_line_y;
             let legs_3_stroke_with_legs_0_line_x = legs_0_line_x_times_0_682
@@ -738,6 +756,7 @@ pub mod level {
                     + legs_3_stroke_with_line_y * legs_3_stroke_with_line_y
                     + legs_3_stroke_with_legs_0_line_x * legs_3_stroke_with_legs_0_line_x,
             );
+            // Strut legs_3.
             let slope_legs_3_stroke_inv = T::lit(1.0) / root_legs_3_stroke;
             let slope_legs_3_stroke_inv_times_0_0625 = T::lit(0.0625)
                 * slope_legs_3_stroke_inv;
@@ -746,6 +765,7 @@ pub mod level {
             let legs_0_mu_plus_legs_3_mu = legs_0_mu + legs_3_mu;
             let legs_1_line_y = q.platform.y - T::lit(1.074);
             let legs_1_line_x = T::lit(1.78) + q.platform.x;
+            // Closed form of legs_1_stroke.
             let legs_1_line_x_times_0_853 = T::lit(0.8525245220595058) * legs_1_line_x;
             let legs_1_stroke_with_line_y = legs_1_line_x_times_0_853
                 - T::lit(0.5226872289306592) * legs_1_line_y;
@@ -757,12 +777,14 @@ pub mod level {
                     + legs_1_stroke_with_line_y * legs_1_stroke_with_line_y
                     + legs_1_stroke_with_line_x * legs_1_stroke_with_line_x,
             );
+            // Strut legs_1.
             let slope_legs_1_stroke_inv = T::lit(1.0) / root_legs_1_stroke;
             let slope_legs_1_stroke_inv_times_0_0625 = T::lit(0.0625)
                 * slope_legs_1_stroke_inv;
             let legs_1_swell = slope_legs_1_stroke_inv_times_0_0625 - T::lit(0.1);
             let legs_1_mu = slope_legs_1_stroke_inv * legs_1_swell;
             let legs_2_line_y = T::lit(1.074) + q.platform.y;
+            // Closed form of legs_2_stroke.
             let legs_2_stroke_with_line_y = legs_1_line_x_times_0_853
                 + T::lit(0.5226872289306592) * legs_2_line_y;
             let legs_2_stroke_with_legs_1_line_x = legs_1_line_x_times_0_523
@@ -772,6 +794,7 @@ pub mod level {
                     + legs_2_stroke_with_line_y * legs_2_stroke_with_line_y
                     + legs_2_stroke_with_legs_1_line_x * legs_2_stroke_with_legs_1_line_x,
             );
+            // Strut legs_2.
             let slope_legs_2_stroke_inv = T::lit(1.0) / root_legs_2_stroke;
             let slope_legs_2_stroke_inv_times_0_0625 = T::lit(0.0625)
                 * slope_legs_2_stroke_inv;
@@ -780,6 +803,7 @@ pub mod level {
             let legs_1_mu_plus_legs_2_mu = legs_1_mu + legs_2_mu;
             let legs_4_line_y = q.platform.y - T::lit(0.295);
             let legs_4_line_x = T::lit(43.0 / 100.0) + q.platform.x;
+            // Closed form of legs_4_stroke.
             let legs_4_line_x_times_0_958 = T::lit(0.9577872375530903) * legs_4_line_x;
             let legs_4_stroke_with_line_y = T::lit(0.2874780123425445) * legs_4_line_y
                 + legs_4_line_x_times_0_958;
@@ -791,12 +815,14 @@ pub mod level {
                     + legs_4_stroke_with_line_y * legs_4_stroke_with_line_y
                     + legs_4_stroke_with_line_x * legs_4_stroke_with_line_x,
             );
+            // Strut legs_4.
             let slope_legs_4_stroke_inv = T::lit(1.0) / root_legs_4_stroke;
             let slope_legs_4_stroke_inv_times_0_0625 = T::lit(0.0625)
                 * slope_legs_4_stroke_inv;
             let legs_4_swell = slope_legs_4_stroke_inv_times_0_0625 - T::lit(0.1);
             let legs_4_mu = slope_legs_4_stroke_inv * legs_4_swell;
             let legs_5_line_y = T::lit(0.295) + q.platform.y;
+            // Closed form of legs_5_stroke.
             let legs_5_stroke_with_line_y = legs_4_line_x_times_0_958
                 - T::lit(0.2874780123425445) * legs_5_line_y;
             let legs_5_stroke_with_legs_4_line_x = legs_4_line_x_times_0_287
@@ -806,6 +832,7 @@ pub mod level {
                     + legs_5_stroke_with_line_y * legs_5_stroke_with_line_y
                     + legs_5_stroke_with_legs_4_line_x * legs_5_stroke_with_legs_4_line_x,
             );
+            // Strut legs_5.
             let slope_legs_5_stroke_inv = T::lit(1.0) / root_legs_5_stroke;
             let slope_legs_5_stroke_inv_times_0_0625 = T::lit(0.0625)
                 * slope_legs_5_stroke_inv;
@@ -822,6 +849,7 @@ pub mod level {
                         * (platform_x_rate_times_0_732 + platform_y_rate_times_0_682)
                     + legs_3_stroke_with_legs_0_line_x
                         * (platform_x_rate_times_0_682 - platform_y_rate_times_0_732));
+            // Strut legs_3.
             let legs_3_bend = slope_legs_3_stroke_inv_times_0_0625 + legs_3_swell;
             let slope_legs_3_stroke_inv_squared = slope_legs_3_stroke_inv
                 * slope_legs_3_stroke_inv;
@@ -829,6 +857,7 @@ pub mod level {
                 * slope_legs_3_stroke_inv_squared;
             let minus_legs_0_beta_plus_minus_legs_3_beta = minus_legs_0_beta
                 + minus_legs_3_beta;
+            // Velocities of what follows.
             let platform_x_rate_times_0_853 = T::lit(0.8525245220595058) * v.platform.x;
             let platform_y_rate_times_0_523 = T::lit(0.5226872289306592) * v.platform.y;
             let platform_x_rate_times_0_523 = T::lit(0.5226872289306592) * v.platform.x;
@@ -839,6 +868,7 @@ pub mod level {
                         * (platform_x_rate_times_0_853 - platform_y_rate_times_0_523)
                     + legs_1_stroke_with_line_x
                         * (platform_x_rate_times_0_523 + platform_y_rate_times_0_853));
+            // Strut legs_1.
             let legs_1_bend = slope_legs_1_stroke_inv_times_0_0625 + legs_1_swell;
             let slope_legs_1_stroke_inv_squared = slope_legs_1_stroke_inv
                 * slope_legs_1_stroke_inv;
@@ -850,6 +880,7 @@ pub mod level {
                         * (platform_x_rate_times_0_853 + platform_y_rate_times_0_523)
                     + legs_2_stroke_with_legs_1_line_x
                         * (platform_x_rate_times_0_523 - platform_y_rate_times_0_853));
+            // Strut legs_2.
             let legs_2_bend = slope_legs_2_stroke_inv_times_0_0625 + legs_2_swell;
             let slope_legs_2_stroke_inv_squared = slope_legs_2_stroke_inv
                 * slope_legs_2_stroke_inv;
@@ -857,6 +888,7 @@ pub mod level {
                 * slope_legs_2_stroke_inv_squared;
             let minus_legs_1_beta_plus_minus_legs_2_beta = minus_legs_1_beta
                 + minus_legs_2_beta;
+            // Velocities of what follows.
             let platform_x_rate_times_0_958 = T::lit(0.9577872375530903) * v.platform.x;
             let platform_y_rate_times_0_287 = T::lit(0.2874780123425445) * v.platform.y;
             let platform_x_rate_times_0_287 = T::lit(0.2874780123425445) * v.platform.x;
@@ -867,6 +899,7 @@ pub mod level {
                         * (platform_x_rate_times_0_958 + platform_y_rate_times_0_287)
                     + legs_4_stroke_with_line_x
                         * (platform_x_rate_times_0_287 - platform_y_rate_times_0_958));
+            // Strut legs_4.
             let legs_4_bend = slope_legs_4_stroke_inv_times_0_0625 + legs_4_swell;
             let slope_legs_4_stroke_inv_squared = slope_legs_4_stroke_inv
                 * slope_legs_4_stroke_inv;
@@ -878,11 +911,13 @@ pub mod level {
                         * (platform_x_rate_times_0_958 - platform_y_rate_times_0_287)
                     + legs_5_stroke_with_legs_4_line_x
                         * (platform_x_rate_times_0_287 + platform_y_rate_times_0_958));
+            // Strut legs_5.
             let legs_5_bend = slope_legs_5_stroke_inv_times_0_0625 + legs_5_swell;
             let slope_legs_5_stroke_inv_squared = slope_legs_5_stroke_inv
                 * slope_legs_5_stroke_inv;
             let minus_legs_5_beta = legs_5_stroke_rate * legs_5_bend
                 * slope_legs_5_stroke_inv_squared;
+            // Balance of the body on its struts.
             let minus_legs_4_beta_plus_minus_legs_5_beta = minus_legs_4_beta
                 + minus_legs_5_beta;
             let minus_mass_struts_beta = minus_legs_0_beta_plus_minus_legs_3_beta
@@ -963,6 +998,7 @@ pub mod level {
                 * legs_tension_with_platform_x_accel
                 - T::lit(0.2912832310838446) * legs_tension_with_platform_z_accel
                 + T::lit(0.5943251533742331) * legs_tension_with_first_struts_mu_x;
+            // Results.
             let legs_1_thrust = (legs_thrust_with_platform_x_rate
                 - legs_1_swell
                     * (accel.platform.y * legs_1_line_y + legs_thrust_with_legs_1_line_x)
@@ -1049,12 +1085,14 @@ pub mod level {
             _t: T,
             q: &Position<T>,
         ) -> ::multibody::nalgebra::SVector<T, 12> {
+            // Closed form of legs_0_stroke.
             let platform_y_minus_0_779 = q.platform.y - T::lit(0.779);
             let platform_x_plus_2_29 = T::lit(2.29) + q.platform.x;
             let platform_x_plus_2_29_times_0_732 = T::lit(0.7316888688738209)
                 * platform_x_plus_2_29;
             let legs_0_stroke_discriminant_with_platform_x = platform_x_plus_2_29_times_0_732
                 - T::lit(0.6816387600233341) * platform_y_minus_0_779;
+            // Closed form of legs_0_gimbal_first.
             let platform_x_plus_2_29_times_0_682 = T::lit(0.6816387600233341)
                 * platform_x_plus_2_29;
             let minus_legs_0_gimbal_first_a = T::lit(0.7316888688738209)
@@ -1064,12 +1102,14 @@ pub mod level {
                 * minus_legs_0_gimbal_first_b;
             let legs_0_gimbal_first_d = minus_legs_0_gimbal_first_a
                 * minus_legs_0_gimbal_first_a + minus_legs_0_gimbal_first_b_squared;
+            // Closed form of legs_1_stroke.
             let platform_y_minus_1_074 = q.platform.y - T::lit(1.074);
             let platform_x_plus_1_78 = T::lit(1.78) + q.platform.x;
             let platform_x_plus_1_78_times_0_853 = T::lit(0.8525245220595058)
                 * platform_x_plus_1_78;
             let legs_1_stroke_discriminant_with_platform_x = platform_x_plus_1_78_times_0_853
                 - T::lit(0.5226872289306592) * platform_y_minus_1_074;
+            // Closed form of legs_1_gimbal_first.
             let platform_x_plus_1_78_times_0_523 = T::lit(0.5226872289306592)
                 * platform_x_plus_1_78;
             let minus_legs_1_gimbal_first_a = T::lit(0.8525245220595058)
@@ -1090,12 +1130,14 @@ pub mod level {
                 - T::lit(0.7316888688738209) * platform_y_plus_0_779;
             let legs_3_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
                 + legs_3_gimbal_first_a * legs_3_gimbal_first_a;
+            // Closed form of legs_4_stroke.
             let platform_y_minus_0_295 = q.platform.y - T::lit(0.295);
             let platform_x_plus_0_43 = T::lit(43.0 / 100.0) + q.platform.x;
             let platform_x_plus_0_43_times_0_958 = T::lit(0.9577872375530903)
                 * platform_x_plus_0_43;
             let legs_4_stroke_discriminant_with_platform_y = T::lit(0.2874780123425445)
                 * platform_y_minus_0_295 + platform_x_plus_0_43_times_0_958;
+            // Closed form of legs_4_gimbal_first.
             let platform_x_plus_0_43_times_0_287 = T::lit(0.2874780123425445)
                 * platform_x_plus_0_43;
             let minus_legs_4_gimbal_first_a = platform_x_plus_0_43_times_0_287
@@ -1105,6 +1147,7 @@ pub mod level {
             let platform_y_plus_0_295 = T::lit(0.295) + q.platform.y;
             let legs_5_stroke_discriminant_with_platform_x = platform_x_plus_0_43_times_0_958
                 - T::lit(0.2874780123425445) * platform_y_plus_0_295;
+            // Closed form of legs_5_gimbal_first.
             let legs_5_gimbal_first_a = platform_x_plus_0_43_times_0_287
                 + T::lit(0.9577872375530903) * platform_y_plus_0_295;
             let legs_5_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
@@ -1161,12 +1204,14 @@ pub mod level {
         ) -> ::multibody::nalgebra::SVector<T, 24> {
             let q = &state.q;
             let v = &state.v;
+            // Closed form of legs_0_stroke.
             let platform_y_minus_0_779 = q.platform.y - T::lit(0.779);
             let platform_x_plus_2_29 = T::lit(2.29) + q.platform.x;
             let platform_x_plus_2_29_times_0_732 = T::lit(0.7316888688738209)
                 * platform_x_plus_2_29;
             let legs_0_stroke_with_platform_x = platform_x_plus_2_29_times_0_732
                 - T::lit(0.6816387600233341) * platform_y_minus_0_779;
+            // Closed form of legs_0_gimbal_first.
             let platform_x_plus_2_29_times_0_682 = T::lit(0.6816387600233341)
                 * platform_x_plus_2_29;
             let minus_legs_0_gimbal_first_a = T::lit(0.7316888688738209)
@@ -1176,6 +1221,7 @@ pub mod level {
                 * minus_legs_0_gimbal_first_b;
             let legs_0_gimbal_first_d = minus_legs_0_gimbal_first_a
                 * minus_legs_0_gimbal_first_a + minus_legs_0_gimbal_first_b_squared;
+            // Velocities of what follows.
             let platform_x_rate_times_0_732 = T::lit(0.7316888688738209) * v.platform.x;
             let platform_y_rate_times_0_682 = T::lit(0.6816387600233341) * v.platform.y;
             let platform_x_rate_times_0_682 = T::lit(0.6816387600233341) * v.platform.x;
@@ -1186,18 +1232,21 @@ pub mod level {
                 * minus_legs_0_gimbal_first_b;
             let margin_with_platform_z_rate = T::lit(2.0)
                 * legs_stroke_gap_rate_with_platform_z_rate;
+            // Closed form of legs_1_stroke.
             let platform_y_minus_1_074 = q.platform.y - T::lit(1.074);
             let platform_x_plus_1_78 = T::lit(1.78) + q.platform.x;
             let platform_x_plus_1_78_times_0_853 = T::lit(0.8525245220595058)
                 * platform_x_plus_1_78;
             let legs_1_stroke_with_platform_x = platform_x_plus_1_78_times_0_853
                 - T::lit(0.5226872289306592) * platform_y_minus_1_074;
+            // Closed form of legs_1_gimbal_first.
             let platform_x_plus_1_78_times_0_523 = T::lit(0.5226872289306592)
                 * platform_x_plus_1_78;
             let minus_legs_1_gimbal_first_a = T::lit(0.8525245220595058)
                 * platform_y_minus_1_074 + platform_x_plus_1_78_times_0_523;
             let legs_1_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
                 + minus_legs_1_gimbal_first_a * minus_legs_1_gimbal_first_a;
+            // Velocities of what follows.
             let platform_x_rate_times_0_853 = T::lit(0.8525245220595058) * v.platform.x;
             let platform_y_rate_times_0_523 = T::lit(0.5226872289306592) * v.platform.y;
             let platform_x_rate_times_0_523 = T::lit(0.5226872289306592) * v.platform.x;
@@ -1222,18 +1271,21 @@ pub mod level {
                 + legs_3_gimbal_first_a * legs_3_gimbal_first_a;
             let margin_15_with_legs_3_gimbal_first_a = legs_3_gimbal_first_a
                 * (platform_x_rate_times_0_682 - platform_y_rate_times_0_732);
+            // Closed form of legs_4_stroke.
             let platform_y_minus_0_295 = q.platform.y - T::lit(0.295);
             let platform_x_plus_0_43 = T::lit(43.0 / 100.0) + q.platform.x;
             let platform_x_plus_0_43_times_0_958 = T::lit(0.9577872375530903)
                 * platform_x_plus_0_43;
             let legs_4_stroke_with_platform_y = T::lit(0.2874780123425445)
                 * platform_y_minus_0_295 + platform_x_plus_0_43_times_0_958;
+            // Closed form of legs_4_gimbal_first.
             let platform_x_plus_0_43_times_0_287 = T::lit(0.2874780123425445)
                 * platform_x_plus_0_43;
             let minus_legs_4_gimbal_first_a = platform_x_plus_0_43_times_0_287
                 - T::lit(0.9577872375530903) * platform_y_minus_0_295;
             let legs_4_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
                 + minus_legs_4_gimbal_first_a * minus_legs_4_gimbal_first_a;
+            // Velocities of what follows.
             let platform_x_rate_times_0_958 = T::lit(0.9577872375530903) * v.platform.x;
             let platform_y_rate_times_0_287 = T::lit(0.2874780123425445) * v.platform.y;
             let platform_x_rate_times_0_287 = T::lit(0.2874780123425445) * v.platform.x;
@@ -1557,6 +1609,7 @@ pub mod level {
             _input: &Input<T>,
         ) -> Option<&'static str> {
             let q = &state.q;
+            // Closed form of legs_0_gimbal_first.
             let platform_y_plus_0_595_minus_1_374 = T::lit(0.595) + q.platform.y
                 - T::lit(1.374);
             let platform_x_plus_0_17_plus_2_12 = T::lit(2.12)
@@ -1601,6 +1654,7 @@ pub mod level {
                 * minus_slope_legs_0_gimbal_first_inv;
             let sin_legs_0_gimbal_second = legs_0_gimbal_second_v
                 * slope_legs_0_stroke_inv;
+            // Results.
             let mass_matrix_with_sin_legs_0_gimbal_first = minus_sin_legs_0_gimbal_first
                 * sin_legs_0_gimbal_second;
             let mass_matrix_with_slope_legs_0_stroke_inv = slope_legs_0_stroke_inv
@@ -1608,6 +1662,7 @@ pub mod level {
                     - T::lit(0.7316888688738209) * cos_legs_0_gimbal_second);
             let mass_matrix_with_platform_x = platform_x_plus_0_17_plus_2_12
                 * slope_legs_0_stroke_inv;
+            // Closed form of legs_1_gimbal_first.
             let platform_y_plus_0_15_minus_1_224 = T::lit(0.15) + q.platform.y
                 - T::lit(1.224);
             let platform_x_minus_0_6_plus_2_38 = T::lit(2.38)
@@ -1649,6 +1704,7 @@ pub mod level {
                 * minus_slope_legs_1_gimbal_first_inv;
             let sin_legs_1_gimbal_second = legs_1_gimbal_second_v
                 * slope_legs_1_stroke_inv;
+            // Results.
             let mass_matrix_with_sin_legs_1_gimbal_first = minus_sin_legs_1_gimbal_first
                 * sin_legs_1_gimbal_second;
             let mass_matrix_with_slope_legs_1_stroke_inv = slope_legs_1_stroke_inv
@@ -1656,6 +1712,7 @@ pub mod level {
                     - T::lit(0.8525245220595058) * cos_legs_1_gimbal_second);
             let mass_matrix_with_slope_legs_1_stroke_inv_and_platform_x = platform_x_minus_0_6_plus_2_38
                 * slope_legs_1_stroke_inv;
+            // Closed form of legs_2_gimbal_first.
             let platform_y_minus_0_15_plus_1_224 = T::lit(1.224)
                 + (q.platform.y - T::lit(0.15));
             let legs_2_gimbal_first_a = platform_x_minus_0_6_plus_2_38_times_0_523
@@ -1690,6 +1747,7 @@ pub mod level {
                 * minus_slope_legs_2_gimbal_first_inv;
             let sin_legs_2_gimbal_second = legs_2_gimbal_second_v
                 * slope_legs_2_stroke_inv;
+            // Results.
             let sin_legs_2_gimbal_first_times_second = sin_legs_2_gimbal_first
                 * sin_legs_2_gimbal_second;
             let mass_matrix_with_slope_legs_2_stroke_inv = slope_legs_2_stroke_inv
@@ -1697,6 +1755,7 @@ pub mod level {
                     - T::lit(0.8525245220595058) * cos_legs_2_gimbal_second);
             let mass_matrix_with_slope_legs_2_stroke_inv_and_platform_x = platform_x_minus_0_6_plus_2_38
                 * slope_legs_2_stroke_inv;
+            // Closed form of legs_3_gimbal_first.
             let platform_y_minus_0_595_plus_1_374 = T::lit(1.374)
                 + (q.platform.y - T::lit(0.595));
             let legs_3_gimbal_first_a = platform_x_plus_0_17_plus_2_12_times_0_682
@@ -1731,6 +1790,7 @@ pub mod level {
                 * minus_slope_legs_3_gimbal_first_inv;
             let sin_legs_3_gimbal_second = legs_3_gimbal_second_v
                 * slope_legs_3_stroke_inv;
+            // Results.
             let sin_legs_3_gimbal_first_times_second = sin_legs_3_gimbal_first
                 * sin_legs_3_gimbal_second;
             let mass_matrix_with_slope_legs_3_stroke_inv = slope_legs_3_stroke_inv
@@ -1738,6 +1798,7 @@ pub mod level {
                     - T::lit(0.7316888688738209) * cos_legs_3_gimbal_second);
             let mass_matrix_with_slope_legs_3_stroke_inv_and_platform_x = platform_x_plus_0_17_plus_2_12
                 * slope_legs_3_stroke_inv;
+            // Closed form of legs_4_gimbal_first.
             let platform_y_minus_0_445_plus_0_15 = T::lit(0.15)
                 + (q.platform.y - T::lit(0.445));
             let platform_x_plus_0_43 = T::lit(43.0 / 100.0) + q.platform.x;
@@ -1777,6 +1838,7 @@ pub mod level {
                 * minus_slope_legs_4_gimbal_first_inv;
             let minus_sin_legs_4_gimbal_second = minus_legs_4_gimbal_second_v
                 * slope_legs_4_stroke_inv;
+            // Results.
             let minus_sin_legs_4_gimbal_first_times_second = minus_sin_legs_4_gimbal_first
                 * minus_sin_legs_4_gimbal_second;
             let mass_matrix_with_slope_legs_4_stroke_inv = slope_legs_4_stroke_inv
@@ -1785,6 +1847,7 @@ pub mod level {
                     - T::lit(0.9577872375530903) * cos_legs_4_gimbal_second);
             let mass_matrix_with_slope_legs_4_stroke_inv_and_platform_x = platform_x_plus_0_43
                 * slope_legs_4_stroke_inv;
+            // Closed form of legs_5_gimbal_first.
             let platform_y_plus_0_445_minus_0_15 = T::lit(0.445) + q.platform.y
                 - T::lit(0.15);
             let legs_5_gimbal_first_a = platform_x_plus_0_43_times_0_287
@@ -1819,6 +1882,7 @@ pub mod level {
                 * minus_slope_legs_5_gimbal_first_inv;
             let minus_sin_legs_5_gimbal_second = minus_legs_5_gimbal_second_v
                 * slope_legs_5_stroke_inv;
+            // Results.
             let mass_matrix_with_sin_legs_5_gimbal_first = sin_legs_5_gimbal_first
                 * minus_sin_legs_5_gimbal_second;
             let mass_matrix_with_slope_legs_5_stroke_inv = slope_legs_5_stroke_inv

@@ -314,6 +314,7 @@ pub mod pendulum {
             accel: &Velocity<T>,
         ) -> Velocity<T> {
             let q = &state.q;
+            // Force and moment through hinge.
             let (sin_hinge, _) = Real::sin_cos(q.hinge);
             Velocity {
                 hinge: sin_hinge * self.n_hinge_z_factor

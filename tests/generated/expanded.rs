@@ -1,7 +1,7 @@
 //! What the macro writes for some models, formatted and committed in `expansions`: a reader sees what they get, and a
 //! change of the emitter is seen in review. `UPDATE_EXPANSIONS=1` writes the files anew.
 
-use multibody_engine::expand;
+use multibody_engine::{commented, expand};
 use multibody_tests::support::data::path;
 use multibody_tests::support::engine::calls;
 use proc_macro2::{TokenStream, TokenTree};
@@ -32,7 +32,13 @@ fn expansion(file: &str, name: &str) -> String {
     let call = alone(call.unwrap_or_else(|| panic!("no model {name}")), name);
     let once = expand(call.clone()).to_string();
     assert_eq!(once, expand(call.clone()).to_string(), "the same tokens give the same code");
-    prettyplease::unparse(&syn::parse2(expand(call)).unwrap())
+    // What the compiler gets has no headings.
+    let text = prettyplease::unparse(&syn::parse2(commented(call)).unwrap());
+    let lines = text.lines().map(|line| match line.split_once("#[doc = \"// ") {
+        Some((indent, heading)) => format!("{indent}// {}\n", heading.trim_end_matches("\"]")),
+        None => format!("{line}\n"),
+    });
+    lines.collect()
 }
 
 fn check(file: &str, name: &str) {

@@ -53,6 +53,15 @@ use optimize::{Excess, Refusal};
 /// Tokens of a `multibody!` call to tokens of its modules, and of everything that is wrong. A model without a mistake is
 /// there in full whatever stands beside it, one with mistakes as an outline without equations: one mistake, one error.
 pub fn expand(tokens: TokenStream) -> TokenStream {
+    expand_by(tokens, emit::emit)
+}
+
+/// The same for readers: paragraphs of statements have headings, as the attribute `#[doc = "// .."]`.
+pub fn commented(tokens: TokenStream) -> TokenStream {
+    expand_by(tokens, emit::commented)
+}
+
+fn expand_by(tokens: TokenStream, emit: fn(&Model, &Structure, &Compiled) -> TokenStream) -> TokenStream {
     let mut diagnostics = Diagnostics::default();
     let source = syntax::parse(tokens, &mut diagnostics);
     let mut modules = TokenStream::new();
@@ -67,7 +76,7 @@ pub fn expand(tokens: TokenStream) -> TokenStream {
         if checked.state == Soundness::Sound {
             match compile(model) {
                 Ok((structure, compiled)) => {
-                    modules.extend(emit::emit(model, &structure, &compiled));
+                    modules.extend(emit(model, &structure, &compiled));
                     continue;
                 }
                 Err(trouble) => trouble.report(model, &mut diagnostics),

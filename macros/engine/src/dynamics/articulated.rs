@@ -155,6 +155,7 @@ fn eliminate(
                 Freedom::Of(_) => g.add(along, link.armature),
                 Freedom::Along(_) => along,
             };
+            let before = g.begin(Some(format!("Articulated inertia of {}.", link.name).into()));
             let inverse = g.reciprocal(pivot);
             let pushed = dot(g, &twist, &wrench);
             let rest = g.sub(effort, pushed);
@@ -169,6 +170,7 @@ fn eliminate(
                 g.label(column[k], || format!("column_{name}_{motion}"));
                 g.label(gain[k], || format!("gain_{name}_{motion}"));
             }
+            g.begin(before);
             inertia = inertia.less(g, &column, &gain);
             wrench = std::array::from_fn(|k| {
                 let handed = g.mul(gain[k], rest);
@@ -231,7 +233,8 @@ fn accelerate(g: &mut Graph, tree: &Tree, floating_bases: &[&FloatingBase], pivo
         while let Some(pivot) = pivots.next_if(|p| p.link == index) {
             let felt = dot(g, &pivot.gain, &motion);
             let acceleration = g.sub(pivot.drive, felt);
-            g.name(acceleration, || format!("acceleration_{}", pivot.freedom.name(link)));
+            let heading = format!("Acceleration of {}.", link.name);
+            g.under(&heading, |g| g.name(acceleration, || format!("acceleration_{}", pivot.freedom.name(link))));
             motion = std::array::from_fn(|k| {
                 let part = g.mul(pivot.twist[k], acceleration);
                 g.add(motion[k], part)

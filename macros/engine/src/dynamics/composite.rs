@@ -14,7 +14,8 @@ use super::tree::{Motion, Tree};
 pub fn mass_matrix(g: &mut Graph, tree: &Tree) -> Vec<Vec<Scalar>> {
     let composites = composites(g, tree);
     for (link, composite) in tree.links.iter().zip(&composites) {
-        composite.label(g, &format!("{}_outward", link.name));
+        let heading = format!("Inertia of {} and all that it carries.", link.name);
+        g.under(&heading, |g| composite.label(g, &format!("{}_outward", link.name)));
     }
     let n = tree.freedoms();
     let mut matrix = vec![vec![Scalar::ZERO; n]; n];
@@ -40,7 +41,7 @@ pub fn mass_matrix(g: &mut Graph, tree: &Tree) -> Vec<Vec<Scalar>> {
     }
     for (i, row) in matrix.iter().enumerate() {
         for (j, &entry) in row.iter().enumerate().skip(i) {
-            g.name(entry, || format!("m_{}_{}", i + 1, j + 1));
+            g.under("Mass matrix.", |g| g.name(entry, || format!("m_{}_{}", i + 1, j + 1)));
         }
     }
     matrix

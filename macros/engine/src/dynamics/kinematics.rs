@@ -99,6 +99,7 @@ pub fn motions(
             Some(p) => motions[p],
             None => LinkMotion { linear_rate: base, ..LinkMotion::REST },
         };
+        let before = g.begin(Some(format!("Motion of {}.", link.name).into()));
         let origin = tree.origin(g, link);
         let above = link.parent.map_or("ground", |p| &tree.links[p].name);
         let field = Field::new(g, &parent, above);
@@ -132,6 +133,7 @@ pub fn motions(
                 g.name_vector(sum, || format!("a_{name}"))
             },
         });
+        g.begin(before);
     }
     motions
 }

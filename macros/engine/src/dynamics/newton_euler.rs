@@ -100,8 +100,10 @@ pub fn transmitted(g: &mut Graph, tree: &Tree, motions: &[LinkMotion], applied: 
         let link = &tree.links[index];
         let name = &link.name;
         let wrench = wrenches[index];
-        g.name_vector(wrench.force, || format!("f_{name}"));
-        g.name_vector(wrench.moment, || format!("n_{name}"));
+        g.under(&format!("Force and moment through {name}."), |g| {
+            g.name_vector(wrench.force, || format!("f_{name}"));
+            g.name_vector(wrench.moment, || format!("n_{name}"));
+        });
         let Some(parent) = link.parent else { continue };
         let carried = to_parent(g, tree, index, &wrench);
         wrenches[parent] = wrenches[parent].add(g, &carried);

@@ -1,6 +1,6 @@
 //! Stage `emit`: `MULTIBODY_DUMP=dir` writes each model's report to `dir/name.md` and its source to `dir/name.rs`.
 //!
-//! The source is formatted by the user's own rustfmt where there is one, so that no formatter is compiled into every
+//! Paragraphs of statements have headings there, as comments. The source is formatted by the user's own rustfmt where there is one, so that no formatter is compiled into every
 //! build. Nothing here can fail a build or be heard of: what can't be written is left out. Two models with one name
 //! write to the same files, and cargo does not run the macro again for a new value of the variable alone.
 
@@ -8,26 +8,24 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
-use proc_macro2::TokenStream;
-
 use crate::mechanics::loops::structure::Structure;
 use crate::model::types::Model;
 use crate::optimize::program::Compiled;
 
-use super::{names, report, source};
+use super::{commented, names, report, source};
 
 /// Name of the environment variable.
 const VARIABLE: &str = "MULTIBODY_DUMP";
 
 /// Writes the files if the variable is set.
-pub(super) fn dump(model: &Model, structure: &Structure, compiled: &Compiled, tokens: &TokenStream) {
+pub(super) fn dump(model: &Model, structure: &Structure, compiled: &Compiled) {
     let Some(directory) = std::env::var_os(VARIABLE).filter(|value| !value.is_empty()) else {
         return;
     };
     let directory = PathBuf::from(directory);
     let name = names::plain(&model.name);
     // Outside a macro the runtime is found by its name alone.
-    let source = source(tokens).replace("$crate", "::multibody");
+    let source = source(&commented(model, structure, compiled)).replace("$crate", "::multibody");
     let source = formatted(&source).unwrap_or(source);
     // A build goes on without the files.
     let _ = std::fs::create_dir_all(&directory);

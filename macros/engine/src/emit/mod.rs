@@ -42,6 +42,8 @@ struct Context<'a> {
     fields: Vec<Ident>,
     /// Bodies of functions are left out: what stands beside errors is never run.
     hollow: bool,
+    /// Paragraphs of statements have headings: for readers, since the compiler warns of comments that document nothing.
+    commented: bool,
 }
 
 impl Context<'_> {
@@ -54,9 +56,13 @@ impl Context<'_> {
 ///
 /// Expands to `pub mod double_pendulum { pub struct Params<T = f64> { .. } .. }`.
 pub fn emit(model: &Model, structure: &Structure, compiled: &Compiled) -> TokenStream {
-    let tokens = module(&context(model, structure, compiled, false));
-    dump::dump(model, structure, compiled, &tokens);
-    tokens
+    dump::dump(model, structure, compiled);
+    module(&context(model, structure, compiled, false))
+}
+
+/// The same with a heading over each paragraph of statements, as the attribute `#[doc = "// .."]`; writes no files.
+pub fn commented(model: &Model, structure: &Structure, compiled: &Compiled) -> TokenStream {
+    module(&Context { commented: true, ..context(model, structure, compiled, false) })
 }
 
 /// The first function whose program doesn't fill the slots that its value is built from: numbers would be handed out to the
@@ -76,6 +82,7 @@ fn context<'a>(model: &'a Model, structure: &'a Structure, compiled: &'a Compile
         compiled,
         fields: names::unique(compiled.fields.iter().map(String::as_str), &["scalar", "self"]),
         hollow,
+        commented: false,
     }
 }
 

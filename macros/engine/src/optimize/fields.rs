@@ -75,7 +75,7 @@ pub fn gather(functions: &[&Dag], symbols: &[Symbol]) -> Gathered {
             let text = hint(dag, id, &hints);
             let words = if names.is_free(&text) { None } else { wording.of_node(dag, id) };
             let text = names.unique(words.as_ref().unwrap_or(&text));
-            prelude.name(adopted, &Name { text: text.clone(), stands_alone: false, is_minus: false });
+            prelude.name(adopted, &Name { text: text.clone(), stands_alone: false, is_minus: false, heading: None });
             list.push(text);
         }
     }

@@ -5,6 +5,7 @@
 //! `legs_0_thrust` and `legs_1_thrust` share a `legs_thrust`.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use super::dag::Dag;
 
@@ -23,6 +24,20 @@ pub(super) fn hints(dag: &Dag) -> Vec<Option<String>> {
         }
     }
     hints.into_iter().map(|hint| hint.map(|number| words.texts[number].clone())).collect()
+}
+
+/// Headings of values: their own, or that of the first value which they go into.
+pub(super) fn headings(dag: &Dag) -> Vec<Option<Arc<str>>> {
+    let mut headings: Vec<Option<Arc<str>>> = vec![None; dag.nodes.len()];
+    for &id in dag.order().iter().rev() {
+        if let Some(own) = dag.nodes[id].name.as_ref().and_then(|name| name.heading.as_ref()) {
+            headings[id] = Some(Arc::clone(own));
+        }
+        if let Some(heading) = headings[id].clone() {
+            dag.operands(&dag.nodes[id].kind).for_each(|operand| headings[operand] = Some(Arc::clone(&heading)));
+        }
+    }
+    headings
 }
 
 /// Names by number, and what pairs of them have in common.

@@ -4,6 +4,8 @@
 //! list of statements in single-assignment form; expressions that are used once and need no name stand inside the
 //! statement that uses them.
 
+use std::sync::Arc;
+
 use crate::contracts::call::Call;
 use crate::contracts::cost::Cost;
 use crate::contracts::function::FunctionKind;
@@ -75,6 +77,8 @@ pub enum Statement {
 pub struct Program {
     /// Readable names, unique within the program, valid Rust identifiers, snake case.
     pub locals: Vec<String>,
+    /// What is derived where a local is: headings of paragraphs. Locals beyond its length have none.
+    pub headings: Vec<Option<Arc<str>>>,
     pub statements: Vec<Statement>,
     /// In the order that [`FunctionKind`] documents.
     pub results: Vec<Expression>,

@@ -6,6 +6,7 @@
 //! alive.
 
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 use crate::contracts::call::Call;
 use crate::contracts::symbol::Symbol;
@@ -14,7 +15,7 @@ use crate::symbolic::graph::{BlockKind, SymbolId};
 use crate::symbolic::number::Number;
 
 use super::dag::{Block, Dag, Id, Kind, ONE};
-use super::hints::hints;
+use super::hints::{headings, hints};
 use super::names::Names;
 use super::program::{Expression, FieldId, Local, Program, Statement};
 use super::stage::Stage;
@@ -49,6 +50,9 @@ struct Scheduler<'a> {
     sines: HashSet<Id>,
     cosines: HashSet<Id>,
     hints: Vec<Option<String>>,
+    headings: Vec<Option<Arc<str>>>,
+    /// Of what is being written.
+    heading: Option<Arc<str>>,
     names: Names,
     wording: Wording<'a>,
     /// What belongs into the body of each iteration, and what its body reads.
@@ -74,6 +78,8 @@ impl<'a> Scheduler<'a> {
             sines: of_kind(dag, &order, |kind| if let Kind::Sin(x) = kind { Some(*x) } else { None }),
             cosines: of_kind(dag, &order, |kind| if let Kind::Cos(x) = kind { Some(*x) } else { None }),
             hints: hints(dag),
+            headings: headings(dag),
+            heading: None,
             names: Names::default(),
             wording: Wording::new(dag, names),
             boundary: loops.iter().flat_map(|l| l.frontier.iter().copied()).collect(),
@@ -218,6 +224,7 @@ impl<'a> Scheduler<'a> {
     }
 
     fn visit(&mut self, id: Id) {
+        self.heading.clone_from(&self.headings[id]);
         let node = &self.dag.nodes[id];
         if node.stage <= Stage::Parameter
             && id != ONE
@@ -304,6 +311,7 @@ impl<'a> Scheduler<'a> {
 
     fn push(&mut self, name: String) -> Local {
         self.program.locals.push(name);
+        self.program.headings.push(self.heading.clone());
         Local(self.program.locals.len() - 1)
     }
 

@@ -13,6 +13,7 @@
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 use std::ops::Neg;
+use std::sync::Arc;
 
 use crate::contracts::call::Call;
 
@@ -207,6 +208,8 @@ pub struct Name {
     pub stands_alone: bool,
     /// Whether the name is that of minus the value.
     pub is_minus: bool,
+    /// What was being derived when it was named: the heading of a paragraph of statements.
+    pub heading: Option<Arc<str>>,
 }
 
 impl Name {
@@ -252,6 +255,7 @@ pub struct Graph {
     pub(super) radicands: Vec<u128>,
     names: HashMap<u32, Name>,
     vector_names: HashMap<u32, Name>,
+    heading: Option<Arc<str>>,
 }
 
 impl Default for Graph {
@@ -282,6 +286,7 @@ impl Graph {
             radicands: Vec::new(),
             names: HashMap::new(),
             vector_names: HashMap::new(),
+            heading: None,
         };
         graph.insert_scalar(ScalarNode::Literal(Number::ZERO), Print::ZERO);
         graph.insert_scalar(ScalarNode::Literal(Number::ONE), Print::ONE);
@@ -500,6 +505,19 @@ impl Graph {
         Rotation::new(index, false)
     }
 
+    /// Derives something under a heading, for what is named there and has none: paragraphs of statements bear it.
+    pub fn under<R>(&mut self, heading: &str, derive: impl FnOnce(&mut Graph) -> R) -> R {
+        let before = self.begin(Some(heading.into()));
+        let result = derive(self);
+        self.heading = before;
+        result
+    }
+
+    /// Changes the heading; gives back what it was.
+    pub fn begin(&mut self, heading: Option<Arc<str>>) -> Option<Arc<str>> {
+        std::mem::replace(&mut self.heading, heading)
+    }
+
     /// Gives a node a readable name, unless it has one or needs none.
     pub fn name(&mut self, s: Scalar, name: impl FnOnce() -> String) -> Scalar {
         self.named(s, true, name)
@@ -523,7 +541,8 @@ impl Graph {
     fn named_vector(&mut self, v: Vector, stands_alone: bool, text: impl FnOnce() -> String) -> Vector {
         let index = v.index() as u32;
         if self.vector_names.get(&index).is_none_or(|known| stands_alone && !known.stands_alone) {
-            self.vector_names.insert(index, Name { text: text(), stands_alone, is_minus: v.is_negative() });
+            let heading = self.heading.clone();
+            self.vector_names.insert(index, Name { text: text(), stands_alone, is_minus: v.is_negative(), heading });
         }
         v
     }
@@ -532,7 +551,8 @@ impl Graph {
         let index = s.index() as u32;
         let vacant = self.names.get(&index).is_none_or(|known| stands_alone && !known.stands_alone);
         if vacant && !matches!(self.node(s), ScalarNode::Literal(_) | ScalarNode::Symbol(_)) {
-            self.names.insert(index, Name { text: text(), stands_alone, is_minus: s.is_negative() });
+            let heading = self.heading.clone();
+            self.names.insert(index, Name { text: text(), stands_alone, is_minus: s.is_negative(), heading });
         }
         s
     }
@@ -540,12 +560,16 @@ impl Graph {
     /// Gives a value the name of another that it takes the place of.
     pub fn name_like(&mut self, s: Scalar, name: &Name) {
         let s = s.flip_if(name.is_minus);
+        let before = self.begin(name.heading.clone());
         self.named(s, name.stands_alone, || name.text.clone());
+        self.heading = before;
     }
 
     /// The same of a vector.
     pub fn name_vector_like(&mut self, v: Vector, name: &Name) {
+        let before = self.begin(name.heading.clone());
         self.named_vector(v.flip_if(name.is_minus), name.stands_alone, || name.text.clone());
+        self.heading = before;
     }
 
     /// What the value at this handle's place is called, whatever the handle's sign.

@@ -10,7 +10,7 @@ use super::graph::{Graph, Scalar};
 /// Solves A x = b, eliminating row `order[0]` first. `matrix` is symmetric.
 pub fn solve_symmetric(g: &mut Graph, matrix: &[Vec<Scalar>], order: &[usize], rhs: &[Scalar]) -> Vec<Scalar> {
     let mut forward = rhs.to_vec();
-    let factors = Factors::eliminate(g, matrix, order, &mut forward);
+    let factors = g.under("Factorisation L^T D L.", |g| Factors::eliminate(g, matrix, order, &mut forward));
     factors.backward(g, &forward)
 }
 
@@ -26,7 +26,7 @@ pub struct Factors {
 
 impl Factors {
     pub fn new(g: &mut Graph, matrix: &[Vec<Scalar>], order: &[usize]) -> Factors {
-        Factors::eliminate(g, matrix, order, &mut [])
+        g.under("Factorisation L^T D L.", |g| Factors::eliminate(g, matrix, order, &mut []))
     }
 
     /// Factorises, and eliminates in a right-hand side row by row on the way, so that both share what they can.

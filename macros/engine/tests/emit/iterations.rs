@@ -270,6 +270,7 @@ fn a_loop_is_written() {
         locals: ["a", "b", "idle", "product", "size", "square"].map(String::from).to_vec(),
         statements: statements.clone(),
         results,
+        ..Program::default()
     };
     let text = |results| parsed::text(&parsed::scalar_function(program(results)).block);
     let body = "letmuta=q.hinge;letmutb=T::lit(1.0);for_in0..4{letproduct=a*b;(a,b)=(b,product);}";

@@ -210,7 +210,12 @@ pub fn call(call: Call, arguments: &[Expression]) -> Expression {
 
 /// A program whose locals are named and defined in order.
 pub fn program(locals: &[&str], statements: Vec<Statement>, results: Vec<Expression>) -> Program {
-    Program { locals: locals.iter().map(|name| (*name).to_string()).collect(), statements, results }
+    Program {
+        locals: locals.iter().map(|name| (*name).to_string()).collect(),
+        statements,
+        results,
+        ..Program::default()
+    }
 }
 
 pub fn set(number: usize, value: Expression) -> Statement {
@@ -485,7 +490,7 @@ pub fn long(count: usize) -> (Model, Compiled) {
         unchecked: Vec::new(),
         functions: vec![derived(
             FunctionKind::ForwardDynamics,
-            Program { locals, statements, results: vec![local(count - 1)] },
+            Program { locals, statements, results: vec![local(count - 1)], ..Program::default() },
         )],
         ..Compiled::default()
     };

@@ -63,7 +63,10 @@ pub(in crate::emit) fn method(context: &Context<'_>, function: &Function) -> Tok
         quote!(::core::unimplemented!())
     } else {
         let locals = names::unique(function.program.locals.iter().map(String::as_str), RESERVED);
-        let body = body(&function.program, &Names { layout, locals: &locals, fields: &context.fields });
+        let body = body(
+            &function.program,
+            &Names { layout, locals: &locals, fields: &context.fields, commented: context.commented },
+        );
         let statements = body.statements;
         let value = results::value(layout, kind, body.results);
         quote!(#opened #statements #value)

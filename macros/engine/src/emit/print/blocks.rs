@@ -2,7 +2,10 @@
 //!
 //! In: a program. Out: `let` statements. Every `let` opens a debug scope, and some thousands in a row overflow rustc's
 //! stack; more than [`MOST`] are therefore grouped into blocks that return their live values as a tuple,
-//! `let (a, b) = { ..; (a, b) };`, and very many into blocks of blocks. Values that nothing reads are left out.
+//! `let (a, b) = { ..; (a, b) };`, and very many into blocks of blocks. Blocks begin where a paragraph does: statements in a
+//! row that were derived under one heading. Values that nothing reads are left out.
+
+use std::sync::Arc;
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -17,6 +20,9 @@ use super::expressions::Names;
 const MOST: usize = 256;
 /// As many stand in a block, about.
 const BLOCK: usize = 128;
+
+/// Fewer statements in a row are no paragraph of their own: they go on with the one before.
+const LEAST: usize = 3;
 
 /// A function's statements and results.
 pub(in crate::emit) struct Body {
@@ -39,7 +45,7 @@ pub(in crate::emit) fn body(program: &Program, names: &Names<'_>) -> Body {
         live.pop();
     }
     let results = read.iter().map(|result| names.expression(result)).collect();
-    let statements = Blocks::new(names, &live, &read).all();
+    let statements = Blocks::new(names, &live, &program.headings, &read).all();
     Body { statements, results }
 }
 
@@ -132,13 +138,21 @@ impl Live<'_> {
 struct Blocks<'a> {
     names: &'a Names<'a>,
     live: &'a [Live<'a>],
+    headings: &'a [Option<Arc<str>>],
     /// For each local, the number of the last live statement that reads it; what follows them counts as one more.
     last_use: Vec<Option<usize>>,
+    /// Where paragraphs begin, with their headings.
+    paragraphs: Vec<(usize, &'a str)>,
 }
 
 impl<'a> Blocks<'a> {
     /// `after` is what is read behind the statements.
-    fn new(names: &'a Names<'a>, live: &'a [Live<'a>], after: &[&Expression]) -> Self {
+    fn new(
+        names: &'a Names<'a>,
+        live: &'a [Live<'a>],
+        headings: &'a [Option<Arc<str>>],
+        after: &[&Expression],
+    ) -> Self {
         let mut last_use = vec![None; names.locals.len()];
         for (number, statement) in live.iter().enumerate() {
             for expression in statement.expressions() {
@@ -148,7 +162,7 @@ impl<'a> Blocks<'a> {
         for expression in after {
             each_local(expression, &mut |local| set(&mut last_use, local, Some(live.len())));
         }
-        Blocks { names, live, last_use }
+        Blocks { names, live, last_use, headings, paragraphs: paragraphs(live, headings) }
     }
 
     fn all(&self) -> TokenStream {
@@ -161,7 +175,12 @@ impl<'a> Blocks<'a> {
     fn print(&self, start: usize, end: usize, out: &mut TokenStream) {
         let count = end - start;
         if count <= MOST {
-            for live in self.live.iter().skip(start).take(count) {
+            for (number, live) in self.live.iter().enumerate().skip(start).take(count) {
+                let heading = self.paragraphs.iter().find(|(begin, _)| *begin == number);
+                if let Some((_, heading)) = heading.filter(|_| self.names.commented) {
+                    let text = format!("// {heading}");
+                    out.extend(quote!(#[doc = #text]));
+                }
                 out.extend(self.statement(live));
             }
             return;
@@ -173,7 +192,9 @@ impl<'a> Blocks<'a> {
         // Parts of equal size, so that the last one is no crumb.
         let parts = count.div_ceil(size);
         for part in 0..parts {
-            let (from, to) = (start + part * count / parts, start + (part + 1) * count / parts);
+            let (from, to) = (self.cut(start + part * count / parts), self.cut(start + (part + 1) * count / parts));
+            let (from, to) = (from.max(start), if part + 1 == parts { end } else { to.min(end) });
+            let from = if part == 0 { start } else { from };
             let mut inner = TokenStream::new();
             self.print(from, to, &mut inner);
             let values: Vec<&Ident> = self.leaving(from, to).collect();
@@ -184,6 +205,12 @@ impl<'a> Blocks<'a> {
                 };
             });
         }
+    }
+
+    /// The nearest beginning of a paragraph, if one is near.
+    fn cut(&self, at: usize) -> usize {
+        let begins = self.paragraphs.iter().map(|(begin, _)| *begin);
+        begins.min_by_key(|begin| begin.abs_diff(at)).filter(|begin| begin.abs_diff(at) <= BLOCK / 4).unwrap_or(at)
     }
 
     /// Locals that statements `from..to` define and later ones read.
@@ -285,11 +312,36 @@ impl<'a> Blocks<'a> {
             ([name], [next]) => last.extend(quote!((#name,) = (#next,);)),
             _ => last.extend(quote!((#(#names),*) = (#(#next),*);)),
         }
-        let body = Blocks::new(self.names, body, &after).all();
+        let body = Blocks::new(self.names, body, self.headings, &after).all();
         let count = Literal::usize_unsuffixed(count);
         out.extend(quote!(for _ in 0..#count { #body #last }));
         out
     }
+}
+
+/// Statements in a row under one heading.
+fn paragraphs<'a>(live: &[Live<'_>], headings: &'a [Option<Arc<str>>]) -> Vec<(usize, &'a str)> {
+    let heading = |live: &Live<'_>| {
+        let first = live.defined().first().copied()?;
+        headings.get(first.0)?.as_deref()
+    };
+    let mut found: Vec<(usize, &str)> = Vec::new();
+    for (number, statement) in live.iter().enumerate() {
+        let Some(heading) = heading(statement) else { continue };
+        match found.last() {
+            Some((_, last)) if *last == heading => {}
+            // A few go on with what comes after them if nothing is before.
+            Some((begin, _)) if number - begin < LEAST && found.len() == 1 => found[0].1 = heading,
+            Some((begin, _)) if number - begin < LEAST => {
+                found.pop();
+                if found.last().is_none_or(|(_, last)| *last != heading) {
+                    found.push((number, heading));
+                }
+            }
+            _ => found.push((number, heading)),
+        }
+    }
+    found
 }
 
 fn get(list: &[bool], local: Local) -> bool {

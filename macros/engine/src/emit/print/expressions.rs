@@ -30,6 +30,8 @@ pub(in crate::emit) struct Names<'a> {
     pub(in crate::emit) layout: &'a Layout<'a>,
     pub(in crate::emit) locals: &'a [Ident],
     pub(in crate::emit) fields: &'a [Ident],
+    /// Whether statements stand under headings, as `#[doc = "// .."]`.
+    pub(in crate::emit) commented: bool,
 }
 
 impl Names<'_> {

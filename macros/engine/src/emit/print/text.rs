@@ -37,7 +37,9 @@ impl Printer {
                         Some(text) => {
                             tokens.next();
                             self.line();
-                            let _ = write!(self.text, "///{text}");
+                            // What stands over statements documents nothing.
+                            let slashes = if text.starts_with("//") { "" } else { "///" };
+                            let _ = write!(self.text, "{slashes}{text}");
                             self.line();
                         }
                         None => self.word("#", false),

@@ -17,12 +17,14 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 impl Deriving<'_> {
     pub(super) fn label(&mut self, kind: FunctionKind, results: &[Scalar]) {
         let (names, rest) = self.result_names(kind);
+        let before = self.graph.begin(Some("Results.".into()));
         for (k, &result) in results.iter().enumerate() {
             self.graph.label(result, || match names.get(k) {
                 Some(name) => name.clone(),
                 None => format!("{rest}_{}", k - names.len()),
             });
         }
+        self.graph.begin(before);
     }
 
     /// Names of the first results, and what the others are called with a number.

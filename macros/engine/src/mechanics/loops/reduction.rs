@@ -115,8 +115,14 @@ impl Equations<'_> {
             for definition in definitions {
                 let symbol = self.coordinate_symbols(definition.coordinate)[order];
                 let value = self.g.substitute(&[value(definition)], &reduction.map)[0];
-                if let Some(what) = [None, Some("rate"), Some("accel")][order] {
-                    self.g.label(value, || names::of_freedom(self.scene.model, definition.coordinate, what));
+                let named = [
+                    None,
+                    Some(("rate", "Velocities of what follows.")),
+                    Some(("accel", "Accelerations of what follows.")),
+                ];
+                if let Some((what, heading)) = named[order] {
+                    let name = names::of_freedom(self.scene.model, definition.coordinate, what);
+                    self.g.under(heading, |g| g.label(value, || name));
                 }
                 reduction.map.extend(self.g.symbol_id(symbol).map(|id| (id, value)));
             }
@@ -124,7 +130,8 @@ impl Equations<'_> {
         for definition in definitions {
             let symbol = self.coordinate_symbols(definition.coordinate)[1];
             let projected = self.g.substitute(&[definition.rate], rates)[0];
-            self.g.label(projected, || names::of_freedom(self.scene.model, definition.coordinate, "rate"));
+            let name = names::of_freedom(self.scene.model, definition.coordinate, "rate");
+            self.g.under("Velocities of what follows.", |g| g.label(projected, || name));
             rates.extend(self.g.symbol_id(symbol).map(|id| (id, projected)));
             reduction.rates.push((self.freedom(definition.coordinate), projected));
         }
@@ -201,6 +208,7 @@ impl Equations<'_> {
             let symbol = Symbol::Position { joint: unknown.joint, component: unknown.index };
             let name = names::symbol(model, symbol);
             self.g.label(solved.inverse_slope, || format!("slope_{name}_inv"));
+            let before = self.g.begin(Some(format!("Closed form of {name}.").into()));
             // As in the report: A cos x + B sin x = C, (r cos x, r sin x) = (u, v).
             for (word, part) in solved.parts {
                 self.g.label(part, || format!("{name}_{word}"));
@@ -218,6 +226,7 @@ impl Equations<'_> {
                 reduction.dead_centres.push((unknown, root));
             }
             reduction.notes.push(format!("`{}`: {}", coordinate_name(model, unknown), solved.how));
+            self.g.begin(before);
             definitions.push(self.implicit(unknown, position, solved.equation, solved.inverse_slope));
         }
         Ok(definitions)
@@ -228,8 +237,8 @@ impl Equations<'_> {
         let [_, velocity, acceleration] = self.coordinate_symbols(coordinate);
         let (first, second) = self.implicit_rates(equation, &[(velocity, acceleration)]);
         let name = names::of_freedom(self.scene.model, coordinate, "gap");
-        self.g.label(first, || format!("{name}_rate"));
-        self.g.label(second, || format!("{name}_accel"));
+        self.g.under("Velocities of what follows.", |g| g.label(first, || format!("{name}_rate")));
+        self.g.under("Accelerations of what follows.", |g| g.label(second, || format!("{name}_accel")));
         let rate = -self.g.mul(inverse, first);
         let acceleration = -self.g.mul(inverse, second);
         Definition { coordinate, position, rate, acceleration }

@@ -60,6 +60,7 @@ pub fn accelerations(
     let mut taken: Vec<Vec<Vec<Scalar>>> = vec![vec![Vec::new(); 6]; 6];
     let mut pushes: Vec<Triple> = Vec::new();
     for (at, leg) in carrier.legs.iter().enumerate() {
+        let before = g.begin(Some(format!("Strut {}.", leg.name).into()));
         let (d, rate) = (view.line(g, at), view.pin_velocity(g, at));
         let line = leg.strut.moving(g, d, rate);
         line.label(g, &leg.name);
@@ -110,7 +111,9 @@ pub fn accelerations(
         let push = total(g, &[push, drag, weight]);
         label(g, &push, &format!("{}_push", leg.name));
         pushes.push(push);
+        g.begin(before);
     }
+    let before = g.begin(Some("Body on its struts.".into()));
     for i in 0..6 {
         for j in 0..6 {
             let rigid = rigid(g, &inertia, i, j);
@@ -132,6 +135,7 @@ pub fn accelerations(
     label(g, &force, "body_force");
     label(g, &moment, "body_moment");
     g.label(inertia.mass, || "body_and_struts_mass".to_owned());
+    g.begin(before);
     let side: Vec<Scalar> = force.into_iter().chain(moment).collect();
     let (at, d_omega) = if held {
         let d_omega = carrier.d_omega;

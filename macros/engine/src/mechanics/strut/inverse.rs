@@ -86,6 +86,7 @@ pub fn forces(g: &mut Graph, carrier: &Carrier, way: Way, reference: &Triple, kn
     let mut transverse: Vec<Triple> = Vec::new();
     let mut seconds: Vec<Triple> = Vec::new();
     for (at, leg) in carrier.legs.iter().enumerate() {
+        let before = g.begin(Some(format!("Strut {}.", leg.name).into()));
         let (d, rate) = (view.line(g, at), view.pin_velocity(g, at));
         let second = view.pin_acceleration(g, at);
         let line = leg.strut.moving(g, d, rate);
@@ -97,7 +98,9 @@ pub fn forces(g: &mut Graph, carrier: &Carrier, way: Way, reference: &Triple, kn
         }
         seconds.push(second);
         lines.push(line);
+        g.begin(before);
     }
+    let before = g.begin(Some("Balance of the body on its struts.".into()));
     let (force, moment) = balance(g, &view, &lines, &transverse);
     label(g, &force, "body_force");
     label(g, &moment, "body_moment");
@@ -132,6 +135,7 @@ pub fn forces(g: &mut Graph, carrier: &Carrier, way: Way, reference: &Triple, kn
     for (leg, &phi) in carrier.legs.iter().zip(&found.unknowns) {
         g.label(phi, || format!("{}_tension", leg.name));
     }
+    g.begin(before);
     let mut forces = Vec::new();
     for (at, leg) in carrier.legs.iter().enumerate() {
         let (line, phi) = (&lines[at], found.unknowns[at]);
