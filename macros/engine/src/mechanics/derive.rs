@@ -99,30 +99,8 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
     deriving.check_impulses()?;
     deriving.check()?;
     deriving.choose_writing()?;
-    let mut functions = Vec::new();
-    for kind in kinds(model, structure) {
-        let candidates = deriving.candidates(kind)?;
-        if candidates.is_empty() {
-            return Err(vec![Complaint {
-                at: model.site(),
-                message: format!("no way was found to derive a function of `{}`", model.name),
-                help: Some("this is an error of multibody: please report it with the model".to_owned()),
-            }]);
-        }
-        functions.push(Derived { kind, candidates });
-    }
-    if !deriving.dead_centres.is_empty() {
-        let kind = FunctionKind::DeadCentres;
-        functions.push(Derived { kind, candidates: deriving.candidates(kind)? });
-    }
-    if model.emit.contains(&Request::ForwardDynamics) && deriving.may_reach_dead_centres() {
-        let kind = FunctionKind::Margins;
-        functions.push(Derived { kind, candidates: deriving.candidates(kind)? });
-    }
-    if model.emit.contains(&Request::ForwardDynamics) && !structure.granted.is_empty() {
-        let kind = FunctionKind::Granted;
-        functions.push(Derived { kind, candidates: deriving.candidates(kind)? });
-    }
+    let mut functions = deriving.functions()?;
+    functions.extend(deriving.found()?);
     let checks = deriving.checks()?;
     let inertia = deriving.inertia()?;
     for function in &functions {
@@ -132,16 +110,8 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
         deriving.label(FunctionKind::MassMatrix, entries);
     }
     let Deriving { graph, symbols, notes, dead_centres, .. } = deriving;
-    Ok(Derivation {
-        graph,
-        symbols: symbols.table.clone(),
-        symbol_names,
-        functions,
-        notes,
-        dead_centres,
-        checks,
-        inertia,
-    })
+    let symbols = symbols.table.clone();
+    Ok(Derivation { graph, symbols, symbol_names, functions, notes, dead_centres, checks, inertia })
 }
 
 /// What to derive, each once, in a fixed order.
@@ -183,6 +153,36 @@ struct Deriving<'m> {
 type Found = Result<Results<Scalar>, Vec<Complaint>>;
 
 impl<'m> Deriving<'m> {
+    /// What was asked for.
+    fn functions(&mut self) -> Result<Vec<Derived>, Vec<Complaint>> {
+        let model = self.model;
+        let mut functions = Vec::new();
+        for kind in kinds(model, &self.structure) {
+            let candidates = self.candidates(kind)?;
+            if candidates.is_empty() {
+                return Err(vec![Complaint {
+                    at: model.site(),
+                    message: format!("no way was found to derive a function of `{}`", model.name),
+                    help: Some("this is an error of multibody: please report it with the model".to_owned()),
+                }]);
+            }
+            functions.push(Derived { kind, candidates });
+        }
+        Ok(functions)
+    }
+
+    /// What was found to be needed.
+    fn found(&mut self) -> Result<Vec<Derived>, Vec<Complaint>> {
+        let forward = self.model.emit.contains(&Request::ForwardDynamics);
+        let kinds = [
+            (FunctionKind::DeadCentres, !self.dead_centres.is_empty()),
+            (FunctionKind::Margins, forward && self.may_reach_dead_centres()),
+            (FunctionKind::Granted, forward && !self.structure.granted.is_empty()),
+        ];
+        let wanted = kinds.into_iter().filter(|kind| kind.1);
+        wanted.map(|(kind, _)| Ok(Derived { kind, candidates: self.candidates(kind)? })).collect()
+    }
+
     /// Inputs of a body on struts.
     fn strut_inputs(&mut self) -> Candidates {
         let mut candidates = Vec::new();

@@ -280,33 +280,7 @@ impl Equations<'_> {
                 matrix.push(self.g.derivative(equation, &[(symbol[0], Scalar::ONE)]));
             }
         }
-        // Inside the loop the unknowns are symbols of its own; known coordinates are put in, so that the loop reads values.
-        let inner: Vec<Scalar> = (0..size).map(|k| self.scene.symbols.unknown(guess + k)).collect();
-        let mut map = reduction.map.clone();
-        let own: Vec<(Scalar, Scalar)> = symbols.iter().zip(&inner).map(|(symbol, &own)| (symbol[0], own)).collect();
-        map.extend(self.map(&own));
-        let values = self.g.substitute(&equations, &map);
-        let entries = self.g.substitute(&matrix, &map);
-        let step_by = self.solve_block(size, &entries, &values);
-        let next: Vec<Scalar> = inner.iter().zip(&step_by).map(|(&x, &d)| self.g.sub(x, d)).collect();
-        let g = &mut self.g;
-        let residual = values.iter().fold(Scalar::ZERO, |worst, &value| {
-            let size = g.call(crate::contracts::call::Call::Abs, &[value]);
-            if worst == Scalar::ZERO { size } else { g.call(crate::contracts::call::Call::Max, &[worst, size]) }
-        });
-        let ids = inner.iter().filter_map(|&s| g.symbol_id(s));
-        let kind = BlockKind::Iterate { unknowns: ids.collect(), count: ITERATIONS };
-        let start: Vec<Scalar> = (0..size).map(|k| self.scene.symbols.guess(guess + k)).collect();
-        let (outputs, residual): (Vec<Scalar>, Scalar) = if newton == Newton::AtGuess {
-            let known: Vec<(Scalar, Scalar)> = inner.iter().copied().zip(start.iter().copied()).collect();
-            let known = self.map(&known);
-            (start, self.g.substitute(&[residual], &known)[0])
-        } else {
-            let operands: Vec<Scalar> = start.into_iter().chain(next).chain([residual]).collect();
-            let mut outputs = self.g.block_outputs(kind, &operands);
-            let residual = outputs.pop().unwrap_or(Scalar::ZERO);
-            (outputs, residual)
-        };
+        let (outputs, residual) = self.solve_by(newton, *guess, &symbols, [&equations, &matrix], &reduction.map);
         reduction.residuals.push(residual);
         reduction.matrices.push(matrix.clone());
         reduction.guesses.extend(&outputs);
@@ -326,6 +300,49 @@ impl Equations<'_> {
             definitions.push(Definition { coordinate, position, rate: rates[k], acceleration: accelerations[k] });
         }
         definitions
+    }
+
+    /// Values of unknowns, of which the guess holds those from number `guess` on, and the greatest residual. The equations and
+    /// their derivatives by the unknowns, row by row, are given on the tree.
+    fn solve_by(
+        &mut self,
+        newton: Newton,
+        guess: usize,
+        symbols: &[[Scalar; 3]],
+        [equations, matrix]: [&[Scalar]; 2],
+        known: &Map,
+    ) -> (Vec<Scalar>, Scalar) {
+        let size = symbols.len();
+        // Inside the loop the unknowns are symbols of its own; known coordinates are put in, so that the loop reads values.
+        let inner: Vec<Scalar> = (0..size).map(|k| self.scene.symbols.unknown(guess + k)).collect();
+        let mut map = known.clone();
+        let own: Vec<(Scalar, Scalar)> = symbols.iter().zip(&inner).map(|(symbol, &own)| (symbol[0], own)).collect();
+        map.extend(self.map(&own));
+        let values = self.g.substitute(equations, &map);
+        let entries = self.g.substitute(matrix, &map);
+        let step_by = self.solve_block(size, &entries, &values);
+        let next: Vec<Scalar> = inner.iter().zip(&step_by).map(|(&x, &d)| self.g.sub(x, d)).collect();
+        let g = &mut self.g;
+        let residual = values.iter().fold(Scalar::ZERO, |worst, &value| {
+            let size = g.call(crate::contracts::call::Call::Abs, &[value]);
+            if worst == Scalar::ZERO { size } else { g.call(crate::contracts::call::Call::Max, &[worst, size]) }
+        });
+        let ids = inner.iter().filter_map(|&s| g.symbol_id(s));
+        let kind = BlockKind::Iterate { unknowns: ids.collect(), count: ITERATIONS };
+        let start: Vec<Scalar> = (0..size).map(|k| self.scene.symbols.guess(guess + k)).collect();
+        match newton {
+            Newton::AtGuess => {
+                let known: Vec<(Scalar, Scalar)> = inner.iter().copied().zip(start.iter().copied()).collect();
+                let known = self.map(&known);
+                (start, self.g.substitute(&[residual], &known)[0])
+            }
+            Newton::Iterated => {
+                let operands: Vec<Scalar> = start.into_iter().chain(next).chain([residual]).collect();
+                let mut outputs = self.g.block_outputs(kind, &operands);
+                let residual = outputs.pop().unwrap_or(Scalar::ZERO);
+                (outputs, residual)
+            }
+        }
     }
 
     /// Rates from a right-hand side that is linear in them. Solved directly the same matrix is factored anew for rates,

@@ -46,14 +46,8 @@ impl Equations<'_> {
                  equations that keep multipliers",
             );
         }
-        let mut matrix = Vec::with_capacity(size * size);
-        for &effort in &efforts {
-            for &input in &inputs {
-                matrix.push(self.g.derivative(effort, &[(input, Scalar::ONE)]));
-            }
-        }
-        let depends = |g: &crate::symbolic::graph::Graph, s: Scalar| g.depends_on(s, &inputs);
-        if matrix.iter().any(|&entry| depends(&self.g, entry)) {
+        let matrix = self.slopes_by(&efforts, &inputs);
+        if matrix.iter().any(|&entry| self.g.depends_on(entry, &inputs)) {
             return refuse(
                 "the equations are not linear in the inputs to solve for".to_owned(),
                 "let the forces depend on these inputs linearly",
@@ -67,12 +61,7 @@ impl Equations<'_> {
                 "solve for inputs that act on every coordinate of the state and on every driven one",
             );
         }
-        let off: Vec<(Scalar, Scalar)> = inputs.iter().map(|&input| (input, Scalar::ZERO)).collect();
-        let off = self.map(&off);
-        let rest = self.g.substitute(&efforts, &off);
-        let operands: Vec<Scalar> = matrix.into_iter().chain(rest.into_iter().map(|e| -e)).collect();
-        let mut outputs =
-            self.g.block_outputs(BlockKind::Solve { size, symmetric: false, groups: [].into() }, &operands);
+        let mut outputs = self.solve_linear(&efforts, &inputs, matrix);
         outputs.drain(wanted..size);
         for (&input, &output) in inputs.iter().zip(&outputs) {
             if let Some(&symbol) = self.g.symbol_id(input).and_then(|id| self.scene.symbols.table.get(id.0)) {
@@ -83,6 +72,27 @@ impl Equations<'_> {
         Ok(rank.into_iter().fold(Results::default().with(Slot::Inputs, outputs), |results, rank| {
             results.with_scalar(Slot::Rank, rank)
         }))
+    }
+
+    /// Derivatives, row by row.
+    fn slopes_by(&mut self, efforts: &[Scalar], inputs: &[Scalar]) -> Vec<Scalar> {
+        let mut matrix = Vec::with_capacity(efforts.len() * inputs.len());
+        for &effort in efforts {
+            for &input in inputs {
+                matrix.push(self.g.derivative(effort, &[(input, Scalar::ONE)]));
+            }
+        }
+        matrix
+    }
+
+    /// Inputs for which linear efforts vanish, then the rank of their system.
+    fn solve_linear(&mut self, efforts: &[Scalar], inputs: &[Scalar], matrix: Vec<Scalar>) -> Vec<Scalar> {
+        let size = inputs.len();
+        let off: Vec<(Scalar, Scalar)> = inputs.iter().map(|&input| (input, Scalar::ZERO)).collect();
+        let off = self.map(&off);
+        let rest = self.g.substitute(efforts, &off);
+        let operands: Vec<Scalar> = matrix.into_iter().chain(rest.into_iter().map(|e| -e)).collect();
+        self.g.block_outputs(BlockKind::Solve { size, symmetric: false, groups: [].into() }, &operands)
     }
 }
 
