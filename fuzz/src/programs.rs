@@ -61,6 +61,7 @@ impl Programs {
                 Trouble::Refused(Refusal::TooLarge(_)) => Failure::Refused(vec!["too large".into()]),
                 Trouble::Refused(Refusal::NotFinite) => Failure::Refused(vec!["not finite".into()]),
                 Trouble::Refused(own) => Failure::Engine(own),
+                Trouble::Fault(_) => Failure::Panic,
             }),
         }
     }

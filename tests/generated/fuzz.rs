@@ -211,6 +211,9 @@ fn survives(tokens: &TokenStream) -> Result<(bool, usize), String> {
     let output = output.map_err(|_| format!("panic at:\n{tokens}"))?;
     let text = output.to_string();
     let error = text.contains("compile_error");
+    if text.contains(" has failed for ") {
+        return Err(format!("a fault at:\n{tokens}\n{text}"));
+    }
     match syn::parse2::<syn::File>(output) {
         Ok(_) => Ok((!error, text.len())),
         Err(e) => Err(format!("no Rust ({e}) for:\n{tokens}")),

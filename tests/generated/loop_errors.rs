@@ -50,6 +50,7 @@ fn said(items: &str) -> Vec<String> {
                 lines.extend(list.iter().map(|c| line(c.at.span(), &c.message, c.help.as_deref())))
             }
             Err(Trouble::Refused(refusal)) => lines.push(format!("{refusal:?}")),
+            Err(Trouble::Fault(fault)) => lines.push(format!("{fault:?}")),
             Ok(_) => {}
         }
     }

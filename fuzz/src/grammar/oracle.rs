@@ -52,6 +52,7 @@ fn messages(tokens: TokenStream) -> Result<Vec<String>, String> {
                     diagnostics.error(model.name.span(), format!("{refusal:?}"));
                 }
                 Err(Trouble::Refused(own)) => return Err(format!("the engine's own check: {own:?}")),
+                Err(Trouble::Fault(fault)) => return Err(format!("a fault of the engine: {fault:?}")),
             }
         }
     }

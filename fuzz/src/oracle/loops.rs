@@ -133,7 +133,7 @@ fn off_dead_centres(m: &Mechanism, programs: &Programs, point: &Point) -> f64 {
     let unknowns = programs.structure.steps.iter().flat_map(|step| &step.unknowns);
     let columns: Vec<usize> = unknowns
         .filter_map(|unknown| {
-            let name = programs.model.joints[unknown.joint.0].place.field.to_string();
+            let name = programs.model.joints[unknown.joint].place.field.to_string();
             let joint: usize = name.strip_prefix('j')?.parse().ok()?;
             Some(first(joint) + unknown.index)
         })
@@ -247,7 +247,7 @@ fn outputs(
             .state
             .iter()
             .map(|c| {
-                let name = programs.model.joints[c.joint.0].place.field.to_string();
+                let name = programs.model.joints[c.joint].place.field.to_string();
                 values.value(Symbol::Velocity { joint: c.joint, component: c.index }, Some(&name))
             })
             .collect();
@@ -300,7 +300,7 @@ fn guesses(m: &Mechanism, programs: &Programs, point: &Point) -> Vec<f64> {
     for step in &programs.structure.steps {
         let Means::Newton { guess, .. } = step.means else { continue };
         for (k, unknown) in step.unknowns.iter().enumerate() {
-            let name = programs.model.joints[unknown.joint.0].place.field.to_string();
+            let name = programs.model.joints[unknown.joint].place.field.to_string();
             let joint = name.strip_prefix('j').and_then(|text| text.parse::<usize>().ok());
             if let Some(joint) = joint.filter(|&j| j < m.bodies.len())
                 && m.joints[joint].kind.quaternion().is_none()

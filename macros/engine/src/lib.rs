@@ -5,18 +5,19 @@
 //! macro.
 //!
 //! ```text
+//! invariant:
 //! rust_keywords:
 //! diagnostics:
 //! syntax: diagnostics
-//! model: syntax diagnostics rust_keywords
-//! contracts: model
-//! symbolic: contracts::call contracts::cost
-//! dynamics: symbolic contracts::call contracts::cost
-//! solve: dynamics symbolic contracts::call contracts::cost
-//! mechanics: solve dynamics symbolic contracts model
-//! optimize: mechanics symbolic contracts rust_keywords
-//! verify: optimize mechanics symbolic contracts model
-//! emit: optimize mechanics contracts model rust_keywords
+//! model: syntax diagnostics rust_keywords invariant
+//! contracts: model invariant
+//! symbolic: contracts::call contracts::cost invariant
+//! dynamics: symbolic contracts::call contracts::cost invariant
+//! solve: dynamics symbolic contracts::call contracts::cost invariant
+//! mechanics: solve dynamics symbolic contracts model invariant
+//! optimize: mechanics symbolic contracts rust_keywords invariant
+//! verify: optimize mechanics symbolic contracts model invariant
+//! emit: optimize mechanics contracts model rust_keywords invariant
 //! ```
 //!
 //! So `symbolic` knows no mechanics; `dynamics` knows trees of links and no model; behind `model` only `emit` knows tokens,
@@ -27,6 +28,7 @@ pub mod contracts;
 pub mod diagnostics;
 pub mod dynamics;
 pub mod emit;
+pub mod invariant;
 pub mod mechanics;
 pub mod model;
 pub mod optimize;
@@ -38,11 +40,12 @@ pub mod verify;
 
 use std::collections::HashSet;
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Span, TokenStream};
 
 use crate::contracts::function::FunctionKind;
 
 use diagnostics::Diagnostics;
+use invariant::fault::{Fault, guard};
 use mechanics::analysis::Complaint;
 use mechanics::loops::structure::Structure;
 use model::Soundness;
@@ -66,7 +69,11 @@ fn expand_by(tokens: TokenStream, emit: fn(&Model, &Structure, &Compiled) -> Tok
     let source = syntax::parse(tokens, &mut diagnostics);
     let mut modules = TokenStream::new();
     let mut names = HashSet::new();
-    for checked in model::check_all(&source, &mut diagnostics) {
+    let checked = guard("model", || model::check_all(&source, &mut diagnostics)).unwrap_or_else(|fault| {
+        diagnostics.error_help(Span::call_site(), fault_of("the call", &fault), REPORT);
+        Vec::new()
+    });
+    for checked in checked {
         let model = &checked.model;
         let has_cfg = model.attrs.iter().any(|attr| attr.path().is_ident("cfg"));
         // Two modules of one name are an error already, unless `cfg` takes one away.
@@ -74,15 +81,19 @@ fn expand_by(tokens: TokenStream, emit: fn(&Model, &Structure, &Compiled) -> Tok
             continue;
         }
         if checked.state == Soundness::Sound {
-            match compile(model) {
-                Ok((structure, compiled)) => {
-                    modules.extend(emit(model, &structure, &compiled));
+            let module = |(structure, compiled)| guard("emit", || emit(model, &structure, &compiled));
+            match compile(model).and_then(|compiled| module(compiled).map_err(Trouble::Fault)) {
+                Ok(module) => {
+                    modules.extend(module);
                     continue;
                 }
                 Err(trouble) => trouble.report(model, &mut diagnostics),
             }
         }
-        modules.extend(emit::skeleton(&checked));
+        match guard("emit", || emit::skeleton(&checked)) {
+            Ok(module) => modules.extend(module),
+            Err(fault) => Trouble::Fault(fault).report(model, &mut diagnostics),
+        }
     }
     let mut output = diagnostics.to_tokens();
     output.extend(modules);
@@ -95,9 +106,11 @@ pub fn compile(model: &Model) -> Result<(Structure, Compiled), Trouble> {
     if freedoms > mechanics::MOST_FREEDOMS {
         return Err(Trouble::Refused(Refusal::TooLarge(Excess::Coordinates(freedoms))));
     }
-    let (structure, derivation) = mechanics::of(model).map_err(Trouble::Complaints)?;
-    let compiled = verify::compile(model, &structure, &derivation).map_err(Trouble::Refused)?;
-    match emit::misfit(model, &structure, &compiled) {
+    let derived = guard("mechanics", || mechanics::of(model)).map_err(Trouble::Fault)?;
+    let (structure, derivation) = derived.map_err(Trouble::Complaints)?;
+    let compiled = guard("verify", || verify::compile(model, &structure, &derivation)).map_err(Trouble::Fault)?;
+    let compiled = compiled.map_err(Trouble::Refused)?;
+    match guard("emit", || emit::misfit(model, &structure, &compiled)).map_err(Trouble::Fault)? {
         None => Ok((structure, compiled)),
         Some(kind) => Err(Trouble::Refused(Refusal::Misfit(kind))),
     }
@@ -111,6 +124,8 @@ pub enum Trouble {
     /// What is wrong with its mechanics.
     Complaints(Vec<Complaint>),
     Refused(Refusal),
+    /// An error of this compiler that one of its stages has found.
+    Fault(Fault),
 }
 
 impl Trouble {
@@ -124,6 +139,9 @@ impl Trouble {
                         None => diagnostics.error(at.span(), message),
                     }
                 }
+            }
+            Trouble::Fault(fault) => {
+                diagnostics.error_help(span, fault_of(&format!("`{}`", model.name), &fault), REPORT);
             }
             Trouble::Refused(Refusal::TooLarge(excess)) => {
                 let (message, help) = too_large(&model.name.to_string(), excess);
@@ -172,6 +190,11 @@ impl Trouble {
             }
         }
     }
+}
+
+fn fault_of(subject: &str, Fault { stage, place, what }: &Fault) -> String {
+    let place = place.as_ref().map_or_else(String::new, |place| format!(" ({place})"));
+    format!("the stage `{stage}`{place} has failed for {subject}: {what}")
 }
 
 /// What is said of it, and what to do.

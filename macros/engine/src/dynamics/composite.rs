@@ -4,6 +4,7 @@
 //! a joint gives the composite the force s x h + m v and a moment, whose projections on the joints towards the ground
 //! are a row of the matrix. Entries between branches are zero and stay so.
 
+use crate::invariant::injection::{Break, broken};
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
 use super::inertia::Inertia;
@@ -63,7 +64,10 @@ fn composites(g: &mut Graph, tree: &Tree) -> Vec<Inertia> {
         };
         let placed = turned.rotate(g, link.rotation);
         let origin = tree.origin(g, link);
-        let origin = g.components(origin);
+        let mut origin = g.components(origin);
+        if broken(Break::CompositeShift) {
+            origin[0] = -origin[0];
+        }
         let shifted = placed.shift(g, origin);
         composites[parent] = composites[parent].add(g, &shifted);
     }

@@ -5,6 +5,7 @@
 //! its moment about the origin h x a plus the axial vector of U D - (U D)^T, so no product of an inertia tensor with a
 //! vector is left.
 
+use crate::invariant::injection::{Break, broken};
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
 use super::inertia::entry;
@@ -38,6 +39,7 @@ pub fn inertial_wrench(g: &mut Graph, link: &Link, motion: &LinkMotion) -> Wrenc
     let force = g.add_vectors(pushed, turning);
     let first = g.vector(inertia.first);
     let lever = g.cross(first, motion.linear_rate);
+    let lever = if broken(Break::LeverSign) { -lever } else { lever };
     let spin = axial(g, &field, &inertia.second);
     Wrench { moment: g.add_vectors(lever, spin), force }
 }

@@ -29,6 +29,7 @@ use loops::structure::Structure;
 /// Structure and equations of a model.
 pub fn of(model: &Model) -> Result<(Structure, Derivation), Vec<Complaint>> {
     let structure = analysis::analyse(model)?;
+    translate::agreement::check(model);
     let mut derivation = derive(model, &structure)?;
     let mut structure = structure.with_notes(std::mem::take(&mut derivation.notes));
     structure.dead_centres.clone_from(&derivation.dead_centres);

@@ -7,6 +7,7 @@ use std::collections::BTreeSet;
 use proc_macro2::Span;
 use syn::Path;
 
+use crate::invariant::index_vec::IndexVec;
 use crate::syntax::tree::{self, ItemKind};
 
 use super::checker::{Checker, ScopeId, Subject, Task};
@@ -91,14 +92,14 @@ impl<'a> Checker<'a, '_> {
         let mut skipped = topology.skipped;
         skipped.extend(loops.skipped);
         Some(Model {
-            params,
-            inputs,
-            states: all(collected.states)?,
-            bodies,
-            joints,
+            params: params.into(),
+            inputs: inputs.into(),
+            states: all(collected.states)?.into(),
+            bodies: bodies.into(),
+            joints: joints.into(),
             tree: topology.tree,
             cuts: topology.cuts,
-            constraints,
+            constraints: constraints.into(),
             drives: loops.drives,
             solves: loops.solves,
             assumptions: all(collected.assumptions)?,
@@ -107,7 +108,7 @@ impl<'a> Checker<'a, '_> {
             skipped,
             solve_for: collected.requested.solve_for,
             kinematics: loops.kinematics,
-            forces: all(collected.forces)?,
+            forces: all(collected.forces)?.into(),
             outputs: all(collected.outputs)?,
             gravity: collected.gravity,
             emit,
@@ -123,16 +124,16 @@ impl<'a> Checker<'a, '_> {
             vis: module.vis.clone(),
             attrs: module.attrs.iter().filter(|attr| !docs::is_derive(attr)).cloned().collect(),
             krate: self.source.krate.clone().unwrap_or_else(runtime),
-            part_types: self.part_types.clone(),
-            instances: self.instances.clone(),
-            params: Vec::new(),
-            inputs: Vec::new(),
-            states: Vec::new(),
-            bodies: Vec::new(),
-            joints: Vec::new(),
+            part_types: self.part_types.clone().into(),
+            instances: self.instances.clone().into(),
+            params: IndexVec::new(),
+            inputs: IndexVec::new(),
+            states: IndexVec::new(),
+            bodies: IndexVec::new(),
+            joints: IndexVec::new(),
             tree: Vec::new(),
             cuts: Vec::new(),
-            constraints: Vec::new(),
+            constraints: IndexVec::new(),
             drives: Vec::new(),
             solves: Vec::new(),
             assumptions: Vec::new(),
@@ -141,7 +142,7 @@ impl<'a> Checker<'a, '_> {
             skipped: Vec::new(),
             solve_for: Vec::new(),
             kinematics: Vec::new(),
-            forces: Vec::new(),
+            forces: IndexVec::new(),
             outputs: Vec::new(),
             gravity: None,
             emit: Vec::new(),

@@ -11,6 +11,8 @@ use std::rc::Rc;
 use proc_macro2::{Ident, Span};
 use syn::{Attribute, Path, Visibility};
 
+use crate::invariant::index_vec::{IndexVec, id};
+
 use super::joint_kinds::JointKind;
 
 macro_rules! ids {
@@ -18,6 +20,7 @@ macro_rules! ids {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub struct $name(pub usize);
+        id!($name);
     )*};
 }
 ids! {
@@ -41,19 +44,19 @@ pub struct Model {
     pub attrs: Vec<Attribute>,
     /// Path of the runtime crate, `::multibody` unless renamed.
     pub krate: Path,
-    pub part_types: Vec<PartType>,
-    pub instances: Vec<Instance>,
-    pub params: Vec<Param>,
-    pub inputs: Vec<Input>,
-    pub states: Vec<State>,
-    pub bodies: Vec<Body>,
+    pub part_types: IndexVec<PartTypeId, PartType>,
+    pub instances: IndexVec<InstanceId, Instance>,
+    pub params: IndexVec<ParamId, Param>,
+    pub inputs: IndexVec<InputId, Input>,
+    pub states: IndexVec<StateId, State>,
+    pub bodies: IndexVec<BodyId, Body>,
     /// In source order, which is the order of coordinates; `tree` gives the topological one.
-    pub joints: Vec<Joint>,
+    pub joints: IndexVec<JointId, Joint>,
     /// Every body's joint towards the ground, parents before children.
     pub tree: Vec<JointId>,
     /// Joints that close loops, in source order: they have no coordinates and stand in no generated struct.
     pub cuts: Vec<JointId>,
-    pub constraints: Vec<Constraint>,
+    pub constraints: IndexVec<ConstraintId, Constraint>,
     pub drives: Vec<Drive>,
     /// In source order.
     pub solves: Vec<Solve>,
@@ -64,7 +67,7 @@ pub struct Model {
     pub independent: Vec<Coordinate>,
     /// Said in the report: items that another choice of coordinates has made void, such as a `#[cut]` in the tree.
     pub skipped: Vec<String>,
-    pub forces: Vec<Force>,
+    pub forces: IndexVec<ForceId, Force>,
     pub outputs: Vec<Output>,
     /// `Vec3` in world axes, m/s^2; `None`: no gravity declared.
     pub gravity: Option<Expr>,

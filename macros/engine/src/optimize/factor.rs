@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 use std::ops::{Mul, Neg};
 
+use crate::invariant::injection::{Break, broken};
 use crate::symbolic::number::Number;
 
 use super::dag::{Dag, Id, Kind, ONE};
@@ -108,7 +109,8 @@ fn extract(dag: &mut Dag, id: Id, terms: &[(Number, Id)], choice: &Choice, uses:
             continue;
         }
         match choice.common {
-            Common::Literal(l) => inner.push((if c == l { Number::ONE } else { Number::ONE.neg() }, term)),
+            Common::Literal(l) if c == l || broken(Break::FactoredSign) => inner.push((Number::ONE, term)),
+            Common::Literal(_) => inner.push((Number::ONE.neg(), term)),
             Common::Node(node) if term == node => inner.push((c, ONE)),
             Common::Node(node) => {
                 let mut rest = match &dag.nodes[term].kind {
@@ -119,6 +121,7 @@ fn extract(dag: &mut Dag, id: Id, terms: &[(Number, Id)], choice: &Choice, uses:
                     rest.remove(position);
                 }
                 let (d, cofactor) = dag.product(rest);
+                let c = if broken(Break::FactoredSign) { c.neg() } else { c };
                 inner.push((c.mul(d), cofactor));
             }
         }

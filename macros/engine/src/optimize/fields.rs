@@ -7,7 +7,9 @@ use std::collections::HashMap;
 
 use crate::contracts::call::Call;
 use crate::contracts::symbol::Symbol;
+use crate::invariant::injection::{Break, broken};
 use crate::symbolic::graph::Name;
+use crate::symbolic::number::Number;
 
 use super::dag::{Dag, Id, Kind, ONE};
 use super::hints::hints;
@@ -71,7 +73,7 @@ pub fn gather(functions: &[&Dag], symbols: &[Symbol]) -> Gathered {
             }
             fields.insert(print, (FieldId(prelude.roots.len()), dag.nodes[id].print));
             let adopted = prelude.adopt(dag, id, &mut map);
-            prelude.roots.push(adopted);
+            prelude.roots.push(if broken(Break::FieldOfParameters) { (Number::ONE, ONE) } else { adopted });
             let text = hint(dag, id, &hints);
             let words = if names.is_free(&text) { None } else { wording.of_node(dag, id) };
             let text = names.unique(words.as_ref().unwrap_or(&text));

@@ -5,6 +5,8 @@
 
 use std::ops::Mul;
 
+use crate::invariant::injection::{Break, broken};
+
 use super::dag::{Dag, Kind};
 use super::stage::Stage;
 
@@ -25,7 +27,8 @@ pub fn flatten(dag: &mut Dag) {
                             flat.push((c.mul(inner[0].0), inner[0].1));
                         }
                         Kind::Sum(inner) if uses[term] == 1 && c.is_unit() && !keeps(dag, term) => {
-                            flat.extend(inner.iter().map(|&(d, t)| (c.mul(d), t)));
+                            let dropped = usize::from(broken(Break::FlattenedTerm));
+                            flat.extend(inner.iter().skip(dropped).map(|&(d, t)| (c.mul(d), t)));
                         }
                         _ => flat.push((c, term)),
                     }

@@ -22,6 +22,7 @@ mod wording;
 use crate::contracts::cost::Cost;
 use crate::contracts::function::FunctionKind;
 use crate::contracts::results::Parts;
+use crate::invariant::injection::{Break, broken};
 use crate::mechanics::{Derivation, Inertia};
 use crate::symbolic::graph::Scalar;
 use crate::symbolic::lower::Lowering;
@@ -125,7 +126,7 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>) -> Result<Compile
         .map(|Chosen { kind, parts, method, candidate, before, dag }| Function {
             kind: *kind,
             parts: parts.clone(),
-            program: schedule::schedule(dag, &fields, &names),
+            program: with_results_broken(schedule::schedule(dag, &fields, &names)),
             before: *before,
             after: dag.cost().0,
             method,
@@ -144,6 +145,14 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>) -> Result<Compile
         return Err(Refusal::NotFinite);
     }
     Ok(Compiled { fields: names, prelude, prelude_cost, functions, checks, inertia, sound, unchecked: Vec::new() })
+}
+
+/// As it came, but for a break.
+fn with_results_broken(mut program: Program) -> Program {
+    if broken(Break::ResultSlots) {
+        program.results.reverse();
+    }
+    program
 }
 
 /// The mass matrix as it was derived: it is computed where a motion has ended, so no pass is worth its time.

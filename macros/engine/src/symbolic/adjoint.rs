@@ -11,6 +11,8 @@
 
 use std::collections::HashMap;
 
+use crate::invariant::injection::{Break, broken};
+
 use super::differentiate::Differentiator;
 use super::graph::{
     AnyNode, BlockId, BlockKind, Graph, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode,
@@ -96,7 +98,10 @@ impl Adjoints {
         let s = Scalar::new(index, false);
         match g.node(s).clone() {
             ScalarNode::Literal(_) | ScalarNode::Symbol(_) => {}
-            ScalarNode::Sum(terms) => terms.iter().for_each(|&t| self.pass(t, adjoint)),
+            ScalarNode::Sum(terms) => {
+                let skipped = usize::from(broken(Break::AdjointTerm));
+                terms.iter().skip(skipped).for_each(|&t| self.pass(t, adjoint));
+            }
             ScalarNode::Product(factors) => {
                 for (at, &factor) in factors.iter().enumerate() {
                     if self.moves(factor) {

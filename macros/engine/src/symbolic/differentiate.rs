@@ -11,6 +11,7 @@
 use std::collections::HashMap;
 
 use crate::contracts::call::Call;
+use crate::invariant::injection::{Break, broken};
 
 use super::graph::{
     AnyNode, BlockId, BlockKind, Graph, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode,
@@ -190,7 +191,7 @@ impl Differentiator {
         let mut terms = Vec::with_capacity(factors.len());
         for (k, &factor) in factors.iter().enumerate() {
             let slope = self.of(factor);
-            if slope == Scalar::ZERO {
+            if slope == Scalar::ZERO || broken(Break::ProductRule) && k + 1 == factors.len() {
                 continue;
             }
             let mut list = factors.to_vec();

@@ -7,6 +7,9 @@
 
 use std::collections::HashMap;
 
+use crate::invariant::fault::OrFault;
+use crate::invariant::injection::{Break, broken};
+
 use super::graph::{AnyNode, Graph, Name, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode};
 
 /// Copies expressions of one graph into another, as scalars.
@@ -56,7 +59,10 @@ impl<'g> Lowering<'g> {
         let from = self.from;
         match from.node(s) {
             ScalarNode::Literal(n) => self.to.number(*n),
-            ScalarNode::Symbol(id) => self.to.symbol_handle(*id).unwrap_or(Scalar::ZERO),
+            ScalarNode::Symbol(id) => {
+                let handle = self.to.symbol_handle(*id).filter(|_| !broken(Break::LoweredSymbol));
+                handle.or_fault("the lowered graph has the symbols of the graph that is lowered")
+            }
             ScalarNode::Sum(terms) => {
                 let terms: Vec<Scalar> = terms.iter().map(|&t| self.scalar(t)).collect();
                 self.to.sum(&terms)

@@ -77,7 +77,7 @@ fn a_part_has_one_type_for_all_its_instances() {
     let fields = fields(leg.unwrap(), "Position");
     assert!(fields.contains(&"body:::multibody::Pose<T>".to_string()), "{fields:?}");
     assert!(fields.contains(&format!("body_position:{VECTOR}")), "{fields:?}");
-    assert_eq!(model.joints[body].place.instance, InstanceId(3));
+    assert_eq!(model.joints[JointId(body)].place.instance, InstanceId(3));
 }
 
 #[test]

@@ -9,6 +9,7 @@ use multibody_engine::contracts::cost::Cost;
 use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::contracts::results::Parts;
 use multibody_engine::contracts::symbol::Symbol;
+use multibody_engine::invariant::index_vec::IndexVec;
 use multibody_engine::mechanics::loops::structure::Structure;
 use multibody_engine::model::joint_kinds::{self, JointKind, Written};
 use multibody_engine::model::types::*;
@@ -61,29 +62,29 @@ pub fn empty(module: &str) -> Model {
         vis: parse_quote!(pub),
         attrs: vec![parse_quote!(#[doc = " A model made by hand."])],
         krate: parse_quote!(::multibody),
-        part_types: Vec::new(),
-        instances: vec![Instance {
+        part_types: IndexVec::new(),
+        instances: IndexVec::from(vec![Instance {
             parent: None,
             field: name(module),
             index: None,
             part_type: None,
             docs: Docs::default(),
-        }],
-        params: Vec::new(),
-        inputs: Vec::new(),
-        states: Vec::new(),
-        bodies: Vec::new(),
-        joints: Vec::new(),
+        }]),
+        params: IndexVec::new(),
+        inputs: IndexVec::new(),
+        states: IndexVec::new(),
+        bodies: IndexVec::new(),
+        joints: IndexVec::new(),
         tree: Vec::new(),
         cuts: Vec::new(),
-        constraints: Vec::new(),
+        constraints: IndexVec::new(),
         drives: Vec::new(),
         solves: Vec::new(),
         assumptions: Vec::new(),
         handling: Handling::default(),
         independent: Vec::new(),
         skipped: Vec::new(),
-        forces: Vec::new(),
+        forces: IndexVec::new(),
         outputs: Vec::new(),
         gravity: None,
         emit: vec![Request::ForwardDynamics],
@@ -248,8 +249,8 @@ pub fn pendulum() -> (Model, Compiled) {
     let of = |id: ParamId| param(id.0);
     let square = expr(ExprNode::Mul(of(l), of(l)), Type::Scalar);
     let third = expr(ExprNode::Div(expr(ExprNode::Mul(of(m), square), Type::Scalar), number(12.0)), Type::Scalar);
-    model.bodies[0].mass = of(m);
-    model.bodies[0].inertia =
+    model.bodies[BodyId(0)].mass = of(m);
+    model.bodies[BodyId(0)].inertia =
         Some(Box::new([third.clone(), number(0.0), third, number(0.0), number(0.0), number(0.0)]));
     add_output(&mut model, place(0, "height"), Type::Scalar, docs("m", "of the tip"));
     let compiled = Compiled {
@@ -389,10 +390,12 @@ fn everything_read(model: &Model) -> Compiled {
     let positions: Vec<Expression> = joint_symbols(model, true, q);
     let velocities: Vec<Expression> = joint_symbols(model, false, v);
     let accelerations: Vec<Expression> = joint_symbols(model, false, accel);
-    let params: Vec<Expression> =
-        (0..model.params.len()).flat_map(|i| (0..model.params[i].ty.scalars()).map(move |e| p(i, e))).collect();
-    let inputs: Vec<Expression> =
-        (0..model.inputs.len()).flat_map(|i| (0..model.inputs[i].ty.scalars()).map(move |e| u(i, e))).collect();
+    let params: Vec<Expression> = (0..model.params.len())
+        .flat_map(|i| (0..model.params[ParamId(i)].ty.scalars()).map(move |e| p(i, e)))
+        .collect();
+    let inputs: Vec<Expression> = (0..model.inputs.len())
+        .flat_map(|i| (0..model.inputs[InputId(i)].ty.scalars()).map(move |e| u(i, e)))
+        .collect();
     let states: Vec<Expression> = (0..model.states.len()).map(x).collect();
     let dof = velocities.len();
     let outputs = 1 + 1 + 1 + 3 + 9 + 7 + 6 + 6 + 6 * dof + 6;

@@ -31,11 +31,11 @@ pub(crate) struct Motion {
 impl Mechanism {
     pub(crate) fn new(items: &str) -> Mechanism {
         let model = model_of(items);
-        let name = |joint: JointId| model.joints[joint.0].place.field.to_string();
+        let name = |joint: JointId| model.joints[joint].place.field.to_string();
         let bodies = model.bodies.iter().map(|body| body.place.field.to_string()).collect();
         let mut coordinates = Vec::new();
         for &joint in &model.tree {
-            let kind = model.joints[joint.0].kind;
+            let kind = model.joints[joint].kind;
             let names =
                 kind.freedoms.iter().filter(|_| !kind.has_quaternion()).map(|freedom| &freedom.name).enumerate();
             coordinates.extend(names.map(|(k, text)| (name(joint), k, format!("{}.{text}", name(joint)))));
@@ -103,7 +103,7 @@ impl Mechanism {
         let mut point = case.random(1);
         // What has one meaning everywhere; joints keep their places but for implicit ones.
         let name = |case: &Case, joint: JointId| {
-            let joint = &case.model.joints[joint.0];
+            let joint = &case.model.joints[joint];
             (joint.place.field.to_string(), joint.kind.freedoms())
         };
         for &symbol in &case.derivation.symbols {

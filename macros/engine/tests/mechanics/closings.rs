@@ -42,7 +42,7 @@ const KINDS: [(&str, &str, usize); 21] = [
 fn cut_last(mut model: Model, child: &str) -> Model {
     let body = model.bodies.iter().position(|body| body.place.field == child).expect("a body");
     let last = JointId(model.joints.len() - 1);
-    model.joints[last.0].child.body = BodyRef::Body(BodyId(body));
+    model.joints[last].child.body = BodyRef::Body(BodyId(body));
     model.tree.retain(|&id| id != last);
     model.cuts.push(last);
     model.bodies.pop();
@@ -216,10 +216,12 @@ fn rods_and_expressions_are_exact() {
     let place = model.outputs[0].place.clone();
     let span = proc_macro2::Span::call_site();
     let docs = multibody_engine::model::types::Docs::default;
-    use multibody_engine::model::types::{Constraint, ConstraintId, ConstraintKind, ForceKind};
+    use multibody_engine::model::types::{Constraint, ConstraintId, ConstraintKind, ForceId, ForceKind};
     let kind = ConstraintKind::Value(model.outputs[0].value.clone());
     model.constraints.push(Constraint { place: place.clone(), kind, drive: None, docs: docs(), span });
-    let ForceKind::LineSpring { between, length: Some(length), .. } = &model.forces[0].kind else { panic!("a spring") };
+    let ForceKind::LineSpring { between, length: Some(length), .. } = &model.forces[ForceId(0)].kind else {
+        panic!("a spring")
+    };
     let kind = ConstraintKind::Rod { between: between.clone(), length: length.clone() };
     model.constraints.push(Constraint { place, kind, drive: None, docs: docs(), span });
     for (seed, writing) in Writing::ALL.into_iter().enumerate() {

@@ -435,7 +435,7 @@ fn dead_centres_are_told() {
         .derivation
         .dead_centres
         .iter()
-        .map(|centre| case.model.joints[centre.joint.0].place.field.to_string())
+        .map(|centre| case.model.joints[centre.joint].place.field.to_string())
         .collect();
     assert_eq!(names.len(), 1, "{names:?}");
     let at = |crank: f64| {

@@ -88,7 +88,7 @@ impl Case {
         let mut values = HashMap::new();
         for &symbol in &self.derivation.symbols {
             let value = match symbol {
-                Symbol::Param { param, element } => self.model.params[param.0].default[element],
+                Symbol::Param { param, element } => self.model.params[param].default[element],
                 _ => random.next(),
             };
             values.insert(symbol, value);

@@ -20,7 +20,7 @@ fn names(w: &Writer<'_>, joints: &[JointId]) -> Vec<String> {
 
 /// Coordinates of the tree, and equations of the joints that close loops.
 fn counts(m: &Model) -> (usize, usize) {
-    let freedoms = |id: &JointId| m.joints[id.0].kind.freedoms();
+    let freedoms = |id: &JointId| m.joints[*id].kind.freedoms();
     (m.tree.iter().map(freedoms).sum(), m.cuts.iter().map(|id| 6 - freedoms(id)).sum())
 }
 
@@ -36,7 +36,7 @@ fn stewart_in_hybrid_coordinates() {
     assert_eq!(m.tree.len(), 13);
     assert_eq!(names(&w, &m.cuts)[..2], ["legs[0].ball", "legs[1].ball"]);
     assert_eq!(w.joint(m.tree[0]), "platform");
-    assert_eq!(m.joints[m.tree[0].0].kind, &joint_kinds::FREE_BY_ANGLES);
+    assert_eq!(m.joints[m.tree[0]].kind, &joint_kinds::FREE_BY_ANGLES);
     assert!(matches!(m.handling, Handling::Reduced));
     assert!(m.skipped.is_empty());
     assert_eq!(m.solves.len(), 6);
@@ -86,7 +86,7 @@ fn double_pendulum_in_absolute_coordinates() {
     let w = Writer(&m);
     assert_eq!(names(&w, &m.tree), ["upper", "lower"]);
     // The rate that friction needs is measured, and its effort acts on the joint that closes.
-    let ForceKind::Effort { joint, values } = &m.forces[0].kind else { panic!("an effort") };
+    let ForceKind::Effort { joint, values } = &m.forces[ForceId(0)].kind else { panic!("an effort") };
     assert_eq!(w.joint(*joint), "elbow");
     assert_eq!(w.list(values), "[(-0.01 * v(elbow, 0))]");
 }
@@ -184,8 +184,8 @@ fn joints_at_an_absolute_body() {
     let w = Writer(&m);
     assert_eq!(names(&w, &m.tree), ["plate", "on", "arm"]);
     assert_eq!(names(&w, &m.cuts), ["grip", "base"]);
-    assert_eq!(w.frame(&m.joints[0].child), "plate");
-    assert_eq!(w.frame(&m.joints[0].parent), "ground");
+    assert_eq!(w.frame(&m.joints[JointId(0)].child), "plate");
+    assert_eq!(w.frame(&m.joints[JointId(0)].parent), "ground");
     let place = "Express(ground, (Position(plate) - Position(ground))).x";
     assert_eq!(w.output("x"), format!("({place} + v(plate, 0))"));
 }
@@ -221,10 +221,10 @@ fn drives_and_constraints() {
         }",
     );
     let w = Writer(&m);
-    let ConstraintKind::Value(rack) = &m.constraints[0].kind else { panic!("a value") };
+    let ConstraintKind::Value(rack) = &m.constraints[ConstraintId(0)].kind else { panic!("a value") };
     assert_eq!(w.expr(rack), "(((q(turn, 0) * 0.05) - q(slide, 0)) + Sin[t])");
-    assert_eq!(m.constraints[0].docs.text, [" Rack and pinion."]);
-    let ConstraintKind::Rod { between, length } = &m.constraints[1].kind else { panic!("a rod") };
+    assert_eq!(m.constraints[ConstraintId(0)].docs.text, [" Rack and pinion."]);
+    let ConstraintKind::Rod { between, length } = &m.constraints[ConstraintId(1)].kind else { panic!("a rod") };
     assert_eq!((w.frame(&between[0]), w.expr(length)), ("a.at(<[1, 0, 0]>)".into(), "k".into()));
     let joint = |name: &str| {
         let index = m.joints.iter().position(|joint| joint.place.field == name);
@@ -273,7 +273,7 @@ fn inputs_to_solve_for() {
     );
     let w = Writer(&m);
     let found: Vec<(String, usize)> =
-        m.solve_for.iter().map(|of| (w.place(&m.inputs[of.input.0].place), of.element)).collect();
+        m.solve_for.iter().map(|of| (w.place(&m.inputs[of.input].place), of.element)).collect();
     let of = |name: &str, element| (name.to_string(), element);
     assert_eq!(
         found,

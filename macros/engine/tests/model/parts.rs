@@ -50,15 +50,15 @@ fn arrays_of_nested_parts() {
     let w = Writer(&m);
     let types: Vec<String> = m.part_types.iter().map(|t| t.name.to_string()).collect();
     assert_eq!(types, ["leg", "foot"]);
-    assert_eq!(m.part_types[0].docs.text, [" A leg with a foot."]);
+    assert_eq!(m.part_types[PartTypeId(0)].docs.text, [" A leg with a foot."]);
     assert_eq!(m.instances.len(), 7);
     let at = |k: usize| {
-        let i = &m.instances[k];
+        let i = &m.instances[InstanceId(k)];
         (i.parent.map(|p| p.0), i.field.to_string(), i.index, i.part_type.map(|t| t.0))
     };
     assert_eq!(at(3), (Some(0), "legs".into(), Some((1, 3)), Some(0)));
     assert_eq!(at(4), (Some(3), "end".into(), None, Some(1)));
-    assert_eq!(m.instances[1].docs.text, [" All legs."]);
+    assert_eq!(m.instances[InstanceId(1)].docs.text, [" All legs."]);
     // The bound params are fields no more; `length` is one per leg.
     let params: Vec<String> = m.params.iter().map(|p| w.place(&p.place)).collect();
     assert_eq!(params, ["mass", "legs[0].length", "legs[1].length", "legs[2].length"]);
@@ -66,8 +66,11 @@ fn arrays_of_nested_parts() {
     assert_eq!(joints[..3], ["legs[0].gimbal", "legs[0].end.slide", "legs[1].gimbal"]);
     assert_eq!(joints[6], "free");
     assert_eq!(m.tree[0], JointId(6));
-    assert_eq!(w.frame(&m.joints[2].parent), "trunk.at(<[0, 1, 0]>).rotated(<[0, 0, 1]>, (((2 * PI) * 1) / 3))");
-    assert_eq!(w.expr(&m.bodies[1].mass), "(0.1 * (mass / 6))");
+    assert_eq!(
+        w.frame(&m.joints[JointId(2)].parent),
+        "trunk.at(<[0, 1, 0]>).rotated(<[0, 0, 1]>, (((2 * PI) * 1) / 3))"
+    );
+    assert_eq!(w.expr(&m.bodies[BodyId(1)].mass), "(0.1 * (mass / 6))");
     assert_eq!(w.output("a"), "(v(legs[2].gimbal, 0) + q(legs[0].end.slide, 0))");
     assert_eq!(w.output("b"), "Position(legs[1].end.pad)");
     assert_eq!(w.output("c"), "(legs[0].torque * (0.5 * legs[0].length))");
@@ -88,8 +91,8 @@ fn shared_values_are_one_node() {
             output x = b; output y = b * 2.0;
         }",
     );
-    let inertia = m.bodies[0].inertia.as_ref().expect("inertia");
-    assert!(std::rc::Rc::ptr_eq(&m.bodies[0].mass.node, &inertia[0].node));
+    let inertia = m.bodies[BodyId(0)].inertia.as_ref().expect("inertia");
+    assert!(std::rc::Rc::ptr_eq(&m.bodies[BodyId(0)].mass.node, &inertia[0].node));
     assert!(std::rc::Rc::ptr_eq(&m.outputs[0].value.node, &inertia[1].node));
 }
 

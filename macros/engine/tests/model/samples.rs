@@ -14,15 +14,15 @@ fn double_pendulum() {
     let params: Vec<_> = m.params.iter().map(|p| (w.place(&p.place), &p.default[..])).collect();
     assert_eq!(params.len(), 4);
     assert!(params.iter().all(|(_, default)| *default == [1.0]));
-    assert_eq!(m.params[0].docs.unit.as_deref(), Some("kg"));
+    assert_eq!(m.params[ParamId(0)].docs.unit.as_deref(), Some("kg"));
     assert_eq!(m.gravity.as_ref().map(|g| w.expr(g)), Some("(-9.81 * <[0, 1, 0]>)".into()));
-    assert_eq!(w.frame(&m.joints[1].parent), "upper.at((-l1 * <[0, 1, 0]>))");
+    assert_eq!(w.frame(&m.joints[JointId(1)].parent), "upper.at((-l1 * <[0, 1, 0]>))");
     assert_eq!(w.output("tip"), "Position(lower.at((-l2 * <[0, 1, 0]>)))");
     assert_eq!(w.output("energy"), "(Kinetic + Potential)");
-    let inertia = m.bodies[0].inertia.as_ref().expect("a rod has inertia");
+    let inertia = m.bodies[BodyId(0)].inertia.as_ref().expect("a rod has inertia");
     let across = "((m1 * (l1 * l1)) / 12)";
     assert_eq!(w.list(inertia.iter()), format!("[{across}, 0, {across}, 0, 0, 0]"));
-    let ForceKind::Effort { joint, values } = &m.forces[0].kind else { panic!("an effort") };
+    let ForceKind::Effort { joint, values } = &m.forces[ForceId(0)].kind else { panic!("an effort") };
     assert_eq!((joint, w.list(values)), (&JointId(1), "[(-0.01 * v(elbow, 0))]".into()));
     use Request::{Bias, ForwardDynamics, InverseDynamics, MassMatrix};
     assert_eq!(m.emit, [ForwardDynamics, InverseDynamics, MassMatrix, Bias]);
@@ -113,19 +113,19 @@ fn all_forces() {
         }",
     );
     let w = Writer(&m);
-    assert_eq!((m.states.len(), m.states[0].start), (1, 0.5));
-    assert_eq!(w.expr(&m.states[0].rate), "((u - (2 * i)) - v(j1, 0))");
-    let ForceKind::Effort { values, .. } = &m.forces[1].kind else { panic!("an effort") };
+    assert_eq!((m.states.len(), m.states[StateId(0)].start), (1, 0.5));
+    assert_eq!(w.expr(&m.states[StateId(0)].rate), "((u - (2 * i)) - v(j1, 0))");
+    let ForceKind::Effort { values, .. } = &m.forces[ForceId(1)].kind else { panic!("an effort") };
     assert_eq!(w.list(values), "[0, Sin[t]]");
-    let ForceKind::JointSpring { coordinate, rest: Some(rest), damping: None, .. } = &m.forces[3].kind else {
+    let ForceKind::JointSpring { coordinate, rest: Some(rest), damping: None, .. } = &m.forces[ForceId(3)].kind else {
         panic!("a spring")
     };
     assert_eq!((*coordinate, w.expr(rest)), (0, "0.1".into()));
-    assert!(matches!(m.forces[5].kind, ForceKind::LineSpring { length: Some(_), .. }));
+    assert!(matches!(m.forces[ForceId(5)].kind, ForceKind::LineSpring { length: Some(_), .. }));
     let reach = "Express(b, (Position(c) - Position(b)))";
     assert_eq!(w.output("s"), format!("select[((u Greater 0) && !(t Less 1)), {reach}, <[1, 0, 0]>]"));
     assert_eq!(m.outputs[1].value.ty, Type::Vec3);
-    let moment = |k: usize| w.expr(&m.bodies[1].inertia.as_ref().expect("inertia")[k]);
+    let moment = |k: usize| w.expr(&m.bodies[BodyId(1)].inertia.as_ref().expect("inertia")[k]);
     assert_eq!(moment(0), "((1 / 12) * ((0.2 * 0.2) + (0.3 * 0.3)))");
 }
 
@@ -153,9 +153,9 @@ fn types_of_values() {
         }",
     );
     let w = Writer(&m);
-    let default = |k: usize| m.params[k].default.clone();
+    let default = |k: usize| m.params[ParamId(k)].default.clone();
     assert_eq!(default(1), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
-    assert_eq!(m.params[1].ty, Type::Array(Box::new(Type::Vec3), 2));
+    assert_eq!(m.params[ParamId(1)].ty, Type::Array(Box::new(Type::Vec3), 2));
     assert_eq!(default(2), [0.1, 0.2, 2.3]);
     let types: Vec<&Type> = m.outputs.iter().map(|o| &o.value.ty).collect();
     assert_eq!(*types[0], Type::Array(Box::new(Type::Scalar), 2));
@@ -165,6 +165,6 @@ fn types_of_values() {
         [&Type::Pose, &Type::Vec3, &Type::Vec3, &Type::Jacobian, &Type::Rotation, &Type::Vec3, &Type::Vec3]
     );
     assert_eq!(w.output("g"), "Jacobian(b, b)");
-    assert_eq!(w.frame(&m.joints[0].parent), "ground.oriented([1, 0, 0], [0, 1, 0], [0, 0, 1])");
+    assert_eq!(w.frame(&m.joints[JointId(0)].parent), "ground.oriented([1, 0, 0], [0, 1, 0], [0, 0, 1])");
     assert_eq!(w.output("k"), "(points[1] - u[0])");
 }

@@ -44,8 +44,8 @@ impl Writer<'_> {
     pub(crate) fn place(&self, place: &Place) -> String {
         let mut text = place.field.to_string();
         let mut at = place.instance;
-        while let Some(parent) = self.0.instances[at.0].parent {
-            let instance = &self.0.instances[at.0];
+        while let Some(parent) = self.0.instances[at].parent {
+            let instance = &self.0.instances[at];
             text = match instance.index {
                 Some((k, _)) => format!("{}[{k}].{text}", instance.field),
                 None => format!("{}.{text}", instance.field),
@@ -56,13 +56,13 @@ impl Writer<'_> {
     }
 
     pub(crate) fn joint(&self, id: JointId) -> String {
-        self.place(&self.0.joints[id.0].place)
+        self.place(&self.0.joints[id].place)
     }
 
     pub(crate) fn frame(&self, frame: &Frame) -> String {
         let mut text = match frame.body {
             BodyRef::Ground => "ground".to_string(),
-            BodyRef::Body(id) => self.place(&self.0.bodies[id.0].place),
+            BodyRef::Body(id) => self.place(&self.0.bodies[id].place),
         };
         for step in &frame.steps {
             text += &match step {
@@ -91,9 +91,9 @@ impl Writer<'_> {
             ExprNode::Number(x) => format!("{x}"),
             ExprNode::Pi => "PI".into(),
             ExprNode::Time => "t".into(),
-            ExprNode::Param(id) => self.place(&self.0.params[id.0].place),
-            ExprNode::Input(id) => self.place(&self.0.inputs[id.0].place),
-            ExprNode::State(id) => self.place(&self.0.states[id.0].place),
+            ExprNode::Param(id) => self.place(&self.0.params[*id].place),
+            ExprNode::Input(id) => self.place(&self.0.inputs[*id].place),
+            ExprNode::State(id) => self.place(&self.0.states[*id].place),
             ExprNode::Coordinate { joint, index, order } => {
                 let name = ["q", "v", "a"][*order as usize];
                 format!("{name}({}, {index})", self.joint(*joint))
@@ -107,7 +107,7 @@ impl Writer<'_> {
             ExprNode::Reaction { joint, axes } => {
                 format!("Reaction({}, {})", self.joint(*joint), self.frame(axes))
             }
-            ExprNode::Power(id) => format!("Power({})", self.place(&self.0.forces[id.0].place)),
+            ExprNode::Power(id) => format!("Power({})", self.place(&self.0.forces[*id].place)),
             ExprNode::Kinetic => "Kinetic".into(),
             ExprNode::Potential => "Potential".into(),
             ExprNode::Express { frame, vector } => {

@@ -11,7 +11,7 @@ use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::mechanics::Condition;
 use multibody_engine::mechanics::loops::structure::Structure;
 use multibody_engine::model::check;
-use multibody_engine::model::types::{Model, Type};
+use multibody_engine::model::types::{JointId, Model, Type};
 use multibody_engine::optimize::program::Compiled;
 use multibody_engine::syntax::parse;
 use multibody_engine::{Trouble, compile};
@@ -44,18 +44,19 @@ fn machine(body: &str) -> Result<Machine, String> {
         Ok(_) => panic!("a pass has changed a value"),
         Err(Trouble::Complaints(complaints)) => Err(complaints[0].message.clone()),
         Err(Trouble::Refused(refusal)) => Err(format!("{refusal:?}")),
+        Err(Trouble::Fault(fault)) => Err(format!("{fault:?}")),
     }
 }
 
 impl Machine {
     fn value(&self, symbol: Symbol, values: &Values) -> f64 {
         let joint = |joint: usize, tail: &str| {
-            let name = format!("{}{tail}", self.model.joints[joint].place.field);
+            let name = format!("{}{tail}", self.model.joints[JointId(joint)].place.field);
             values.get(&name).copied().unwrap_or(0.0)
         };
         match symbol {
             Symbol::Param { param, element } => {
-                let param = &self.model.params[param.0];
+                let param = &self.model.params[param];
                 values.get(&param.place.field.to_string()).copied().unwrap_or(param.default[element])
             }
             Symbol::Position { joint: id, .. } => joint(id.0, ""),

@@ -10,6 +10,7 @@ fn compiled(text: &str) -> (Structure, Compiled) {
     compile(&corpus::model(text)).unwrap_or_else(|trouble| match trouble {
         Trouble::Complaints(list) => panic!("{list:?}"),
         Trouble::Refused(refusal) => panic!("{refusal:?}: {text}"),
+        Trouble::Fault(fault) => panic!("{fault:?}: {text}"),
     })
 }
 

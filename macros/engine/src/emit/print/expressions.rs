@@ -10,6 +10,7 @@ use quote::quote;
 use crate::contracts::call::Call;
 use crate::emit::layout::Layout;
 use crate::emit::names;
+use crate::invariant::injection::{Break, broken};
 use crate::optimize::program::Expression;
 
 use super::literals;
@@ -120,7 +121,10 @@ impl Names<'_> {
             return quote!(T::lit(f64::NAN));
         }
         if let Some(name) = function(call) {
-            let (name, arguments) = (names::ident(name), each(Level::Or));
+            let (name, mut arguments) = (names::ident(name), each(Level::Or).collect::<Vec<_>>());
+            if broken(Break::PrintedArguments) {
+                arguments.reverse();
+            }
             return quote!(Real::#name(#(#arguments),*));
         }
         match call {

@@ -61,7 +61,7 @@ pub(super) fn meeting(model: &Model, problem: &Problem, structure: &Structure) -
     }
     let meets = |&(_, &way): &(&ForceId, &f64)| way <= NO_WAY * problem.size;
     let complaint = |(id, _): (&ForceId, &f64)| Complaint {
-        at: model.forces[id.0].site(),
+        at: model.forces[*id].site(),
         message: "the two points meet wherever the loops are closed: a line between them has no direction".to_owned(),
         help: Some("let it act between other points, or leave it out".to_owned()),
     };

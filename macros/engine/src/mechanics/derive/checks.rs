@@ -13,7 +13,7 @@ use crate::mechanics::loops::constraints::{closings, coordinate_name, row_name, 
 use crate::mechanics::loops::reduction::{Map, Reduction};
 use crate::mechanics::loops::structure::{Means, Row};
 use crate::mechanics::translate::symbols::{freedoms_of, has_quaternion};
-use crate::model::types::{Closing, Coordinate, Handling, JointId, SolveHow};
+use crate::model::types::{Closing, Coordinate, Handling, SolveHow};
 use crate::symbolic::evaluate::{Evaluator, Real};
 use crate::symbolic::graph::{Scalar, SymbolId};
 use crate::symbolic::linear_algebra::Factors;
@@ -171,7 +171,7 @@ impl Equations<'_> {
         }
         let matrix = if all && self.scene.structure.steps.is_empty() {
             let entries = self.mass_matrix();
-            let size: usize = (0..model.joints.len()).map(|k| freedoms_of(model, JointId(k), &model.joints[k])).sum();
+            let size: usize = model.joints.iter_ids().map(|(id, joint)| freedoms_of(model, id, joint)).sum();
             entries.chunks(size.max(1)).map(<[Scalar]>::to_vec).collect()
         } else {
             self.reduced_mass_matrix(reduction)

@@ -16,6 +16,7 @@ use std::ops::Range;
 
 use crate::contracts::call::Call;
 use crate::contracts::symbol::Symbol;
+use crate::invariant::injection::{Break, broken};
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::model::site::Sited;
@@ -157,6 +158,9 @@ impl Equations<'_> {
                 let chosen = self.stage_signs(cycle, branch, stage, &signs, &conditions, reduction);
                 signs.splice(stage.roots.clone(), chosen.map_err(complain)?);
             }
+        }
+        if broken(Break::ClosedFormSign) {
+            signs.iter_mut().for_each(|sign| *sign = -*sign);
         }
         let mut solution = branch.plan.solve(&mut self.g, cycle, &signs).map_err(complain)?;
         // Roots that come out negative tell that another branch than the declared one was taken.

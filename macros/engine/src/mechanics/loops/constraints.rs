@@ -35,6 +35,8 @@ mod view;
 mod winding;
 mod wrenches;
 
+use crate::invariant::fault::raise;
+use crate::invariant::injection::{Break, broken};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::scene::Style;
 use crate::model::joint_kinds::Hold;
@@ -133,6 +135,17 @@ pub(in crate::mechanics) fn is_uncounted(model: &Model, joint: JointId) -> bool 
 impl Equations<'_> {
     /// The equations of a closing, [`row_count`] of them: lengths in metres (half squares of lengths for a rod), cosines.
     pub fn residuals(&mut self, closing: Closing, writing: Writing) -> Vec<Scalar> {
+        let mut residuals = self.residuals_of(closing, writing);
+        if broken(Break::LostRow) {
+            residuals.pop();
+        }
+        if residuals.len() != row_count(self.scene.model, closing) {
+            raise("a closing gives as many equations as are counted for it");
+        }
+        residuals
+    }
+
+    fn residuals_of(&mut self, closing: Closing, writing: Writing) -> Vec<Scalar> {
         match closing {
             Closing::Cut(joint) => self.cut(joint).map_or_else(Vec::new, |cut| self.cut_residuals(&cut, writing)),
             Closing::Constraint(id) => {

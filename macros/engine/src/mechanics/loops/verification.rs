@@ -7,10 +7,11 @@
 //! may close a loop together with a closed form.
 
 use crate::contracts::results::{Results, Slot};
+use crate::invariant::fault::raise;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::model::site::Sited;
-use crate::model::types::{Closing, JointId, Kinematics, SolveHow};
+use crate::model::types::{Closing, JointId, Kinematics, Solve, SolveHow};
 use crate::symbolic::graph::Scalar;
 
 use super::constraints::coordinate_name;
@@ -60,6 +61,31 @@ impl Equations<'_> {
         place.map_or_else(String::new, |place| super::constraints::path(self.scene.model, place))
     }
 
+    /// The conditions that have chosen a solution hold for the one that was made.
+    fn verify_branches(&mut self, reduction: &Reduction) {
+        let chosen = |item: &Solve| matches!(&item.how, SolveHow::From { branches, .. } if !branches.is_empty());
+        if !self.scene.model.solves.iter().any(chosen) {
+            return;
+        }
+        // What is made here is forgotten: how functions are written does not depend on what was checked before.
+        let (graph, caches) = (self.g.clone(), self.caches.clone());
+        let (mut unknowns, mut conditions) = (Vec::new(), Vec::new());
+        for item in &self.scene.model.solves {
+            if let SolveHow::From { branches, .. } = &item.how {
+                unknowns.extend(item.unknowns.iter().map(|&u| self.coordinate_symbols(u)[0]));
+                conditions.extend(branches.iter().map(|condition| self.scalar(condition)));
+            }
+        }
+        // With the unknowns, so that configurations without a real solution are left out.
+        let roots = [unknowns.clone(), conditions].concat();
+        let roots = self.g.substitute(&roots, &reduction.map);
+        let samples = self.samples(&roots, &reduction.map);
+        if samples.iter().any(|row| row[unknowns.len()..].contains(&0.0)) {
+            raise("a closed form is the solution that its conditions choose");
+        }
+        (self.g, self.caches) = (graph, caches);
+    }
+
     /// Sentences about loops that close in numbers alone, or complaints at the `solve` items whose unknowns stand in equations
     /// that stay open.
     pub(in crate::mechanics) fn verify(&mut self, reduction: &Reduction) -> Result<Vec<String>, Vec<Complaint>> {
@@ -105,6 +131,7 @@ impl Equations<'_> {
                 notes.push(format!("`{name}` closes to {worst:.0e} at random configurations (numerical check)"));
             }
         }
+        self.verify_branches(reduction);
         for step in (0..structure.steps.len()).filter(|&step| written(step) && !concerned[step]) {
             complaints.extend(item_of(step).map(|item| Complaint {
                 at: item.site(),

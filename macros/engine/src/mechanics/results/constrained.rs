@@ -11,6 +11,7 @@ use std::rc::Rc;
 use crate::contracts::call::Call;
 use crate::contracts::results::{Results, Slot};
 use crate::dynamics::saddle::{Saddle, Solution};
+use crate::invariant::fault::OrFault;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::{Map, Reduction};
 use crate::mechanics::loops::structure::{Role, Row};
@@ -72,7 +73,7 @@ impl Equations<'_> {
     /// One constraint equation on the tree.
     pub(in crate::mechanics) fn row(&mut self, row: Row) -> Scalar {
         let residuals = self.equations_of(row.closing);
-        residuals.get(row.index).copied().unwrap_or(Scalar::ZERO)
+        residuals.get(row.index).copied().or_fault("a row is one of the equations of its closing")
     }
 
     /// What is left of equations that were left out for the declared parameters, over their scales.

@@ -7,6 +7,7 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 use crate::contracts::call::Call;
+use crate::invariant::injection::{Break, broken};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::structure::Role;
 use crate::model::types::{Coordinate, Expr, ExprNode};
@@ -68,6 +69,9 @@ impl Equations<'_> {
             ExprNode::Pi => Value::Scalar(self.g.pi()),
             ExprNode::Time => Value::Scalar(self.scene.symbols.time),
             ExprNode::Param(id) => {
+                if broken(Break::LostParameter) {
+                    return Value::Scalar(Scalar::ONE);
+                }
                 let list = self.scene.symbols.params.get(id.0).cloned().unwrap_or_default();
                 let ty = self.scene.model.params.get(id.0).map(|param| &param.ty);
                 self.shaped(&list, ty)

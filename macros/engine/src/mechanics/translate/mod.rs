@@ -1,6 +1,7 @@
 //! Room `translate`: from the checked model to the tree of links and to values of its expressions; it decides nothing about
 //! loops and makes no function.
 
+pub(super) mod agreement;
 pub mod build;
 mod chain;
 pub(super) mod dependencies;

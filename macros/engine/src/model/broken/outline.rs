@@ -74,15 +74,15 @@ impl<'a> Checker<'a, '_> {
             emit.push(Request::ForwardDynamics);
         }
         let model = Model {
-            params: self.filled_params(),
-            inputs: self.filled_inputs(),
-            states: self.filled_states(collected.states),
+            params: self.filled_params().into(),
+            inputs: self.filled_inputs().into(),
+            states: self.filled_states(collected.states).into(),
             outputs: self.filled_outputs(),
-            bodies,
-            joints,
+            bodies: bodies.into(),
+            joints: joints.into(),
             tree: topology.tree,
             cuts: topology.cuts,
-            constraints,
+            constraints: constraints.into(),
             drives: loops.drives,
             solves: loops.solves,
             handling: handling.unwrap_or_default(),

@@ -252,7 +252,7 @@ impl<'a> At<'a, '_> {
     fn displacements(&self, slopes: &Slopes) -> Vec<Doubled> {
         let slope = |symbol: Symbol| self.slope(slopes, symbol);
         let displacement = |&Coordinate { joint, index }: &Coordinate| {
-            let declared = &self.laws.model.joints[joint.0];
+            let declared = &self.laws.model.joints[joint];
             let turns = declared.kind.freedoms().saturating_sub(3);
             if !has_quaternion(declared) || index < turns {
                 return slope(Symbol::Position { joint, component: index });

@@ -131,7 +131,7 @@ impl Equations<'_> {
 pub(in crate::mechanics) fn complaints(model: &Model) -> Vec<Complaint> {
     let candidates: Vec<ConstraintId> = (0..model.constraints.len())
         .map(ConstraintId)
-        .filter(|id| match &model.constraints[id.0].kind {
+        .filter(|id| match &model.constraints[*id].kind {
             ConstraintKind::Value(value) => !measured(model, value).is_empty(),
             ConstraintKind::Rod { .. } => false,
         })
@@ -162,7 +162,7 @@ pub(in crate::mechanics) fn periods(model: &Model, constraints: &[ConstraintId])
 }
 
 fn complaint(model: &Model, id: ConstraintId, coordinate: Coordinate) -> Complaint {
-    let constraint = &model.constraints[id.0];
+    let constraint = &model.constraints[id];
     let found = match &constraint.kind {
         ConstraintKind::Value(value) => measured(model, value).into_iter().find(|one| one.0 == coordinate),
         ConstraintKind::Rod { .. } => None,

@@ -1,0 +1,87 @@
+//! Stages broken on purpose: the tests switch one break on at a time and demand that it is told.
+//!
+//! Only builds with the feature `faults` can break anything; in all others every hook is `false` at compile time.
+
+/// One line of one stage that is wrong while its break is on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Break {
+    /// Newton-Euler: the sign of what the acceleration of a link's origin asks of its moment.
+    LeverSign,
+    /// Composite bodies: the sign of a component of the way by which they are shifted to their parent.
+    CompositeShift,
+    /// Derivatives: the last factor of a product has none.
+    ProductRule,
+    /// Reverse accumulation: the first term of a sum is passed nothing.
+    AdjointTerm,
+    /// Lowering finds no symbol.
+    LoweredSymbol,
+    /// A pass: terms of a common factor have the wrong sign.
+    FactoredSign,
+    /// A pass that the identity test does not see: a term of a sum within a sum is dropped.
+    FlattenedTerm,
+    /// Fields of `Model` that depend on parameters are one.
+    FieldOfParameters,
+    /// Results of a program stand in the wrong order.
+    ResultSlots,
+    /// Closed forms take the other root of the one that the conditions choose.
+    ClosedFormSign,
+    /// The last equation of a closing is lost.
+    LostRow,
+    /// A parameter is one in expressions.
+    LostParameter,
+    /// Arguments of functions are printed in the wrong order.
+    PrintedArguments,
+}
+
+impl Break {
+    pub const ALL: [Break; 13] = [
+        Break::LeverSign,
+        Break::CompositeShift,
+        Break::ProductRule,
+        Break::AdjointTerm,
+        Break::LoweredSymbol,
+        Break::FactoredSign,
+        Break::FlattenedTerm,
+        Break::FieldOfParameters,
+        Break::ResultSlots,
+        Break::ClosedFormSign,
+        Break::LostRow,
+        Break::LostParameter,
+        Break::PrintedArguments,
+    ];
+}
+
+/// Whether this line is to be wrong.
+#[cfg(not(feature = "faults"))]
+#[inline(always)]
+pub(crate) const fn broken(_: Break) -> bool {
+    false
+}
+
+#[cfg(feature = "faults")]
+pub(crate) use on::broken;
+#[cfg(feature = "faults")]
+pub use on::with;
+
+#[cfg(feature = "faults")]
+mod on {
+    use std::cell::Cell;
+
+    use super::Break;
+
+    thread_local! {
+        static ON: Cell<Option<Break>> = const { Cell::new(None) };
+    }
+
+    pub(crate) fn broken(line: Break) -> bool {
+        ON.get() == Some(line)
+    }
+
+    /// Does this work with a break, or with none.
+    pub fn with<T>(line: Option<Break>, work: impl FnOnce() -> T) -> T {
+        let before = ON.replace(line);
+        let result = work();
+        ON.set(before);
+        result
+    }
+}

@@ -1,0 +1,94 @@
+//! Stages broken on purpose, one line at a time: every break is told.
+//!
+//! `cargo test -p multibody-engine --features faults --test faults`. A model is told of a break where it is refused, or where a
+//! check has found a program wrong and what was derived stands in its place. A break that changes a model which is accepted
+//! without a word must be told by what a test compares, and each of these is named in [`BY_TESTS`].
+
+#[path = "../common/corpus.rs"]
+#[allow(dead_code)]
+mod corpus;
+mod models;
+
+use std::collections::BTreeMap;
+
+use multibody_engine::invariant::injection::{Break, with};
+use multibody_engine::model::types::Model;
+use multibody_engine::{Trouble, compile, emit, mechanics, optimize, verify};
+
+/// Breaks that a model alone cannot tell of, and what a test sees of them in the emitted code: text that stands there, and does
+/// not where the stage is broken.
+const BY_TESTS: [(Break, &str, &str); 1] =
+    // `emit::expressions` has all functions in their place.
+    [(Break::PrintedArguments, "pointer", "atan2 (T :: lit (1.0) + T :: lit (2.0) * q . hinge ,")];
+
+/// What becomes of a model.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Outcome {
+    Accepted(String),
+    /// A program was found wrong, and what it had been made from stands in its place.
+    GivenBack,
+    Refused(String),
+}
+
+fn outcome(model: &Model, line: Option<Break>) -> Outcome {
+    with(line, || match compile(model) {
+        Ok(_) if given_back(model) => Outcome::GivenBack,
+        Ok((structure, compiled)) => Outcome::Accepted(emit::emit(model, &structure, &compiled).to_string()),
+        Err(Trouble::Fault(fault)) => Outcome::Refused(format!("fault of {}: {}", fault.stage, fault.what)),
+        Err(Trouble::Refused(refusal)) => Outcome::Refused(format!("{refusal:?}")),
+        Err(Trouble::Complaints(list)) => Outcome::Refused(list[0].message.clone()),
+    })
+}
+
+/// Whether the checks tell of what the optimiser has made: all tests over the project's models demand that they do not.
+fn given_back(model: &Model) -> bool {
+    let (structure, derivation) = mechanics::of(model).expect("equations");
+    let compiled = optimize::compile(&derivation).expect("programs");
+    !compiled.sound || !verify::check(model, &structure, &derivation, &compiled).wrong.is_empty()
+}
+
+#[test]
+fn every_break_is_told() {
+    let models = models::MODELS.map(|(name, text)| (name, corpus::model(text)));
+    let plain: BTreeMap<&str, Outcome> = models.iter().map(|(name, model)| (*name, outcome(model, None))).collect();
+    for (name, found) in &plain {
+        assert!(matches!(found, Outcome::Accepted(_)), "{name} without a break: {found:?}");
+    }
+    let mut holes = Vec::new();
+    for line in Break::ALL {
+        let mut told = false;
+        for (name, model) in &models {
+            let found = outcome(model, Some(line));
+            let how = match &found {
+                Outcome::Accepted(_) if found == plain[name] => continue,
+                Outcome::Accepted(_) if BY_TESTS.iter().any(|by| by.0 == line) => "a test of what is emitted",
+                Outcome::Accepted(_) => "nothing",
+                Outcome::GivenBack => "the check of programs, which stand as they were derived",
+                Outcome::Refused(what) => what,
+            };
+            println!("{line:?} of {name} is told by {how}");
+            told = true;
+            if how == "nothing" {
+                holes.push((line, *name));
+            }
+        }
+        if !told {
+            holes.push((line, "no model"));
+        }
+    }
+    assert!(holes.is_empty(), "{holes:#?}");
+}
+
+/// What a test finds in the emitted code, and does not where the stage is broken.
+#[test]
+fn tests_tell() {
+    for (line, name, text) in BY_TESTS {
+        let model = corpus::model(models::MODELS.into_iter().find(|model| model.0 == name).expect("a model").1);
+        let emitted = |line| match outcome(&model, line) {
+            Outcome::Accepted(emitted) => emitted,
+            other => panic!("{name}: {other:?}"),
+        };
+        assert!(emitted(None).contains(text), "{}", emitted(None).split("fn outputs").nth(1).unwrap_or_default());
+        assert!(!emitted(Some(line)).contains(text));
+    }
+}

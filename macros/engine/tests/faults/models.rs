@@ -1,0 +1,67 @@
+//! Models that use every stage that is broken.
+
+/// Name and text.
+pub(crate) const MODELS: [(&str, &str); 4] = [
+    (
+        "double_pendulum",
+        "mod double_pendulum {
+            param l1 = 0.7;
+            param l2 = 0.4;
+            param m2 = 1.3;
+            world { gravity: -9.81 * Y }
+            body upper { mass: 2.0, com: -0.4 * l1 * Y, inertia: diag(0.1, 0.05, 0.12) }
+            body lower { mass: m2, com: -0.5 * l2 * Y + 0.1 * X, inertia: diag(0.1, 0.03, 0.11) }
+            joint shoulder: Universal { parent: ground, child: upper, axes: [Z, X] }
+            joint elbow: Revolute { parent: upper.at(-l1 * Y), child: lower, axis: Z }
+            emit forward_dynamics, inverse_dynamics, mass_matrix, bias, energy, derivatives, momentum;
+        }",
+    ),
+    (
+        "four_bar",
+        "mod four_bar {
+            param a = 0.1;
+            param b = 0.31;
+            param c = 0.25;
+            param d = 0.29;
+            world { gravity: -9.81 * Y }
+            body crank { mass: 0.6, com: 0.5 * a * X, inertia: diag(0.0, 0.001, 0.001) }
+            body coupler { mass: 1.1, com: 0.5 * b * X, inertia: diag(0.0, 0.01, 0.01) }
+            body rocker { mass: 0.8, com: 0.5 * c * X, inertia: diag(0.0, 0.004, 0.004) }
+            joint drive: Revolute { parent: ground, child: crank, axis: Z }
+            joint knee: Revolute { parent: crank.at(a * X), child: coupler, axis: Z }
+            joint pivot: Revolute { parent: ground.at(d * X), child: rocker, axis: Z }
+            #[cut]
+            joint close: Revolute { parent: coupler.at(b * X), child: rocker.at(c * X), axis: Z }
+            solve (knee, pivot) from close { sin(pivot - knee - drive) > 0.0 }
+            formulation { constraints: Reduced }
+            emit forward_dynamics, inverse_dynamics, mass_matrix, energy;
+        }",
+    ),
+    (
+        "held",
+        "mod held {
+            param d = 0.29;
+            world { gravity: -9.81 * Y }
+            body crank { mass: 0.6, com: 0.05 * X, inertia: diag(0.0, 0.001, 0.001) }
+            body coupler { mass: 1.1, com: 0.155 * X, inertia: diag(0.0, 0.01, 0.01) }
+            body rocker { mass: 0.8, com: 0.125 * X, inertia: diag(0.0, 0.004, 0.004) }
+            joint drive: Revolute { parent: ground, child: crank, axis: Z }
+            joint knee: Revolute { parent: crank.at(0.1 * X), child: coupler, axis: Z }
+            joint pivot: Revolute { parent: ground.at(d * X), child: rocker, axis: Z }
+            #[cut]
+            joint close: Revolute { parent: coupler.at(0.31 * X), child: rocker.at(0.25 * X), axis: Z }
+            formulation { constraints: Multipliers }
+            emit forward_dynamics, inverse_dynamics, mass_matrix, energy, derivatives;
+        }",
+    ),
+    (
+        "pointer",
+        "mod pointer {
+            world { gravity: -9.81 * Y }
+            body rod { mass: 2.0, com: -0.5 * Y, inertia: diag(0.1, 0.05, 0.12) }
+            joint hinge: Revolute { parent: ground, child: rod, axis: Z }
+            output bearing = atan2(2.0 * hinge + 1.0, cos(hinge) + 2.0);
+            emit forward_dynamics, inverse_dynamics, mass_matrix, energy;
+        }",
+    ),
+];
