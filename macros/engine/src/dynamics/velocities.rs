@@ -12,10 +12,7 @@ pub(crate) type LinkVelocity = (Vector, Vector);
 pub(crate) fn velocities(g: &mut Graph, tree: &Tree) -> Vec<LinkVelocity> {
     let mut list: Vec<LinkVelocity> = Vec::with_capacity(tree.links.len());
     for link in &tree.links {
-        let (w, v) = match link.parent.and_then(|parent| list.get(parent)) {
-            Some(&parent) => parent,
-            None => (Vector::ZERO, Vector::ZERO),
-        };
+        let (w, v) = link.parent.map_or((Vector::ZERO, Vector::ZERO), |parent| list[parent]);
         let origin = tree.origin(g, link);
         let carried = g.cross(w, origin);
         let at_joint = g.add_vectors(v, carried);

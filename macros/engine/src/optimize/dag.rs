@@ -11,6 +11,7 @@ use std::ops::{Add, Mul, Neg};
 use crate::contracts::call::Call;
 use crate::contracts::cost::Cost;
 use crate::contracts::symbol::Symbol;
+use crate::invariant::fault::OrFault;
 use crate::symbolic::fingerprint::{Point, Print};
 use crate::symbolic::graph::{BlockKind, Name, PassHasher, SymbolId};
 use crate::symbolic::number::Number;
@@ -158,7 +159,7 @@ impl Dag {
     fn stage_of(&self, kind: &Kind) -> Stage {
         match kind {
             Kind::One => Stage::Literal,
-            Kind::Symbol(id) => self.symbols.get(id.0).map_or(Stage::Input, |s| Stage::of(*s)),
+            Kind::Symbol(id) => Stage::of(self.symbols[id.0]),
             _ => self.operands(kind).map(|id| self.nodes[id].stage).max().unwrap_or(Stage::Literal),
         }
     }
@@ -314,7 +315,7 @@ impl Dag {
         let mut prints: Vec<Option<Print>> = vec![None; self.nodes.len()];
         for id in self.order() {
             let node = &self.nodes[id];
-            let value = |id: Id| prints[id].unwrap_or(Print::ZERO);
+            let value = |id: Id| prints[id].or_fault("operands stand before their users");
             let print = match &node.kind {
                 Kind::One => Print::ONE,
                 Kind::Sum(terms) => terms.iter().fold(Print::ZERO, |sum, &(c, t)| sum + value(t) * c.print()),
@@ -330,7 +331,7 @@ impl Dag {
             };
             prints[id] = Some(print);
         }
-        let value = |id: Id| prints[id].unwrap_or(Print::ZERO);
+        let value = |id: Id| prints[id].or_fault("roots stand in the order of nodes");
         self.roots.len() == expected.len()
             && self.roots.iter().zip(expected).all(|(&(c, id), &print)| value(id) * c.print() == print)
     }

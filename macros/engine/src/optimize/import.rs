@@ -7,6 +7,7 @@ use std::ops::{Div, Mul, Neg};
 
 use crate::contracts::call::Call;
 use crate::contracts::symbol::Symbol;
+use crate::invariant::fault::OrFault;
 use crate::symbolic::graph::{BlockId, Graph, Scalar, ScalarNode};
 use crate::symbolic::number::Number;
 
@@ -183,6 +184,6 @@ impl Dag {
 }
 
 fn operand(map: &HashMap<usize, (Number, Id)>, s: Scalar) -> (Number, Id) {
-    let (c, id) = map.get(&s.index()).copied().unwrap_or((Number::ZERO, ONE));
+    let (c, id) = map.get(&s.index()).copied().or_fault("operands are imported before their users");
     (if s.is_negative() { c.neg() } else { c }, id)
 }

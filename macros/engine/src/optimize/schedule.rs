@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use crate::contracts::call::Call;
 use crate::contracts::symbol::Symbol;
+use crate::invariant::fault::OrFault;
 use crate::symbolic::fingerprint::Print;
 use crate::symbolic::graph::{BlockKind, SymbolId};
 use crate::symbolic::number::Number;
@@ -140,8 +141,7 @@ impl<'a> Scheduler<'a> {
             let locals = self.block(block);
             self.results.insert(block, locals);
         }
-        let local = self.results.get(&block).and_then(|locals| locals.get(index));
-        local.map_or(Expression::Literal(f64::NAN), |&local| Expression::Local(local))
+        Expression::Local(self.results[&block][index])
     }
 
     fn block(&mut self, block: usize) -> Vec<Local> {
@@ -205,7 +205,7 @@ impl<'a> Scheduler<'a> {
         }
         self.make(body.iter().copied());
         let mut next: Vec<Expression> = body.iter().map(|&id| self.signed(id).0).collect();
-        let residual = next.pop().unwrap_or(Expression::Literal(0.0));
+        let residual = next.pop().or_fault("what an iteration computes ends with its residual");
         for (id, written, flipped) in kept {
             (self.written[id], self.flipped[id]) = (written, flipped);
             if let Kind::Output { block, .. } = self.dag.nodes[id].kind {
@@ -236,11 +236,10 @@ impl<'a> Scheduler<'a> {
         }
         let (expression, size) = match &node.kind {
             Kind::One => (Expression::Literal(1.0), 1),
-            Kind::Symbol(symbol) => match self.dag.symbols.get(symbol.0) {
+            Kind::Symbol(symbol) => match self.dag.symbols[symbol.0] {
                 // Outside its iteration an unknown is read only by values that don't change with it.
-                Some(&Symbol::Unknown { .. }) => (Expression::Literal(1.0), 1),
-                Some(&symbol) => (Expression::Symbol(symbol), 1),
-                None => (Expression::Literal(0.0), 1),
+                Symbol::Unknown { .. } => (Expression::Literal(1.0), 1),
+                symbol => (Expression::Symbol(symbol), 1),
             },
             Kind::Sum(terms) => self.sum(id, terms),
             Kind::Product(factors) => self.product(id, factors),
@@ -335,7 +334,7 @@ impl<'a> Scheduler<'a> {
 
     /// An operand as it is written, without its sign.
     fn bare(&self, id: Id) -> (Expression, usize) {
-        self.written[id].clone().unwrap_or((Expression::Literal(f64::NAN), 1))
+        self.written[id].clone().or_fault("operands are written before their users")
     }
 
     /// An operand with its sign.
@@ -387,8 +386,7 @@ impl<'a> Scheduler<'a> {
             list[..=first].rotate_right(1);
         }
         if list.len() == 1 {
-            let expression = list.pop().map_or(Expression::Literal(0.0), |t| t.1);
-            return (expression, size);
+            return (list.remove(0).1, size);
         }
         (Expression::Sum(list.into_iter().map(|(sign, e, _)| (sign, e)).collect()), size)
     }

@@ -6,6 +6,7 @@
 //! the line (Woernle 1988, Hiller and Woernle 1987: the characteristic pair of joints).
 
 use crate::dynamics::tree::Motion;
+use crate::invariant::fault::OrFault;
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
 use super::chain::{Kind, Link, Way, is_along, unit};
@@ -75,8 +76,8 @@ impl Group {
     pub(super) fn append(&mut self, g: &mut Graph, link: Link) {
         match link {
             Link::Known { rotation, .. } => {
-                // Known links carry everything.
-                let mut carry = |kind: Kind, v: Vector| link.carry(g, Way::Right, kind, v).unwrap_or(v);
+                let mut carry =
+                    |kind: Kind, v: Vector| link.carry(g, Way::Right, kind, v).or_fault("known links carry everything");
                 self.reference.right = carry(Kind::Point, self.reference.right);
                 if let Turning::About(axis) = &mut self.turning {
                     axis.right = carry(Kind::Direction, axis.right);

@@ -18,6 +18,7 @@ mod primitives;
 use std::fmt;
 
 use crate::dynamics::tree::Motion;
+use crate::invariant::fault::OrFault;
 use crate::symbolic::graph::{Graph, Rotation, Scalar, SymbolId, Vector};
 
 use chain::Link;
@@ -153,12 +154,12 @@ impl Plan {
         Some(Plan { steps })
     }
 
-    /// Solves the cycle that was planned. `signs` are one or minus one, or what is so at run time.
+    /// Solves the cycle that was planned. `signs` are one or minus one, or what is so at run time; roots beyond them are positive.
     pub fn solve(&self, g: &mut Graph, cycle: &Cycle, signs: &[Scalar]) -> Result<Solution, Failure> {
         let (mut links, unknowns) = opened(cycle);
         let (mut known, mut solved, mut choices) = (Known::default(), Vec::with_capacity(self.steps.len()), 0);
         for &Step { unknown: number, candidate, needed } in &self.steps {
-            let Some(unknown) = unknowns.get(number) else { continue };
+            let unknown = &unknowns[number];
             if needed {
                 let rest = open(&links, number);
                 let winding = winding_of(g, cycle.winding, &unknowns, &links, number);
@@ -200,7 +201,7 @@ fn winding_of(
     links: &[Link],
     number: usize,
 ) -> Option<Winding> {
-    let (sum, symbol) = (winding?, unknowns.get(number)?.symbol);
+    let (sum, symbol) = (winding?, unknowns[number].symbol);
     if !g.depends_on(sum, &[symbol]) {
         return None;
     }
@@ -219,7 +220,7 @@ fn winding_of(
 /// The cycle without one unknown, from its right side round to its left.
 fn open(links: &[Link], number: usize) -> Vec<Link> {
     let at = links.iter().position(|link| matches!(link, Link::Free { unknown, .. } if *unknown == number));
-    let at = at.unwrap_or(0);
+    let at = at.or_fault("an open unknown stands in its cycle");
     links[at + 1..].iter().chain(&links[..at]).copied().collect()
 }
 

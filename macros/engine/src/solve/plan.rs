@@ -8,6 +8,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::contracts::cost::Cost;
 use crate::dynamics::tree::Motion;
+use crate::invariant::fault::OrFault;
 use crate::symbolic::evaluate::Evaluator;
 use crate::symbolic::graph::{Graph, Rotation, RotationNode, Scalar, SymbolId, Vector};
 use crate::symbolic::lower::Lowering;
@@ -345,7 +346,7 @@ struct Copy<'g> {
 
 impl Copy<'_> {
     fn scalar(&self, s: Scalar) -> Scalar {
-        let copy = self.map.get(&s.index()).copied().unwrap_or(Scalar::ZERO);
+        let copy = self.map.get(&s.index()).copied().or_fault("scalars of a copy are there");
         if s.is_negative() { -copy } else { copy }
     }
 

@@ -7,6 +7,7 @@
 use std::collections::HashMap;
 
 use crate::contracts::call::Call;
+use crate::invariant::fault::OrFault;
 
 use super::graph::{
     AnyNode, BlockId, BlockKind, Graph, Rotation, RotationNode, Scalar, ScalarNode, SymbolId, Vector, VectorNode,
@@ -114,12 +115,11 @@ impl<'g, F: Field> Evaluator<'g, F> {
                 self.field.call(Call::Atan2, &point)
             }
             ScalarNode::Output(id, k) => {
-                let zero = self.field.literal(Number::ZERO);
                 if !self.blocks.contains_key(id) {
                     let results = self.block(*id);
                     self.blocks.insert(*id, results);
                 }
-                self.blocks.get(id).and_then(|results| results.get(*k).copied()).unwrap_or(zero)
+                self.blocks[id][*k]
             }
             ScalarNode::Component(v, axis) => self.vector(*v)[*axis],
             ScalarNode::Dot(a, b) => {
@@ -149,7 +149,8 @@ impl<'g, F: Field> Evaluator<'g, F> {
         let graph = self.graph;
         let mut values: Vec<F::Value> = start.iter().map(|&s| self.scalar(s)).collect();
         let mut residual = self.field.literal(Number::ZERO);
-        let symbols: Vec<Scalar> = unknowns.iter().filter_map(|&id| graph.symbol_handle(id)).collect();
+        let symbols: Vec<Scalar> =
+            unknowns.iter().map(|&id| graph.symbol_handle(id).or_fault("unknowns are symbols of the graph")).collect();
         let nodes = graph.reachable(body);
         let depends = graph.depending(&nodes, symbols.iter().copied());
         let own: Vec<AnyNode> = symbols.iter().map(|s| AnyNode::Scalar(s.index())).collect();
@@ -163,7 +164,7 @@ impl<'g, F: Field> Evaluator<'g, F> {
             }
             inside.iter().for_each(|&node| self.visit(node));
             let mut results = body.iter().map(|&s| self.scalar(s)).collect::<Vec<_>>();
-            residual = results.pop().unwrap_or(residual);
+            residual = results.pop().or_fault("what an iteration computes ends with its residual");
             values = results;
         }
         self.forget(&inside);
@@ -197,7 +198,7 @@ impl<'g, F: Field> Evaluator<'g, F> {
         let value = self.scalar(angle);
         // Terms were evaluated with the sum.
         let known = |s: Scalar| {
-            let value = self.scalars.get(&s.index()).copied().unwrap_or_else(|| self.field.literal(Number::ZERO));
+            let value = self.scalars.get(&s.index()).copied().or_fault("terms of an angle are evaluated with it");
             if s.is_negative() { self.field.neg(value) } else { value }
         };
         self.field.point(self.graph, angle, value, &known)
@@ -205,7 +206,7 @@ impl<'g, F: Field> Evaluator<'g, F> {
 
     fn fold(&self, values: &[F::Value], f: impl Fn(&F, F::Value, F::Value) -> F::Value) -> F::Value {
         let mut rest = values.iter();
-        let first = rest.next().copied().unwrap_or_else(|| self.field.literal(Number::ZERO));
+        let first = rest.next().copied().or_fault("sums and products have operands");
         rest.fold(first, |a, &b| f(&self.field, a, b))
     }
 

@@ -16,6 +16,8 @@ use std::ops::{Add, Mul, Neg, Sub};
 use std::sync::OnceLock;
 
 pub use super::modular::mix;
+use crate::invariant::fault::OrFault;
+
 use super::modular::{self, PRIMES_OF_TURN, Residue};
 use super::number::Number;
 
@@ -181,7 +183,7 @@ impl Residue for Print {
             return Print([root, 0]);
         }
         let quotient = modular::mul::<PRIME>(residue, modular::inverse::<PRIME>(NON_SQUARE));
-        Print([0, modular::root::<PRIME>(quotient).unwrap_or(0)])
+        Print([0, modular::root::<PRIME>(quotient).or_fault("of two numbers without a root the quotient has one")])
     }
 }
 

@@ -66,7 +66,7 @@ pub fn close(a: &Graph, xs: &[Scalar], b: &Graph, ys: &[Scalar], seed: u64, tole
     let mut points = 0;
     for attempt in 0..DRAWS {
         let values = real_point(a, mix(seed).wrapping_add(attempt));
-        let symbols = |id: SymbolId| values.get(id.0).copied().unwrap_or(f64::NAN);
+        let symbols = |id: SymbolId| values[id.0];
         let left = Evaluator::new(a, Real { symbols: &symbols }).run(xs);
         let right = Evaluator::new(b, Real { symbols: &symbols }).run(ys);
         let finite = |list: &[f64]| list.iter().all(|x| x.is_finite());
@@ -97,10 +97,9 @@ fn real_point(g: &Graph, seed: u64) -> Vec<f64> {
     let mut values: Vec<f64> =
         (0..g.symbols.len() as u64).map(|id| mix(mix(seed) ^ id) as f64 / (1_u64 << 62) as f64 - 2.0).collect();
     for &SymbolId(first) in &g.quaternions {
-        if let Some(q) = values.get_mut(first..first + 4) {
-            let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
-            q.iter_mut().for_each(|x| *x /= norm);
-        }
+        let q = &mut values[first..first + 4];
+        let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+        q.iter_mut().for_each(|x| *x /= norm);
     }
     values
 }
@@ -119,18 +118,14 @@ impl Draw {
         let seed = mix(seed ^ 0x1DE_4717);
         let mut symbols: Vec<u64> = (0..g.symbols.len() as u64).map(|id| field::reduce(mix(seed ^ mix(id)))).collect();
         for &SymbolId(first) in &g.quaternions {
-            if let Some(q) = symbols.get_mut(first..first + 4) {
-                project(q);
-            }
+            project(&mut symbols[first..first + 4]);
         }
         Draw { seed, symbols, refused: Cell::new(false) }
     }
 
     /// Gives a symbol another value.
     pub fn set(&mut self, id: SymbolId, value: u64) {
-        if let Some(symbol) = self.symbols.get_mut(id.0) {
-            *symbol = value;
-        }
+        self.symbols[id.0] = value;
     }
 
     /// Whether a root was asked for that doesn't exist here; values are of no use then.
@@ -200,7 +195,7 @@ impl Field for Modular<'_> {
     }
 
     fn symbol(&self, id: SymbolId) -> u64 {
-        self.draw.symbols.get(id.0).copied().unwrap_or(0)
+        self.draw.symbols[id.0]
     }
 
     fn add(&self, a: u64, b: u64) -> u64 {

@@ -7,6 +7,8 @@
 //! scaled so that this row is ones: others that are proportional to it become constant too. What is constant is
 //! eliminated at compile time, exactly; the rest is left to [`super::pivoted`].
 
+use crate::invariant::fault::OrFault;
+
 use super::echelon::best_pivots;
 use super::graph::{AnyNode, Graph, RotationNode, Scalar, ScalarNode, SymbolId, Vector, VectorNode};
 use super::number::Number;
@@ -65,7 +67,7 @@ pub fn solve_inputs(g: &mut Graph, known: &Known, matrix: &[Vec<Scalar>], side: 
     let Some((unknowns, left)) = found else {
         // Dependent by structure: the runtime says so.
         let (mut solutions, rank) = solve_pivoted(g, matrix, &[side.to_vec()]);
-        return Found { unknowns: solutions.pop().unwrap_or_default(), rank, constant: 0 };
+        return Found { unknowns: solutions.pop().or_fault("a right-hand side has a solution"), rank, constant: 0 };
     };
     let unknowns = unknowns.iter().zip(&scales).map(|(&x, &scale)| g.mul(x, scale)).collect();
     let rank = g.add(rank, left);
@@ -398,7 +400,7 @@ fn eliminate(
         true => (Vec::new(), Scalar::ZERO),
         false => {
             let (mut list, rank) = solve_pivoted(g, &matrix, &[side]);
-            (list.pop().unwrap_or_default(), rank)
+            (list.pop().or_fault("a right-hand side has a solution"), rank)
         }
     };
     let mut x = vec![Scalar::ZERO; n];

@@ -60,8 +60,9 @@ impl Factors {
                     a[i][j] = g.sub(a[i][j], update);
                     a[j][i] = a[i][j];
                 }
-                if let Some(&b) = rhs.get(k) {
-                    let update = g.mul(factors[k][i], b);
+                // Without a right-hand side the matrix alone is factorised.
+                if !rhs.is_empty() {
+                    let update = g.mul(factors[k][i], rhs[k]);
                     rhs[i] = g.sub(rhs[i], update);
                 }
             }
@@ -71,7 +72,7 @@ impl Factors {
 
     /// What is left of a diagonal entry once the rows before it are eliminated.
     pub fn pivot(&self, g: &mut Graph, row: usize) -> Option<Scalar> {
-        let inverse = *self.reciprocal.get(row)?;
+        let inverse = self.reciprocal[row];
         (inverse != Scalar::ZERO).then(|| g.reciprocal(inverse))
     }
 

@@ -5,6 +5,8 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
+use crate::invariant::fault::OrFault;
+
 use super::number::Number;
 
 /// What the orders of both circle groups are divisible by: multiples of 2 pi / TURN have exact sines and cosines.
@@ -157,7 +159,7 @@ impl<R: Residue> Point<R> {
     pub fn drawn(tag: u64, key: R) -> Point<R> {
         // By chance 1 + t^2 vanishes once in 2^61: then another is drawn.
         let draws = (0..8).filter_map(|attempt| Point::from_tangent(R::opaque(mix(tag + attempt), &[key])));
-        draws.into_iter().next().unwrap_or(Point::ZERO)
+        draws.into_iter().next().or_fault("one of eight draws is a point of the circle")
     }
 
     /// Of an integer multiple of the angle.

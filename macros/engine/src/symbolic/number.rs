@@ -18,6 +18,8 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::invariant::fault::OrFault;
+
 use super::check::Check;
 use super::doubled::{Doubled, ROUNDING};
 use super::fingerprint::{Print, mix, reconstruct};
@@ -63,11 +65,11 @@ impl Number {
     }
 
     /// The decimal that prints shortest among those that round to `x`: what the user has most likely written.
-    /// Zero for values that aren't finite, which earlier stages refuse.
+    /// Earlier stages refuse values that aren't finite.
     pub fn decimal(x: f64) -> Number {
         let text = format!("{x:e}");
-        let Some((mantissa, exponent)) = text.split_once('e') else { return Number::ZERO };
-        let Ok(exponent) = exponent.parse::<i32>() else { return Number::ZERO };
+        let (mantissa, exponent) = text.split_once('e').or_fault("a decimal is finite");
+        let exponent = exponent.parse::<i32>().ok().or_fault("an exponent is an integer");
         let digits = mantissa.bytes().filter(u8::is_ascii_digit).fold(0_i64, |n, d| n * 10 + i64::from(d - b'0'));
         let fraction = mantissa.split_once('.').map_or(0, |(_, f)| f.len() as i32);
         let magnitude = Number::integer(digits);

@@ -6,6 +6,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::contracts::call::Call;
+use crate::invariant::fault::OrFault;
 
 use super::elementary;
 use super::fingerprint::{Print, mix, reconstruct};
@@ -56,7 +57,7 @@ impl Graph {
         let square_of = |t: [Print; 3]| t.iter().fold(Print::ZERO, |sum, t| sum.add(t.mul(*t)));
         // By chance 1 + t^2 vanishes: then another is drawn.
         let lies = |&attempt: &u64| !Print::ONE.add(square_of(draw(attempt))).is_zero();
-        let t = draw((0..8).find(lies).unwrap_or(0));
+        let t = draw((0..8).find(lies).or_fault("one of eight draws is no pole of the sphere"));
         let square = square_of(t);
         let scale = Print::ONE.add(square).inverse();
         let vector = t.map(|t| t.add(t).mul(scale));

@@ -155,7 +155,7 @@ impl Substitution {
             ScalarNode::Output(id, k) => {
                 let block = g.block(id).clone();
                 let outputs = g.block_outputs(block.kind, &self.all(&block.operands));
-                outputs.get(k).copied().unwrap_or(s)
+                outputs[k]
             }
             ScalarNode::Component(v, axis) => g.component(self.of_vector(v), axis),
             ScalarNode::Dot(a, b) => g.dot(self.of_vector(a), self.of_vector(b)),

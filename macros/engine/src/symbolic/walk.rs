@@ -41,9 +41,7 @@ impl Marks {
             AnyNode::Vector(i) => (&mut self.vectors, i),
             AnyNode::Rotation(i) => (&mut self.rotations, i),
         };
-        if let Some(mark) = list.get_mut(i) {
-            *mark = true;
-        }
+        list[i] = true;
     }
 }
 

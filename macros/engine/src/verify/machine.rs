@@ -43,9 +43,7 @@ impl Machine<'_> {
     }
 
     fn set(&mut self, local: Local, value: f64) {
-        if let Some(slot) = self.locals.get_mut(local.0) {
-            *slot = value;
-        }
+        self.locals[local.0] = value;
     }
 
     fn statement(&mut self, statement: &Statement) {
@@ -93,8 +91,8 @@ impl Machine<'_> {
         match expression {
             Expression::Literal(x) => *x,
             Expression::Symbol(symbol) => (self.reads.symbol)(*symbol),
-            Expression::Field(field) => self.reads.fields.get(field.0).copied().unwrap_or(f64::NAN),
-            Expression::Local(local) => self.locals.get(local.0).copied().unwrap_or(f64::NAN),
+            Expression::Field(field) => self.reads.fields[field.0],
+            Expression::Local(local) => self.locals[local.0],
             Expression::Neg(x) => -self.value(x),
             Expression::Sum(terms) => {
                 let mut sum = -0.0;
@@ -112,7 +110,7 @@ impl Machine<'_> {
                 product
             }
             Expression::Quotient(a, b) => self.value(a) / self.value(b),
-            Expression::Call(Call::Sqrt, x) => x.first().map_or(f64::NAN, |x| self.value(x)).sqrt(),
+            Expression::Call(Call::Sqrt, x) => self.value(&x[0]).sqrt(),
             Expression::Call(call, list) => call_f64(*call, &self.values(list)),
         }
     }

@@ -19,6 +19,7 @@ mod trace;
 use std::collections::HashMap;
 
 use crate::contracts::function::FunctionKind;
+use crate::invariant::fault::OrFault;
 use crate::mechanics::loops::structure::Structure;
 use crate::mechanics::{Derivation, Inertia};
 use crate::model::types::Model;
@@ -280,7 +281,7 @@ fn check_inertia(derivation: &Derivation, compiled: &Compiled, drawn: &mut Drawn
 /// Results of a function as they were derived.
 fn of<'d>(derivation: &'d Derivation, function: &Function) -> &'d [Scalar] {
     let derived = derivation.functions.iter().find(|derived| derived.kind == function.kind);
-    derived.and_then(|derived| derived.candidates.get(function.candidate)).map_or(&[], |(_, roots)| &roots.list)
+    &derived.or_fault("what is compiled was derived").candidates[function.candidate].1.list
 }
 
 /// The operations of equations that stand as they were derived, component by component.

@@ -5,6 +5,7 @@
 //! coordinates of loops at or near a closed configuration, everything else at random. Parameters that open loops stay at their defaults.
 
 use crate::contracts::symbol::Symbol;
+use crate::invariant::fault::OrFault;
 use crate::mechanics::loops::structure::{Means, Structure};
 use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::types::{Coordinate, Model};
@@ -37,7 +38,7 @@ pub(super) struct State {
 
 impl State {
     pub(super) fn value(&self, id: SymbolId) -> Doubled {
-        Doubled::new(self.values.get(id.0).copied().unwrap_or(f64::NAN))
+        Doubled::new(self.values[id.0])
     }
 }
 
@@ -100,7 +101,7 @@ impl<'m> States<'m> {
 
     /// What a program reads.
     pub(super) fn value(&self, state: &State, symbol: Symbol) -> f64 {
-        self.place(symbol).and_then(|at| state.values.get(at)).copied().unwrap_or(f64::NAN)
+        state.values[self.place(symbol).or_fault("a program reads symbols of the graph")]
     }
 
     /// Whether nothing depends on how states with parameters at their defaults differ from others.
@@ -147,8 +148,7 @@ impl<'m> States<'m> {
         let mut value = |symbol: &Symbol| match *symbol {
             Symbol::Time => 0.4 + 0.4 * random.next(),
             Symbol::Param { param, element } => {
-                let default = self.model.params.get(param.0).and_then(|param| param.default.get(element)).copied();
-                let default = default.unwrap_or(0.0);
+                let default = self.model.params[param].default[element];
                 let size = if default == 0.0 { 0.5 } else { default.abs() };
                 let way = around * size * random.next();
                 if pinned.contains(&(param.0, element)) { default } else { default + way }
@@ -177,9 +177,7 @@ impl<'m> States<'m> {
         let mut state = self.draw(number, attempt);
         let mut random = Random(0x09E2 + attempt as u64);
         for &at in self.table.lists[11].iter().flatten() {
-            if let Some(x) = state.values.get_mut(at) {
-                *x += 0.3 * random.next();
-            }
+            state.values[at] += 0.3 * random.next();
         }
         state
     }
@@ -221,11 +219,9 @@ impl<'m> States<'m> {
             let Some(places) = self.table.lists[4].get(joint).and_then(|list| list.get(first..first + 4)) else {
                 continue;
             };
-            let square: f64 = places.iter().filter_map(|&at| state.values.get(at)).map(|x| x * x).sum();
+            let square: f64 = places.iter().map(|&at| state.values[at].powi(2)).sum();
             for &at in places {
-                if let Some(x) = state.values.get_mut(at) {
-                    *x /= square.sqrt();
-                }
+                state.values[at] /= square.sqrt();
             }
         }
     }

@@ -8,6 +8,7 @@
 use std::collections::HashMap;
 
 use crate::contracts::call::Call;
+use crate::invariant::fault::OrFault;
 use crate::symbolic::graph::{
     AnyNode, BlockId, BlockKind, Graph, Rotation, RotationNode, Scalar, ScalarNode, SymbolId, Vector, VectorNode,
 };
@@ -119,7 +120,7 @@ impl Tape {
     }
 
     pub(super) fn operands(&self, node: &Node) -> &[Edge] {
-        self.operands.get(node.first as usize..node.last as usize).unwrap_or(&[])
+        &self.operands[node.first as usize..node.last as usize]
     }
 
     /// Leaves out what no root needs: bodies of iterations outside of these.
@@ -220,11 +221,12 @@ impl Writer<'_> {
     }
 
     fn scalar(&self, s: Scalar) -> Edge {
-        self.known.scalars.get(&s.index()).map_or(Edge::ZERO, |edge| edge.flip_if(s.is_negative()))
+        let edge = self.known.scalars.get(&s.index()).or_fault("operands stand on the tape before their users");
+        edge.flip_if(s.is_negative())
     }
 
     fn vector(&self, v: Vector) -> [Edge; 3] {
-        let edges = self.known.vectors.get(&v.index()).copied().unwrap_or([Edge::ZERO; 3]);
+        let edges = self.known.vectors.get(&v.index()).or_fault("operands stand on the tape before their users");
         edges.map(|edge| edge.flip_if(v.is_negative()))
     }
 

@@ -6,6 +6,7 @@
 //! equations; an iteration that has converged counts with its last round, whose start makes no difference.
 
 use crate::contracts::call::Call;
+use crate::invariant::fault::OrFault;
 use crate::symbolic::doubled::Doubled;
 use crate::symbolic::graph::SymbolId;
 
@@ -124,7 +125,7 @@ impl<'t, T: Arithmetic> Trace<'t, T> {
                     at = self.iterate(block, symbol);
                     continue;
                 }
-                Op::Output(block, k) => self.blocks[block].values.get(k).copied().unwrap_or(T::ZERO),
+                Op::Output(block, k) => self.blocks[block].values[k],
             };
             self.values[at] = value;
             at += 1;
@@ -187,7 +188,7 @@ impl<'t, T: Arithmetic> Trace<'t, T> {
             }
             self.run(body.0, body.1, symbol);
             values = self.list(next);
-            residual = values.pop().unwrap_or(residual);
+            residual = values.pop().or_fault("what an iteration computes ends with its residual");
         }
         values.push(residual);
         self.blocks[block] = Results { values, solved: None };

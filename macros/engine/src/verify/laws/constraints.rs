@@ -28,7 +28,7 @@ impl At<'_, '_> {
         let mut sum = Sum::default();
         let mut weights = vec![0.0; jacobian.len()];
         for (at, &x) in jacobian.iter().enumerate() {
-            sum.product(&[x, Doubled::new(*r.get(at / n)?), Doubled::new(s[at % n])]);
+            sum.product(&[x, Doubled::new(r[at / n]), Doubled::new(s[at % n])]);
             weights[at] = r[at / n] * s[at % n];
         }
         columns.iter().zip(&s).for_each(|(&x, &s)| sum.product(&[-x, Doubled::new(s)]));

@@ -54,7 +54,7 @@ impl At<'_, '_> {
             for (i, &r) in rows_weights.iter().enumerate() {
                 for (j, &s) in s.iter().enumerate() {
                     let at = first + i * block.len() + j;
-                    sum.product(&[*given.get(at)?, Doubled::new(r), Doubled::new(s)]);
+                    sum.product(&[given[at], Doubled::new(r), Doubled::new(s)]);
                     weights[at] = r * s;
                 }
             }

@@ -101,7 +101,7 @@ impl At<'_, '_> {
             let jacobian = self.values(g)?;
             let mut weights = vec![0.0; jacobian.len()];
             for (at, &x) in jacobian.iter().enumerate() {
-                sum.product(&[-x, Doubled::new(*multipliers.get(at / n)?), Doubled::new(r[at % n])]);
+                sum.product(&[-x, Doubled::new(multipliers[at / n]), Doubled::new(r[at % n])]);
                 weights[at] = multipliers[at / n] * r[at % n];
             }
             bound += self.bound(g, &weights);
@@ -143,9 +143,9 @@ impl At<'_, '_> {
         }
         let (n, rows) = (self.dof(), self.laws.structure.rows.len());
         let found = self.values(fd)?;
-        let accelerations = found.get(self.place(fd, Slot::Velocity))?.to_vec();
+        let accelerations = found[self.place(fd, Slot::Velocity)].to_vec();
         let held = self.place(fd, Slot::Multipliers);
-        let multipliers = found.get(held.clone())?.to_vec();
+        let multipliers = found[held.clone()].to_vec();
         let r = self.weights(n);
         let mut changed: Vec<(Symbol, Doubled)> = Vec::new();
         changed.extend(self.coordinates().iter().zip(&accelerations).map(|(&c, &a)| (acceleration(c), a)));
@@ -171,7 +171,7 @@ impl At<'_, '_> {
             back.iter_mut().zip(self.by(&slopes, acceleration)).for_each(|(slot, x)| *slot = x.high);
             for row in 0..rows {
                 let place = self.laws.states.place(Symbol::Multiplier { row });
-                let slope = place.and_then(|at| slopes.symbols.get(at)).map_or(0.0, |x| x.high);
+                let slope = place.map_or(0.0, |at| slopes.symbols[at].high);
                 back[held.start + row] = slope;
             }
             sum.bound += slopes.bound;
@@ -222,7 +222,7 @@ impl At<'_, '_> {
         let (mut sum, mut weights, mut back) = (Sum::default(), vec![0.0; rows * n], vec![0.0; found.len()]);
         for (at, &x) in jacobian.iter().enumerate() {
             let (row, column) = (at / n, at % n);
-            sum.product(&[x, Doubled::new(*r.get(row)?), found[column]]);
+            sum.product(&[x, Doubled::new(r[row]), found[column]]);
             weights[at] = r[row] * found[column].high;
             back[column] += r[row] * x.high;
         }

@@ -196,7 +196,7 @@ impl At<'_, '_> {
                 let jacobian = self.with(g, &still)?.roots();
                 for (at, &x) in jacobian.iter().enumerate() {
                     let (row, column) = (held.start + at / n, at % n);
-                    sum.product(&[x, *mean.get(row)?, v[column]]);
+                    sum.product(&[x, mean[row], v[column]]);
                     weights[row] += x.high * v[column].high;
                 }
             }

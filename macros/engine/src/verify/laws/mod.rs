@@ -245,7 +245,7 @@ impl<'a> At<'a, '_> {
 
     fn slope(&self, slopes: &Slopes, symbol: Symbol) -> Doubled {
         let at = self.laws.states.place(symbol);
-        at.and_then(|at| slopes.symbols.get(at)).copied().unwrap_or(Doubled::ZERO)
+        at.map_or(Doubled::ZERO, |at| slopes.symbols[at])
     }
 
     /// Slopes by displacements of the position, in the order of the state.

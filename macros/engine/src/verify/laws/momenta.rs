@@ -120,7 +120,7 @@ impl At<'_, '_> {
         let mut sum = Sum::default();
         let (mut weights, mut back) = (vec![0.0; n * n], vec![0.0; jumps.len()]);
         for (at, &x) in mass.iter().enumerate() {
-            sum.product(&[x, Doubled::new(r[at / n]), *jumps.get(at % n)?]);
+            sum.product(&[x, Doubled::new(r[at / n]), jumps[at % n]]);
             weights[at] = r[at / n] * jumps[at % n].high;
             back[at % n] += r[at / n] * x.high;
         }
@@ -130,7 +130,7 @@ impl At<'_, '_> {
             let mut weights = vec![0.0; jacobian.len()];
             for (at, &x) in jacobian.iter().enumerate() {
                 let (row, column) = (held.start + at / n, at % n);
-                sum.product(&[x, *jumps.get(row)?, Doubled::new(r[column])]);
+                sum.product(&[x, jumps[row], Doubled::new(r[column])]);
                 weights[at] = jumps[row].high * r[column];
                 back[row] += x.high * r[column];
             }
@@ -155,7 +155,7 @@ impl At<'_, '_> {
         let (mut sum, mut weights, mut back) = (Sum::default(), vec![0.0; rows * n], vec![0.0; jumps.len()]);
         for (at, &x) in self.values(g)?.iter().enumerate() {
             let (row, column) = (at / n, at % n);
-            sum.product(&[x, Doubled::new(*r.get(row)?), jumps[column]]);
+            sum.product(&[x, Doubled::new(r[row]), jumps[column]]);
             weights[at] = r[row] * jumps[column].high;
             back[column] += r[row] * x.high;
         }

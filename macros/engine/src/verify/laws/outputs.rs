@@ -72,8 +72,8 @@ impl At<'_, '_> {
             let Some(&(velocity, ..)) = shown.quantities.iter().find(speed) else { continue };
             any = true;
             for (k, weight) in self.weights(3).into_iter().enumerate() {
-                sum.product(&[*values.get(velocity + k)?, Doubled::new(weight)]);
-                *of_positions.get_mut(position + k)? = weight;
+                sum.product(&[values[velocity + k], Doubled::new(weight)]);
+                of_positions[position + k] = weight;
                 of_velocities[velocity + k] = weight;
             }
         }
@@ -114,13 +114,13 @@ impl At<'_, '_> {
                 for (k, weight) in self.weights(count).into_iter().enumerate() {
                     for (column, &v) in v.iter().enumerate() {
                         let at = jacobian + (first + k) * n + column;
-                        sum.product(&[*values.get(at)?, v, Doubled::new(weight)]);
+                        sum.product(&[values[at], v, Doubled::new(weight)]);
                         weights[at] += v.high * weight;
                     }
                     if quantity == FrameQuantity::Position {
-                        *of_positions.get_mut(place + k)? += weight;
+                        of_positions[place + k] += weight;
                     } else {
-                        sum.product(&[-*values.get(place + k)?, Doubled::new(weight)]);
+                        sum.product(&[-values[place + k], Doubled::new(weight)]);
                         weights[place + k] -= weight;
                     }
                 }
