@@ -156,10 +156,8 @@ impl<'a> Layout<'a> {
         self.joints = model.joints.iter().map(|_| Vec::new()).collect();
         for coordinate in &structure.state {
             let id = coordinate.joint;
-            let Some(joint) = model.joints.get(id.0) else {
-                continue;
-            };
-            if self.joints.get(id.0).is_none_or(|pieces| !pieces.is_empty()) {
+            let joint = &model.joints[id];
+            if !self.joints[id.0].is_empty() {
                 continue;
             }
             for piece in joints::pieces(joint.kind, &joints::held(model, &structure.state, id)) {
@@ -168,9 +166,7 @@ impl<'a> Layout<'a> {
                 let [of_position, of_velocity] = piece.docs(joint);
                 self.add(Group::Position, &place, piece.position.clone(), of_position);
                 let index = self.add(Group::Velocity, &place, piece.velocity.clone(), of_velocity);
-                if let Some(pieces) = self.joints.get_mut(id.0) {
-                    pieces.push((index, piece));
-                }
+                self.joints[id.0].push((index, piece));
             }
         }
     }
@@ -182,9 +178,7 @@ impl<'a> Layout<'a> {
         self.guessed = vec![(usize::MAX, 0); unknowns.len()];
         for (number, coordinate) in unknowns.iter().enumerate() {
             let id = coordinate.joint;
-            let Some(joint) = model.joints.get(id.0) else {
-                continue;
-            };
+            let joint = &model.joints[id];
             if unknowns.iter().take(number).any(|other| other.joint == id) {
                 continue;
             }
@@ -196,9 +190,7 @@ impl<'a> Layout<'a> {
                 let mut start = vec![0.0; piece.position.size()];
                 for (known, unknown) in unknowns.iter().enumerate().filter(|(_, unknown)| unknown.joint == id) {
                     let Some(component) = piece.component(false, unknown.index) else { continue };
-                    if let Some(place) = self.guessed.get_mut(known) {
-                        *place = (entry, component);
-                    }
+                    self.guessed[known] = (entry, component);
                     let closed = structure.closed.first().and_then(|closed| closed.value(model, *unknown));
                     if let Some((place, value)) = start.get_mut(component).zip(closed) {
                         *place = value;

@@ -19,7 +19,7 @@ use std::rc::Rc;
 use crate::contracts::function::{Asked, FunctionKind};
 use crate::contracts::results::Results;
 use crate::dynamics::shared_axes::Axes;
-use crate::model::site::Sited;
+use crate::invariant::fault::raise;
 use crate::model::types::{BodyRef, Coordinate, Joint, JointId, Model, Request};
 use crate::symbolic::graph::{Graph, Scalar};
 
@@ -160,11 +160,7 @@ impl<'m> Deriving<'m> {
         for kind in kinds(model, &self.structure) {
             let candidates = self.candidates(kind)?;
             if candidates.is_empty() {
-                return Err(vec![Complaint {
-                    at: model.site(),
-                    message: format!("no way was found to derive a function of `{}`", model.name),
-                    help: Some("this is an error of multibody: please report it with the model".to_owned()),
-                }]);
+                raise("there is a way to each function");
             }
             functions.push(Derived { kind, candidates });
         }

@@ -250,7 +250,7 @@ impl Across {
                 let along = g.component(d, axis);
                 g.mul(pitch, along)
             }
-            _ => Scalar::ZERO,
+            Some(Motion::Revolute(_) | Motion::Ball(_)) | None => Scalar::ZERO,
         }
     }
 

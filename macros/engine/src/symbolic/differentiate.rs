@@ -11,6 +11,7 @@
 use std::collections::HashMap;
 
 use crate::contracts::call::Call;
+use crate::invariant::fault::raise;
 use crate::invariant::injection::{Break, broken};
 
 use super::graph::{
@@ -242,7 +243,8 @@ impl Differentiator {
                 g.mul(slope, self.of(x))
             }
             // Masks are constant but where they jump.
-            _ => Scalar::ZERO,
+            (call, _) if call.is_mask() => Scalar::ZERO,
+            _ => raise("a function has a derivative for its number of arguments"),
         }
     }
 
@@ -383,7 +385,11 @@ fn slope(g: &mut Graph, s: Scalar, call: Call, x: Scalar) -> Scalar {
         }
         Call::Exp => s,
         Call::Ln => g.reciprocal(x),
-        _ => Scalar::ZERO,
+        Call::Signum | Call::Less | Call::LessEqual | Call::Equal | Call::And | Call::Or | Call::Not => Scalar::ZERO,
+        Call::Atan2 | Call::Powf | Call::Sqrt | Call::Abs | Call::Min | Call::Max | Call::Select => {
+            raise("a function with a rule of its own is derived by it")
+        }
+        Call::Epsilon | Call::Nan => raise("a function of one argument is derived"),
     }
 }
 

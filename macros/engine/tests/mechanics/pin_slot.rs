@@ -30,7 +30,7 @@ fn taken(from: &Case, point: &Point, to: &Case) -> Point {
     let coordinates = |case: &Case| -> Vec<(Symbol, Symbol, Symbol)> {
         let joints = (0..case.model.joints.len()).map(multibody_engine::model::types::JointId);
         let all = joints.flat_map(|joint| {
-            let freedoms = case.model.joints[joint.0].kind.freedoms();
+            let freedoms = case.model.joints[joint].kind.freedoms();
             (0..freedoms).map(move |component| {
                 let (position, velocity) =
                     (Symbol::Position { joint, component }, Symbol::Velocity { joint, component });

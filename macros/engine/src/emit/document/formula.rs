@@ -4,7 +4,7 @@
 
 use crate::emit::layout::Layout;
 use crate::emit::print::literals;
-use crate::model::types::{BodyRef, Comparison, Coordinate, Expr, ExprNode, Frame, FrameQuantity, Order, Place};
+use crate::model::types::{BodyRef, Comparison, Coordinate, Expr, ExprNode, Frame, FrameQuantity, Order};
 
 /// As many nodes are written.
 const MOST: usize = 60;
@@ -43,15 +43,14 @@ impl Writer<'_> {
 
     fn node(&mut self, node: &ExprNode) -> (String, Level) {
         let layout = self.layout;
-        let name = |place: Option<&Place>| place.map_or_else(|| "..".to_string(), |place| layout.name(place));
         let model = layout.model;
         let text = match node {
             ExprNode::Number(value) => literals::text(*value),
             ExprNode::Pi => "PI".to_string(),
             ExprNode::Time => "t".to_string(),
-            ExprNode::Param(id) => name(model.params.get(id.0).map(|param| &param.place)),
-            ExprNode::Input(id) => name(model.inputs.get(id.0).map(|input| &input.place)),
-            ExprNode::State(id) => name(model.states.get(id.0).map(|state| &state.place)),
+            ExprNode::Param(id) => layout.name(&model.params[*id].place),
+            ExprNode::Input(id) => layout.name(&model.inputs[*id].place),
+            ExprNode::State(id) => layout.name(&model.states[*id].place),
             ExprNode::Coordinate { joint, index, order } => {
                 let order = match order {
                     Order::Position => "",

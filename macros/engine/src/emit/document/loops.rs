@@ -30,9 +30,7 @@ impl Layout<'_> {
 
     /// Name of any coordinate of a joint in the tree.
     pub(in crate::emit) fn coordinate(&self, coordinate: Coordinate) -> String {
-        let Some(joint) = self.model.joints.get(coordinate.joint.0) else {
-            return String::new();
-        };
+        let joint = &self.model.joints[coordinate.joint];
         let leaf = Leaf::velocity(joint.kind);
         let access = leaf.map_or_else(String::new, |leaf| access(&leaf, coordinate.index));
         format!("{}{access}", self.name(&joint.place))
@@ -137,12 +135,12 @@ fn closings(layout: &Layout<'_>) -> Vec<Line> {
             (kept, solved) => format!("{kept}, and {solved} solved"),
         }
     };
-    let cuts = model.cuts.iter().filter_map(|id| {
-        let joint = model.joints.get(id.0)?;
+    let cuts = model.cuts.iter().map(|id| {
+        let joint = &model.joints[*id];
         let (parent, child) = (frame(layout, &joint.parent), frame(layout, &joint.child));
         let kind = joint.kind.word.to_string();
         let cells = vec![kind, parent, child, count(Closing::Cut(*id)), text(&joint.docs)];
-        Some(row(layout, &joint.place, cells))
+        row(layout, &joint.place, cells)
     });
     let constraints = model.constraints.iter().enumerate().map(|(number, constraint)| {
         let (kind, parent, child) = match &constraint.kind {
@@ -166,10 +164,10 @@ fn dependents(layout: &Layout<'_>, step: &Step) -> String {
     let unknowns = listed(unknowns).unwrap_or_default();
     let closing = |closing: Closing| {
         let place = match closing {
-            Closing::Cut(joint) => model.joints.get(joint.0).map(|joint| &joint.place),
-            Closing::Constraint(id) => model.constraints.get(id.0).map(|constraint| &constraint.place),
+            Closing::Cut(joint) => &model.joints[joint].place,
+            Closing::Constraint(id) => &model.constraints[id].place,
         };
-        place.map_or_else(String::new, |place| quoted(&layout.name(place)))
+        quoted(&layout.name(place))
     };
     match &step.means {
         Means::Linear(constraint) => {

@@ -95,7 +95,7 @@ pub(super) fn pieces(kind: &'static JointKind, held: &[bool]) -> Vec<Piece> {
 
 /// Which coordinates of a joint are among these.
 pub(in crate::emit) fn held(model: &Model, coordinates: &[Coordinate], joint: JointId) -> Vec<bool> {
-    let freedoms = model.joints.get(joint.0).map_or(0, |joint| joint.kind.freedoms());
+    let freedoms = model.joints[joint].kind.freedoms();
     let mut held = vec![false; freedoms];
     for coordinate in coordinates.iter().filter(|coordinate| coordinate.joint == joint) {
         if let Some(place) = held.get_mut(coordinate.index) {

@@ -219,18 +219,16 @@ impl<'a> Blocks<'a> {
         inside
             .flat_map(Live::defined)
             .filter(move |local| self.last_use(*local).is_some_and(|last| last >= to))
-            .filter_map(|local| self.names.locals.get(local.0))
+            .map(|local| &self.names.locals[local.0])
     }
 
     fn last_use(&self, local: Local) -> Option<usize> {
-        self.last_use.get(local.0).copied().flatten()
+        self.last_use[local.0]
     }
 
     fn name(&self, local: Local) -> TokenStream {
-        match self.names.locals.get(local.0) {
-            Some(name) if self.last_use(local).is_some() => quote!(#name),
-            _ => quote!(_),
-        }
+        let name = &self.names.locals[local.0];
+        if self.last_use(local).is_some() { quote!(#name) } else { quote!(_) }
     }
 
     /// Expands to `let a = ..;`, `let (sin_a, cos_a) = Real::sin_cos(..);`, a solve or a loop.
@@ -293,14 +291,14 @@ impl<'a> Blocks<'a> {
         residual: Option<&(Local, Expression)>,
         body: &[Live<'_>],
     ) -> TokenStream {
-        let names: Vec<&Ident> = locals.iter().filter_map(|local| self.names.locals.get(local.0)).collect();
+        let names: Vec<&Ident> = locals.iter().map(|local| &self.names.locals[local.0]).collect();
         let start = start.into_iter().map(|e| self.names.expression(e));
         let mut after = next.clone();
         let mut out = quote!(#(let mut #names = #start;)*);
         let next: Vec<TokenStream> = next.into_iter().map(|e| self.names.expression(e)).collect();
         let mut last = TokenStream::new();
         if let Some((local, value)) = residual {
-            let name = self.names.locals.get(local.0);
+            let name = &self.names.locals[local.0];
             after.push(value);
             let value = self.names.expression(value);
             out.extend(quote!(let mut #name = T::lit(0.0);));
@@ -345,13 +343,11 @@ fn paragraphs<'a>(live: &[Live<'_>], headings: &'a [Option<Arc<str>>]) -> Vec<(u
 }
 
 fn get(list: &[bool], local: Local) -> bool {
-    list.get(local.0).copied().unwrap_or(false)
+    list[local.0]
 }
 
 fn set<V>(list: &mut [V], local: Local, value: V) {
-    if let Some(place) = list.get_mut(local.0) {
-        *place = value;
-    }
+    list[local.0] = value;
 }
 
 fn each_local(expression: &Expression, visit: &mut dyn FnMut(Local)) {

@@ -63,11 +63,11 @@ impl Names<'_> {
             }
             Expression::Symbol(symbol) => self.layout.symbol(*symbol),
             Expression::Field(field) => {
-                let field = self.fields.get(field.0);
+                let field = &self.fields[field.0];
                 quote!(self.#field)
             }
             Expression::Local(local) => {
-                let local = self.locals.get(local.0);
+                let local = &self.locals[local.0];
                 quote!(#local)
             }
             Expression::Sum(terms) => self.sum(terms),

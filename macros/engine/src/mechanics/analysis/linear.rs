@@ -52,7 +52,7 @@ fn coupling(e: &mut Equations<'_>, model: &Model, constraint: ConstraintId) -> O
     let mut terms = Vec::new();
     for (joint, component) in positions(e, residual) {
         // No component of a quaternion is a coordinate.
-        let kind = model.joints.get(joint.0)?;
+        let kind = &model.joints[joint];
         if has_quaternion(kind) && component + 3 >= kind.kind.freedoms() {
             return None;
         }

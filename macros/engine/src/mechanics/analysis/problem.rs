@@ -257,7 +257,7 @@ impl Problem {
 
     /// By joint the components of its position.
     pub(super) fn positions(&self, point: &Point) -> Vec<Vec<f64>> {
-        let value = |&symbol: &usize| point.0.get(symbol).copied().unwrap_or(0.0);
+        let value = |&symbol: &usize| point.0[symbol];
         self.positions.iter().map(|symbols| symbols.iter().map(value).collect()).collect()
     }
 

@@ -282,7 +282,7 @@ impl Reduction<'_> {
     /// Number of joints between the ground and what this one carries.
     fn depth(&self, joint: JointId) -> usize {
         let carrier =
-            |joint: JointId| match self.model.joints.get(joint.0)?.parent.body {
+            |joint: JointId| match self.model.joints[joint].parent.body {
                 BodyRef::Ground => None,
                 BodyRef::Body(body) => self.model.tree.iter().copied().find(|id| {
                     self.model.joints.get(id.0).is_some_and(|joint| joint.child.body == BodyRef::Body(body))

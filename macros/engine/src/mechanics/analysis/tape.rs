@@ -60,7 +60,7 @@ impl Tape {
         let mut place = vec![usize::MAX; g.len()];
         let (mut nodes, mut operands): (Vec<Node>, Vec<Edge>) = (Vec::new(), Vec::new());
         let edge = |place: &[usize], s: &Scalar| Edge {
-            node: place.get(s.index()).copied().unwrap_or(0),
+            node: place[s.index()],
             sign: if s.is_negative() { -1.0 } else { 1.0 },
         };
         for &index in &reachable {
@@ -148,7 +148,7 @@ impl Tape {
             let operands = &self.operands[node.first..node.last];
             let value = match node.op {
                 Op::Literal(x) => x,
-                Op::Symbol(id) => symbols.get(id).copied().unwrap_or(0.0),
+                Op::Symbol(id) => symbols[id],
                 Op::Sum => {
                     let mut sum = 0.0;
                     for edge in operands {

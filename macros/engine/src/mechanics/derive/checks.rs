@@ -70,8 +70,8 @@ impl Equations<'_> {
     fn passes(&self, test: &Test) -> bool {
         let value = |id: SymbolId| match self.scene.symbols.table.get(id.0) {
             Some(&Symbol::Param { param, element }) => {
-                let param = self.scene.model.params.get(param.0);
-                param.and_then(|param| param.default.get(element)).copied().unwrap_or(0.0)
+                let param = &self.scene.model.params[param];
+                param.default[element]
             }
             _ => 0.0,
         };

@@ -55,13 +55,13 @@ impl Deriving<'_> {
                 let message = "`momentum` knows no guess, and a loop of this model is closed by Newton's method";
                 refuse(message, "write a `solve` for the loop");
             }
-            let cuts = model.cuts.iter().filter_map(|joint| model.joints.get(joint.0));
+            let cuts = model.cuts.iter().map(|&joint| &model.joints[joint]);
             if let Some(joint) = cuts.into_iter().find(|joint| joint.armature.is_some()) {
                 let message =
                     format!("`momentum` has no place for the armature of `{}`, which closes a loop", joint.place.field);
                 refuse(&message, "leave the joint in the tree, or write the rotor as a body of its own");
             }
-            let quaternion = |at: &&Coordinate| model.joints.get(at.joint.0).is_some_and(has_quaternion);
+            let quaternion = |at: &&Coordinate| has_quaternion(&model.joints[at.joint]);
             if let Some(joint) = structure.state.iter().find(quaternion).and_then(|at| model.joints.get(at.joint.0)) {
                 let name = path(model, &joint.place);
                 let message =

@@ -8,6 +8,7 @@ use std::rc::Rc;
 use crate::contracts::results::Results;
 use crate::dynamics::lumped;
 use crate::dynamics::shared_axes::Axes;
+use crate::invariant::fault::raise;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::constraints;
@@ -189,9 +190,10 @@ impl<'m> Deriving<'m> {
         self.graph = equations.g;
         self.decided = equations.decided;
         let results = results?;
-        // A net: what a way has left unreplaced has no place in the generated structs.
-        let finished = !unfinished(&self.graph, &results.list);
-        debug_assert!(finished, "{name} leaves a coordinate that is not in the state");
-        Ok((exists && finished).then_some((name, results)))
+        // What a way has left unreplaced has no place in the generated structs.
+        if unfinished(&self.graph, &results.list) {
+            raise("a way leaves no coordinate that is not in the state");
+        }
+        Ok(exists.then_some((name, results)))
     }
 }

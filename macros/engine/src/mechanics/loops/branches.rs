@@ -98,7 +98,7 @@ impl Equations<'_> {
         reduction: &Reduction,
     ) -> Result<Vec<(Coordinate, Solved)>, Vec<Complaint>> {
         let model = self.scene.model;
-        let Some(item) = model.solves.get(number) else { return Ok(Vec::new()) };
+        let item = &model.solves[number];
         let SolveHow::From { closing, branches } = &item.how else { return Ok(Vec::new()) };
         let cycle = self.cycle(*closing, item);
         if let Some(branch) = self.decided.branches.0.get(&number).cloned() {
@@ -459,13 +459,9 @@ impl Equations<'_> {
     fn sample(&self, id: SymbolId, draw: u64, scale: f64) -> f64 {
         let random = 2.0 * unit(draw, id.0 as u64 + 1) - 1.0;
         match self.scene.symbols.table.get(id.0) {
-            Some(&Symbol::Param { param, element }) => {
-                let param = self.scene.model.params.get(param.0);
-                param.and_then(|param| param.default.get(element)).copied().unwrap_or(0.0)
-            }
+            Some(&Symbol::Param { param, element }) => self.scene.model.params[param].default[element],
             Some(&Symbol::Position { joint, component }) => {
-                let joint = self.scene.model.joints.get(joint.0);
-                let length = joint.is_some_and(|joint| joint.kind.is_slide(component));
+                let length = self.scene.model.joints[joint].kind.is_slide(component);
                 if length { scale * random } else { std::f64::consts::PI * random }
             }
             _ => random,

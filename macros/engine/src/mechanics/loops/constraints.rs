@@ -94,8 +94,8 @@ impl Writing {
 /// Number of equations that a closing gives.
 pub fn row_count(model: &Model, closing: Closing) -> usize {
     match closing {
-        Closing::Cut(joint) => model.joints.get(joint.0).map_or(0, |joint| joint.kind.rows().count()),
-        Closing::Constraint(id) => usize::from(model.constraints.get(id.0).is_some()),
+        Closing::Cut(joint) => model.joints[joint].kind.rows().count(),
+        Closing::Constraint(_) => 1,
     }
 }
 
@@ -107,7 +107,7 @@ pub fn is_length(model: &Model, closing: Closing, index: usize) -> bool {
 
 /// What an equation of a cut joint belongs to.
 fn hold(model: &Model, joint: JointId, index: usize) -> Option<Hold> {
-    model.joints.get(joint.0)?.kind.rows().nth(index)
+    model.joints[joint].kind.rows().nth(index)
 }
 
 /// Whether an equation is one of three components of the way between a joint's frames, in the axes of the [`Writing`]; all
@@ -126,7 +126,7 @@ pub fn closings(model: &Model) -> Vec<Closing> {
 
 /// Whether a cut screw knows its angle up to whole turns only.
 pub(in crate::mechanics) fn is_uncounted(model: &Model, joint: JointId) -> bool {
-    if !model.joints.get(joint.0).is_some_and(|joint| joint.kind.has_pitch) {
+    if !model.joints[joint].kind.has_pitch {
         return false;
     }
     Equations::plain(model).turns_unknown(joint)
@@ -150,7 +150,7 @@ impl Equations<'_> {
             Closing::Cut(joint) => self.cut(joint).map_or_else(Vec::new, |cut| self.cut_residuals(&cut, writing)),
             Closing::Constraint(id) => {
                 let model = self.scene.model;
-                let Some(constraint) = model.constraints.get(id.0) else { return Vec::new() };
+                let constraint = &model.constraints[id];
                 match &constraint.kind {
                     ConstraintKind::Value(_) => vec![self.expression_residual(id)],
                     ConstraintKind::Rod { between, length } => {

@@ -68,7 +68,7 @@ impl Equations<'_> {
         let velocities = Symbols::of(&self.scene.symbols.velocities, joint).to_vec();
         let accelerations = Symbols::of(&self.scene.symbols.accelerations, joint).to_vec();
         let first = velocities.len().saturating_sub(3);
-        if !self.scene.model.joints.get(joint.0).is_some_and(has_quaternion) {
+        if !has_quaternion(&self.scene.model.joints[joint]) {
             for (k, angle) in self.roll_pitch_yaw(rows).into_iter().enumerate() {
                 self.follow(Coordinate { joint, index: first + k }, angle, reduction);
             }

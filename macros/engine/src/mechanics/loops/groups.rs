@@ -123,10 +123,10 @@ fn looped(model: &Model, loops: &[Loop], shapes: &mut Shapes<'_>) -> Vec<Group> 
     }
     let name = |closing: &Closing| {
         let place = match closing {
-            Closing::Cut(id) => model.joints.get(id.0).map(|joint| &joint.place),
-            Closing::Constraint(id) => model.constraints.get(id.0).map(|constraint| &constraint.place),
+            Closing::Cut(id) => &model.joints[*id].place,
+            Closing::Constraint(id) => &model.constraints[*id].place,
         };
-        place.map_or_else(String::new, |place| path(model, place))
+        path(model, place)
     };
     let several = order.into_iter().filter(|members| members.len() > 1);
     several
@@ -137,7 +137,7 @@ fn looped(model: &Model, loops: &[Loop], shapes: &mut Shapes<'_>) -> Vec<Group> 
 /// Branches and rows, from the ground outwards; what is inside a member is not looked at again.
 fn open(model: &Model, forest: &Forest<'_>, shapes: &mut Shapes<'_>, groups: &mut Vec<Group>) {
     let mut add = |what: Repeated, joints: &[JointId]| {
-        let joints = joints.iter().filter_map(|id| model.joints.get(id.0));
+        let joints = joints.iter().map(|&id| &model.joints[id]);
         groups.push(Group {
             what,
             closings: Vec::new(),
@@ -220,7 +220,7 @@ impl<'m> Forest<'m> {
         let count = model.bodies.len();
         let mut forest = Forest { model, joints: vec![None; count], children: vec![Vec::new(); count + 1] };
         for &id in &model.tree {
-            let Some(joint) = model.joints.get(id.0) else { continue };
+            let joint = &model.joints[id];
             if let BodyRef::Body(body) = joint.child.body {
                 forest.joints[body.0] = Some(id);
             }
@@ -236,7 +236,7 @@ impl<'m> Forest<'m> {
 
     /// The body that a joint of the tree carries.
     fn body(&self, joint: JointId) -> Option<BodyId> {
-        match self.model.joints.get(joint.0)?.child.body {
+        match self.model.joints[joint].child.body {
             BodyRef::Ground => None,
             BodyRef::Body(body) => Some(body),
         }
@@ -255,7 +255,7 @@ impl<'m> Forest<'m> {
         while let BodyRef::Body(body) = at {
             let Some(joint) = self.joints.get(body.0).copied().flatten() else { break };
             chain.push(joint);
-            at = self.model.joints.get(joint.0).map_or(BodyRef::Ground, |joint| joint.parent.body);
+            at = self.model.joints[joint].parent.body;
         }
         chain.reverse();
         chain
@@ -264,10 +264,10 @@ impl<'m> Forest<'m> {
     fn around(&self, closing: Closing) -> Option<Loop> {
         let (from, to) = match closing {
             Closing::Cut(id) => {
-                let joint = self.model.joints.get(id.0)?;
+                let joint = &self.model.joints[id];
                 (&joint.parent, &joint.child)
             }
-            Closing::Constraint(id) => match &self.model.constraints.get(id.0)?.kind {
+            Closing::Constraint(id) => match &self.model.constraints[id].kind {
                 ConstraintKind::Rod { between, .. } => (&between[0], &between[1]),
                 ConstraintKind::Value(_) => return None,
             },

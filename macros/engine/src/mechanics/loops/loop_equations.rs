@@ -27,7 +27,7 @@ impl Equations<'_> {
     /// The sum of all angles of a loop that counts turns. That of a screw which closes it stands there as its coordinate.
     fn cycle_winding(&mut self, id: JointId) -> Option<Scalar> {
         let sum = self.counted_turns(id)?;
-        let screw = self.scene.model.joints.get(id.0)?.kind.has_pitch;
+        let screw = self.scene.model.joints[id].kind.has_pitch;
         // The first of the closing's own coordinates, see `closing_motions`.
         let own = if screw { self.scene.symbols.unwanted(0) } else { Scalar::ZERO };
         Some(self.g.sub(sum, own))
@@ -38,7 +38,7 @@ impl Equations<'_> {
         let mut cycle = Vec::new();
         match closing {
             Closing::Cut(id) => {
-                let Some(joint) = model.joints.get(id.0) else { return cycle };
+                let joint = &model.joints[id];
                 let (from, to) = (self.place(&joint.parent), self.place(&joint.child));
                 let common = self.common(from.link, to.link);
                 self.outwards_to(&from, common, item, &mut cycle);
@@ -46,7 +46,7 @@ impl Equations<'_> {
                 self.back_from(&to, common, item, &mut cycle);
             }
             Closing::Constraint(id) => {
-                let Some(ConstraintKind::Rod { between, length }) = model.constraints.get(id.0).map(|c| &c.kind) else {
+                let ConstraintKind::Rod { between, length } = &model.constraints[id].kind else {
                     return cycle;
                 };
                 let (from, to) = (self.place(&between[0]), self.place(&between[1]));

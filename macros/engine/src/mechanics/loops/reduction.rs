@@ -11,6 +11,7 @@
 use std::collections::HashMap;
 
 use crate::contracts::symbol::Symbol;
+use crate::invariant::fault::OrFault;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::names;
@@ -141,13 +142,12 @@ impl Equations<'_> {
     pub(in crate::mechanics) fn coordinate_symbols(&self, coordinate: Coordinate) -> [Scalar; 3] {
         let Coordinate { joint, index } = coordinate;
         let symbols = &self.scene.symbols;
-        [&symbols.positions, &symbols.velocities, &symbols.accelerations]
-            .map(|lists| Symbols::of(lists, joint).get(index).copied().unwrap_or(Scalar::ZERO))
+        [&symbols.positions, &symbols.velocities, &symbols.accelerations].map(|lists| Symbols::of(lists, joint)[index])
     }
 
     /// Place of a coordinate among all of the tree.
     pub(in crate::mechanics) fn freedom(&self, coordinate: Coordinate) -> usize {
-        self.scene.symbols.first.get(coordinate.joint.0).copied().unwrap_or(0) + coordinate.index
+        self.scene.symbols.first[coordinate.joint.0] + coordinate.index
     }
 
     /// A map from symbols to what replaces them.
@@ -165,10 +165,9 @@ impl Equations<'_> {
             Means::Linear(id) => Ok(self.coupling(id, step).into_iter().collect()),
             Means::Solve(item) => {
                 let model = self.scene.model;
-                match model.solves.get(item).map(|solve| &solve.how) {
-                    Some(SolveHow::Formulas(formulas)) => Ok(self.formulas(formulas, step)),
-                    Some(SolveHow::From { .. }) => self.closed_forms(item, reduction),
-                    None => Ok(Vec::new()),
+                match &model.solves[item].how {
+                    SolveHow::Formulas(formulas) => Ok(self.formulas(formulas, step)),
+                    SolveHow::From { .. } => self.closed_forms(item, reduction),
                 }
             }
             Means::Newton { .. } => Ok(self.iterate(step, newton, reduction)),
@@ -339,7 +338,7 @@ impl Equations<'_> {
             Newton::Iterated => {
                 let operands: Vec<Scalar> = start.into_iter().chain(next).chain([residual]).collect();
                 let mut outputs = self.g.block_outputs(kind, &operands);
-                let residual = outputs.pop().unwrap_or(Scalar::ZERO);
+                let residual = outputs.pop().or_fault("an iteration has a residual");
                 (outputs, residual)
             }
         }
@@ -392,11 +391,8 @@ impl Equations<'_> {
         if reduction.rates.is_empty() {
             return projected;
         }
-        let (outputs, weights): (Vec<Scalar>, Vec<Scalar>) = reduction
-            .rates
-            .iter()
-            .map(|&(freedom, rate)| (rate, efforts.get(freedom).copied().unwrap_or(Scalar::ZERO)))
-            .unzip();
+        let (outputs, weights): (Vec<Scalar>, Vec<Scalar>) =
+            reduction.rates.iter().map(|&(freedom, rate)| (rate, efforts[freedom])).unzip();
         let velocities: Vec<Scalar> = self.scene.symbols.velocities.concat();
         let dependent: Vec<usize> = reduction.rates.iter().map(|rate| rate.0).collect();
         let free: Vec<usize> = (0..velocities.len()).filter(|k| !dependent.contains(k)).collect();

@@ -32,7 +32,7 @@ impl Equations<'_> {
         let model = self.scene.model;
         let mut rotors = Vec::new();
         for &joint in &model.cuts {
-            let Some(armature) = model.joints.get(joint.0).and_then(|joint| joint.armature.as_ref()) else { continue };
+            let Some(armature) = &model.joints[joint].armature else { continue };
             let armature = self.scalar(armature);
             if armature == Scalar::ZERO {
                 continue;
@@ -55,9 +55,8 @@ impl Equations<'_> {
             for &(i, a) in &rotor.slopes {
                 for &(j, b) in &rotor.slopes {
                     let term = self.g.product(&[rotor.armature, a, b]);
-                    if let Some(entry) = matrix.get_mut(i * size + j) {
-                        *entry = self.g.add(*entry, term);
-                    }
+                    let entry = &mut matrix[i * size + j];
+                    *entry = self.g.add(*entry, term);
                 }
             }
         }
@@ -68,10 +67,8 @@ impl Equations<'_> {
         for rotor in self.rotors().iter() {
             let push = self.rotor_effort(rotor, accelerations);
             for &(freedom, slope) in &rotor.slopes {
-                if let Some(effort) = efforts.get_mut(freedom) {
-                    let term = self.g.mul(slope, push);
-                    *effort = self.g.add(*effort, term);
-                }
+                let term = self.g.mul(slope, push);
+                efforts[freedom] = self.g.add(efforts[freedom], term);
             }
         }
     }

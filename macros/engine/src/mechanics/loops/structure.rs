@@ -67,7 +67,7 @@ pub struct Closed {
 impl Closed {
     /// The value of a coordinate that is a number; nothing for a part of a quaternion.
     pub fn value(&self, model: &Model, coordinate: Coordinate) -> Option<f64> {
-        let joint = model.joints.get(coordinate.joint.0)?;
+        let joint = &model.joints[coordinate.joint];
         if has_quaternion(joint) && coordinate.index + 3 >= joint.kind.freedoms() {
             return None;
         }

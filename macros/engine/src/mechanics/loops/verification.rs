@@ -55,22 +55,28 @@ impl Equations<'_> {
 
     fn closing_name(&self, closing: Closing) -> String {
         let place = match closing {
-            Closing::Cut(id) => self.scene.model.joints.get(id.0).map(|joint| &joint.place),
-            Closing::Constraint(id) => self.scene.model.constraints.get(id.0).map(|constraint| &constraint.place),
+            Closing::Cut(id) => &self.scene.model.joints[id].place,
+            Closing::Constraint(id) => &self.scene.model.constraints[id].place,
         };
-        place.map_or_else(String::new, |place| super::constraints::path(self.scene.model, place))
+        super::constraints::path(self.scene.model, place)
     }
 
     /// The conditions that have chosen a solution hold for the one that was made.
     fn verify_branches(&mut self, reduction: &Reduction) {
-        let chosen = |item: &Solve| matches!(&item.how, SolveHow::From { branches, .. } if !branches.is_empty());
-        if !self.scene.model.solves.iter().any(chosen) {
+        let model = self.scene.model;
+        let structure = std::rc::Rc::clone(&self.scene.structure);
+        let items = structure.steps.iter().filter_map(|step| match step.means {
+            Means::Solve(item) => Some(&model.solves[item]),
+            Means::Linear(_) | Means::Newton { .. } => None,
+        });
+        let items: Vec<&Solve> = items.collect();
+        if !items.iter().any(|item| matches!(&item.how, SolveHow::From { branches, .. } if !branches.is_empty())) {
             return;
         }
         // What is made here is forgotten: how functions are written does not depend on what was checked before.
         let (graph, caches) = (self.g.clone(), self.caches.clone());
         let (mut unknowns, mut conditions) = (Vec::new(), Vec::new());
-        for item in &self.scene.model.solves {
+        for item in items {
             if let SolveHow::From { branches, .. } = &item.how {
                 unknowns.extend(item.unknowns.iter().map(|&u| self.coordinate_symbols(u)[0]));
                 conditions.extend(branches.iter().map(|condition| self.scalar(condition)));

@@ -60,6 +60,6 @@ impl Equations<'_> {
         // Multipliers and the accelerations of the state are found first: both are in the efforts.
         self.accelerations();
         let efforts = self.projected_efforts(&reduction, LoadCase::Held);
-        efforts.get(self.freedom(coordinate)).copied().unwrap_or(Scalar::ZERO)
+        efforts[self.freedom(coordinate)]
     }
 }

@@ -86,7 +86,7 @@ impl Equations<'_> {
             rates.extend(self.g.substitute(&[rate], &map));
         }
         let efforts = self.inverse_dynamics(LoadCase::Held);
-        let effort = |at: usize| efforts.get(at).copied().unwrap_or(Scalar::ZERO);
+        let effort = |at: usize| efforts[at];
         let mut balances = Vec::with_capacity(unknowns.len());
         for &unknown in unknowns {
             let velocity = self.coordinate_symbols(unknown)[1];

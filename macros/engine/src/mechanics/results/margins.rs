@@ -14,6 +14,7 @@ use std::collections::HashMap;
 
 use crate::contracts::call::Call;
 use crate::contracts::results::{Results, Slot};
+use crate::invariant::fault::OrFault;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::loops::structure::{Means, Role, Structure};
@@ -71,7 +72,7 @@ impl Equations<'_> {
         matrix.push(Scalar::ZERO);
         rhs.push(Scalar::ONE);
         let found = self.solve_block(size + 1, &matrix, &rhs);
-        let g = found.last().copied().unwrap_or(Scalar::ZERO);
+        let g = found.last().copied().or_fault("a margin is one expression");
         let square = self.g.mul(g, g);
         let sum = self.g.add(Scalar::ONE, square);
         let root = self.g.call(Call::Sqrt, &[sum]);
@@ -105,5 +106,5 @@ fn determinant(g: &mut Graph, size: usize, entries: &[Scalar]) -> Scalar {
         minors = sums.into_iter().map(|(columns, terms)| (columns, g.sum(&terms))).collect();
     }
     let all = (1_u32 << size).wrapping_sub(1);
-    minors.get(&all).copied().unwrap_or(Scalar::ZERO)
+    minors.get(&all).copied().or_fault("the minor of all rows is the last")
 }

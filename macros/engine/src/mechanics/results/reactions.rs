@@ -91,9 +91,7 @@ impl Equations<'_> {
         let mut multiplied = self.rows_with_multipliers();
         multiplied.extend(self.holding_multipliers().iter().copied());
         let drives = |row: &Row| match row.closing {
-            Closing::Constraint(id) => {
-                self.scene.model.constraints.get(id.0).is_some_and(|c| c.drive == Some(coordinate))
-            }
+            Closing::Constraint(id) => self.scene.model.constraints[id].drive == Some(coordinate),
             Closing::Cut(_) => false,
         };
         multiplied.iter().find(|(row, _)| drives(row)).map_or(Scalar::ZERO, |&(_, multiplier)| -multiplier)

@@ -63,7 +63,7 @@ impl Equations<'_> {
             if !self.decided.branches.is_fixed(item) {
                 return None;
             }
-            let (chain, link, pin) = self.chain(model.joints.get(ball.0)?)?;
+            let (chain, link, pin) = self.chain(&model.joints[ball])?;
             if *held.get_or_insert(link) != link {
                 return None;
             }

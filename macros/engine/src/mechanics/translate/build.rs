@@ -64,7 +64,7 @@ impl Mechanism {
     pub fn body(&self, body: BodyRef) -> Place {
         match body {
             BodyRef::Ground => Place::GROUND,
-            BodyRef::Body(id) => self.bodies.get(id.0).copied().unwrap_or(Place::GROUND),
+            BodyRef::Body(id) => self.bodies[id.0],
         }
     }
 
@@ -109,10 +109,8 @@ impl Equations<'_> {
         mechanism.tree.velocity = velocity;
         mechanism.tree.acceleration = acceleration;
         for &id in &model.tree {
-            if let Some(joint) = model.joints.get(id.0) {
-                let kept = self.scene.kept.contains(&id);
-                self.attach(&mut mechanism, id, joint, kept);
-            }
+            let kept = self.scene.kept.contains(&id);
+            self.attach(&mut mechanism, id, &model.joints[id], kept);
         }
         for (body, place) in model.bodies.iter().zip(mechanism.bodies.clone()) {
             self.load(&mut mechanism.tree, body, place);
@@ -137,21 +135,15 @@ impl Equations<'_> {
         let end = chain.end;
         if let (Some(armature), Some(link)) = (&joint.armature, end.link) {
             let armature = self.scalar(armature);
-            if let Some(link) = mechanism.tree.links.get_mut(link) {
-                link.armature = armature;
-            }
+            mechanism.tree.links[link].armature = armature;
         }
-        if let Some(slot) = mechanism.joints.get_mut(id.0) {
-            *slot = JointLinks { links: start..mechanism.tree.links.len(), child: Some(end) };
-        }
+        mechanism.joints[id.0] = JointLinks { links: start..mechanism.tree.links.len(), child: Some(end) };
         // The child frame, R and p in the body, is the chain's end: the body is R^T and -R^T p in that.
         let (rotation, offset) = self.steps(&joint.child);
         let back = rotations::rotate(&mut self.g, rotation.transpose(), offset);
         let place = end.then(&mut self.g, rotation.transpose(), -back);
-        if let BodyRef::Body(body) = joint.child.body
-            && let Some(slot) = mechanism.bodies.get_mut(body.0)
-        {
-            *slot = place;
+        if let BodyRef::Body(body) = joint.child.body {
+            mechanism.bodies[body.0] = place;
         }
     }
 

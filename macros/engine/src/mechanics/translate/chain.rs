@@ -66,8 +66,8 @@ impl Equations<'_> {
     /// Appends the links of a joint.
     pub(in crate::mechanics) fn append(&mut self, chain: &mut Chain<'_>, id: JointId, joint: &Joint, kept: bool) {
         let q = Symbols::of(&self.scene.symbols.positions, id).to_vec();
-        let q = |k: usize| q.get(k).copied().unwrap_or(Scalar::ZERO);
-        let first = self.scene.symbols.first.get(id.0).copied().unwrap_or(0);
+        let q = |k: usize| q[k];
+        let first = self.scene.symbols.first[id.0];
         let kind = joint.kind;
         if kind.freedoms() == 0 && kept {
             let tree = &mut chain.mechanism.tree;

@@ -7,6 +7,7 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 use crate::contracts::call::Call;
+use crate::invariant::fault::{OrFault, raise};
 use crate::invariant::injection::{Break, broken};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::structure::Role;
@@ -15,7 +16,7 @@ use crate::symbolic::graph::{Rotation, Scalar, Vector};
 use crate::symbolic::rotations;
 
 use super::directions;
-use super::values::{Part, Value};
+use super::values::{Part, TYPES, Value};
 
 /// Values of expressions.
 #[derive(Clone, Default)]
@@ -56,7 +57,12 @@ impl Equations<'_> {
 
     /// The value of an operand, which is there when its user is translated.
     fn known(&self, expr: &Expr) -> Value {
-        self.caches.memo.known.get(&Rc::as_ptr(&expr.node)).cloned().unwrap_or(Value::ZERO)
+        self.caches
+            .memo
+            .known
+            .get(&Rc::as_ptr(&expr.node))
+            .cloned()
+            .or_fault("operands are translated before their users")
     }
 
     fn known_vector(&mut self, expr: &Expr) -> Vector {
@@ -72,16 +78,14 @@ impl Equations<'_> {
                 if broken(Break::LostParameter) {
                     return Value::Scalar(Scalar::ONE);
                 }
-                let list = self.scene.symbols.params.get(id.0).cloned().unwrap_or_default();
-                let ty = self.scene.model.params.get(id.0).map(|param| &param.ty);
-                self.shaped(&list, ty)
+                let scene = Rc::clone(&self.scene);
+                self.shaped(&scene.symbols.params[id.0], &scene.model.params[*id].ty)
             }
             ExprNode::Input(id) => {
-                let list = self.scene.symbols.inputs.get(id.0).cloned().unwrap_or_default();
-                let ty = self.scene.model.inputs.get(id.0).map(|input| &input.ty);
-                self.shaped(&list, ty)
+                let scene = Rc::clone(&self.scene);
+                self.shaped(&scene.symbols.inputs[id.0], &scene.model.inputs[*id].ty)
             }
-            ExprNode::State(id) => Value::Scalar(self.scene.symbols.states.get(id.0).copied().unwrap_or(Scalar::ZERO)),
+            ExprNode::State(id) => Value::Scalar(self.scene.symbols.states[id.0]),
             &ExprNode::Coordinate { joint, index, order } => {
                 Value::Scalar(self.coordinate(Coordinate { joint, index }, order))
             }
@@ -155,15 +159,15 @@ impl Equations<'_> {
                 let position = self.known_vector(position);
                 let rows = match self.known(orientation) {
                     Value::Rotation(rows) => *rows,
-                    _ => rotations::rows(&mut self.g, Rotation::IDENTITY),
+                    _ => raise(TYPES),
                 };
                 Value::Pose(position, super::orientation::of_rows(&mut self.g, &rows))
             }
             ExprNode::Array(list) => Value::Array(list.iter().map(|e| self.known(e)).collect()),
             ExprNode::Index(array, index) => match self.known(array) {
-                Value::Array(list) => list.get(*index).cloned().unwrap_or(Value::ZERO),
+                Value::Array(list) => list[*index].clone(),
                 Value::Vector(v) => Value::Scalar(self.g.component(v, (*index).min(2))),
-                _ => Value::ZERO,
+                _ => raise(TYPES),
             },
             ExprNode::Component(vector, axis) => {
                 let vector = self.known_vector(vector);
@@ -171,11 +175,11 @@ impl Equations<'_> {
             }
             ExprNode::Linear(pair) => match self.known(pair) {
                 Value::Pair(first, _) | Value::Pose(first, _) => Value::Vector(first),
-                _ => Value::ZERO,
+                _ => raise(TYPES),
             },
             ExprNode::Angular(pair) => match self.known(pair) {
                 Value::Pair(_, second) => Value::Vector(second),
-                _ => Value::ZERO,
+                _ => raise(TYPES),
             },
             ExprNode::Neg(a) => self.known(a).map(&mut self.g, &mut |_, part| match part {
                 Part::Scalar(s) => Part::Scalar(-s),
@@ -185,7 +189,7 @@ impl Equations<'_> {
             ExprNode::Sub(a, b) => self.both(a, b, |g, x, y| g.sub(x, y), |g, x, y| g.sub_vectors(x, y)),
             ExprNode::Mul(a, b) => match (self.known(a), self.known(b)) {
                 (Value::Scalar(x), y) | (y, Value::Scalar(x)) => self.scaled(x, &y),
-                _ => Value::ZERO,
+                _ => raise(TYPES),
             },
             ExprNode::Div(a, b) => {
                 let divisor = self.known(b).scalar();
@@ -213,7 +217,7 @@ impl Equations<'_> {
                     g.vector(chosen)
                 })
             }
-            _ => Value::ZERO,
+            _ => raise(TYPES),
         }
     }
 

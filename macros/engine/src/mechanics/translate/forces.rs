@@ -67,10 +67,8 @@ impl Terms {
     }
 
     pub(in crate::mechanics) fn wrench(&mut self, link: usize, moment: Vector, force: Vector) {
-        if let (Some(moments), Some(forces)) = (self.moments.get_mut(link), self.forces.get_mut(link)) {
-            moments.push(moment);
-            forces.push(force);
-        }
+        self.moments[link].push(moment);
+        self.forces[link].push(force);
     }
 
     pub(in crate::mechanics) fn effort(&mut self, freedom: usize, effort: Scalar) {
@@ -194,7 +192,7 @@ impl Equations<'_> {
                 self.act_across(terms, *joint, &values, false);
             }
             ForceKind::Effort { joint, values } => {
-                let first = self.scene.symbols.first.get(joint.0).copied().unwrap_or(0);
+                let first = self.scene.symbols.first[joint.0];
                 for (k, value) in values.iter().enumerate() {
                     let value = self.scalar(value);
                     terms.effort(first + k, value);
@@ -265,7 +263,8 @@ impl Equations<'_> {
         held: bool,
     ) -> Option<([Place; 2], Wrench)> {
         let model = self.scene.model;
-        let joint = model.joints.get(id.0)?;
+        let joint = &model.joints[id];
+        // What stands behind the last that is given is zero.
         let effort = |k: usize| efforts.get(k).copied().unwrap_or(Scalar::ZERO);
         let ends = [self.place(&joint.parent), self.place(&joint.child)];
         // In the axes of the parent's frame, but for what belongs to axes of the child.
@@ -386,7 +385,7 @@ impl Equations<'_> {
 
     fn derived_power(&mut self, id: ForceId) -> Scalar {
         let model = self.scene.model;
-        let Some(force) = model.forces.get(id.0) else { return Scalar::ZERO };
+        let force = &model.forces[id];
         match &force.kind {
             ForceKind::Effort { joint, values } => {
                 let mut terms = Vec::with_capacity(values.len());

@@ -300,9 +300,9 @@ impl Equations<'_> {
         if self.scene.model.cuts.contains(&joint) {
             return self.measured_angular_velocity(joint);
         }
-        let Some(joint) = mechanism.joints.get(joint.0) else { return Vector::ZERO };
+        let joint = &mechanism.joints[joint.0];
         let mut angular = Vector::ZERO;
-        for link in tree.links.get(joint.links.clone()).unwrap_or(&[]) {
+        for link in &tree.links[joint.links.clone()] {
             let carried =
                 if link.parent.is_some_and(|parent| joint.links.contains(&parent)) { angular } else { Vector::ZERO };
             let carried = tree.to_link(&mut self.g, link, carried);

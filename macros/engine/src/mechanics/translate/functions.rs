@@ -3,6 +3,7 @@
 //! In: values of arguments. Out: nodes; what the graph has rules for (sine, root, product) is said in its own terms.
 
 use crate::contracts::call::Call;
+use crate::invariant::fault::raise;
 use crate::mechanics::equations::Equations;
 use crate::model::types::{Comparison, Function, Type};
 use crate::symbolic::graph::{Graph, Scalar, ScalarNode};
@@ -11,38 +12,39 @@ use super::values::Value;
 
 /// A function of the language.
 pub(in crate::mechanics) fn call(g: &mut Graph, function: Function, arguments: &[Value]) -> Value {
-    let argument = |k: usize| arguments.get(k).cloned().unwrap_or(Value::ZERO);
-    let (x, y) = (argument(0).scalar(), argument(1).scalar());
+    let argument = |k: usize| arguments[k].clone();
+    let x = || argument(0).scalar();
+    let y = || argument(1).scalar();
     Value::Scalar(match function {
-        Function::Sin => g.sin(x),
-        Function::Cos => g.cos(x),
-        Function::Tan => g.call(Call::Tan, &[x]),
-        Function::Asin => g.call(Call::Asin, &[x]),
-        Function::Acos => g.call(Call::Acos, &[x]),
-        Function::Atan => g.call(Call::Atan, &[x]),
-        Function::Atan2 => g.call(Call::Atan2, &[x, y]),
-        Function::Sinh => g.call(Call::Sinh, &[x]),
-        Function::Cosh => g.call(Call::Cosh, &[x]),
-        Function::Tanh => g.call(Call::Tanh, &[x]),
-        Function::Exp => g.call(Call::Exp, &[x]),
-        Function::Ln => g.call(Call::Ln, &[x]),
-        Function::Sqrt => g.sqrt(x),
-        Function::Abs => g.call(Call::Abs, &[x]),
-        Function::Signum => g.call(Call::Signum, &[x]),
-        Function::Min => g.call(Call::Min, &[x, y]),
-        Function::Max => g.call(Call::Max, &[x, y]),
-        Function::Hypot => g.length([x, y, Scalar::ZERO]),
+        Function::Sin => g.sin(x()),
+        Function::Cos => g.cos(x()),
+        Function::Tan => g.call(Call::Tan, &[x()]),
+        Function::Asin => g.call(Call::Asin, &[x()]),
+        Function::Acos => g.call(Call::Acos, &[x()]),
+        Function::Atan => g.call(Call::Atan, &[x()]),
+        Function::Atan2 => g.call(Call::Atan2, &[x(), y()]),
+        Function::Sinh => g.call(Call::Sinh, &[x()]),
+        Function::Cosh => g.call(Call::Cosh, &[x()]),
+        Function::Tanh => g.call(Call::Tanh, &[x()]),
+        Function::Exp => g.call(Call::Exp, &[x()]),
+        Function::Ln => g.call(Call::Ln, &[x()]),
+        Function::Sqrt => g.sqrt(x()),
+        Function::Abs => g.call(Call::Abs, &[x()]),
+        Function::Signum => g.call(Call::Signum, &[x()]),
+        Function::Min => g.call(Call::Min, &[x(), y()]),
+        Function::Max => g.call(Call::Max, &[x(), y()]),
+        Function::Hypot => g.length([x(), y(), Scalar::ZERO]),
         Function::Powi => {
-            let power = g.literal(y).map_or(0.0, |n| n.value());
+            let power = g.literal(y()).map_or(0.0, |n| n.value());
             // Within range: a saturating cast of what the checker has seen to be an integer.
-            g.powi(x, power as i32)
+            g.powi(x(), power as i32)
         }
-        Function::Powf => g.call(Call::Powf, &[x, y]),
+        Function::Powf => g.call(Call::Powf, &[x(), y()]),
         Function::Deg => {
             let degree = g.integer(180);
             let degree = g.reciprocal(degree);
             let pi = g.pi();
-            g.product(&[x, pi, degree])
+            g.product(&[x(), pi, degree])
         }
         Function::Dot => {
             let (a, b) = (argument(0).vector(g), argument(1).vector(g));
@@ -92,15 +94,15 @@ pub(in crate::mechanics) fn compare(g: &mut Graph, comparison: Comparison, a: Sc
 
 impl Equations<'_> {
     /// A param or input in its declared shape, from its flattened scalars.
-    pub(in crate::mechanics) fn shaped(&mut self, list: &[Scalar], ty: Option<&Type>) -> Value {
+    pub(in crate::mechanics) fn shaped(&mut self, list: &[Scalar], ty: &Type) -> Value {
         match (ty, list) {
-            (Some(Type::Vec3), &[x, y, z]) => Value::Vector(self.g.vector([x, y, z])),
-            (Some(Type::Array(element, _)), _) => {
+            (Type::Vec3, &[x, y, z]) => Value::Vector(self.g.vector([x, y, z])),
+            (Type::Array(element, _), _) => {
                 let width = element.scalars().max(1);
-                Value::Array(list.chunks(width).map(|part| self.shaped(part, Some(element))).collect())
+                Value::Array(list.chunks(width).map(|part| self.shaped(part, element)).collect())
             }
-            (_, &[x, ..]) => Value::Scalar(x),
-            _ => Value::ZERO,
+            (Type::Scalar, &[x]) => Value::Scalar(x),
+            _ => raise("a symbol has as many scalars as its type"),
         }
     }
 }

@@ -110,12 +110,12 @@ impl Symbols {
 
     /// Where an iteration starts.
     pub fn guess(&self, index: usize) -> Scalar {
-        self.guesses.get(index).copied().unwrap_or(Scalar::ZERO)
+        self.guesses[index]
     }
 
     /// The unknown of an iteration, inside it.
     pub fn unknown(&self, index: usize) -> Scalar {
-        self.unknowns.get(index).copied().unwrap_or(Scalar::ZERO)
+        self.unknowns[index]
     }
 
     /// A placeholder for a coordinate of what closes a loop.
@@ -193,7 +193,7 @@ impl Symbols {
 
     /// The scalars of one joint's list, or nothing.
     pub fn of(lists: &[Vec<Scalar>], joint: JointId) -> &[Scalar] {
-        lists.get(joint.0).map_or(&[], Vec::as_slice)
+        &lists[joint.0]
     }
 }
 

@@ -70,7 +70,7 @@ impl Equations<'_> {
 
     fn move_joint(&mut self, id: JointId, velocities: &[Scalar], seeds: &mut Seeds) {
         let positions = Symbols::of(&self.scene.symbols.positions, id).to_vec();
-        let turns = self.scene.model.joints.get(id.0).is_some_and(has_quaternion) && positions.len() >= 4;
+        let turns = has_quaternion(&self.scene.model.joints[id]) && positions.len() >= 4;
         let straight = if turns { positions.len() - 4 } else { positions.len() };
         let mut rates: Vec<Scalar> = velocities.iter().copied().take(straight).collect();
         if let (true, [.., w, i, j, k], [.., x, y, z]) = (turns, &positions[..], velocities) {

@@ -4,6 +4,7 @@
 
 use std::rc::Rc;
 
+use crate::invariant::fault::raise;
 use crate::model::types::Type;
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
@@ -37,14 +38,14 @@ pub(in crate::mechanics) fn width(ty: &Type, freedoms: usize) -> usize {
     }
 }
 
-impl Value {
-    pub(in crate::mechanics) const ZERO: Value = Value::Scalar(Scalar::ZERO);
+/// What the checker of the model sees to.
+pub(in crate::mechanics) const TYPES: &str = "operands have the types that their operation takes";
 
-    /// Zero where the checker has let something else through.
+impl Value {
     pub(in crate::mechanics) fn scalar(&self) -> Scalar {
         match self {
             Value::Scalar(s) => *s,
-            _ => Scalar::ZERO,
+            _ => raise(TYPES),
         }
     }
 
@@ -54,9 +55,9 @@ impl Value {
             Value::Vector(v) => *v,
             Value::Array(list) => match &list[..] {
                 [x, y, z] => g.vector([x.scalar(), y.scalar(), z.scalar()]),
-                _ => Vector::ZERO,
+                _ => raise(TYPES),
             },
-            _ => Vector::ZERO,
+            _ => raise(TYPES),
         }
     }
 
@@ -121,7 +122,7 @@ impl Value {
             (Value::Array(a), Value::Array(b)) => {
                 Value::Array(a.iter().zip(b.iter()).map(|(x, y)| x.zip(y, g, scalars, vectors)).collect())
             }
-            _ => self.clone(),
+            _ => raise(TYPES),
         }
     }
 }
@@ -137,14 +138,14 @@ impl Part {
     fn scalar(self) -> Scalar {
         match self {
             Part::Scalar(s) => s,
-            Part::Vector(_) => Scalar::ZERO,
+            Part::Vector(_) => raise(TYPES),
         }
     }
 
     fn vector(self) -> Vector {
         match self {
             Part::Vector(v) => v,
-            Part::Scalar(_) => Vector::ZERO,
+            Part::Scalar(_) => raise(TYPES),
         }
     }
 }

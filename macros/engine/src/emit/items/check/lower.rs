@@ -26,7 +26,7 @@ fn lower(model: &Model, expr: &Expr) -> Option<Vec<Expression>> {
         ExprNode::Number(value) => vec![Expression::Literal(*value)],
         ExprNode::Pi => vec![Expression::Literal(PI)],
         ExprNode::Param(param) => {
-            let count = model.params.get(param.0)?.ty.scalars();
+            let count = model.params[*param].ty.scalars();
             let symbol = |element| Symbol::Param { param: *param, element };
             (0..count).map(|i| Expression::Symbol(symbol(i))).collect()
         }

@@ -12,7 +12,7 @@ pub(in crate::emit) fn value(model: &Model, expression: &Expression) -> Option<f
     let of = |expression: &Expression| value(model, expression);
     Some(match expression {
         Expression::Literal(value) => *value,
-        Expression::Symbol(Symbol::Param { param, element }) => *model.params.get(param.0)?.default.get(*element)?,
+        Expression::Symbol(Symbol::Param { param, element }) => *model.params[*param].default.get(*element)?,
         Expression::Neg(a) => -of(a)?,
         Expression::Sum(terms) => {
             let mut sum = 0.0;

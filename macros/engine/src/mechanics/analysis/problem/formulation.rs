@@ -155,8 +155,8 @@ impl Equations<'_> {
             let (SolveHow::Formulas(list), Handling::Reduced) = (&solve.how, &model.handling) else { continue };
             for (k, (formula, unknown)) in list.iter().zip(&solve.unknowns).enumerate() {
                 let value = self.scalar(formula);
-                let x = Symbols::of(&self.scene.symbols.positions, unknown.joint).get(unknown.index).copied();
-                let residual = self.g.sub(x.unwrap_or(Scalar::ZERO), value);
+                let x = Symbols::of(&self.scene.symbols.positions, unknown.joint)[unknown.index];
+                let residual = self.g.sub(x, value);
                 drafts.push(Draft {
                     source: Source::Formula(number, k),
                     residual,
@@ -170,7 +170,7 @@ impl Equations<'_> {
 
     fn rod_length(&mut self, closing: Closing) -> Option<Scalar> {
         let Closing::Constraint(id) = closing else { return None };
-        match &self.scene.model.constraints.get(id.0)?.kind {
+        match &self.scene.model.constraints[id].kind {
             ConstraintKind::Rod { length, .. } => Some(self.scalar(length)),
             ConstraintKind::Value(_) => None,
         }
@@ -218,7 +218,7 @@ impl Equations<'_> {
         let mut offsets: Vec<_> = mechanism.tree.links.iter().map(|link| link.offset).collect();
         let mut lengths = Vec::new();
         let mut frames = Vec::new();
-        for joint in model.cuts.iter().filter_map(|id| model.joints.get(id.0)) {
+        for joint in model.cuts.iter().map(|&id| &model.joints[id]) {
             frames.extend([&joint.parent, &joint.child]);
         }
         for constraint in &model.constraints {
@@ -242,7 +242,7 @@ fn columns(model: &Model, e: &Equations<'_>) -> (Vec<Mover>, Vec<Quaternion>, Ve
     for (joint, velocities) in e.scene.symbols.velocities.iter().enumerate() {
         let id = JointId(joint);
         let first = columns.len();
-        let turns = model.joints.get(joint).is_some_and(has_quaternion) && velocities.len() >= 3;
+        let turns = has_quaternion(&model.joints[id]) && velocities.len() >= 3;
         let straight = velocities.len() - if turns { 3 } else { 0 };
         for index in 0..velocities.len() {
             columns.push(Column {
@@ -309,13 +309,12 @@ fn defaults(model: &Model, symbols: &Symbols, off: f64) -> Vec<f64> {
     let mut random = Random(11);
     let value = |symbol: &Symbol| match *symbol {
         Symbol::Param { param, element } => {
-            let default = model.params.get(param.0).and_then(|param| param.default.get(element)).copied();
-            let default = default.unwrap_or(0.0);
+            let default = model.params[param].default[element];
             default + off * (1.0 + default.abs()) * random.next()
         }
         Symbol::Position { joint, component } => {
-            let joint = model.joints.get(joint.0);
-            let turns = joint.is_some_and(|joint| has_quaternion(joint) && component == joint.kind.freedoms() - 3);
+            let joint = &model.joints[joint];
+            let turns = has_quaternion(joint) && component == joint.kind.freedoms() - 3;
             f64::from(u8::from(turns))
         }
         _ => 0.0,

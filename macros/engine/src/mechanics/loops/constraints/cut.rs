@@ -42,7 +42,7 @@ pub(super) struct Cut {
 impl Equations<'_> {
     pub(super) fn cut(&mut self, id: JointId) -> Option<Cut> {
         let model = self.scene.model;
-        let joint = model.joints.get(id.0)?;
+        let joint = &model.joints[id];
         let mut ends = [self.place(&joint.parent), self.place(&joint.child)];
         let axes = self.joint_axes(joint);
         // Both frames so that the directions are coordinate axes, or the opposite of one: no equation minds.

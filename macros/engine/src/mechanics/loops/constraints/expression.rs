@@ -81,7 +81,7 @@ impl Equations<'_> {
 
     fn find_slopes(&mut self, id: ConstraintId) -> Slopes {
         let model = self.scene.model;
-        let Some(constraint) = model.constraints.get(id.0) else { return Slopes::default() };
+        let constraint = &model.constraints[id];
         let ConstraintKind::Value(value) = &constraint.kind else { return Slopes::default() };
         if let Some(coordinate) = constraint.drive {
             return Slopes { efforts: vec![(coordinate, Scalar::ONE)], ..Slopes::default() };

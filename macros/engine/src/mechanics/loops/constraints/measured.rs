@@ -53,20 +53,19 @@ impl Equations<'_> {
                 Order::Acceleration => self.measured_acceleration(coordinate),
             };
         }
-        let found = match order {
-            Order::Position => Symbols::of(&self.scene.symbols.positions, joint).get(index).copied(),
-            Order::Rate => Symbols::of(&self.scene.symbols.velocities, joint).get(index).copied(),
+        match order {
+            Order::Position => Symbols::of(&self.scene.symbols.positions, joint)[index],
+            Order::Rate => Symbols::of(&self.scene.symbols.velocities, joint)[index],
             Order::Acceleration => {
                 let freedom = self.freedom(coordinate);
-                self.accelerations().get(freedom).copied()
+                self.accelerations()[freedom]
             }
-        };
-        found.unwrap_or(Scalar::ZERO)
+        }
     }
 
     pub(in crate::mechanics) fn measured_position(&mut self, Coordinate { joint, index }: Coordinate) -> Scalar {
         let model = self.scene.model;
-        let Some(joint) = model.joints.get(joint.0) else { return Scalar::ZERO };
+        let joint = &model.joints[joint];
         let ends = [self.place(&joint.parent), self.place(&joint.child)];
         let axes = self.joint_axes(joint);
         if let Some(pitch) = &joint.pitch {
@@ -97,7 +96,7 @@ impl Equations<'_> {
     /// quarter.
     pub(super) fn is_angle(&mut self, Coordinate { joint, index }: Coordinate) -> bool {
         let model = self.scene.model;
-        let Some(joint) = model.joints.get(joint.0) else { return false };
+        let joint = &model.joints[joint];
         let turns = joint.kind.freedoms.get(index).is_some_and(|freedom| freedom.motion == Motion::Turns);
         let travels = joint.pitch.as_ref().is_some_and(|pitch| self.scalar(pitch) != Scalar::ZERO);
         turns && !travels && joint.kind.pitch() != Some(index)
@@ -169,7 +168,7 @@ impl Equations<'_> {
 
     pub(in crate::mechanics) fn dual(&mut self, Coordinate { joint, index }: Coordinate) -> Option<Dual> {
         let model = self.scene.model;
-        let joint = model.joints.get(joint.0)?;
+        let joint = &model.joints[joint];
         let [parent, child] = [self.place(&joint.parent), self.place(&joint.child)];
         let Some(freedom) = joint.kind.freedoms.get(index) else {
             let own = self.axis_in_link(&child, index - joint.kind.freedoms.len());
@@ -223,9 +222,8 @@ impl Equations<'_> {
 
     fn measured_rate(&mut self, coordinate: Coordinate) -> Scalar {
         let model = self.scene.model;
-        let (Some(dual), Some(joint)) = (self.dual(coordinate), model.joints.get(coordinate.joint.0)) else {
-            return Scalar::ZERO;
-        };
+        let Some(dual) = self.dual(coordinate) else { return Scalar::ZERO };
+        let joint = &model.joints[coordinate.joint];
         let ends = [self.place(&joint.parent), self.place(&joint.child)];
         let (common, [way, rate], [parent, child]) = self.motion_between(&ends);
         let g = &mut self.g;
@@ -265,7 +263,7 @@ impl Equations<'_> {
     /// The child's angular velocity relative to the parent, in the axes of the joint's child frame.
     pub(in crate::mechanics) fn measured_angular_velocity(&mut self, joint: JointId) -> Vector {
         let model = self.scene.model;
-        let Some(joint) = model.joints.get(joint.0) else { return Vector::ZERO };
+        let joint = &model.joints[joint];
         let ends = [self.place(&joint.parent), self.place(&joint.child)];
         let (common, _, [parent, child]) = self.motion_between(&ends);
         let angular = self.g.sub_vectors(child, parent);

@@ -41,7 +41,7 @@ impl Equations<'_> {
     /// The same point on the body beyond a cut joint.
     fn beyond(&mut self, point: &Place, id: JointId) -> Option<Place> {
         let cut = self.cut(id)?;
-        let kind = self.scene.model.joints.get(id.0)?.kind;
+        let kind = self.scene.model.joints[id].kind;
         for [near, far] in [cut.ends, [cut.ends[1], cut.ends[0]]] {
             let local = match point.link == near.link {
                 true => {

@@ -31,7 +31,7 @@ pub fn row_name(model: &Model, closing: Closing, index: usize) -> String {
 
 /// A coordinate as the user addresses it.
 pub fn coordinate_name(model: &Model, coordinate: Coordinate) -> String {
-    let Some(joint) = model.joints.get(coordinate.joint.0) else { return String::new() };
+    let joint = &model.joints[coordinate.joint];
     let kind = joint.kind;
     let suffix = match kind.freedoms.get(coordinate.index) {
         Some(_) if kind.freedoms() == 1 => String::new(),
@@ -44,12 +44,11 @@ pub fn coordinate_name(model: &Model, coordinate: Coordinate) -> String {
 /// A leaf as the user addresses it.
 pub(in crate::mechanics) fn path(model: &Model, place: &Place) -> String {
     let mut parts = vec![place.field.to_string()];
-    let mut at = model.instances.get(place.instance.0);
-    while let Some(instance) = at {
-        let Some(parent) = instance.parent else { break };
+    let mut instance = &model.instances[place.instance];
+    while let Some(parent) = instance.parent {
         let index = instance.index.map_or(String::new(), |(index, _)| format!("[{index}]"));
         parts.push(format!("{}{index}", instance.field));
-        at = model.instances.get(parent.0);
+        instance = &model.instances[parent];
     }
     parts.reverse();
     parts.join(".")

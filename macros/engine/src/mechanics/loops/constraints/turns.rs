@@ -49,7 +49,7 @@ impl Equations<'_> {
     /// The equation of an expression.
     pub(super) fn expression_residual(&mut self, id: ConstraintId) -> Scalar {
         let model = self.scene.model;
-        let Some(ConstraintKind::Value(value)) = model.constraints.get(id.0).map(|c| &c.kind) else {
+        let ConstraintKind::Value(value) = &model.constraints[id].kind else {
             return Scalar::ZERO;
         };
         let phi = self.scalar(value);
@@ -73,7 +73,7 @@ impl Equations<'_> {
 
     fn find_turns(&mut self, id: ConstraintId) -> Turns {
         let model = self.scene.model;
-        let Some(ConstraintKind::Value(value)) = model.constraints.get(id.0).map(|c| &c.kind) else {
+        let ConstraintKind::Value(value) = &model.constraints[id].kind else {
             return Turns::None;
         };
         let measured = measured(model, value);

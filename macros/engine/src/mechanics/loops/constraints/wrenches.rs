@@ -177,11 +177,11 @@ impl Equations<'_> {
 
     /// Rods and expressions.
     fn hold(&mut self, gathered: &mut Gathered, held: &Held) {
-        let multiplier = held.multipliers.first().copied().unwrap_or(Scalar::ZERO);
+        let multiplier = held.multipliers[0];
         let model = self.scene.model;
         let Closing::Constraint(id) = held.closing else { return };
-        match model.constraints.get(id.0).map(|constraint| &constraint.kind) {
-            Some(ConstraintKind::Rod { between, .. }) => {
+        match &model.constraints[id].kind {
+            ConstraintKind::Rod { between, .. } => {
                 let ends = [self.place(&between[0]), self.place(&between[1])];
                 let view = self.view(&ends, held.writing);
                 let way = self.see_way(&view, &ends);
@@ -189,8 +189,7 @@ impl Equations<'_> {
                 self.apply(gathered, &view, &ends[0], force, Vector::ZERO);
                 self.apply(gathered, &view, &ends[1], -force, Vector::ZERO);
             }
-            Some(ConstraintKind::Value(_)) => self.hold_expression(gathered, id, multiplier),
-            None => {}
+            ConstraintKind::Value(_) => self.hold_expression(gathered, id, multiplier),
         }
     }
 

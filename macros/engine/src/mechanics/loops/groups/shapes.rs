@@ -57,7 +57,7 @@ impl<'m> Shapes<'m> {
     }
 
     pub(super) fn is_on_loop(&self, joint: JointId) -> bool {
-        self.on_loop.get(joint.0).copied().unwrap_or(false)
+        self.on_loop[joint.0]
     }
 
     /// Once around.
@@ -131,7 +131,7 @@ impl<'m> Shapes<'m> {
 
     /// A joint and its body, wherever they stand.
     pub(super) fn link(&mut self, id: JointId) -> String {
-        let Some(joint) = self.model.joints.get(id.0) else { return String::new() };
+        let joint = &self.model.joints[id];
         let kind = self.kind(joint);
         let child = self.steps(&joint.child);
         let armature = joint.armature.as_ref().map(|armature| self.entries(armature));
@@ -145,7 +145,7 @@ impl<'m> Shapes<'m> {
         if self.hubs[id.0] {
             return "hub".to_owned();
         }
-        let Some(body) = self.model.bodies.get(id.0) else { return String::new() };
+        let body = &self.model.bodies[id];
         let (mass, com) = (self.entries(&body.mass), self.entries(&body.com));
         let inertia = body.inertia.as_ref().map(|entries| {
             let entries = entries.iter().map(|entry| self.entries(entry));
@@ -156,13 +156,11 @@ impl<'m> Shapes<'m> {
 
     /// Where a joint stands on its parent.
     pub(super) fn stand(&mut self, id: JointId) -> String {
-        let joint = self.model.joints.get(id.0);
-        joint.map_or_else(String::new, |joint| self.steps(&joint.parent))
+        self.steps(&self.model.joints[id].parent)
     }
 
     fn stand_on(&mut self, id: JointId, carrier: Option<BodyId>) -> String {
-        let joint = self.model.joints.get(id.0);
-        joint.map_or_else(String::new, |joint| self.end(&joint.parent, carrier))
+        self.end(&self.model.joints[id].parent, carrier)
     }
 
     /// A frame that may be on what the members hang on.
