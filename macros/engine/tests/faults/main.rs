@@ -92,3 +92,13 @@ fn tests_tell() {
         assert!(!emitted(Some(line)).contains(text));
     }
 }
+
+/// As users see it.
+#[test]
+fn a_fault_is_one_error_that_names_the_stage() {
+    let tokens = models::MODELS[3].1.parse().expect("tokens");
+    let output = with(Some(Break::LoweredSymbol), || multibody_engine::expand(tokens)).to_string();
+    assert_eq!(output.matches("compile_error").count(), 1);
+    assert!(output.contains("the stage `symbolic` (lower.rs:"), "{output}");
+    assert!(output.contains("has failed for `pointer`") && output.contains("please report it with the model"));
+}
