@@ -201,7 +201,7 @@ impl Shape {
 }
 
 /// One generated function.
-pub struct Row {
+pub struct FunctionRow {
     pub asked: Asked,
     /// Of the method; kinematics behind the first have their number in it.
     pub name: &'static str,
@@ -240,10 +240,10 @@ impl FunctionKind {
         FunctionKind::Granted,
     ];
 
-    pub fn row(self) -> Row {
+    pub fn row(self) -> FunctionRow {
         use Request as R;
         let by = |request, word, missing| Asked::By { request, word, missing };
-        let row = |asked, name, takes, gives, documentation| Row { asked, name, takes, gives, documentation };
+        let row = |asked, name, takes, gives, documentation| FunctionRow { asked, name, takes, gives, documentation };
         match self {
             FunctionKind::ForwardDynamics => row(
                 by(R::ForwardDynamics, "forward_dynamics", "ForwardDynamics"),

@@ -14,7 +14,7 @@ use super::tree::{Link, Motion, Tree};
 
 /// Whose axes the links of a group take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Axes {
+pub enum SharedAxes {
     /// Those of what the first link hangs on: best for chains of parallel hinges that end there.
     Base,
     /// Those of the last link: best where more hangs on it.
@@ -56,7 +56,7 @@ struct Member {
 }
 
 /// Writes a tree in common axes; `None` if no two neighbours are parallel.
-pub fn share_axes(g: &mut Graph, tree: &Tree, axes: Axes) -> Option<Shared> {
+pub fn share_axes(g: &mut Graph, tree: &Tree, axes: SharedAxes) -> Option<Shared> {
     let members = members(g, tree);
     let joined = |(index, member): (usize, &Option<Member>)| member.is_some_and(|m| m.head != index);
     if !members.iter().enumerate().any(joined) {
@@ -139,9 +139,9 @@ fn join(g: &mut Graph, link: &Link, axis: usize, parent: Member) -> Option<Membe
 }
 
 /// The angle of each group's new axes, at the position of its head.
-fn references(members: &[Option<Member>], axes: Axes) -> Vec<Scalar> {
+fn references(members: &[Option<Member>], axes: SharedAxes) -> Vec<Scalar> {
     let mut references = vec![Scalar::ZERO; members.len()];
-    if axes == Axes::Tip {
+    if axes == SharedAxes::Tip {
         for member in members.iter().flatten() {
             references[member.head] = member.total;
         }

@@ -19,7 +19,7 @@ use crate::model::joint_kinds::JointKind;
 use crate::model::types::{Docs, Joint, Param, PartTypeId, State};
 use crate::optimize::program::{Compiled, Function};
 
-use super::layout::{Group, Layout};
+use super::layout::{Layout, StructKind};
 use super::print::literals;
 use super::{Context, names};
 
@@ -113,30 +113,30 @@ fn unit(kind: &JointKind) -> Option<&'static str> {
 }
 
 /// Of the structs `Params`, `Position`, ..
-pub(super) fn group(layout: &Layout<'_>, group: Group, owner: Option<PartTypeId>) -> Vec<String> {
+pub(super) fn group(layout: &Layout<'_>, group: StructKind, owner: Option<PartTypeId>) -> Vec<String> {
     let part = owner.and_then(|part| layout.model.part_types.get(part.0));
     let of = part.map_or_else(
         || format!("`{}`", names::plain(&layout.model.name)),
         |part| format!("one part `{}`", names::plain(&part.name)),
     );
     let line = match group {
-        Group::Params => format!("Parameters of {of}. The default is what the model declares."),
-        Group::Position => {
+        StructKind::Params => format!("Parameters of {of}. The default is what the model declares."),
+        StructKind::Position => {
             format!("Positions of the joints of {of}. The default is zero, or the identity.")
         }
-        Group::Velocity => {
+        StructKind::Velocity => {
             format!("Velocities of {of}; accelerations and efforts have the same components.")
         }
-        Group::States => format!("States of {of} beside its coordinates, or their rates."),
-        Group::Input => format!("Inputs of {of}, held over a step. The default is zero."),
-        Group::Guess => {
+        StructKind::States => format!("States of {of} beside its coordinates, or their rates."),
+        StructKind::Input => format!("Inputs of {of}, held over a step. The default is zero."),
+        StructKind::Guess => {
             format!("Where Newton's method starts to close the loops of {of}: coordinates that follow from the others.")
         }
-        Group::Output => format!("Outputs of {of}."),
+        StructKind::Output => format!("Outputs of {of}."),
     };
     let mut lines = vec![line];
     let size = layout.table(group).size;
-    if owner.is_none() && matches!(group, Group::Position | Group::Velocity) {
+    if owner.is_none() && matches!(group, StructKind::Position | StructKind::Velocity) {
         lines.extend([String::new(), format!("Components in order of declaration: {size}.")]);
     }
     lines

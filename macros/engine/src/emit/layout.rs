@@ -24,7 +24,7 @@ use super::{document, names};
 
 /// The kinds of generated structs with fields of the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Group {
+pub(super) enum StructKind {
     Params,
     Position,
     Velocity,
@@ -35,26 +35,33 @@ pub(super) enum Group {
     Output,
 }
 
-impl Group {
-    pub(super) const ALL: [Group; 7] =
-        [Group::Params, Group::Position, Group::Velocity, Group::States, Group::Guess, Group::Input, Group::Output];
+impl StructKind {
+    pub(super) const ALL: [StructKind; 7] = [
+        StructKind::Params,
+        StructKind::Position,
+        StructKind::Velocity,
+        StructKind::States,
+        StructKind::Guess,
+        StructKind::Input,
+        StructKind::Output,
+    ];
 
     /// Name of the struct.
     pub(super) fn name(self) -> Ident {
         names::ident(match self {
-            Group::Params => "Params",
-            Group::Position => "Position",
-            Group::Velocity => "Velocity",
-            Group::States => "States",
-            Group::Guess => "Guess",
-            Group::Input => "Input",
-            Group::Output => "Output",
+            StructKind::Params => "Params",
+            StructKind::Position => "Position",
+            StructKind::Velocity => "Velocity",
+            StructKind::States => "States",
+            StructKind::Guess => "Guess",
+            StructKind::Input => "Input",
+            StructKind::Output => "Output",
         })
     }
 
     /// Structs that stand in the module even where they are empty.
     pub(super) fn always(self) -> bool {
-        matches!(self, Group::Params | Group::Position | Group::Velocity)
+        matches!(self, StructKind::Params | StructKind::Position | StructKind::Velocity)
     }
 }
 
@@ -129,23 +136,23 @@ impl<'a> Layout<'a> {
         for param in &model.params {
             let leaf = Leaf::value(&param.ty, dof);
             let docs = document::param(param);
-            layout.add(Group::Params, &param.place, leaf, docs);
-            layout.default(Group::Params, param.default.clone());
+            layout.add(StructKind::Params, &param.place, leaf, docs);
+            layout.default(StructKind::Params, param.default.clone());
         }
         for state in &model.states {
             let docs = document::state(state);
-            layout.add(Group::States, &state.place, Leaf::Scalar, docs);
-            layout.default(Group::States, vec![state.start]);
+            layout.add(StructKind::States, &state.place, Leaf::Scalar, docs);
+            layout.default(StructKind::States, vec![state.start]);
         }
         for input in &model.inputs {
             let leaf = Leaf::value(&input.ty, dof);
             let docs = document::item(&input.docs, "input");
-            layout.add(Group::Input, &input.place, leaf, docs);
+            layout.add(StructKind::Input, &input.place, leaf, docs);
         }
         for output in &model.outputs {
             let leaf = Leaf::value(&output.value.ty, dof);
             let docs = document::item(&output.docs, "output");
-            layout.add(Group::Output, &output.place, leaf, docs);
+            layout.add(StructKind::Output, &output.place, leaf, docs);
         }
         layout
     }
@@ -164,8 +171,8 @@ impl<'a> Layout<'a> {
                 let field = joints::field(model, &structure.state, id, joint, &piece);
                 let place = Place { instance: joint.place.instance, field };
                 let [of_position, of_velocity] = piece.docs(joint);
-                self.add(Group::Position, &place, piece.position.clone(), of_position);
-                let index = self.add(Group::Velocity, &place, piece.velocity.clone(), of_velocity);
+                self.add(StructKind::Position, &place, piece.position.clone(), of_position);
+                let index = self.add(StructKind::Velocity, &place, piece.velocity.clone(), of_velocity);
                 self.joints[id.0].push((index, piece));
             }
         }
@@ -186,7 +193,7 @@ impl<'a> Layout<'a> {
                 let field = joints::field(model, &unknowns, id, joint, &piece);
                 let place = Place { instance: joint.place.instance, field };
                 let [docs, _] = piece.docs(joint);
-                let entry = self.add(Group::Guess, &place, piece.position.clone(), docs);
+                let entry = self.add(StructKind::Guess, &place, piece.position.clone(), docs);
                 let mut start = vec![0.0; piece.position.size()];
                 for (known, unknown) in unknowns.iter().enumerate().filter(|(_, unknown)| unknown.joint == id) {
                     let Some(component) = piece.component(false, unknown.index) else { continue };
@@ -196,7 +203,7 @@ impl<'a> Layout<'a> {
                         *place = value;
                     }
                 }
-                self.default(Group::Guess, start);
+                self.default(StructKind::Guess, start);
             }
         }
     }
@@ -219,7 +226,7 @@ impl<'a> Layout<'a> {
         list
     }
 
-    fn add(&mut self, group: Group, place: &Place, leaf: Leaf, docs: Vec<String>) -> usize {
+    fn add(&mut self, group: StructKind, place: &Place, leaf: Leaf, docs: Vec<String>) -> usize {
         let table = self.table_mut(group);
         let offset = table.size;
         table.size += leaf.size();
@@ -234,39 +241,39 @@ impl<'a> Layout<'a> {
         table.entries.len() - 1
     }
 
-    fn default(&mut self, group: Group, values: Vec<f64>) {
+    fn default(&mut self, group: StructKind, values: Vec<f64>) {
         if let Some(entry) = self.table_mut(group).entries.last_mut() {
             entry.default = Some(values);
         }
     }
 
-    pub(super) fn table(&self, group: Group) -> &Table {
+    pub(super) fn table(&self, group: StructKind) -> &Table {
         match group {
-            Group::Params => &self.params,
-            Group::Position => &self.position,
-            Group::Velocity => &self.velocity,
-            Group::States => &self.states,
-            Group::Guess => &self.guess,
-            Group::Input => &self.input,
-            Group::Output => &self.output,
+            StructKind::Params => &self.params,
+            StructKind::Position => &self.position,
+            StructKind::Velocity => &self.velocity,
+            StructKind::States => &self.states,
+            StructKind::Guess => &self.guess,
+            StructKind::Input => &self.input,
+            StructKind::Output => &self.output,
         }
     }
 
-    fn table_mut(&mut self, group: Group) -> &mut Table {
+    fn table_mut(&mut self, group: StructKind) -> &mut Table {
         match group {
-            Group::Params => &mut self.params,
-            Group::Position => &mut self.position,
-            Group::Velocity => &mut self.velocity,
-            Group::States => &mut self.states,
-            Group::Guess => &mut self.guess,
-            Group::Input => &mut self.input,
-            Group::Output => &mut self.output,
+            StructKind::Params => &mut self.params,
+            StructKind::Position => &mut self.position,
+            StructKind::Velocity => &mut self.velocity,
+            StructKind::States => &mut self.states,
+            StructKind::Guess => &mut self.guess,
+            StructKind::Input => &mut self.input,
+            StructKind::Output => &mut self.output,
         }
     }
 
     /// Number of velocity coordinates.
     pub(super) fn dof(&self) -> usize {
-        self.table(Group::Velocity).size
+        self.table(StructKind::Velocity).size
     }
 
     pub(super) fn krate(&self) -> &'a Path {
@@ -274,8 +281,8 @@ impl<'a> Layout<'a> {
     }
 
     /// The leaf in `Position` or `Velocity` that holds a component of a joint, and its number there.
-    pub(super) fn joint(&self, group: Group, joint: JointId, component: usize) -> Option<(&Entry, usize)> {
-        let is_velocity = group == Group::Velocity;
+    pub(super) fn joint(&self, group: StructKind, joint: JointId, component: usize) -> Option<(&Entry, usize)> {
+        let is_velocity = group == StructKind::Velocity;
         let mut pieces = self.joints.get(joint.0)?.iter();
         let (index, component) =
             pieces.find_map(|(index, piece)| Some((*index, piece.component(is_velocity, component)?)))?;
@@ -283,7 +290,7 @@ impl<'a> Layout<'a> {
     }
 
     /// Whether the structs of this group have nothing in them, in the model (`None`) or in a part.
-    pub(super) fn is_empty(&self, group: Group, owner: Option<PartTypeId>) -> bool {
+    pub(super) fn is_empty(&self, group: StructKind, owner: Option<PartTypeId>) -> bool {
         let mut entries = self.table(group).entries.iter();
         !entries.any(|entry| owner.is_none() || self.is_within(entry.instance, owner))
     }
@@ -313,7 +320,7 @@ impl<'a> Layout<'a> {
     }
 
     /// Fields of a struct of the model (`None`) or of a part, in the order of their first scalars.
-    pub(super) fn fields(&self, group: Group, owner: Option<PartTypeId>) -> Vec<Field> {
+    pub(super) fn fields(&self, group: StructKind, owner: Option<PartTypeId>) -> Vec<Field> {
         let instances = self.instances(owner);
         let mut fields: Vec<Field> = Vec::new();
         for entry in &self.table(group).entries {
@@ -360,7 +367,7 @@ impl<'a> Layout<'a> {
     }
 
     /// Expands to `leg::Position` as seen from the model's module, to `super::leg::Position` from that of a part.
-    pub(super) fn path(&self, group: Group, owner: Option<PartTypeId>, in_part: bool) -> TokenStream {
+    pub(super) fn path(&self, group: StructKind, owner: Option<PartTypeId>, in_part: bool) -> TokenStream {
         let name = group.name();
         let outer = in_part.then(|| quote!(super::));
         match owner.and_then(|part| self.model.part_types.get(part.0)) {
@@ -373,7 +380,7 @@ impl<'a> Layout<'a> {
     }
 
     /// Expands to a field's type.
-    pub(super) fn field_type(&self, group: Group, kind: &FieldKind, in_part: bool) -> TokenStream {
+    pub(super) fn field_type(&self, group: StructKind, kind: &FieldKind, in_part: bool) -> TokenStream {
         match kind {
             FieldKind::Leaf(leaf) => leaf.ty(self.krate()),
             FieldKind::Part(part, count) => {

@@ -27,7 +27,7 @@ mod written;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use crate::model::site::{Site, Sited};
-use crate::model::types::{Closing, Coordinate, DriveTarget, Handling, JointId, Model};
+use crate::model::types::{Coordinate, DriveTarget, Handling, JointId, LoopClosure, Model};
 
 use super::loops::constraints::{closings, coordinate_name, row_count, row_name, turns};
 use super::loops::groups;
@@ -98,7 +98,7 @@ struct Analysis<'m> {
 
 /// A group with what was found about it.
 struct Looked {
-    group: Group,
+    group: CoupledRows,
     /// Places of equations that are not formulas.
     rows: Vec<usize>,
     found: Found,
@@ -106,7 +106,7 @@ struct Looked {
 }
 
 /// Equations that share coordinates.
-struct Group {
+struct CoupledRows {
     /// Numbers in the problem, couplings that are eliminated first, then formulas, then all others.
     equations: Vec<usize>,
     columns: Vec<usize>,
@@ -186,7 +186,7 @@ impl<'m> Analysis<'m> {
                 of_group.iter().map(|one| Step { unknowns: vec![one.unknown], means: Means::Linear(one.constraint) }),
             );
             if reduced {
-                let reduction = reduction::Reduction {
+                let reduction = reduction::ReductionSearch {
                     model,
                     problem,
                     group: &group,
@@ -201,7 +201,7 @@ impl<'m> Analysis<'m> {
                 }
             } else {
                 let eliminated =
-                    |row: &Row| of_group.iter().any(|one| row.closing == Closing::Constraint(one.constraint));
+                    |row: &Row| of_group.iter().any(|one| row.closing == LoopClosure::Constraint(one.constraint));
                 let rows = staying.iter().filter_map(|&k| row_of(problem, group.equations[k]));
                 structure.rows.extend(rows.filter(|row| !eliminated(row)));
             }
@@ -235,7 +235,7 @@ impl<'m> Analysis<'m> {
     fn with_other_parameters(
         &self,
         problem: &Problem,
-        group: &Group,
+        group: &CoupledRows,
         rows: &[usize],
         from: &[Configuration],
         ranked: &Ranked,
@@ -287,7 +287,7 @@ impl<'m> Analysis<'m> {
     fn drop_redundant(
         &mut self,
         problem: &Problem,
-        group: &Group,
+        group: &CoupledRows,
         rows: &[usize],
         kept: &[usize],
         ranked: &Ranked,
@@ -386,9 +386,9 @@ fn formula_of(problem: &Problem, equation: usize) -> Option<usize> {
     }
 }
 
-fn has_row(problem: &Problem, group: &Group, kept: &[usize], one: &Elimination) -> bool {
+fn has_row(problem: &Problem, group: &CoupledRows, kept: &[usize], one: &Elimination) -> bool {
     kept.iter().any(|&k| {
-        row_of(problem, group.equations[k]).is_some_and(|row| row.closing == Closing::Constraint(one.constraint))
+        row_of(problem, group.equations[k]).is_some_and(|row| row.closing == LoopClosure::Constraint(one.constraint))
     })
 }
 
@@ -401,7 +401,7 @@ fn columns_of(problem: &Problem, equations: &[usize]) -> Vec<usize> {
 }
 
 /// Connected components of equations and columns, in the order of their first equation.
-fn groups(problem: &Problem, eliminations: &[Elimination]) -> Vec<Group> {
+fn groups(problem: &Problem, eliminations: &[Elimination]) -> Vec<CoupledRows> {
     // The group that each column belongs to, by its least equation.
     let mut root: Vec<usize> = (0..problem.equations.len()).collect();
     let mut owner: Vec<Option<usize>> = vec![None; problem.columns.len()];
@@ -434,7 +434,7 @@ fn groups(problem: &Problem, eliminations: &[Elimination]) -> Vec<Group> {
     }
     let eliminated = |k: usize| {
         let closing = row_of(problem, k).map(|row| row.closing);
-        eliminations.iter().any(|one| closing == Some(Closing::Constraint(one.constraint)))
+        eliminations.iter().any(|one| closing == Some(LoopClosure::Constraint(one.constraint)))
     };
     let rank = |k: usize| match problem.equations[k].source {
         Source::Row(_) if eliminated(k) => 0,
@@ -443,7 +443,7 @@ fn groups(problem: &Problem, eliminations: &[Elimination]) -> Vec<Group> {
     };
     let group = |mut equations: Vec<usize>| {
         equations.sort_by_key(|&k| (rank(k), k));
-        Group { columns: columns_of(problem, &equations), equations }
+        CoupledRows { columns: columns_of(problem, &equations), equations }
     };
     groups.into_values().map(group).collect()
 }

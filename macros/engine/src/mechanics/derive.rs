@@ -18,7 +18,7 @@ use std::rc::Rc;
 
 use crate::contracts::function::{Asked, FunctionKind};
 use crate::contracts::results::Results;
-use crate::dynamics::shared_axes::Axes;
+use crate::dynamics::shared_axes::SharedAxes;
 use crate::invariant::fault::raise;
 use crate::model::types::{BodyRef, Coordinate, Joint, JointId, Model, Request};
 use crate::symbolic::graph::{Graph, Scalar};
@@ -35,7 +35,7 @@ use super::translate::symbols::{Symbols, freedoms_of};
 use super::{Derivation, Derived, Inertia};
 
 /// Own axes for every link, or common ones for parallel hinges.
-const AXES: [Option<Axes>; 3] = [None, Some(Axes::Base), Some(Axes::Tip)];
+const AXES: [Option<SharedAxes>; 3] = [None, Some(SharedAxes::Base), Some(SharedAxes::Tip)];
 
 /// A method's name with each of [`AXES`].
 type Names = [&'static str; 3];

@@ -5,7 +5,7 @@
 
 use std::rc::Rc;
 
-use crate::dynamics::shared_axes::Axes;
+use crate::dynamics::shared_axes::SharedAxes;
 use crate::model::types::{JointId, Model};
 
 use super::loops::constraints::Writing;
@@ -33,21 +33,21 @@ pub enum Method {
 
 /// Choices of a candidate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Way {
+pub struct Choices {
     pub style: Style,
     pub method: Method,
     /// Common axes for parallel hinges in the recursions of the dynamics.
-    pub axes: Option<Axes>,
+    pub axes: Option<SharedAxes>,
     /// In which axes loops are closed.
     pub writing: Writing,
     /// Inverse dynamics by [`crate::dynamics::lumped`].
     pub lumped: bool,
 }
 
-impl Way {
+impl Choices {
     /// As good as any where cost is of no concern.
-    pub const PLAIN: Way =
-        Way { style: Style::Nested, method: Method::Composite, axes: None, writing: Writing::PLAIN, lumped: false };
+    pub const PLAIN: Choices =
+        Choices { style: Style::Nested, method: Method::Composite, axes: None, writing: Writing::PLAIN, lumped: false };
 }
 
 /// What all files of this stage read.
@@ -58,7 +58,7 @@ pub struct Scene<'m> {
     /// Roles of coordinates and equations; without loops and drives an empty one.
     pub(super) structure: Rc<Structure>,
     pub(super) mechanism: Rc<Mechanism>,
-    pub(super) way: Way,
+    pub(super) way: Choices,
     /// `Fixed` joints with a link of their own, since their reactions are asked for.
     pub(super) kept: Rc<[JointId]>,
 }
@@ -71,7 +71,7 @@ impl<'m> Scene<'m> {
             symbols,
             structure: Rc::default(),
             mechanism: Rc::default(),
-            way: Way::PLAIN,
+            way: Choices::PLAIN,
             kept: Rc::from([]),
         }
     }

@@ -15,7 +15,7 @@ use super::docs;
 use super::expand::root;
 use super::items::loops::Driven;
 use super::items::requests::Requested;
-use super::items::solves::Solved;
+use super::items::solves::SolveItem;
 use super::topology::Topology;
 use super::types::{
     Body, Constraint, Coordinate, Drive, Expr, Force, Handling, Input, Joint, Kinematics, Model, Output, Param,
@@ -262,8 +262,8 @@ impl<'a> Checker<'a, '_> {
                 },
                 ItemKind::Solve { unknowns, how } => {
                     match self.solve(unknowns, how, task.item.keyword, context, tree) {
-                        Some(Solved::Item(solve)) => loops.solves.push(solve),
-                        Some(Solved::Skipped(why)) => loops.skipped.push(why),
+                        Some(SolveItem::Item(solve)) => loops.solves.push(solve),
+                        Some(SolveItem::Skipped(why)) => loops.skipped.push(why),
                         None => {}
                     }
                 }

@@ -59,7 +59,7 @@ const GENERATED: [&str; 19] = [
     "States",
     "Derivative",
     "Closed",
-    "Solved",
+    "SolveItem",
     "Jump",
     "Input",
     "Output",

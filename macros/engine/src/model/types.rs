@@ -135,12 +135,12 @@ pub enum SolveHow {
     /// One scalar for each unknown.
     Formulas(Vec<Expr>),
     /// Found by the macro from what closes the loop; the conditions (`Bool`) choose one branch.
-    From { closing: Closing, branches: Vec<Expr> },
+    From { closing: LoopClosure, branches: Vec<Expr> },
 }
 
 /// What gives constraint equations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Closing {
+pub enum LoopClosure {
     Cut(JointId),
     Constraint(ConstraintId),
 }

@@ -20,7 +20,7 @@ use super::stage::Stage;
 use super::wording::Wording;
 
 /// What `Model` stores.
-pub struct Gathered {
+pub struct StoredFields {
     /// Its roots are the fields' values in order.
     pub prelude: Dag,
     pub fields: Fields,
@@ -28,7 +28,7 @@ pub struct Gathered {
     pub names: Vec<String>,
 }
 
-impl Gathered {
+impl StoredFields {
     /// Adds what a program reads of parameters that no field holds yet: parameters themselves, so that `Model::new` has
     /// nothing more to compute.
     pub fn take_parameters(&mut self, dag: &Dag) {
@@ -57,7 +57,7 @@ impl Gathered {
 }
 
 /// Gathers the fields of all functions.
-pub fn gather(functions: &[&Dag], symbols: &[Symbol]) -> Gathered {
+pub fn gather(functions: &[&Dag], symbols: &[Symbol]) -> StoredFields {
     let mut names = Names::default();
     let mut list = Vec::new();
     let mut prelude = Dag::new(symbols);
@@ -81,7 +81,7 @@ pub fn gather(functions: &[&Dag], symbols: &[Symbol]) -> Gathered {
             list.push(text);
         }
     }
-    Gathered { prelude, fields, names: list }
+    StoredFields { prelude, fields, names: list }
 }
 
 /// A parameter's own name, the name of the value, or that of the value which it serves.

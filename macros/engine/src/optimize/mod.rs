@@ -115,7 +115,7 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>) -> Result<Compile
     if let Inertia::Own(dag) = &inertia {
         gathered.take_parameters(dag);
     }
-    let fields::Gathered { mut prelude, fields, names } = gathered;
+    let fields::StoredFields { mut prelude, fields, names } = gathered;
     prelude.symbol_names.clone_from(&derivation.symbol_names);
     if plain.functions.is_empty() {
         sound &= simplify(&mut prelude);

@@ -15,7 +15,7 @@ use super::stage::Stage;
 
 /// Where a multiple stands.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Place {
+enum Occurrence {
     /// The sum, the term's node.
     Term(Id, Id),
     /// The result's number.
@@ -27,7 +27,7 @@ pub fn multiples(dag: &mut Dag) {
     for _ in 0..16 {
         let mut changed = false;
         for (factor, c, list) in candidates(dag) {
-            let list: Vec<Place> = list.into_iter().filter(|&place| stands(dag, place, factor, c)).collect();
+            let list: Vec<Occurrence> = list.into_iter().filter(|&place| stands(dag, place, factor, c)).collect();
             if list.len() > 1 {
                 changed |= share(dag, factor, c, &list);
             }
@@ -58,10 +58,10 @@ fn settle(dag: &mut Dag) {
 }
 
 /// Factors and literals that meet in several sums, those in most sums first.
-fn candidates(dag: &Dag) -> Vec<(Id, Number, Vec<Place>)> {
+fn candidates(dag: &Dag) -> Vec<(Id, Number, Vec<Occurrence>)> {
     let order = dag.order();
     let uses = dag.uses(&order);
-    let mut places: BTreeMap<(Id, Print), (Number, Vec<Place>)> = BTreeMap::new();
+    let mut places: BTreeMap<(Id, Print), (Number, Vec<Occurrence>)> = BTreeMap::new();
     for &id in &order {
         let Kind::Sum(terms) = &dag.nodes[id].kind else { continue };
         if dag.nodes[id].stage <= Stage::Parameter {
@@ -70,8 +70,8 @@ fn candidates(dag: &Dag) -> Vec<(Id, Number, Vec<Place>)> {
         for &(c, term) in terms.iter().filter(|(c, term)| !c.is_unit() && *term != ONE) {
             let mut add = |factor: Id| {
                 let entry = places.entry((factor, c.abs().residue)).or_insert_with(|| (c.abs(), Vec::new()));
-                if entry.1.last() != Some(&Place::Term(id, term)) {
-                    entry.1.push(Place::Term(id, term));
+                if entry.1.last() != Some(&Occurrence::Term(id, term)) {
+                    entry.1.push(Occurrence::Term(id, term));
                 }
             };
             // The multiple may stand as a node already, as a sum of one term.
@@ -85,8 +85,8 @@ fn candidates(dag: &Dag) -> Vec<(Id, Number, Vec<Place>)> {
         if !c.is_unit() && id != ONE && dag.nodes[id].stage > Stage::Parameter {
             let mut add = |factor: Id| {
                 let entry = places.entry((factor, c.abs().residue)).or_insert_with(|| (c.abs(), Vec::new()));
-                if entry.1.last() != Some(&Place::Root(k)) {
-                    entry.1.push(Place::Root(k));
+                if entry.1.last() != Some(&Occurrence::Root(k)) {
+                    entry.1.push(Occurrence::Root(k));
                 }
             };
             add(id);
@@ -95,7 +95,7 @@ fn candidates(dag: &Dag) -> Vec<(Id, Number, Vec<Place>)> {
             }
         }
     }
-    let mut list: Vec<(Id, Number, Vec<Place>)> = places
+    let mut list: Vec<(Id, Number, Vec<Occurrence>)> = places
         .into_iter()
         .filter(|(_, (_, list))| list.len() > 1)
         .map(|((factor, _), (c, list))| (factor, c, list))
@@ -106,14 +106,14 @@ fn candidates(dag: &Dag) -> Vec<(Id, Number, Vec<Place>)> {
 }
 
 /// Whether a place still has this multiple: an earlier sharing may have taken it.
-fn stands(dag: &Dag, place: Place, factor: Id, c: Number) -> bool {
+fn stands(dag: &Dag, place: Occurrence, factor: Id, c: Number) -> bool {
     match place {
-        Place::Root(k) => {
+        Occurrence::Root(k) => {
             let (d, id) = dag.roots[k];
             d.abs() == c
                 && (id == factor || matches!(&dag.nodes[id].kind, Kind::Product(list) if list.contains(&factor)))
         }
-        Place::Term(sum, term) => {
+        Occurrence::Term(sum, term) => {
             let Kind::Sum(terms) = &dag.nodes[sum].kind else { return false };
             terms.iter().any(|t| t.1 == term && t.0.abs() == c)
                 && (term == factor || matches!(&dag.nodes[term].kind, Kind::Product(list) if list.contains(&factor)))
@@ -121,13 +121,13 @@ fn stands(dag: &Dag, place: Place, factor: Id, c: Number) -> bool {
     }
 }
 
-fn share(dag: &mut Dag, factor: Id, c: Number, list: &[Place]) -> bool {
+fn share(dag: &mut Dag, factor: Id, c: Number, list: &[Occurrence]) -> bool {
     let multiple = dag.plain((c, factor));
     let unit = |d: Number| if d == c { Number::ONE } else { -Number::ONE };
     let mut changed = false;
     for &place in list {
         match place {
-            Place::Root(k) => {
+            Occurrence::Root(k) => {
                 let (d, id) = dag.roots[k];
                 let sign = unit(d);
                 dag.roots[k] = if id == factor {
@@ -141,7 +141,7 @@ fn share(dag: &mut Dag, factor: Id, c: Number, list: &[Place]) -> bool {
                 };
                 changed = true;
             }
-            Place::Term(sum, term) if sum != multiple => {
+            Occurrence::Term(sum, term) if sum != multiple => {
                 let Kind::Sum(mut terms) = dag.nodes[sum].kind.clone() else { continue };
                 let Some(at) = terms.iter().position(|t| t.1 == term) else { continue };
                 let unit = unit(terms[at].0);
@@ -165,7 +165,7 @@ fn share(dag: &mut Dag, factor: Id, c: Number, list: &[Place]) -> bool {
                     changed |= dag.rewrite(sum, Kind::Sum(terms));
                 }
             }
-            Place::Term(..) => {}
+            Occurrence::Term(..) => {}
         }
     }
     changed

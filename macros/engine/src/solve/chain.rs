@@ -18,7 +18,7 @@ pub(super) enum Link {
 
 /// Which way a vector is carried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Way {
+pub(super) enum Side {
     Left,
     Right,
 }
@@ -47,16 +47,16 @@ impl Link {
     }
 
     /// A vector on the other side, or nothing if that depends on an unknown.
-    pub(super) fn carry(self, g: &mut Graph, way: Way, kind: Kind, v: Vector) -> Option<Vector> {
+    pub(super) fn carry(self, g: &mut Graph, way: Side, kind: Kind, v: Vector) -> Option<Vector> {
         match self {
             Link::Known { rotation, offset } => Some(match (way, kind) {
-                (Way::Left, Kind::Direction) => g.rotate(rotation, v),
-                (Way::Right, Kind::Direction) => g.rotate(rotation.transpose(), v),
-                (Way::Left, Kind::Point) => {
+                (Side::Left, Kind::Direction) => g.rotate(rotation, v),
+                (Side::Right, Kind::Direction) => g.rotate(rotation.transpose(), v),
+                (Side::Left, Kind::Point) => {
                     let turned = g.rotate(rotation, v);
                     g.add_vectors(offset, turned)
                 }
-                (Way::Right, Kind::Point) => {
+                (Side::Right, Kind::Point) => {
                     let moved = g.sub_vectors(v, offset);
                     g.rotate(rotation.transpose(), moved)
                 }

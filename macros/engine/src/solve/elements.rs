@@ -9,7 +9,7 @@ use crate::dynamics::tree::Motion;
 use crate::invariant::fault::OrFault;
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
-use super::chain::{Kind, Link, Way, is_along, unit};
+use super::chain::{Kind, Link, Side, is_along, unit};
 
 /// One vector in the coordinates of either side.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,17 +54,17 @@ enum Shift {
 
 /// A group that grows to the right.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Group {
+pub(super) struct JointGroup {
     turning: Turning,
     shift: Shift,
     reference: Seen,
 }
 
-impl Group {
+impl JointGroup {
     /// No joint at all.
-    pub(super) fn new() -> Group {
+    pub(super) fn new() -> JointGroup {
         let reference = Seen { left: Vector::ZERO, right: Vector::ZERO };
-        Group { turning: Turning::Fixed(Rotation::IDENTITY), shift: Shift::Nothing, reference }
+        JointGroup { turning: Turning::Fixed(Rotation::IDENTITY), shift: Shift::Nothing, reference }
     }
 
     /// Whether nothing is left fixed.
@@ -76,8 +76,9 @@ impl Group {
     pub(super) fn append(&mut self, g: &mut Graph, link: Link) {
         match link {
             Link::Known { rotation, .. } => {
-                let mut carry =
-                    |kind: Kind, v: Vector| link.carry(g, Way::Right, kind, v).or_fault("known links carry everything");
+                let mut carry = |kind: Kind, v: Vector| {
+                    link.carry(g, Side::Right, kind, v).or_fault("known links carry everything")
+                };
                 self.reference.right = carry(Kind::Point, self.reference.right);
                 if let Turning::About(axis) = &mut self.turning {
                     axis.right = carry(Kind::Direction, axis.right);

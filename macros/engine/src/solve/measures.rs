@@ -8,7 +8,7 @@
 use crate::dynamics::tree::Motion;
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
-use super::chain::{Kind, Link, Way};
+use super::chain::{Kind, Link, Side};
 use super::elements::Features;
 
 /// one + cos * cos(x) + sin * sin(x) + travel * x + square * x^2
@@ -62,8 +62,8 @@ pub(super) struct View {
 
 impl View {
     /// On one side of the group.
-    pub(super) fn new(features: &Features, side: Way) -> View {
-        let pick = |seen: super::elements::Seen| if side == Way::Left { seen.left } else { seen.right };
+    pub(super) fn new(features: &Features, side: Side) -> View {
+        let pick = |seen: super::elements::Seen| if side == Side::Left { seen.left } else { seen.right };
         let flat = |&(p, d): &super::elements::Flat| Some((pick(p), pick(d)));
         View {
             point: features.point.map(pick),
@@ -74,7 +74,7 @@ impl View {
     }
 
     /// On the other side of a link.
-    pub(super) fn carry(&self, g: &mut Graph, link: Link, way: Way) -> View {
+    pub(super) fn carry(&self, g: &mut Graph, link: Link, way: Side) -> View {
         let mut flat = |item: &Option<(Vector, Vector)>| {
             let (p, d) = (*item)?;
             Some((link.carry(g, way, Kind::Point, p)?, link.carry(g, way, Kind::Direction, d)?))
@@ -88,11 +88,11 @@ impl View {
     }
 
     /// Through several links, given from left to right.
-    pub(super) fn carry_all(&self, g: &mut Graph, links: &[Link], way: Way) -> View {
+    pub(super) fn carry_all(&self, g: &mut Graph, links: &[Link], way: Side) -> View {
         let step = |view: View, link: &Link| view.carry(g, *link, way);
         match way {
-            Way::Left => links.iter().rev().fold(self.clone(), step),
-            Way::Right => links.iter().fold(self.clone(), step),
+            Side::Left => links.iter().rev().fold(self.clone(), step),
+            Side::Right => links.iter().fold(self.clone(), step),
         }
     }
 

@@ -40,7 +40,7 @@ pub enum Segment {
 
 /// Once around a loop.
 #[derive(Clone, Debug, Default)]
-pub struct Cycle {
+pub struct KinematicLoop {
     pub segments: Vec<Segment>,
     /// Vanishes: a sum of the cycle's angles, each once, and of what is known, whole turns included. There where a screw
     /// makes turns count and everything turns about one direction. Points and directions know angles up to whole turns.
@@ -121,7 +121,7 @@ pub struct Plan {
 
 /// Solves for the wanted unknowns. `signs` are taken in order wherever there are two solutions, `true` for the positive
 /// root; those that are missing are positive.
-pub fn solve(g: &mut Graph, cycle: &Cycle, signs: &[bool]) -> Result<Solution, Failure> {
+pub fn solve(g: &mut Graph, cycle: &KinematicLoop, signs: &[bool]) -> Result<Solution, Failure> {
     Plan::new(g, cycle)?.solve(g, cycle, &of_signs(signs))
 }
 
@@ -132,12 +132,12 @@ pub fn of_signs(signs: &[bool]) -> Vec<Scalar> {
 
 impl Plan {
     /// Decides how a cycle is solved. It depends on the cycle alone, not on what else the graph holds.
-    pub fn new(g: &Graph, cycle: &Cycle) -> Result<Plan, Failure> {
+    pub fn new(g: &Graph, cycle: &KinematicLoop) -> Result<Plan, Failure> {
         Plan::at(g, cycle, &[])
     }
 
     /// The same from equations alone that tell their unknown at one of these points at least, given as values of symbols.
-    pub fn at(g: &Graph, cycle: &Cycle, points: &[&dyn Fn(SymbolId) -> f64]) -> Result<Plan, Failure> {
+    pub fn at(g: &Graph, cycle: &KinematicLoop, points: &[&dyn Fn(SymbolId) -> f64]) -> Result<Plan, Failure> {
         let (links, unknowns) = opened(cycle);
         if unknowns.iter().any(|u| u.wanted && matches!(u.motion, Motion::Ball(_))) {
             return Err(Failure::Ball);
@@ -148,14 +148,14 @@ impl Plan {
 
     /// The same plan for a cycle like the one that was planned, if every step of it finds an equation of the same form
     /// there. That costs a small part of the search.
-    pub fn adapted(&self, g: &Graph, cycle: &Cycle) -> Option<Plan> {
+    pub fn adapted(&self, g: &Graph, cycle: &KinematicLoop) -> Option<Plan> {
         let (links, unknowns) = opened(cycle);
         let steps = plan::adapt(&mut g.clone(), &links, &unknowns, cycle.winding, &self.steps)?;
         Some(Plan { steps })
     }
 
     /// Solves the cycle that was planned. `signs` are one or minus one, or what is so at run time; roots beyond them are positive.
-    pub fn solve(&self, g: &mut Graph, cycle: &Cycle, signs: &[Scalar]) -> Result<Solution, Failure> {
+    pub fn solve(&self, g: &mut Graph, cycle: &KinematicLoop, signs: &[Scalar]) -> Result<Solution, Failure> {
         let (mut links, unknowns) = opened(cycle);
         let (mut known, mut solved, mut choices) = (Known::default(), Vec::with_capacity(self.steps.len()), 0);
         for &Step { unknown: number, candidate, needed } in &self.steps {
@@ -178,7 +178,7 @@ impl Plan {
 }
 
 /// A cycle as the procedure sees it.
-fn opened(cycle: &Cycle) -> (Vec<Link>, Vec<Unknown>) {
+fn opened(cycle: &KinematicLoop) -> (Vec<Link>, Vec<Unknown>) {
     let mut unknowns = Vec::new();
     let links = cycle.segments.iter().map(|&segment| link(segment, &mut unknowns)).collect();
     (links, unknowns)

@@ -8,8 +8,8 @@
 use crate::dynamics::tree::Motion;
 use crate::symbolic::graph::{Graph, Scalar, ScalarNode, Vector};
 
-use super::chain::{Link, Way};
-use super::elements::{Features, Group};
+use super::chain::{Link, Side};
+use super::elements::{Features, JointGroup};
 use super::measures::{Form, Measure, View};
 use super::primitives::Primitive;
 
@@ -149,7 +149,7 @@ impl Opened<'_> {
             if !matches!(self.rest[from], Link::Free { .. }) {
                 continue;
             }
-            let mut group = Group::new();
+            let mut group = JointGroup::new();
             for (at, &link) in self.rest.iter().enumerate().skip(from) {
                 group.append(g, link);
                 if group.is_useless() {
@@ -171,13 +171,13 @@ impl Opened<'_> {
     }
 
     fn take(&self, g: &mut Graph, run: Run) -> Taken {
-        let mut group = Group::new();
+        let mut group = JointGroup::new();
         for &link in &self.rest[run.from..run.to] {
             group.append(g, link);
         }
         let features = group.features(g);
-        let near = View::new(&features, Way::Left).carry_all(g, &self.rest[..run.from], Way::Left);
-        let far = View::new(&features, Way::Right).carry_all(g, &self.rest[run.to..], Way::Right);
+        let near = View::new(&features, Side::Left).carry_all(g, &self.rest[..run.from], Side::Left);
+        let far = View::new(&features, Side::Right).carry_all(g, &self.rest[run.to..], Side::Right);
         Taken { run, features, near, far }
     }
 
@@ -212,11 +212,11 @@ impl Opened<'_> {
         if across.is_constant() {
             return None;
         }
-        let (left, right) = (View::new(&second.features, Way::Left), View::new(&first.features, Way::Right));
+        let (left, right) = (View::new(&second.features, Side::Left), View::new(&first.features, Side::Right));
         let links = &self.rest[first.run.to..second.run.from];
         let mut at = |place: usize| {
-            let far = left.carry_all(g, &links[place..], Way::Left);
-            let near = right.carry_all(g, &links[..place], Way::Right);
+            let far = left.carry_all(g, &links[place..], Side::Left);
+            let near = right.carry_all(g, &links[..place], Side::Right);
             measure.value(g, &far, None, &near)
         };
         // A ball's point is carried to the other group, so that it is seen in a frame that later steps use too.

@@ -32,7 +32,7 @@ pub struct Found {
 }
 
 /// A row as constants by expression, and its right side.
-struct Row {
+struct InputRow {
     parts: Vec<(Scalar, Vec<Scalar>)>,
     side: Scalar,
 }
@@ -236,7 +236,7 @@ fn operands(node: &ScalarNode) -> Option<&[Scalar]> {
 type Reduced = (Vec<(Vec<Scalar>, Scalar)>, Vec<(Vec<Scalar>, Scalar)>, Scalar);
 
 fn reduce(g: &mut Graph, known: &Known, constants: &Constants, matrix: &[Vec<Scalar>], side: &[Scalar]) -> Reduced {
-    let mut open: Vec<Row> = Vec::new();
+    let mut open: Vec<InputRow> = Vec::new();
     for (row, &side) in matrix.iter().zip(side) {
         let entries: Vec<Vec<(Scalar, Scalar)>> = row.iter().map(|&entry| parts(g, constants, entry)).collect();
         let mut by: Vec<(Scalar, Vec<Scalar>)> = Vec::new();
@@ -249,7 +249,7 @@ fn reduce(g: &mut Graph, known: &Known, constants: &Constants, matrix: &[Vec<Sca
                 by[at].1[column] = factor;
             }
         }
-        open.push(Row { parts: merge(g, by), side });
+        open.push(InputRow { parts: merge(g, by), side });
     }
     let mut constant: Vec<(Vec<Scalar>, Scalar)> = Vec::new();
     let mut full = Vec::new();
@@ -310,7 +310,7 @@ fn multiple(g: &mut Graph, vector: &[Scalar], base: &[Scalar]) -> Option<Scalar>
 }
 
 /// Takes multiples of constant rows out of a row.
-fn free(g: &mut Graph, row: &mut Row, constant: &[(Vec<Scalar>, Scalar)]) {
+fn free(g: &mut Graph, row: &mut InputRow, constant: &[(Vec<Scalar>, Scalar)]) {
     let mut kept = Vec::new();
     for (expression, vector) in std::mem::take(&mut row.parts) {
         match combination(g, &vector, constant) {

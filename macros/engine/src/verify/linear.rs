@@ -1,6 +1,6 @@
 //! Stage `verify`: pivoted linear systems, as the runtime solves them, in both kinds of numbers.
 //!
-//! In: a matrix by rows and a right side. Out: a [`Solved`]. Pivots are chosen as in `multibody::linear`, and count as zero
+//! In: a matrix by rows and a right side. Out: a [`LinearSolution`]. Pivots are chosen as in `multibody::linear`, and count as zero
 //! by the roundings of double precision, whatever the numbers: the rank is that of the emitted code. The order of pivots
 //! is part of the result, since what a system of lesser rank leaves open depends on it.
 
@@ -8,7 +8,7 @@ use super::arithmetic::Arithmetic;
 
 /// A solution with what its sensitivity needs.
 #[derive(Clone, Debug)]
-pub(super) struct Solved<T> {
+pub(super) struct LinearSolution<T> {
     pub x: Vec<T>,
     /// Equations and unknowns in the order of their pivots; as many as the rank.
     pub rows: Vec<usize>,
@@ -32,7 +32,7 @@ fn inverse(greatest: f64) -> f64 {
 }
 
 /// Complete pivoting after rows and columns have been brought to one scale. With `order`, pivots are those.
-pub(super) fn solve<T: Arithmetic>(matrix: &[T], rhs: &[T], order: Option<(&[usize], &[usize])>) -> Solved<T> {
+pub(super) fn solve<T: Arithmetic>(matrix: &[T], rhs: &[T], order: Option<(&[usize], &[usize])>) -> LinearSolution<T> {
     let n = rhs.len();
     let mut row_scales = Vec::with_capacity(n);
     let mut greatest = vec![0.0_f64; n];
@@ -112,7 +112,7 @@ pub(super) fn solve<T: Arithmetic>(matrix: &[T], rhs: &[T], order: Option<(&[usi
     }
     rows.truncate(rank);
     columns.truncate(rank);
-    Solved { x, rows, columns, row_scales, column_scales, unclear }
+    LinearSolution { x, rows, columns, row_scales, column_scales, unclear }
 }
 
 /// Its equation, the factors below it, its inverse.
@@ -125,7 +125,7 @@ pub(super) fn solve_symmetric<T: Arithmetic>(
     rhs: &[T],
     groups: &[usize],
     order: Option<&[usize]>,
-) -> Solved<T> {
+) -> LinearSolution<T> {
     let n = rhs.len();
     let mut a: Vec<Vec<T>> =
         matrix.chunks(n.max(1)).enumerate().map(|(i, row)| row[..=i.min(n - 1)].to_vec()).collect();
@@ -188,7 +188,7 @@ pub(super) fn solve_symmetric<T: Arithmetic>(
     let rows: Vec<usize> = pivots.iter().map(|pivot| pivot.0).collect();
     let scale = |&d: &f64| if d > 0.0 { 1.0 / d.sqrt() } else { 0.0 };
     let scales: Vec<f64> = diagonal.iter().map(scale).collect();
-    Solved { x, columns: rows.clone(), rows, row_scales: scales.clone(), column_scales: scales, unclear }
+    LinearSolution { x, columns: rows.clone(), rows, row_scales: scales.clone(), column_scales: scales, unclear }
 }
 
 /// The adjoint of the right side: A^T y = x' on the rows and columns of the pivots.

@@ -11,7 +11,7 @@ use crate::symbolic::doubled::Doubled;
 use crate::symbolic::graph::SymbolId;
 
 use super::arithmetic::{Arithmetic, slopes};
-use super::linear::{self, Solved};
+use super::linear::{self, LinearSolution};
 use super::tape::{Edge, Op, Tape, Work};
 
 /// Two numbers that are compared count as equal within this share of their size.
@@ -34,7 +34,7 @@ pub(super) struct Trace<'t, T> {
 #[derive(Clone)]
 struct Results<T> {
     values: Vec<T>,
-    solved: Option<Solved<T>>,
+    solved: Option<LinearSolution<T>>,
 }
 
 /// What a weighted sum of roots answers to.

@@ -9,7 +9,7 @@ use multibody_engine::dynamics::tree::{Link, Motion, Tree};
 use multibody_engine::mechanics::strut::carrier::{Axes, Carrier};
 use multibody_engine::mechanics::strut::detect::{Chain, detect};
 use multibody_engine::mechanics::strut::forward::{self, accelerations};
-use multibody_engine::mechanics::strut::inverse::{Arms, Gather, Way, forces};
+use multibody_engine::mechanics::strut::inverse::{Arms, Gather, Variant, forces};
 use multibody_engine::mechanics::strut::motion::{coordinates, moves};
 use multibody_engine::mechanics::strut::triple::{self, Triple, sub};
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
@@ -273,7 +273,7 @@ fn forwards_is_backwards() {
         let mut first: Option<Vec<f64>> = None;
         let ways = [Axes::Body, Axes::World].into_iter().flat_map(|axes| {
             let arms = [Arms::Pins, Arms::Pin, Arms::Feet].into_iter();
-            arms.flat_map(move |arms| [Gather::Forces, Gather::Moments].map(|gather| Way { axes, arms, gather }))
+            arms.flat_map(move |arms| [Gather::Forces, Gather::Moments].map(|gather| Variant { axes, arms, gather }))
         });
         let references = [carrier.plane(), legs[0].1, point(&mut b.g, &mut b.rng)];
         for (way, reference) in ways.flat_map(|way| references.map(|reference| (way, reference))) {

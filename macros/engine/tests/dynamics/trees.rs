@@ -9,7 +9,7 @@ use crate::rng::Rng;
 use crate::{formulations, plain};
 use multibody_engine::dynamics::floating_bases::floating_bases;
 use multibody_engine::dynamics::regroup::regroup;
-use multibody_engine::dynamics::shared_axes::{Axes, share_axes};
+use multibody_engine::dynamics::shared_axes::{SharedAxes, share_axes};
 use multibody_engine::dynamics::tree::{Motion, Tree};
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
 use multibody_engine::symbolic::graph::{Graph, Scalar, ScalarNode, SymbolId};
@@ -173,7 +173,7 @@ fn formulations_are_identical() {
 fn common_axes_change_no_value() {
     let written = Cell::new(0);
     for_trees(48, |mechanism, _| {
-        for axes in [Axes::Base, Axes::Tip] {
+        for axes in [SharedAxes::Base, SharedAxes::Tip] {
             for function in [inverse_dynamics as Function, mass_matrix, by_composite, by_articulated] {
                 let mut m = derive(&mechanism);
                 m.tree = regroup(&mut m.graph, &m.tree);

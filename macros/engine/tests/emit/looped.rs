@@ -126,11 +126,13 @@ pub fn structure(model: &Model) -> Structure {
         }
     }
     let row = |closing, index| Row { closing, index };
-    let ring = Closing::Constraint(ConstraintId(0));
+    let ring = LoopClosure::Constraint(ConstraintId(0));
     structure.rows = vec![row(ring, 0)];
-    structure.dropped = vec![row(Closing::Cut(JointId(11)), 2)];
-    let rows =
-        [10, 10, 11, 11].into_iter().zip([0, 1, 0, 1]).map(|(joint, index)| row(Closing::Cut(JointId(joint)), index));
+    structure.dropped = vec![row(LoopClosure::Cut(JointId(11)), 2)];
+    let rows = [10, 10, 11, 11]
+        .into_iter()
+        .zip([0, 1, 0, 1])
+        .map(|(joint, index)| row(LoopClosure::Cut(JointId(joint)), index));
     structure.steps = vec![
         Step {
             unknowns: vec![coordinate(6, 0), coordinate(6, 1), coordinate(8, 0), coordinate(8, 1)],

@@ -5,9 +5,9 @@
 use multibody_engine::contracts::results::Results;
 use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics::equations::Equations;
-use multibody_engine::mechanics::loops::constraints::{Axes, Held, Writing, closings, row_count, row_name};
+use multibody_engine::mechanics::loops::constraints::{ClosedIn, Held, Writing, closings, row_count, row_name};
 use multibody_engine::mechanics::scene::Style;
-use multibody_engine::model::types::{BodyId, BodyRef, Closing, Coordinate, JointId, Model};
+use multibody_engine::model::types::{BodyId, BodyRef, Coordinate, JointId, LoopClosure, Model};
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
 use multibody_engine::symbolic::graph::{Scalar, SymbolId};
 
@@ -228,7 +228,7 @@ fn rods_and_expressions_are_exact() {
         let mut e = Equations::plain(&model);
         let values = draw(&e, 100 + seed as u64);
         for k in 0..2 {
-            let closing = Closing::Constraint(ConstraintId(k));
+            let closing = LoopClosure::Constraint(ConstraintId(k));
             assert_eq!(row_name(&model, closing, 0), "reach");
             let residuals = e.residuals(closing, writing);
             let lambda = vec![e.g.decimal(0.7)];
@@ -297,7 +297,7 @@ fn planar_loops_have_absolute_angles() {
     );
     let model = cut_last(model_of(&text), "three");
     let closing = closings(&model)[0];
-    for axes in [Axes::World, Axes::Common] {
+    for axes in [ClosedIn::World, ClosedIn::Common] {
         for style in [Style::Nested, Style::World] {
             let mut e = Equations::plain(&model);
             let r = e.residuals(closing, Writing { axes, style });
@@ -374,7 +374,7 @@ fn a_leg_costs_what_it_should() {
         );
         let model = model_of(&text);
         let closing = closings(&model)[0];
-        for (axes, most) in [(Axes::Parent, [11, 12, 2]), (Axes::ParentBase, [9, 8, 2])] {
+        for (axes, most) in [(ClosedIn::Parent, [11, 12, 2]), (ClosedIn::ParentBase, [9, 8, 2])] {
             let mut e = Equations::plain(&model);
             let residuals = e.residuals(closing, Writing { axes, style: Style::Nested });
             let symbol_names = (0..e.scene.symbols.table.len()).map(|k| format!("s{k}")).collect();

@@ -187,7 +187,7 @@ impl Cycle {
     }
 
     pub(crate) fn solve(&mut self, signs: &[bool]) -> Result<Solution, Failure> {
-        let cycle = multibody_engine::solve::Cycle { segments: self.segments.clone(), winding: None };
+        let cycle = multibody_engine::solve::KinematicLoop { segments: self.segments.clone(), winding: None };
         solve(&mut self.g, &cycle, signs)
     }
 

@@ -5,21 +5,23 @@
 
 use crate::contracts::function::FunctionKind;
 use crate::emit::layout::leaf::Leaf;
-use crate::emit::layout::{Group, Layout};
+use crate::emit::layout::{Layout, StructKind};
 use crate::emit::{Context, document};
 use crate::mechanics::loops::constraints::row_name;
 use crate::mechanics::loops::structure::{Means, Row, Step};
-use crate::model::types::{Closing, ConstraintId, ConstraintKind, Coordinate, DriveTarget, JointId, Place, SolveHow};
+use crate::model::types::{
+    ConstraintId, ConstraintKind, Coordinate, DriveTarget, JointId, LoopClosure, Place, SolveHow,
+};
 use crate::optimize::program::Expression;
 
-use super::report::Row as Line;
+use super::report::TableRow as Line;
 use super::report::{frame, row, section, text};
 use super::{alike, formula};
 
 impl Layout<'_> {
     /// Names of the components of a velocity, in order: `legs[0].gimbal.first`.
     pub(in crate::emit) fn coordinates(&self) -> Vec<String> {
-        let entries = self.table(Group::Velocity).entries.iter();
+        let entries = self.table(StructKind::Velocity).entries.iter();
         let names = entries.flat_map(|entry| {
             let place = Place { instance: entry.instance, field: entry.field.clone() };
             let name = self.name(&place);
@@ -120,11 +122,11 @@ pub(super) fn section_lines(context: &Context<'_>) -> Vec<String> {
 /// A row for each closing joint and constraint.
 fn closings(layout: &Layout<'_>) -> Vec<Line> {
     let (model, structure) = (layout.model, layout.structure);
-    let count = |closing: Closing| {
+    let count = |closing: LoopClosure| {
         let kept = structure.rows.iter().filter(|row| row.closing == closing).count();
         let solved = structure.steps.iter().map(|step| match &step.means {
             Means::Newton { rows, .. } => rows.iter().filter(|row| row.closing == closing).count(),
-            Means::Linear(constraint) => usize::from(closing == Closing::Constraint(*constraint)),
+            Means::Linear(constraint) => usize::from(closing == LoopClosure::Constraint(*constraint)),
             Means::Solve(_) => 0,
         });
         let solved: usize = solved.sum();
@@ -139,7 +141,7 @@ fn closings(layout: &Layout<'_>) -> Vec<Line> {
         let joint = &model.joints[*id];
         let (parent, child) = (frame(layout, &joint.parent), frame(layout, &joint.child));
         let kind = joint.kind.word.to_string();
-        let cells = vec![kind, parent, child, count(Closing::Cut(*id)), text(&joint.docs)];
+        let cells = vec![kind, parent, child, count(LoopClosure::Cut(*id)), text(&joint.docs)];
         row(layout, &joint.place, cells)
     });
     let constraints = model.constraints.iter().enumerate().map(|(number, constraint)| {
@@ -151,7 +153,7 @@ fn closings(layout: &Layout<'_>) -> Vec<Line> {
                 ("rod", frame(layout, a), frame(layout, b))
             }
         };
-        let count = count(Closing::Constraint(ConstraintId(number)));
+        let count = count(LoopClosure::Constraint(ConstraintId(number)));
         row(layout, &constraint.place, vec![kind.to_string(), parent, child, count, text(&constraint.docs)])
     });
     cuts.chain(constraints).collect()
@@ -162,16 +164,16 @@ fn dependents(layout: &Layout<'_>, step: &Step) -> String {
     let model = layout.model;
     let unknowns = step.unknowns.iter().map(|unknown| quoted(&layout.coordinate(*unknown)));
     let unknowns = listed(unknowns).unwrap_or_default();
-    let closing = |closing: Closing| {
+    let closing = |closing: LoopClosure| {
         let place = match closing {
-            Closing::Cut(joint) => &model.joints[joint].place,
-            Closing::Constraint(id) => &model.constraints[id].place,
+            LoopClosure::Cut(joint) => &model.joints[joint].place,
+            LoopClosure::Constraint(id) => &model.constraints[id].place,
         };
         quoted(&layout.name(place))
     };
     match &step.means {
         Means::Linear(constraint) => {
-            format!("{unknowns}: linear in the others, by {}", closing(Closing::Constraint(*constraint)))
+            format!("{unknowns}: linear in the others, by {}", closing(LoopClosure::Constraint(*constraint)))
         }
         Means::Solve(number) => match model.solves.get(*number).map(|solve| &solve.how) {
             Some(SolveHow::From { closing: from, branches }) => {

@@ -117,9 +117,9 @@ pub(in crate::emit) fn lines(context: &Context<'_>) -> Vec<String> {
 }
 
 /// A row of a table.
-pub(in crate::emit) struct Row(String);
+pub(in crate::emit) struct TableRow(String);
 
-pub(in crate::emit) fn row(layout: &Layout<'_>, place: &Place, rest: Vec<String>) -> Row {
+pub(in crate::emit) fn row(layout: &Layout<'_>, place: &Place, rest: Vec<String>) -> TableRow {
     plain_row(&layout.name(place), rest)
 }
 
@@ -135,12 +135,12 @@ fn general(name: &str) -> String {
     general
 }
 
-fn plain_row(name: &str, rest: Vec<String>) -> Row {
-    Row(format!("| `{name}` | {} |", rest.join(" | ")))
+fn plain_row(name: &str, rest: Vec<String>) -> TableRow {
+    TableRow(format!("| `{name}` | {} |", rest.join(" | ")))
 }
 
 /// A table under a heading; nothing where there are no rows.
-pub(super) fn section(lines: &mut Vec<String>, heading: &str, columns: &[&str], rows: impl Iterator<Item = Row>) {
+pub(super) fn section(lines: &mut Vec<String>, heading: &str, columns: &[&str], rows: impl Iterator<Item = TableRow>) {
     let rows: Vec<String> = rows.map(|row| row.0).collect();
     if rows.is_empty() {
         return;

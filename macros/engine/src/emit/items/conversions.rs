@@ -5,7 +5,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use crate::emit::layout::places::RESERVED;
-use crate::emit::layout::{Group, Layout};
+use crate::emit::layout::{Layout, StructKind};
 use crate::emit::methods::results;
 use crate::emit::{Context, names};
 use crate::model::types::{InstanceId, Place};
@@ -14,7 +14,7 @@ use crate::model::types::{InstanceId, Place};
 pub(super) fn items(context: &Context<'_>) -> TokenStream {
     let layout = &context.layout;
     let mut tokens = TokenStream::new();
-    for group in [Group::Velocity, Group::Position, Group::Guess] {
+    for group in [StructKind::Velocity, StructKind::Position, StructKind::Guess] {
         if layout.is_empty(group, None) {
             continue;
         }
@@ -30,12 +30,12 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
 }
 
 /// Expands to `impl<T: Real> From<Velocity<T>> for SVector<T, 2> { .. }`.
-fn to_vector(layout: &Layout<'_>, group: Group) -> TokenStream {
+fn to_vector(layout: &Layout<'_>, group: StructKind) -> TokenStream {
     let (krate, name) = (layout.krate(), group.name());
     let size = Literal::usize_unsuffixed(layout.table(group).size);
     let from = names::ident(match group {
-        Group::Velocity => "velocity",
-        Group::Guess => "guess",
+        StructKind::Velocity => "velocity",
+        StructKind::Guess => "guess",
         _ => "position",
     });
     let scalars = layout.table(group).entries.iter().flat_map(|entry| {
@@ -56,7 +56,7 @@ fn to_vector(layout: &Layout<'_>, group: Group) -> TokenStream {
 }
 
 /// Expands to `impl<T: Real> From<SVector<T, 2>> for Velocity<T> { .. }`.
-fn from_vector(layout: &Layout<'_>, group: Group) -> TokenStream {
+fn from_vector(layout: &Layout<'_>, group: StructKind) -> TokenStream {
     let (krate, name) = (layout.krate(), group.name());
     let size = Literal::usize_unsuffixed(layout.table(group).size);
     let scalars = scalars(layout, group);
@@ -75,10 +75,10 @@ fn from_vector(layout: &Layout<'_>, group: Group) -> TokenStream {
 /// Expands to `pub fn normalized(vector: SVector<T, 7>) -> Self`.
 fn normalised(layout: &Layout<'_>) -> TokenStream {
     let krate = layout.krate();
-    let size = Literal::usize_unsuffixed(layout.table(Group::Position).size);
-    let scalars = scalars(layout, Group::Position);
+    let size = Literal::usize_unsuffixed(layout.table(StructKind::Position).size);
+    let scalars = scalars(layout, StructKind::Position);
     let list: Vec<TokenStream> = scalars.iter().map(|scalar| quote!(#scalar)).collect();
-    let value = layout.construct(Group::Position, InstanceId(0), false, &mut |entry| {
+    let value = layout.construct(StructKind::Position, InstanceId(0), false, &mut |entry| {
         let own = list.iter().skip(entry.offset).take(entry.leaf.size());
         entry.leaf.build_normalised(krate, &mut own.cloned())
     });
@@ -95,7 +95,7 @@ fn normalised(layout: &Layout<'_>) -> TokenStream {
 }
 
 /// A variable for every scalar of a group: `shoulder`, `legs_2_gimbal_first`.
-fn scalars(layout: &Layout<'_>, group: Group) -> Vec<Ident> {
+fn scalars(layout: &Layout<'_>, group: StructKind) -> Vec<Ident> {
     let texts: Vec<String> = layout
         .table(group)
         .entries

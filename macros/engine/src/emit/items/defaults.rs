@@ -5,7 +5,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::emit::Context;
-use crate::emit::layout::{Entry, Field, FieldKind, Group, Layout, leaf};
+use crate::emit::layout::{Entry, Field, FieldKind, Layout, StructKind, leaf};
 use crate::emit::print::literals;
 use crate::model::types::{InstanceId, PartTypeId};
 
@@ -14,13 +14,13 @@ use super::structs::compares_by_hand;
 /// Expands to the impls for the model's structs.
 pub(super) fn items(context: &Context<'_>) -> TokenStream {
     let layout = &context.layout;
-    let groups = Group::ALL.into_iter();
+    let groups = StructKind::ALL.into_iter();
     let groups = groups.filter(|group| group.always() || !layout.is_empty(*group, None));
     groups.map(|group| implement(layout, group, None)).collect()
 }
 
 /// Expands to `impl<T: Real> Default for Params<T> { .. }`, and `PartialEq` if need be.
-pub(super) fn implement(layout: &Layout<'_>, group: Group, owner: Option<PartTypeId>) -> TokenStream {
+pub(super) fn implement(layout: &Layout<'_>, group: StructKind, owner: Option<PartTypeId>) -> TokenStream {
     let name = group.name();
     let fields = layout.fields(group, owner);
     // All instances of a part share its type; its default is that of the first one.
@@ -52,7 +52,13 @@ pub(super) fn implement(layout: &Layout<'_>, group: Group, owner: Option<PartTyp
     }
 }
 
-fn field_default(layout: &Layout<'_>, group: Group, instance: InstanceId, field: &Field, in_part: bool) -> TokenStream {
+fn field_default(
+    layout: &Layout<'_>,
+    group: StructKind,
+    instance: InstanceId,
+    field: &Field,
+    in_part: bool,
+) -> TokenStream {
     let (part, count) = match &field.kind {
         FieldKind::Leaf(kind) => {
             return match layout.find(group, instance, &field.name) {

@@ -5,7 +5,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use crate::contracts::function::FunctionKind;
-use crate::emit::layout::{FieldKind, Group, Layout};
+use crate::emit::layout::{FieldKind, Layout, StructKind};
 use crate::emit::methods::arguments::input_type;
 use crate::emit::methods::results;
 use crate::emit::{Context, names};
@@ -20,10 +20,10 @@ pub(super) fn item(context: &Context<'_>) -> TokenStream {
         return TokenStream::new();
     }
     let layout = &context.layout;
-    let mut tokens = if layout.is_empty(Group::Input, None) {
+    let mut tokens = if layout.is_empty(StructKind::Input, None) {
         TokenStream::new()
     } else {
-        space::tangent(layout, Group::Input, None)
+        space::tangent(layout, StructKind::Input, None)
     };
     if context.function(FunctionKind::ForwardDynamics).is_some() {
         tokens.extend(differentiable(layout));
@@ -74,7 +74,7 @@ fn input_derivative(layout: &Layout<'_>, derivatives: &TokenStream) -> TokenStre
     let input = input_type(layout);
     let has_states = layout.has_states();
     let extra = if has_states { quote!(States<T>) } else { quote!(()) };
-    if layout.is_empty(Group::Input, None) {
+    if layout.is_empty(StructKind::Input, None) {
         let rest = if has_states { quote!(#krate::Tangent::<T>::zero()) } else { quote!(()) };
         return quote! {
             fn input_derivative(&self, _t: T, _state: &State<T>, _input: &(), _change: &()) -> (Velocity<T>, #extra) {
@@ -82,14 +82,14 @@ fn input_derivative(layout: &Layout<'_>, derivatives: &TokenStream) -> TokenStre
             }
         };
     }
-    let changes = layout.table(Group::Input).entries.iter().flat_map(|entry| {
+    let changes = layout.table(StructKind::Input).entries.iter().flat_map(|entry| {
         let path = layout.leaf_path(entry);
         (0..entry.leaf.size()).map(move |component| {
             let access = entry.leaf.access(component);
             quote!(change #path #access)
         })
     });
-    let count = layout.dof() + layout.table(Group::States).size;
+    let count = layout.dof() + layout.table(StructKind::States).size;
     let rates = names::ident(if count == 0 { "_rates" } else { "rates" });
     let list: Vec<TokenStream> = (0..count)
         .map(|at| {
@@ -98,8 +98,8 @@ fn input_derivative(layout: &Layout<'_>, derivatives: &TokenStream) -> TokenStre
         })
         .collect();
     let (velocities, states) = list.split_at(layout.dof());
-    let velocities = results::filled(layout, Group::Velocity, velocities);
-    let states = if has_states { results::filled(layout, Group::States, states) } else { quote!(()) };
+    let velocities = results::filled(layout, StructKind::Velocity, velocities);
+    let states = if has_states { results::filled(layout, StructKind::States, states) } else { quote!(()) };
     quote! {
         fn input_derivative(
             &self,
@@ -118,9 +118,9 @@ fn input_derivative(layout: &Layout<'_>, derivatives: &TokenStream) -> TokenStre
 /// components of a part's struct that this instance of the part does not have.
 fn places(layout: &Layout<'_>) -> Vec<Option<usize>> {
     let mut places = Vec::new();
-    walk(layout, Group::Velocity, None, InstanceId(0), &mut places);
+    walk(layout, StructKind::Velocity, None, InstanceId(0), &mut places);
     let velocities = places.len();
-    walk(layout, Group::States, None, InstanceId(0), &mut places);
+    walk(layout, StructKind::States, None, InstanceId(0), &mut places);
     for place in places.iter_mut().skip(velocities).flatten() {
         *place += layout.dof();
     }
@@ -130,7 +130,7 @@ fn places(layout: &Layout<'_>) -> Vec<Option<usize>> {
 /// In the order of the fields.
 fn walk(
     layout: &Layout<'_>,
-    group: Group,
+    group: StructKind,
     owner: Option<PartTypeId>,
     instance: InstanceId,
     places: &mut Vec<Option<usize>>,

@@ -8,7 +8,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::contracts::function::{Asked, FunctionKind};
-use crate::emit::layout::Group;
+use crate::emit::layout::StructKind;
 use crate::emit::methods::functions;
 use crate::emit::{Context, document, names};
 
@@ -26,7 +26,7 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
             }
             _ => None,
         });
-    let outputs = context.layout.is_empty(Group::Output, None).then(|| {
+    let outputs = context.layout.is_empty(StructKind::Output, None).then(|| {
         let docs = "The model has no `output`.";
         method(context, FunctionKind::Outputs, docs, "Outputs")
     });

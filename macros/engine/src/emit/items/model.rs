@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::contracts::function::FunctionKind;
-use crate::emit::layout::Group;
+use crate::emit::layout::StructKind;
 use crate::emit::layout::leaf::initialiser;
 use crate::emit::layout::places::RESERVED;
 use crate::emit::methods::functions;
@@ -34,7 +34,7 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
         .compiled
         .functions
         .iter()
-        .filter(|function| function.kind != FunctionKind::Outputs || !context.layout.is_empty(Group::Output, None))
+        .filter(|function| function.kind != FunctionKind::Outputs || !context.layout.is_empty(StructKind::Output, None))
         .map(|function| functions::method(context, function));
     quote! {
         #docs

@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::{defaults, differentiable, space, structs};
-use crate::emit::layout::Group;
+use crate::emit::layout::StructKind;
 use crate::emit::{Context, document, names};
 use crate::model::types::PartTypeId;
 
@@ -15,7 +15,8 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
     let mut modules = TokenStream::new();
     for (index, part) in layout.model.part_types.iter().enumerate() {
         let owner = Some(PartTypeId(index));
-        let groups: Vec<Group> = Group::ALL.into_iter().filter(|group| !layout.is_empty(*group, owner)).collect();
+        let groups: Vec<StructKind> =
+            StructKind::ALL.into_iter().filter(|group| !layout.is_empty(*group, owner)).collect();
         if groups.is_empty() {
             continue;
         }
@@ -24,9 +25,9 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
             items.extend(structs::declare(layout, group, owner));
             items.extend(defaults::implement(layout, group, owner));
             items.extend(match group {
-                Group::Velocity | Group::States => space::tangent(layout, group, owner),
-                Group::Input if differentiable::is_derived(context) => space::tangent(layout, group, owner),
-                Group::Position => space::configuration(layout, owner),
+                StructKind::Velocity | StructKind::States => space::tangent(layout, group, owner),
+                StructKind::Input if differentiable::is_derived(context) => space::tangent(layout, group, owner),
+                StructKind::Position => space::configuration(layout, owner),
                 _ => TokenStream::new(),
             });
         }

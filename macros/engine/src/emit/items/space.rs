@@ -6,23 +6,23 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::emit::Context;
-use crate::emit::layout::{Group, Layout};
+use crate::emit::layout::{Layout, StructKind};
 use crate::model::types::PartTypeId;
 
 /// Expands to the impls for the model's structs.
 pub(super) fn items(context: &Context<'_>) -> TokenStream {
     let layout = &context.layout;
     let krate = layout.krate();
-    let mut tokens = tangent(layout, Group::Velocity, None);
+    let mut tokens = tangent(layout, StructKind::Velocity, None);
     tokens.extend(configuration(layout, None));
-    let (extra, split, join) = if layout.is_empty(Group::States, None) {
+    let (extra, split, join) = if layout.is_empty(StructKind::States, None) {
         (quote!(()), quote!(()), quote!((): ()))
     } else {
-        tokens.extend(tangent(layout, Group::States, None));
+        tokens.extend(tangent(layout, StructKind::States, None));
         (quote!(States<T>), quote!(self.x), quote!(x: States<T>))
     };
     let x = layout.has_states().then(|| quote!(x,));
-    let guess = (!layout.is_empty(Group::Guess, None)).then(|| quote!(guess: self.guess,));
+    let guess = (!layout.is_empty(StructKind::Guess, None)).then(|| quote!(guess: self.guess,));
     tokens.extend(quote! {
         impl<T: Real> #krate::StateSpace for State<T> {
             type Scalar = T;
@@ -43,7 +43,7 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
 }
 
 /// Expands to `impl<T: Real> Tangent<T> for Velocity<T> { .. }`.
-pub(super) fn tangent(layout: &Layout<'_>, group: Group, owner: Option<PartTypeId>) -> TokenStream {
+pub(super) fn tangent(layout: &Layout<'_>, group: StructKind, owner: Option<PartTypeId>) -> TokenStream {
     let krate = layout.krate();
     let name = group.name();
     let fields = layout.fields(group, owner);
@@ -91,7 +91,7 @@ pub(super) fn tangent(layout: &Layout<'_>, group: Group, owner: Option<PartTypeI
 /// Expands to `impl<T: Real> Configuration<T> for Position<T> { .. }`.
 pub(super) fn configuration(layout: &Layout<'_>, owner: Option<PartTypeId>) -> TokenStream {
     let krate = layout.krate();
-    let fields = layout.fields(Group::Position, owner);
+    let fields = layout.fields(StructKind::Position, owner);
     if fields.is_empty() {
         return quote! {
             impl<T: Real> #krate::Configuration<T> for Position<T> {
@@ -113,9 +113,9 @@ pub(super) fn configuration(layout: &Layout<'_>, owner: Option<PartTypeId>) -> T
         };
     }
     let names: Vec<_> = fields.iter().map(|field| &field.name).collect();
-    let types = fields.iter().map(|field| layout.field_type(Group::Position, &field.kind, owner.is_some()));
+    let types = fields.iter().map(|field| layout.field_type(StructKind::Position, &field.kind, owner.is_some()));
     let types: Vec<_> = types.collect();
-    let mut entries = layout.table(Group::Position).entries.iter();
+    let mut entries = layout.table(StructKind::Position).entries.iter();
     let rotations = if entries.any(|entry| entry.leaf.has_quaternion()) {
         quote! {
             fn dexp_inv(d: &Velocity<T>, v: &Velocity<T>) -> Velocity<T> {

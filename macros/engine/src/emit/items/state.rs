@@ -5,7 +5,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use crate::contracts::function::FunctionKind;
-use crate::emit::layout::Group;
+use crate::emit::layout::StructKind;
 use crate::emit::methods::results;
 use crate::emit::{Context, document, names};
 
@@ -58,13 +58,13 @@ fn state(context: &Context<'_>) -> TokenStream {
         fields.push(Field::of("x", "States", "the model's own states"));
     }
     let mut docs = "All that changes in time. Its default is every joint at zero, at rest.".to_owned();
-    if !layout.is_empty(Group::Guess, None) {
+    if !layout.is_empty(StructKind::Guess, None) {
         let text = "where Newton's method starts to close loops; not integrated, renewed by every accepted step";
         fields.push(Field::of("guess", "Guess", text));
         docs += " Its guess is then one that closes the loops, if the macro found any with these joints at zero and \
                  parameters at their defaults, and else one near by.";
     }
-    declare("State", &docs, &fields, compares_by_hand(layout, Group::Position))
+    declare("State", &docs, &fields, compares_by_hand(layout, StructKind::Position))
 }
 
 fn derivative(context: &Context<'_>) -> Option<TokenStream> {
@@ -102,7 +102,7 @@ fn closed(context: &Context<'_>) -> Option<TokenStream> {
         Field::of("state", "State", "the state whose guess is the solution"),
         Field::scalar("residual", "the greatest residual that is left"),
     ];
-    let by_hand = compares_by_hand(&context.layout, Group::Position);
+    let by_hand = compares_by_hand(&context.layout, StructKind::Position);
     Some(declare("Closed", "A state with its loops closed by Newton's method.", &fields, by_hand))
 }
 
@@ -113,7 +113,7 @@ fn solved(context: &Context<'_>) -> Option<TokenStream> {
         Field::of("input", "Input", "the given inputs, with those that were looked for in their places"),
         Field::scalar("rank", "rank of their equations"),
     ];
-    let by_hand = compares_by_hand(&context.layout, Group::Input);
+    let by_hand = compares_by_hand(&context.layout, StructKind::Input);
     Some(declare("Solved", "What inverse dynamics gives: the inputs that produce the motion.", &fields, by_hand))
 }
 

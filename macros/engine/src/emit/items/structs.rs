@@ -4,7 +4,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::emit::layout::{Group, Layout};
+use crate::emit::layout::{Layout, StructKind};
 use crate::emit::{Context, document};
 use crate::model::types::PartTypeId;
 
@@ -12,10 +12,10 @@ use crate::model::types::PartTypeId;
 pub(super) fn items(context: &Context<'_>) -> TokenStream {
     let layout = &context.layout;
     let mut tokens = TokenStream::new();
-    for group in Group::ALL {
+    for group in StructKind::ALL {
         if group.always() || !layout.is_empty(group, None) {
             tokens.extend(declare(layout, group, None));
-        } else if group == Group::Input {
+        } else if group == StructKind::Input {
             tokens.extend(quote! {
                 /// The model has no inputs.
                 pub type Input = ();
@@ -26,7 +26,7 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
 }
 
 /// Expands to `pub struct Position<T = f64> { pub shoulder: T, pub elbow: T }`.
-pub(super) fn declare(layout: &Layout<'_>, group: Group, owner: Option<PartTypeId>) -> TokenStream {
+pub(super) fn declare(layout: &Layout<'_>, group: StructKind, owner: Option<PartTypeId>) -> TokenStream {
     let name = group.name();
     let docs = document::attributes(&document::group(layout, group, owner));
     let fields = layout.fields(group, owner);
@@ -51,7 +51,7 @@ pub(super) fn declare(layout: &Layout<'_>, group: Group, owner: Option<PartTypeI
 }
 
 /// Whether a derived `PartialEq` fails: rotations compare only for real scalars.
-pub(super) fn compares_by_hand(layout: &Layout<'_>, group: Group) -> bool {
+pub(super) fn compares_by_hand(layout: &Layout<'_>, group: StructKind) -> bool {
     let mut entries = layout.table(group).entries.iter();
     entries.any(|entry| entry.leaf.compares_by_hand())
 }

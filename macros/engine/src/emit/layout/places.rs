@@ -8,7 +8,7 @@ use quote::quote;
 use crate::contracts::symbol::Symbol;
 use crate::emit::names;
 
-use super::{Entry, Group, Layout};
+use super::{Entry, Layout, StructKind};
 
 /// The variable that a symbol's path starts with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -100,15 +100,15 @@ impl Layout<'_> {
                 let index = Literal::usize_unsuffixed(index);
                 return quote!([#index]);
             }
-            Symbol::Param { param, element } => self.entry(Group::Params, param.0, element),
-            Symbol::Input { input, element } => self.entry(Group::Input, input.0, element),
+            Symbol::Param { param, element } => self.entry(StructKind::Params, param.0, element),
+            Symbol::Input { input, element } => self.entry(StructKind::Input, input.0, element),
             Symbol::Guess { index } => self.guessed(index),
-            Symbol::State { state } => self.entry(Group::States, state.0, 0),
-            Symbol::Position { joint, component } => self.joint(Group::Position, joint, component),
+            Symbol::State { state } => self.entry(StructKind::States, state.0, 0),
+            Symbol::Position { joint, component } => self.joint(StructKind::Position, joint, component),
             Symbol::Velocity { joint, component }
             | Symbol::Acceleration { joint, component }
             | Symbol::Impulse { joint, component }
-            | Symbol::Momentum { joint, component } => self.joint(Group::Velocity, joint, component),
+            | Symbol::Momentum { joint, component } => self.joint(StructKind::Velocity, joint, component),
         };
         let path = place.map(|(entry, component)| {
             let (path, access) = (self.leaf_path(entry), entry.leaf.access(component));
@@ -117,7 +117,7 @@ impl Layout<'_> {
         path.unwrap_or_default()
     }
 
-    fn entry(&self, group: Group, index: usize, component: usize) -> Option<(&Entry, usize)> {
+    fn entry(&self, group: StructKind, index: usize, component: usize) -> Option<(&Entry, usize)> {
         Some((self.table(group).entries.get(index)?, component))
     }
 }

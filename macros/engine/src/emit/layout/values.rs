@@ -8,11 +8,11 @@ use quote::quote;
 use crate::model::types::{InstanceId, PartTypeId};
 
 use super::leaf::initialiser;
-use super::{Entry, FieldKind, Group, Layout};
+use super::{Entry, FieldKind, Layout, StructKind};
 
 impl Layout<'_> {
     /// The leaf of `instance` in this field; parts may lack what another instance of theirs has.
-    pub(in crate::emit) fn find(&self, group: Group, instance: InstanceId, field: &Ident) -> Option<&Entry> {
+    pub(in crate::emit) fn find(&self, group: StructKind, instance: InstanceId, field: &Ident) -> Option<&Entry> {
         let mut entries = self.table(group).entries.iter();
         entries.find(|entry| entry.instance == instance && entry.field == *field)
     }
@@ -32,7 +32,7 @@ impl Layout<'_> {
     /// gives the values. `in_part` says from where types are seen.
     pub(in crate::emit) fn construct(
         &self,
-        group: Group,
+        group: StructKind,
         instance: InstanceId,
         in_part: bool,
         leaf: &mut dyn FnMut(&Entry) -> TokenStream,
@@ -65,7 +65,7 @@ impl Layout<'_> {
     /// Expands to `[a, b]` for an array of parts, to `a` for a single one; to defaults if this instance has none there.
     pub(in crate::emit) fn part_value(
         &self,
-        group: Group,
+        group: StructKind,
         (part, count): (PartTypeId, Option<usize>),
         in_part: bool,
         parts: &[TokenStream],

@@ -10,7 +10,7 @@ use quote::quote;
 
 use crate::contracts::function::{Arguments, FunctionKind};
 use crate::emit::layout::places::Root;
-use crate::emit::layout::{Group, Layout};
+use crate::emit::layout::{Layout, StructKind};
 use crate::emit::names;
 
 use super::results::vector_type;
@@ -128,5 +128,5 @@ const OF_STATE: [Root; 4] = [Root::Position, Root::Velocity, Root::States, Root:
 
 /// Expands to `Input<T>` or `()`.
 pub(in crate::emit) fn input_type(layout: &Layout<'_>) -> TokenStream {
-    if layout.is_empty(Group::Input, None) { quote!(()) } else { quote!(Input<T>) }
+    if layout.is_empty(StructKind::Input, None) { quote!(()) } else { quote!(Input<T>) }
 }

@@ -9,7 +9,7 @@ use quote::quote;
 use crate::contracts::function::{FunctionKind, Shape, Sizes};
 use crate::contracts::results::{Parts, Results, Slot};
 use crate::contracts::symbol::Symbol;
-use crate::emit::layout::{Group, Layout, leaf};
+use crate::emit::layout::{Layout, StructKind, leaf};
 use crate::emit::names;
 use crate::model::types::{InstanceId, SolveFor};
 
@@ -21,7 +21,7 @@ impl Layout<'_> {
 
     /// Whether the model has states of its own.
     pub(in crate::emit) fn has_states(&self) -> bool {
-        !self.is_empty(Group::States, None)
+        !self.is_empty(StructKind::States, None)
     }
 
     /// Whether forward dynamics gives more than accelerations.
@@ -31,7 +31,7 @@ impl Layout<'_> {
 
     /// Whether inverse dynamics finds inputs instead of efforts.
     pub(in crate::emit) fn solves_inputs(&self) -> bool {
-        !self.model.solve_for.is_empty() && !self.is_empty(Group::Input, None)
+        !self.model.solve_for.is_empty() && !self.is_empty(StructKind::Input, None)
     }
 
     /// What the function gives.
@@ -42,7 +42,7 @@ impl Layout<'_> {
     /// What shapes and documentation depend on.
     pub(in crate::emit) fn sizes(&self, kind: FunctionKind) -> Sizes {
         let [states, inputs, outputs] =
-            [Group::States, Group::Input, Group::Output].map(|group| self.table(group).size);
+            [StructKind::States, StructKind::Input, StructKind::Output].map(|group| self.table(group).size);
         let kinematics = match kind {
             FunctionKind::Kinematics(number) => self.model.kinematics.get(number),
             _ => None,
@@ -103,11 +103,11 @@ pub(in crate::emit) fn value(layout: &Layout<'_>, kind: FunctionKind, results: V
         Shape::Scalar => scalar(&results, Slot::Value),
         Shape::Vector(_) | Shape::Residual | Shape::Margins(_) => vector(layout, &results.list),
         Shape::Matrix(rows, columns) => leaf::matrix(krate, rows, columns, &mut results.list.into_iter()),
-        Shape::Velocity => filled(layout, Group::Velocity, results.of(Slot::Velocity)),
+        Shape::Velocity => filled(layout, StructKind::Velocity, results.of(Slot::Velocity)),
         Shape::Derivative => derivative(layout, &results),
         Shape::Solved(_) => solved(layout, &results),
         Shape::Jump => jump(layout, &results),
-        Shape::Outputs => filled(layout, Group::Output, results.of(Slot::Value)),
+        Shape::Outputs => filled(layout, StructKind::Output, results.of(Slot::Value)),
         Shape::Kinematics(_) => {
             let [position, velocity, acceleration] =
                 [Slot::Positions, Slot::Rates, Slot::Accelerations].map(|slot| vector(layout, results.of(slot)));
@@ -118,10 +118,10 @@ pub(in crate::emit) fn value(layout: &Layout<'_>, kind: FunctionKind, results: V
                 let columns = layout.table(group).size;
                 leaf::matrix(krate, rows, columns, &mut results.of(slot).iter().cloned())
             };
-            let position = matrix(Slot::ByPosition, Group::Velocity);
-            let velocity = matrix(Slot::ByVelocity, Group::Velocity);
-            let states = matrix(Slot::ByState, Group::States);
-            let input = matrix(Slot::ByInput, Group::Input);
+            let position = matrix(Slot::ByPosition, StructKind::Velocity);
+            let velocity = matrix(Slot::ByVelocity, StructKind::Velocity);
+            let states = matrix(Slot::ByState, StructKind::States);
+            let input = matrix(Slot::ByInput, StructKind::Input);
             quote! {
                 #krate::Derivatives { position: #position, velocity: #velocity, states: #states, input: #input }
             }
@@ -129,7 +129,7 @@ pub(in crate::emit) fn value(layout: &Layout<'_>, kind: FunctionKind, results: V
         Shape::Closed => {
             let state = names::ident("state");
             let residual = scalar(&results, Slot::Residual);
-            let guess = filled(layout, Group::Guess, &layout.in_leaves(results.of(Slot::Unknowns)));
+            let guess = filled(layout, StructKind::Guess, &layout.in_leaves(results.of(Slot::Unknowns)));
             quote!(Closed { state: State { guess: #guess, ..*#state }, residual: #residual })
         }
     }
@@ -137,9 +137,9 @@ pub(in crate::emit) fn value(layout: &Layout<'_>, kind: FunctionKind, results: V
 
 /// Expands to `Derivative { v: .., x: .., multipliers: .., rank: .., residual: .. }`.
 fn derivative(layout: &Layout<'_>, results: &Results<TokenStream>) -> TokenStream {
-    let v = filled(layout, Group::Velocity, results.of(Slot::Velocity));
+    let v = filled(layout, StructKind::Velocity, results.of(Slot::Velocity));
     let x = layout.has_states().then(|| {
-        let x = filled(layout, Group::States, results.of(Slot::States));
+        let x = filled(layout, StructKind::States, results.of(Slot::States));
         quote!(x: #x,)
     });
     let rows = (layout.rows() > 0).then(|| {
@@ -156,7 +156,7 @@ fn derivative(layout: &Layout<'_>, results: &Results<TokenStream>) -> TokenStrea
 
 /// Expands to `Jump { v: .., multipliers: .., rank: .. }`.
 fn jump(layout: &Layout<'_>, results: &Results<TokenStream>) -> TokenStream {
-    let v = filled(layout, Group::Velocity, results.of(Slot::Velocity));
+    let v = filled(layout, StructKind::Velocity, results.of(Slot::Velocity));
     let multipliers = vector(layout, results.of(Slot::Multipliers));
     let rank = scalar(results, Slot::Rank);
     quote!(Jump { v: #v, multipliers: #multipliers, rank: #rank })
@@ -206,7 +206,7 @@ fn vector(layout: &Layout<'_>, scalars: &[TokenStream]) -> TokenStream {
 }
 
 /// Expands to a struct of the model from all its scalars.
-pub(in crate::emit) fn filled(layout: &Layout<'_>, group: Group, scalars: &[TokenStream]) -> TokenStream {
+pub(in crate::emit) fn filled(layout: &Layout<'_>, group: StructKind, scalars: &[TokenStream]) -> TokenStream {
     layout.construct(group, InstanceId(0), false, &mut |entry| {
         let own = scalars.iter().skip(entry.offset).take(entry.leaf.size());
         entry.leaf.build(layout.krate(), &mut own.cloned())

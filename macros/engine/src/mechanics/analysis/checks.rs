@@ -9,16 +9,16 @@ use crate::mechanics::loops::constraints::{coordinate_name, path, row_name};
 use crate::mechanics::loops::structure::{Role, Structure};
 use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::site::{Site, Sited};
-use crate::model::types::{Closing, JointId, Model};
+use crate::model::types::{JointId, LoopClosure, Model};
 
 use super::configurations::{Effort, Found, configurations};
 use super::measure::Gap;
 use super::problem::Problem;
-use super::{Analysis, Group, Looked, columns_of, driven_by, formula_of, rank, row_of};
+use super::{Analysis, CoupledRows, Looked, columns_of, driven_by, formula_of, rank, row_of};
 impl Analysis<'_> {
     /// Equations without coordinates: they hold, or nothing can make them.
     pub(super) fn constants(&mut self, problem: &Problem, structure: &mut Structure) {
-        let mut blamed: BTreeMap<Closing, Gap> = BTreeMap::new();
+        let mut blamed: BTreeMap<LoopClosure, Gap> = BTreeMap::new();
         let mut rounding = Vec::new();
         for (k, gap) in problem.constants() {
             let Some(row) = row_of(problem, k) else { continue };
@@ -50,14 +50,14 @@ impl Analysis<'_> {
         }
     }
 
-    fn complain_open(&mut self, closing: Closing, gap: &Gap, size: f64) {
+    fn complain_open(&mut self, closing: LoopClosure, gap: &Gap, size: f64) {
         let (at, what) = self.thing(closing);
         let message = format!("{what} cannot close: {}", gap.text(size));
         self.complain(at, message, Some("check lengths, frames and axes"));
     }
 
     /// Closed configurations of a group; nothing if it cannot be closed.
-    pub(super) fn close(&mut self, problem: &Problem, group: &Group, structure: &mut Structure) -> Option<Found> {
+    pub(super) fn close(&mut self, problem: &Problem, group: &CoupledRows, structure: &mut Structure) -> Option<Found> {
         let effort = Effort::of(group.equations.len());
         let found = configurations(problem, &group.equations, &group.columns, effort);
         if found.configurations.iter().any(|configuration| configuration.closed) {
@@ -77,7 +77,7 @@ impl Analysis<'_> {
                 return None;
             }
         }
-        let mut closings: Vec<Closing> =
+        let mut closings: Vec<LoopClosure> =
             group.equations.iter().filter_map(|&k| row_of(problem, k)).map(|row| row.closing).collect();
         closings.sort_unstable();
         closings.dedup();
@@ -118,7 +118,7 @@ impl Analysis<'_> {
     }
 
     /// Formulas that the equations don't imply, or contradict.
-    pub(super) fn complain_formulas(&mut self, problem: &Problem, group: &Group) {
+    pub(super) fn complain_formulas(&mut self, problem: &Problem, group: &CoupledRows) {
         let model = self.model;
         let mut numbers: Vec<usize> = group.equations.iter().filter_map(|&k| formula_of(problem, k)).collect();
         numbers.dedup();
@@ -135,7 +135,7 @@ impl Analysis<'_> {
     }
 
     /// Reduced, equations that were left out would never be looked at again.
-    pub(super) fn complain_elusive(&mut self, problem: &Problem, group: &Group, evidence: &str) {
+    pub(super) fn complain_elusive(&mut self, problem: &Problem, group: &CoupledRows, evidence: &str) {
         let closing = group.equations.iter().filter_map(|&k| row_of(problem, k)).map(|row| row.closing).min();
         let Some(closing) = closing else { return };
         let (at, what) = self.thing(closing);
@@ -143,7 +143,7 @@ impl Analysis<'_> {
         self.complain(at, message, Some("take `constraints: Multipliers`, which need not know"));
     }
 
-    pub(super) fn complain_locked(&mut self, problem: &Problem, group: &Group, closed: bool) {
+    pub(super) fn complain_locked(&mut self, problem: &Problem, group: &CoupledRows, closed: bool) {
         let mut joints: Vec<JointId> =
             group.columns.iter().map(|&column| problem.columns[column].coordinate.joint).collect();
         joints.dedup();
@@ -166,7 +166,7 @@ impl Analysis<'_> {
     pub(super) fn check_drives(
         &mut self,
         problem: &Problem,
-        group: &Group,
+        group: &CoupledRows,
         jacobians: &[&[Vec<f64>]],
         independent: &[usize],
     ) -> bool {
@@ -218,7 +218,7 @@ impl Analysis<'_> {
     }
 
     /// Where a closing was written, and how to speak of it.
-    fn thing(&self, closing: Closing) -> (Site, String) {
+    fn thing(&self, closing: LoopClosure) -> (Site, String) {
         thing(self.model, closing)
     }
 }
@@ -262,13 +262,13 @@ fn joints(problem: &Problem, looked: &Looked) -> Vec<JointId> {
     looked.group.columns.iter().map(|&column| problem.columns[column].coordinate.joint).collect()
 }
 
-pub(super) fn thing(model: &Model, closing: Closing) -> (Site, String) {
+pub(super) fn thing(model: &Model, closing: LoopClosure) -> (Site, String) {
     let here = model.site();
     match closing {
-        Closing::Cut(id) => model.joints.get(id.0).map_or((here, String::new()), |joint| {
+        LoopClosure::Cut(id) => model.joints.get(id.0).map_or((here, String::new()), |joint| {
             (joint.site(), format!("the loop that `{}` closes", path(model, &joint.place)))
         }),
-        Closing::Constraint(id) => model.constraints.get(id.0).map_or((here, String::new()), |constraint| {
+        LoopClosure::Constraint(id) => model.constraints.get(id.0).map_or((here, String::new()), |constraint| {
             (constraint.site(), format!("the constraint `{}`", path(model, &constraint.place)))
         }),
     }

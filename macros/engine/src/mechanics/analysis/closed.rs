@@ -10,14 +10,14 @@ use crate::mechanics::loops::structure::Closed;
 use super::configurations::{Configuration, Search};
 use super::problem::{Point, Problem, Random};
 use super::tape::Values;
-use super::{Group, Role, Structure};
+use super::{CoupledRows, Role, Structure};
 
 /// How far starts are from where coordinates stand by default.
 const AMPLITUDES: [f64; 9] = [0.0, 0.05, 0.15, 0.3, 0.3, 0.6, 0.6, 1.0, 1.0];
 
 /// A group of equations with what was found about it.
 pub(super) struct Sampled {
-    pub group: Group,
+    pub group: CoupledRows,
     pub configurations: Vec<Configuration>,
     /// Of the equations, where they are regular.
     pub rank: usize,
@@ -64,7 +64,7 @@ fn near(problem: &Problem, sampled: &Sampled, structure: &Structure, values: &mu
     if sampled.group.columns.iter().any(|&column| dependent(column)) {
         ways.insert(0, columns.clone().map(|column| !dependent(column)).collect());
     }
-    let Group { equations, columns } = &sampled.group;
+    let CoupledRows { equations, columns } = &sampled.group;
     for held in ways {
         let search = Search::new(problem, equations, columns).holding(&held);
         let mut singular = None;
@@ -92,7 +92,7 @@ fn near(problem: &Problem, sampled: &Sampled, structure: &Structure, values: &mu
 
 /// Whether a point that was found closed at a time of its own can be moved to where it is at time zero.
 fn at_start(problem: &Problem, sampled: &Sampled, point: &mut Point, values: &mut Values) -> bool {
-    let Group { equations, columns } = &sampled.group;
+    let CoupledRows { equations, columns } = &sampled.group;
     let timed = equations.iter().any(|&k| problem.equations[k].timed);
     !timed || Search::new(problem, equations, columns).close(point, values)
 }

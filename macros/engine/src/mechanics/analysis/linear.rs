@@ -10,7 +10,7 @@ use crate::contracts::symbol::Symbol;
 use crate::mechanics::loops::constraints::Writing;
 use crate::mechanics::loops::constraints::turns::Turns;
 use crate::mechanics::translate::symbols::has_quaternion;
-use crate::model::types::{Closing, ConstraintId, ConstraintKind, Coordinate, Model};
+use crate::model::types::{ConstraintId, ConstraintKind, Coordinate, LoopClosure, Model};
 use crate::symbolic::graph::ScalarNode;
 
 use super::super::equations::Equations;
@@ -48,7 +48,7 @@ fn coupling(e: &mut Equations<'_>, model: &Model, constraint: ConstraintId) -> O
     if let Turns::Whole(..) = e.turns(constraint) {
         return None;
     }
-    let residual = e.residuals(Closing::Constraint(constraint), Writing::PLAIN).first().copied()?;
+    let residual = e.residuals(LoopClosure::Constraint(constraint), Writing::PLAIN).first().copied()?;
     let mut terms = Vec::new();
     for (joint, component) in positions(e, residual) {
         // No component of a quaternion is a coordinate.

@@ -7,11 +7,16 @@
 use super::configurations::{Configuration, Search};
 use super::problem::Problem;
 use super::tape::Values;
-use super::{Group, OFF, rank};
+use super::{CoupledRows, OFF, rank};
 
 /// Parameters by number and element. One is free if the loop closes with it moved, and no more of its `rows` are independent then;
 /// all that are free are moved together in the end.
-pub(super) fn pinned(problem: &Problem, group: &Group, rows: &[usize], from: &[Configuration]) -> Vec<(usize, usize)> {
+pub(super) fn pinned(
+    problem: &Problem,
+    group: &CoupledRows,
+    rows: &[usize],
+    from: &[Configuration],
+) -> Vec<(usize, usize)> {
     let parameters = problem.parameters_of(&group.equations);
     let Some(from) = from.iter().find(|configuration| configuration.closed) else {
         return parameters.into_iter().map(|(_, parameter)| parameter).collect();

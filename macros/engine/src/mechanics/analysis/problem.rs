@@ -9,7 +9,7 @@ mod formulation;
 
 use crate::mechanics::loops::constraints::Writing;
 use crate::mechanics::loops::structure::Row;
-use crate::model::types::{Closing, Coordinate, Model};
+use crate::model::types::{Coordinate, LoopClosure, Model};
 
 use super::measure::{Gap, Measure};
 use super::tape::{Tape, Values};
@@ -71,7 +71,7 @@ struct Quaternion {
 
 /// Cosine that is one where a joint is closed as it was meant.
 struct Alignment {
-    closing: Closing,
+    closing: LoopClosure,
     /// Again with every turn of a thread.
     recurs: bool,
     root: usize,
@@ -177,11 +177,11 @@ impl Problem {
     }
 
     /// Closings that move nothing, and are closed with axes that point the wrong way.
-    pub(super) fn reversed(&self) -> Vec<Closing> {
+    pub(super) fn reversed(&self) -> Vec<LoopClosure> {
         let mut values = Values::default();
         self.tape.run(&mut values, &self.defaults);
-        let of = |equation: &Equation, closing: Closing| matches!(equation.source, Source::Row(row) if row.closing == closing);
-        let still = |closing: Closing| self.equations.iter().all(|one| !of(one, closing) || one.columns.is_empty());
+        let of = |equation: &Equation, closing: LoopClosure| matches!(equation.source, Source::Row(row) if row.closing == closing);
+        let still = |closing: LoopClosure| self.equations.iter().all(|one| !of(one, closing) || one.columns.is_empty());
         let wrong = self.alignments.iter().filter(|one| self.tape.value(&values, one.root) < 0.5 && still(one.closing));
         wrong.map(|one| one.closing).collect()
     }

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use crate::mechanics::loops::constraints::{coordinate_name, is_uncounted, row_count};
 use crate::mechanics::loops::structure::{Means, Row, Step};
 use crate::model::site::Sited;
-use crate::model::types::{BodyRef, Closing, ConstraintId, Coordinate, JointId, Model, SolveHow};
+use crate::model::types::{BodyRef, ConstraintId, Coordinate, JointId, LoopClosure, Model, SolveHow};
 
 use super::blocks::{components, matching};
 use super::checks::thing;
@@ -19,7 +19,7 @@ use super::linear::Elimination;
 use super::problem::{Problem, Source};
 use super::rank::Basis;
 use super::singular::{add, dot};
-use super::{Complaint, Group, row_of};
+use super::{Complaint, CoupledRows, row_of};
 
 /// A pivot below this is none.
 pub(super) const PIVOT: f64 = 1e-7;
@@ -27,10 +27,10 @@ pub(super) const PIVOT: f64 = 1e-7;
 /// A column counts as well determined if this much of it stands across those chosen before.
 const WELL: [f64; 3] = [2e-2, 1e-3, 1e-6];
 
-pub(super) struct Reduction<'a> {
+pub(super) struct ReductionSearch<'a> {
     pub model: &'a Model,
     pub problem: &'a Problem,
-    pub group: &'a Group,
+    pub group: &'a CoupledRows,
     pub configurations: &'a [Configuration],
     /// Places in the group of equations that are not implied by those before them, formulas included.
     pub kept: &'a [usize],
@@ -49,7 +49,7 @@ struct Item {
 
 pub(super) type Matrix = Vec<Vec<f64>>;
 
-impl Reduction<'_> {
+impl ReductionSearch<'_> {
     pub(super) fn steps(&self) -> Result<Vec<Step>, Vec<Complaint>> {
         let mut matrices: Vec<Matrix> = self.configurations.iter().map(|c| c.jacobian.clone()).collect();
         // Rows that are left for Newton's method, and columns that may be found by it.
@@ -107,7 +107,7 @@ impl Reduction<'_> {
     }
 
     pub(super) fn row_of_constraint(&self, id: ConstraintId) -> Option<usize> {
-        let own = |&k: &usize| self.row(k).is_some_and(|row| row.closing == Closing::Constraint(id));
+        let own = |&k: &usize| self.row(k).is_some_and(|row| row.closing == LoopClosure::Constraint(id));
         self.kept.iter().copied().find(own)
     }
 
@@ -374,7 +374,7 @@ impl Reduction<'_> {
         // The equation of the travel is a screw's last.
         let last = |row: &&Row| row.index + 1 == row_count(self.model, row.closing);
         for row in rows.iter().filter(last) {
-            let Closing::Cut(joint) = row.closing else { continue };
+            let LoopClosure::Cut(joint) = row.closing else { continue };
             if is_uncounted(self.model, joint) {
                 let (at, what) = thing(self.model, row.closing);
                 let message = format!(

@@ -11,23 +11,23 @@ use std::f64::consts::TAU;
 
 use crate::mechanics::loops::constraints::turns;
 use crate::mechanics::loops::structure::{Means, Step};
-use crate::model::types::{Closing, ConstraintId};
+use crate::model::types::{ConstraintId, LoopClosure};
 
 use super::Complaint;
 use super::checks::thing;
 use super::configurations::Configuration;
-use super::reduction::{PIVOT, Reduction, eliminate};
+use super::reduction::{PIVOT, ReductionSearch, eliminate};
 use super::tape::Values;
 
-impl Reduction<'_> {
+impl ReductionSearch<'_> {
     pub(super) fn check_teeth(&self, steps: &[Step]) -> Result<(), Vec<Complaint>> {
         for step in steps {
             let Means::Newton { rows, .. } = &step.means else { continue };
             let constraints: Vec<ConstraintId> = rows
                 .iter()
                 .filter_map(|row| match row.closing {
-                    Closing::Constraint(id) => Some(id),
-                    Closing::Cut(_) => None,
+                    LoopClosure::Constraint(id) => Some(id),
+                    LoopClosure::Cut(_) => None,
                 })
                 .collect();
             let periods = turns::periods(self.model, &constraints);
@@ -36,7 +36,7 @@ impl Reduction<'_> {
             }
             let unsound = periods.iter().find(|&&(id, period, _)| !self.goes_round(steps, step, id, period));
             if let Some(&(id, ..)) = unsound {
-                let (at, what) = thing(self.model, Closing::Constraint(id));
+                let (at, what) = thing(self.model, LoopClosure::Constraint(id));
                 let message = format!(
                     "{what} can't be reduced: the angles that it couples are measured between bodies and known up to whole \
                      turns, so Newton's method could go to another tooth"

@@ -7,7 +7,7 @@
 
 use crate::mechanics::loops::constraints::{Writing, is_component};
 use crate::mechanics::loops::structure::{Closed, Means, Role, Row, Structure};
-use crate::model::types::{Closing, Coordinate, JointId, Model};
+use crate::model::types::{Coordinate, JointId, LoopClosure, Model};
 
 use super::problem::Problem;
 use super::rank;
@@ -39,7 +39,7 @@ impl<'m> Writings<'m> {
     /// Whether some components of a way are kept and others are not. All three say the same in any axes.
     fn is_partial(&self) -> bool {
         self.systems().iter().any(|(rows, _)| {
-            let mut counts: Vec<(Closing, usize)> = Vec::new();
+            let mut counts: Vec<(LoopClosure, usize)> = Vec::new();
             for row in rows.iter().filter(|row| is_component(self.model, row.closing, row.index)) {
                 match counts.iter_mut().find(|one| one.0 == row.closing) {
                     Some(one) => one.1 += 1,

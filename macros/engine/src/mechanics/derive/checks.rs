@@ -13,7 +13,7 @@ use crate::mechanics::loops::constraints::{closings, coordinate_name, row_name, 
 use crate::mechanics::loops::reduction::{Map, Reduction};
 use crate::mechanics::loops::structure::{Means, Row};
 use crate::mechanics::translate::symbols::{freedoms_of, has_quaternion};
-use crate::model::types::{Closing, Coordinate, Handling, SolveHow};
+use crate::model::types::{Coordinate, Handling, LoopClosure, SolveHow};
 use crate::symbolic::evaluate::{Evaluator, Real};
 use crate::symbolic::graph::{Scalar, SymbolId};
 use crate::symbolic::linear_algebra::Factors;
@@ -145,7 +145,7 @@ impl Equations<'_> {
             let residuals = self.equations_of(closing);
             for (index, &residual) in residuals.iter().enumerate() {
                 let row = Row { closing, index };
-                let dropped = structure.dropped.contains(&row) && !matches!(closing, Closing::Constraint(_));
+                let dropped = structure.dropped.contains(&row) && !matches!(closing, LoopClosure::Constraint(_));
                 if structure.granted.contains(&row) {
                     continue;
                 }

@@ -8,7 +8,7 @@ use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::constraints::path;
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::results::momentum::Weight;
-use crate::mechanics::scene::{Method, Way};
+use crate::mechanics::scene::{Choices, Method};
 use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::site::Sited;
 use crate::model::types::{Coordinate, Request};
@@ -110,8 +110,8 @@ impl Deriving<'_> {
         Ok(candidates)
     }
 
-    fn floating(&self) -> Way {
-        Way { method: Method::Floating, ..self.way() }
+    fn floating(&self) -> Choices {
+        Choices { method: Method::Floating, ..self.way() }
     }
 
     /// M v

@@ -7,8 +7,8 @@ use std::rc::Rc;
 use crate::contracts::results::{Results, Slot};
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
-use crate::mechanics::results::constrained::Solved;
-use crate::mechanics::scene::{Method, Style, Way};
+use crate::mechanics::results::constrained::ConstrainedMotion;
+use crate::mechanics::scene::{Choices, Method, Style};
 use crate::mechanics::strut::forward;
 use crate::mechanics::translate::dependencies::Dependencies;
 use crate::mechanics::translate::values::width;
@@ -39,7 +39,7 @@ impl<'m> Deriving<'m> {
         }
         if floats(model) && freedoms(model) <= MOST_COMPOSITE {
             let name = "composite rigid body, LDL^T, translations first";
-            let way = Way { method: Method::Floating, ..self.way() };
+            let way = Choices { method: Method::Floating, ..self.way() };
             candidates.extend(self.candidate(name, way, &kept, &mut { all })?);
         }
         Ok(candidates)
@@ -68,7 +68,7 @@ impl<'m> Deriving<'m> {
                 let Some(platform) = e.platform(&reduction) else { return Ok(None) };
                 let name = forward::ways(&platform.carrier).get(at).map(|way| way.0);
                 let Some(accelerations) = e.platform_accelerations(&platform, &reduction, at) else { return Ok(None) };
-                let solved = Solved { accelerations, multipliers: Vec::new(), rank: None };
+                let solved = ConstrainedMotion { accelerations, multipliers: Vec::new(), rank: None };
                 let rates: Vec<Scalar> = model.states.iter().map(|state| e.scalar(&state.rate)).collect();
                 let rates = e.put_in_all(&reduction, &solved, &rates);
                 Ok(name.map(|name| (name, solved.results(rates))))
@@ -78,7 +78,7 @@ impl<'m> Deriving<'m> {
         }
         if floats(model) {
             let name = "composite rigid body, LDL^T, translations first";
-            let way = Way { method: Method::Floating, ..self.way() };
+            let way = Choices { method: Method::Floating, ..self.way() };
             candidates.extend(self.candidate(name, way, &kept, &mut { all })?);
         }
         Ok(candidates)
@@ -144,7 +144,7 @@ impl<'m> Deriving<'m> {
         }
         let mut candidates = Vec::new();
         for (style, method, name) in ways {
-            candidates.extend(self.candidate(name, Way { style, method, ..self.way() }, &kept, &mut all)?);
+            candidates.extend(self.candidate(name, Choices { style, method, ..self.way() }, &kept, &mut all)?);
         }
         Ok(candidates)
     }

@@ -5,7 +5,7 @@
 
 use crate::contracts::function::FunctionKind;
 use crate::contracts::results::{Results, Slot};
-use crate::dynamics::shared_axes::Axes;
+use crate::dynamics::shared_axes::SharedAxes;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::{Newton, Reduction};
 use crate::mechanics::results::euler_singularities;
@@ -31,7 +31,7 @@ pub(super) enum Way {
     PutIn(&'static str, OnTree),
     Defined(&'static str, OnLoops),
     /// In the axes in which loops are closed, which give the name; in those axes for parallel hinges.
-    Written(&'static [Option<Axes>], fn(&mut Equations<'_>, &Reduction) -> Results<Scalar>),
+    Written(&'static [Option<SharedAxes>], fn(&mut Equations<'_>, &Reduction) -> Results<Scalar>),
     /// Ways that depend on the model.
     Chosen(fn(&mut Deriving<'_>, FunctionKind) -> Candidates),
 }
@@ -44,7 +44,7 @@ pub(super) struct Recipe {
 
 const LINKS: &str = "sum over links";
 const FIRST_MOMENT: &str = "first moment of mass, springs";
-const WITHOUT_CHOICE: &[Option<Axes>] = &[None];
+const WITHOUT_CHOICE: &[Option<SharedAxes>] = &[None];
 
 /// One row per function.
 fn recipe(kind: FunctionKind, solves_inputs: bool) -> Recipe {

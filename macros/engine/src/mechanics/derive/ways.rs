@@ -7,13 +7,13 @@ use std::rc::Rc;
 
 use crate::contracts::results::Results;
 use crate::dynamics::lumped;
-use crate::dynamics::shared_axes::Axes;
+use crate::dynamics::shared_axes::SharedAxes;
 use crate::invariant::fault::raise;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::constraints;
 use crate::mechanics::loops::reduction::Reduction;
-use crate::mechanics::scene::{Method, Scene, Way};
+use crate::mechanics::scene::{Choices, Method, Scene};
 use crate::mechanics::translate::symbols::Symbols;
 use crate::model::types::JointId;
 use crate::symbolic::graph::{Graph, Rotation, Scalar};
@@ -36,7 +36,7 @@ impl<'m> Deriving<'m> {
         &mut self,
         mut f: impl FnMut(&mut Equations<'m>) -> Found,
     ) -> Result<Option<Candidate>, Vec<Complaint>> {
-        self.maybe(Way { lumped: true, ..self.way() }, |e| {
+        self.maybe(Choices { lumped: true, ..self.way() }, |e| {
             if !lumped::differs(&e.scene.mechanism.tree) {
                 return Ok(None);
             }
@@ -67,7 +67,7 @@ impl<'m> Deriving<'m> {
         let ways = if freedoms(self.model) > MOST_COMPOSITE { 1 } else { AXES.len() };
         let mut candidates = Vec::new();
         for (axes, &name) in AXES.into_iter().zip(names).take(ways) {
-            candidates.extend(self.candidate(name, Way { method, axes, ..self.way() }, kept, &mut f)?);
+            candidates.extend(self.candidate(name, Choices { method, axes, ..self.way() }, kept, &mut f)?);
         }
         Ok(candidates)
     }
@@ -82,14 +82,14 @@ impl<'m> Deriving<'m> {
     }
 
     /// Where there is nothing to choose but the axes in which loops are closed.
-    pub(super) fn way(&self) -> Way {
-        Way { writing: self.writing, ..Way::PLAIN }
+    pub(super) fn way(&self) -> Choices {
+        Choices { writing: self.writing, ..Choices::PLAIN }
     }
 
     /// A way that is there for some models only, with its name.
     pub(super) fn maybe(
         &mut self,
-        way: Way,
+        way: Choices,
         mut f: impl FnMut(&mut Equations<'m>) -> Result<Option<Candidate>, Vec<Complaint>>,
     ) -> Result<Option<Candidate>, Vec<Complaint>> {
         let mut name = None;
@@ -104,20 +104,20 @@ impl<'m> Deriving<'m> {
     /// Equations of loops, as they are written in the whole model.
     pub(super) fn written(
         &mut self,
-        axes: &[Option<Axes>],
+        axes: &[Option<SharedAxes>],
         f: impl Fn(&mut Equations<'m>, &Reduction) -> Results<Scalar>,
     ) -> Result<Vec<Candidate>, Vec<Complaint>> {
         let mut candidates = Vec::new();
         for &axes in axes {
             let name = match self.writing.axes {
-                constraints::Axes::Parent => "loops in the axes of the parent's frame",
-                constraints::Axes::Child => "loops in the axes of the child's frame",
-                constraints::Axes::World => "loops in world axes",
-                constraints::Axes::Common => "loops in the axes of what carries both sides",
-                constraints::Axes::ParentBase => "loops in the axes in which the parent's side stands",
-                constraints::Axes::ChildBase => "loops in the axes in which the child's side stands",
+                constraints::ClosedIn::Parent => "loops in the axes of the parent's frame",
+                constraints::ClosedIn::Child => "loops in the axes of the child's frame",
+                constraints::ClosedIn::World => "loops in world axes",
+                constraints::ClosedIn::Common => "loops in the axes of what carries both sides",
+                constraints::ClosedIn::ParentBase => "loops in the axes in which the parent's side stands",
+                constraints::ClosedIn::ChildBase => "loops in the axes in which the child's side stands",
             };
-            let way = Way { axes, ..self.way() };
+            let way = Choices { axes, ..self.way() };
             let found = self.candidate(name, way, &[], &mut |e: &mut Equations<'m>| {
                 let reduction = e.reduce()?;
                 Ok(f(e, &reduction))
@@ -161,7 +161,7 @@ impl<'m> Deriving<'m> {
     pub(super) fn candidate(
         &mut self,
         name: &'static str,
-        way: Way,
+        way: Choices,
         kept: &[JointId],
         f: &mut impl FnMut(&mut Equations<'m>) -> Found,
     ) -> Result<Option<Candidate>, Vec<Complaint>> {

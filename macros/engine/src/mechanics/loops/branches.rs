@@ -20,8 +20,8 @@ use crate::invariant::injection::{Break, broken};
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::model::site::Sited;
-use crate::model::types::{Closing, Coordinate, Expr, Solve, SolveHow};
-use crate::solve::{self, Cycle, Failure, Plan, Solved, of_signs};
+use crate::model::types::{Coordinate, Expr, LoopClosure, Solve, SolveHow};
+use crate::solve::{self, Failure, KinematicLoop, Plan, Solved, of_signs};
 use crate::symbolic::evaluate::{Evaluator, Real};
 use crate::symbolic::fingerprint::mix;
 use crate::symbolic::graph::{Scalar, SymbolId};
@@ -131,7 +131,7 @@ impl Equations<'_> {
     }
 
     /// The plan of a loop that is identical up to parameters, if it turns out to serve here.
-    fn plan_alike(&self, closing: Closing, cycle: &Cycle) -> Option<Plan> {
+    fn plan_alike(&self, closing: LoopClosure, cycle: &KinematicLoop) -> Option<Plan> {
         let group = self.scene.structure.groups.iter().find(|group| group.closings.contains(&closing))?;
         let known = self.scene.model.solves.iter().enumerate().filter_map(|(number, solve)| match &solve.how {
             SolveHow::From { closing, .. } if group.closings.contains(closing) => self.decided.branches.0.get(&number),
@@ -144,7 +144,7 @@ impl Equations<'_> {
     fn on_branch(
         &mut self,
         item: &Solve,
-        cycle: &Cycle,
+        cycle: &KinematicLoop,
         branch: &Branch,
         conditions: &[Expr],
         reduction: &Reduction,
@@ -188,7 +188,7 @@ impl Equations<'_> {
     /// The signs of a stage's roots: of the first combination for which its conditions hold.
     fn stage_signs(
         &mut self,
-        cycle: &Cycle,
+        cycle: &KinematicLoop,
         branch: &Branch,
         stage: &Stage,
         before: &[Scalar],
@@ -287,7 +287,7 @@ impl Equations<'_> {
     }
 
     /// What a plan leads to, for every choice of signs.
-    fn solutions(&mut self, cycle: &Cycle, plan: &Plan) -> Result<Vec<Choice>, Failure> {
+    fn solutions(&mut self, cycle: &KinematicLoop, plan: &Plan) -> Result<Vec<Choice>, Failure> {
         let first = plan.solve(&mut self.g, cycle, &[])?;
         let count = first.signs.min(MOST_SIGNS);
         let mut solutions = vec![(vec![true; count], first.solved)];
@@ -305,7 +305,7 @@ impl Equations<'_> {
     fn choose(
         &mut self,
         item: &Solve,
-        cycle: &Cycle,
+        cycle: &KinematicLoop,
         plan: Plan,
         conditions: &[Scalar],
         reduction: &Reduction,

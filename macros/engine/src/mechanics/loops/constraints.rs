@@ -40,7 +40,7 @@ use crate::invariant::injection::{Break, broken};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::scene::Style;
 use crate::model::joint_kinds::Hold;
-use crate::model::types::{Closing, ConstraintId, ConstraintKind, JointId, Model};
+use crate::model::types::{ConstraintId, ConstraintKind, JointId, LoopClosure, Model};
 use crate::symbolic::graph::Scalar;
 
 pub(in crate::mechanics) use names::path;
@@ -49,7 +49,7 @@ pub use wrenches::Held;
 
 /// In which axes a closing is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Axes {
+pub enum ClosedIn {
     /// Those of the joint's parent frame, or the first frame of a rod.
     Parent,
     /// Those of the joint's child frame, or the second frame of a rod.
@@ -67,7 +67,7 @@ pub enum Axes {
 /// How a closing is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Writing {
-    pub axes: Axes,
+    pub axes: ClosedIn,
     /// [`Style::World`]: points are taken in world axes from rotations that all closings share, but for the side on whose
     /// base the equations are written; it pays for a body that many loops hang on, and gives planar loops absolute
     /// angles. [`Style::Nested`]: each point passes joint by joint.
@@ -77,8 +77,15 @@ pub struct Writing {
 impl Writing {
     /// What derivation tries.
     pub const ALL: [Writing; 12] = {
-        let axes = [Axes::Parent, Axes::ParentBase, Axes::ChildBase, Axes::World, Axes::Common, Axes::Child];
-        let mut all = [Writing { axes: Axes::Parent, style: Style::Nested }; 12];
+        let axes = [
+            ClosedIn::Parent,
+            ClosedIn::ParentBase,
+            ClosedIn::ChildBase,
+            ClosedIn::World,
+            ClosedIn::Common,
+            ClosedIn::Child,
+        ];
+        let mut all = [Writing { axes: ClosedIn::Parent, style: Style::Nested }; 12];
         let mut k = 0;
         while k < 12 {
             let style = if k % 2 == 0 { Style::Nested } else { Style::World };
@@ -88,20 +95,20 @@ impl Writing {
         all
     };
     /// As good as any where cost is of no concern.
-    pub const PLAIN: Writing = Writing { axes: Axes::Common, style: Style::Nested };
+    pub const PLAIN: Writing = Writing { axes: ClosedIn::Common, style: Style::Nested };
 }
 
 /// Number of equations that a closing gives.
-pub fn row_count(model: &Model, closing: Closing) -> usize {
+pub fn row_count(model: &Model, closing: LoopClosure) -> usize {
     match closing {
-        Closing::Cut(joint) => model.joints[joint].kind.rows().count(),
-        Closing::Constraint(_) => 1,
+        LoopClosure::Cut(joint) => model.joints[joint].kind.rows().count(),
+        LoopClosure::Constraint(_) => 1,
     }
 }
 
 /// Whether the equation of a cut joint is a length (m), and not a cosine.
-pub fn is_length(model: &Model, closing: Closing, index: usize) -> bool {
-    let Closing::Cut(joint) = closing else { return false };
+pub fn is_length(model: &Model, closing: LoopClosure, index: usize) -> bool {
+    let LoopClosure::Cut(joint) = closing else { return false };
     hold(model, joint, index).is_some_and(Hold::is_length)
 }
 
@@ -112,15 +119,15 @@ fn hold(model: &Model, joint: JointId, index: usize) -> Option<Hold> {
 
 /// Whether an equation is one of three components of the way between a joint's frames, in the axes of the [`Writing`]; all
 /// others say the same in any axes.
-pub(in crate::mechanics) fn is_component(model: &Model, closing: Closing, index: usize) -> bool {
-    let Closing::Cut(joint) = closing else { return false };
+pub(in crate::mechanics) fn is_component(model: &Model, closing: LoopClosure, index: usize) -> bool {
+    let LoopClosure::Cut(joint) = closing else { return false };
     hold(model, joint, index) == Some(Hold::Point)
 }
 
 /// Everything that gives equations, in source order: joints, then constraints.
-pub fn closings(model: &Model) -> Vec<Closing> {
-    let cuts = model.cuts.iter().map(|&joint| Closing::Cut(joint));
-    let constraints = (0..model.constraints.len()).map(|k| Closing::Constraint(ConstraintId(k)));
+pub fn closings(model: &Model) -> Vec<LoopClosure> {
+    let cuts = model.cuts.iter().map(|&joint| LoopClosure::Cut(joint));
+    let constraints = (0..model.constraints.len()).map(|k| LoopClosure::Constraint(ConstraintId(k)));
     cuts.chain(constraints).collect()
 }
 
@@ -134,7 +141,7 @@ pub(in crate::mechanics) fn is_uncounted(model: &Model, joint: JointId) -> bool 
 
 impl Equations<'_> {
     /// The equations of a closing, [`row_count`] of them: lengths in metres (half squares of lengths for a rod), cosines.
-    pub fn residuals(&mut self, closing: Closing, writing: Writing) -> Vec<Scalar> {
+    pub fn residuals(&mut self, closing: LoopClosure, writing: Writing) -> Vec<Scalar> {
         let mut residuals = self.residuals_of(closing, writing);
         if broken(Break::LostRow) {
             residuals.pop();
@@ -145,10 +152,10 @@ impl Equations<'_> {
         residuals
     }
 
-    fn residuals_of(&mut self, closing: Closing, writing: Writing) -> Vec<Scalar> {
+    fn residuals_of(&mut self, closing: LoopClosure, writing: Writing) -> Vec<Scalar> {
         match closing {
-            Closing::Cut(joint) => self.cut(joint).map_or_else(Vec::new, |cut| self.cut_residuals(&cut, writing)),
-            Closing::Constraint(id) => {
+            LoopClosure::Cut(joint) => self.cut(joint).map_or_else(Vec::new, |cut| self.cut_residuals(&cut, writing)),
+            LoopClosure::Constraint(id) => {
                 let model = self.scene.model;
                 let constraint = &model.constraints[id];
                 match &constraint.kind {
@@ -168,18 +175,18 @@ impl Equations<'_> {
     }
 
     /// Time derivatives of the residuals, in terms of the velocity symbols.
-    pub fn residual_rates(&mut self, closing: Closing, writing: Writing) -> Vec<Scalar> {
+    pub fn residual_rates(&mut self, closing: LoopClosure, writing: Writing) -> Vec<Scalar> {
         let residuals = self.residuals(closing, writing);
         self.time_derivative(&residuals)
     }
 
     /// Cosines that are one where a joint is closed as it was meant, and minus one (or anything else) on the branches
     /// that the equations cannot tell from it.
-    pub fn alignments(&mut self, closing: Closing) -> Vec<Scalar> {
+    pub fn alignments(&mut self, closing: LoopClosure) -> Vec<Scalar> {
         match closing {
-            Closing::Cut(joint) => self.cut(joint).map_or_else(Vec::new, |cut| self.cut_alignments(&cut)),
+            LoopClosure::Cut(joint) => self.cut(joint).map_or_else(Vec::new, |cut| self.cut_alignments(&cut)),
             // Their equations vanish nowhere else.
-            Closing::Constraint(_) => Vec::new(),
+            LoopClosure::Constraint(_) => Vec::new(),
         }
     }
 }

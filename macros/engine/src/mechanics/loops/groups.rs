@@ -12,7 +12,7 @@ mod shapes;
 
 use std::collections::{BTreeMap, HashMap};
 
-use crate::model::types::{BodyId, BodyRef, Closing, ConstraintKind, Frame, JointId, Model};
+use crate::model::types::{BodyId, BodyRef, ConstraintKind, Frame, JointId, LoopClosure, Model};
 
 use super::constraints::{closings, path};
 use shapes::Shapes;
@@ -33,7 +33,7 @@ pub enum Repeated {
 pub struct Group {
     pub what: Repeated,
     /// What closes each loop; nothing for what is open.
-    pub closings: Vec<Closing>,
+    pub closings: Vec<LoopClosure>,
     /// Names of what closes the loops, or of the branches' first joints.
     pub names: Vec<String>,
 }
@@ -112,7 +112,7 @@ pub fn find(model: &Model) -> Vec<Group> {
 }
 
 fn looped(model: &Model, loops: &[Loop], shapes: &mut Shapes<'_>) -> Vec<Group> {
-    let mut order: Vec<Vec<Closing>> = Vec::new();
+    let mut order: Vec<Vec<LoopClosure>> = Vec::new();
     let mut known: HashMap<String, usize> = HashMap::new();
     for one in loops {
         let place = *known.entry(shapes.looped(one)).or_insert(order.len());
@@ -121,10 +121,10 @@ fn looped(model: &Model, loops: &[Loop], shapes: &mut Shapes<'_>) -> Vec<Group> 
         }
         order[place].push(one.closing);
     }
-    let name = |closing: &Closing| {
+    let name = |closing: &LoopClosure| {
         let place = match closing {
-            Closing::Cut(id) => &model.joints[*id].place,
-            Closing::Constraint(id) => &model.constraints[*id].place,
+            LoopClosure::Cut(id) => &model.joints[*id].place,
+            LoopClosure::Constraint(id) => &model.constraints[*id].place,
         };
         path(model, place)
     };
@@ -198,7 +198,7 @@ fn row(forest: &Forest<'_>, shapes: &mut Shapes<'_>, from: JointId) -> Vec<Joint
 
 /// A closed loop.
 struct Loop {
-    closing: Closing,
+    closing: LoopClosure,
     /// Whether the last body that carries both ends is the ground.
     on_ground: bool,
     carrier: Option<BodyId>,
@@ -261,13 +261,13 @@ impl<'m> Forest<'m> {
         chain
     }
 
-    fn around(&self, closing: Closing) -> Option<Loop> {
+    fn around(&self, closing: LoopClosure) -> Option<Loop> {
         let (from, to) = match closing {
-            Closing::Cut(id) => {
+            LoopClosure::Cut(id) => {
                 let joint = &self.model.joints[id];
                 (&joint.parent, &joint.child)
             }
-            Closing::Constraint(id) => match &self.model.constraints[id].kind {
+            LoopClosure::Constraint(id) => match &self.model.constraints[id].kind {
                 ConstraintKind::Rod { between, .. } => (&between[0], &between[1]),
                 ConstraintKind::Value(_) => return None,
             },

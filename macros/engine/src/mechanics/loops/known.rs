@@ -9,7 +9,7 @@ use std::rc::Rc;
 
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::{Caches, Equations};
-use crate::mechanics::scene::{Scene, Way};
+use crate::mechanics::scene::{Choices, Scene};
 use crate::symbolic::graph::Sharing;
 
 use super::branches::Branches;
@@ -73,6 +73,6 @@ impl Equations<'_> {
 /// Whether definitions come out alike in two scenes of a model.
 fn is_like(a: &Scene<'_>, b: &Scene<'_>) -> bool {
     // No definition asks for inverse dynamics.
-    let way = |scene: &Scene<'_>| Way { lumped: false, ..scene.way };
+    let way = |scene: &Scene<'_>| Choices { lumped: false, ..scene.way };
     Rc::ptr_eq(&a.structure, &b.structure) && way(a) == way(b) && a.kept == b.kept
 }

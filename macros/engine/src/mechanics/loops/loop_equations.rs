@@ -1,27 +1,27 @@
 //! Stage `mechanics`: loops as cycles for the stage `solve`.
 //!
-//! In: a `solve` item. Out: its loop as a [`Cycle`], walked once around: from the last link that carries both ends out to
+//! In: a `solve` item. Out: its loop as a [`KinematicLoop`], walked once around: from the last link that carries both ends out to
 //! the closing's parent frame, through the closing, and back from its child frame. Motions that are known stay as they
 //! are, unknown ones keep the symbols of their coordinates as placeholders. A motion that is walked against its sense is
 //! the same motion about the opposite axis: turned by half a turn before and after.
 
 use crate::dynamics::tree::{Link, Motion};
 use crate::mechanics::equations::Equations;
-use crate::mechanics::translate::build::Place;
-use crate::model::types::{Closing, ConstraintKind, Joint, JointId, Solve};
-use crate::solve::{Cycle, Segment};
+use crate::mechanics::translate::build::FixedFrame;
+use crate::model::types::{ConstraintKind, Joint, JointId, LoopClosure, Solve};
+use crate::solve::{KinematicLoop, Segment};
 use crate::symbolic::graph::{Rotation, Scalar, Vector};
 use crate::symbolic::rotations;
 
 impl Equations<'_> {
     /// Once around the loop of a closing.
-    pub(super) fn cycle(&mut self, closing: Closing, item: &Solve) -> Cycle {
+    pub(super) fn cycle(&mut self, closing: LoopClosure, item: &Solve) -> KinematicLoop {
         let segments = self.segments(closing, item);
         let winding = match closing {
-            Closing::Cut(id) => self.cycle_winding(id),
-            Closing::Constraint(_) => None,
+            LoopClosure::Cut(id) => self.cycle_winding(id),
+            LoopClosure::Constraint(_) => None,
         };
-        Cycle { segments, winding }
+        KinematicLoop { segments, winding }
     }
 
     /// The sum of all angles of a loop that counts turns. That of a screw which closes it stands there as its coordinate.
@@ -33,11 +33,11 @@ impl Equations<'_> {
         Some(self.g.sub(sum, own))
     }
 
-    fn segments(&mut self, closing: Closing, item: &Solve) -> Vec<Segment> {
+    fn segments(&mut self, closing: LoopClosure, item: &Solve) -> Vec<Segment> {
         let model = self.scene.model;
         let mut cycle = Vec::new();
         match closing {
-            Closing::Cut(id) => {
+            LoopClosure::Cut(id) => {
                 let joint = &model.joints[id];
                 let (from, to) = (self.place(&joint.parent), self.place(&joint.child));
                 let common = self.common(from.link, to.link);
@@ -45,7 +45,7 @@ impl Equations<'_> {
                 self.closing_motions(joint, &mut cycle);
                 self.back_from(&to, common, item, &mut cycle);
             }
-            Closing::Constraint(id) => {
+            LoopClosure::Constraint(id) => {
                 let ConstraintKind::Rod { between, length } = &model.constraints[id].kind else {
                     return cycle;
                 };
@@ -63,7 +63,7 @@ impl Equations<'_> {
         cycle
     }
 
-    fn outwards_to(&mut self, place: &Place, common: Option<usize>, item: &Solve, cycle: &mut Vec<Segment>) {
+    fn outwards_to(&mut self, place: &FixedFrame, common: Option<usize>, item: &Solve, cycle: &mut Vec<Segment>) {
         let mechanism = std::rc::Rc::clone(&self.scene.mechanism);
         for index in mechanism.tree.path(common, place.link) {
             let link = &mechanism.tree.links[index];
@@ -73,7 +73,7 @@ impl Equations<'_> {
         cycle.push(Segment::Fixed { rotation: place.rotation, offset: place.offset });
     }
 
-    fn back_from(&mut self, place: &Place, common: Option<usize>, item: &Solve, cycle: &mut Vec<Segment>) {
+    fn back_from(&mut self, place: &FixedFrame, common: Option<usize>, item: &Solve, cycle: &mut Vec<Segment>) {
         let mechanism = std::rc::Rc::clone(&self.scene.mechanism);
         self.inverse(place.rotation, place.offset, cycle);
         for index in mechanism.tree.path(common, place.link).into_iter().rev() {

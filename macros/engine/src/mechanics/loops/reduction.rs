@@ -16,8 +16,8 @@ use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::names;
 use crate::mechanics::translate::symbols::Symbols;
-use crate::model::types::{Closing, ConstraintId, Coordinate, Expr, JointId, SolveHow};
-use crate::solve::Value as Solved;
+use crate::model::types::{ConstraintId, Coordinate, Expr, JointId, LoopClosure, SolveHow};
+use crate::solve::Value as SolvedValue;
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::{BlockKind, Graph, Scalar, SymbolId};
 
@@ -176,7 +176,7 @@ impl Equations<'_> {
 
     /// What a linear coupling gives.
     pub(in crate::mechanics) fn coupling(&mut self, id: ConstraintId, step: &Step) -> Option<Definition> {
-        let residual = self.equations_of(Closing::Constraint(id));
+        let residual = self.equations_of(LoopClosure::Constraint(id));
         let (&residual, &unknown) = residual.first().zip(step.unknowns.first())?;
         let symbol = self.coordinate_symbols(unknown)[0];
         let slope = self.g.derivative(residual, &[(symbol, Scalar::ONE)]);
@@ -213,12 +213,12 @@ impl Equations<'_> {
                 self.g.label(part, || format!("{name}_{word}"));
             }
             let position = match solved.value {
-                Solved::Angle { cos, sin } => {
+                SolvedValue::Angle { cos, sin } => {
                     self.g.label(cos, || format!("cos_{name}"));
                     self.g.label(sin, || format!("sin_{name}"));
                     self.g.angle(cos, sin)
                 }
-                Solved::Length(x) => self.g.label(x, || name.clone()),
+                SolvedValue::Length(x) => self.g.label(x, || name.clone()),
             };
             if let Some(root) = solved.root {
                 self.g.label(root, || format!("root_{name}"));

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use crate::mechanics::translate::symbols::has_quaternion;
-use crate::model::types::{Closing, ConstraintId, Coordinate, ForceId, JointId, Model};
+use crate::model::types::{ConstraintId, Coordinate, ForceId, JointId, LoopClosure, Model};
 
 use super::constraints::is_length;
 use super::groups::Group;
@@ -87,7 +87,7 @@ pub enum Role {
 /// One scalar equation of what closes a loop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Row {
-    pub closing: Closing,
+    pub closing: LoopClosure,
     /// Among those that this closing gives, see [`super::constraints`].
     pub index: usize,
 }

@@ -11,7 +11,7 @@ use crate::invariant::fault::raise;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::model::site::Sited;
-use crate::model::types::{Closing, JointId, Kinematics, Solve, SolveHow};
+use crate::model::types::{JointId, Kinematics, LoopClosure, Solve, SolveHow};
 use crate::symbolic::graph::Scalar;
 
 use super::constraints::coordinate_name;
@@ -53,10 +53,10 @@ impl Equations<'_> {
         }
     }
 
-    fn closing_name(&self, closing: Closing) -> String {
+    fn closing_name(&self, closing: LoopClosure) -> String {
         let place = match closing {
-            Closing::Cut(id) => &self.scene.model.joints[id].place,
-            Closing::Constraint(id) => &self.scene.model.constraints[id].place,
+            LoopClosure::Cut(id) => &self.scene.model.joints[id].place,
+            LoopClosure::Constraint(id) => &self.scene.model.constraints[id].place,
         };
         super::constraints::path(self.scene.model, place)
     }

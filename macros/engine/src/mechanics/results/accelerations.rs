@@ -11,13 +11,13 @@ use crate::mechanics::translate::forces::LoadCase;
 use crate::model::types::Coordinate;
 use crate::symbolic::graph::Scalar;
 
-use super::constrained::Solved;
+use super::constrained::ConstrainedMotion;
 
 #[derive(Clone, Default)]
 pub(in crate::mechanics) struct Accelerations {
     /// Of the user's coordinates.
     list: Option<Rc<[Scalar]>>,
-    solved: Option<Rc<Solved>>,
+    solved: Option<Rc<ConstrainedMotion>>,
 }
 
 impl Equations<'_> {
@@ -50,7 +50,7 @@ impl Equations<'_> {
     }
 
     /// What takes the place of the symbols, where something has asked for accelerations.
-    pub(in crate::mechanics) fn solved(&self) -> Option<Rc<Solved>> {
+    pub(in crate::mechanics) fn solved(&self) -> Option<Rc<ConstrainedMotion>> {
         self.caches.accelerations.solved.clone()
     }
 

@@ -17,12 +17,12 @@ use crate::mechanics::loops::reduction::{Map, Reduction};
 use crate::mechanics::loops::structure::{Role, Row};
 use crate::mechanics::scene::Method;
 use crate::mechanics::translate::forces::LoadCase;
-use crate::model::types::{Closing, Handling};
+use crate::model::types::{Handling, LoopClosure};
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::Scalar;
 
 /// Accelerations with what comes beside them.
-pub(in crate::mechanics) struct Solved {
+pub(in crate::mechanics) struct ConstrainedMotion {
     /// Of the state.
     pub accelerations: Vec<Scalar>,
     pub multipliers: Vec<Scalar>,
@@ -31,9 +31,9 @@ pub(in crate::mechanics) struct Solved {
 
 /// Equations of closings, once they are written.
 #[derive(Clone, Default)]
-pub(in crate::mechanics) struct Residuals(HashMap<Closing, Rc<[Scalar]>>);
+pub(in crate::mechanics) struct Residuals(HashMap<LoopClosure, Rc<[Scalar]>>);
 
-impl Solved {
+impl ConstrainedMotion {
     /// Accelerations with the rates of own states, multipliers and the rank of their system.
     pub(in crate::mechanics) fn results(&self, rates: Vec<Scalar>) -> Results<Scalar> {
         let results = Results::velocity(self.accelerations.clone()).with_any(Slot::States, rates);
@@ -60,7 +60,7 @@ impl Equations<'_> {
     }
 
     /// Equations of a closing, written once.
-    pub(in crate::mechanics) fn equations_of(&mut self, closing: Closing) -> Rc<[Scalar]> {
+    pub(in crate::mechanics) fn equations_of(&mut self, closing: LoopClosure) -> Rc<[Scalar]> {
         if let Some(known) = self.caches.residuals.0.get(&closing) {
             return Rc::clone(known);
         }
@@ -220,12 +220,12 @@ impl Equations<'_> {
     }
 
     /// Forward dynamics.
-    pub(in crate::mechanics) fn solve_constrained(&mut self, reduction: &Reduction) -> Solved {
+    pub(in crate::mechanics) fn solve_constrained(&mut self, reduction: &Reduction) -> ConstrainedMotion {
         self.system(reduction).2
     }
 
     /// The system that accelerations and multipliers solve, its rows, and its solution.
-    pub(in crate::mechanics) fn system(&mut self, reduction: &Reduction) -> (Saddle, Rows, Solved) {
+    pub(in crate::mechanics) fn system(&mut self, reduction: &Reduction) -> (Saddle, Rows, ConstrainedMotion) {
         let matrix = self.reduced_mass_matrix(reduction);
         let bias = self.reduced_bias(reduction);
         let rhs: Vec<Scalar> = bias.iter().map(|&b| -b).collect();
@@ -237,7 +237,7 @@ impl Equations<'_> {
 
     /// The jump of velocities under an impulse: the same system with the impulse for the forces, and given rates of the
     /// equations.
-    pub(in crate::mechanics) fn constrained_jump(&mut self, reduction: &Reduction) -> Solved {
+    pub(in crate::mechanics) fn constrained_jump(&mut self, reduction: &Reduction) -> ConstrainedMotion {
         let matrix = self.reduced_mass_matrix(reduction);
         let jacobian = self.rows(reduction).jacobian;
         let (impulses, rates) = (self.scene.symbols.impulses.clone(), self.scene.symbols.rates.clone());
@@ -251,7 +251,7 @@ impl Equations<'_> {
         rhs: &[Scalar],
         jacobian: Vec<Vec<Scalar>>,
         held: &[Scalar],
-    ) -> (Saddle, Solved) {
+    ) -> (Saddle, ConstrainedMotion) {
         let order = self.state_elimination();
         let groups = self.scene.structure.row_groups(self.scene.model);
         let saddle = Saddle::new(&mut self.g, matrix, (jacobian, groups), &order);
@@ -259,7 +259,7 @@ impl Equations<'_> {
         for (k, &multiplier) in multipliers.iter().enumerate() {
             self.g.name(multiplier, || format!("multiplier_{}", k + 1));
         }
-        (saddle, Solved { accelerations, multipliers, rank })
+        (saddle, ConstrainedMotion { accelerations, multipliers, rank })
     }
 
     /// Elimination of the state's coordinates from the leaves inwards; by place in the state.
@@ -299,7 +299,7 @@ impl Equations<'_> {
     pub(in crate::mechanics) fn put_in_all(
         &mut self,
         reduction: &Reduction,
-        solved: &Solved,
+        solved: &ConstrainedMotion,
         roots: &[Scalar],
     ) -> Vec<Scalar> {
         let roots = self.finish(reduction, roots);

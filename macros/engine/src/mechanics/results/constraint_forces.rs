@@ -13,7 +13,7 @@ use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Map;
 use crate::mechanics::loops::structure::{Means, Row};
 use crate::mechanics::translate::forces::LoadCase;
-use crate::model::types::{Closing, ConstraintId, Coordinate};
+use crate::model::types::{ConstraintId, Coordinate, LoopClosure};
 use crate::symbolic::graph::Scalar;
 
 /// Multipliers of the equations by which dependent coordinates are found.
@@ -31,7 +31,7 @@ struct Balance {
 impl Equations<'_> {
     /// Multipliers of the equations by which dependent coordinates are found, linear couplings left out; in symbols of the
     /// tree's coordinates and accelerations.
-    pub(super) fn holding_multipliers(&mut self) -> Rc<[(Row, Scalar)]> {
+    pub(super) fn reaction_multipliers(&mut self) -> Rc<[(Row, Scalar)]> {
         if let Some(known) = &self.caches.holding.0 {
             return Rc::clone(known);
         }
@@ -57,7 +57,7 @@ impl Equations<'_> {
         for step in &structure.steps {
             match step.means {
                 Means::Linear(id) if self.is_seen_through(id) => {
-                    rows.retain(|row| row.closing != Closing::Constraint(id));
+                    rows.retain(|row| row.closing != LoopClosure::Constraint(id));
                 }
                 Means::Linear(_) | Means::Solve(_) | Means::Newton { .. } => unknowns.extend(&step.unknowns),
             }

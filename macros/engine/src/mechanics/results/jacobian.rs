@@ -11,13 +11,13 @@ use crate::dynamics::columns::Columns;
 use crate::dynamics::tree::Motion;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Reduction;
-use crate::mechanics::translate::build::Place;
+use crate::mechanics::translate::build::FixedFrame;
 use crate::mechanics::translate::values::Value;
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
 impl Equations<'_> {
     /// Linear rows, then angular ones.
-    pub(in crate::mechanics) fn jacobian(&mut self, place: &Place, axes: &Place) -> Value {
+    pub(in crate::mechanics) fn jacobian(&mut self, place: &FixedFrame, axes: &FixedFrame) -> Value {
         let mechanism = Rc::clone(&self.scene.mechanism);
         let tree = &mechanism.tree;
         let plain = axes.link.is_none() && axes.rotation == Rotation::IDENTITY;

@@ -20,7 +20,7 @@ use crate::mechanics::translate::time::Seeds;
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::{Scalar, ScalarNode};
 
-use super::constrained::Solved;
+use super::constrained::ConstrainedMotion;
 use super::kinks;
 
 /// From which side derivatives are accumulated.
@@ -129,7 +129,7 @@ impl Equations<'_> {
     }
 
     /// Puts in the accelerations and multipliers that were found.
-    fn settle(&mut self, columns: &mut [Vec<Scalar>], solved: &Solved) {
+    fn settle(&mut self, columns: &mut [Vec<Scalar>], solved: &ConstrainedMotion) {
         let state = self.scene.structure.state.clone();
         let accelerations = state.iter().map(|&coordinate| self.coordinate_symbols(coordinate)[2]);
         let symbols = accelerations.chain(self.scene.symbols.multipliers.iter().copied());

@@ -12,10 +12,10 @@ use crate::dynamics::kinematics::motions;
 use crate::dynamics::newton_euler::{Wrench, transmitted};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::structure::Row;
-use crate::mechanics::translate::build::Place;
+use crate::mechanics::translate::build::FixedFrame;
 use crate::mechanics::translate::forces::LoadCase;
 use crate::mechanics::translate::values::Value;
-use crate::model::types::{Closing, Coordinate, ForceKind, JointId};
+use crate::model::types::{Coordinate, ForceKind, JointId, LoopClosure};
 use crate::symbolic::graph::{Scalar, Vector};
 
 /// What joints of the tree transmit, at the links' origins in their axes.
@@ -24,7 +24,7 @@ pub(in crate::mechanics) struct Transmitted(Option<Rc<[Wrench]>>);
 
 impl Equations<'_> {
     /// In the axes of a frame.
-    pub(in crate::mechanics) fn reaction(&mut self, joint: JointId, axes: &Place) -> Value {
+    pub(in crate::mechanics) fn reaction(&mut self, joint: JointId, axes: &FixedFrame) -> Value {
         if self.scene.model.cuts.contains(&joint) {
             let [force, moment] = self.closing_reaction(joint, axes);
             return Value::Pair(force, moment);
@@ -39,7 +39,7 @@ impl Equations<'_> {
     }
 
     /// Vectors in a link's axes, in those of a frame.
-    fn turned_to(&mut self, axes: &Place, link: Option<usize>, vectors: [Vector; 2]) -> [Vector; 2] {
+    fn turned_to(&mut self, axes: &FixedFrame, link: Option<usize>, vectors: [Vector; 2]) -> [Vector; 2] {
         vectors.map(|v| {
             let v = self.between(link, axes.link, v);
             self.g.rotate(axes.rotation.transpose(), v)
@@ -47,16 +47,16 @@ impl Equations<'_> {
     }
 
     /// Of a joint that closes a loop.
-    fn closing_reaction(&mut self, joint: JointId, axes: &Place) -> [Vector; 2] {
+    fn closing_reaction(&mut self, joint: JointId, axes: &FixedFrame) -> [Vector; 2] {
         if self.derives_forces() {
             // Forces that depend on reactions are refused by the checker.
             return [Vector::ZERO; 2];
         }
         self.accelerations();
         let mut multiplied = self.rows_with_multipliers();
-        multiplied.extend(self.holding_multipliers().iter().copied());
+        multiplied.extend(self.reaction_multipliers().iter().copied());
         let held_across = self.expression_efforts(joint, &multiplied);
-        multiplied.retain(|(row, _)| row.closing == Closing::Cut(joint));
+        multiplied.retain(|(row, _)| row.closing == LoopClosure::Cut(joint));
         let held = self.by_closing(&multiplied);
         let mut parts: Vec<[Vector; 2]> = held.iter().map(|one| self.cut_reaction(joint, one, axes)).collect();
         let mut declared = self.efforts_across(joint);
@@ -89,10 +89,10 @@ impl Equations<'_> {
         }
         self.accelerations();
         let mut multiplied = self.rows_with_multipliers();
-        multiplied.extend(self.holding_multipliers().iter().copied());
+        multiplied.extend(self.reaction_multipliers().iter().copied());
         let drives = |row: &Row| match row.closing {
-            Closing::Constraint(id) => self.scene.model.constraints[id].drive == Some(coordinate),
-            Closing::Cut(_) => false,
+            LoopClosure::Constraint(id) => self.scene.model.constraints[id].drive == Some(coordinate),
+            LoopClosure::Cut(_) => false,
         };
         multiplied.iter().find(|(row, _)| drives(row)).map_or(Scalar::ZERO, |&(_, multiplier)| -multiplier)
     }
@@ -141,7 +141,7 @@ impl Equations<'_> {
         acceleration.resize(tree.freedoms(), Scalar::ZERO);
         let loads = self.loads(LoadCase::Held);
         let mut loads = self.with_rotors(loads, &user);
-        let holding = self.holding_multipliers();
+        let holding = self.reaction_multipliers();
         if !holding.is_empty() {
             loads = self.held_by(&loads, &holding);
         }

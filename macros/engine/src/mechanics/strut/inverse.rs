@@ -42,7 +42,7 @@ pub enum Gather {
 
 /// One way to write the equations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Way {
+pub struct Variant {
     pub axes: Axes,
     pub arms: Arms,
     pub gather: Gather,
@@ -50,11 +50,11 @@ pub struct Way {
 
 /// What is worth counting: ways with their names and reference points. `assumed`: some height of a pin above its foot
 /// is known not to vanish, so that columns may be scaled.
-pub fn ways(carrier: &Carrier, assumed: bool) -> Vec<(&'static str, Way, Triple)> {
+pub fn ways(carrier: &Carrier, assumed: bool) -> Vec<(&'static str, Variant, Triple)> {
     let still = carrier.omega == ZERO && carrier.d_omega == ZERO;
     let gather = if still { Gather::Moments } else { Gather::Forces };
     let plane = carrier.plane();
-    let way = |axes, arms| Way { axes, arms, gather };
+    let way = |axes, arms| Variant { axes, arms, gather };
     let mut list = vec![("struts, moments about a pin", way(Axes::Body, Arms::Pin), plane)];
     if let Some(leg) = carrier.legs.first().filter(|leg| leg.pin != plane) {
         list.push(("struts, everything about a pin", way(Axes::Body, Arms::Pins), leg.pin));
@@ -77,7 +77,7 @@ pub struct Forces {
 }
 
 /// Forces along the struts that produce the carrier's motion. Nothing unless there are six.
-pub fn forces(g: &mut Graph, carrier: &Carrier, way: Way, reference: &Triple, known: &Known) -> Option<Forces> {
+pub fn forces(g: &mut Graph, carrier: &Carrier, way: Variant, reference: &Triple, known: &Known) -> Option<Forces> {
     if carrier.legs.len() != 6 {
         return None;
     }

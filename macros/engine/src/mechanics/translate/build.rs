@@ -16,7 +16,7 @@ use super::{directions, names, typed};
 
 /// A frame that is fixed to a link, or to the ground.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub struct FixedFrame {
     pub link: Option<usize>,
     /// From the frame's axes to the link's; constant.
     pub rotation: Rotation,
@@ -24,13 +24,13 @@ pub struct Place {
     pub offset: Vector,
 }
 
-impl Place {
-    pub const GROUND: Place = Place { link: None, rotation: Rotation::IDENTITY, offset: Vector::ZERO };
+impl FixedFrame {
+    pub const GROUND: FixedFrame = FixedFrame { link: None, rotation: Rotation::IDENTITY, offset: Vector::ZERO };
 
     /// A frame that is placed in this one.
-    pub fn then(&self, g: &mut Graph, rotation: Rotation, offset: Vector) -> Place {
+    pub fn then(&self, g: &mut Graph, rotation: Rotation, offset: Vector) -> FixedFrame {
         let moved = rotations::rotate(g, self.rotation, offset);
-        Place {
+        FixedFrame {
             link: self.link,
             rotation: rotations::compose(g, self.rotation, rotation),
             offset: g.add_vectors(self.offset, moved),
@@ -43,7 +43,7 @@ impl Place {
 pub struct JointLinks {
     pub links: std::ops::Range<usize>,
     /// The joint's child frame.
-    pub child: Option<Place>,
+    pub child: Option<FixedFrame>,
 }
 
 /// The tree, and where the model's things stand on it.
@@ -53,7 +53,7 @@ pub struct Mechanism {
     /// that were kept for their reactions.
     pub tree: Tree,
     /// By body.
-    pub bodies: Vec<Place>,
+    pub bodies: Vec<FixedFrame>,
     /// By joint.
     pub joints: Vec<JointLinks>,
     /// By velocity coordinate: the tree's is minus the user's, since the axis is a negative coordinate axis.
@@ -61,9 +61,9 @@ pub struct Mechanism {
 }
 
 impl Mechanism {
-    pub fn body(&self, body: BodyRef) -> Place {
+    pub fn body(&self, body: BodyRef) -> FixedFrame {
         match body {
-            BodyRef::Ground => Place::GROUND,
+            BodyRef::Ground => FixedFrame::GROUND,
             BodyRef::Body(id) => self.bodies[id.0],
         }
     }
@@ -101,7 +101,7 @@ impl Equations<'_> {
         let velocity: Vec<Scalar> = self.scene.symbols.velocities.concat();
         let acceleration: Vec<Scalar> = self.scene.symbols.accelerations.concat();
         let mut mechanism = Mechanism {
-            bodies: vec![Place::GROUND; model.bodies.len()],
+            bodies: vec![FixedFrame::GROUND; model.bodies.len()],
             joints: vec![JointLinks::default(); model.joints.len()],
             flipped: vec![false; velocity.len()],
             ..Mechanism::default()
@@ -148,7 +148,7 @@ impl Equations<'_> {
     }
 
     /// Adds a body's moments to its link.
-    fn load(&mut self, tree: &mut Tree, body: &Body, place: Place) {
+    fn load(&mut self, tree: &mut Tree, body: &Body, place: FixedFrame) {
         let mass = self.scalar(&body.mass);
         let com = self.vector(&body.com);
         let com = self.g.components(com);
@@ -167,7 +167,7 @@ impl Equations<'_> {
 
     /// A frame's constant pose in its body.
     fn steps(&mut self, frame: &Frame) -> (Rotation, Vector) {
-        let mut place = Place::GROUND;
+        let mut place = FixedFrame::GROUND;
         for step in &frame.steps {
             let (rotation, offset) = match step {
                 FrameStep::At(offset) => (Rotation::IDENTITY, self.vector(offset)),
@@ -188,7 +188,7 @@ impl Equations<'_> {
     }
 
     /// Where a frame stands on the tree.
-    pub(in crate::mechanics) fn place(&mut self, frame: &Frame) -> Place {
+    pub(in crate::mechanics) fn place(&mut self, frame: &Frame) -> FixedFrame {
         let (rotation, offset) = self.steps(frame);
         let body = self.scene.mechanism.body(frame.body);
         body.then(&mut self.g, rotation, offset)

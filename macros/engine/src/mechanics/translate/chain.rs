@@ -13,7 +13,7 @@ use crate::model::types::{Directions, Expr, Joint, JointId};
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 use crate::symbolic::rotations;
 
-use super::build::{Mechanism, Place};
+use super::build::{FixedFrame, Mechanism};
 use super::directions;
 use super::directions::Axis;
 use super::symbols::Symbols;
@@ -22,7 +22,7 @@ use super::symbols::Symbols;
 pub(in crate::mechanics) struct Chain<'a> {
     mechanism: &'a mut Mechanism,
     /// The joint's frame as it leaves the last link so far.
-    pub end: Place,
+    pub end: FixedFrame,
     name: String,
 }
 
@@ -35,7 +35,7 @@ struct Step {
 }
 
 impl<'a> Chain<'a> {
-    pub(in crate::mechanics) fn new(mechanism: &'a mut Mechanism, start: Place, name: String) -> Self {
+    pub(in crate::mechanics) fn new(mechanism: &'a mut Mechanism, start: FixedFrame, name: String) -> Self {
         Chain { mechanism, end: start, name }
     }
 
@@ -58,7 +58,7 @@ impl<'a> Chain<'a> {
             inertia: Inertia::ZERO,
             armature: Scalar::ZERO,
         });
-        self.end = Place { link: Some(index), rotation: step.axis.turn.transpose(), offset: Vector::ZERO };
+        self.end = FixedFrame { link: Some(index), rotation: step.axis.turn.transpose(), offset: Vector::ZERO };
     }
 }
 

@@ -16,7 +16,7 @@ use crate::model::joint_kinds::Motion;
 use crate::model::types::{Coordinate, Expr, ForceId, ForceKind, Frame, JointId, Order};
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
-use super::build::{Mechanism, Place};
+use super::build::{FixedFrame, Mechanism};
 use super::springs::JointSpring;
 
 /// What acts on the tree.
@@ -77,13 +77,13 @@ impl Terms {
         }
     }
 
-    fn moment(&mut self, place: &Place, moment: Vector) {
+    fn moment(&mut self, place: &FixedFrame, moment: Vector) {
         if let Some(moments) = place.link.and_then(|link| self.moments.get_mut(link)) {
             moments.push(moment);
         }
     }
 
-    pub(in crate::mechanics) fn force(&mut self, g: &mut Graph, place: &Place, force: Vector) {
+    pub(in crate::mechanics) fn force(&mut self, g: &mut Graph, place: &FixedFrame, force: Vector) {
         let Some(link) = place.link else { return };
         let moment = g.cross(place.offset, force);
         self.moments[link].push(moment);
@@ -261,7 +261,7 @@ impl Equations<'_> {
         id: JointId,
         efforts: &[Scalar],
         held: bool,
-    ) -> Option<([Place; 2], Wrench)> {
+    ) -> Option<([FixedFrame; 2], Wrench)> {
         let model = self.scene.model;
         let joint = &model.joints[id];
         // What stands behind the last that is given is zero.
@@ -321,7 +321,7 @@ impl Equations<'_> {
     }
 
     /// A vector given in a frame's axes, in those of a place's link.
-    fn given_in(&mut self, place: &Place, value: &Expr, axes: &Frame) -> Vector {
+    fn given_in(&mut self, place: &FixedFrame, value: &Expr, axes: &Frame) -> Vector {
         let axes = self.place(axes);
         if axes.link.is_none() && axes.rotation == Rotation::IDENTITY {
             return self.in_link(place.link, value);

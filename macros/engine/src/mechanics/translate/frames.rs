@@ -15,7 +15,7 @@ use crate::model::types::{Expr, ExprNode, FrameQuantity, JointId};
 use crate::symbolic::graph::{Rotation, Scalar, Vector};
 use crate::symbolic::rotations;
 
-use super::build::Place;
+use super::build::FixedFrame;
 use super::values::Value;
 
 /// Size of a sum, shared parts counted as often as they occur, up to which it is looked into for quantities of frames;
@@ -41,7 +41,7 @@ pub(in crate::mechanics) struct Links {
 
 impl Equations<'_> {
     /// A quantity of a frame.
-    pub(in crate::mechanics) fn of_place(&mut self, place: &Place, quantity: FrameQuantity) -> Value {
+    pub(in crate::mechanics) fn of_place(&mut self, place: &FixedFrame, quantity: FrameQuantity) -> Value {
         match quantity {
             FrameQuantity::Position => Value::Vector(self.frame_motion(place, 0).position),
             FrameQuantity::Rotation => Value::Rotation(Rc::new(self.frame_rows(place))),
@@ -61,7 +61,7 @@ impl Equations<'_> {
     }
 
     /// `order` 0: position; 1: velocities too; 2: accelerations too.
-    fn frame_motion(&mut self, place: &Place, order: u8) -> FrameMotion {
+    fn frame_motion(&mut self, place: &FixedFrame, order: u8) -> FrameMotion {
         let mechanism = Rc::clone(&self.scene.mechanism);
         let tree = &mechanism.tree;
         let acceleration = (order > 1).then(|| {
@@ -104,13 +104,13 @@ impl Equations<'_> {
     }
 
     /// Angular velocity of a frame and velocity of its origin in world axes.
-    pub(super) fn world_velocity(&mut self, place: &Place) -> (Vector, Vector) {
+    pub(super) fn world_velocity(&mut self, place: &FixedFrame) -> (Vector, Vector) {
         let motion = self.frame_motion(place, 1);
         (motion.angular, motion.velocity)
     }
 
     /// Rotation from a frame to the world, row by row.
-    pub(in crate::mechanics) fn frame_rows(&mut self, place: &Place) -> [[Scalar; 3]; 3] {
+    pub(in crate::mechanics) fn frame_rows(&mut self, place: &FixedFrame) -> [[Scalar; 3]; 3] {
         match self.scene.way.style {
             Style::Nested => {
                 let link = self.rotation(place.link);
@@ -182,7 +182,7 @@ impl Equations<'_> {
 
     /// Components in a frame's axes of a world vector. Quantities of frames on the same link need no way through the
     /// world, and sums are looked into for them.
-    pub(super) fn express(&mut self, axes: &Place, vector: &Expr) -> Vector {
+    pub(super) fn express(&mut self, axes: &FixedFrame, vector: &Expr) -> Vector {
         let v = self.in_link(axes.link, vector);
         self.g.rotate(axes.rotation.transpose(), v)
     }
@@ -261,7 +261,12 @@ impl Equations<'_> {
 
     /// The vector from one frame's origin to another's and its rate (for order 1), in the axes of the last link that
     /// carries both, as that link sees them.
-    pub(in crate::mechanics) fn way(&mut self, from: &Place, to: &Place, order: u8) -> ([Vector; 2], Option<usize>) {
+    pub(in crate::mechanics) fn way(
+        &mut self,
+        from: &FixedFrame,
+        to: &FixedFrame,
+        order: u8,
+    ) -> ([Vector; 2], Option<usize>) {
         let mechanism = Rc::clone(&self.scene.mechanism);
         let common = self.common(from.link, to.link);
         let ends = [from, to].map(|place| {
@@ -284,7 +289,7 @@ impl Equations<'_> {
     }
 
     /// Angular velocity of a frame and velocity of its origin, in its link's axes.
-    pub(super) fn point_velocity(&mut self, place: &Place) -> (Vector, Vector) {
+    pub(super) fn point_velocity(&mut self, place: &FixedFrame) -> (Vector, Vector) {
         let velocities = self.link_velocities();
         let Some(&(w, v)) = place.link.and_then(|link| velocities.get(link)) else {
             return (Vector::ZERO, Vector::ZERO);

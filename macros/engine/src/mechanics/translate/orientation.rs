@@ -13,13 +13,13 @@ use crate::symbolic::graph::{Graph, Rotation, RotationNode, Scalar, Vector};
 use crate::symbolic::number::Number;
 use crate::symbolic::rotations;
 
-use super::build::Place;
+use super::build::FixedFrame;
 
 type Quaternion = [Scalar; 4];
 
 impl Equations<'_> {
     /// Orientation of a frame.
-    pub(in crate::mechanics) fn quaternion(&mut self, place: &Place) -> Quaternion {
+    pub(in crate::mechanics) fn quaternion(&mut self, place: &FixedFrame) -> Quaternion {
         match self.few_turns(place) {
             Some(turns) => {
                 let identity = [Scalar::ONE, Scalar::ZERO, Scalar::ZERO, Scalar::ZERO];
@@ -36,7 +36,7 @@ impl Equations<'_> {
     }
 
     /// The rotations from the ground to a frame if one at most is not constant.
-    fn few_turns(&mut self, place: &Place) -> Option<Vec<Rotation>> {
+    fn few_turns(&mut self, place: &FixedFrame) -> Option<Vec<Rotation>> {
         let mechanism = std::rc::Rc::clone(&self.scene.mechanism);
         let tree = &mechanism.tree;
         let g = &mut self.g;

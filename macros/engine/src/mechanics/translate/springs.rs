@@ -10,7 +10,7 @@ use crate::mechanics::equations::Equations;
 use crate::model::types::{Expr, ForceId};
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
-use super::build::Place;
+use super::build::FixedFrame;
 use super::functions::length;
 
 /// On one coordinate.
@@ -51,7 +51,7 @@ impl Equations<'_> {
     pub(in crate::mechanics) fn line_spring(
         &mut self,
         id: ForceId,
-        ends: &[Place; 2],
+        ends: &[FixedFrame; 2],
         data: [&Option<Expr>; 3],
     ) -> LineSpring {
         let [stiffness, damping, natural] = self.optional(data);

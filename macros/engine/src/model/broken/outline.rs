@@ -196,7 +196,7 @@ impl<'a> Checker<'a, '_> {
                     let found = self.solve(unknowns, how, task.item.keyword, context, Some(tree));
                     *whole &= found.is_some();
                     if let Some(found) = found {
-                        if let crate::model::items::solves::Solved::Item(solve) = found {
+                        if let crate::model::items::solves::SolveItem::Item(solve) = found {
                             loops.solves.push(solve);
                         }
                         continue;

@@ -12,11 +12,11 @@ use crate::model::expressions::source_text;
 use crate::model::joint_kinds::JointKind;
 use crate::model::topology::Topology;
 use crate::model::typed::Allowed;
-use crate::model::types::{Closing, Coordinate, Joint, Solve, SolveHow, Type};
+use crate::model::types::{Coordinate, Joint, LoopClosure, Solve, SolveHow, Type};
 use crate::syntax::tree::Solution;
 
 /// What a `solve` item gives.
-pub(in crate::model) enum Solved {
+pub(in crate::model) enum SolveItem {
     Item(Solve),
     /// The sentence for the report.
     Skipped(String),
@@ -30,7 +30,7 @@ impl<'a> Checker<'a, '_> {
         keyword: Span,
         context: Context<'a>,
         joints: Option<(&Topology, &[Joint])>,
-    ) -> Option<Solved> {
+    ) -> Option<SolveItem> {
         let uses = self.coordinate_uses.len();
         let found: Vec<Option<Vec<Coordinate>>> = unknowns
             .iter()
@@ -50,7 +50,7 @@ impl<'a> Checker<'a, '_> {
         if let Some(why) = self.void(unknowns, &lists, &how, at, (topology, list))? {
             // Its conditions may speak of coordinates that aren't there.
             self.coordinate_uses.truncate(uses);
-            return Some(Solved::Skipped(why));
+            return Some(SolveItem::Skipped(why));
         }
         let mut all: Vec<Coordinate> = Vec::new();
         for (expr, coordinates) in unknowns.iter().zip(lists) {
@@ -63,7 +63,7 @@ impl<'a> Checker<'a, '_> {
                 all.push(coordinate);
             }
         }
-        Some(Solved::Item(Solve { unknowns: all, how, span: keyword }))
+        Some(SolveItem::Item(Solve { unknowns: all, how, span: keyword }))
     }
 
     /// One scalar for each coordinate.
@@ -112,8 +112,8 @@ impl<'a> Checker<'a, '_> {
 
     fn by_closing(&mut self, joint: &Expr, branches: &[Expr], context: Context<'a>) -> Option<SolveHow> {
         let closing = match self.meaning(joint, context) {
-            Some(Meaning::Joint(id)) => Some(Closing::Cut(id)),
-            Some(Meaning::Constraint(id)) => Some(Closing::Constraint(id)),
+            Some(Meaning::Joint(id)) => Some(LoopClosure::Cut(id)),
+            Some(Meaning::Constraint(id)) => Some(LoopClosure::Constraint(id)),
             Some(_) => {
                 self.report.help(
                     joint.span(),
@@ -144,7 +144,7 @@ impl<'a> Checker<'a, '_> {
         let changed = self.coordinates.is_some();
         let names: Vec<String> = lists.iter().flatten().map(|coordinate| self.coordinate_name(*coordinate)).collect();
         let subject = format!("`solve` of {}", names.join(", "));
-        if let SolveHow::From { closing: Closing::Cut(id), .. } = how
+        if let SolveHow::From { closing: LoopClosure::Cut(id), .. } = how
             && !topology.is_cut(*id)
         {
             let joint = joints.get(id.0)?;

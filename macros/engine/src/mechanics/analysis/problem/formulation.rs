@@ -12,7 +12,7 @@ use crate::mechanics::loops::constraints::{Writing, closings, is_length};
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::loops::structure::Row;
 use crate::mechanics::translate::symbols::{Symbols, has_quaternion};
-use crate::model::types::{Closing, ConstraintKind, Coordinate, Handling, JointId, Model, SolveHow};
+use crate::model::types::{ConstraintKind, Coordinate, Handling, JointId, LoopClosure, Model, SolveHow};
 use crate::symbolic::graph::Scalar;
 use crate::symbolic::lower::Lowering;
 
@@ -30,7 +30,7 @@ struct Draft {
 
 /// A cosine that is one where a joint is closed as it was meant.
 struct Cosine {
-    closing: Closing,
+    closing: LoopClosure,
     value: Scalar,
     recurs: bool,
 }
@@ -126,15 +126,15 @@ impl Equations<'_> {
         for closing in closings(model) {
             let rod = self.rod_length(closing);
             // Equation and cosine of a thread come last.
-            let thread = matches!(closing, Closing::Cut(joint) if self.turns_unknown(joint));
+            let thread = matches!(closing, LoopClosure::Cut(joint) if self.turns_unknown(joint));
             let residuals = self.residuals(closing, writing);
             let count = residuals.len();
             for (index, residual) in residuals.into_iter().enumerate() {
                 let measure = match (closing, rod) {
-                    (Closing::Constraint(_), Some(length)) => Measure::Rod(length),
-                    (Closing::Constraint(_), None) => Measure::Value,
-                    (Closing::Cut(_), _) if is_length(model, closing, index) => Measure::Length,
-                    (Closing::Cut(_), _) => Measure::Cosine,
+                    (LoopClosure::Constraint(_), Some(length)) => Measure::Rod(length),
+                    (LoopClosure::Constraint(_), None) => Measure::Value,
+                    (LoopClosure::Cut(_), _) if is_length(model, closing, index) => Measure::Length,
+                    (LoopClosure::Cut(_), _) => Measure::Cosine,
                 };
                 let recurs = thread && index + 1 == count;
                 drafts.push(Draft { source: Source::Row(Row { closing, index }), residual, measure, recurs });
@@ -168,8 +168,8 @@ impl Equations<'_> {
         drafts
     }
 
-    fn rod_length(&mut self, closing: Closing) -> Option<Scalar> {
-        let Closing::Constraint(id) = closing else { return None };
+    fn rod_length(&mut self, closing: LoopClosure) -> Option<Scalar> {
+        let LoopClosure::Constraint(id) = closing else { return None };
         match &self.scene.model.constraints[id].kind {
             ConstraintKind::Rod { length, .. } => Some(self.scalar(length)),
             ConstraintKind::Value(_) => None,

@@ -4,7 +4,7 @@
 
 use crate::dynamics::tree::Motion;
 use crate::mechanics::equations::Equations;
-use crate::mechanics::translate::build::Place;
+use crate::mechanics::translate::build::FixedFrame;
 use crate::mechanics::translate::directions::Axis;
 use crate::model::joint_kinds::Hold;
 use crate::model::types::{Directions, JointId};
@@ -33,7 +33,7 @@ pub(super) enum Equation {
 #[derive(Clone, Debug)]
 pub(super) struct Cut {
     /// Parent and child.
-    pub ends: [Place; 2],
+    pub ends: [FixedFrame; 2],
     pub equations: Vec<Equation>,
     /// Axes that coincide when the joint is closed as it was meant.
     pub aligned: Vec<usize>,
@@ -81,7 +81,7 @@ impl Equations<'_> {
     }
 
     /// Whether a screw of the tree stands between two frames.
-    fn holds_screw(&self, ends: &[Place; 2]) -> bool {
+    fn holds_screw(&self, ends: &[FixedFrame; 2]) -> bool {
         let common = self.common(ends[0].link, ends[1].link);
         let tree = &self.scene.mechanism.tree;
         let is_screw = |index: usize| matches!(tree.links[index].motion, Motion::Screw(..));
@@ -104,7 +104,7 @@ impl Equations<'_> {
         }
     }
 
-    fn turn_end(&mut self, end: &mut Place, axis: &Axis) {
+    fn turn_end(&mut self, end: &mut FixedFrame, axis: &Axis) {
         end.rotation = rotations::compose(&mut self.g, end.rotation, axis.turn);
     }
 
@@ -179,7 +179,7 @@ impl Equations<'_> {
         Some((self.g.sin(angle), self.g.cos(angle)))
     }
 
-    pub(super) fn see_axis(&mut self, view: &View, place: &Place, axis: usize) -> Vector {
+    pub(super) fn see_axis(&mut self, view: &View, place: &FixedFrame, axis: usize) -> Vector {
         let axis = self.axis_in_link(place, axis);
         self.see_vector(view, place.link, axis)
     }

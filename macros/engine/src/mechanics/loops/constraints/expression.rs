@@ -13,10 +13,10 @@ use std::rc::Rc;
 
 use crate::dynamics::newton_euler::Wrench;
 use crate::mechanics::equations::Equations;
-use crate::mechanics::translate::build::Place;
+use crate::mechanics::translate::build::FixedFrame;
 use crate::mechanics::translate::symbols::Symbols;
 use crate::mechanics::translate::values::Value;
-use crate::model::types::{Closing, ConstraintId, ConstraintKind, Coordinate, Expr, FrameQuantity, JointId};
+use crate::model::types::{ConstraintId, ConstraintKind, Coordinate, Expr, FrameQuantity, JointId, LoopClosure};
 use crate::symbolic::graph::{Scalar, Vector};
 use crate::symbolic::rotations::{self, transpose};
 
@@ -136,7 +136,7 @@ impl Equations<'_> {
     ) -> Vec<Scalar> {
         let mut efforts: Vec<Scalar> = Vec::new();
         for &(row, multiplier) in multiplied {
-            let Closing::Constraint(id) = row.closing else { continue };
+            let LoopClosure::Constraint(id) = row.closing else { continue };
             for &(coordinate, slope) in &self.slopes(id).efforts {
                 if coordinate.joint != joint {
                     continue;
@@ -190,7 +190,7 @@ impl Equations<'_> {
     }
 
     /// A quantity of a frame that an expression reads.
-    pub(in crate::mechanics) fn read_place(&mut self, place: &Place, quantity: FrameQuantity) -> Value {
+    pub(in crate::mechanics) fn read_place(&mut self, place: &FixedFrame, quantity: FrameQuantity) -> Value {
         let columns = self.read_columns(place);
         let rows = transpose(&columns);
         match quantity {
@@ -205,13 +205,13 @@ impl Equations<'_> {
     }
 
     /// Components of a world vector in the axes of a frame that an expression reads.
-    pub(in crate::mechanics) fn read_express(&mut self, place: &Place, v: Vector) -> Vector {
+    pub(in crate::mechanics) fn read_express(&mut self, place: &FixedFrame, v: Vector) -> Vector {
         let columns = self.read_columns(place).map(|column| self.g.vector(column));
         let components = columns.map(|column| self.g.dot(column, v));
         self.g.vector(components)
     }
 
-    fn read_position(&mut self, place: &Place) -> Vector {
+    fn read_position(&mut self, place: &FixedFrame) -> Vector {
         let Some(link) = self.read_link(place.link) else { return place.offset };
         let offset = self.g.components(place.offset);
         let mut terms = vec![self.g.vector(link.origin)];
@@ -223,7 +223,7 @@ impl Equations<'_> {
     }
 
     /// The axes of a frame.
-    fn read_columns(&mut self, place: &Place) -> [[Scalar; 3]; 3] {
+    fn read_columns(&mut self, place: &FixedFrame) -> [[Scalar; 3]; 3] {
         let rows = rotations::rows(&mut self.g, place.rotation);
         let Some(link) = self.read_link(place.link) else { return transpose(&rows) };
         let g = &mut self.g;
@@ -240,7 +240,7 @@ impl Equations<'_> {
         let found = match self.caches.readings.stand_ins.links.get(&index) {
             Some(&found) => found,
             None => {
-                let place = Place { link, ..Place::GROUND };
+                let place = FixedFrame { link, ..FixedFrame::GROUND };
                 let (origin, rows) = self.meaning_itself(|e| {
                     let origin = match e.of_place(&place, FrameQuantity::Position) {
                         Value::Vector(v) => e.g.components(v),

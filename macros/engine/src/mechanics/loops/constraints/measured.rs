@@ -13,7 +13,7 @@ use std::rc::Rc;
 use crate::contracts::call::Call;
 use crate::dynamics::point_kinematics::PointKinematics;
 use crate::mechanics::equations::Equations;
-use crate::mechanics::translate::build::Place;
+use crate::mechanics::translate::build::FixedFrame;
 use crate::mechanics::translate::directions::Axis;
 use crate::mechanics::translate::symbols::Symbols;
 use crate::model::joint_kinds::Motion;
@@ -33,10 +33,10 @@ pub(in crate::mechanics) enum Dual {
 
 /// How an angle is measured: by a direction of one frame against two of the other.
 struct Angle {
-    u: (Place, Vector),
+    u: (FixedFrame, Vector),
     /// n x u
-    v: (Place, Vector),
-    x: (Place, Vector),
+    v: (FixedFrame, Vector),
+    x: (FixedFrame, Vector),
 }
 
 impl Equations<'_> {
@@ -103,7 +103,7 @@ impl Equations<'_> {
     }
 
     /// A component of the way along a direction of the parent's frame.
-    fn travel(&mut self, ends: &[Place; 2], along: Vector) -> Scalar {
+    fn travel(&mut self, ends: &[FixedFrame; 2], along: Vector) -> Scalar {
         let view = self.view(ends, Writing::PLAIN);
         let way = self.see_way(&view, ends);
         let along = self.g.rotate(ends[0].rotation, along);
@@ -111,7 +111,7 @@ impl Equations<'_> {
         self.g.dot(way, along)
     }
 
-    fn angle_of(&mut self, joint: &Joint, ends: &[Place; 2], index: usize) -> Option<Angle> {
+    fn angle_of(&mut self, joint: &Joint, ends: &[FixedFrame; 2], index: usize) -> Option<Angle> {
         let [parent, child] = *ends;
         let freedom = joint.kind.freedoms.get(index).filter(|freedom| freedom.motion == Motion::Turns)?;
         let axes = self.joint_axes(joint);
@@ -135,7 +135,7 @@ impl Equations<'_> {
         }
     }
 
-    fn point_of(&mut self, ends: &[Place; 2], angle: &Angle) -> [Scalar; 2] {
+    fn point_of(&mut self, ends: &[FixedFrame; 2], angle: &Angle) -> [Scalar; 2] {
         let view = self.view(ends, Writing::PLAIN);
         let [u, v, x] = [&angle.u, &angle.v, &angle.x].map(|(place, direction)| {
             let direction = self.g.rotate(place.rotation, *direction);
@@ -145,14 +145,14 @@ impl Equations<'_> {
     }
 
     /// An axis of the child along one of the parent's.
-    fn cosine_between(&mut self, ends: &[Place; 2], child: usize, parent: usize) -> Scalar {
+    fn cosine_between(&mut self, ends: &[FixedFrame; 2], child: usize, parent: usize) -> Scalar {
         let view = self.view(ends, Writing::PLAIN);
         let (c, p) = (self.see_axis(&view, &ends[1], child), self.see_axis(&view, &ends[0], parent));
         self.g.dot(c, p)
     }
 
     /// Angles of Rz(yaw) Ry(pitch) Rx(roll).
-    fn roll_pitch_yaw_between(&mut self, ends: &[Place; 2], index: usize) -> Scalar {
+    fn roll_pitch_yaw_between(&mut self, ends: &[FixedFrame; 2], index: usize) -> Scalar {
         let [sin, cos] = match index {
             0 => [self.cosine_between(ends, 1, 2), self.cosine_between(ends, 2, 2)],
             1 => {
@@ -190,14 +190,14 @@ impl Equations<'_> {
         Some(Dual::Turns(self.g.rotate(parent.rotation, direction)))
     }
 
-    fn direction_in(&mut self, place: &Place, axis: Axis) -> Vector {
+    fn direction_in(&mut self, place: &FixedFrame, axis: Axis) -> Vector {
         let along = self.along(axis, Scalar::ONE);
         self.g.rotate(place.rotation, along)
     }
 
     /// With c the child's x axis in the parent's, the axes of roll, pitch and yaw are c, (-c_y, c_x, 0) / k and z, with
     /// k^2 = c_x^2 + c_y^2; these are dual to them.
-    fn gimbal(&mut self, ends: &[Place; 2], index: usize) -> Vector {
+    fn gimbal(&mut self, ends: &[FixedFrame; 2], index: usize) -> Vector {
         let [x, y, z] = [0, 1, 2].map(|k| self.cosine_between(ends, 0, k));
         let g = &mut self.g;
         let squares = [g.mul(x, x), g.mul(y, y)];
@@ -240,7 +240,7 @@ impl Equations<'_> {
 
     /// The way between two frames and its rate, and their angular velocities, in the axes of the last link that carries both,
     /// as that link sees them.
-    fn motion_between(&mut self, ends: &[Place; 2]) -> (Option<usize>, [Vector; 2], [Vector; 2]) {
+    fn motion_between(&mut self, ends: &[FixedFrame; 2]) -> (Option<usize>, [Vector; 2], [Vector; 2]) {
         let mechanism = Rc::clone(&self.scene.mechanism);
         let common = self.common(ends[0].link, ends[1].link);
         let [from, to] = [0, 1].map(|k| {

@@ -6,14 +6,14 @@
 //! between two such points is zero as it is written.
 
 use crate::mechanics::equations::Equations;
-use crate::mechanics::translate::build::Place;
+use crate::mechanics::translate::build::FixedFrame;
 use crate::model::types::JointId;
 use crate::symbolic::graph::{Scalar, Vector};
 use crate::symbolic::rotations;
 
 impl Equations<'_> {
     /// Whether it is certain: there may be other reasons for two points to meet.
-    pub(in crate::mechanics) fn are_held_together(&mut self, ends: &[Place; 2]) -> bool {
+    pub(in crate::mechanics) fn are_held_together(&mut self, ends: &[FixedFrame; 2]) -> bool {
         let model = self.scene.model;
         let mut known = vec![ends[0]];
         let mut cuts: Vec<JointId> = model.cuts.clone();
@@ -34,12 +34,12 @@ impl Equations<'_> {
         false
     }
 
-    fn coincide(&mut self, a: &Place, b: &Place) -> bool {
+    fn coincide(&mut self, a: &FixedFrame, b: &FixedFrame) -> bool {
         self.way(a, b, 0).0[0] == Vector::ZERO
     }
 
     /// The same point on the body beyond a cut joint.
-    fn beyond(&mut self, point: &Place, id: JointId) -> Option<Place> {
+    fn beyond(&mut self, point: &FixedFrame, id: JointId) -> Option<FixedFrame> {
         let cut = self.cut(id)?;
         let kind = self.scene.model.joints[id].kind;
         for [near, far] in [cut.ends, [cut.ends[1], cut.ends[0]]] {
@@ -63,7 +63,7 @@ impl Equations<'_> {
             };
             if held {
                 let arm = rotations::rotate(&mut self.g, far.rotation, local);
-                return Some(Place { offset: self.g.add_vectors(far.offset, arm), ..far });
+                return Some(FixedFrame { offset: self.g.add_vectors(far.offset, arm), ..far });
             }
         }
         None

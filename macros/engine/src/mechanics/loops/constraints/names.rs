@@ -5,7 +5,7 @@
 //! coordinate axis.
 
 use crate::model::joint_kinds::Hold;
-use crate::model::types::{Closing, Coordinate, Directions, Expr, ExprNode, Joint, Model, Place};
+use crate::model::types::{Coordinate, Directions, Expr, ExprNode, Joint, LoopClosure, Model, Place};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -15,13 +15,13 @@ pub fn unfit(name: &str) -> String {
 }
 
 /// Name of an equation.
-pub fn row_name(model: &Model, closing: Closing, index: usize) -> String {
+pub fn row_name(model: &Model, closing: LoopClosure, index: usize) -> String {
     match closing {
-        Closing::Constraint(id) => model.constraints.get(id.0).map_or_else(String::new, |c| match c.drive {
+        LoopClosure::Constraint(id) => model.constraints.get(id.0).map_or_else(String::new, |c| match c.drive {
             Some(coordinate) => format!("drive of {}", coordinate_name(model, coordinate)),
             None => path(model, &c.place),
         }),
-        Closing::Cut(id) => model.joints.get(id.0).map_or_else(String::new, |joint| {
+        LoopClosure::Cut(id) => model.joints.get(id.0).map_or_else(String::new, |joint| {
             let list = of_joint(joint);
             let suffix = list.get(index).map_or("", String::as_str);
             format!("{}.{suffix}", path(model, &joint.place))

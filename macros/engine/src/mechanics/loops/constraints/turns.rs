@@ -20,7 +20,7 @@ use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::expressions::operands;
 use crate::model::site::Sited;
-use crate::model::types::{Closing, ConstraintId, ConstraintKind, Coordinate, Expr, ExprNode, Model, Order};
+use crate::model::types::{ConstraintId, ConstraintKind, Coordinate, Expr, ExprNode, LoopClosure, Model, Order};
 use crate::symbolic::evaluate::{Evaluator, Real};
 use crate::symbolic::graph::{Scalar, SymbolId};
 use crate::symbolic::number::Number;
@@ -168,7 +168,7 @@ fn complaint(model: &Model, id: ConstraintId, coordinate: Coordinate) -> Complai
         ConstraintKind::Rod { .. } => None,
     };
     let at = found.map_or(constraint.site(), |(_, expr)| expr.site());
-    let (name, angle) = (row_name(model, Closing::Constraint(id), 0), coordinate_name(model, coordinate));
+    let (name, angle) = (row_name(model, LoopClosure::Constraint(id), 0), coordinate_name(model, coordinate));
     let message = format!(
         "the constraint `{name}` counts the turns of `{angle}`, which is measured between bodies and known up to whole turns"
     );

@@ -10,16 +10,16 @@ use std::rc::Rc;
 use crate::dynamics::point_kinematics::PointKinematics;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::scene::Style;
-use crate::mechanics::translate::build::Place;
+use crate::mechanics::translate::build::FixedFrame;
 use crate::symbolic::graph::{Rotation, Scalar, Vector};
 use crate::symbolic::rotations;
 
-use super::{Axes, Writing};
+use super::{ClosedIn, Writing};
 
 /// A frame to look from.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
-    pub place: Place,
+    pub place: FixedFrame,
     /// The link whose joint stands in this very frame.
     first: Option<usize>,
     style: Style,
@@ -34,25 +34,25 @@ impl View {
 
 impl Equations<'_> {
     /// The frame that a writing means for a closing between two frames.
-    pub(super) fn view(&mut self, ends: &[Place; 2], writing: Writing) -> View {
+    pub(super) fn view(&mut self, ends: &[FixedFrame; 2], writing: Writing) -> View {
         let common = self.common(ends[0].link, ends[1].link);
         let (place, first) = match writing.axes {
-            Axes::Parent => (ends[0], None),
-            Axes::Child => (ends[1], None),
-            Axes::World => (Place::GROUND, None),
-            Axes::Common => (Place { link: common, ..Place::GROUND }, None),
-            Axes::ParentBase => self.base_of(&ends[0], common),
-            Axes::ChildBase => self.base_of(&ends[1], common),
+            ClosedIn::Parent => (ends[0], None),
+            ClosedIn::Child => (ends[1], None),
+            ClosedIn::World => (FixedFrame::GROUND, None),
+            ClosedIn::Common => (FixedFrame { link: common, ..FixedFrame::GROUND }, None),
+            ClosedIn::ParentBase => self.base_of(&ends[0], common),
+            ClosedIn::ChildBase => self.base_of(&ends[1], common),
         };
         View { place, first, style: writing.style }
     }
 
     /// The frame that the first joint beyond `common` stands in, on the way to a frame.
-    fn base_of(&self, end: &Place, common: Option<usize>) -> (Place, Option<usize>) {
+    fn base_of(&self, end: &FixedFrame, common: Option<usize>) -> (FixedFrame, Option<usize>) {
         let tree = &self.scene.mechanism.tree;
         let Some(&first) = tree.path(common, end.link).first() else { return (*end, None) };
         let link = &tree.links[first];
-        (Place { link: common, rotation: link.rotation, offset: link.offset }, Some(first))
+        (FixedFrame { link: common, rotation: link.rotation, offset: link.offset }, Some(first))
     }
 
     /// The link whose joint stands in the view's frame, if another hangs on it.
@@ -61,7 +61,7 @@ impl Equations<'_> {
     }
 
     /// A frame's origin, from the view's origin in its axes.
-    pub(super) fn see_point(&mut self, view: &View, point: &Place) -> Vector {
+    pub(super) fn see_point(&mut self, view: &View, point: &FixedFrame) -> Vector {
         let mechanism = Rc::clone(&self.scene.mechanism);
         let tree = &mechanism.tree;
         if let Some(first) = self.hangs_on(view, point.link) {
@@ -157,18 +157,18 @@ impl Equations<'_> {
     }
 
     /// The way from the first frame's origin to the second's, in the axes of a writing.
-    pub(super) fn way_in(&mut self, ends: &[Place; 2], writing: Writing) -> Vector {
+    pub(super) fn way_in(&mut self, ends: &[FixedFrame; 2], writing: Writing) -> Vector {
         let view = self.view(ends, writing);
         self.see_way(&view, ends)
     }
 
-    pub(super) fn see_way(&mut self, view: &View, ends: &[Place; 2]) -> Vector {
+    pub(super) fn see_way(&mut self, view: &View, ends: &[FixedFrame; 2]) -> Vector {
         let [from, to] = [self.see_point(view, &ends[0]), self.see_point(view, &ends[1])];
         self.g.sub_vectors(to, from)
     }
 
     /// A coordinate axis of a frame, in its link's axes.
-    pub(super) fn axis_in_link(&mut self, place: &Place, axis: usize) -> Vector {
+    pub(super) fn axis_in_link(&mut self, place: &FixedFrame, axis: usize) -> Vector {
         let unit = self.g.along(axis, Scalar::ONE);
         rotations::rotate(&mut self.g, place.rotation, unit)
     }

@@ -12,7 +12,7 @@ use std::rc::Rc;
 use crate::contracts::call::Call;
 use crate::dynamics::tree::Motion;
 use crate::mechanics::equations::Equations;
-use crate::mechanics::translate::build::Place;
+use crate::mechanics::translate::build::FixedFrame;
 use crate::symbolic::graph::Scalar;
 
 use super::view::View;
@@ -20,7 +20,7 @@ use super::view::View;
 impl Equations<'_> {
     /// The angle of the second frame against the first about their axis number `axis`; nothing where the coordinates
     /// don't tell how many turns it holds.
-    pub(super) fn winding(&mut self, view: &View, ends: &[Place; 2], axis: usize) -> Option<Scalar> {
+    pub(super) fn winding(&mut self, view: &View, ends: &[FixedFrame; 2], axis: usize) -> Option<Scalar> {
         let common = self.common(ends[0].link, ends[1].link);
         let [parent, child] = [self.turns_about(&ends[0], axis, common), self.turns_about(&ends[1], axis, common)];
         let turns = self.g.sub(child, parent);
@@ -44,7 +44,7 @@ impl Equations<'_> {
     }
 
     /// Sum of the coordinates between a frame and a link that carries it which turn about an axis of the frame.
-    fn turns_about(&mut self, end: &Place, axis: usize, carrier: Option<usize>) -> Scalar {
+    fn turns_about(&mut self, end: &FixedFrame, axis: usize, carrier: Option<usize>) -> Scalar {
         let mechanism = Rc::clone(&self.scene.mechanism);
         let tree = &mechanism.tree;
         let mut direction = self.axis_in_link(end, axis);

@@ -15,9 +15,9 @@ use std::rc::Rc;
 
 use crate::dynamics::newton_euler::{Wrench, to_parent};
 use crate::mechanics::equations::Equations;
-use crate::mechanics::translate::build::Place;
+use crate::mechanics::translate::build::FixedFrame;
 use crate::mechanics::translate::forces::{Loads, Terms};
-use crate::model::types::{Closing, ConstraintId, ConstraintKind, JointId};
+use crate::model::types::{ConstraintId, ConstraintKind, JointId, LoopClosure};
 use crate::symbolic::graph::{Scalar, Vector};
 
 use super::Writing;
@@ -27,7 +27,7 @@ use super::view::View;
 /// A closing with the multipliers of all its equations; those of equations that were dropped are zero.
 #[derive(Clone, Debug)]
 pub struct Held {
-    pub closing: Closing,
+    pub closing: LoopClosure,
     pub multipliers: Vec<Scalar>,
     pub writing: Writing,
 }
@@ -41,7 +41,7 @@ struct Push {
 }
 
 /// Sums before they are turned into link axes.
-struct Gathered {
+struct WrenchSums {
     terms: Terms,
     /// By link, in world axes about its origin: turned once for all loops that end there.
     world: BTreeMap<usize, (Vec<Vector>, Vec<Vector>)>,
@@ -51,18 +51,18 @@ impl Equations<'_> {
     /// The wrenches -G^T lambda of several closings together, to be added to other loads.
     pub(in crate::mechanics) fn constraint_wrenches(&mut self, held: &[Held]) -> Loads {
         let mechanism = Rc::clone(&self.scene.mechanism);
-        let mut gathered = Gathered { terms: Terms::new(&mechanism), world: BTreeMap::new() };
+        let mut gathered = WrenchSums { terms: Terms::new(&mechanism), world: BTreeMap::new() };
         for one in held {
             if one.multipliers.iter().all(|&m| m == Scalar::ZERO) {
                 continue;
             }
             match one.closing {
-                Closing::Cut(joint) => {
+                LoopClosure::Cut(joint) => {
                     if let Some(cut) = self.cut(joint) {
                         self.hold_cut(&mut gathered, &cut, one);
                     }
                 }
-                Closing::Constraint(_) => self.hold(&mut gathered, one),
+                LoopClosure::Constraint(_) => self.hold(&mut gathered, one),
             }
         }
         let mut world = Vec::new();
@@ -102,7 +102,7 @@ impl Equations<'_> {
         mechanism.sign(&efforts)
     }
 
-    fn hold_cut(&mut self, gathered: &mut Gathered, cut: &Cut, held: &Held) {
+    fn hold_cut(&mut self, gathered: &mut WrenchSums, cut: &Cut, held: &Held) {
         let view = self.view(&cut.ends, held.writing);
         let push = self.push(cut, &view, &held.multipliers);
         let [parent, child] = &cut.ends;
@@ -155,7 +155,7 @@ impl Equations<'_> {
     }
 
     /// Adds a force at a frame's origin and a moment, both in the view's axes.
-    fn apply(&mut self, gathered: &mut Gathered, view: &View, place: &Place, force: Vector, moment: Vector) {
+    fn apply(&mut self, gathered: &mut WrenchSums, view: &View, place: &FixedFrame, force: Vector, moment: Vector) {
         let Some(link) = place.link else { return };
         if force == Vector::ZERO && moment == Vector::ZERO {
             return;
@@ -176,10 +176,10 @@ impl Equations<'_> {
     }
 
     /// Rods and expressions.
-    fn hold(&mut self, gathered: &mut Gathered, held: &Held) {
+    fn hold(&mut self, gathered: &mut WrenchSums, held: &Held) {
         let multiplier = held.multipliers[0];
         let model = self.scene.model;
-        let Closing::Constraint(id) = held.closing else { return };
+        let LoopClosure::Constraint(id) = held.closing else { return };
         match &model.constraints[id].kind {
             ConstraintKind::Rod { between, .. } => {
                 let ends = [self.place(&between[0]), self.place(&between[1])];
@@ -193,7 +193,7 @@ impl Equations<'_> {
         }
     }
 
-    fn hold_expression(&mut self, gathered: &mut Gathered, id: ConstraintId, multiplier: Scalar) {
+    fn hold_expression(&mut self, gathered: &mut WrenchSums, id: ConstraintId, multiplier: Scalar) {
         let slopes = self.slopes(id);
         for &(link, wrench) in &slopes.wrenches {
             let (moments, forces) = gathered.world.entry(link).or_default();
@@ -213,7 +213,7 @@ impl Equations<'_> {
     }
 
     /// Force and moment that the parent of a cut joint exerts on the child at the child frame, in the axes of a frame.
-    pub fn cut_reaction(&mut self, joint: JointId, held: &Held, axes: &Place) -> [Vector; 2] {
+    pub fn cut_reaction(&mut self, joint: JointId, held: &Held, axes: &FixedFrame) -> [Vector; 2] {
         let Some(cut) = self.cut(joint) else { return [Vector::ZERO; 2] };
         let view = self.view(&cut.ends, held.writing);
         let push = self.push(&cut, &view, &held.multipliers);

@@ -8,8 +8,8 @@ use std::collections::HashMap;
 use crate::mechanics::analysis::driven_by;
 use crate::model::checks::evaluate::{Evaluator, Value};
 use crate::model::types::{
-    BodyId, BodyRef, Closing, ConstraintKind, Coordinate, DriveTarget, Expr, ForceKind, Frame, FrameStep, Joint,
-    JointId, Model, ParamId, SolveHow, Type,
+    BodyId, BodyRef, ConstraintKind, Coordinate, DriveTarget, Expr, ForceKind, Frame, FrameStep, Joint, JointId,
+    LoopClosure, Model, ParamId, SolveHow, Type,
 };
 use crate::symbolic::fingerprint::mix;
 
@@ -75,12 +75,12 @@ impl<'m> Shapes<'m> {
             links.join("; ")
         });
         let closed = match one.closing {
-            Closing::Cut(id) => model.joints.get(id.0).map(|joint| {
+            LoopClosure::Cut(id) => model.joints.get(id.0).map(|joint| {
                 let kind = self.kind(joint);
                 let ends = [&joint.parent, &joint.child].map(|frame| self.end(frame, one.carrier));
                 format!("{} {kind} {}{:?}", ends[0], ends[1], self.on_joints[id.0])
             }),
-            Closing::Constraint(id) => model.constraints.get(id.0).map(|constraint| match &constraint.kind {
+            LoopClosure::Constraint(id) => model.constraints.get(id.0).map(|constraint| match &constraint.kind {
                 ConstraintKind::Rod { between, length } => {
                     let ends = between.each_ref().map(|frame| self.end(frame, one.carrier));
                     format!("{} rod {} {}", ends[0], self.entries(length), ends[1])
