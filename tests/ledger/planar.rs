@@ -50,7 +50,7 @@ fn symbols(programs: impl IntoIterator<Item = Program>) -> BTreeSet<Symbol> {
 fn params(model: &Model, compiled: &Compiled) -> Vec<String> {
     let programs = compiled.functions.iter().map(|f| f.program.clone()).chain([compiled.prelude.clone()]);
     let read = symbols(programs).into_iter().filter_map(|symbol| match symbol {
-        Symbol::Param { param, element } => Some(format!("{}{element}", model.params[param.0].place.field)),
+        Symbol::Param { param, element } => Some(format!("{}{element}", model.params[param].place.field)),
         _ => None,
     });
     read.collect()
