@@ -2,6 +2,7 @@
 
 mod firmware;
 mod minimum;
+mod mutants;
 mod packages;
 
 use std::error::Error;
@@ -14,7 +15,9 @@ type Stop = Box<dyn Error>;
 const USAGE: &str = "\
 cargo xtask firmware [--accept] [VARIANT...]   build, run and compare examples/firmware
 cargo xtask packages                           what would be published, and that nothing is missing
-cargo xtask minimum                            build with the oldest Rust that Cargo.toml admits";
+cargo xtask minimum                            build with the oldest Rust that Cargo.toml admits
+cargo xtask mutants [--budget SECONDS] [--longest SECONDS] [--seed N] [--only MUTANT]... AREA...
+                                               changes of operators that no test notices";
 
 /// The folder of the workspace.
 fn root() -> PathBuf {
@@ -47,6 +50,7 @@ fn main() -> ExitCode {
     let passed = match (name.as_str(), rest) {
         ("firmware", rest) => firmware::run(rest),
         ("packages", []) => packages::run(),
+        ("mutants", rest) => mutants::run(rest),
         ("minimum", []) => minimum::run(),
         _ => {
             eprintln!("{USAGE}");
