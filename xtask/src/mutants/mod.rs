@@ -33,7 +33,23 @@ const AREAS: [Area; 5] = [
     Area { name: "symbolic", package: ENGINE, folder: "symbolic", tests: &[("lib", "symbolic::"), ("symbolic", "")] },
     Area { name: "optimize", package: ENGINE, folder: "optimize", tests: &[("optimize", "")] },
     Area { name: "solve", package: ENGINE, folder: "solve", tests: &[("solve", "")] },
-    Area { name: "dynamics", package: ENGINE, folder: "dynamics", tests: &[("dynamics", "")] },
+    Area {
+        name: "dynamics",
+        package: ENGINE,
+        folder: "dynamics",
+        tests: &[
+            ("dynamics", ""),
+            // What needs a model to be reached: outputs, loops, loads.
+            ("mechanics", "motion::"),
+            ("mechanics", "forces::"),
+            ("mechanics", "joints::"),
+            ("mechanics", "reactions::"),
+            ("mechanics", "balance::"),
+            ("mechanics", "jacobians::"),
+            ("mechanics", "formulations::"),
+            ("mechanics", "loops::"),
+        ],
+    },
     Area { name: "integrators", package: RUNTIME, folder: "integrators", tests: &[("integrators", "")] },
 ];
 

@@ -41,7 +41,7 @@ const OUT_OF_TIME: i32 = 24;
 
 /// Every test of the binaries whose name begins with the filter, without a mutant.
 pub(super) fn measure(built: &Built, binary: &str, filter: &str) -> Result<Vec<Test>, Stop> {
-    let record = built.folder.join("reached.txt");
+    let record = built.folder.join(format!("reached-{binary}.txt"));
     let _ = fs::remove_file(&record);
     let mut command = command(built, binary, MEASURE)?;
     command.env("MUTANTS_REACHED", &record).arg(filter);

@@ -369,5 +369,9 @@ mod tests {
         assert_eq!(Doubled::new(1000.0).exp().high, f64::INFINITY);
         assert_eq!(Doubled::ZERO.sqrt(), Doubled::ZERO);
         assert_eq!(Doubled::ZERO.atan2(Doubled::ONE), Doubled::ZERO);
+        assert_eq!(Doubled::new(f64::INFINITY).atan2(Doubled::ONE).high, std::f64::consts::FRAC_PI_2);
+        // Beyond the digits that pi has here an angle is that of double precision.
+        let (sin, cos) = Doubled::new(1e300).sin_cos();
+        assert_eq!((sin.high, cos.high), 1e300_f64.sin_cos());
     }
 }

@@ -299,9 +299,24 @@ mod tests {
         same(deg(0.25) * Number::integer(4), deg(1.0));
         let typed = Number::decimal(0.523_598_775_598_298_8);
         same(sin_cos(typed).0, Number::ratio(1, 2));
+        let (sin, cos) = sin_cos(Number::ZERO);
+        assert!(sin.is_zero() && cos.is_exact() && cos.is_one());
         // No exact point: opaque, with the right value.
         let odd = sin_cos(Number::pi() / Number::integer(29)).0;
         assert!(!odd.is_exact() && (odd.value() - 0.108_119_018_423_941_76).abs() < 1e-16);
+    }
+
+    /// At least the rounding of the value, at most some of its and of its argument's.
+    #[test]
+    fn bounds_of_roundings() {
+        let odd = Number::decimal(0.371);
+        for function in
+            [Call::Tan, Call::Asin, Call::Acos, Call::Atan, Call::Sinh, Call::Cosh, Call::Tanh, Call::Exp, Call::Ln]
+        {
+            let result = call(function, &[odd]).expect("a value");
+            let size = ROUNDING * result.value().abs();
+            assert!(!result.is_exact() && (size..200.0 * size).contains(&result.noise()), "{function:?}: {result:?}");
+        }
     }
 
     #[test]

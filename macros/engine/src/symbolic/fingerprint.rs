@@ -254,5 +254,6 @@ mod tests {
             let print = Print::integer(i128::from(n)) * Print::integer(i128::from(d)).inverse();
             assert_eq!(reconstruct(print), Some((n, d)));
         }
+        assert_eq!(reconstruct(Print::integer(1 << 16)), None);
     }
 }

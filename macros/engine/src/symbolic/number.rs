@@ -536,6 +536,13 @@ mod tests {
     }
 
     #[test]
+    fn digits_that_a_rounded_number_has() {
+        assert!(Number::decimal(0.866_025_403_784_4).is_rounded_decimal());
+        assert!(!Number::decimal(0.866_025_403_784).is_rounded_decimal());
+        assert!(Number::pi().is_exact());
+    }
+
+    #[test]
     fn quotients_invert() {
         let a = Number::decimal(0.371);
         let b = Number::decimal(12.9);
@@ -563,6 +570,7 @@ mod tests {
                 assert_eq!(ratio * root(b), root(a));
             }
         }
+        assert_eq!(Number::ratio(9, 4).root().and_then(|root| root.number.rational()), Some((3, 2)));
         assert!((root(2) - root(2)).is_zero());
         assert_eq!((root(2) * root(2)).rational(), None);
         assert_eq!((root(2) * root(2)).root().map(|r| r.number), Some(root(2)));

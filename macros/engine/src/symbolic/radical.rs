@@ -168,6 +168,26 @@ mod tests {
     }
 
     #[test]
+    fn primes_are_known() {
+        let by_division = |n: u64| n > 1 && (2..n).take_while(|d| d * d <= n).all(|d| n % d != 0);
+        for n in (0..3000).chain([1_000_003, 4_294_967_291, 4_294_967_293]) {
+            assert_eq!(is_prime(n), by_division(n), "{n}");
+        }
+        // Strong pseudoprimes to the first four and the first nine primes; two products of primes that are 3 modulo 4.
+        for n in [3_215_031_751, 3_825_123_056_546_413_051, 1063 * 1087, 4_294_967_291 * 4_294_967_279] {
+            assert!(!is_prime(n), "{n}");
+        }
+    }
+
+    #[test]
+    fn integers_beyond_a_word_are_elements() {
+        use crate::symbolic::fingerprint::Print;
+        for n in [5, (1 << 64) + 5, (7 << 70) + (1 << 40) + 3] {
+            assert_eq!(whole::<Print>(n), Print::integer(n as i128), "{n}");
+        }
+    }
+
+    #[test]
     fn integers_are_taken_apart() {
         assert_eq!(parts(1), (1, vec![]));
         assert_eq!(parts(72), (6, vec![2]));

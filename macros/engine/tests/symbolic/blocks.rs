@@ -147,6 +147,8 @@ fn systems_are_solved_with_their_rank() {
     }
     assert_eq!(solve_f64(&[0.0; 4], &[1.0, 2.0]), [0.0, 0.0, 0.0]);
     assert_eq!(solve_f64(&[0.0, 2.0, 1.0, 1.0], &[4.0, 3.0]), [1.0, 2.0, 2.0]);
+    // Full rank in a column however small.
+    assert_eq!(solve_f64(&[1.0, 1e-20, 1.0, 2e-20], &[1.0, 1.0])[2], 2.0);
 }
 
 /// Newton's method for x + a sin y = b, y - a cos x = c: its step is a linear system within the body.
@@ -217,4 +219,23 @@ fn nothing_is_answered_by_nothing() {
     );
     assert_eq!(solved[..2], [Scalar::ZERO; 2]);
     assert_eq!(values(&g, &[solved[2]], &[1.0, 1.0]), [1.0]);
+}
+
+/// The exact test solves systems: what the unknowns are put into gives the right sides.
+#[test]
+fn unknowns_fulfil_their_equations_exactly() {
+    for n in 1..=3 {
+        let mut g = Graph::new();
+        let entries: Vec<Scalar> = (0..n * (n + 1)).map(|_| g.symbol()).collect();
+        let (matrix, right) = entries.split_at(n * n);
+        let unknowns = g.block_outputs(BlockKind::Solve { size: n, symmetric: false, groups: [].into() }, &entries);
+        let left: Vec<Scalar> = (0..n)
+            .map(|i| {
+                let terms: Vec<Scalar> = (0..n).map(|j| g.mul(matrix[i * n + j], unknowns[j])).collect();
+                g.sum(&terms)
+            })
+            .collect();
+        assert_eq!(identical(&g, &left, &g, right, 3), Verdict::Identical, "{n}");
+        assert_eq!(identical(&g, &left[..1], &g, &matrix[..1], 3), Verdict::Different(0), "{n}");
+    }
 }

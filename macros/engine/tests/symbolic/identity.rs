@@ -260,3 +260,26 @@ fn placement(g: &mut Graph, [w, x, y, z]: [i64; 4]) -> Rotation {
     let rows = rows.map(|row| row.map(|n| g.number(Number::integer(n) / norm)));
     g.matrix_rotation(rows)
 }
+
+/// In doubles several points are compared: one may lie where two functions are equal.
+#[test]
+fn doubles_are_compared_at_more_than_one_point() {
+    let mut seen = 0;
+    for seed in 0..20 {
+        let ((g, [x]), (mut h, [y])) = (graph(), graph());
+        let size = h.call(Call::Abs, &[y]);
+        seen += u32::from(close(&g, &[x], &h, &[size], seed, 1e-9) == Verdict::Different(0));
+    }
+    assert!(seen >= 19, "{seen}");
+}
+
+#[test]
+fn quaternions_have_unit_length_in_doubles() {
+    let (mut g, (mut h, q)) = (Graph::new(), graph::<4>());
+    g.unit_quaternion();
+    let squares = q.map(|x| h.mul(x, x));
+    let square = h.sum(&squares);
+    for seed in 0..20 {
+        assert_eq!(close(&g, &[Scalar::ONE], &h, &[square], seed, 1e-12), Verdict::Identical);
+    }
+}

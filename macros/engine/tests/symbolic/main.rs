@@ -10,3 +10,4 @@ mod inputs;
 #[path = "../common/rng.rs"]
 mod rng;
 mod substitution;
+mod vectors;
