@@ -537,8 +537,8 @@ mod tests {
 
     #[test]
     fn digits_that_a_rounded_number_has() {
-        assert!(Number::decimal(0.866_025_403_784_4).is_rounded_decimal());
-        assert!(!Number::decimal(0.866_025_403_784).is_rounded_decimal());
+        assert!(Number::decimal(0.123_456_789_012_3).is_rounded_decimal());
+        assert!(!Number::decimal(0.123_456_789_013).is_rounded_decimal());
         assert!(Number::pi().is_exact());
     }
 
