@@ -7,17 +7,13 @@ use std::collections::BTreeSet;
 
 /// Lines that are alike once each; nested arrays are opened one after the other.
 pub(in crate::emit) fn once(lines: Vec<String>) -> Vec<String> {
-    let mut lines = lines;
-    let mut arrays: Vec<String> = Vec::new();
-    for line in &lines {
-        for (array, _) in elements(line) {
-            if !arrays.contains(&array) {
-                arrays.push(array);
-            }
-        }
-    }
-    for array in arrays {
+    let (mut lines, mut opened): (Vec<String>, Vec<String>) = (lines, Vec::new());
+    // An array within one that has been opened has a new name.
+    while let Some(array) =
+        lines.iter().flat_map(|line| elements(line)).map(|one| one.0).find(|name| !opened.contains(name))
+    {
         lines = folded(&lines, &array);
+        opened.push(array);
     }
     let mut unique: Vec<String> = Vec::new();
     lines.into_iter().for_each(|line| {

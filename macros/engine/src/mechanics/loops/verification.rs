@@ -11,7 +11,7 @@ use crate::invariant::fault::raise;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::model::site::Sited;
-use crate::model::types::{JointId, Kinematics, LoopClosure, Solve, SolveHow};
+use crate::model::types::{Expr, JointId, Kinematics, LoopClosure, Solve, SolveHow};
 use crate::symbolic::graph::Scalar;
 
 use super::constraints::coordinate_name;
@@ -61,35 +61,52 @@ impl Equations<'_> {
         super::constraints::path(self.scene.model, place)
     }
 
-    /// The conditions that have chosen a solution hold for the one that was made.
-    fn verify_branches(&mut self, reduction: &Reduction) {
+    /// The conditions that have chosen solutions hold for those that were made: where one holds nowhere, another solution was
+    /// made than was chosen; where it fails somewhere, it chooses none there.
+    fn verify_branches(&mut self, reduction: &Reduction) -> Vec<Complaint> {
         let model = self.scene.model;
         let structure = std::rc::Rc::clone(&self.scene.structure);
         let items = structure.steps.iter().filter_map(|step| match step.means {
             Means::Solve(item) => Some(&model.solves[item]),
             Means::Linear(_) | Means::Newton { .. } => None,
         });
-        let items: Vec<&Solve> = items.collect();
-        if !items.iter().any(|item| matches!(&item.how, SolveHow::From { branches, .. } if !branches.is_empty())) {
-            return;
+        let chosen = items.filter_map(|item| match &item.how {
+            SolveHow::From { branches, .. } if !branches.is_empty() => Some((item, branches)),
+            _ => None,
+        });
+        let chosen: Vec<(&Solve, &Vec<Expr>)> = chosen.collect();
+        if chosen.is_empty() {
+            return Vec::new();
         }
         // What is made here is forgotten: how functions are written does not depend on what was checked before.
         let (graph, caches) = (self.g.clone(), self.caches.clone());
-        let (mut unknowns, mut conditions) = (Vec::new(), Vec::new());
-        for item in items {
-            if let SolveHow::From { branches, .. } = &item.how {
-                unknowns.extend(item.unknowns.iter().map(|&u| self.coordinate_symbols(u)[0]));
-                conditions.extend(branches.iter().map(|condition| self.scalar(condition)));
-            }
-        }
         // With the unknowns, so that configurations without a real solution are left out.
-        let roots = [unknowns.clone(), conditions].concat();
+        let unknowns: Vec<Scalar> =
+            chosen.iter().flat_map(|one| &one.0.unknowns).map(|&u| self.coordinate_symbols(u)[0]).collect();
+        let conditions = chosen.iter().flat_map(|one| one.1);
+        let roots: Vec<Scalar> = unknowns.iter().copied().chain(conditions.map(|c| self.scalar(c))).collect();
         let roots = self.g.substitute(&roots, &reduction.map);
         let samples = self.samples(&roots, &reduction.map);
-        if samples.iter().any(|row| row[unknowns.len()..].contains(&0.0)) {
-            raise("a closed form is the solution that its conditions choose");
-        }
         (self.g, self.caches) = (graph, caches);
+        let owners = chosen.iter().flat_map(|(item, branches)| branches.iter().map(move |_| item));
+        let mut complaints = Vec::new();
+        for (k, item) in owners.enumerate() {
+            let fails = samples.iter().filter(|row| row[unknowns.len() + k] == 0.0).count();
+            if fails == samples.len() && fails > 0 {
+                raise("a closed form is the solution that its conditions choose");
+            }
+            if fails > 0 {
+                complaints.push(Complaint {
+                    at: item.site(),
+                    message: "no solution of this loop satisfies the conditions everywhere".to_owned(),
+                    help: Some(
+                        "choose one by conditions that hold on its branch alone, `solve .. from .. { sin(a) > 0.0 }`"
+                            .to_owned(),
+                    ),
+                });
+            }
+        }
+        complaints
     }
 
     /// Sentences about loops that close in numbers alone, or complaints at the `solve` items whose unknowns stand in equations
@@ -137,7 +154,7 @@ impl Equations<'_> {
                 notes.push(format!("`{name}` closes to {worst:.0e} at random configurations (numerical check)"));
             }
         }
-        self.verify_branches(reduction);
+        complaints.extend(self.verify_branches(reduction));
         for step in (0..structure.steps.len()).filter(|&step| written(step) && !concerned[step]) {
             complaints.extend(item_of(step).map(|item| Complaint {
                 at: item.site(),

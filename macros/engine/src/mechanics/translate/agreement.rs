@@ -12,49 +12,61 @@ use crate::model::types::{Expr, Frame, FrameStep, Model, ParamId, Type};
 use crate::symbolic::evaluate::{Evaluator, Real};
 use crate::symbolic::graph::{Scalar, SymbolId};
 
-/// Of two evaluations in double precision; a value that is lost in rounding is compared with what it is made of, which is below
-/// one for lengths and masses of machines.
+/// Of two evaluations in double precision, and how often what a value moves by when parameters move by their last digits.
 const TOLERANCE: f64 = 1e-9;
+const NOISE: f64 = 1e3;
+
+/// Parameters are moved by so many of their last digits, to see how far values are known.
+const LAST_DIGITS: [f64; 5] = [0.0, 1.0, -1.0, 3.0, -2.0];
 
 pub(in crate::mechanics) fn check(model: &Model) {
     if model.params.is_empty() {
         return;
     }
-    let mut checker = Checker::default();
-    for (id, param) in model.params.iter_ids() {
-        let scalars: Vec<f64> = (0..param.ty.scalars()).map(|element| drawn(model, id, element)).collect();
-        checker.set_param(id, shaped(&param.ty, &mut scalars.into_iter()));
-    }
+    let [expected, moved @ ..] = LAST_DIGITS.map(|digits| values(model, digits));
     let mut equations = Equations::plain(model);
-    let mut expected: Vec<f64> = Vec::new();
     let mut translated: Vec<Scalar> = Vec::new();
     for expr in scalars(model) {
-        let Some(value) = checker.scalar(expr) else { continue };
-        expected.push(value);
         translated.push(equations.scalar(expr));
     }
     for expr in vectors(model) {
-        let Some(value) = checker.vector(expr) else { continue };
-        expected.extend(value);
         let vector = equations.vector(expr);
         translated.extend(equations.g.components(vector));
     }
     let table = &equations.scene.symbols.table;
     let value = |id: SymbolId| match table.get(id.0) {
-        Some(&Symbol::Param { param, element }) => drawn(model, param, element),
+        Some(&Symbol::Param { param, element }) => drawn(model, param, element, 0.0),
         _ => f64::NAN,
     };
     let found = Evaluator::new(&equations.g, Real { symbols: &value }).run(&translated);
-    let differs = |(&a, &b): (&f64, &f64)| a.is_finite() && (b.is_nan() || (a - b).abs() > TOLERANCE * (1.0 + a.abs()));
-    if expected.iter().zip(&found).any(differs) {
+    let differs = |(k, (a, b)): (usize, (&f64, &f64))| {
+        let noise = moved.iter().map(|values| (values[k] - a).abs()).fold(0.0, f64::max);
+        a.is_finite()
+            && noise.is_finite()
+            && (b.is_nan() || (a - b).abs() > TOLERANCE * (1.0 + a.abs()) + NOISE * noise)
+    };
+    if expected.iter().zip(&found).enumerate().any(differs) {
         raise("an expression of parameters is translated to its value");
     }
 }
 
+/// What the checks of the model evaluate; what is no value of parameters alone is no number.
+fn values(model: &Model, digits: f64) -> Vec<f64> {
+    let mut checker = Checker::default();
+    for (id, param) in model.params.iter_ids() {
+        let elements = 0..param.ty.scalars();
+        let scalars: Vec<f64> = elements.map(|element| drawn(model, id, element, digits)).collect();
+        checker.set_param(id, shaped(&param.ty, &mut scalars.into_iter()));
+    }
+    let numbers: Vec<f64> = scalars(model).map(|expr| checker.scalar(expr).unwrap_or(f64::NAN)).collect();
+    let components = vectors(model).flat_map(|expr| checker.vector(expr).unwrap_or([f64::NAN; 3]));
+    numbers.iter().copied().chain(components).collect()
+}
+
 /// A value near the default, and no other parameter's.
-fn drawn(model: &Model, id: ParamId, element: usize) -> f64 {
+fn drawn(model: &Model, id: ParamId, element: usize, digits: f64) -> f64 {
     let default = model.params[id].default.get(element).or_fault("a parameter has a default for each of its scalars");
-    default * (1.0 + 1e-3 * (1.0 + id.0 as f64 + 0.1 * element as f64))
+    default * (1.0 + 1e-3 * (1.0 + id.0 as f64 + 0.1 * element as f64)) * (1.0 + digits * f64::EPSILON)
 }
 
 fn shaped(ty: &Type, scalars: &mut impl Iterator<Item = f64>) -> Value {
