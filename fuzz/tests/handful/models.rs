@@ -84,14 +84,12 @@ pub mod seed105 {
         body b5 { mass: 1.5, inertia: diag(1.5, 1.5, 1.5) }
         joint j6: Ball { parent: b3, child: b5 }
         body b7 { mass: 0.5 * 2 + 0.25, inertia: sphere(0.5 * 2 + 0.25, 0.7) }
-        joint j8: Planar { parent: ground.at(2.5e2 * p1[1]), child: b7, axis: Y }
-        let l9 = (0.5 - b5.position.y);
-        let l10 = ([5, 0, 2.5e2]).x;
-        force f11: Torque { at: b5.rotated([1, 1, 0], deg(40)).at(0.5 * Z), value: b7.position, axes: b7 }
-        /// [N m]
-        output o12 = j6.reaction;
-        output o13 = b7.rotated([1, 1, 0], deg(40)).at(0.5 * Z).rotation;
-        emit inverse_dynamics, derivatives;
+        joint j8: Planar { parent: ground.at(2.5e2 * p1[1]), child: b7, axes: [X, [0, 3, -4]] }
+        drive j4.roll = dot(1.3 * Z, -(Z) / 2.0);
+        let l9 = b5.at([0.1, -0.2, 0.3]).at(0.2 * Y);
+        let l10 = ((4 + j4.roll.rate) + powi(b5.rotated([1, 1, 0], deg(40)).at(0.5 * Z).position.x, -1));
+        force f11: Spring { between: [l9, ground.at([3, 2, 1])], stiffness: l10, length: 0.5 }
+        emit mass_matrix, energy, derivatives;
         }
     }
 }
