@@ -115,7 +115,8 @@ pub fn least(matrix: &DMatrix<f64>, rhs: &DVector<f64>) -> (DVector<f64>, f64, u
     let (mut x, mut smallest, mut rank) = (DVector::zeros(matrix.ncols()), f64::INFINITY, 0);
     for (scaled, axis) in turned.column_iter().zip(axes.column_iter()) {
         let size = scaled.norm();
-        if size <= 1e-9 * most {
+        // Lengths here are about one: what is so small is what rounding has left of a place typed in digits.
+        if size <= (1e-9 * most).max(1e-13) {
             continue;
         }
         let (from, to) = if wide { (axis, scaled) } else { (scaled, axis) };
