@@ -1,5 +1,7 @@
 //! Closed loops in all formulations, against the plain tree with multipliers for all equations.
 
+use std::f64::consts::{FRAC_PI_2, PI};
+
 use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics::loops::structure::Means;
@@ -127,6 +129,17 @@ impl Values for Anywhere<'_> {
     }
 }
 
+/// Whether an angle is where one that is measured between frames isn't: beyond a half turn, a pitch beyond a right angle.
+fn beyond_measure(m: &Mechanism, point: &Point) -> bool {
+    m.joints.iter().zip(&point.q).any(|(joint, q)| {
+        joint.kind.names().iter().zip(q).any(|(name, x)| match *name {
+            "travel" | "x" | "y" | "z" => false,
+            "pitch" => x.abs() > FRAC_PI_2,
+            _ => x.abs() > PI,
+        })
+    })
+}
+
 /// The least singular value of the equations in the coordinates that follow from others, over the greatest in all.
 fn off_dead_centres(m: &Mechanism, programs: &Programs, point: &Point) -> f64 {
     let first = |joint: usize| m.joints[..joint].iter().map(|joint| joint.kind.freedoms()).sum::<usize>();
@@ -157,6 +170,9 @@ fn look(m: &Mechanism, programs: &Programs, point: &Point, findings: &mut Findin
     let absolute = m.tail.contains("Absolute");
     let quaternions = m.tail.contains("Absolute(Quaternion)");
     if absolute && !quaternions && plain.bodies.iter().any(|b| angles(&b.rotation)[1].cos().abs() < 0.3) {
+        return;
+    }
+    if absolute && beyond_measure(m, &point) {
         return;
     }
     // The branch that was chosen.
