@@ -501,3 +501,32 @@ fn margins_have_their_rates() {
         close("root over determinant", &[now], &[constant], 1e-9);
     }
 }
+
+/// The second loop closes in a range of the crank in which a condition of the first fails, which was not seen where the first
+/// was solved: no error of the compiler.
+#[test]
+fn conditions_are_tried_where_their_own_loop_closes() {
+    let text = |at: f64| {
+        format!(
+            "body wheel {{ mass: 1.0, inertia: diag(1, 1, 1) }}
+            body coupler {{ mass: 0.5 }} body rocker {{ mass: 0.5 }}
+            body pusher {{ mass: 0.1 }} body catch {{ mass: 0.1 }}
+            joint crank: Revolute {{ parent: ground, child: wheel, axis: Z }}
+            joint rod: Revolute {{ parent: wheel.at(X), child: coupler, axis: Z }}
+            joint swing: Revolute {{ parent: ground.at(3.0 * X), child: rocker, axis: Z }}
+            joint pin: Revolute {{ parent: coupler.at(3.0 * X), child: rocker.at(3.0 * X), axis: Z }}
+            joint push: Revolute {{ parent: wheel.at(X), child: pusher, axis: Z }}
+            joint held: Revolute {{ parent: ground.at([cos({at:?}), sin({at:?}), 0]), child: catch, axis: Z }}
+            joint touch: Revolute {{ parent: pusher.at(0.15 * X), child: catch.at(0.1 * X), axis: Z }}
+            formulation {{ independent: [crank], constraints: Reduced }}
+            solve (rod, swing) from pin {{ sin(swing - rod - crank) > 0, cos(crank - {at:?}) < 0.965 }}
+            solve (push, held) from touch {{ sin(held - push - crank) > 0 }}
+            emit forward_dynamics;"
+        )
+    };
+    let tried = (0..12).map(|k| try_case(&text(0.5 * f64::from(k) - 3.0)).err());
+    // Where the condition was seen to fail, the user is told.
+    let told: Vec<Option<String>> = tried.collect();
+    assert!(told.contains(&None), "{told:?}");
+    assert!(told.iter().flatten().all(|message| message.contains("satisfies the conditions")), "{told:?}");
+}

@@ -80,22 +80,20 @@ impl Equations<'_> {
         }
         // What is made here is forgotten: how functions are written does not depend on what was checked before.
         let (graph, caches) = (self.g.clone(), self.caches.clone());
-        // With the unknowns, so that configurations without a real solution are left out.
-        let unknowns: Vec<Scalar> =
-            chosen.iter().flat_map(|one| &one.0.unknowns).map(|&u| self.coordinate_symbols(u)[0]).collect();
-        let conditions = chosen.iter().flat_map(|one| one.1);
-        let roots: Vec<Scalar> = unknowns.iter().copied().chain(conditions.map(|c| self.scalar(c))).collect();
-        let roots = self.g.substitute(&roots, &reduction.map);
-        let samples = self.samples(&roots, &reduction.map);
-        (self.g, self.caches) = (graph, caches);
-        let owners = chosen.iter().flat_map(|(item, branches)| branches.iter().map(move |_| item));
         let mut complaints = Vec::new();
-        for (k, item) in owners.enumerate() {
-            let fails = samples.iter().filter(|row| row[unknowns.len() + k] == 0.0).count();
-            if fails == samples.len() && fails > 0 {
+        for (item, branches) in chosen {
+            // With the unknowns, so that configurations without a real solution are left out; those of other loops are no reason
+            // to leave any out, as they were none where the solution was chosen.
+            let unknowns: Vec<Scalar> = item.unknowns.iter().map(|&u| self.coordinate_symbols(u)[0]).collect();
+            let conditions: Vec<Scalar> = branches.iter().map(|condition| self.scalar(condition)).collect();
+            let roots = self.g.substitute(&[&unknowns[..], &conditions].concat(), &reduction.map);
+            let samples = self.samples(&roots, &reduction.map);
+            let fails = |k: usize| samples.iter().filter(|row| row[unknowns.len() + k] == 0.0).count();
+            let fails: Vec<usize> = (0..conditions.len()).map(fails).collect();
+            if !samples.is_empty() && fails.contains(&samples.len()) {
                 raise("a closed form is the solution that its conditions choose");
             }
-            if fails > 0 {
+            if fails.iter().any(|&count| count > 0) {
                 complaints.push(Complaint {
                     at: item.site(),
                     message: "no solution of this loop satisfies the conditions everywhere".to_owned(),
@@ -106,6 +104,7 @@ impl Equations<'_> {
                 });
             }
         }
+        (self.g, self.caches) = (graph, caches);
         complaints
     }
 
