@@ -381,16 +381,16 @@ pub mod cart_pole {
             let mass_track = params.mp + params.mc;
             let second_hinge_yy_factor = params.mp * params.l;
             let l_times_mp_times_l = params.l * second_hinge_yy_factor;
-            let l_times_mp_times_l_inv = T::lit(1.0) / l_times_mp_times_l;
+            let inverse_2_with_l = T::lit(1.0) / l_times_mp_times_l;
             let rest_1_factor_with_second_hinge_yy_factor = second_hinge_yy_factor
-                * l_times_mp_times_l_inv;
+                * inverse_2_with_l;
             Self {
                 pivot_1_factor: T::lit(0.75) * params.mp,
                 mass_track,
                 acceleration_2_factor: second_hinge_yy_factor * params.g,
                 rest_1_factor: T::lit(0.75) * rest_1_factor_with_second_hinge_yy_factor,
                 half_mp_times_l: T::lit(0.5) * second_hinge_yy_factor,
-                acceleration_2_factor_v2: T::lit(1.5) * l_times_mp_times_l_inv,
+                acceleration_2_factor_v2: T::lit(1.5) * inverse_2_with_l,
                 acceleration_2_factor_v3: T::lit(1.5)
                     * rest_1_factor_with_second_hinge_yy_factor,
                 g: params.g,

@@ -292,66 +292,69 @@ pub(crate) mod engine {
             let slope_cylinder_inv = T::lit(1.0) / root_cylinder;
             let cylinder_times_shaft_rate_times_sin_shaft = cylinder
                 * shaft_rate_times_sin_shaft;
-            let gap_accel_with_slope_cylinder_inv = slope_cylinder_inv
+            let gap_accel_with_root_cylinder = slope_cylinder_inv
                 * cylinder_times_shaft_rate_times_sin_shaft;
             let gap_accel_with_shaft_rate = shaft_rate_times_sin_shaft
-                * gap_accel_with_slope_cylinder_inv;
+                * gap_accel_with_root_cylinder;
             let cos_shaft_times_cylinder = cos_shaft * cylinder;
             let side_1_with_shaft_rate = v.shaft * cos_shaft_times_cylinder
-                - T::lit(0.04) * sin_shaft * gap_accel_with_slope_cylinder_inv;
+                - T::lit(0.04) * sin_shaft * gap_accel_with_root_cylinder;
             let w2_shaft_z = v.shaft * v.shaft;
             let minus_cylinder_accel = slope_cylinder_inv
-                * (T::lit(0.0016) * gap_accel_with_slope_cylinder_inv
-                    * gap_accel_with_slope_cylinder_inv
+                * (T::lit(0.0016) * gap_accel_with_root_cylinder
+                    * gap_accel_with_root_cylinder
                     - T::lit(0.0032) * gap_accel_with_shaft_rate
                     + T::lit(0.04) * cos_shaft_times_cylinder * w2_shaft_z);
             let big_end_u = cos_shaft_times_cylinder - T::lit(0.04);
             // Force and moment through big_end.
-            let big_end_gap_accel_with_slope_cylinder_inv = gap_accel_with_slope_cylinder_inv
+            let big_end_gap_accel_with_root_cylinder = gap_accel_with_root_cylinder
                 * cos_shaft_times_0_04;
             let side_1_with_cylinder = cylinder_times_shaft_rate_times_sin_shaft
-                + big_end_gap_accel_with_slope_cylinder_inv;
-            let big_end_gap_accel_with_v = minus_big_end_v
+                + big_end_gap_accel_with_root_cylinder;
+            let big_end_gap_accel_with_big_end_v = minus_big_end_v
                 * (v.shaft * side_1_with_shaft_rate
                     - T::lit(0.04) * gap_accel_with_shaft_rate
                     + cos_shaft * minus_cylinder_accel)
                 - big_end_u
                     * (v.shaft * side_1_with_cylinder + sin_shaft * minus_cylinder_accel
-                        + v.shaft * big_end_gap_accel_with_slope_cylinder_inv);
+                        + v.shaft * big_end_gap_accel_with_root_cylinder);
             let minus_big_end_v_times_0_00429 = T::lit(0.004285714285714286)
                 * minus_big_end_v;
             let minus_n_big_end_z = T::lit(0.06326530612244897)
-                * big_end_gap_accel_with_v + w2_shaft_z * minus_big_end_v_times_0_00429;
+                * big_end_gap_accel_with_big_end_v
+                + w2_shaft_z * minus_big_end_v_times_0_00429;
             // Results.
             let big_end_u_times_minus_n_big_end_z = big_end_u * minus_n_big_end_z;
-            let minus_big_end_v_times_n_big_end_z = minus_big_end_v * minus_n_big_end_z;
+            let minus_big_end_v_times_minus_n_big_end_z = minus_big_end_v
+                * minus_n_big_end_z;
             let slope_cylinder_inv_times_minus_big_end_v = slope_cylinder_inv
                 * minus_big_end_v;
-            let pivot_1_with_slope_cylinder_inv = T::lit(0.04)
+            let pivot_1_with_root_cylinder = T::lit(0.04)
                 * slope_cylinder_inv_times_minus_big_end_v;
             let side_1_with_big_end_u = v.shaft
                 - T::lit(51.02040816326531)
                     * (big_end_u * side_1_with_shaft_rate
                         + minus_big_end_v * side_1_with_cylinder);
             let minus_side_1 = self.load * v.shaft - minus_n_big_end_z
-                - T::lit(0.21865889212827988) * big_end_u * big_end_gap_accel_with_v
+                - T::lit(0.21865889212827988) * big_end_u
+                    * big_end_gap_accel_with_big_end_v
                 + T::lit(51.02040816326531)
                     * (cos_shaft_times_cylinder * big_end_u_times_minus_n_big_end_z
-                        + minus_big_end_v * minus_big_end_v_times_n_big_end_z)
+                        + minus_big_end_v * minus_big_end_v_times_minus_n_big_end_z)
                 - (input.gas - T::lit(0.4) * minus_cylinder_accel
                     - T::lit(51.02040816326531)
-                        * (cos_shaft * minus_big_end_v_times_n_big_end_z
+                        * (cos_shaft * minus_big_end_v_times_minus_n_big_end_z
                             - sin_shaft * big_end_u_times_minus_n_big_end_z))
-                    * pivot_1_with_slope_cylinder_inv
+                    * pivot_1_with_root_cylinder
                 + side_1_with_big_end_u * side_1_with_big_end_u
                     * minus_big_end_v_times_0_00429;
             let m_1_2 = T::lit(0.00124) + T::lit(0.004285714285714286) * big_end_u;
             // Factorisation L^T D L.
             let pivot_1_with_big_end_v = T::lit(7.142857142857143) * minus_big_end_v
-                * (minus_big_end_v + cos_shaft * pivot_1_with_slope_cylinder_inv)
+                * (minus_big_end_v + cos_shaft * pivot_1_with_root_cylinder)
                 + T::lit(7.142857142857143) * big_end_u
                     * (cos_shaft_times_cylinder
-                        - sin_shaft * pivot_1_with_slope_cylinder_inv);
+                        - sin_shaft * pivot_1_with_root_cylinder);
             let pivot_1 = T::lit(0.01172) + T::lit(0.008571428571428572) * big_end_u
                 + T::lit(0.00064) * slope_cylinder_inv_times_minus_big_end_v
                     * slope_cylinder_inv_times_minus_big_end_v
@@ -395,21 +398,20 @@ pub(crate) mod engine {
             let slope_cylinder_inv = T::lit(1.0) / root_cylinder;
             let cylinder_times_shaft_rate_times_sin_shaft = cylinder
                 * shaft_rate_times_sin_shaft;
-            let u_big_end_yx_with_slope_cylinder_inv = slope_cylinder_inv
+            let u_big_end_yx_with_root_cylinder = slope_cylinder_inv
                 * cylinder_times_shaft_rate_times_sin_shaft;
             let u_big_end_yx_with_shaft_rate = shaft_rate_times_sin_shaft
-                * u_big_end_yx_with_slope_cylinder_inv;
-            let cylinder_gap_accel = T::lit(0.0016)
-                * u_big_end_yx_with_slope_cylinder_inv
-                * u_big_end_yx_with_slope_cylinder_inv
+                * u_big_end_yx_with_root_cylinder;
+            let cylinder_gap_accel = T::lit(0.0016) * u_big_end_yx_with_root_cylinder
+                * u_big_end_yx_with_root_cylinder
                 - T::lit(0.0032) * u_big_end_yx_with_shaft_rate
                 + T::lit(0.04) * cylinder
                     * (accel.shaft * sin_shaft + cos_shaft * w2_shaft_z);
             let minus_cylinder_accel = slope_cylinder_inv * cylinder_gap_accel;
             // Force and moment through big_end.
             let shaft_effort_with_rate = v.shaft * cos_shaft_times_cylinder
-                - T::lit(0.04) * sin_shaft * u_big_end_yx_with_slope_cylinder_inv;
-            let u_big_end_yx_with_cylinder = u_big_end_yx_with_slope_cylinder_inv
+                - T::lit(0.04) * sin_shaft * u_big_end_yx_with_root_cylinder;
+            let u_big_end_yx_with_cylinder = u_big_end_yx_with_root_cylinder
                 * cos_shaft_times_0_04;
             let shaft_effort_with_cylinder = cylinder_times_shaft_rate_times_sin_shaft
                 + u_big_end_yx_with_cylinder;
@@ -432,7 +434,8 @@ pub(crate) mod engine {
                 - T::lit(51.02040816326531)
                     * (big_end_u * shaft_effort_with_rate
                         + minus_big_end_v * shaft_effort_with_cylinder);
-            let minus_big_end_v_times_n_big_end_z = minus_big_end_v * minus_n_big_end_z;
+            let minus_big_end_v_times_minus_n_big_end_z = minus_big_end_v
+                * minus_n_big_end_z;
             let big_end_u_times_minus_n_big_end_z = big_end_u * minus_n_big_end_z;
             let shaft_effort_with_big_end_v = minus_big_end_v
                 * shaft_effort_with_big_end_u * shaft_effort_with_big_end_u
@@ -440,7 +443,7 @@ pub(crate) mod engine {
                 - T::lit(9.333333333333334) * slope_cylinder_inv * minus_big_end_v
                     * (input.gas - T::lit(0.4) * minus_cylinder_accel
                         - T::lit(51.02040816326531)
-                            * (cos_shaft * minus_big_end_v_times_n_big_end_z
+                            * (cos_shaft * minus_big_end_v_times_minus_n_big_end_z
                                 - sin_shaft * big_end_u_times_minus_n_big_end_z));
             Velocity {
                 shaft: T::lit(0.01048) * accel.shaft + self.load * v.shaft
@@ -448,7 +451,7 @@ pub(crate) mod engine {
                     + T::lit(0.004285714285714286) * shaft_effort_with_big_end_v
                     + T::lit(51.02040816326531)
                         * (cos_shaft_times_cylinder * big_end_u_times_minus_n_big_end_z
-                            + minus_big_end_v * minus_big_end_v_times_n_big_end_z),
+                            + minus_big_end_v * minus_big_end_v_times_minus_n_big_end_z),
             }
         }
         /// Positions, rates and accelerations, in this order: `cylinder`.
@@ -517,14 +520,14 @@ pub(crate) mod engine {
             let shaft_rate_times_sin_shaft = v.shaft * sin_shaft;
             let cylinder_times_shaft_rate_times_sin_shaft = cylinder
                 * shaft_rate_times_sin_shaft;
-            let w_big_end_z_with_slope_cylinder_inv = slope_cylinder_inv
+            let w_big_end_z_with_root_cylinder = slope_cylinder_inv
                 * cylinder_times_shaft_rate_times_sin_shaft;
-            let cylinder_gap_accel_with_slope_cylinder_inv = w_big_end_z_with_slope_cylinder_inv
-                * w_big_end_z_with_slope_cylinder_inv;
+            let cylinder_gap_accel_with_root_cylinder = w_big_end_z_with_root_cylinder
+                * w_big_end_z_with_root_cylinder;
             let u_big_end_yx_with_shaft_rate = shaft_rate_times_sin_shaft
-                * w_big_end_z_with_slope_cylinder_inv;
+                * w_big_end_z_with_root_cylinder;
             let cylinder_gap_accel_with_cylinder = T::lit(0.0016)
-                * cylinder_gap_accel_with_slope_cylinder_inv
+                * cylinder_gap_accel_with_root_cylinder
                 - T::lit(0.0032) * u_big_end_yx_with_shaft_rate;
             let cos_shaft_times_w2_shaft_z = cos_shaft * w2_shaft_z;
             let cylinder_times_0_04 = T::lit(0.04) * cylinder;
@@ -534,22 +537,22 @@ pub(crate) mod engine {
             // Force and moment through big_end.
             let sin_shaft_times_0_04 = T::lit(0.04) * sin_shaft;
             let w_big_end_z_with_shaft_rate = v.shaft * cos_shaft_times_cylinder
-                - w_big_end_z_with_slope_cylinder_inv * sin_shaft_times_0_04;
+                - w_big_end_z_with_root_cylinder * sin_shaft_times_0_04;
             let u_big_end_yx_with_sin_shaft = T::lit(0.04) * u_big_end_yx_with_shaft_rate
                 - v.shaft * w_big_end_z_with_shaft_rate;
-            let w_big_end_z_with_cylinder = w_big_end_z_with_slope_cylinder_inv
+            let w_big_end_z_with_cylinder = w_big_end_z_with_root_cylinder
                 * cos_shaft_times_0_04;
             let w_big_end_z_with_sin_shaft = cylinder_times_shaft_rate_times_sin_shaft
                 + w_big_end_z_with_cylinder;
-            let u_big_end_yx_with_slope_cylinder_inv = v.shaft
-                * w_big_end_z_with_cylinder + v.shaft * w_big_end_z_with_sin_shaft;
-            let big_end_gap_accel_with_v = minus_big_end_v
+            let u_big_end_yx_with_root_cylinder = v.shaft * w_big_end_z_with_cylinder
+                + v.shaft * w_big_end_z_with_sin_shaft;
+            let big_end_gap_accel_with_big_end_v = minus_big_end_v
                 * (cos_shaft * minus_cylinder_accel - u_big_end_yx_with_sin_shaft)
                 - big_end_u
                     * (sin_shaft * minus_cylinder_accel
-                        + u_big_end_yx_with_slope_cylinder_inv);
+                        + u_big_end_yx_with_root_cylinder);
             let minus_n_big_end_z = T::lit(0.06326530612244897)
-                * big_end_gap_accel_with_v
+                * big_end_gap_accel_with_big_end_v
                 + T::lit(0.004285714285714286) * minus_big_end_v_times_w2_shaft_z;
             let w_big_end_z = v.shaft
                 - T::lit(51.02040816326531)
@@ -559,15 +562,17 @@ pub(crate) mod engine {
             let w2_big_end_z = w_big_end_z * w_big_end_z;
             let slope_cylinder_inv_times_minus_big_end_v = slope_cylinder_inv
                 * minus_big_end_v;
-            let minus_big_end_v_times_n_big_end_z = minus_big_end_v * minus_n_big_end_z;
+            let minus_big_end_v_times_minus_n_big_end_z = minus_big_end_v
+                * minus_n_big_end_z;
             let big_end_u_times_minus_n_big_end_z = big_end_u * minus_n_big_end_z;
             let side_1_with_big_end_v = T::lit(0.10714285714285714) * minus_big_end_v
                 * w2_big_end_z
-                - T::lit(5.466472303206997) * big_end_u * big_end_gap_accel_with_v
+                - T::lit(5.466472303206997) * big_end_u
+                    * big_end_gap_accel_with_big_end_v
                 - slope_cylinder_inv_times_minus_big_end_v
                     * (input.gas - T::lit(0.4) * minus_cylinder_accel
                         - T::lit(51.02040816326531)
-                            * (cos_shaft * minus_big_end_v_times_n_big_end_z
+                            * (cos_shaft * minus_big_end_v_times_minus_n_big_end_z
                                 - sin_shaft * big_end_u_times_minus_n_big_end_z));
             let big_end_u_times_0_00429 = T::lit(0.004285714285714286) * big_end_u;
             let m_1_2 = T::lit(0.00124) + big_end_u_times_0_00429;
@@ -592,32 +597,30 @@ pub(crate) mod engine {
                 + T::lit(0.04) * side_1_with_big_end_v
                 + T::lit(51.02040816326531)
                     * (cos_shaft_times_cylinder * big_end_u_times_minus_n_big_end_z
-                        + minus_big_end_v * minus_big_end_v_times_n_big_end_z))
+                        + minus_big_end_v * minus_big_end_v_times_minus_n_big_end_z))
                 / pivot_1;
             let a_big_end_y_with_big_end_u = minus_big_end_v_times_w2_shaft_z
                 + big_end_u * minus_dw_shaft_z;
-            let minus_cylinder_accel_with_slope_cylinder_inv = slope_cylinder_inv
+            let minus_cylinder_accel_with_root_cylinder = slope_cylinder_inv
                 * (cylinder_gap_accel_with_cylinder
                     + (cos_shaft_times_w2_shaft_z - sin_shaft * minus_dw_shaft_z)
                         * cylinder_times_0_04);
             // Force and moment through big_end.
-            let minus_big_end_v_times_dw_shaft_z = minus_big_end_v * minus_dw_shaft_z;
+            let minus_big_end_v_times_minus_dw_shaft_z = minus_big_end_v
+                * minus_dw_shaft_z;
             let u_big_end_yx_with_big_end_v = minus_big_end_v
-                * (minus_big_end_v_times_dw_shaft_z
-                    - cos_shaft * minus_cylinder_accel_with_slope_cylinder_inv
+                * (minus_big_end_v_times_minus_dw_shaft_z
+                    - cos_shaft * minus_cylinder_accel_with_root_cylinder
                     + u_big_end_yx_with_sin_shaft)
                 + big_end_u
-                    * (sin_shaft * minus_cylinder_accel_with_slope_cylinder_inv
+                    * (sin_shaft * minus_cylinder_accel_with_root_cylinder
                         + cos_shaft_times_cylinder * minus_dw_shaft_z
-                        + u_big_end_yx_with_slope_cylinder_inv);
+                        + u_big_end_yx_with_root_cylinder);
             let minus_u_big_end_yx = minus_dw_shaft_z
                 - T::lit(51.02040816326531) * u_big_end_yx_with_big_end_v;
             let ([multiplier_1], _) = ::multibody::linear::solve(
                 [[T::lit(1.0)]],
-                [
-                    (T::lit(0.4) * minus_cylinder_accel_with_slope_cylinder_inv
-                        - input.gas),
-                ],
+                [(T::lit(0.4) * minus_cylinder_accel_with_root_cylinder - input.gas)],
             );
             let f_big_end_with_sin_shaft = sin_shaft * big_end_u_times_7_14
                 - cos_shaft * minus_big_end_v_times_7_14;
@@ -639,7 +642,7 @@ pub(crate) mod engine {
                 + multiplier_1 * f_big_end_with_cos_shaft
                 + multiplier_2 * f_big_end_with_sin_shaft
                 + T::lit(0.08571428571428572)
-                    * (big_end_u * w2_shaft_z - minus_big_end_v_times_dw_shaft_z);
+                    * (big_end_u * w2_shaft_z - minus_big_end_v_times_minus_dw_shaft_z);
             // Results.
             let minus_f_big_end_passed_x = minus_f_big_end_x * big_end_u_times_7_14
                 - f_big_end_y * minus_big_end_v_times_7_14;
@@ -653,7 +656,7 @@ pub(crate) mod engine {
                         - cos_shaft * f_big_end_passed_y),
                     T::lit(0.0),
                 ]),
-                energy: T::lit(0.00032) * cylinder_gap_accel_with_slope_cylinder_inv
+                energy: T::lit(0.00032) * cylinder_gap_accel_with_root_cylinder
                     + T::lit(0.00524) * w2_shaft_z + T::lit(0.00062) * w2_big_end_z
                     + v.shaft * w_big_end_z * big_end_u_times_0_00429,
             }

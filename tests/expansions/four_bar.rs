@@ -314,8 +314,7 @@ pub mod four_bar {
                 / side_1_with_cos_crank;
             let f_coupler_x_with_sin_crank = f_coupler_x_with_cos_crank
                 * side_1_with_coupler_u;
-            let side_1_with_sin_crank_times_coupler_u = side_1_with_sin_crank
-                * side_1_with_coupler_u;
+            let side_1_with_coupler_v = side_1_with_sin_crank * side_1_with_coupler_u;
             // Velocities of what follows.
             let minus_slope_rocker_inv = T::lit(1.0) / root_rocker;
             let crank_rate_times_sin_crank = v.crank * sin_crank;
@@ -340,14 +339,14 @@ pub mod four_bar {
                 * cos_rocker_times_minus_rocker_rate;
             let gap_accel_with_sin_rocker = minus_rocker_rate
                 * sin_rocker_times_minus_rocker_rate;
-            let crank_rate_times_times_sin_crank = v.crank * crank_rate_times_sin_crank;
+            let a_coupler_y_with_crank_rate = v.crank * crank_rate_times_sin_crank;
             let minus_a_coupler_x = v.crank * crank_rate_times_cos_crank;
-            let cos_rocker_times_3_plus_4_times_0_333 = T::lit(0.3333333333333333)
+            let pivot_1_with_cos_rocker = T::lit(0.3333333333333333)
                 * cos_rocker_times_3_plus_4;
             let rocker_gap_accel = minus_rocker_a * gap_accel_with_rocker_rate
                 + sin_crank * gap_accel_with_sin_rocker
-                + sin_rocker * crank_rate_times_times_sin_crank
-                + minus_a_coupler_x * cos_rocker_times_3_plus_4_times_0_333
+                + sin_rocker * a_coupler_y_with_crank_rate
+                + minus_a_coupler_x * pivot_1_with_cos_rocker
                 + T::lit(2.0)
                     * (crank_rate_times_sin_crank * sin_rocker_times_minus_rocker_rate
                         + crank_rate_times_cos_crank
@@ -363,7 +362,7 @@ pub mod four_bar {
                 - cos_rocker_times_minus_rocker_rate * sin_crank_times_3;
             let w2_coupler_z_with_coupler_v = v.crank * minus_coupler_v
                 - w2_coupler_z_with_rocker_rate;
-            let coupler_gap_accel_with_v = minus_coupler_v
+            let coupler_gap_accel_with_coupler_v = minus_coupler_v
                 * (v.crank * w2_coupler_z_with_sin_rocker
                     + v.crank * w2_coupler_z_with_crank_rate
                     + cos_crank * coupler_gap_accel_with_sin_rocker
@@ -375,13 +374,13 @@ pub mod four_bar {
                         - cos_crank * coupler_gap_accel_with_rocker_accel);
             let f_coupler_passed_y = T::lit(1.7) * f_coupler_passed_with_cos_crank
                 - T::lit(0.2) * f_coupler_with_sin_crank;
-            let minus_a_coupler_y = crank_rate_times_times_sin_crank - T::lit(9.81);
+            let minus_a_coupler_y = a_coupler_y_with_crank_rate - T::lit(9.81);
             let minus_f_coupler_passed_x = T::lit(0.2) * f_coupler_passed_with_cos_crank
                 + T::lit(1.7) * f_coupler_with_sin_crank;
             let minus_n_coupler_z = T::lit(4.571428571428571)
                 * (f_coupler_passed_with_cos_crank * f_coupler_x_with_sin_crank
-                    + f_coupler_with_sin_crank * side_1_with_sin_crank_times_coupler_u)
-                + T::lit(1.090204081632653) * coupler_gap_accel_with_v
+                    + f_coupler_with_sin_crank * side_1_with_coupler_v)
+                + T::lit(1.090204081632653) * coupler_gap_accel_with_coupler_v
                 + f_coupler_passed_y * minus_a_coupler_y
                 - minus_a_coupler_x * minus_f_coupler_passed_x;
             let w2_coupler_z_with_coupler_u = v.crank
@@ -389,63 +388,64 @@ pub mod four_bar {
                     * (coupler_u * w2_coupler_z_with_crank_rate
                         + minus_coupler_v * w2_coupler_z_with_coupler_v);
             let w2_coupler_z = w2_coupler_z_with_coupler_u * w2_coupler_z_with_coupler_u;
-            let coupler_gap_accel_with_v_times_0_0816 = T::lit(0.08163265306122448)
-                * coupler_gap_accel_with_v;
+            let side_1_with_crank_rate = T::lit(0.08163265306122448)
+                * coupler_gap_accel_with_coupler_v;
             let f_coupler_x = T::lit(8.0) * f_coupler_x_with_sin_crank
                 - f_coupler_passed_y * w2_coupler_z
-                + minus_f_coupler_passed_x * coupler_gap_accel_with_v_times_0_0816;
+                + minus_f_coupler_passed_x * side_1_with_crank_rate;
             // Results.
-            let minus_coupler_v_times_n_coupler_z = minus_coupler_v * minus_n_coupler_z;
+            let minus_coupler_v_times_minus_n_coupler_z = minus_coupler_v
+                * minus_n_coupler_z;
             let coupler_u_times_minus_n_coupler_z = coupler_u * minus_n_coupler_z;
             let side_1_with_rocker_accel = T::lit(9.0) * rocker_accel
                 + T::lit(0.24489795918367346) * sin_rocker
-                    * (cos_crank * minus_coupler_v_times_n_coupler_z
+                    * (cos_crank * minus_coupler_v_times_minus_n_coupler_z
                         - sin_crank * coupler_u_times_minus_n_coupler_z)
                 + cos_rocker
                     * (T::lit(44.145)
                         - T::lit(0.24489795918367346)
-                            * (sin_crank * minus_coupler_v_times_n_coupler_z
+                            * (sin_crank * minus_coupler_v_times_minus_n_coupler_z
                                 + cos_crank * coupler_u_times_minus_n_coupler_z));
-            let side_1_with_slope_rocker_inv = minus_slope_rocker_inv
+            let side_1_with_root_rocker = minus_slope_rocker_inv
                 * side_1_with_rocker_accel;
-            let side_1_with_slope_rocker_inv_times_0_333 = T::lit(0.3333333333333333)
-                * side_1_with_slope_rocker_inv;
+            let side_1_with_root_rocker_times_0_333 = T::lit(0.3333333333333333)
+                * side_1_with_root_rocker;
             let side_1_with_f_coupler_passed_x = minus_f_coupler_passed_x * w2_coupler_z
-                - T::lit(39.24) - T::lit(8.0) * side_1_with_sin_crank_times_coupler_u
-                + sin_rocker * side_1_with_slope_rocker_inv
-                + f_coupler_passed_y * coupler_gap_accel_with_v_times_0_0816
-                - sin_crank * side_1_with_slope_rocker_inv_times_0_333;
+                - T::lit(39.24) - T::lit(8.0) * side_1_with_coupler_v
+                + sin_rocker * side_1_with_root_rocker
+                + f_coupler_passed_y * side_1_with_crank_rate
+                - sin_crank * side_1_with_root_rocker_times_0_333;
             let side_1 = input.torque + minus_n_coupler_z + sin_crank * f_coupler_x
                 + sin_crank
-                    * (minus_rocker_a * side_1_with_slope_rocker_inv_times_0_333
-                        - cos_rocker * side_1_with_slope_rocker_inv)
+                    * (minus_rocker_a * side_1_with_root_rocker_times_0_333
+                        - cos_rocker * side_1_with_root_rocker)
                 + cos_crank * side_1_with_f_coupler_passed_x
                 - T::lit(0.08163265306122448)
                     * (pivot_1_with_cos_crank * coupler_u_times_minus_n_coupler_z
-                        + minus_coupler_v * minus_coupler_v_times_n_coupler_z);
+                        + minus_coupler_v * minus_coupler_v_times_minus_n_coupler_z);
             let pivot_1_with_f_coupler_passed_y = cos_crank * f_coupler_passed_y
                 + sin_crank * minus_f_coupler_passed_x;
-            let pivot_1_with_slope_rocker_inv = minus_slope_rocker_inv
-                * (sin_crank * cos_rocker_times_3_plus_4_times_0_333
-                    - cos_crank_times_sin_rocker);
+            let pivot_1_with_root_rocker = minus_slope_rocker_inv
+                * (sin_crank * pivot_1_with_cos_rocker - cos_crank_times_sin_rocker);
             let m_1_2 = T::lit(13.355) + pivot_1_with_f_coupler_passed_y;
             // Factorisation L^T D L.
-            let pivot_1_with_sin_rocker = sin_rocker * pivot_1_with_slope_rocker_inv;
-            let pivot_1_with_cos_rocker = cos_rocker * pivot_1_with_slope_rocker_inv;
+            let sin_rocker_times_pivot_1_with_root_rocker = sin_rocker
+                * pivot_1_with_root_rocker;
+            let cos_rocker_times_pivot_1_with_root_rocker = cos_rocker
+                * pivot_1_with_root_rocker;
             let pivot_1_with_coupler_v = T::lit(0.2857142857142857) * minus_coupler_v
                 * (minus_coupler_v
                     + T::lit(3.0)
-                        * (cos_crank * pivot_1_with_sin_rocker
-                            - sin_crank * pivot_1_with_cos_rocker))
+                        * (cos_crank * sin_rocker_times_pivot_1_with_root_rocker
+                            - sin_crank * cos_rocker_times_pivot_1_with_root_rocker))
                 + T::lit(0.2857142857142857) * coupler_u
                     * (pivot_1_with_cos_crank
                         - T::lit(3.0)
-                            * (sin_crank * pivot_1_with_sin_rocker
-                                + cos_crank * pivot_1_with_cos_rocker));
+                            * (sin_crank * sin_rocker_times_pivot_1_with_root_rocker
+                                + cos_crank * cos_rocker_times_pivot_1_with_root_rocker));
             let pivot_1 = T::lit(17.188333333333333)
                 + T::lit(2.0) * pivot_1_with_f_coupler_passed_y
-                + T::lit(9.0) * pivot_1_with_slope_rocker_inv
-                    * pivot_1_with_slope_rocker_inv
+                + T::lit(9.0) * pivot_1_with_root_rocker * pivot_1_with_root_rocker
                 - T::lit(0.2857142857142857)
                     * (m_1_2 * pivot_1_with_coupler_v
                         + pivot_1_with_coupler_v
@@ -600,37 +600,38 @@ pub mod four_bar {
                 - crank_effort_with_cos_crank_and_coupler_v * w2_coupler_z
                 - crank_effort_with_coupler_u_and_sin_crank * minus_u_coupler_xy;
             // Results.
-            let minus_coupler_v_times_n_coupler_z = minus_coupler_v * minus_n_coupler_z;
+            let minus_coupler_v_times_minus_n_coupler_z = minus_coupler_v
+                * minus_n_coupler_z;
             let coupler_u_times_minus_n_coupler_z = coupler_u * minus_n_coupler_z;
             let crank_effort_with_sin_rocker = T::lit(0.24489795918367346) * sin_rocker
-                * (cos_crank * minus_coupler_v_times_n_coupler_z
+                * (cos_crank * minus_coupler_v_times_minus_n_coupler_z
                     - sin_crank * coupler_u_times_minus_n_coupler_z)
                 - T::lit(9.0) * minus_rocker_accel
                 + cos_rocker
                     * (T::lit(44.145)
                         - T::lit(0.24489795918367346)
-                            * (sin_crank * minus_coupler_v_times_n_coupler_z
+                            * (sin_crank * minus_coupler_v_times_minus_n_coupler_z
                                 + cos_crank * coupler_u_times_minus_n_coupler_z));
-            let crank_effort_with_slope_rocker_inv = minus_slope_rocker_inv
+            let crank_effort_with_root_rocker = minus_slope_rocker_inv
                 * crank_effort_with_sin_rocker;
-            let crank_effort_with_rocker_accel = T::lit(0.3333333333333333)
-                * crank_effort_with_slope_rocker_inv;
+            let crank_effort_with_root_rocker_times_0_333 = T::lit(0.3333333333333333)
+                * crank_effort_with_root_rocker;
             let crank_effort_with_w2_coupler_z = crank_effort_with_coupler_u_and_sin_crank
                 * w2_coupler_z - T::lit(39.24)
                 - T::lit(8.0) * crank_effort_with_sin_crank_and_cos_crank
                 - crank_effort_with_cos_crank_and_coupler_v * minus_u_coupler_xy
-                + sin_rocker * crank_effort_with_slope_rocker_inv
-                - sin_crank * crank_effort_with_rocker_accel;
+                + sin_rocker * crank_effort_with_root_rocker
+                - sin_crank * crank_effort_with_root_rocker_times_0_333;
             let minus_crank_effort = input.torque
                 - T::lit(3.8333333333333335) * accel.crank + minus_n_coupler_z
                 + sin_crank * f_coupler_x
                 + sin_crank
-                    * (minus_rocker_a * crank_effort_with_rocker_accel
-                        - cos_rocker * crank_effort_with_slope_rocker_inv)
+                    * (minus_rocker_a * crank_effort_with_root_rocker_times_0_333
+                        - cos_rocker * crank_effort_with_root_rocker)
                 + cos_crank * crank_effort_with_w2_coupler_z
                 - T::lit(0.08163265306122448)
                     * (crank_effort_with_cos_crank * coupler_u_times_minus_n_coupler_z
-                        + minus_coupler_v * minus_coupler_v_times_n_coupler_z);
+                        + minus_coupler_v * minus_coupler_v_times_minus_n_coupler_z);
             Velocity {
                 crank: -minus_crank_effort,
             }
@@ -776,11 +777,11 @@ pub mod four_bar {
                 * cos_rocker_times_minus_rocker_rate;
             let gap_accel_with_sin_rocker = minus_rocker_rate
                 * sin_rocker_times_minus_rocker_rate;
-            let crank_rate_times_times_sin_crank = v.crank * crank_rate_times_sin_crank;
+            let a_coupler_y_with_crank_rate = v.crank * crank_rate_times_sin_crank;
             let minus_a_coupler_x = v.crank * crank_rate_times_cos_crank;
             let rocker_gap_accel = minus_rocker_a * gap_accel_with_rocker_rate
                 + sin_crank * gap_accel_with_sin_rocker
-                + sin_rocker * crank_rate_times_times_sin_crank
+                + sin_rocker * a_coupler_y_with_crank_rate
                 + minus_a_coupler_x * T::lit(0.3333333333333333)
                     * cos_rocker_times_3_plus_4
                 + T::lit(2.0)
@@ -798,7 +799,7 @@ pub mod four_bar {
                 - cos_rocker_times_minus_rocker_rate * sin_crank_times_3;
             let w2_coupler_z_with_coupler_v = v.crank * minus_coupler_v
                 - w2_coupler_z_with_rocker_rate;
-            let coupler_gap_accel_with_v = minus_coupler_v
+            let coupler_gap_accel_with_coupler_v = minus_coupler_v
                 * (v.crank * w2_coupler_z_with_sin_rocker
                     + v.crank * w2_coupler_z_with_crank_rate
                     + cos_crank * coupler_gap_accel_with_sin_rocker
@@ -811,7 +812,7 @@ pub mod four_bar {
             let crank_effort_with_cos_crank_and_coupler_v = T::lit(1.7)
                 * crank_effort_with_coupler_u
                 - T::lit(0.2) * crank_effort_with_sin_crank;
-            let minus_a_coupler_y = crank_rate_times_times_sin_crank - T::lit(9.81);
+            let minus_a_coupler_y = a_coupler_y_with_crank_rate - T::lit(9.81);
             let crank_effort_with_coupler_u_and_sin_crank = T::lit(0.2)
                 * crank_effort_with_coupler_u
                 + T::lit(1.7) * crank_effort_with_sin_crank;
@@ -819,7 +820,7 @@ pub mod four_bar {
                 * (crank_effort_with_coupler_u * f_coupler_x_with_sin_crank
                     + crank_effort_with_sin_crank
                         * crank_effort_with_sin_crank_and_cos_crank)
-                + T::lit(1.090204081632653) * coupler_gap_accel_with_v
+                + T::lit(1.090204081632653) * coupler_gap_accel_with_coupler_v
                 + crank_effort_with_cos_crank_and_coupler_v * minus_a_coupler_y
                 - minus_a_coupler_x * crank_effort_with_coupler_u_and_sin_crank;
             let w2_coupler_z_with_coupler_u = v.crank
@@ -827,44 +828,43 @@ pub mod four_bar {
                     * (coupler_u * w2_coupler_z_with_crank_rate
                         + minus_coupler_v * w2_coupler_z_with_coupler_v);
             let w2_coupler_z = w2_coupler_z_with_coupler_u * w2_coupler_z_with_coupler_u;
-            let coupler_gap_accel_with_v_times_0_0816 = T::lit(0.08163265306122448)
-                * coupler_gap_accel_with_v;
+            let crank_effort_with_rate = T::lit(0.08163265306122448)
+                * coupler_gap_accel_with_coupler_v;
             let f_coupler_x = T::lit(8.0) * f_coupler_x_with_sin_crank
                 - crank_effort_with_cos_crank_and_coupler_v * w2_coupler_z
-                + crank_effort_with_coupler_u_and_sin_crank
-                    * coupler_gap_accel_with_v_times_0_0816;
+                + crank_effort_with_coupler_u_and_sin_crank * crank_effort_with_rate;
             // Results.
-            let minus_coupler_v_times_n_coupler_z = minus_coupler_v * minus_n_coupler_z;
+            let minus_coupler_v_times_minus_n_coupler_z = minus_coupler_v
+                * minus_n_coupler_z;
             let coupler_u_times_minus_n_coupler_z = coupler_u * minus_n_coupler_z;
             let crank_effort_with_rocker_accel = T::lit(9.0) * rocker_accel
                 + T::lit(0.24489795918367346) * sin_rocker
-                    * (cos_crank * minus_coupler_v_times_n_coupler_z
+                    * (cos_crank * minus_coupler_v_times_minus_n_coupler_z
                         - sin_crank * coupler_u_times_minus_n_coupler_z)
                 + cos_rocker
                     * (T::lit(44.145)
                         - T::lit(0.24489795918367346)
-                            * (sin_crank * minus_coupler_v_times_n_coupler_z
+                            * (sin_crank * minus_coupler_v_times_minus_n_coupler_z
                                 + cos_crank * coupler_u_times_minus_n_coupler_z));
-            let crank_effort_with_slope_rocker_inv = minus_slope_rocker_inv
+            let crank_effort_with_root_rocker = minus_slope_rocker_inv
                 * crank_effort_with_rocker_accel;
-            let crank_effort_with_sin_rocker = T::lit(0.3333333333333333)
-                * crank_effort_with_slope_rocker_inv;
+            let crank_effort_with_root_rocker_times_0_333 = T::lit(0.3333333333333333)
+                * crank_effort_with_root_rocker;
             let crank_effort_with_w2_coupler_z = crank_effort_with_coupler_u_and_sin_crank
                 * w2_coupler_z - T::lit(39.24)
                 - T::lit(8.0) * crank_effort_with_sin_crank_and_cos_crank
-                + sin_rocker * crank_effort_with_slope_rocker_inv
-                + crank_effort_with_cos_crank_and_coupler_v
-                    * coupler_gap_accel_with_v_times_0_0816
-                - sin_crank * crank_effort_with_sin_rocker;
+                + sin_rocker * crank_effort_with_root_rocker
+                + crank_effort_with_cos_crank_and_coupler_v * crank_effort_with_rate
+                - sin_crank * crank_effort_with_root_rocker_times_0_333;
             let minus_crank_effort = input.torque + minus_n_coupler_z
                 + sin_crank * f_coupler_x
                 + sin_crank
-                    * (minus_rocker_a * crank_effort_with_sin_rocker
-                        - cos_rocker * crank_effort_with_slope_rocker_inv)
+                    * (minus_rocker_a * crank_effort_with_root_rocker_times_0_333
+                        - cos_rocker * crank_effort_with_root_rocker)
                 + cos_crank * crank_effort_with_w2_coupler_z
                 - T::lit(0.08163265306122448)
                     * (crank_effort_with_cos_crank * coupler_u_times_minus_n_coupler_z
-                        + minus_coupler_v * minus_coupler_v_times_n_coupler_z);
+                        + minus_coupler_v * minus_coupler_v_times_minus_n_coupler_z);
             ::multibody::nalgebra::SVector::from([-minus_crank_effort])
         }
         /// Outputs.
@@ -951,26 +951,26 @@ pub mod four_bar {
             let energy_with_cos_crank_minus_0_5 = energy_with_cos_crank - T::lit(0.5);
             let f_coupler_with_sin_crank = energy_with_cos_crank_minus_0_5
                 / energy_with_cos_crank;
-            let f_coupler_with_cos_crank_times_sin_crank = f_coupler_with_cos_crank
+            let f_coupler_with_coupler_u = f_coupler_with_cos_crank
                 * f_coupler_with_sin_crank;
-            let f_coupler_with_coupler_u = sin_crank_plus_twice_energy_with_sin_crank
+            let f_coupler_with_coupler_v = sin_crank_plus_twice_energy_with_sin_crank
                 * f_coupler_with_sin_crank;
             let f_coupler_x_with_sin_crank = energy_with_sin_crank
-                * f_coupler_with_cos_crank_times_sin_crank
-                + energy_with_coupler_u * f_coupler_with_coupler_u;
+                * f_coupler_with_coupler_u
+                + energy_with_coupler_u * f_coupler_with_coupler_v;
             let f_coupler_x_with_sin_crank_times_16 = T::lit(16.0)
                 * f_coupler_x_with_sin_crank;
             let accel_with_w_rocker_z = minus_w_rocker_z
                 * cos_rocker_times_minus_w_rocker_z;
             let accel_with_w_rocker_z_times_3 = T::lit(3.0) * accel_with_w_rocker_z;
             // Accelerations of what follows.
-            let crank_rate_times_cos_crank_squared = crank_rate_times_cos_crank
+            let w2_crank_z_with_crank_rate = crank_rate_times_cos_crank
                 * crank_rate_times_cos_crank;
-            let crank_rate_times_times_cos_crank = v.crank * crank_rate_times_cos_crank;
-            let crank_rate_times_times_sin_crank = v.crank * crank_rate_times_sin_crank;
+            let rocker_gap_accel_with_crank_rate = v.crank * crank_rate_times_cos_crank;
+            let rocker_gap_accel_with_sin_crank = v.crank * crank_rate_times_sin_crank;
             let accel_with_sin_rocker = minus_w_rocker_z
                 * sin_rocker_times_minus_w_rocker_z;
-            let rocker_gap_accel_with_a = minus_rocker_a * accel_with_w_rocker_z
+            let rocker_gap_accel_with_rocker_a = minus_rocker_a * accel_with_w_rocker_z
                 + sin_crank * accel_with_sin_rocker
                 + T::lit(2.0)
                     * (crank_rate_times_sin_crank * sin_rocker_times_minus_w_rocker_z
@@ -978,11 +978,11 @@ pub mod four_bar {
                             * cos_rocker_times_minus_w_rocker_z);
             let rocker_accel = minus_slope_rocker_inv
                 * (T::lit(0.3333333333333333)
-                    * (crank_rate_times_cos_crank_squared
-                        - minus_rocker_a * crank_rate_times_times_cos_crank)
-                    + cos_rocker * crank_rate_times_times_cos_crank
-                    + sin_rocker * crank_rate_times_times_sin_crank
-                    + rocker_gap_accel_with_a);
+                    * (w2_crank_z_with_crank_rate
+                        - minus_rocker_a * rocker_gap_accel_with_crank_rate)
+                    + cos_rocker * rocker_gap_accel_with_crank_rate
+                    + sin_rocker * rocker_gap_accel_with_sin_crank
+                    + rocker_gap_accel_with_rocker_a);
             // Force and moment through coupler.
             let coupler_gap_accel_with_rocker_accel = accel_with_w_rocker_z_times_3
                 + rocker_accel * sin_rocker_times_3;
@@ -993,7 +993,7 @@ pub mod four_bar {
                 + v.crank * coupler_with_sin_crank;
             let coupler_accel_with_sin_rocker = v.crank * coupler_with_sin_rocker
                 - v.crank * coupler_with_crank_rate;
-            let coupler_gap_accel_with_v = minus_coupler_v
+            let coupler_gap_accel_with_coupler_v = minus_coupler_v
                 * (cos_crank * coupler_gap_accel_with_rocker_accel
                     + sin_crank * coupler_gap_accel_with_w_rocker_z
                     + coupler_accel_with_crank_rate)
@@ -1002,7 +1002,7 @@ pub mod four_bar {
                         - cos_crank * coupler_gap_accel_with_w_rocker_z
                         - coupler_accel_with_sin_rocker);
             let w2_crank_z = crank_rate_times_sin_crank * crank_rate_times_sin_crank
-                + crank_rate_times_cos_crank_squared;
+                + w2_crank_z_with_crank_rate;
             let w2_crank_z_minus_sin_crank_times_9_81 = w2_crank_z
                 - T::lit(9.81) * sin_crank;
             let a_coupler_x_with_coupler_u = coupler_u
@@ -1010,7 +1010,7 @@ pub mod four_bar {
             let a_coupler_y_with_coupler_v = minus_coupler_v
                 * w2_crank_z_minus_sin_crank_times_9_81;
             let minus_n_coupler_z = f_coupler_x_with_sin_crank_times_16
-                + T::lit(1.090204081632653) * coupler_gap_accel_with_v
+                + T::lit(1.090204081632653) * coupler_gap_accel_with_coupler_v
                 - T::lit(1.962)
                     * (cos_crank_times_minus_coupler_v
                         + T::lit(0.1019367991845056) * a_coupler_x_with_coupler_u)
@@ -1019,92 +1019,95 @@ pub mod four_bar {
                         - cos_crank_times_coupler_u);
             // Motion of crank.
             let cos_rocker_times_44_145 = T::lit(44.145) * cos_rocker;
-            let minus_coupler_v_times_n_coupler_z = minus_coupler_v * minus_n_coupler_z;
+            let minus_coupler_v_times_minus_n_coupler_z = minus_coupler_v
+                * minus_n_coupler_z;
             let coupler_u_times_minus_n_coupler_z = coupler_u * minus_n_coupler_z;
             let side_1_with_rocker_accel = cos_rocker_times_44_145
                 + T::lit(9.0) * rocker_accel
                 - T::lit(0.24489795918367346)
                     * (cos_rocker
-                        * (sin_crank * minus_coupler_v_times_n_coupler_z
+                        * (sin_crank * minus_coupler_v_times_minus_n_coupler_z
                             + cos_crank * coupler_u_times_minus_n_coupler_z)
                         - sin_rocker
-                            * (cos_crank * minus_coupler_v_times_n_coupler_z
+                            * (cos_crank * minus_coupler_v_times_minus_n_coupler_z
                                 - sin_crank * coupler_u_times_minus_n_coupler_z));
-            let side_1_with_slope_rocker_inv = minus_slope_rocker_inv
+            let side_1_with_root_rocker = minus_slope_rocker_inv
                 * side_1_with_rocker_accel;
-            let side_1_with_slope_rocker_inv_times_0_333 = T::lit(0.3333333333333333)
-                * side_1_with_slope_rocker_inv;
+            let side_1_with_root_rocker_times_0_333 = T::lit(0.3333333333333333)
+                * side_1_with_root_rocker;
             let w_coupler_z = v.crank - minus_coupler_rate;
             // Force and moment through coupler.
             let w2_coupler_z = w_coupler_z * w_coupler_z;
             let f_coupler_x_with_w2_coupler_z = T::lit(8.0) * f_coupler_x_with_sin_crank
                 - T::lit(5.95) * w2_coupler_z;
-            let f_coupler_x = T::lit(0.05714285714285714) * coupler_gap_accel_with_v
-                + f_coupler_x_with_w2_coupler_z;
+            let f_coupler_x = T::lit(0.05714285714285714)
+                * coupler_gap_accel_with_coupler_v + f_coupler_x_with_w2_coupler_z;
             let f_coupler_y_with_w2_coupler_z = T::lit(8.0)
-                * (energy_with_coupler_u * f_coupler_with_cos_crank_times_sin_crank
-                    - energy_with_sin_crank * f_coupler_with_coupler_u)
+                * (energy_with_coupler_u * f_coupler_with_coupler_u
+                    - energy_with_sin_crank * f_coupler_with_coupler_v)
                 + T::lit(0.7) * w2_coupler_z;
-            let minus_f_coupler_y = T::lit(0.4857142857142857) * coupler_gap_accel_with_v
-                + f_coupler_y_with_w2_coupler_z;
+            let minus_f_coupler_y = T::lit(0.4857142857142857)
+                * coupler_gap_accel_with_coupler_v + f_coupler_y_with_w2_coupler_z;
             let side_1 = input.torque + minus_n_coupler_z
                 + sin_crank
-                    * (minus_rocker_a * side_1_with_slope_rocker_inv_times_0_333
-                        - cos_rocker * side_1_with_slope_rocker_inv)
+                    * (minus_rocker_a * side_1_with_root_rocker_times_0_333
+                        - cos_rocker * side_1_with_root_rocker)
                 + cos_crank
-                    * (sin_rocker * side_1_with_slope_rocker_inv - T::lit(39.24)
-                        - sin_crank * side_1_with_slope_rocker_inv_times_0_333)
+                    * (sin_rocker * side_1_with_root_rocker - T::lit(39.24)
+                        - sin_crank * side_1_with_root_rocker_times_0_333)
                 + T::lit(0.2857142857142857)
                     * (minus_coupler_v * f_coupler_x + coupler_u * minus_f_coupler_y)
                 - T::lit(0.08163265306122448)
                     * (coupler_with_cos_crank * coupler_u_times_minus_n_coupler_z
-                        + minus_coupler_v * minus_coupler_v_times_n_coupler_z);
+                        + minus_coupler_v * minus_coupler_v_times_minus_n_coupler_z);
             let f_coupler_passed_y = T::lit(0.2) * minus_coupler_v
                 + T::lit(1.7) * coupler_u;
             let energy_with_rocker_a = sin_crank * minus_rocker_a
                 - cos_crank * sin_crank;
-            let pivot_1_with_slope_rocker_inv = minus_slope_rocker_inv
+            let pivot_1_with_root_rocker = minus_slope_rocker_inv
                 * (cos_crank_times_sin_rocker
                     + T::lit(0.3333333333333333) * energy_with_rocker_a
                     - sin_crank * cos_rocker);
             let m_1_2 = T::lit(13.355) + f_coupler_passed_y;
             // Factorisation L^T D L.
-            let pivot_1_with_sin_rocker = sin_rocker * pivot_1_with_slope_rocker_inv;
-            let pivot_1_with_cos_rocker = cos_rocker * pivot_1_with_slope_rocker_inv;
+            let sin_rocker_times_pivot_1_with_root_rocker = sin_rocker
+                * pivot_1_with_root_rocker;
+            let cos_rocker_times_pivot_1_with_root_rocker = cos_rocker
+                * pivot_1_with_root_rocker;
             let pivot_1_with_coupler_v = minus_coupler_v_times_0_286
                 * (minus_coupler_v
                     - T::lit(3.0)
-                        * (cos_crank * pivot_1_with_sin_rocker
-                            - sin_crank * pivot_1_with_cos_rocker))
+                        * (cos_crank * sin_rocker_times_pivot_1_with_root_rocker
+                            - sin_crank * cos_rocker_times_pivot_1_with_root_rocker))
                 + coupler_u_times_0_286
                     * (coupler_with_cos_crank
                         + T::lit(3.0)
-                            * (sin_crank * pivot_1_with_sin_rocker
-                                + cos_crank * pivot_1_with_cos_rocker));
+                            * (sin_crank * sin_rocker_times_pivot_1_with_root_rocker
+                                + cos_crank * cos_rocker_times_pivot_1_with_root_rocker));
             let minus_pivot_1 = T::lit(0.2857142857142857)
                 * (m_1_2 * pivot_1_with_coupler_v
                     + pivot_1_with_coupler_v
                         * (m_1_2 - T::lit(3.815714285714286) * pivot_1_with_coupler_v))
                 - T::lit(17.188333333333333) - T::lit(2.0) * f_coupler_passed_y
-                - T::lit(9.0) * pivot_1_with_slope_rocker_inv
-                    * pivot_1_with_slope_rocker_inv;
+                - T::lit(9.0) * pivot_1_with_root_rocker * pivot_1_with_root_rocker;
             let minus_dw_crank_z = side_1 / minus_pivot_1;
             // Accelerations of what follows.
-            let rocker_gap_accel_with_sin_crank = crank_rate_times_times_cos_crank
+            let rocker_gap_accel_with_dw_crank_z = rocker_gap_accel_with_crank_rate
                 - sin_crank * minus_dw_crank_z;
-            let rocker_gap_accel_with_cos_crank = crank_rate_times_times_sin_crank
+            let rocker_gap_accel_with_cos_crank = rocker_gap_accel_with_sin_crank
                 + cos_crank * minus_dw_crank_z;
             let rocker_gap_accel = T::lit(0.3333333333333333)
-                * (w2_crank_z - minus_rocker_a * rocker_gap_accel_with_sin_crank
+                * (w2_crank_z - minus_rocker_a * rocker_gap_accel_with_dw_crank_z
                     - sin_crank * rocker_gap_accel_with_cos_crank)
-                + cos_rocker * rocker_gap_accel_with_sin_crank
-                + sin_rocker * rocker_gap_accel_with_cos_crank + rocker_gap_accel_with_a;
-            let rocker_accel_with_slope_rocker_inv = minus_slope_rocker_inv
+                + cos_rocker * rocker_gap_accel_with_dw_crank_z
+                + sin_rocker * rocker_gap_accel_with_cos_crank
+                + rocker_gap_accel_with_rocker_a;
+            let rocker_accel_with_root_rocker = minus_slope_rocker_inv
                 * rocker_gap_accel;
             let coupler_accel_with_w_rocker_z = accel_with_w_rocker_z_times_3
-                + rocker_accel_with_slope_rocker_inv * sin_rocker_times_3;
+                + rocker_accel_with_root_rocker * sin_rocker_times_3;
             let coupler_accel_with_cos_rocker = accel_with_sin_rocker_times_3
-                - cos_rocker_times_3 * rocker_accel_with_slope_rocker_inv;
+                - cos_rocker_times_3 * rocker_accel_with_root_rocker;
             let minus_coupler_accel = (cos_crank * coupler_accel_with_w_rocker_z
                 + sin_crank * coupler_accel_with_cos_rocker
                 - minus_coupler_v * minus_dw_crank_z + coupler_accel_with_crank_rate)
@@ -1135,7 +1138,7 @@ pub mod four_bar {
                 [
                     minus_n_coupler_z_with_u_coupler_xy,
                     -(cos_rocker_times_44_145
-                        + T::lit(9.0) * rocker_accel_with_slope_rocker_inv),
+                        + T::lit(9.0) * rocker_accel_with_root_rocker),
                 ],
             );
             let f_coupler_x_with_u_coupler_xy = T::lit(0.7) * u_coupler_xy
@@ -1167,7 +1170,7 @@ pub mod four_bar {
                 accels: [
                     -minus_dw_crank_z,
                     -minus_coupler_accel,
-                    rocker_accel_with_slope_rocker_inv,
+                    rocker_accel_with_root_rocker,
                 ],
                 reactions: [
                     ::multibody::nalgebra::Vector3::from([

@@ -470,11 +470,10 @@ pub mod level {
             // Strut legs_1.
             let legs_1_line_x = T::lit(1.78) + q.platform.x;
             let legs_1_line_y = q.platform.y - T::lit(1.074);
-            let legs_length_squared_with_legs_0_line_z_squared = legs_0_line_z_squared
+            let legs_length_squared_with_legs_0_line_z = legs_0_line_z_squared
                 + legs_1_line_x * legs_1_line_x;
             let legs_1_length = Real::sqrt(
-                legs_1_line_y * legs_1_line_y
-                    + legs_length_squared_with_legs_0_line_z_squared,
+                legs_1_line_y * legs_1_line_y + legs_length_squared_with_legs_0_line_z,
             );
             let legs_1_length_inv = T::lit(1.0) / legs_1_length;
             let legs_line_by_rate_with_legs_1_line_x = platform_z_rate_times_legs_0_line_z
@@ -497,8 +496,7 @@ pub mod level {
             // Strut legs_2.
             let legs_2_line_y = T::lit(1.074) + q.platform.y;
             let legs_2_length = Real::sqrt(
-                legs_2_line_y * legs_2_line_y
-                    + legs_length_squared_with_legs_0_line_z_squared,
+                legs_2_line_y * legs_2_line_y + legs_length_squared_with_legs_0_line_z,
             );
             let legs_2_length_inv = T::lit(1.0) / legs_2_length;
             let legs_2_length_rate = legs_2_length_inv
@@ -702,18 +700,18 @@ pub mod level {
             let legs_0_line_y = q.platform.y - T::lit(0.779);
             let legs_0_line_x = T::lit(2.29) + q.platform.x;
             let legs_0_line_x_times_0_732 = T::lit(0.7316888688738209) * legs_0_line_x;
-            let legs_0_stroke_with_line_y = legs_0_line_x_times_0_732
+            let legs_0_stroke_with_legs_0_line_y = legs_0_line_x_times_0_732
                 - T::lit(0.6816387600233341) * legs_0_line_y;
             let legs_0_line_x_times_0_682 = T::lit(0.6816387600233341) * legs_0_line_x;
-            let legs_0_stroke_with_line_x = T::lit(0.7316888688738209) * legs_0_line_y
-                + legs_0_line_x_times_0_682;
+            let legs_0_stroke_with_legs_0_line_x = T::lit(0.7316888688738209)
+                * legs_0_line_y + legs_0_line_x_times_0_682;
             let minus_legs_0_gimbal_first_b = q.platform.z - T::lit(0.4);
-            let minus_legs_0_gimbal_first_b_squared = minus_legs_0_gimbal_first_b
+            let legs_0_gimbal_first_b_squared = minus_legs_0_gimbal_first_b
                 * minus_legs_0_gimbal_first_b;
             let root_legs_0_stroke = Real::sqrt(
-                legs_0_stroke_with_line_y * legs_0_stroke_with_line_y
-                    + legs_0_stroke_with_line_x * legs_0_stroke_with_line_x
-                    + minus_legs_0_gimbal_first_b_squared,
+                legs_0_stroke_with_legs_0_line_y * legs_0_stroke_with_legs_0_line_y
+                    + legs_0_stroke_with_legs_0_line_x * legs_0_stroke_with_legs_0_line_x
+                    + legs_0_gimbal_first_b_squared,
             );
             // Strut legs_0.
             let slope_legs_0_stroke_inv = T::lit(1.0) / root_legs_0_stroke;
@@ -736,9 +734,9 @@ pub mod level {
             let legs_stroke_gap_rate_with_platform_z_rate = v.platform.z
                 * minus_legs_0_gimbal_first_b;
             let legs_0_stroke_rate = slope_legs_0_stroke_inv
-                * (legs_0_stroke_with_line_y
+                * (legs_0_stroke_with_legs_0_line_y
                     * (platform_x_rate_times_0_732 - platform_y_rate_times_0_682)
-                    + legs_0_stroke_with_line_x
+                    + legs_0_stroke_with_legs_0_line_x
                         * (platform_x_rate_times_0_682 + platform_y_rate_times_0_732)
                     + legs_stroke_gap_rate_with_platform_z_rate);
             let legs_0_bend = slope_legs_0_stroke_inv_times_0_0625 + legs_0_swell;
@@ -747,13 +745,13 @@ pub mod level {
             let legs_0_mu = slope_legs_0_stroke_inv * legs_0_swell;
             let legs_3_line_y = T::lit(0.779) + q.platform.y;
             // Closed form of legs_3_stroke.
-            let legs_3_stroke_with_line_y = legs_0_line_x_times_0_732
+            let legs_3_stroke_with_legs_3_line_y = legs_0_line_x_times_0_732
                 + T::lit(0.6816387600233341) * legs_3_line_y;
             let legs_3_stroke_with_legs_0_line_x = legs_0_line_x_times_0_682
                 - T::lit(0.7316888688738209) * legs_3_line_y;
             let root_legs_3_stroke = Real::sqrt(
-                minus_legs_0_gimbal_first_b_squared
-                    + legs_3_stroke_with_line_y * legs_3_stroke_with_line_y
+                legs_0_gimbal_first_b_squared
+                    + legs_3_stroke_with_legs_3_line_y * legs_3_stroke_with_legs_3_line_y
                     + legs_3_stroke_with_legs_0_line_x * legs_3_stroke_with_legs_0_line_x,
             );
             // Strut legs_3.
@@ -767,15 +765,15 @@ pub mod level {
             let legs_1_line_x = T::lit(1.78) + q.platform.x;
             // Closed form of legs_1_stroke.
             let legs_1_line_x_times_0_853 = T::lit(0.8525245220595058) * legs_1_line_x;
-            let legs_1_stroke_with_line_y = legs_1_line_x_times_0_853
+            let legs_1_stroke_with_legs_1_line_y = legs_1_line_x_times_0_853
                 - T::lit(0.5226872289306592) * legs_1_line_y;
             let legs_1_line_x_times_0_523 = T::lit(0.5226872289306592) * legs_1_line_x;
-            let legs_1_stroke_with_line_x = T::lit(0.8525245220595058) * legs_1_line_y
-                + legs_1_line_x_times_0_523;
+            let legs_1_stroke_with_legs_1_line_x = T::lit(0.8525245220595058)
+                * legs_1_line_y + legs_1_line_x_times_0_523;
             let root_legs_1_stroke = Real::sqrt(
-                minus_legs_0_gimbal_first_b_squared
-                    + legs_1_stroke_with_line_y * legs_1_stroke_with_line_y
-                    + legs_1_stroke_with_line_x * legs_1_stroke_with_line_x,
+                legs_0_gimbal_first_b_squared
+                    + legs_1_stroke_with_legs_1_line_y * legs_1_stroke_with_legs_1_line_y
+                    + legs_1_stroke_with_legs_1_line_x * legs_1_stroke_with_legs_1_line_x,
             );
             // Strut legs_1.
             let slope_legs_1_stroke_inv = T::lit(1.0) / root_legs_1_stroke;
@@ -785,13 +783,13 @@ pub mod level {
             let legs_1_mu = slope_legs_1_stroke_inv * legs_1_swell;
             let legs_2_line_y = T::lit(1.074) + q.platform.y;
             // Closed form of legs_2_stroke.
-            let legs_2_stroke_with_line_y = legs_1_line_x_times_0_853
+            let legs_2_stroke_with_legs_2_line_y = legs_1_line_x_times_0_853
                 + T::lit(0.5226872289306592) * legs_2_line_y;
             let legs_2_stroke_with_legs_1_line_x = legs_1_line_x_times_0_523
                 - T::lit(0.8525245220595058) * legs_2_line_y;
             let root_legs_2_stroke = Real::sqrt(
-                minus_legs_0_gimbal_first_b_squared
-                    + legs_2_stroke_with_line_y * legs_2_stroke_with_line_y
+                legs_0_gimbal_first_b_squared
+                    + legs_2_stroke_with_legs_2_line_y * legs_2_stroke_with_legs_2_line_y
                     + legs_2_stroke_with_legs_1_line_x * legs_2_stroke_with_legs_1_line_x,
             );
             // Strut legs_2.
@@ -805,15 +803,15 @@ pub mod level {
             let legs_4_line_x = T::lit(43.0 / 100.0) + q.platform.x;
             // Closed form of legs_4_stroke.
             let legs_4_line_x_times_0_958 = T::lit(0.9577872375530903) * legs_4_line_x;
-            let legs_4_stroke_with_line_y = T::lit(0.2874780123425445) * legs_4_line_y
-                + legs_4_line_x_times_0_958;
+            let legs_4_stroke_with_legs_4_line_y = T::lit(0.2874780123425445)
+                * legs_4_line_y + legs_4_line_x_times_0_958;
             let legs_4_line_x_times_0_287 = T::lit(0.2874780123425445) * legs_4_line_x;
-            let legs_4_stroke_with_line_x = legs_4_line_x_times_0_287
+            let legs_4_stroke_with_legs_4_line_x = legs_4_line_x_times_0_287
                 - T::lit(0.9577872375530903) * legs_4_line_y;
             let root_legs_4_stroke = Real::sqrt(
-                minus_legs_0_gimbal_first_b_squared
-                    + legs_4_stroke_with_line_y * legs_4_stroke_with_line_y
-                    + legs_4_stroke_with_line_x * legs_4_stroke_with_line_x,
+                legs_0_gimbal_first_b_squared
+                    + legs_4_stroke_with_legs_4_line_y * legs_4_stroke_with_legs_4_line_y
+                    + legs_4_stroke_with_legs_4_line_x * legs_4_stroke_with_legs_4_line_x,
             );
             // Strut legs_4.
             let slope_legs_4_stroke_inv = T::lit(1.0) / root_legs_4_stroke;
@@ -823,13 +821,13 @@ pub mod level {
             let legs_4_mu = slope_legs_4_stroke_inv * legs_4_swell;
             let legs_5_line_y = T::lit(0.295) + q.platform.y;
             // Closed form of legs_5_stroke.
-            let legs_5_stroke_with_line_y = legs_4_line_x_times_0_958
+            let legs_5_stroke_with_legs_5_line_y = legs_4_line_x_times_0_958
                 - T::lit(0.2874780123425445) * legs_5_line_y;
             let legs_5_stroke_with_legs_4_line_x = legs_4_line_x_times_0_287
                 + T::lit(0.9577872375530903) * legs_5_line_y;
             let root_legs_5_stroke = Real::sqrt(
-                minus_legs_0_gimbal_first_b_squared
-                    + legs_5_stroke_with_line_y * legs_5_stroke_with_line_y
+                legs_0_gimbal_first_b_squared
+                    + legs_5_stroke_with_legs_5_line_y * legs_5_stroke_with_legs_5_line_y
                     + legs_5_stroke_with_legs_4_line_x * legs_5_stroke_with_legs_4_line_x,
             );
             // Strut legs_5.
@@ -845,7 +843,7 @@ pub mod level {
                 * slope_legs_0_stroke_inv_squared;
             let legs_3_stroke_rate = slope_legs_3_stroke_inv
                 * (legs_stroke_gap_rate_with_platform_z_rate
-                    + legs_3_stroke_with_line_y
+                    + legs_3_stroke_with_legs_3_line_y
                         * (platform_x_rate_times_0_732 + platform_y_rate_times_0_682)
                     + legs_3_stroke_with_legs_0_line_x
                         * (platform_x_rate_times_0_682 - platform_y_rate_times_0_732));
@@ -864,9 +862,9 @@ pub mod level {
             let platform_y_rate_times_0_853 = T::lit(0.8525245220595058) * v.platform.y;
             let legs_1_stroke_rate = slope_legs_1_stroke_inv
                 * (legs_stroke_gap_rate_with_platform_z_rate
-                    + legs_1_stroke_with_line_y
+                    + legs_1_stroke_with_legs_1_line_y
                         * (platform_x_rate_times_0_853 - platform_y_rate_times_0_523)
-                    + legs_1_stroke_with_line_x
+                    + legs_1_stroke_with_legs_1_line_x
                         * (platform_x_rate_times_0_523 + platform_y_rate_times_0_853));
             // Strut legs_1.
             let legs_1_bend = slope_legs_1_stroke_inv_times_0_0625 + legs_1_swell;
@@ -876,7 +874,7 @@ pub mod level {
                 * slope_legs_1_stroke_inv_squared;
             let legs_2_stroke_rate = slope_legs_2_stroke_inv
                 * (legs_stroke_gap_rate_with_platform_z_rate
-                    + legs_2_stroke_with_line_y
+                    + legs_2_stroke_with_legs_2_line_y
                         * (platform_x_rate_times_0_853 + platform_y_rate_times_0_523)
                     + legs_2_stroke_with_legs_1_line_x
                         * (platform_x_rate_times_0_523 - platform_y_rate_times_0_853));
@@ -895,9 +893,9 @@ pub mod level {
             let platform_y_rate_times_0_958 = T::lit(0.9577872375530903) * v.platform.y;
             let legs_4_stroke_rate = slope_legs_4_stroke_inv
                 * (legs_stroke_gap_rate_with_platform_z_rate
-                    + legs_4_stroke_with_line_y
+                    + legs_4_stroke_with_legs_4_line_y
                         * (platform_x_rate_times_0_958 + platform_y_rate_times_0_287)
-                    + legs_4_stroke_with_line_x
+                    + legs_4_stroke_with_legs_4_line_x
                         * (platform_x_rate_times_0_287 - platform_y_rate_times_0_958));
             // Strut legs_4.
             let legs_4_bend = slope_legs_4_stroke_inv_times_0_0625 + legs_4_swell;
@@ -907,7 +905,7 @@ pub mod level {
                 * slope_legs_4_stroke_inv_squared;
             let legs_5_stroke_rate = slope_legs_5_stroke_inv
                 * (legs_stroke_gap_rate_with_platform_z_rate
-                    + legs_5_stroke_with_line_y
+                    + legs_5_stroke_with_legs_5_line_y
                         * (platform_x_rate_times_0_958 - platform_y_rate_times_0_287)
                     + legs_5_stroke_with_legs_4_line_x
                         * (platform_x_rate_times_0_287 + platform_y_rate_times_0_958));
@@ -923,10 +921,12 @@ pub mod level {
             let minus_mass_struts_beta = minus_legs_0_beta_plus_minus_legs_3_beta
                 + minus_legs_1_beta_plus_minus_legs_2_beta
                 + minus_legs_4_beta_plus_minus_legs_5_beta;
-            let abs_minus_legs_0_gimbal_first_b = Real::abs(minus_legs_0_gimbal_first_b);
+            let rank_0_with_legs_0_gimbal_first_b = Real::abs(
+                minus_legs_0_gimbal_first_b,
+            );
             let rank_0_part = T::lit(450.0) * <T as Real>::epsilon();
             let legs_tension_with_legs_0_gimbal_first_b = Real::select(
-                Real::le(abs_minus_legs_0_gimbal_first_b, rank_0_part),
+                Real::le(rank_0_with_legs_0_gimbal_first_b, rank_0_part),
                 T::lit(0.0),
                 T::lit(1.0) / minus_legs_0_gimbal_first_b,
             );
@@ -1068,7 +1068,7 @@ pub mod level {
                 rank: T::lit(3.0)
                     + T::lit(3.0)
                         * Real::select(
-                            Real::lt(rank_0_part, abs_minus_legs_0_gimbal_first_b),
+                            Real::lt(rank_0_part, rank_0_with_legs_0_gimbal_first_b),
                             T::lit(1.0),
                             T::lit(0.0),
                         ),
@@ -1088,69 +1088,69 @@ pub mod level {
             // Closed form of legs_0_stroke.
             let platform_y_minus_0_779 = q.platform.y - T::lit(0.779);
             let platform_x_plus_2_29 = T::lit(2.29) + q.platform.x;
-            let platform_x_plus_2_29_times_0_732 = T::lit(0.7316888688738209)
+            let legs_stroke_discriminant_with_platform_x = T::lit(0.7316888688738209)
                 * platform_x_plus_2_29;
-            let legs_0_stroke_discriminant_with_platform_x = platform_x_plus_2_29_times_0_732
+            let legs_0_stroke_discriminant_with_platform_x = legs_stroke_discriminant_with_platform_x
                 - T::lit(0.6816387600233341) * platform_y_minus_0_779;
             // Closed form of legs_0_gimbal_first.
-            let platform_x_plus_2_29_times_0_682 = T::lit(0.6816387600233341)
+            let legs_gimbal_first_a_with_platform_x = T::lit(0.6816387600233341)
                 * platform_x_plus_2_29;
             let minus_legs_0_gimbal_first_a = T::lit(0.7316888688738209)
-                * platform_y_minus_0_779 + platform_x_plus_2_29_times_0_682;
+                * platform_y_minus_0_779 + legs_gimbal_first_a_with_platform_x;
             let minus_legs_0_gimbal_first_b = q.platform.z - T::lit(0.4);
-            let minus_legs_0_gimbal_first_b_squared = minus_legs_0_gimbal_first_b
+            let legs_0_gimbal_first_b_squared = minus_legs_0_gimbal_first_b
                 * minus_legs_0_gimbal_first_b;
             let legs_0_gimbal_first_d = minus_legs_0_gimbal_first_a
-                * minus_legs_0_gimbal_first_a + minus_legs_0_gimbal_first_b_squared;
+                * minus_legs_0_gimbal_first_a + legs_0_gimbal_first_b_squared;
             // Closed form of legs_1_stroke.
             let platform_y_minus_1_074 = q.platform.y - T::lit(1.074);
             let platform_x_plus_1_78 = T::lit(1.78) + q.platform.x;
-            let platform_x_plus_1_78_times_0_853 = T::lit(0.8525245220595058)
+            let legs_stroke_discriminant_part = T::lit(0.8525245220595058)
                 * platform_x_plus_1_78;
-            let legs_1_stroke_discriminant_with_platform_x = platform_x_plus_1_78_times_0_853
+            let legs_1_stroke_discriminant_with_platform_x = legs_stroke_discriminant_part
                 - T::lit(0.5226872289306592) * platform_y_minus_1_074;
             // Closed form of legs_1_gimbal_first.
-            let platform_x_plus_1_78_times_0_523 = T::lit(0.5226872289306592)
+            let legs_gimbal_first_a_part = T::lit(0.5226872289306592)
                 * platform_x_plus_1_78;
             let minus_legs_1_gimbal_first_a = T::lit(0.8525245220595058)
-                * platform_y_minus_1_074 + platform_x_plus_1_78_times_0_523;
-            let legs_1_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
+                * platform_y_minus_1_074 + legs_gimbal_first_a_part;
+            let legs_1_gimbal_first_d = legs_0_gimbal_first_b_squared
                 + minus_legs_1_gimbal_first_a * minus_legs_1_gimbal_first_a;
             let platform_y_plus_1_074 = T::lit(1.074) + q.platform.y;
-            let legs_2_stroke_discriminant_with_platform_x = platform_x_plus_1_78_times_0_853
+            let legs_2_stroke_discriminant_with_platform_x = legs_stroke_discriminant_part
                 + T::lit(0.5226872289306592) * platform_y_plus_1_074;
-            let legs_2_gimbal_first_a = platform_x_plus_1_78_times_0_523
+            let legs_2_gimbal_first_a = legs_gimbal_first_a_part
                 - T::lit(0.8525245220595058) * platform_y_plus_1_074;
-            let legs_2_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
+            let legs_2_gimbal_first_d = legs_0_gimbal_first_b_squared
                 + legs_2_gimbal_first_a * legs_2_gimbal_first_a;
             let platform_y_plus_0_779 = T::lit(0.779) + q.platform.y;
-            let legs_3_stroke_discriminant_with_platform_x = platform_x_plus_2_29_times_0_732
+            let legs_3_stroke_discriminant_with_platform_x = legs_stroke_discriminant_with_platform_x
                 + T::lit(0.6816387600233341) * platform_y_plus_0_779;
-            let legs_3_gimbal_first_a = platform_x_plus_2_29_times_0_682
+            let legs_3_gimbal_first_a = legs_gimbal_first_a_with_platform_x
                 - T::lit(0.7316888688738209) * platform_y_plus_0_779;
-            let legs_3_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
+            let legs_3_gimbal_first_d = legs_0_gimbal_first_b_squared
                 + legs_3_gimbal_first_a * legs_3_gimbal_first_a;
             // Closed form of legs_4_stroke.
             let platform_y_minus_0_295 = q.platform.y - T::lit(0.295);
             let platform_x_plus_0_43 = T::lit(43.0 / 100.0) + q.platform.x;
-            let platform_x_plus_0_43_times_0_958 = T::lit(0.9577872375530903)
+            let legs_stroke_discriminant_part_v2 = T::lit(0.9577872375530903)
                 * platform_x_plus_0_43;
             let legs_4_stroke_discriminant_with_platform_y = T::lit(0.2874780123425445)
-                * platform_y_minus_0_295 + platform_x_plus_0_43_times_0_958;
+                * platform_y_minus_0_295 + legs_stroke_discriminant_part_v2;
             // Closed form of legs_4_gimbal_first.
-            let platform_x_plus_0_43_times_0_287 = T::lit(0.2874780123425445)
+            let legs_gimbal_first_a_part_v2 = T::lit(0.2874780123425445)
                 * platform_x_plus_0_43;
-            let minus_legs_4_gimbal_first_a = platform_x_plus_0_43_times_0_287
+            let minus_legs_4_gimbal_first_a = legs_gimbal_first_a_part_v2
                 - T::lit(0.9577872375530903) * platform_y_minus_0_295;
-            let legs_4_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
+            let legs_4_gimbal_first_d = legs_0_gimbal_first_b_squared
                 + minus_legs_4_gimbal_first_a * minus_legs_4_gimbal_first_a;
             let platform_y_plus_0_295 = T::lit(0.295) + q.platform.y;
-            let legs_5_stroke_discriminant_with_platform_x = platform_x_plus_0_43_times_0_958
+            let legs_5_stroke_discriminant_with_platform_x = legs_stroke_discriminant_part_v2
                 - T::lit(0.2874780123425445) * platform_y_plus_0_295;
             // Closed form of legs_5_gimbal_first.
-            let legs_5_gimbal_first_a = platform_x_plus_0_43_times_0_287
+            let legs_5_gimbal_first_a = legs_gimbal_first_a_part_v2
                 + T::lit(0.9577872375530903) * platform_y_plus_0_295;
-            let legs_5_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
+            let legs_5_gimbal_first_d = legs_0_gimbal_first_b_squared
                 + legs_5_gimbal_first_a * legs_5_gimbal_first_a;
             ::multibody::nalgebra::SVector::from([
                 Real::sqrt(
@@ -1207,20 +1207,20 @@ pub mod level {
             // Closed form of legs_0_stroke.
             let platform_y_minus_0_779 = q.platform.y - T::lit(0.779);
             let platform_x_plus_2_29 = T::lit(2.29) + q.platform.x;
-            let platform_x_plus_2_29_times_0_732 = T::lit(0.7316888688738209)
+            let legs_stroke_with_platform_x = T::lit(0.7316888688738209)
                 * platform_x_plus_2_29;
-            let legs_0_stroke_with_platform_x = platform_x_plus_2_29_times_0_732
+            let legs_0_stroke_with_platform_x = legs_stroke_with_platform_x
                 - T::lit(0.6816387600233341) * platform_y_minus_0_779;
             // Closed form of legs_0_gimbal_first.
-            let platform_x_plus_2_29_times_0_682 = T::lit(0.6816387600233341)
+            let legs_gimbal_first_a_with_platform_x = T::lit(0.6816387600233341)
                 * platform_x_plus_2_29;
             let minus_legs_0_gimbal_first_a = T::lit(0.7316888688738209)
-                * platform_y_minus_0_779 + platform_x_plus_2_29_times_0_682;
+                * platform_y_minus_0_779 + legs_gimbal_first_a_with_platform_x;
             let minus_legs_0_gimbal_first_b = q.platform.z - T::lit(0.4);
-            let minus_legs_0_gimbal_first_b_squared = minus_legs_0_gimbal_first_b
+            let legs_0_gimbal_first_b_squared = minus_legs_0_gimbal_first_b
                 * minus_legs_0_gimbal_first_b;
             let legs_0_gimbal_first_d = minus_legs_0_gimbal_first_a
-                * minus_legs_0_gimbal_first_a + minus_legs_0_gimbal_first_b_squared;
+                * minus_legs_0_gimbal_first_a + legs_0_gimbal_first_b_squared;
             // Velocities of what follows.
             let platform_x_rate_times_0_732 = T::lit(0.7316888688738209) * v.platform.x;
             let platform_y_rate_times_0_682 = T::lit(0.6816387600233341) * v.platform.y;
@@ -1235,16 +1235,15 @@ pub mod level {
             // Closed form of legs_1_stroke.
             let platform_y_minus_1_074 = q.platform.y - T::lit(1.074);
             let platform_x_plus_1_78 = T::lit(1.78) + q.platform.x;
-            let platform_x_plus_1_78_times_0_853 = T::lit(0.8525245220595058)
-                * platform_x_plus_1_78;
-            let legs_1_stroke_with_platform_x = platform_x_plus_1_78_times_0_853
+            let legs_stroke_part = T::lit(0.8525245220595058) * platform_x_plus_1_78;
+            let legs_1_stroke_with_platform_x = legs_stroke_part
                 - T::lit(0.5226872289306592) * platform_y_minus_1_074;
             // Closed form of legs_1_gimbal_first.
-            let platform_x_plus_1_78_times_0_523 = T::lit(0.5226872289306592)
+            let legs_gimbal_first_a_part = T::lit(0.5226872289306592)
                 * platform_x_plus_1_78;
             let minus_legs_1_gimbal_first_a = T::lit(0.8525245220595058)
-                * platform_y_minus_1_074 + platform_x_plus_1_78_times_0_523;
-            let legs_1_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
+                * platform_y_minus_1_074 + legs_gimbal_first_a_part;
+            let legs_1_gimbal_first_d = legs_0_gimbal_first_b_squared
                 + minus_legs_1_gimbal_first_a * minus_legs_1_gimbal_first_a;
             // Velocities of what follows.
             let platform_x_rate_times_0_853 = T::lit(0.8525245220595058) * v.platform.x;
@@ -1254,36 +1253,35 @@ pub mod level {
             let margin_7_with_legs_1_gimbal_first_a = minus_legs_1_gimbal_first_a
                 * (platform_x_rate_times_0_523 + platform_y_rate_times_0_853);
             let platform_y_plus_1_074 = T::lit(1.074) + q.platform.y;
-            let legs_2_stroke_with_platform_x = platform_x_plus_1_78_times_0_853
+            let legs_2_stroke_with_platform_x = legs_stroke_part
                 + T::lit(0.5226872289306592) * platform_y_plus_1_074;
-            let legs_2_gimbal_first_a = platform_x_plus_1_78_times_0_523
+            let legs_2_gimbal_first_a = legs_gimbal_first_a_part
                 - T::lit(0.8525245220595058) * platform_y_plus_1_074;
-            let legs_2_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
+            let legs_2_gimbal_first_d = legs_0_gimbal_first_b_squared
                 + legs_2_gimbal_first_a * legs_2_gimbal_first_a;
             let margin_11_with_legs_2_gimbal_first_a = legs_2_gimbal_first_a
                 * (platform_x_rate_times_0_523 - platform_y_rate_times_0_853);
             let platform_y_plus_0_779 = T::lit(0.779) + q.platform.y;
-            let legs_3_stroke_with_platform_x = platform_x_plus_2_29_times_0_732
+            let legs_3_stroke_with_platform_x = legs_stroke_with_platform_x
                 + T::lit(0.6816387600233341) * platform_y_plus_0_779;
-            let legs_3_gimbal_first_a = platform_x_plus_2_29_times_0_682
+            let legs_3_gimbal_first_a = legs_gimbal_first_a_with_platform_x
                 - T::lit(0.7316888688738209) * platform_y_plus_0_779;
-            let legs_3_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
+            let legs_3_gimbal_first_d = legs_0_gimbal_first_b_squared
                 + legs_3_gimbal_first_a * legs_3_gimbal_first_a;
             let margin_15_with_legs_3_gimbal_first_a = legs_3_gimbal_first_a
                 * (platform_x_rate_times_0_682 - platform_y_rate_times_0_732);
             // Closed form of legs_4_stroke.
             let platform_y_minus_0_295 = q.platform.y - T::lit(0.295);
             let platform_x_plus_0_43 = T::lit(43.0 / 100.0) + q.platform.x;
-            let platform_x_plus_0_43_times_0_958 = T::lit(0.9577872375530903)
-                * platform_x_plus_0_43;
+            let legs_stroke_part_v2 = T::lit(0.9577872375530903) * platform_x_plus_0_43;
             let legs_4_stroke_with_platform_y = T::lit(0.2874780123425445)
-                * platform_y_minus_0_295 + platform_x_plus_0_43_times_0_958;
+                * platform_y_minus_0_295 + legs_stroke_part_v2;
             // Closed form of legs_4_gimbal_first.
-            let platform_x_plus_0_43_times_0_287 = T::lit(0.2874780123425445)
+            let legs_gimbal_first_a_part_v2 = T::lit(0.2874780123425445)
                 * platform_x_plus_0_43;
-            let minus_legs_4_gimbal_first_a = platform_x_plus_0_43_times_0_287
+            let minus_legs_4_gimbal_first_a = legs_gimbal_first_a_part_v2
                 - T::lit(0.9577872375530903) * platform_y_minus_0_295;
-            let legs_4_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
+            let legs_4_gimbal_first_d = legs_0_gimbal_first_b_squared
                 + minus_legs_4_gimbal_first_a * minus_legs_4_gimbal_first_a;
             // Velocities of what follows.
             let platform_x_rate_times_0_958 = T::lit(0.9577872375530903) * v.platform.x;
@@ -1293,11 +1291,11 @@ pub mod level {
             let margin_19_with_legs_4_gimbal_first_a = minus_legs_4_gimbal_first_a
                 * (platform_x_rate_times_0_287 - platform_y_rate_times_0_958);
             let platform_y_plus_0_295 = T::lit(0.295) + q.platform.y;
-            let legs_5_stroke_with_platform_x = platform_x_plus_0_43_times_0_958
+            let legs_5_stroke_with_platform_x = legs_stroke_part_v2
                 - T::lit(0.2874780123425445) * platform_y_plus_0_295;
-            let legs_5_gimbal_first_a = platform_x_plus_0_43_times_0_287
+            let legs_5_gimbal_first_a = legs_gimbal_first_a_part_v2
                 + T::lit(0.9577872375530903) * platform_y_plus_0_295;
-            let legs_5_gimbal_first_d = minus_legs_0_gimbal_first_b_squared
+            let legs_5_gimbal_first_d = legs_0_gimbal_first_b_squared
                 + legs_5_gimbal_first_a * legs_5_gimbal_first_a;
             let margin_23_with_legs_5_gimbal_first_a = legs_5_gimbal_first_a
                 * (platform_x_rate_times_0_287 + platform_y_rate_times_0_958);
@@ -1614,32 +1612,32 @@ pub mod level {
                 - T::lit(1.374);
             let platform_x_plus_0_17_plus_2_12 = T::lit(2.12)
                 + (T::lit(0.17) + q.platform.x);
-            let platform_x_plus_0_17_plus_2_12_times_0_682 = T::lit(0.6816387600233341)
+            let legs_gimbal_first_a_with_platform_x = T::lit(0.6816387600233341)
                 * platform_x_plus_0_17_plus_2_12;
             let minus_legs_0_gimbal_first_a = T::lit(0.7316888688738209)
                 * platform_y_plus_0_595_minus_1_374
-                + platform_x_plus_0_17_plus_2_12_times_0_682;
-            let minus_legs_0_gimbal_first_a_squared = minus_legs_0_gimbal_first_a
+                + legs_gimbal_first_a_with_platform_x;
+            let legs_0_gimbal_first_a_squared = minus_legs_0_gimbal_first_a
                 * minus_legs_0_gimbal_first_a;
             let minus_legs_0_gimbal_first_b = q.platform.z - T::lit(0.4);
-            let minus_legs_0_gimbal_first_b_squared = minus_legs_0_gimbal_first_b
+            let legs_0_gimbal_first_b_squared = minus_legs_0_gimbal_first_b
                 * minus_legs_0_gimbal_first_b;
             let root_legs_0_gimbal_first = Real::sqrt(
-                minus_legs_0_gimbal_first_a_squared + minus_legs_0_gimbal_first_b_squared,
+                legs_0_gimbal_first_a_squared + legs_0_gimbal_first_b_squared,
             );
             let minus_slope_legs_0_gimbal_first_inv = T::lit(1.0)
                 / root_legs_0_gimbal_first;
             let cos_legs_0_gimbal_first = minus_legs_0_gimbal_first_b
                 * minus_slope_legs_0_gimbal_first_inv;
-            let mass_matrix_with_slope_legs_0_gimbal_first_inv = minus_slope_legs_0_gimbal_first_inv
+            let mass_matrix_with_root_legs_0_gimbal_first = minus_slope_legs_0_gimbal_first_inv
                 * cos_legs_0_gimbal_first;
-            let platform_x_plus_0_17_plus_2_12_times_0_732 = T::lit(0.7316888688738209)
+            let legs_gimbal_second_v_with_platform_x = T::lit(0.7316888688738209)
                 * platform_x_plus_0_17_plus_2_12;
-            let legs_0_gimbal_second_v = platform_x_plus_0_17_plus_2_12_times_0_732
+            let legs_0_gimbal_second_v = legs_gimbal_second_v_with_platform_x
                 - T::lit(0.6816387600233341) * platform_y_plus_0_595_minus_1_374;
             let legs_0_stroke_discriminant = legs_0_gimbal_second_v
-                * legs_0_gimbal_second_v + minus_legs_0_gimbal_first_a_squared
-                + minus_legs_0_gimbal_first_b_squared;
+                * legs_0_gimbal_second_v + legs_0_gimbal_first_a_squared
+                + legs_0_gimbal_first_b_squared;
             let root_legs_0_stroke = Real::sqrt(legs_0_stroke_discriminant);
             let slope_legs_0_stroke_inv = T::lit(1.0) / root_legs_0_stroke;
             let cos_legs_0_gimbal_second = root_legs_0_gimbal_first
@@ -1648,8 +1646,8 @@ pub mod level {
                 + (T::lit(0.1) * legs_0_stroke_discriminant
                     - T::lit(0.1) * root_legs_0_stroke);
             let m_7_7 = cos_legs_0_gimbal_second * cos_legs_0_gimbal_second * m_8_8;
-            let mass_matrix_with_m_7_7 = mass_matrix_with_slope_legs_0_gimbal_first_inv
-                * m_7_7 * mass_matrix_with_slope_legs_0_gimbal_first_inv;
+            let mass_matrix_with_m_7_7 = mass_matrix_with_root_legs_0_gimbal_first
+                * m_7_7 * mass_matrix_with_root_legs_0_gimbal_first;
             let minus_sin_legs_0_gimbal_first = minus_legs_0_gimbal_first_a
                 * minus_slope_legs_0_gimbal_first_inv;
             let sin_legs_0_gimbal_second = legs_0_gimbal_second_v
@@ -1657,7 +1655,7 @@ pub mod level {
             // Results.
             let mass_matrix_with_sin_legs_0_gimbal_first = minus_sin_legs_0_gimbal_first
                 * sin_legs_0_gimbal_second;
-            let mass_matrix_with_slope_legs_0_stroke_inv = slope_legs_0_stroke_inv
+            let mass_matrix_with_root_legs_0_stroke = slope_legs_0_stroke_inv
                 * (T::lit(0.6816387600233341) * mass_matrix_with_sin_legs_0_gimbal_first
                     - T::lit(0.7316888688738209) * cos_legs_0_gimbal_second);
             let mass_matrix_with_platform_x = platform_x_plus_0_17_plus_2_12
@@ -1667,29 +1665,28 @@ pub mod level {
                 - T::lit(1.224);
             let platform_x_minus_0_6_plus_2_38 = T::lit(2.38)
                 + (q.platform.x - T::lit(0.6));
-            let platform_x_minus_0_6_plus_2_38_times_0_523 = T::lit(0.5226872289306592)
+            let legs_gimbal_first_a_part = T::lit(0.5226872289306592)
                 * platform_x_minus_0_6_plus_2_38;
             let minus_legs_1_gimbal_first_a = T::lit(0.8525245220595058)
-                * platform_y_plus_0_15_minus_1_224
-                + platform_x_minus_0_6_plus_2_38_times_0_523;
-            let minus_legs_1_gimbal_first_a_squared = minus_legs_1_gimbal_first_a
+                * platform_y_plus_0_15_minus_1_224 + legs_gimbal_first_a_part;
+            let legs_1_gimbal_first_a_squared = minus_legs_1_gimbal_first_a
                 * minus_legs_1_gimbal_first_a;
             let root_legs_1_gimbal_first = Real::sqrt(
-                minus_legs_0_gimbal_first_b_squared + minus_legs_1_gimbal_first_a_squared,
+                legs_0_gimbal_first_b_squared + legs_1_gimbal_first_a_squared,
             );
             let minus_slope_legs_1_gimbal_first_inv = T::lit(1.0)
                 / root_legs_1_gimbal_first;
             let cos_legs_1_gimbal_first = minus_legs_0_gimbal_first_b
                 * minus_slope_legs_1_gimbal_first_inv;
-            let mass_matrix_with_slope_legs_1_gimbal_first_inv = minus_slope_legs_1_gimbal_first_inv
+            let mass_matrix_with_root_legs_1_gimbal_first = minus_slope_legs_1_gimbal_first_inv
                 * cos_legs_1_gimbal_first;
-            let platform_x_minus_0_6_plus_2_38_times_0_853 = T::lit(0.8525245220595058)
+            let legs_gimbal_second_v_part = T::lit(0.8525245220595058)
                 * platform_x_minus_0_6_plus_2_38;
-            let legs_1_gimbal_second_v = platform_x_minus_0_6_plus_2_38_times_0_853
+            let legs_1_gimbal_second_v = legs_gimbal_second_v_part
                 - T::lit(0.5226872289306592) * platform_y_plus_0_15_minus_1_224;
-            let legs_1_stroke_discriminant = minus_legs_0_gimbal_first_b_squared
+            let legs_1_stroke_discriminant = legs_0_gimbal_first_b_squared
                 + legs_1_gimbal_second_v * legs_1_gimbal_second_v
-                + minus_legs_1_gimbal_first_a_squared;
+                + legs_1_gimbal_first_a_squared;
             let root_legs_1_stroke = Real::sqrt(legs_1_stroke_discriminant);
             let slope_legs_1_stroke_inv = T::lit(1.0) / root_legs_1_stroke;
             let cos_legs_1_gimbal_second = root_legs_1_gimbal_first
@@ -1698,8 +1695,8 @@ pub mod level {
                 + (T::lit(0.1) * legs_1_stroke_discriminant
                     - T::lit(0.1) * root_legs_1_stroke);
             let m_10_10 = cos_legs_1_gimbal_second * cos_legs_1_gimbal_second * m_11_11;
-            let mass_matrix_with_m_10_10 = mass_matrix_with_slope_legs_1_gimbal_first_inv
-                * m_10_10 * mass_matrix_with_slope_legs_1_gimbal_first_inv;
+            let mass_matrix_with_m_10_10 = mass_matrix_with_root_legs_1_gimbal_first
+                * m_10_10 * mass_matrix_with_root_legs_1_gimbal_first;
             let minus_sin_legs_1_gimbal_first = minus_legs_1_gimbal_first_a
                 * minus_slope_legs_1_gimbal_first_inv;
             let sin_legs_1_gimbal_second = legs_1_gimbal_second_v
@@ -1707,30 +1704,30 @@ pub mod level {
             // Results.
             let mass_matrix_with_sin_legs_1_gimbal_first = minus_sin_legs_1_gimbal_first
                 * sin_legs_1_gimbal_second;
-            let mass_matrix_with_slope_legs_1_stroke_inv = slope_legs_1_stroke_inv
+            let mass_matrix_with_root_legs_1_stroke = slope_legs_1_stroke_inv
                 * (T::lit(0.5226872289306592) * mass_matrix_with_sin_legs_1_gimbal_first
                     - T::lit(0.8525245220595058) * cos_legs_1_gimbal_second);
-            let mass_matrix_with_slope_legs_1_stroke_inv_and_platform_x = platform_x_minus_0_6_plus_2_38
+            let mass_matrix_with_root_legs_1_stroke_and_platform_x = platform_x_minus_0_6_plus_2_38
                 * slope_legs_1_stroke_inv;
             // Closed form of legs_2_gimbal_first.
             let platform_y_minus_0_15_plus_1_224 = T::lit(1.224)
                 + (q.platform.y - T::lit(0.15));
-            let legs_2_gimbal_first_a = platform_x_minus_0_6_plus_2_38_times_0_523
+            let legs_2_gimbal_first_a = legs_gimbal_first_a_part
                 - T::lit(0.8525245220595058) * platform_y_minus_0_15_plus_1_224;
             let legs_2_gimbal_first_a_squared = legs_2_gimbal_first_a
                 * legs_2_gimbal_first_a;
             let root_legs_2_gimbal_first = Real::sqrt(
-                minus_legs_0_gimbal_first_b_squared + legs_2_gimbal_first_a_squared,
+                legs_0_gimbal_first_b_squared + legs_2_gimbal_first_a_squared,
             );
             let minus_slope_legs_2_gimbal_first_inv = T::lit(1.0)
                 / root_legs_2_gimbal_first;
             let cos_legs_2_gimbal_first = minus_legs_0_gimbal_first_b
                 * minus_slope_legs_2_gimbal_first_inv;
-            let mass_matrix_with_slope_legs_2_gimbal_first_inv = minus_slope_legs_2_gimbal_first_inv
+            let mass_matrix_with_root_legs_2_gimbal_first = minus_slope_legs_2_gimbal_first_inv
                 * cos_legs_2_gimbal_first;
-            let legs_2_gimbal_second_v = platform_x_minus_0_6_plus_2_38_times_0_853
+            let legs_2_gimbal_second_v = legs_gimbal_second_v_part
                 + T::lit(0.5226872289306592) * platform_y_minus_0_15_plus_1_224;
-            let legs_2_stroke_discriminant = minus_legs_0_gimbal_first_b_squared
+            let legs_2_stroke_discriminant = legs_0_gimbal_first_b_squared
                 + legs_2_gimbal_second_v * legs_2_gimbal_second_v
                 + legs_2_gimbal_first_a_squared;
             let root_legs_2_stroke = Real::sqrt(legs_2_stroke_discriminant);
@@ -1741,39 +1738,39 @@ pub mod level {
                 + (T::lit(0.1) * legs_2_stroke_discriminant
                     - T::lit(0.1) * root_legs_2_stroke);
             let m_13_13 = cos_legs_2_gimbal_second * cos_legs_2_gimbal_second * m_14_14;
-            let mass_matrix_with_m_13_13 = mass_matrix_with_slope_legs_2_gimbal_first_inv
-                * m_13_13 * mass_matrix_with_slope_legs_2_gimbal_first_inv;
+            let mass_matrix_with_m_13_13 = mass_matrix_with_root_legs_2_gimbal_first
+                * m_13_13 * mass_matrix_with_root_legs_2_gimbal_first;
             let sin_legs_2_gimbal_first = legs_2_gimbal_first_a
                 * minus_slope_legs_2_gimbal_first_inv;
             let sin_legs_2_gimbal_second = legs_2_gimbal_second_v
                 * slope_legs_2_stroke_inv;
             // Results.
-            let sin_legs_2_gimbal_first_times_second = sin_legs_2_gimbal_first
+            let mass_matrix_with_sin_legs_2_gimbal_first = sin_legs_2_gimbal_first
                 * sin_legs_2_gimbal_second;
-            let mass_matrix_with_slope_legs_2_stroke_inv = slope_legs_2_stroke_inv
-                * (T::lit(0.5226872289306592) * sin_legs_2_gimbal_first_times_second
+            let mass_matrix_with_root_legs_2_stroke = slope_legs_2_stroke_inv
+                * (T::lit(0.5226872289306592) * mass_matrix_with_sin_legs_2_gimbal_first
                     - T::lit(0.8525245220595058) * cos_legs_2_gimbal_second);
-            let mass_matrix_with_slope_legs_2_stroke_inv_and_platform_x = platform_x_minus_0_6_plus_2_38
+            let mass_matrix_with_root_legs_2_stroke_and_platform_x = platform_x_minus_0_6_plus_2_38
                 * slope_legs_2_stroke_inv;
             // Closed form of legs_3_gimbal_first.
             let platform_y_minus_0_595_plus_1_374 = T::lit(1.374)
                 + (q.platform.y - T::lit(0.595));
-            let legs_3_gimbal_first_a = platform_x_plus_0_17_plus_2_12_times_0_682
+            let legs_3_gimbal_first_a = legs_gimbal_first_a_with_platform_x
                 - T::lit(0.7316888688738209) * platform_y_minus_0_595_plus_1_374;
             let legs_3_gimbal_first_a_squared = legs_3_gimbal_first_a
                 * legs_3_gimbal_first_a;
             let root_legs_3_gimbal_first = Real::sqrt(
-                minus_legs_0_gimbal_first_b_squared + legs_3_gimbal_first_a_squared,
+                legs_0_gimbal_first_b_squared + legs_3_gimbal_first_a_squared,
             );
             let minus_slope_legs_3_gimbal_first_inv = T::lit(1.0)
                 / root_legs_3_gimbal_first;
             let cos_legs_3_gimbal_first = minus_legs_0_gimbal_first_b
                 * minus_slope_legs_3_gimbal_first_inv;
-            let mass_matrix_with_slope_legs_3_gimbal_first_inv = minus_slope_legs_3_gimbal_first_inv
+            let mass_matrix_with_root_legs_3_gimbal_first = minus_slope_legs_3_gimbal_first_inv
                 * cos_legs_3_gimbal_first;
-            let legs_3_gimbal_second_v = platform_x_plus_0_17_plus_2_12_times_0_732
+            let legs_3_gimbal_second_v = legs_gimbal_second_v_with_platform_x
                 + T::lit(0.6816387600233341) * platform_y_minus_0_595_plus_1_374;
-            let legs_3_stroke_discriminant = minus_legs_0_gimbal_first_b_squared
+            let legs_3_stroke_discriminant = legs_0_gimbal_first_b_squared
                 + legs_3_gimbal_second_v * legs_3_gimbal_second_v
                 + legs_3_gimbal_first_a_squared;
             let root_legs_3_stroke = Real::sqrt(legs_3_stroke_discriminant);
@@ -1784,46 +1781,46 @@ pub mod level {
                 + (T::lit(0.1) * legs_3_stroke_discriminant
                     - T::lit(0.1) * root_legs_3_stroke);
             let m_16_16 = cos_legs_3_gimbal_second * cos_legs_3_gimbal_second * m_17_17;
-            let mass_matrix_with_m_16_16 = mass_matrix_with_slope_legs_3_gimbal_first_inv
-                * m_16_16 * mass_matrix_with_slope_legs_3_gimbal_first_inv;
+            let mass_matrix_with_m_16_16 = mass_matrix_with_root_legs_3_gimbal_first
+                * m_16_16 * mass_matrix_with_root_legs_3_gimbal_first;
             let sin_legs_3_gimbal_first = legs_3_gimbal_first_a
                 * minus_slope_legs_3_gimbal_first_inv;
             let sin_legs_3_gimbal_second = legs_3_gimbal_second_v
                 * slope_legs_3_stroke_inv;
             // Results.
-            let sin_legs_3_gimbal_first_times_second = sin_legs_3_gimbal_first
+            let mass_matrix_with_sin_legs_3_gimbal_first = sin_legs_3_gimbal_first
                 * sin_legs_3_gimbal_second;
-            let mass_matrix_with_slope_legs_3_stroke_inv = slope_legs_3_stroke_inv
-                * (T::lit(0.6816387600233341) * sin_legs_3_gimbal_first_times_second
+            let mass_matrix_with_root_legs_3_stroke = slope_legs_3_stroke_inv
+                * (T::lit(0.6816387600233341) * mass_matrix_with_sin_legs_3_gimbal_first
                     - T::lit(0.7316888688738209) * cos_legs_3_gimbal_second);
-            let mass_matrix_with_slope_legs_3_stroke_inv_and_platform_x = platform_x_plus_0_17_plus_2_12
+            let mass_matrix_with_root_legs_3_stroke_and_platform_x = platform_x_plus_0_17_plus_2_12
                 * slope_legs_3_stroke_inv;
             // Closed form of legs_4_gimbal_first.
             let platform_y_minus_0_445_plus_0_15 = T::lit(0.15)
                 + (q.platform.y - T::lit(0.445));
             let platform_x_plus_0_43 = T::lit(43.0 / 100.0) + q.platform.x;
-            let platform_x_plus_0_43_times_0_287 = T::lit(0.2874780123425445)
+            let legs_gimbal_first_a_part_v2 = T::lit(0.2874780123425445)
                 * platform_x_plus_0_43;
-            let minus_legs_4_gimbal_first_a = platform_x_plus_0_43_times_0_287
+            let minus_legs_4_gimbal_first_a = legs_gimbal_first_a_part_v2
                 - T::lit(0.9577872375530903) * platform_y_minus_0_445_plus_0_15;
-            let minus_legs_4_gimbal_first_a_squared = minus_legs_4_gimbal_first_a
+            let legs_4_gimbal_first_a_squared = minus_legs_4_gimbal_first_a
                 * minus_legs_4_gimbal_first_a;
             let root_legs_4_gimbal_first = Real::sqrt(
-                minus_legs_0_gimbal_first_b_squared + minus_legs_4_gimbal_first_a_squared,
+                legs_0_gimbal_first_b_squared + legs_4_gimbal_first_a_squared,
             );
             let minus_slope_legs_4_gimbal_first_inv = T::lit(1.0)
                 / root_legs_4_gimbal_first;
             let cos_legs_4_gimbal_first = minus_legs_0_gimbal_first_b
                 * minus_slope_legs_4_gimbal_first_inv;
-            let mass_matrix_with_slope_legs_4_gimbal_first_inv = minus_slope_legs_4_gimbal_first_inv
+            let mass_matrix_with_root_legs_4_gimbal_first = minus_slope_legs_4_gimbal_first_inv
                 * cos_legs_4_gimbal_first;
-            let platform_x_plus_0_43_times_0_958 = T::lit(0.9577872375530903)
+            let legs_gimbal_second_v_part_v2 = T::lit(0.9577872375530903)
                 * platform_x_plus_0_43;
             let minus_legs_4_gimbal_second_v = T::lit(0.2874780123425445)
-                * platform_y_minus_0_445_plus_0_15 + platform_x_plus_0_43_times_0_958;
-            let legs_4_stroke_discriminant = minus_legs_0_gimbal_first_b_squared
+                * platform_y_minus_0_445_plus_0_15 + legs_gimbal_second_v_part_v2;
+            let legs_4_stroke_discriminant = legs_0_gimbal_first_b_squared
                 + minus_legs_4_gimbal_second_v * minus_legs_4_gimbal_second_v
-                + minus_legs_4_gimbal_first_a_squared;
+                + legs_4_gimbal_first_a_squared;
             let root_legs_4_stroke = Real::sqrt(legs_4_stroke_discriminant);
             let slope_legs_4_stroke_inv = T::lit(1.0) / root_legs_4_stroke;
             let cos_legs_4_gimbal_second = root_legs_4_gimbal_first
@@ -1832,40 +1829,39 @@ pub mod level {
                 + (T::lit(0.1) * legs_4_stroke_discriminant
                     - T::lit(0.1) * root_legs_4_stroke);
             let m_19_19 = cos_legs_4_gimbal_second * cos_legs_4_gimbal_second * m_20_20;
-            let mass_matrix_with_m_19_19 = mass_matrix_with_slope_legs_4_gimbal_first_inv
-                * m_19_19 * mass_matrix_with_slope_legs_4_gimbal_first_inv;
+            let mass_matrix_with_m_19_19 = mass_matrix_with_root_legs_4_gimbal_first
+                * m_19_19 * mass_matrix_with_root_legs_4_gimbal_first;
             let minus_sin_legs_4_gimbal_first = minus_legs_4_gimbal_first_a
                 * minus_slope_legs_4_gimbal_first_inv;
             let minus_sin_legs_4_gimbal_second = minus_legs_4_gimbal_second_v
                 * slope_legs_4_stroke_inv;
             // Results.
-            let minus_sin_legs_4_gimbal_first_times_second = minus_sin_legs_4_gimbal_first
+            let mass_matrix_with_sin_legs_4_gimbal_first = minus_sin_legs_4_gimbal_first
                 * minus_sin_legs_4_gimbal_second;
-            let mass_matrix_with_slope_legs_4_stroke_inv = slope_legs_4_stroke_inv
-                * (T::lit(0.2874780123425445)
-                    * minus_sin_legs_4_gimbal_first_times_second
+            let mass_matrix_with_root_legs_4_stroke = slope_legs_4_stroke_inv
+                * (T::lit(0.2874780123425445) * mass_matrix_with_sin_legs_4_gimbal_first
                     - T::lit(0.9577872375530903) * cos_legs_4_gimbal_second);
-            let mass_matrix_with_slope_legs_4_stroke_inv_and_platform_x = platform_x_plus_0_43
+            let mass_matrix_with_root_legs_4_stroke_and_platform_x = platform_x_plus_0_43
                 * slope_legs_4_stroke_inv;
             // Closed form of legs_5_gimbal_first.
             let platform_y_plus_0_445_minus_0_15 = T::lit(0.445) + q.platform.y
                 - T::lit(0.15);
-            let legs_5_gimbal_first_a = platform_x_plus_0_43_times_0_287
+            let legs_5_gimbal_first_a = legs_gimbal_first_a_part_v2
                 + T::lit(0.9577872375530903) * platform_y_plus_0_445_minus_0_15;
             let legs_5_gimbal_first_a_squared = legs_5_gimbal_first_a
                 * legs_5_gimbal_first_a;
             let root_legs_5_gimbal_first = Real::sqrt(
-                minus_legs_0_gimbal_first_b_squared + legs_5_gimbal_first_a_squared,
+                legs_0_gimbal_first_b_squared + legs_5_gimbal_first_a_squared,
             );
             let minus_slope_legs_5_gimbal_first_inv = T::lit(1.0)
                 / root_legs_5_gimbal_first;
             let cos_legs_5_gimbal_first = minus_legs_0_gimbal_first_b
                 * minus_slope_legs_5_gimbal_first_inv;
-            let mass_matrix_with_slope_legs_5_gimbal_first_inv = minus_slope_legs_5_gimbal_first_inv
+            let mass_matrix_with_root_legs_5_gimbal_first = minus_slope_legs_5_gimbal_first_inv
                 * cos_legs_5_gimbal_first;
-            let minus_legs_5_gimbal_second_v = platform_x_plus_0_43_times_0_958
+            let minus_legs_5_gimbal_second_v = legs_gimbal_second_v_part_v2
                 - T::lit(0.2874780123425445) * platform_y_plus_0_445_minus_0_15;
-            let legs_5_stroke_discriminant = minus_legs_0_gimbal_first_b_squared
+            let legs_5_stroke_discriminant = legs_0_gimbal_first_b_squared
                 + minus_legs_5_gimbal_second_v * minus_legs_5_gimbal_second_v
                 + legs_5_gimbal_first_a_squared;
             let root_legs_5_stroke = Real::sqrt(legs_5_stroke_discriminant);
@@ -1876,8 +1872,8 @@ pub mod level {
                 + (T::lit(0.1) * legs_5_stroke_discriminant
                     - T::lit(0.1) * root_legs_5_stroke);
             let m_22_22 = cos_legs_5_gimbal_second * cos_legs_5_gimbal_second * m_23_23;
-            let mass_matrix_with_m_22_22 = mass_matrix_with_slope_legs_5_gimbal_first_inv
-                * m_22_22 * mass_matrix_with_slope_legs_5_gimbal_first_inv;
+            let mass_matrix_with_m_22_22 = mass_matrix_with_root_legs_5_gimbal_first
+                * m_22_22 * mass_matrix_with_root_legs_5_gimbal_first;
             let sin_legs_5_gimbal_first = legs_5_gimbal_first_a
                 * minus_slope_legs_5_gimbal_first_inv;
             let minus_sin_legs_5_gimbal_second = minus_legs_5_gimbal_second_v
@@ -1885,41 +1881,41 @@ pub mod level {
             // Results.
             let mass_matrix_with_sin_legs_5_gimbal_first = sin_legs_5_gimbal_first
                 * minus_sin_legs_5_gimbal_second;
-            let mass_matrix_with_slope_legs_5_stroke_inv = slope_legs_5_stroke_inv
+            let mass_matrix_with_root_legs_5_stroke = slope_legs_5_stroke_inv
                 * (T::lit(0.2874780123425445) * mass_matrix_with_sin_legs_5_gimbal_first
                     - T::lit(0.9577872375530903) * cos_legs_5_gimbal_second);
-            let mass_matrix_with_slope_legs_5_stroke_inv_and_platform_x = platform_x_plus_0_43
+            let mass_matrix_with_root_legs_5_stroke_and_platform_x = platform_x_plus_0_43
                 * slope_legs_5_stroke_inv;
             let mass_matrix_0 = T::lit(1.5)
                 + T::lit(0.46463139916614854) * mass_matrix_with_m_7_7
-                + mass_matrix_with_slope_legs_0_stroke_inv * m_8_8
-                    * mass_matrix_with_slope_legs_0_stroke_inv
+                + mass_matrix_with_root_legs_0_stroke * m_8_8
+                    * mass_matrix_with_root_legs_0_stroke
                 + T::lit(0.1) * mass_matrix_with_platform_x * mass_matrix_with_platform_x
                 + T::lit(0.2732019392872113) * mass_matrix_with_m_10_10
-                + mass_matrix_with_slope_legs_1_stroke_inv * m_11_11
-                    * mass_matrix_with_slope_legs_1_stroke_inv
-                + T::lit(0.1) * mass_matrix_with_slope_legs_1_stroke_inv_and_platform_x
-                    * mass_matrix_with_slope_legs_1_stroke_inv_and_platform_x
+                + mass_matrix_with_root_legs_1_stroke * m_11_11
+                    * mass_matrix_with_root_legs_1_stroke
+                + T::lit(0.1) * mass_matrix_with_root_legs_1_stroke_and_platform_x
+                    * mass_matrix_with_root_legs_1_stroke_and_platform_x
                 + T::lit(0.2732019392872113) * mass_matrix_with_m_13_13
-                + mass_matrix_with_slope_legs_2_stroke_inv * m_14_14
-                    * mass_matrix_with_slope_legs_2_stroke_inv
-                + T::lit(0.1) * mass_matrix_with_slope_legs_2_stroke_inv_and_platform_x
-                    * mass_matrix_with_slope_legs_2_stroke_inv_and_platform_x
+                + mass_matrix_with_root_legs_2_stroke * m_14_14
+                    * mass_matrix_with_root_legs_2_stroke
+                + T::lit(0.1) * mass_matrix_with_root_legs_2_stroke_and_platform_x
+                    * mass_matrix_with_root_legs_2_stroke_and_platform_x
                 + T::lit(0.46463139916614854) * mass_matrix_with_m_16_16
-                + mass_matrix_with_slope_legs_3_stroke_inv * m_17_17
-                    * mass_matrix_with_slope_legs_3_stroke_inv
-                + T::lit(0.1) * mass_matrix_with_slope_legs_3_stroke_inv_and_platform_x
-                    * mass_matrix_with_slope_legs_3_stroke_inv_and_platform_x
+                + mass_matrix_with_root_legs_3_stroke * m_17_17
+                    * mass_matrix_with_root_legs_3_stroke
+                + T::lit(0.1) * mass_matrix_with_root_legs_3_stroke_and_platform_x
+                    * mass_matrix_with_root_legs_3_stroke_and_platform_x
                 + T::lit(0.08264360758042016) * mass_matrix_with_m_19_19
-                + mass_matrix_with_slope_legs_4_stroke_inv * m_20_20
-                    * mass_matrix_with_slope_legs_4_stroke_inv
-                + T::lit(0.1) * mass_matrix_with_slope_legs_4_stroke_inv_and_platform_x
-                    * mass_matrix_with_slope_legs_4_stroke_inv_and_platform_x
+                + mass_matrix_with_root_legs_4_stroke * m_20_20
+                    * mass_matrix_with_root_legs_4_stroke
+                + T::lit(0.1) * mass_matrix_with_root_legs_4_stroke_and_platform_x
+                    * mass_matrix_with_root_legs_4_stroke_and_platform_x
                 + T::lit(0.08264360758042016) * mass_matrix_with_m_22_22
-                + mass_matrix_with_slope_legs_5_stroke_inv * m_23_23
-                    * mass_matrix_with_slope_legs_5_stroke_inv
-                + T::lit(0.1) * mass_matrix_with_slope_legs_5_stroke_inv_and_platform_x
-                    * mass_matrix_with_slope_legs_5_stroke_inv_and_platform_x;
+                + mass_matrix_with_root_legs_5_stroke * m_23_23
+                    * mass_matrix_with_root_legs_5_stroke
+                + T::lit(0.1) * mass_matrix_with_root_legs_5_stroke_and_platform_x
+                    * mass_matrix_with_root_legs_5_stroke_and_platform_x;
             let mass_matrix_with_cos_legs_0_gimbal_second = slope_legs_0_stroke_inv
                 * (T::lit(0.6816387600233341) * cos_legs_0_gimbal_second
                     + T::lit(0.7316888688738209)
@@ -1934,29 +1930,31 @@ pub mod level {
                         * mass_matrix_with_sin_legs_1_gimbal_first);
             let mass_matrix_with_m_11_11 = m_11_11
                 * mass_matrix_with_cos_legs_1_gimbal_second;
-            let mass_matrix_with_slope_legs_1_stroke_inv_and_platform_y = platform_y_plus_0_15_minus_1_224
+            let mass_matrix_with_root_legs_1_stroke_and_platform_y = platform_y_plus_0_15_minus_1_224
                 * slope_legs_1_stroke_inv;
             let mass_matrix_with_cos_legs_2_gimbal_second = slope_legs_2_stroke_inv
                 * (T::lit(0.5226872289306592) * cos_legs_2_gimbal_second
-                    + T::lit(0.8525245220595058) * sin_legs_2_gimbal_first_times_second);
+                    + T::lit(0.8525245220595058)
+                        * mass_matrix_with_sin_legs_2_gimbal_first);
             let mass_matrix_with_m_14_14 = m_14_14
                 * mass_matrix_with_cos_legs_2_gimbal_second;
-            let mass_matrix_with_slope_legs_2_stroke_inv_and_platform_y = platform_y_minus_0_15_plus_1_224
+            let mass_matrix_with_root_legs_2_stroke_and_platform_y = platform_y_minus_0_15_plus_1_224
                 * slope_legs_2_stroke_inv;
             let mass_matrix_with_cos_legs_3_gimbal_second = slope_legs_3_stroke_inv
                 * (T::lit(0.6816387600233341) * cos_legs_3_gimbal_second
-                    + T::lit(0.7316888688738209) * sin_legs_3_gimbal_first_times_second);
+                    + T::lit(0.7316888688738209)
+                        * mass_matrix_with_sin_legs_3_gimbal_first);
             let mass_matrix_with_m_17_17 = m_17_17
                 * mass_matrix_with_cos_legs_3_gimbal_second;
-            let mass_matrix_with_slope_legs_3_stroke_inv_and_platform_y = platform_y_minus_0_595_plus_1_374
+            let mass_matrix_with_root_legs_3_stroke_and_platform_y = platform_y_minus_0_595_plus_1_374
                 * slope_legs_3_stroke_inv;
             let mass_matrix_with_cos_legs_4_gimbal_second = slope_legs_4_stroke_inv
                 * (T::lit(0.2874780123425445) * cos_legs_4_gimbal_second
                     + T::lit(0.9577872375530903)
-                        * minus_sin_legs_4_gimbal_first_times_second);
+                        * mass_matrix_with_sin_legs_4_gimbal_first);
             let mass_matrix_with_m_20_20 = m_20_20
                 * mass_matrix_with_cos_legs_4_gimbal_second;
-            let mass_matrix_with_slope_legs_4_stroke_inv_and_platform_y = platform_y_minus_0_445_plus_0_15
+            let mass_matrix_with_root_legs_4_stroke_and_platform_y = platform_y_minus_0_445_plus_0_15
                 * slope_legs_4_stroke_inv;
             let mass_matrix_with_cos_legs_5_gimbal_second = slope_legs_5_stroke_inv
                 * (T::lit(0.2874780123425445) * cos_legs_5_gimbal_second
@@ -1964,7 +1962,7 @@ pub mod level {
                         * mass_matrix_with_sin_legs_5_gimbal_first);
             let mass_matrix_with_m_23_23 = m_23_23
                 * mass_matrix_with_cos_legs_5_gimbal_second;
-            let mass_matrix_with_slope_legs_5_stroke_inv_and_platform_y = platform_y_plus_0_445_minus_0_15
+            let mass_matrix_with_root_legs_5_stroke_and_platform_y = platform_y_plus_0_445_minus_0_15
                 * slope_legs_5_stroke_inv;
             let mass_matrix_1 = T::lit(0.4987474933020272) * mass_matrix_with_m_7_7
                 + T::lit(0.44560368003071765) * mass_matrix_with_m_10_10
@@ -1972,125 +1970,125 @@ pub mod level {
                 - T::lit(0.4987474933020272) * mass_matrix_with_m_16_16
                 - T::lit(0.2753427712988189) * mass_matrix_with_m_19_19
                 + T::lit(0.2753427712988189) * mass_matrix_with_m_22_22
-                + mass_matrix_with_slope_legs_0_stroke_inv * mass_matrix_with_m_8_8
+                + mass_matrix_with_root_legs_0_stroke * mass_matrix_with_m_8_8
                 + T::lit(0.1) * mass_matrix_with_platform_x * mass_matrix_with_platform_y
-                + mass_matrix_with_slope_legs_1_stroke_inv * mass_matrix_with_m_11_11
-                + T::lit(0.1) * mass_matrix_with_slope_legs_1_stroke_inv_and_platform_x
-                    * mass_matrix_with_slope_legs_1_stroke_inv_and_platform_y
-                - mass_matrix_with_slope_legs_2_stroke_inv * mass_matrix_with_m_14_14
-                + T::lit(0.1) * mass_matrix_with_slope_legs_2_stroke_inv_and_platform_x
-                    * mass_matrix_with_slope_legs_2_stroke_inv_and_platform_y
-                - mass_matrix_with_slope_legs_3_stroke_inv * mass_matrix_with_m_17_17
-                + T::lit(0.1) * mass_matrix_with_slope_legs_3_stroke_inv_and_platform_x
-                    * mass_matrix_with_slope_legs_3_stroke_inv_and_platform_y
-                - mass_matrix_with_slope_legs_4_stroke_inv * mass_matrix_with_m_20_20
-                + T::lit(0.1) * mass_matrix_with_slope_legs_4_stroke_inv_and_platform_x
-                    * mass_matrix_with_slope_legs_4_stroke_inv_and_platform_y
-                + mass_matrix_with_slope_legs_5_stroke_inv * mass_matrix_with_m_23_23
-                + T::lit(0.1) * mass_matrix_with_slope_legs_5_stroke_inv_and_platform_x
-                    * mass_matrix_with_slope_legs_5_stroke_inv_and_platform_y;
+                + mass_matrix_with_root_legs_1_stroke * mass_matrix_with_m_11_11
+                + T::lit(0.1) * mass_matrix_with_root_legs_1_stroke_and_platform_x
+                    * mass_matrix_with_root_legs_1_stroke_and_platform_y
+                - mass_matrix_with_root_legs_2_stroke * mass_matrix_with_m_14_14
+                + T::lit(0.1) * mass_matrix_with_root_legs_2_stroke_and_platform_x
+                    * mass_matrix_with_root_legs_2_stroke_and_platform_y
+                - mass_matrix_with_root_legs_3_stroke * mass_matrix_with_m_17_17
+                + T::lit(0.1) * mass_matrix_with_root_legs_3_stroke_and_platform_x
+                    * mass_matrix_with_root_legs_3_stroke_and_platform_y
+                - mass_matrix_with_root_legs_4_stroke * mass_matrix_with_m_20_20
+                + T::lit(0.1) * mass_matrix_with_root_legs_4_stroke_and_platform_x
+                    * mass_matrix_with_root_legs_4_stroke_and_platform_y
+                + mass_matrix_with_root_legs_5_stroke * mass_matrix_with_m_23_23
+                + T::lit(0.1) * mass_matrix_with_root_legs_5_stroke_and_platform_x
+                    * mass_matrix_with_root_legs_5_stroke_and_platform_y;
             let mass_matrix_part = minus_slope_legs_0_gimbal_first_inv
                 * minus_sin_legs_0_gimbal_first;
             let m_7_7_times_mass_matrix_part = m_7_7 * mass_matrix_part;
-            let mass_matrix_with_cos_legs_0_gimbal_first = mass_matrix_with_slope_legs_0_gimbal_first_inv
+            let mass_matrix_with_cos_legs_0_gimbal_first = mass_matrix_with_root_legs_0_gimbal_first
                 * m_7_7_times_mass_matrix_part;
             let mass_matrix_with_sin_legs_0_gimbal_second = slope_legs_0_stroke_inv
                 * cos_legs_0_gimbal_first * sin_legs_0_gimbal_second;
-            let mass_matrix_with_m_8_8_and_slope_legs_0_stroke_inv = m_8_8
+            let mass_matrix_with_m_8_8_and_root_legs_0_stroke = m_8_8
                 * mass_matrix_with_sin_legs_0_gimbal_second;
             let mass_matrix_with_legs_0_gimbal_first_b = minus_legs_0_gimbal_first_b
                 * slope_legs_0_stroke_inv;
             let mass_matrix_part_v2 = minus_slope_legs_1_gimbal_first_inv
                 * minus_sin_legs_1_gimbal_first;
-            let mass_matrix_with_m_10_10_and_slope_legs_1_gimbal_first_inv = m_10_10
+            let mass_matrix_with_m_10_10_and_root_legs_1_gimbal_first = m_10_10
                 * mass_matrix_part_v2;
-            let mass_matrix_with_cos_legs_1_gimbal_first = mass_matrix_with_slope_legs_1_gimbal_first_inv
-                * mass_matrix_with_m_10_10_and_slope_legs_1_gimbal_first_inv;
+            let mass_matrix_with_cos_legs_1_gimbal_first = mass_matrix_with_root_legs_1_gimbal_first
+                * mass_matrix_with_m_10_10_and_root_legs_1_gimbal_first;
             let mass_matrix_with_sin_legs_1_gimbal_second = slope_legs_1_stroke_inv
                 * cos_legs_1_gimbal_first * sin_legs_1_gimbal_second;
-            let mass_matrix_with_m_11_11_and_slope_legs_1_stroke_inv = m_11_11
+            let mass_matrix_with_m_11_11_and_root_legs_1_stroke = m_11_11
                 * mass_matrix_with_sin_legs_1_gimbal_second;
-            let mass_matrix_part_v3 = minus_legs_0_gimbal_first_b
+            let mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_1_stroke = minus_legs_0_gimbal_first_b
                 * slope_legs_1_stroke_inv;
-            let mass_matrix_with_sin_legs_2_gimbal_first = minus_slope_legs_2_gimbal_first_inv
+            let mass_matrix_part_v3 = minus_slope_legs_2_gimbal_first_inv
                 * sin_legs_2_gimbal_first;
-            let mass_matrix_with_m_13_13_and_slope_legs_2_gimbal_first_inv = m_13_13
-                * mass_matrix_with_sin_legs_2_gimbal_first;
-            let mass_matrix_with_cos_legs_2_gimbal_first = mass_matrix_with_slope_legs_2_gimbal_first_inv
-                * mass_matrix_with_m_13_13_and_slope_legs_2_gimbal_first_inv;
+            let mass_matrix_with_m_13_13_and_root_legs_2_gimbal_first = m_13_13
+                * mass_matrix_part_v3;
+            let mass_matrix_with_cos_legs_2_gimbal_first = mass_matrix_with_root_legs_2_gimbal_first
+                * mass_matrix_with_m_13_13_and_root_legs_2_gimbal_first;
             let mass_matrix_with_sin_legs_2_gimbal_second = slope_legs_2_stroke_inv
                 * cos_legs_2_gimbal_first * sin_legs_2_gimbal_second;
-            let mass_matrix_with_m_14_14_and_slope_legs_2_stroke_inv = m_14_14
+            let mass_matrix_with_m_14_14_and_root_legs_2_stroke = m_14_14
                 * mass_matrix_with_sin_legs_2_gimbal_second;
-            let mass_matrix_part_v4 = minus_legs_0_gimbal_first_b
+            let mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_2_stroke = minus_legs_0_gimbal_first_b
                 * slope_legs_2_stroke_inv;
-            let mass_matrix_with_sin_legs_3_gimbal_first = minus_slope_legs_3_gimbal_first_inv
+            let mass_matrix_part_v4 = minus_slope_legs_3_gimbal_first_inv
                 * sin_legs_3_gimbal_first;
-            let mass_matrix_with_m_16_16_and_slope_legs_3_gimbal_first_inv = m_16_16
-                * mass_matrix_with_sin_legs_3_gimbal_first;
-            let mass_matrix_with_cos_legs_3_gimbal_first = mass_matrix_with_slope_legs_3_gimbal_first_inv
-                * mass_matrix_with_m_16_16_and_slope_legs_3_gimbal_first_inv;
+            let mass_matrix_with_m_16_16_and_root_legs_3_gimbal_first = m_16_16
+                * mass_matrix_part_v4;
+            let mass_matrix_with_cos_legs_3_gimbal_first = mass_matrix_with_root_legs_3_gimbal_first
+                * mass_matrix_with_m_16_16_and_root_legs_3_gimbal_first;
             let mass_matrix_with_sin_legs_3_gimbal_second = slope_legs_3_stroke_inv
                 * cos_legs_3_gimbal_first * sin_legs_3_gimbal_second;
-            let mass_matrix_with_m_17_17_and_slope_legs_3_stroke_inv = m_17_17
+            let mass_matrix_with_m_17_17_and_root_legs_3_stroke = m_17_17
                 * mass_matrix_with_sin_legs_3_gimbal_second;
-            let mass_matrix_part_v5 = minus_legs_0_gimbal_first_b
+            let mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_3_stroke = minus_legs_0_gimbal_first_b
                 * slope_legs_3_stroke_inv;
-            let mass_matrix_with_sin_legs_4_gimbal_first = minus_slope_legs_4_gimbal_first_inv
+            let mass_matrix_part_v5 = minus_slope_legs_4_gimbal_first_inv
                 * minus_sin_legs_4_gimbal_first;
-            let mass_matrix_with_m_19_19_and_slope_legs_4_gimbal_first_inv = m_19_19
-                * mass_matrix_with_sin_legs_4_gimbal_first;
-            let mass_matrix_with_cos_legs_4_gimbal_first = mass_matrix_with_slope_legs_4_gimbal_first_inv
-                * mass_matrix_with_m_19_19_and_slope_legs_4_gimbal_first_inv;
+            let mass_matrix_with_m_19_19_and_root_legs_4_gimbal_first = m_19_19
+                * mass_matrix_part_v5;
+            let mass_matrix_with_cos_legs_4_gimbal_first = mass_matrix_with_root_legs_4_gimbal_first
+                * mass_matrix_with_m_19_19_and_root_legs_4_gimbal_first;
             let mass_matrix_with_sin_legs_4_gimbal_second = slope_legs_4_stroke_inv
                 * cos_legs_4_gimbal_first * minus_sin_legs_4_gimbal_second;
-            let mass_matrix_with_m_20_20_and_slope_legs_4_stroke_inv = m_20_20
+            let mass_matrix_with_m_20_20_and_root_legs_4_stroke = m_20_20
                 * mass_matrix_with_sin_legs_4_gimbal_second;
-            let mass_matrix_part_v6 = minus_legs_0_gimbal_first_b
+            let mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_4_stroke = minus_legs_0_gimbal_first_b
                 * slope_legs_4_stroke_inv;
-            let mass_matrix_part_v7 = minus_slope_legs_5_gimbal_first_inv
+            let mass_matrix_part_v6 = minus_slope_legs_5_gimbal_first_inv
                 * sin_legs_5_gimbal_first;
-            let mass_matrix_with_m_22_22_and_slope_legs_5_gimbal_first_inv = m_22_22
-                * mass_matrix_part_v7;
-            let mass_matrix_with_cos_legs_5_gimbal_first = mass_matrix_with_slope_legs_5_gimbal_first_inv
-                * mass_matrix_with_m_22_22_and_slope_legs_5_gimbal_first_inv;
+            let mass_matrix_with_m_22_22_and_root_legs_5_gimbal_first = m_22_22
+                * mass_matrix_part_v6;
+            let mass_matrix_with_cos_legs_5_gimbal_first = mass_matrix_with_root_legs_5_gimbal_first
+                * mass_matrix_with_m_22_22_and_root_legs_5_gimbal_first;
             let mass_matrix_with_sin_legs_5_gimbal_second = slope_legs_5_stroke_inv
                 * cos_legs_5_gimbal_first * minus_sin_legs_5_gimbal_second;
-            let mass_matrix_with_m_23_23_and_slope_legs_5_stroke_inv = m_23_23
+            let mass_matrix_with_m_23_23_and_root_legs_5_stroke = m_23_23
                 * mass_matrix_with_sin_legs_5_gimbal_second;
-            let mass_matrix_part_v8 = minus_legs_0_gimbal_first_b
+            let mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_5_stroke = minus_legs_0_gimbal_first_b
                 * slope_legs_5_stroke_inv;
             let minus_mass_matrix_2 = T::lit(0.6816387600233341)
                 * mass_matrix_with_cos_legs_0_gimbal_first
-                - mass_matrix_with_slope_legs_0_stroke_inv
-                    * mass_matrix_with_m_8_8_and_slope_legs_0_stroke_inv
+                - mass_matrix_with_root_legs_0_stroke
+                    * mass_matrix_with_m_8_8_and_root_legs_0_stroke
                 - T::lit(0.1) * mass_matrix_with_platform_x
                     * mass_matrix_with_legs_0_gimbal_first_b
                 + T::lit(0.5226872289306592) * mass_matrix_with_cos_legs_1_gimbal_first
-                - mass_matrix_with_slope_legs_1_stroke_inv
-                    * mass_matrix_with_m_11_11_and_slope_legs_1_stroke_inv
-                - T::lit(0.1) * mass_matrix_with_slope_legs_1_stroke_inv_and_platform_x
-                    * mass_matrix_part_v3
+                - mass_matrix_with_root_legs_1_stroke
+                    * mass_matrix_with_m_11_11_and_root_legs_1_stroke
+                - T::lit(0.1) * mass_matrix_with_root_legs_1_stroke_and_platform_x
+                    * mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_1_stroke
                 + T::lit(0.5226872289306592) * mass_matrix_with_cos_legs_2_gimbal_first
-                - mass_matrix_with_slope_legs_2_stroke_inv
-                    * mass_matrix_with_m_14_14_and_slope_legs_2_stroke_inv
-                - T::lit(0.1) * mass_matrix_with_slope_legs_2_stroke_inv_and_platform_x
-                    * mass_matrix_part_v4
+                - mass_matrix_with_root_legs_2_stroke
+                    * mass_matrix_with_m_14_14_and_root_legs_2_stroke
+                - T::lit(0.1) * mass_matrix_with_root_legs_2_stroke_and_platform_x
+                    * mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_2_stroke
                 + T::lit(0.6816387600233341) * mass_matrix_with_cos_legs_3_gimbal_first
-                - mass_matrix_with_slope_legs_3_stroke_inv
-                    * mass_matrix_with_m_17_17_and_slope_legs_3_stroke_inv
-                - T::lit(0.1) * mass_matrix_with_slope_legs_3_stroke_inv_and_platform_x
-                    * mass_matrix_part_v5
+                - mass_matrix_with_root_legs_3_stroke
+                    * mass_matrix_with_m_17_17_and_root_legs_3_stroke
+                - T::lit(0.1) * mass_matrix_with_root_legs_3_stroke_and_platform_x
+                    * mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_3_stroke
                 + T::lit(0.2874780123425445) * mass_matrix_with_cos_legs_4_gimbal_first
-                - mass_matrix_with_slope_legs_4_stroke_inv
-                    * mass_matrix_with_m_20_20_and_slope_legs_4_stroke_inv
-                - T::lit(0.1) * mass_matrix_with_slope_legs_4_stroke_inv_and_platform_x
-                    * mass_matrix_part_v6
+                - mass_matrix_with_root_legs_4_stroke
+                    * mass_matrix_with_m_20_20_and_root_legs_4_stroke
+                - T::lit(0.1) * mass_matrix_with_root_legs_4_stroke_and_platform_x
+                    * mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_4_stroke
                 + T::lit(0.2874780123425445) * mass_matrix_with_cos_legs_5_gimbal_first
-                - mass_matrix_with_slope_legs_5_stroke_inv
-                    * mass_matrix_with_m_23_23_and_slope_legs_5_stroke_inv
-                - T::lit(0.1) * mass_matrix_with_slope_legs_5_stroke_inv_and_platform_x
-                    * mass_matrix_part_v8;
+                - mass_matrix_with_root_legs_5_stroke
+                    * mass_matrix_with_m_23_23_and_root_legs_5_stroke
+                - T::lit(0.1) * mass_matrix_with_root_legs_5_stroke_and_platform_x
+                    * mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_5_stroke;
             let mass_matrix_4 = T::lit(1.5)
                 + T::lit(0.5353686008338514) * mass_matrix_with_m_7_7
                 + T::lit(0.7267980607127887) * mass_matrix_with_m_10_10
@@ -2101,20 +2099,20 @@ pub mod level {
                 + mass_matrix_with_cos_legs_0_gimbal_second * mass_matrix_with_m_8_8
                 + T::lit(0.1) * mass_matrix_with_platform_y * mass_matrix_with_platform_y
                 + mass_matrix_with_cos_legs_1_gimbal_second * mass_matrix_with_m_11_11
-                + T::lit(0.1) * mass_matrix_with_slope_legs_1_stroke_inv_and_platform_y
-                    * mass_matrix_with_slope_legs_1_stroke_inv_and_platform_y
+                + T::lit(0.1) * mass_matrix_with_root_legs_1_stroke_and_platform_y
+                    * mass_matrix_with_root_legs_1_stroke_and_platform_y
                 + mass_matrix_with_cos_legs_2_gimbal_second * mass_matrix_with_m_14_14
-                + T::lit(0.1) * mass_matrix_with_slope_legs_2_stroke_inv_and_platform_y
-                    * mass_matrix_with_slope_legs_2_stroke_inv_and_platform_y
+                + T::lit(0.1) * mass_matrix_with_root_legs_2_stroke_and_platform_y
+                    * mass_matrix_with_root_legs_2_stroke_and_platform_y
                 + mass_matrix_with_cos_legs_3_gimbal_second * mass_matrix_with_m_17_17
-                + T::lit(0.1) * mass_matrix_with_slope_legs_3_stroke_inv_and_platform_y
-                    * mass_matrix_with_slope_legs_3_stroke_inv_and_platform_y
+                + T::lit(0.1) * mass_matrix_with_root_legs_3_stroke_and_platform_y
+                    * mass_matrix_with_root_legs_3_stroke_and_platform_y
                 + mass_matrix_with_cos_legs_4_gimbal_second * mass_matrix_with_m_20_20
-                + T::lit(0.1) * mass_matrix_with_slope_legs_4_stroke_inv_and_platform_y
-                    * mass_matrix_with_slope_legs_4_stroke_inv_and_platform_y
+                + T::lit(0.1) * mass_matrix_with_root_legs_4_stroke_and_platform_y
+                    * mass_matrix_with_root_legs_4_stroke_and_platform_y
                 + mass_matrix_with_cos_legs_5_gimbal_second * mass_matrix_with_m_23_23
-                + T::lit(0.1) * mass_matrix_with_slope_legs_5_stroke_inv_and_platform_y
-                    * mass_matrix_with_slope_legs_5_stroke_inv_and_platform_y;
+                + T::lit(0.1) * mass_matrix_with_root_legs_5_stroke_and_platform_y
+                    * mass_matrix_with_root_legs_5_stroke_and_platform_y;
             let minus_mass_matrix_5 = T::lit(0.7316888688738209)
                 * mass_matrix_with_cos_legs_0_gimbal_first
                 + T::lit(0.8525245220595058) * mass_matrix_with_cos_legs_1_gimbal_first
@@ -2123,60 +2121,70 @@ pub mod level {
                 - T::lit(0.9577872375530903) * mass_matrix_with_cos_legs_4_gimbal_first
                 + T::lit(0.9577872375530903) * mass_matrix_with_cos_legs_5_gimbal_first
                 - mass_matrix_with_cos_legs_0_gimbal_second
-                    * mass_matrix_with_m_8_8_and_slope_legs_0_stroke_inv
+                    * mass_matrix_with_m_8_8_and_root_legs_0_stroke
                 - T::lit(0.1) * mass_matrix_with_platform_y
                     * mass_matrix_with_legs_0_gimbal_first_b
                 - mass_matrix_with_cos_legs_1_gimbal_second
-                    * mass_matrix_with_m_11_11_and_slope_legs_1_stroke_inv
-                - T::lit(0.1) * mass_matrix_with_slope_legs_1_stroke_inv_and_platform_y
-                    * mass_matrix_part_v3
+                    * mass_matrix_with_m_11_11_and_root_legs_1_stroke
+                - T::lit(0.1) * mass_matrix_with_root_legs_1_stroke_and_platform_y
+                    * mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_1_stroke
                 + mass_matrix_with_cos_legs_2_gimbal_second
-                    * mass_matrix_with_m_14_14_and_slope_legs_2_stroke_inv
-                - T::lit(0.1) * mass_matrix_with_slope_legs_2_stroke_inv_and_platform_y
-                    * mass_matrix_part_v4
+                    * mass_matrix_with_m_14_14_and_root_legs_2_stroke
+                - T::lit(0.1) * mass_matrix_with_root_legs_2_stroke_and_platform_y
+                    * mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_2_stroke
                 + mass_matrix_with_cos_legs_3_gimbal_second
-                    * mass_matrix_with_m_17_17_and_slope_legs_3_stroke_inv
-                - T::lit(0.1) * mass_matrix_with_slope_legs_3_stroke_inv_and_platform_y
-                    * mass_matrix_part_v5
+                    * mass_matrix_with_m_17_17_and_root_legs_3_stroke
+                - T::lit(0.1) * mass_matrix_with_root_legs_3_stroke_and_platform_y
+                    * mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_3_stroke
                 + mass_matrix_with_cos_legs_4_gimbal_second
-                    * mass_matrix_with_m_20_20_and_slope_legs_4_stroke_inv
-                - T::lit(0.1) * mass_matrix_with_slope_legs_4_stroke_inv_and_platform_y
-                    * mass_matrix_part_v6
+                    * mass_matrix_with_m_20_20_and_root_legs_4_stroke
+                - T::lit(0.1) * mass_matrix_with_root_legs_4_stroke_and_platform_y
+                    * mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_4_stroke
                 - mass_matrix_with_cos_legs_5_gimbal_second
-                    * mass_matrix_with_m_23_23_and_slope_legs_5_stroke_inv
-                - T::lit(0.1) * mass_matrix_with_slope_legs_5_stroke_inv_and_platform_y
-                    * mass_matrix_part_v8;
+                    * mass_matrix_with_m_23_23_and_root_legs_5_stroke
+                - T::lit(0.1) * mass_matrix_with_root_legs_5_stroke_and_platform_y
+                    * mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_5_stroke;
             let mass_matrix_8 = T::lit(1.5)
                 + mass_matrix_part * m_7_7_times_mass_matrix_part
                 + mass_matrix_with_sin_legs_0_gimbal_second
-                    * mass_matrix_with_m_8_8_and_slope_legs_0_stroke_inv
+                    * mass_matrix_with_m_8_8_and_root_legs_0_stroke
                 + T::lit(0.1) * mass_matrix_with_legs_0_gimbal_first_b
                     * mass_matrix_with_legs_0_gimbal_first_b
                 + mass_matrix_part_v2
-                    * mass_matrix_with_m_10_10_and_slope_legs_1_gimbal_first_inv
+                    * mass_matrix_with_m_10_10_and_root_legs_1_gimbal_first
                 + mass_matrix_with_sin_legs_1_gimbal_second
-                    * mass_matrix_with_m_11_11_and_slope_legs_1_stroke_inv
-                + T::lit(0.1) * mass_matrix_part_v3 * mass_matrix_part_v3
-                + mass_matrix_with_sin_legs_2_gimbal_first
-                    * mass_matrix_with_m_13_13_and_slope_legs_2_gimbal_first_inv
+                    * mass_matrix_with_m_11_11_and_root_legs_1_stroke
+                + T::lit(0.1)
+                    * mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_1_stroke
+                    * mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_1_stroke
+                + mass_matrix_part_v3
+                    * mass_matrix_with_m_13_13_and_root_legs_2_gimbal_first
                 + mass_matrix_with_sin_legs_2_gimbal_second
-                    * mass_matrix_with_m_14_14_and_slope_legs_2_stroke_inv
-                + T::lit(0.1) * mass_matrix_part_v4 * mass_matrix_part_v4
-                + mass_matrix_with_sin_legs_3_gimbal_first
-                    * mass_matrix_with_m_16_16_and_slope_legs_3_gimbal_first_inv
+                    * mass_matrix_with_m_14_14_and_root_legs_2_stroke
+                + T::lit(0.1)
+                    * mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_2_stroke
+                    * mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_2_stroke
+                + mass_matrix_part_v4
+                    * mass_matrix_with_m_16_16_and_root_legs_3_gimbal_first
                 + mass_matrix_with_sin_legs_3_gimbal_second
-                    * mass_matrix_with_m_17_17_and_slope_legs_3_stroke_inv
-                + T::lit(0.1) * mass_matrix_part_v5 * mass_matrix_part_v5
-                + mass_matrix_with_sin_legs_4_gimbal_first
-                    * mass_matrix_with_m_19_19_and_slope_legs_4_gimbal_first_inv
+                    * mass_matrix_with_m_17_17_and_root_legs_3_stroke
+                + T::lit(0.1)
+                    * mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_3_stroke
+                    * mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_3_stroke
+                + mass_matrix_part_v5
+                    * mass_matrix_with_m_19_19_and_root_legs_4_gimbal_first
                 + mass_matrix_with_sin_legs_4_gimbal_second
-                    * mass_matrix_with_m_20_20_and_slope_legs_4_stroke_inv
-                + T::lit(0.1) * mass_matrix_part_v6 * mass_matrix_part_v6
-                + mass_matrix_part_v7
-                    * mass_matrix_with_m_22_22_and_slope_legs_5_gimbal_first_inv
+                    * mass_matrix_with_m_20_20_and_root_legs_4_stroke
+                + T::lit(0.1)
+                    * mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_4_stroke
+                    * mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_4_stroke
+                + mass_matrix_part_v6
+                    * mass_matrix_with_m_22_22_and_root_legs_5_gimbal_first
                 + mass_matrix_with_sin_legs_5_gimbal_second
-                    * mass_matrix_with_m_23_23_and_slope_legs_5_stroke_inv
-                + T::lit(0.1) * mass_matrix_part_v8 * mass_matrix_part_v8;
+                    * mass_matrix_with_m_23_23_and_root_legs_5_stroke
+                + T::lit(0.1)
+                    * mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_5_stroke
+                    * mass_matrix_with_legs_0_gimbal_first_b_and_root_legs_5_stroke;
             let matrix: ::multibody::nalgebra::SMatrix<T, 3, 3> = ::multibody::nalgebra::SMatrix::from([
                 [mass_matrix_0, mass_matrix_1, -minus_mass_matrix_2],
                 [mass_matrix_1, mass_matrix_4, -minus_mass_matrix_5],

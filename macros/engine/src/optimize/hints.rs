@@ -7,7 +7,9 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::dag::Dag;
+use crate::symbolic::graph::BlockKind;
+
+use super::dag::{Dag, Id, Kind};
 
 /// Names that values serve; nothing for those which no named value needs.
 pub(super) fn hints(dag: &Dag) -> Vec<Option<String>> {
@@ -18,12 +20,18 @@ pub(super) fn hints(dag: &Dag) -> Vec<Option<String>> {
         if let Some(name) = node.name.as_ref().map(|name| &name.text).or(node.part_of.as_ref()) {
             hints[id] = Some(words.number(name.clone()));
         }
-        let Some(hint) = hints[id] else { continue };
+        // What goes into a linear system is no part of its rank.
+        let Some(hint) = hints[id].filter(|_| !is_rank(dag, id)) else { continue };
         for operand in dag.operands(&dag.nodes[id].kind) {
             hints[operand] = Some(hints[operand].map_or(hint, |known| words.common(known, hint)));
         }
     }
     hints.into_iter().map(|hint| hint.map(|number| words.texts[number].clone())).collect()
+}
+
+fn is_rank(dag: &Dag, id: Id) -> bool {
+    let Kind::Output { block, index } = dag.nodes[id].kind else { return false };
+    matches!(dag.blocks[block].kind, BlockKind::Solve { size, .. } if index == size)
 }
 
 /// Headings of values: their own, or that of the first value which they go into.

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 use crate::rust_keywords::is_keyword;
 
-/// Names given so far.
+/// Names given so far. That of a value and that of its negative are one: `minus_x` is minus `x`, and no other value.
 #[derive(Default)]
 pub struct Names {
     used: HashMap<String, u32>,
@@ -20,7 +20,7 @@ impl Names {
     /// Whether a hint is given back as it is.
     pub fn is_free(&self, hint: &str) -> bool {
         let base = identifier(hint);
-        !self.used.contains_key(&base) && !RESERVED.contains(&base.as_str()) && !is_keyword(&base)
+        !self.used.contains_key(unsigned(&base)) && !RESERVED.contains(&base.as_str()) && !is_keyword(&base)
     }
 
     /// The hint itself if it is free, else with a number.
@@ -28,7 +28,7 @@ impl Names {
         let base = identifier(hint);
         let reserved = RESERVED.contains(&base.as_str()) || is_keyword(&base);
         loop {
-            let count = self.used.entry(base.clone()).or_insert(0);
+            let count = self.used.entry(unsigned(&base).to_owned()).or_insert(0);
             *count += 1;
             let number = *count;
             if number == 1 {
@@ -39,12 +39,16 @@ impl Names {
             }
             // A hint may look like a numbered name.
             let name = format!("{base}_v{number}");
-            if !self.used.contains_key(&name) {
-                self.used.insert(name.clone(), 1);
+            if !self.used.contains_key(unsigned(&name)) {
+                self.used.insert(unsigned(&name).to_owned(), 1);
                 return name;
             }
         }
     }
+}
+
+fn unsigned(name: &str) -> &str {
+    name.strip_prefix("minus_").unwrap_or(name)
 }
 
 /// Lower case, digits and underscores; starts with a letter or an underscore.
@@ -73,5 +77,16 @@ mod tests {
         let given: std::collections::HashSet<String> = hints.iter().map(|hint| names.unique(hint)).collect();
         assert_eq!(given.len(), hints.len());
         assert!(given.iter().all(|name| !is_keyword(name) && !RESERVED.contains(&name.as_str())));
+    }
+
+    #[test]
+    fn what_is_minus_a_name_is_no_other_value() {
+        let mut names = Names::default();
+        assert_eq!(names.unique("side"), "side");
+        assert!(!names.is_free("minus_side"));
+        assert_eq!(
+            ["minus_side", "side", "minus_side"].map(|hint| names.unique(hint)),
+            ["minus_side_v2", "side_v3", "minus_side_v4"]
+        );
     }
 }

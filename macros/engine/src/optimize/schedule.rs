@@ -20,7 +20,7 @@ use super::hints::{headings, hints};
 use super::names::Names;
 use super::program::{Expression, FieldId, Local, Program, Statement};
 use super::stage::Stage;
-use super::wording::Wording;
+use super::wording::{Wording, behind};
 
 /// Operands that one expression may hold before a part of it becomes a statement.
 const READABLE: usize = 10;
@@ -284,11 +284,22 @@ impl<'a> Scheduler<'a> {
     fn local_of(&mut self, id: Id, expression: &Expression) -> Local {
         let dag = self.dag;
         let named = |id: Id| dag.nodes[id].name.as_ref().map(|name| name.of_sign(self.flipped[id]));
+        // The name of what is written, or of what stands within an expression, unless another value has that name.
+        let of = |id: Id, is_minus: bool| match &self.written[id] {
+            Some((Expression::Local(local), _)) => {
+                dag.nodes[id].name.as_ref().map(|_| self.program.locals[local.0].clone())
+            }
+            _ => {
+                let name = dag.nodes[id].name.as_ref()?.of_sign(is_minus);
+                self.names.is_free(&name).then_some(name)
+            }
+        };
         let by_form = || match &dag.nodes[id].kind {
-            Kind::Reciprocal(x) => named(*x).map(|name| format!("{name}_inv")),
-            Kind::Sqrt(x) => named(*x).map(|name| format!("{name}_root")),
+            Kind::Reciprocal(x) => behind(&of(*x, self.flipped[*x])?, "inv"),
+            // A root reads its operand with its sign.
+            Kind::Sqrt(x) if !self.flipped[*x] => behind(&of(*x, false)?, "root"),
             Kind::Product(factors) => match factors[..] {
-                [a, b] if a == b => named(a).map(|name| format!("{name}_squared")),
+                [a, b] if a == b => behind(&of(a, self.flipped[a])?, "squared"),
                 _ => None,
             },
             _ => None,
@@ -321,7 +332,10 @@ impl<'a> Scheduler<'a> {
         let (expression, _) = self.signed(angle);
         let name = match self.dag.nodes[angle].kind {
             Kind::Symbol(id) => self.dag.symbol_name(id),
-            _ => self.hints[angle].clone().unwrap_or_else(|| "angle".to_owned()),
+            _ => {
+                let own = self.dag.nodes[angle].name.as_ref().map(|name| name.of_sign(false));
+                self.wording.of_angle(own, &expression).unwrap_or_else(|| "angle".to_owned())
+            }
         };
         let (sin, cos) = (self.sines.contains(&angle), self.cosines.contains(&angle));
         let prefix = |used: bool, f: &str| format!("{}{f}_{name}", if used { "" } else { "_" });

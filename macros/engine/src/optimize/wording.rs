@@ -21,6 +21,38 @@ const WIDEST: usize = 64;
 /// As many simple names are remembered of what a local is made of.
 const ORIGINS: usize = 12;
 
+/// How tightly the words of a name bind, loosest first: nothing stands around the parts of a name.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Level {
+    Or,
+    And,
+    Compare,
+    Sum,
+    Product,
+    Power,
+    Atom,
+}
+
+/// Words between operands, with what binds as they do.
+const BETWEEN: [(&str, Level); 12] = [
+    ("of", Level::Or),
+    ("or", Level::Or),
+    ("and", Level::And),
+    ("below", Level::Compare),
+    ("most", Level::Compare),
+    ("is", Level::Compare),
+    ("least", Level::Compare),
+    ("to", Level::Compare),
+    ("plus", Level::Sum),
+    ("minus", Level::Sum),
+    ("times", Level::Product),
+    ("over", Level::Product),
+];
+/// Words before what they change.
+const BEFORE: [&str; 7] = ["minus", "twice", "half", "not", "angle", "sin", "cos"];
+/// Words behind it.
+const BEHIND: [&str; 4] = ["squared", "cubed", "inv", "root"];
+
 /// Names of what expressions read.
 pub(super) struct Wording<'a> {
     symbols: HashMap<Symbol, String>,
@@ -71,7 +103,8 @@ impl<'a> Wording<'a> {
 
     fn take(&mut self, names: &mut Names, wanted: String, is_simple: bool, mut origins: Vec<String>) -> String {
         let name = names.unique(&wanted);
-        if is_simple && name == wanted {
+        // An operation is told by what it is of.
+        if is_simple && name == wanted && level(name.trim_start_matches("minus_")) == Level::Atom {
             origins = vec![name.clone()];
         }
         self.locals.push(Read { name: name.clone(), is_simple, origins });
@@ -101,7 +134,9 @@ impl<'a> Wording<'a> {
         let mut unique: Vec<String> = Vec::new();
         for origin in origins.into_iter().chain(far).chain(fields) {
             let origin = origin.strip_prefix("minus_").map_or(origin.clone(), str::to_owned);
-            if unique.len() < ORIGINS && !unique.contains(&origin) {
+            // Behind `with` an operation would be read as one on all that stands before.
+            let is_atom = level(&origin) == Level::Atom;
+            if is_atom && unique.len() < ORIGINS && !unique.contains(&origin) {
                 unique.push(origin);
             }
         }
@@ -119,103 +154,147 @@ impl<'a> Wording<'a> {
         (!is_numbered(name)).then(|| name.clone())
     }
 
+    /// What an angle is called behind `sin` and `cos`: nothing where it has no name and its words are many.
+    pub(super) fn of_angle(&self, name: Option<String>, angle: &Expression) -> Option<String> {
+        let words = name.or_else(|| self.operation(angle).filter(|text| text.len() <= LONGEST))?;
+        Some(if level(&words) == Level::Atom { words } else { format!("of_{words}") })
+    }
+
     /// What a value of parameters is, in words, if they are few.
     pub(super) fn of_node(&self, dag: &Dag, id: Id) -> Option<String> {
         self.operation(&written(dag, id, 3)?).filter(|text| text.len() <= LONGEST)
     }
 
-    /// What an expression does, in words; nothing where they would be many.
+    /// What an expression does, in words; nothing where they would be many, or would say something else.
     fn operation(&self, expression: &Expression) -> Option<String> {
         match expression {
-            Expression::Literal(value) => Some(digits(*value)),
+            Expression::Literal(value) => (*value >= 0.0).then(|| digits(*value)),
             Expression::Symbol(_) | Expression::Field(_) | Expression::Local(_) => self.leaf(expression),
-            Expression::Neg(inner) => Some(format!("minus_{}", self.operation(inner)?)),
-            Expression::Sum(terms) => {
-                let mut text: Option<String> = None;
-                // A name begins with no digit.
-                let is_literal = |term: &&(bool, Expression)| matches!(term.1, Expression::Literal(_));
-                let (literals, rest): (Vec<_>, Vec<_>) = terms.iter().partition(is_literal);
-                for (minus, term) in rest.into_iter().chain(literals) {
-                    let term = self.operation(term)?;
-                    text = Some(match (text, minus) {
-                        (None, false) => term,
-                        (None, true) => format!("minus_{term}"),
-                        (Some(before), false) => joined(&before, "plus", &term),
-                        (Some(before), true) => joined(&before, "minus", &term),
-                    });
-                    if text.as_ref().is_some_and(|text| text.len() > LONGEST) {
-                        return None;
-                    }
-                }
-                text
-            }
+            Expression::Neg(inner) => Some(format!("minus_{}", self.operand(inner, Level::Product)?)),
+            Expression::Sum(terms) => self.sum(terms),
             Expression::Product(factors) => self.product(factors),
             Expression::Quotient(above, below) => {
-                let below = self.factor(below)?;
+                let below = self.operand(below, Level::Power)?;
                 match **above {
                     Expression::Literal(1.0) => Some(format!("{below}_inv")),
-                    Expression::Literal(value) => Some(format!("{below}_inv_times_{}", digits(value))),
-                    _ => Some(joined(&self.factor(above)?, "over", &below)),
+                    Expression::Literal(_) => Some(format!("{below}_inv_times_{}", self.operation(above)?)),
+                    _ => Some(joined(&self.operand(above, Level::Product)?, "over", &below)),
                 }
             }
             Expression::Call(call, arguments) => self.call(*call, arguments),
         }
     }
 
-    /// An operand of a product: words for a sum within it would belong to no one.
-    fn factor(&self, expression: &Expression) -> Option<String> {
-        if matches!(expression, Expression::Sum(_)) { None } else { self.operation(expression) }
+    /// The words of an operand, where they bind as tightly as they must.
+    fn operand(&self, expression: &Expression, least: Level) -> Option<String> {
+        self.operation(expression).filter(|words| level(words) >= least)
+    }
+
+    fn sum(&self, terms: &[(bool, Expression)]) -> Option<String> {
+        let mut text: Option<String> = None;
+        // A name begins with no digit.
+        let is_literal = |term: &&(bool, Expression)| matches!(term.1, Expression::Literal(_));
+        let (literals, rest): (Vec<_>, Vec<_>) = terms.iter().partition(is_literal);
+        for (minus, term) in rest.into_iter().chain(literals) {
+            let term = self.operand(term, if *minus { Level::Product } else { Level::Sum })?;
+            text = Some(match (text, minus) {
+                (None, false) => term,
+                (None, true) => format!("minus_{term}"),
+                (Some(before), false) => joined(&before, "plus", &term),
+                (Some(before), true) => joined(&before, "minus", &term),
+            });
+            if text.as_ref().is_some_and(|text| text.len() > LONGEST) {
+                return None;
+            }
+        }
+        text
     }
 
     fn product(&self, factors: &[Expression]) -> Option<String> {
-        let mut before = "";
-        let mut behind = String::new();
+        let mut literal: Option<f64> = None;
         let mut powers: Vec<(String, usize)> = Vec::new();
         for factor in factors {
-            match factor {
-                Expression::Literal(2.0) => before = "twice_",
-                Expression::Literal(0.5) => before = "half_",
-                Expression::Literal(value) => behind = format!("_times_{}", digits(*value)),
-                _ => {
-                    let name = self.factor(factor)?;
-                    match powers.iter_mut().find(|known| known.0 == name) {
-                        Some(known) => known.1 += 1,
-                        None => powers.push((name, 1)),
-                    }
-                }
+            if let (Expression::Literal(value), None) = (factor, literal) {
+                literal = Some(*value);
+                continue;
+            }
+            let name = self.operand(factor, Level::Product)?;
+            match powers.iter_mut().find(|known| known.0 == name) {
+                Some(known) => known.1 += 1,
+                None => powers.push((name, 1)),
             }
         }
         let mut text: Option<String> = None;
         for (name, power) in powers {
             let name = match power {
                 1 => name,
-                2 => format!("{name}_squared"),
-                3 => format!("{name}_cubed"),
-                power => format!("{name}_to_the_{power}"),
+                2 => behind(&name, "squared")?,
+                3 => behind(&name, "cubed")?,
+                power => behind(&name, &format!("to_the_{power}"))?,
             };
             text = Some(text.map_or(name.clone(), |before| joined(&before, "times", &name)));
         }
-        text.map(|text| format!("{before}{text}{behind}"))
+        let text = text?;
+        match literal {
+            None => Some(text),
+            Some(2.0) => Some(format!("twice_{text}")),
+            Some(0.5) => Some(format!("half_{text}")),
+            Some(value) => (value >= 0.0).then(|| format!("{text}_times_{}", digits(value))),
+        }
     }
 
     fn call(&self, call: Call, arguments: &[Expression]) -> Option<String> {
-        let mut names = arguments.iter().map(|argument| self.operation(argument));
-        let (first, second) = (names.next()??, names.next());
-        Some(match (call, second) {
-            (Call::Less, Some(b)) => joined(&first, "below", &b?),
-            (Call::LessEqual, Some(b)) => joined(&first, "at_most", &b?),
-            (Call::Equal, Some(b)) => joined(&first, "is", &b?),
-            (Call::And, Some(b)) => joined(&first, "and", &b?),
-            (Call::Or, Some(b)) => joined(&first, "or", &b?),
-            (Call::Max, Some(b)) => joined(&first, "at_least", &b?),
-            (Call::Min, Some(b)) => joined(&first, "up_to", &b?),
-            (Call::Atan2, Some(b)) => format!("angle_of_{}", joined(&first, "and", &b?)),
-            (_, Some(_)) => return None,
-            (Call::Not, None) => format!("not_{first}"),
-            (Call::Sqrt, None) => format!("{first}_root"),
-            (call, None) => format!("{}_{first}", format!("{call:?}").to_lowercase()),
-        })
+        let two = |word: &str, least: Level| {
+            let [a, b] = arguments else { return None };
+            Some(joined(&self.operand(a, least)?, word, &self.operand(b, least)?))
+        };
+        match call {
+            Call::Less => two("below", Level::Sum),
+            Call::LessEqual => two("at_most", Level::Sum),
+            Call::Equal => two("is", Level::Sum),
+            Call::And => two("and", Level::And),
+            Call::Or => two("or", Level::Or),
+            Call::Max => two("at_least", Level::Sum),
+            Call::Min => two("up_to", Level::Sum),
+            Call::Atan2 => Some(format!("angle_of_{}", two("and", Level::Product)?)),
+            _ => {
+                let [argument] = arguments else { return None };
+                match call {
+                    Call::Not => Some(format!("not_{}", self.operand(argument, Level::Compare)?)),
+                    Call::Sqrt => behind(&self.operation(argument)?, "root"),
+                    _ => {
+                        Some(format!("{}_{}", format!("{call:?}").to_lowercase(), self.operand(argument, Level::Atom)?))
+                    }
+                }
+            }
+        }
     }
+}
+
+/// A name with a word behind it that concerns the whole; nothing where it would concern the last of its parts.
+pub(super) fn behind(name: &str, word: &str) -> Option<String> {
+    // What is squared has no sign.
+    let name = if word == "squared" { name.strip_prefix("minus_").unwrap_or(name) } else { name };
+    (level(name) >= Level::Power).then(|| format!("{name}_{word}"))
+}
+
+/// How tightly a name binds, by its words; also one of a user's that has such words, which costs a shorter name at most.
+fn level(name: &str) -> Level {
+    let words: Vec<&str> = name.split('_').collect();
+    // What a value goes into and what of: a factor as any other.
+    if words.contains(&"with") && !words.contains(&"of") {
+        return Level::Product;
+    }
+    let between = |word: &&str| BETWEEN.iter().find(|one| one.0 == *word).map(|one| one.1);
+    let first = words.first().copied().unwrap_or_default();
+    let before = match first {
+        "minus" | "twice" | "half" => Level::Product,
+        "not" => Level::Compare,
+        _ => Level::Atom,
+    };
+    let inside = words.iter().skip(1).filter_map(between).min().unwrap_or(Level::Atom);
+    let last = words.last().is_some_and(|word| BEHIND.contains(word));
+    before.min(inside).min(if last { Level::Power } else { Level::Atom })
 }
 
 /// A value of symbols as an expression; nothing where it is deeper, or more than sums and products.
@@ -247,13 +326,21 @@ fn written(dag: &Dag, id: Id, depth: usize) -> Option<Expression> {
     })
 }
 
-/// `legs_0_line_x_times_y` for two that begin alike.
-fn joined(a: &str, word: &str, b: &str) -> String {
-    let common = a.split('_').zip(b.split('_')).take_while(|(x, y)| x == y).count();
-    let rest: Vec<&str> = b.split('_').skip(common).collect();
+/// `legs_0_line_x_times_y` for two that begin alike and are equally long: what stands behind takes the place of the last words
+/// of what stands before. A word that does something is never left out.
+fn joined(a: &str, between: &str, b: &str) -> String {
+    let acts = |word: &str| {
+        word == "with" || BEFORE.contains(&word) || BEHIND.contains(&word) || BETWEEN.iter().any(|one| one.0 == word)
+    };
+    let (first, second): (Vec<&str>, Vec<&str>) = (a.split('_').collect(), b.split('_').collect());
+    let common = first.iter().zip(&second).take_while(|(x, y)| x == y && !acts(x)).count();
+    let rest = &second[common..];
+    let is_parallel = first.len() == second.len();
     match rest.first() {
-        Some(first) if !first.starts_with(|c: char| c.is_ascii_digit()) => format!("{a}_{word}_{}", rest.join("_")),
-        _ => format!("{a}_{word}_{b}"),
+        Some(word) if is_parallel && !acts(word) && !word.starts_with(|c: char| c.is_ascii_digit()) => {
+            format!("{a}_{between}_{}", rest.join("_"))
+        }
+        _ => format!("{a}_{between}_{b}"),
     }
 }
 

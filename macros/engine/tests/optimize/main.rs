@@ -4,6 +4,9 @@
 #[path = "../common/arms.rs"]
 mod arms;
 mod blocks;
+#[allow(dead_code, reason = "other areas use the rest")]
+#[path = "../common/corpus.rs"]
+mod corpus;
 mod exact_literals;
 #[allow(dead_code, reason = "other areas use the rest")]
 #[path = "../common/expressions.rs"]
@@ -17,3 +20,4 @@ mod passes;
 mod rebuild;
 #[path = "../common/rng.rs"]
 mod rng;
+mod wording;
