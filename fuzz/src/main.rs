@@ -4,7 +4,7 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use multibody_fuzz::campaign::{Chains, Family, Loops, Plan, Tally, run};
-use multibody_fuzz::grammar_campaign;
+use multibody_fuzz::{grammar_campaign, jury};
 
 fn number(arguments: &[String], name: &str, default: u64) -> u64 {
     let at = arguments.iter().position(|word| word == name);
@@ -25,6 +25,9 @@ fn show(what: &str, tally: &Tally, start: Instant) -> bool {
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if arguments.first().is_some_and(|word| word == "jury") {
+        return if jury::run(&arguments[1..]) { ExitCode::SUCCESS } else { ExitCode::FAILURE };
+    }
     let plan = Plan {
         models: number(&arguments, "--models", 1000) as usize,
         seed: number(&arguments, "--seed", 1),
@@ -55,6 +58,7 @@ fn main() -> ExitCode {
         Some("loops") => Box::new(Loops),
         _ => {
             println!("chains|loops|grammar|broken|rustc [--models N] [--seed S] [--shown K] [--seconds T]");
+            println!("jury {}", jury::USAGE);
             return ExitCode::FAILURE;
         }
     };

@@ -54,6 +54,11 @@ impl Programs {
         let mut models = model::check(&source, &mut diagnostics);
         let said: Vec<String> = diagnostics.errors().iter().map(|e| e.message.clone()).collect();
         let (Some(model), []) = (models.pop(), &said[..]) else { return Err(Failure::Refused(said)) };
+        Programs::of(model)
+    }
+
+    /// Compiles a checked model.
+    pub(crate) fn of(model: Model) -> Result<Programs, Failure> {
         match compile(&model) {
             Ok((structure, compiled)) => Ok(Programs { model, structure, compiled }),
             Err(trouble) => Err(match trouble {

@@ -16,7 +16,7 @@ const USAGE: &str = "\
 cargo xtask firmware [--accept] [VARIANT...]   build, run and compare examples/firmware
 cargo xtask packages                           what would be published, and that nothing is missing
 cargo xtask minimum                            build with the oldest Rust that Cargo.toml admits
-cargo xtask mutants [--budget SECONDS] [--longest SECONDS] [--seed N] [--only MUTANT]... AREA...
+cargo xtask mutants [--jury] [--budget SECONDS] [--longest SECONDS] [--each SECONDS] [--seed N] [--among LIST] AREA...
                                                changes of operators that no test notices";
 
 /// The folder of the workspace.

@@ -25,24 +25,36 @@ pub(super) struct Source {
     text: String,
 }
 
+/// What is compiled of the copy to judge mutants.
+#[derive(Clone, Copy)]
+pub(super) enum Judges<'a> {
+    /// Test binaries of the package.
+    Tests(&'a [&'a str]),
+    /// `multibody-fuzz jury`, optimised.
+    Jury,
+}
+
 /// The mutated package and what became of its mutants.
 pub(super) struct Built {
     pub(super) sources: Vec<Source>,
     /// Mutants that rustc refuses.
     pub(super) refused: BTreeSet<u32>,
-    /// By name of the test binary, "lib" for the library's own.
+    /// By name of the test binary, "lib" for the library's own, [`JURY`] for the program that isn't one.
     pub(super) binaries: BTreeMap<String, PathBuf>,
     /// Where they run.
     pub(super) folder: PathBuf,
 }
+
+/// The jury, as a binary.
+pub(super) const JURY: &str = "jury";
 
 const SWITCH: &str = include_str!("switch.rs");
 
 /// Rounds of rustc; what it refuses is left out of the next.
 const ROUNDS: usize = 12;
 
-/// Compiles a package's test binaries with mutants in all sources below the folders.
-pub(super) fn build(package: Package, folders: &[&str], tests: &[&str]) -> Result<Built, Stop> {
+/// Compiles a package with mutants in all sources below the folders, and what judges them.
+pub(super) fn build(package: Package, folders: &[&str], judges: Judges<'_>) -> Result<Built, Stop> {
     let place = root().join("target/mutants").join(package.name);
     let copy = place.join("source");
     let files = output(command("git").args(["ls-files"]).current_dir(root()))?;
@@ -79,14 +91,22 @@ pub(super) fn build(package: Package, folders: &[&str], tests: &[&str]) -> Resul
             write(&copy.join(path), text.as_bytes())?;
         }
         let mut cargo = command("cargo");
-        cargo.args(["test", "--no-run", "--locked", "--message-format=json", "--package", package.name]);
-        for test in tests {
-            if *test == "lib" {
-                cargo.arg("--lib")
-            } else {
-                cargo.args(["--test", test])
-            };
+        match judges {
+            Judges::Tests(tests) => {
+                cargo.args(["test", "--no-run", "--package", package.name]);
+                for test in tests {
+                    if *test == "lib" {
+                        cargo.arg("--lib")
+                    } else {
+                        cargo.args(["--test", test])
+                    };
+                }
+            }
+            Judges::Jury => {
+                cargo.args(["build", "--profile", "checked", "--package", "multibody-fuzz", "--bin", "multibody-fuzz"]);
+            }
         }
+        cargo.args(["--locked", "--message-format=json"]);
         // Lints of mutated code are of no interest.
         cargo.env("RUSTFLAGS", "--cap-lints=allow").env("CARGO_TARGET_DIR", place.join("build"));
         let built = cargo.current_dir(&copy).stdin(Stdio::null()).stderr(Stdio::null()).output()?;
@@ -168,6 +188,9 @@ fn blamed(message: &Value, ranges: &BTreeMap<&str, (String, Ranges)>) -> Vec<u32
 fn binaries(messages: &[Value]) -> BTreeMap<String, PathBuf> {
     let artifact = |message: &Value| {
         let path = message["executable"].as_str()?;
+        if message["target"]["kind"][0] == "bin" {
+            return Some((JURY.to_string(), PathBuf::from(path)));
+        }
         let test = message["target"]["kind"][0] == "test";
         let name = if test { message["target"]["name"].as_str()? } else { "lib" };
         message["profile"]["test"].as_bool()?.then(|| (name.to_string(), PathBuf::from(path)))

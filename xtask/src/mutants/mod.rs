@@ -4,14 +4,18 @@
 //! a switch that an environment variable sets, so a mutant costs a run and no build. A run without a mutant measures every
 //! test and records which sites it reaches; a mutant runs against those that reach it, the fast ones first. Mutants are
 //! drawn from a seed until the budget is spent. Survivors are judged in `docs/mutants.md`.
+//!
+//! `--jury` has the engine's mutants judged by models instead, in an optimised build: what random mechanisms give against
+//! their oracle, and the models of the project against what the engine gives without a mutant (`fuzz/src/jury.rs`).
 
 mod build;
 mod runs;
 mod sites;
 
 use crate::{Stop, root};
-use build::{Built, Package};
+use build::{Built, JURY, Judges, Package};
 use runs::{Test, Verdict};
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::fs;
 use std::time::{Duration, Instant};
@@ -53,7 +57,8 @@ const AREAS: [Area; 5] = [
     Area { name: "integrators", package: RUNTIME, folder: "integrators", tests: &[("integrators", "")] },
 ];
 
-pub(crate) const USAGE: &str = "[--budget SECONDS] [--longest SECONDS] [--seed N] [--only MUTANT]... AREA...";
+pub(crate) const USAGE: &str =
+    "[--jury] [--budget SECONDS] [--longest SECONDS] [--each SECONDS] [--seed N] [--among LIST] AREA...";
 
 struct Options {
     areas: Vec<&'static Area>,
@@ -61,25 +66,39 @@ struct Options {
     budget: Duration,
     /// Tests that take longer are left out.
     longest: Duration,
+    /// Of each mutant: of the tests that reach it, the fast ones that take no longer together.
+    each: Duration,
     seed: u64,
-    /// These instead of a sample.
-    only: Vec<u32>,
+    jury: bool,
+    /// These instead of a sample, in the words of the lists that are written.
+    among: Option<BTreeSet<String>>,
 }
 
 fn options(arguments: &[String]) -> Option<Options> {
     let (budget, longest) = (Duration::from_secs(300), Duration::from_secs(60));
-    let mut options = Options { areas: Vec::new(), budget, longest, seed: 1, only: Vec::new() };
+    let each = Duration::MAX;
+    let mut options = Options { areas: Vec::new(), budget, longest, each, seed: 1, jury: false, among: None };
     let mut arguments = arguments.iter();
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--budget" => options.budget = Duration::from_secs(arguments.next()?.parse().ok()?),
             "--longest" => options.longest = Duration::from_secs(arguments.next()?.parse().ok()?),
             "--seed" => options.seed = arguments.next()?.parse().ok()?,
-            "--only" => options.only.push(arguments.next()?.parse().ok()?),
+            "--each" => options.each = Duration::from_secs(arguments.next()?.parse().ok()?),
+            "--jury" => options.jury = true,
+            "--among" => {
+                let list = fs::read_to_string(arguments.next()?).ok()?;
+                options.among = Some(list.lines().map(|line| place(line).to_string()).collect());
+            }
             name => options.areas.push(AREAS.iter().find(|area| area.name == name)?),
         }
     }
     (!options.areas.is_empty()).then_some(options)
+}
+
+/// A line of a list without what was found of it.
+fn place(line: &str) -> &str {
+    line.split(" (").next().expect("a first part")
 }
 
 pub(crate) fn run(arguments: &[String]) -> Result<bool, Stop> {
@@ -97,7 +116,12 @@ pub(crate) fn run(arguments: &[String]) -> Result<bool, Stop> {
         binaries.sort_unstable();
         binaries.dedup();
         let since = Instant::now();
-        let built = build::build(package, &folders, &binaries)?;
+        let judges = match (options.jury, package == ENGINE) {
+            (true, true) => Judges::Jury,
+            (true, false) => return Err("the jury judges the engine".into()),
+            (false, _) => Judges::Tests(&binaries),
+        };
+        let built = build::build(package, &folders, judges)?;
         eprintln!("{} compiled in {} s", package.name, since.elapsed().as_secs());
         for area in options.areas.iter().filter(|area| area.package == package) {
             try_out(area, &built, &options)?;
@@ -106,10 +130,11 @@ pub(crate) fn run(arguments: &[String]) -> Result<bool, Stop> {
     Ok(true)
 }
 
-/// Runs an area's mutants and writes `target/mutants/AREA.txt`.
+/// Runs an area's mutants and writes `target/mutants/AREA.txt`, what has survived, and `AREA-killed.txt`.
 fn try_out(area: &Area, built: &Built, options: &Options) -> Result<(), Stop> {
     let mut tests = Vec::new();
-    for (binary, filter) in area.tests {
+    let judges = if options.jury { &[(JURY, "")] } else { area.tests };
+    for (binary, filter) in judges {
         tests.extend(runs::measure(built, binary, filter)?);
     }
     let plain: f64 = tests.iter().map(|test| test.time.as_secs_f64()).sum();
@@ -121,36 +146,47 @@ fn try_out(area: &Area, built: &Built, options: &Options) -> Result<(), Stop> {
     let sites = sources.flat_map(|source| (source.first..).zip(&source.sites).map(move |(n, site)| (n, source, site)));
     let mut mutants: Vec<_> = sites.filter(|(number, ..)| !built.refused.contains(number)).collect();
     let all = mutants.len();
-    if options.only.is_empty() {
-        shuffle(&mut mutants, options.seed);
-    } else {
-        mutants.retain(|(number, ..)| options.only.contains(number));
+    if let Some(among) = &options.among {
+        mutants.retain(|(_, source, site)| among.contains(&format!("{}:{}: {}", source.path, site.line, site.change)));
     }
+    shuffle(&mut mutants, options.seed);
     let since = Instant::now();
-    let (mut killed, mut timed_out, mut survivors) = (0, 0, Vec::new());
+    let (mut killed, mut timed_out, mut survivors, mut dead) = (0, 0, Vec::new(), Vec::new());
     for (number, source, site) in mutants {
         if since.elapsed() > options.budget {
             break;
         }
         let reaching: Vec<&Test> = tests.iter().filter(|test| test.reached.contains(&number)).collect();
-        let verdict = runs::run(built, number, &reaching)?;
+        let verdict = runs::run(built, number, &reaching, options.each)?;
         match verdict {
-            Verdict::Failed(_) => killed += 1,
-            Verdict::TimedOut => timed_out += 1,
-            Verdict::Passed => {
-                let reached = if reaching.is_empty() { ", reached by no test" } else { "" };
-                let change = format!("{} (mutant {number}{reached})", site.change);
+            Verdict::Failed(by) => {
+                killed += 1;
+                dead.push((&source.path, site.line, format!("{} (by {by})", site.change)));
+            }
+            Verdict::TimedOut => {
+                timed_out += 1;
+                dead.push((&source.path, site.line, format!("{} (out of time)", site.change)));
+            }
+            Verdict::Passed | Verdict::OtherCode => {
+                let found = match verdict {
+                    Verdict::OtherCode => ", other code",
+                    _ if reaching.is_empty() => ", reached by no test",
+                    _ => "",
+                };
+                let change = format!("{} (mutant {number}{found})", site.change);
                 eprintln!("{}:{}: {change}", source.path, site.line); // at once: a run may take long
                 survivors.push((&source.path, site.line, change));
             }
         }
     }
-    survivors.sort();
-    let mut list = String::new();
-    for (path, line, change) in &survivors {
-        let _ = writeln!(list, "{path}:{line}: {change}");
+    for (mut found, suffix) in [(dead, "-killed"), (survivors.clone(), "")] {
+        found.sort();
+        let mut list = String::new();
+        for (path, line, change) in &found {
+            let _ = writeln!(list, "{path}:{line}: {change}");
+        }
+        fs::write(root().join(format!("target/mutants/{}{suffix}.txt", area.name)), &list)?;
     }
-    fs::write(root().join(format!("target/mutants/{}.txt", area.name)), &list)?;
     let ran = killed + timed_out + survivors.len();
     let spent = since.elapsed().as_secs();
     println!(
@@ -177,7 +213,7 @@ fn shuffle<T>(list: &mut [T], seed: u64) {
 
 #[cfg(test)]
 mod tests {
-    use super::{AREAS, options, shuffle};
+    use super::{AREAS, options, place, shuffle};
 
     #[test]
     fn a_seed_is_an_order() {
@@ -194,10 +230,16 @@ mod tests {
     }
 
     #[test]
+    fn a_list_names_places() {
+        assert_eq!(place("a/b.rs:7: + -> - (mutant 3, other code)"), "a/b.rs:7: + -> -");
+        assert_eq!(place("a/b.rs:7: + -> -"), "a/b.rs:7: + -> -");
+    }
+
+    #[test]
     fn arguments() {
         let read = |text: &str| options(&text.split_whitespace().map(str::to_string).collect::<Vec<_>>());
-        let read_all = read("--budget 60 --seed 7 --only 3 --only 4 solve dynamics").expect("they are complete");
-        assert_eq!((read_all.budget.as_secs(), read_all.seed, read_all.only), (60, 7, vec![3, 4]));
+        let read_all = read("--budget 60 --seed 7 --jury solve dynamics").expect("they are complete");
+        assert_eq!((read_all.budget.as_secs(), read_all.seed, read_all.jury), (60, 7, true));
         assert_eq!(read_all.areas.iter().map(|area| area.name).collect::<Vec<_>>(), ["solve", "dynamics"]);
         for wrong in ["", "--budget", "--seed x solve", "nowhere"] {
             assert!(read(wrong).is_none(), "{wrong}");

@@ -1,12 +1,12 @@
 //! Test binaries, run until the first test that fails.
 
-use super::build::Built;
+use super::build::{Built, JURY};
 use crate::Stop;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::os::unix::process::ExitStatusExt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::{Duration, Instant};
@@ -23,6 +23,8 @@ pub(super) struct Test {
 #[derive(Debug, PartialEq)]
 pub(super) enum Verdict {
     Passed,
+    /// All passed, and some said that the code they saw was another one.
+    OtherCode,
     Failed(String),
     TimedOut,
 }
@@ -43,8 +45,12 @@ const OUT_OF_TIME: i32 = 24;
 pub(super) fn measure(built: &Built, binary: &str, filter: &str) -> Result<Vec<Test>, Stop> {
     let record = built.folder.join(format!("reached-{binary}.txt"));
     let _ = fs::remove_file(&record);
+    let _ = fs::remove_dir_all(known(built));
     let mut command = command(built, binary, MEASURE)?;
-    command.env("MUTANTS_REACHED", &record).arg(filter);
+    command.env("MUTANTS_REACHED", &record);
+    if binary != JURY {
+        command.arg(filter);
+    }
     let mut tests = Vec::new();
     let mut since = Instant::now();
     let verdict = follow(command, MEASURE, |name| {
@@ -74,34 +80,50 @@ fn reached(record: &Path) -> Result<BTreeMap<String, BTreeSet<u32>>, Stop> {
     Ok(reached)
 }
 
-/// Runs the tests that reach a mutant, the fast ones first, each batch within a few times its own time.
-pub(super) fn run(built: &Built, mutant: u32, tests: &[&Test]) -> Result<Verdict, Stop> {
+/// What the jury knows of the project's models.
+fn known(built: &Built) -> PathBuf {
+    built.folder.join("jury")
+}
+
+/// Runs the tests that reach a mutant, the fast ones first, each batch within a few times its own time; none is begun that
+/// would end after the budget.
+pub(super) fn run(built: &Built, mutant: u32, tests: &[&Test], budget: Duration) -> Result<Verdict, Stop> {
     let mut batches: BTreeMap<(bool, &str), Vec<&Test>> = BTreeMap::new();
     let mut sorted = tests.to_vec();
     sorted.sort_by_key(|test| test.time);
     let mut spent = Duration::ZERO;
     for test in sorted {
         spent += test.time;
+        if spent > budget {
+            break;
+        }
         batches.entry((spent > Duration::from_secs(1), &test.binary)).or_default().push(test);
     }
+    let mut best = Verdict::Passed;
     for ((_, binary), batch) in batches {
         let plain: Duration = batch.iter().map(|test| test.time).sum();
         let limit = plain * 4 + Duration::from_secs(4);
         let mut command = command(built, binary, limit)?;
         command.env("MUTANT", mutant.to_string()).arg("--exact").args(batch.iter().map(|test| &test.name));
-        let verdict = follow(command, limit * WAITING, |_| {})?;
-        if verdict != Verdict::Passed {
-            return Ok(verdict);
+        match follow(command, limit * WAITING, |_| {})? {
+            Verdict::Passed => {}
+            Verdict::OtherCode => best = Verdict::OtherCode,
+            verdict => return Ok(verdict),
         }
     }
-    Ok(Verdict::Passed)
+    Ok(best)
 }
 
 fn command(built: &Built, binary: &str, limit: Duration) -> Result<Command, Stop> {
     let path = built.binaries.get(binary).ok_or_else(|| format!("no test binary {binary}"))?;
     let mut command = Command::new("sh");
     let limits = format!("ulimit -v {MEMORY}; ulimit -t {}; exec \"$0\" \"$@\"", limit.as_secs());
-    command.args(["-c", &limits]).arg(path).arg("--test-threads=1");
+    command.args(["-c", &limits]).arg(path);
+    if binary == JURY {
+        command.arg("jury").arg("--record").arg(known(built));
+    } else {
+        command.arg("--test-threads=1");
+    }
     command.env("CARGO_MANIFEST_DIR", &built.folder).env("RUST_BACKTRACE", "0").current_dir(&built.folder);
     Ok(command)
 }
@@ -113,11 +135,17 @@ fn follow(mut command: Command, limit: Duration, mut passed: impl FnMut(&str)) -
     let (sender, lines) = mpsc::channel();
     std::thread::spawn(move || BufReader::new(output).lines().map_while(Result::ok).try_for_each(|l| sender.send(l)));
     let end = Instant::now() + limit;
+    let mut good = Verdict::Passed;
     let verdict = loop {
         match lines.recv_timeout(end.saturating_duration_since(Instant::now())) {
             Ok(line) => match outcome(&line) {
-                Some((name, false)) => break Some(Verdict::Failed(name.to_string())),
-                Some((name, true)) => passed(name),
+                Some((name, Outcome::Failed)) => break Some(Verdict::Failed(name.to_string())),
+                Some((name, outcome)) => {
+                    if outcome == Outcome::OtherCode {
+                        good = Verdict::OtherCode;
+                    }
+                    passed(name);
+                }
                 None => {}
             },
             Err(RecvTimeoutError::Timeout) => break Some(Verdict::TimedOut),
@@ -132,18 +160,26 @@ fn follow(mut command: Command, limit: Duration, mut passed: impl FnMut(&str)) -
     let status = child.wait()?;
     Ok(match status.signal() {
         Some(OUT_OF_TIME) => Verdict::TimedOut,
-        _ if status.success() => Verdict::Passed,
+        _ if status.success() => good,
         _ => Verdict::Failed("the process".to_string()),
     })
 }
 
-/// A test's name and whether it passed.
-fn outcome(line: &str) -> Option<(&str, bool)> {
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Outcome {
+    Passed,
+    OtherCode,
+    Failed,
+}
+
+/// A test's name and what became of it.
+fn outcome(line: &str) -> Option<(&str, Outcome)> {
     let (name, end) = line.strip_prefix("test ")?.split_once(" ... ")?;
     let name = name.split(' ').next()?;
     match end {
-        "FAILED" => Some((name, false)),
-        "ok" => Some((name, true)),
+        "FAILED" => Some((name, Outcome::Failed)),
+        "ok" => Some((name, Outcome::Passed)),
+        "ok, other code" => Some((name, Outcome::OtherCode)),
         _ => None,
     }
 }
@@ -154,9 +190,10 @@ mod tests {
 
     #[test]
     fn lines_of_tests() {
-        assert_eq!(outcome("test blocks::a ... ok"), Some(("blocks::a", true)));
-        assert_eq!(outcome("test blocks::b - should panic ... ok"), Some(("blocks::b", true)));
-        assert_eq!(outcome("test blocks::c ... FAILED"), Some(("blocks::c", false)));
+        assert_eq!(outcome("test blocks::a ... ok"), Some(("blocks::a", Outcome::Passed)));
+        assert_eq!(outcome("test blocks::b - should panic ... ok"), Some(("blocks::b", Outcome::Passed)));
+        assert_eq!(outcome("test blocks::c ... FAILED"), Some(("blocks::c", Outcome::Failed)));
+        assert_eq!(outcome("test a.rs::d ... ok, other code"), Some(("a.rs::d", Outcome::OtherCode)));
         assert_eq!(outcome("test blocks::d ... ignored"), None);
         assert_eq!(outcome("test result: ok. 3 passed"), None);
     }
@@ -172,6 +209,8 @@ mod tests {
         };
         let some = vec!["a".to_string()];
         assert_eq!(run("echo 'test a ... ok'", 60_000), (Verdict::Passed, some.clone()));
+        let other = "echo 'test b ... ok, other code'; echo 'test a ... ok'";
+        assert_eq!(run(other, 60_000), (Verdict::OtherCode, vec!["b".to_string(), "a".to_string()]));
         assert_eq!(run("exec sleep 60", 50), (Verdict::TimedOut, vec![]));
         let failing = "echo 'test a ... ok'; echo 'test b ... FAILED'; exec sleep 60";
         assert_eq!(run(failing, 60_000), (Verdict::Failed("b".to_string()), some));

@@ -9,7 +9,7 @@ use multibody_engine::{model, syntax};
 use proc_macro2::{TokenStream, TokenTree};
 
 /// Places of models, from the root of the project.
-const PLACES: [&str; 8] = [
+pub(crate) const PLACES: [&str; 8] = [
     "tests/models",
     "tests/ui/pass",
     "examples/models",
@@ -23,15 +23,18 @@ const PLACES: [&str; 8] = [
 /// Calls with the files that they stand in.
 pub(crate) fn calls() -> Vec<(String, TokenStream)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    PLACES.iter().flat_map(|place| calls_of(&root, place)).collect()
+}
+
+/// The same of one place: a folder or a file.
+pub(crate) fn calls_of(root: &Path, place: &str) -> Vec<(String, TokenStream)> {
     let mut found = Vec::new();
-    for place in PLACES {
-        for file in files(&root.join(place)) {
-            let text = fs::read_to_string(&file).unwrap();
-            let name = file.strip_prefix(&root).unwrap().display().to_string();
-            let text = if name.ends_with(".md") { code(&text) } else { text };
-            let Ok(tokens) = text.parse::<TokenStream>() else { panic!("{name}: no tokens") };
-            collect(&name, tokens, &mut found);
-        }
+    for file in files(&root.join(place)) {
+        let text = fs::read_to_string(&file).unwrap();
+        let name = file.strip_prefix(root).unwrap().display().to_string();
+        let text = if name.ends_with(".md") { code(&text) } else { text };
+        let Ok(tokens) = text.parse::<TokenStream>() else { panic!("{name}: no tokens") };
+        collect(&name, tokens, &mut found);
     }
     found
 }
