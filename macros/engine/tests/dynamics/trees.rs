@@ -7,7 +7,9 @@ use crate::on_graph::{Derived, derive, point};
 use crate::random::{Mechanism, State};
 use crate::rng::Rng;
 use crate::{formulations, plain};
+use multibody_engine::dynamics::articulated;
 use multibody_engine::dynamics::floating_bases::floating_bases;
+use multibody_engine::dynamics::newton_euler::Wrench;
 use multibody_engine::dynamics::regroup::regroup;
 use multibody_engine::dynamics::shared_axes::{SharedAxes, share_axes};
 use multibody_engine::dynamics::tree::{Motion, Tree};
@@ -131,6 +133,43 @@ fn floating_bases_agree_with_plain_numbers() {
         }
         let state = mechanism.state(&mut rng);
         check_numbers(&mechanism, &state);
+    }
+}
+
+/// What acts on a carrier is felt by some of the translations only: without the floating base it says the same.
+#[test]
+fn carriers_may_be_pushed() {
+    for seed in 0..20 {
+        let mut rng = Rng::new(seed);
+        let mut mechanism = Mechanism { gravity: [0.3, 0.0, -9.81], ..Mechanism::default() };
+        mechanism.float(&mut rng);
+        let state = mechanism.state(&mut rng);
+        let carriers = floating_bases(&derive(&mechanism).tree)[0].carriers().collect::<Vec<_>>();
+        // One of them, or all.
+        for pushed in carriers.iter().map(std::slice::from_ref).chain([&carriers[..]]) {
+            let wrenches: Vec<[f64; 6]> = (0..mechanism.bodies.len())
+                .map(|link| if pushed.contains(&link) { [(); 6].map(|()| rng.real(0.5, 2.0)) } else { [0.0; 6] })
+                .collect();
+            let accelerations = |floats: bool| {
+                let mut m = derive(&mechanism);
+                let g = &mut m.graph;
+                let applied: Vec<Wrench> = wrenches
+                    .iter()
+                    .map(|wrench| {
+                        let [a, b, c, x, y, z] = wrench.map(|component| g.decimal(component));
+                        Wrench { moment: g.vector([a, b, c]), force: g.vector([x, y, z]) }
+                    })
+                    .collect();
+                let base = g.vector(m.tree.gravity.expect("gravity").map(|component| -component));
+                let bases = if floats { floating_bases(&m.tree) } else { Vec::new() };
+                let (tree, velocity) = (&m.tree, &m.tree.velocity);
+                let roots = articulated::forward_dynamics(g, tree, &bases, velocity, base, &applied, &m.efforts);
+                let values = point(&state);
+                let symbols = |id: SymbolId| values[id.0];
+                Evaluator::new(&m.graph, Real { symbols: &symbols }).run(&roots)
+            };
+            assert_near("pushed carriers", &accelerations(true), &accelerations(false), 1e-9);
+        }
     }
 }
 
