@@ -16,6 +16,7 @@ use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::emit;
 use multibody_engine::mechanics::loops::structure::Means;
 use multibody_engine::model::types::{Coordinate, JointId};
+use nalgebra::{DMatrix, DVector};
 
 use crate::campaign::{Chains, Family, Loops};
 use crate::oracle::Verdict;
@@ -179,7 +180,10 @@ fn declared(file: &str, name: &str) -> Found {
     let free = programs.structure.state.len();
     let mut numbers = Vec::new();
     for seed in 0..2 {
-        let point = Spot { programs: &programs, seed };
+        let mut point = Spot { programs: &programs, seed, velocities: None };
+        if held {
+            point.velocities = Some(point.admitted());
+        }
         for function in &programs.compiled.functions {
             // Beside what the state is, equations with multipliers have values that depend on the axes they are written in.
             let independent = [
@@ -201,10 +205,12 @@ fn declared(file: &str, name: &str) -> Found {
     Found { class: "right".into(), code: hasher.finish(), numbers }
 }
 
-/// A point of a declared model: loops are closed, and at rest where forces hold them; the rest is arbitrary.
+/// A point of a declared model: loops are closed, velocities keep them so; the rest is arbitrary.
 struct Spot<'a> {
     programs: &'a Programs,
     seed: u64,
+    /// By coordinate of the state; nothing where all are possible.
+    velocities: Option<Vec<f64>>,
 }
 
 impl Spot<'_> {
@@ -234,6 +240,22 @@ impl Spot<'_> {
         raw(component) / (first..first + 4).map(|k| raw(k).powi(2)).sum::<f64>().sqrt()
     }
 
+    /// Arbitrary velocities without the part that opens loops.
+    fn admitted(&self) -> Vec<f64> {
+        let symbol = |at: &Coordinate| Symbol::Velocity { joint: at.joint, component: at.index };
+        let any = DVector::from_iterator(
+            self.programs.structure.state.len(),
+            self.programs.structure.state.iter().map(|at| self.any(symbol(at))),
+        );
+        let Some(slopes) = self.programs.run(FunctionKind::ConstraintJacobian, self) else {
+            return vec![0.0; any.len()];
+        };
+        let slopes = DMatrix::from_row_slice(slopes.len() / any.len(), any.len(), &slopes);
+        let opening =
+            slopes.clone().svd(true, true).solve(&(slopes * &any), 1e-9).expect("both sides of the decomposition");
+        (any - opening).as_slice().to_vec()
+    }
+
     fn guess(&self, index: usize) -> f64 {
         for step in &self.programs.structure.steps {
             let Means::Newton { guess, .. } = step.means else { continue };
@@ -257,7 +279,10 @@ impl Values for Spot<'_> {
                 if moved { default * (1.0 + 0.02 * self.any(symbol)) } else { default }
             }
             Symbol::Position { joint, component } => self.position(joint, component),
-            Symbol::Velocity { .. } if !structure.rows.is_empty() => 0.0,
+            Symbol::Velocity { joint, component } if self.velocities.is_some() => {
+                let at = structure.state.iter().position(|at| (at.joint, at.index) == (joint, component));
+                self.velocities.as_ref().zip(at).map_or(f64::NAN, |(list, at)| list[at])
+            }
             Symbol::Guess { index } => self.guess(index),
             other => self.any(other),
         }

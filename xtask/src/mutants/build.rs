@@ -114,8 +114,6 @@ pub(super) fn build(package: Package, folders: &[&str], judges: Judges<'_>) -> R
             String::from_utf8(built.stdout)?.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
         if built.status.success() {
             let folder = copy.join(package.folder);
-            let list: String = refused.iter().map(|number| format!("{number}\n")).collect();
-            fs::write(&record, format!("{key}\n{list}"))?;
             return Ok(Built { binaries: binaries(&messages), sources, refused, folder });
         }
         let before = refused.len();
@@ -126,6 +124,8 @@ pub(super) fn build(package: Package, folders: &[&str], judges: Judges<'_>) -> R
             let told = messages.iter().find_map(|message| message["message"]["rendered"].as_str());
             return Err(format!("the copy does not compile: {}", told.unwrap_or("see target/mutants")).into());
         }
+        let list: String = refused.iter().map(|number| format!("{number}\n")).collect();
+        fs::write(&record, format!("{key}\n{list}"))?;
         eprintln!("{} of {first} mutants do not compile", refused.len());
     }
     Err(format!("{ROUNDS} rounds did not find all mutants that do not compile").into())

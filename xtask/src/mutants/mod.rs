@@ -123,23 +123,24 @@ pub(crate) fn run(arguments: &[String]) -> Result<bool, Stop> {
         };
         let built = build::build(package, &folders, judges)?;
         eprintln!("{} compiled in {} s", package.name, since.elapsed().as_secs());
+        let jury = if options.jury { runs::measure(&built, JURY, "")? } else { Vec::new() };
         for area in options.areas.iter().filter(|area| area.package == package) {
-            try_out(area, &built, &options)?;
+            let mut tests = Vec::new();
+            for (binary, filter) in area.tests.iter().filter(|_| !options.jury) {
+                tests.extend(runs::measure(&built, binary, filter)?);
+            }
+            let tests = if options.jury { &jury } else { &tests };
+            try_out(area, &built, tests, &options)?;
         }
     }
     Ok(true)
 }
 
 /// Runs an area's mutants and writes `target/mutants/AREA.txt`, what has survived, and `AREA-killed.txt`.
-fn try_out(area: &Area, built: &Built, options: &Options) -> Result<(), Stop> {
-    let mut tests = Vec::new();
-    let judges = if options.jury { &[(JURY, "")] } else { area.tests };
-    for (binary, filter) in judges {
-        tests.extend(runs::measure(built, binary, filter)?);
-    }
+fn try_out(area: &Area, built: &Built, tests: &[Test], options: &Options) -> Result<(), Stop> {
     let plain: f64 = tests.iter().map(|test| test.time.as_secs_f64()).sum();
     let all = tests.len();
-    tests.retain(|test| test.time <= options.longest);
+    let tests: Vec<&Test> = tests.iter().filter(|test| test.time <= options.longest).collect();
     println!("{}: {} of {all} tests run; all take {plain:.1} s without a mutant", area.name, tests.len());
     let folder = format!("{}/src/{}", area.package.folder, area.folder);
     let sources = built.sources.iter().filter(|source| source.path.starts_with(&folder));
@@ -156,7 +157,7 @@ fn try_out(area: &Area, built: &Built, options: &Options) -> Result<(), Stop> {
         if since.elapsed() > options.budget {
             break;
         }
-        let reaching: Vec<&Test> = tests.iter().filter(|test| test.reached.contains(&number)).collect();
+        let reaching: Vec<&Test> = tests.iter().copied().filter(|test| test.reached.contains(&number)).collect();
         let verdict = runs::run(built, number, &reaching, options.each)?;
         match verdict {
             Verdict::Failed(by) => {

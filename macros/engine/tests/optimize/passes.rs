@@ -334,3 +334,23 @@ fn broken_passes_are_told() {
     }
     assert!(coefficients > 50 && swaps > 10, "{coefficients} and {swaps}");
 }
+
+/// An operation on what reads the node already would have it depend on itself, however many steps the way back has.
+#[test]
+fn no_node_is_rewritten_to_read_itself() {
+    let mut g = Graph::new();
+    let [x, y, z] = [(); 3].map(|()| g.symbol());
+    let p = g.mul(x, y);
+    let s = g.add(p, z);
+    let t = g.mul(s, x);
+    let symbols = vec![STAGES[3], STAGES[4], STAGES[2]];
+    let (_, mut dag) = lower(&derivation(g, symbols, FunctionKind::Outputs, "", vec![p, s, t]), &[p, s, t]);
+    let [p, s, t] = [0, 1, 2].map(|root| dag.roots[root].1);
+    let z = (0..dag.nodes.len()).find(|&id| matches!(&dag.nodes[id].kind, Kind::Symbol(of) if of.0 == 2));
+    let z = z.expect("it is read");
+    let minus = Number::integer(-1);
+    // p = s - z, and p = s - z + t - t.
+    assert!(!dag.rewrite(p, Kind::Sum(vec![(minus, z), (Number::ONE, s)])));
+    assert!(!dag.rewrite(p, Kind::Sum(vec![(minus, z), (minus, t), (Number::ONE, t), (Number::ONE, s)])));
+    assert_eq!(dag.nodes[s].kind, Kind::Sum(dag.normal_terms(vec![(Number::ONE, p), (Number::ONE, z)])));
+}
