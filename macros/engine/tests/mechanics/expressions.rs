@@ -139,3 +139,20 @@ fn shared_vectors_are_looked_into_with_measure() {
     close("own", &case.output("own", &point), &[0.0, rate, 0.0], 1e-15);
     close("value", &case.output("value", &point), &[0.0, rate, 0.0], 1e-14);
 }
+
+/// The graph knows that 0.1 + 0.2 is 0.3, and f64 does not: no error of the compiler.
+#[test]
+fn comparisons_of_decimals_may_hang_on_their_rounding() {
+    for mass in
+        ["select(0.1 + 0.2 == 0.3, 1.0, 2.0)", "select(0.1 + 0.2 <= 0.3, 1.0, 2.0)", "2 + signum(0.1 + 0.2 - 0.3)"]
+    {
+        let case = case(&format!(
+            "param p = 1.0;
+            body a {{ mass: p * ({mass}), inertia: diag(1, 1, 1) }}
+            joint slide: Prismatic {{ parent: ground, child: a, axis: X }}
+            emit mass_matrix;"
+        ));
+        let mass = case.eval(FunctionKind::MassMatrix, &case.rest())[0];
+        assert!(mass == 1.0 || mass == 2.0, "{mass}");
+    }
+}

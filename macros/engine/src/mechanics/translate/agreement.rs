@@ -50,9 +50,10 @@ pub(in crate::mechanics) fn check(model: &Model) {
     }
 }
 
-/// What the checks of the model evaluate; what is no value of parameters alone is no number.
+/// What the checks of the model evaluate; what is no value of parameters alone, or hangs on the rounding of decimals, is no
+/// number.
 fn values(model: &Model, digits: f64) -> Vec<f64> {
-    let mut checker = Checker::default();
+    let mut checker = Checker::cautious();
     for (id, param) in model.params.iter_ids() {
         let elements = 0..param.ty.scalars();
         let scalars: Vec<f64> = elements.map(|element| drawn(model, id, element, digits)).collect();
@@ -63,10 +64,11 @@ fn values(model: &Model, digits: f64) -> Vec<f64> {
     numbers.iter().copied().chain(components).collect()
 }
 
-/// A value near the default, and no other parameter's.
+/// A value near the default, and no other parameter's; none is zero, where a sign or another parameter would not show.
 fn drawn(model: &Model, id: ParamId, element: usize, digits: f64) -> f64 {
     let default = model.params[id].default.get(element).or_fault("a parameter has a default for each of its scalars");
-    default * (1.0 + 1e-3 * (1.0 + id.0 as f64 + 0.1 * element as f64)) * (1.0 + digits * f64::EPSILON)
+    let near = if *default == 0.0 { 1e-3 } else { *default };
+    near * (1.0 + 1e-3 * (1.0 + id.0 as f64 + 0.1 * element as f64)) * (1.0 + digits * f64::EPSILON)
 }
 
 fn shaped(ty: &Type, scalars: &mut impl Iterator<Item = f64>) -> Value {

@@ -63,9 +63,22 @@ pub(crate) struct Evaluator {
     params: HashMap<usize, Value>,
     /// By address of the node; the node is kept, so that the address stays its own.
     memo: HashMap<*const ExprNode, (Rc<ExprNode>, Option<Value>)>,
+    is_cautious: bool,
 }
 
+/// What is closer to a jump may be on either side of it: decimals are rounded.
+const BESIDE_A_JUMP: f64 = 1e-12;
+
 impl Evaluator {
+    /// Gives no value where rounding may decide: comparisons of equal numbers, signs of zero, angles of half a turn.
+    pub(crate) fn cautious() -> Self {
+        Evaluator { is_cautious: true, ..Evaluator::default() }
+    }
+
+    fn may_jump(&self, x: f64, size: f64) -> bool {
+        self.is_cautious && x.abs() <= BESIDE_A_JUMP * (1.0 + size.abs())
+    }
+
     pub(crate) fn set_param(&mut self, id: ParamId, default: Value) {
         self.params.insert(id.0, default);
     }
@@ -138,7 +151,7 @@ impl Evaluator {
             ExprNode::Call(function, arguments) => self.call(*function, arguments),
             ExprNode::Compare(comparison, a, b) => {
                 let (a, b) = (self.scalar(a)?, self.scalar(b)?);
-                Some(Value::Bool(compare(*comparison, a, b)))
+                (!self.may_jump(a - b, a)).then(|| Value::Bool(compare(*comparison, a, b)))
             }
             ExprNode::And(a, b) => Some(Value::Bool(self.truth(a)? && self.truth(b)?)),
             ExprNode::Or(a, b) => Some(Value::Bool(self.truth(a)? || self.truth(b)?)),
@@ -190,6 +203,14 @@ impl Evaluator {
                     Some(second) => Some(self.scalar(second)?),
                     None => None,
                 };
+                let jumps = match function {
+                    Function::Signum => self.may_jump(x, 0.0),
+                    Function::Atan2 => y.is_some_and(|y| y <= BESIDE_A_JUMP && self.may_jump(x, y)),
+                    _ => false,
+                };
+                if jumps {
+                    return None;
+                }
                 scalar_call(function, x, y).map(Value::Scalar)
             }
         }
