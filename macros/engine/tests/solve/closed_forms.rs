@@ -64,10 +64,10 @@ fn planar_triples() {
 
 /// Spatial loops from letters: R, P, H (screw), C (cylindrical), U (universal), S (ball), with constant links between.
 /// Capital letters are wanted, small ones not. After a dot the link has no offset, after a bar the axis is parallel to
-/// the one before.
+/// the one before, after a dash the next joint stands on that axis, in the same axes.
 fn chain(rng: &mut Rng, kinds: &str) -> Cycle {
     let mut c = Cycle::new();
-    let (mut central, mut straight, mut last) = (false, false, 0);
+    let (mut central, mut straight, mut along, mut last) = (false, false, false, 0);
     for kind in kinds.chars() {
         match kind {
             '.' => {
@@ -78,13 +78,19 @@ fn chain(rng: &mut Rng, kinds: &str) -> Cycle {
                 straight = true;
                 continue;
             }
+            '-' => {
+                (straight, along) = (true, true);
+                continue;
+            }
             _ => {}
         }
-        let offset = [0; 3].map(|_| rng.decimal(-1.0, 1.0)).map(|x| c.literal(if central { 0.0 } else { x }));
+        let offset = [0; 3].map(|_| rng.decimal(-1.0, 1.0));
+        let beside = |k: usize| central || (along && k != last);
+        let offset = [0, 1, 2].map(|k| c.literal(if beside(k) { 0.0 } else { offset[k] }));
         let axis = if straight { last } else { rng.below(3) };
         let turns: Vec<_> = (0..3).map(|axis| (axis, c.literal(rng.decimal(-1.5, 1.5)))).collect();
         c.fixed(if straight { &[] } else { &turns }, offset);
-        (central, straight, last) = (false, false, axis);
+        (central, straight, along, last) = (false, false, false, axis);
         let wanted = kind.is_ascii_uppercase();
         let angle = |rng: &mut Rng| rng.real(-3.0, 3.0);
         match kind.to_ascii_uppercase() {
@@ -200,6 +206,12 @@ fn further_loops() {
     }
 }
 
+/// A rod that turns about the line to the centre of its ball.
+#[test]
+fn a_ball_on_an_axis_is_a_point() {
+    run("UPr-s", |rng| spatial(rng, "UPr-s"));
+}
+
 /// A nut that turns on a fixed screw; a slide that a turning screw drives.
 #[test]
 fn screws_are_linear() {
@@ -295,6 +307,21 @@ fn three_spheres_meet() {
         });
         if both[0][3].abs() < 0.3 {
             continue;
+        }
+        // The first is on the side to which the normal points.
+        let numbers = centres.map(|centre| {
+            let components = c.g.components(centre);
+            c.numbers(&components)
+        });
+        let from = |k: usize, x: &[f64]| [0, 1, 2].map(|i| x[i] - numbers[k][i]);
+        let (u, v) = (from(0, &numbers[1]), from(0, &numbers[2]));
+        for (x, side) in both.iter().zip([1.0, -1.0]) {
+            let w = from(0, x);
+            let height = (0..3).map(|i| {
+                let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+                (u[j] * v[k] - u[k] * v[j]) * w[i]
+            });
+            assert!(side * height.sum::<f64>() > 0.0);
         }
         let distance = |x: &[f64]| x.iter().zip(point).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         let least = both.iter().map(|x| distance(&x[..3])).fold(f64::INFINITY, f64::min);
