@@ -41,7 +41,7 @@ fn symmetric(inertia: &Inertia, axis: usize) -> bool {
 }
 
 /// Whether there is anything to gather.
-pub(crate) fn differs(tree: &Tree) -> bool {
+pub fn differs(tree: &Tree) -> bool {
     tree.links.iter().any(|link| match link.motion {
         Motion::Prismatic(_) => link.parent.is_some() && link.rotation == Rotation::IDENTITY,
         Motion::Revolute(axis) => !link.inertia.is_zero() && symmetric(&link.inertia, axis),
@@ -50,7 +50,7 @@ pub(crate) fn differs(tree: &Tree) -> bool {
 }
 
 /// Efforts in the order of the coordinates; armature included. `world` are further forces, in world axes.
-pub(crate) fn efforts(
+pub fn efforts(
     g: &mut Graph,
     tree: &Tree,
     acceleration: &[Scalar],

@@ -4,6 +4,7 @@
 mod arms;
 #[path = "../common/formulations.rs"]
 mod formulations;
+mod lumped;
 #[path = "../common/on_graph.rs"]
 mod on_graph;
 #[path = "../common/plain.rs"]

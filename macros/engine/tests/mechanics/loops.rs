@@ -3,6 +3,7 @@
 
 use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::contracts::symbol::Symbol;
+use multibody_engine::model::types::Coordinate;
 
 use super::support::*;
 
@@ -529,4 +530,36 @@ fn conditions_are_tried_where_their_own_loop_closes() {
     let told: Vec<Option<String>> = tried.collect();
     assert!(told.contains(&None), "{told:?}");
     assert!(told.iter().flatten().all(|message| message.contains("satisfies the conditions")), "{told:?}");
+}
+
+/// A rod without inertia about its own line, in coordinates of its own: the mass matrix is singular by structure, and
+/// equations of the joint take part in its factors. Accelerations and multipliers fulfil the equations of motion all the same,
+/// where loops are closed and whatever velocities are.
+#[test]
+fn multipliers_where_the_mass_matrix_is_singular() {
+    let case = case(
+        "formulation { constraints: Multipliers }
+        world { gravity: [0.5, 1.0, -9.81] }
+        body rod { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X), coordinates: Absolute(RollPitchYaw) }
+        joint top: Universal { parent: ground, child: rod, axes: [Y, Z] }
+        emit forward_dynamics, residual;",
+    );
+    let dof = case.structure.state.len();
+    assert!(case.structure.closed.len() > 2);
+    for (seed, closed) in (1..6).zip(&case.structure.closed) {
+        let mut point = case.random(seed);
+        for &Coordinate { joint, index } in &case.structure.state {
+            point.set(Symbol::Position { joint, component: index }, closed.positions[joint.0][index]);
+        }
+        let motion = case.eval(FunctionKind::ForwardDynamics, &point);
+        let (accelerations, multipliers) = motion.split_at(dof);
+        for (&Coordinate { joint, index }, &value) in case.structure.state.iter().zip(accelerations) {
+            point.set(Symbol::Acceleration { joint, component: index }, value);
+        }
+        for (row, &value) in multipliers[..case.structure.rows.len()].iter().enumerate() {
+            point.set(Symbol::Multiplier { row }, value);
+        }
+        let rows = case.eval(FunctionKind::Residual, &point);
+        close("what is left of forces", &rows[..dof], &vec![0.0; dof], 1e-9);
+    }
 }
