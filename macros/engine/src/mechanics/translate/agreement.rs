@@ -1,8 +1,9 @@
 //! Whether expressions were translated to the values that they have.
 //!
-//! In: the checked model. Out: nothing, or a fault. Compared are inertial parameters, offsets and gravity. What is wrong in the translation is wrong in all functions alike, so no law
-//! between them tells of it. The numeric checks of the model have an evaluator of their own, which knows no graph: what depends
-//! on parameters alone has the same value there, with parameters off their defaults, each by a part of its own.
+//! In: the checked model. Out: nothing, or a fault. Compared are inertial parameters, offsets and gravity. What is wrong in the
+//! translation is wrong in all functions alike, so no law between them tells of it. The numeric checks of the model have an
+//! evaluator of their own, which knows no graph: what depends on parameters alone has the same value there, with parameters
+//! off their defaults, each by a part of its own.
 
 use crate::contracts::symbol::Symbol;
 use crate::invariant::fault::{OrFault, raise};
