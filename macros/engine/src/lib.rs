@@ -17,7 +17,7 @@
 //! mechanics: solve dynamics symbolic contracts model invariant
 //! optimize: mechanics symbolic contracts rust_keywords invariant
 //! verify: optimize mechanics symbolic contracts model invariant
-//! emit: optimize mechanics contracts model rust_keywords invariant
+//! emit: optimize mechanics contracts model symbolic::write rust_keywords invariant
 //! ```
 //!
 //! So `symbolic` knows no mechanics; `dynamics` knows trees of links and no model; behind `model` only `emit` knows tokens,

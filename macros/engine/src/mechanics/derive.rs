@@ -32,6 +32,7 @@ use super::scene::Method;
 use super::strut::inverse;
 use super::translate::names;
 use super::translate::symbols::{Symbols, freedoms_of};
+use super::written::Page;
 use super::{Derivation, Derived, Inertia};
 
 /// Own axes for every link, or common ones for parallel hinges.
@@ -82,20 +83,7 @@ const MOST_COMPOSITE: usize = 32;
 
 /// Derives what the model asks for, and its outputs.
 pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Complaint>> {
-    let mut graph = Graph::new();
-    let symbols = Symbols::new(&mut graph, model).with_structure(&mut graph, structure);
-    let symbols = symbols.with_impulses(&mut graph, model, structure);
-    let symbol_names = symbols.table.iter().map(|&symbol| names::symbol(model, symbol)).collect();
-    let mut deriving = Deriving {
-        model,
-        structure: Rc::new(structure.clone()),
-        graph,
-        symbols: Rc::new(symbols),
-        decided: Decided::default(),
-        writing: Writing::PLAIN,
-        notes: Vec::new(),
-        dead_centres: Vec::new(),
-    };
+    let mut deriving = Deriving::new(model, structure);
     deriving.check_impulses()?;
     deriving.check()?;
     deriving.choose_writing()?;
@@ -110,8 +98,22 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
         deriving.label(FunctionKind::MassMatrix, entries);
     }
     let Deriving { graph, symbols, notes, dead_centres, .. } = deriving;
+    let symbol_names = symbols.table.iter().map(|&symbol| names::symbol(model, symbol)).collect();
     let symbols = symbols.table.clone();
     Ok(Derivation { graph, symbols, symbol_names, functions, notes, dead_centres, checks, inertia })
+}
+
+/// The equations of a model for readers, with loops closed as they are in the generated functions.
+pub fn page(model: &Model, structure: &Structure) -> Result<Page, Vec<Complaint>> {
+    let mut deriving = Deriving::new(model, structure);
+    deriving.check()?;
+    deriving.choose_writing()?;
+    let mut page = Page::default();
+    deriving.only("", |e| {
+        page = e.page()?;
+        Ok(Results::default())
+    })?;
+    Ok(page)
 }
 
 /// What to derive, each once, in a fixed order.
@@ -153,6 +155,22 @@ struct Deriving<'m> {
 type Found = Result<Results<Scalar>, Vec<Complaint>>;
 
 impl<'m> Deriving<'m> {
+    fn new(model: &'m Model, structure: &Structure) -> Self {
+        let mut graph = Graph::new();
+        let symbols = Symbols::new(&mut graph, model).with_structure(&mut graph, structure);
+        let symbols = symbols.with_impulses(&mut graph, model, structure);
+        Deriving {
+            model,
+            structure: Rc::new(structure.clone()),
+            graph,
+            symbols: Rc::new(symbols),
+            decided: Decided::default(),
+            writing: Writing::PLAIN,
+            notes: Vec::new(),
+            dead_centres: Vec::new(),
+        }
+    }
+
     /// What was asked for.
     fn functions(&mut self) -> Result<Vec<Derived>, Vec<Complaint>> {
         let model = self.model;

@@ -14,8 +14,9 @@ pub mod scene;
 pub mod strut;
 pub mod translate;
 mod trees;
+pub mod written;
 
-pub use derive::{MOST_FREEDOMS, derive, freedoms};
+pub use derive::{MOST_FREEDOMS, derive, freedoms, page};
 
 use crate::contracts::function::FunctionKind;
 use crate::contracts::results::Results;

@@ -30,3 +30,4 @@ pub mod substitute;
 mod trigonometry;
 mod vector;
 pub mod walk;
+pub mod write;

@@ -47,7 +47,7 @@ impl Marks {
 
 impl Graph {
     /// What a node reads, block by block where it is the output of one.
-    pub(super) fn each_operand(&self, node: AnyNode, visit: &mut dyn FnMut(AnyNode)) {
+    pub(in crate::symbolic) fn each_operand(&self, node: AnyNode, visit: &mut dyn FnMut(AnyNode)) {
         let scalar = |s: &Scalar| AnyNode::Scalar(s.index());
         let vector = |v: &Vector| AnyNode::Vector(v.index());
         let rotation = |r: &Rotation| AnyNode::Rotation(r.index());
@@ -111,6 +111,11 @@ impl Graph {
     /// All nodes that these scalars need, operands before users.
     pub(crate) fn reachable(&self, roots: &[Scalar]) -> Vec<AnyNode> {
         self.reachable_from(roots.iter().map(|root| AnyNode::Scalar(root.index())))
+    }
+
+    /// Whether the scalar at this place is one result of a block.
+    pub(crate) fn is_output(&self, index: usize) -> bool {
+        matches!(self.scalars[index], ScalarNode::Output(..))
     }
 
     /// Positions of all scalars that these need, operands before users.

@@ -46,6 +46,8 @@ pub(in crate::mechanics) struct Reduction {
     pub guesses: Vec<Scalar>,
     /// Of each iteration the derivatives of its equations by its unknowns, row by row, on the tree.
     pub matrices: Vec<Vec<Scalar>>,
+    /// In the order in which they are found.
+    pub definitions: Vec<Definition>,
 }
 
 /// What Newton's method does.
@@ -57,6 +59,7 @@ pub(in crate::mechanics) enum Newton {
 }
 
 /// A dependent coordinate before it is put in: expressions on the tree.
+#[derive(Clone, Copy)]
 pub(in crate::mechanics) struct Definition {
     pub coordinate: Coordinate,
     pub position: Scalar,
@@ -80,6 +83,7 @@ impl Equations<'_> {
                 reduction.coupled.extend(coupled);
             }
             self.define(&definitions, &mut reduction, &mut rates);
+            reduction.definitions.extend(definitions);
         }
         self.close(&mut reduction, &rates);
         Ok(reduction)

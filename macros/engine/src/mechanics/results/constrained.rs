@@ -163,7 +163,7 @@ impl Equations<'_> {
     }
 
     /// S, a row per coordinate of the tree.
-    pub(super) fn velocity_map(&mut self, reduction: &Reduction, state: &[usize]) -> Vec<Vec<Scalar>> {
+    pub(in crate::mechanics) fn velocity_map(&mut self, reduction: &Reduction, state: &[usize]) -> Vec<Vec<Scalar>> {
         let n = self.scene.symbols.freedoms;
         let mut map = vec![vec![Scalar::ZERO; state.len()]; n];
         let velocities: Vec<Scalar> = self.scene.symbols.velocities.concat();

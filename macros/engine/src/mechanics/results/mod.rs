@@ -14,4 +14,5 @@ pub(super) mod kinks;
 pub(super) mod linearisation;
 pub(super) mod margins;
 pub(super) mod momentum;
+pub(super) mod parts;
 pub(super) mod reactions;

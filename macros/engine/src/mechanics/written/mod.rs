@@ -1,0 +1,76 @@
+//! Room `written`: which equations are written for readers, and what each of them says.
+//!
+//! In: one derivation on the tree, definitions of dependent coordinates. Out: a [`Page`]: sections of lines, each an equation
+//! with what it states ([`Subject`]), so that a check can hold it against the generated functions.
+//!
+//! Coordinates outside the state stay symbols here, with equations of their own: a loop's equations of motion in joint angles are
+//! short, and in the state alone nobody would read them. Generated code takes whatever is cheapest, so the page says what the
+//! functions compute and not how.
+
+pub mod names;
+mod sections;
+
+use crate::contracts::symbol::Symbol;
+use crate::model::types::Coordinate;
+use crate::symbolic::write::formula::{Equation, Identifier};
+
+use super::loops::structure::Row;
+
+/// Equations of a model.
+#[derive(Clone, Debug, Default)]
+pub struct Page {
+    pub sections: Vec<Section>,
+    /// Symbols of the equations, by number in the graph.
+    pub symbols: Vec<(Identifier, Symbol)>,
+}
+
+/// Lines under one heading.
+#[derive(Clone, Debug)]
+pub struct Section {
+    pub title: &'static str,
+    /// What a reader must know of it: sentences in Markdown.
+    pub says: Vec<String>,
+    pub lines: Vec<Line>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Line {
+    pub subject: Subject,
+    pub equation: Equation,
+    /// Where it holds, which branch was chosen, where it ends: Markdown.
+    pub says: Option<String>,
+}
+
+/// What an equation states. Numbers of freedoms count the state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Subject {
+    /// A value that is written apart.
+    Definition,
+    Mass(usize, usize),
+    /// What velocities contribute, with accelerations of the state at zero.
+    Inertial(usize),
+    Gravity(usize),
+    /// Declared forces.
+    Force(usize),
+    /// An equation of motion: `left - right` is the residual.
+    Motion(usize),
+    Position(Coordinate),
+    /// Cosine and sine of a coordinate.
+    Cosine(Coordinate),
+    Sine(Coordinate),
+    Rate(Coordinate),
+    /// A prescribed coordinate, its rate or its acceleration.
+    Driven(Coordinate, usize),
+    /// The slope of a dependent coordinate by one of the state.
+    Follows(Coordinate, usize),
+    /// What is left of its acceleration where those of the state are zero.
+    Rest(Coordinate),
+    /// What is zero where the loop is closed.
+    Constraint(Row),
+    /// Its slope along a velocity of the state.
+    Slope(usize, usize),
+    /// A component of an output, by its place among all.
+    Output(usize),
+    /// The rate of a state of the user's own.
+    StateRate(usize),
+}

@@ -1,0 +1,548 @@
+//! Room `written`: the sections of a page.
+//!
+//! In: one derivation. Out: closed forms and what follows from them, equations that keep multipliers, equations of motion with
+//! their mass matrix and parts, outputs.
+
+use std::collections::{HashMap, HashSet};
+use std::rc::Rc;
+
+use crate::mechanics::analysis::Complaint;
+use crate::mechanics::equations::Equations;
+use crate::mechanics::loops::constraints::{coordinate_name, path, row_name};
+use crate::mechanics::loops::reduction::{Map, Reduction};
+use crate::mechanics::loops::structure::{Means, Role};
+use crate::mechanics::results::parts::Parts;
+use crate::mechanics::translate::forces::LoadCase;
+use crate::model::types::{Coordinate, JointId, Type};
+use crate::symbolic::graph::{Graph, Scalar, ScalarNode, SymbolId};
+use crate::symbolic::write::formula::{Class, Equation, Formula, Function, Identifier};
+use crate::symbolic::write::{self, Wanted};
+
+use super::names::{entry, identifier};
+use super::{Line, Page, Section, Subject};
+
+/// An equation of motion is written out where it is no longer than this many symbols.
+const MOST_WRITTEN_OUT: usize = 120;
+
+/// A line before its right side is written.
+struct Draft {
+    subject: Subject,
+    left: Formula,
+    value: Scalar,
+    collect: Vec<Scalar>,
+    says: Option<String>,
+}
+
+impl Draft {
+    fn new(subject: Subject, left: Formula, value: Scalar) -> Draft {
+        Draft { subject, left, value, collect: Vec::new(), says: None }
+    }
+}
+
+impl Equations<'_> {
+    /// All that is written.
+    pub(in crate::mechanics) fn page(&mut self) -> Result<Page, Vec<Complaint>> {
+        let reduction = self.reduce()?;
+        let mut writer = Sections::new(self);
+        let following = Following::new(self, &reduction);
+        writer.drives(self, &reduction);
+        writer.followers(self, &reduction, &following);
+        writer.constraints(self);
+        writer.motion(self, &following);
+        writer.own(self);
+        Ok(writer.page)
+    }
+}
+
+struct Sections {
+    page: Page,
+    identifiers: HashMap<SymbolId, Identifier>,
+    taken: HashSet<String>,
+    /// Equations and coordinates of the state whose slope is not zero.
+    sloped: HashSet<(usize, usize)>,
+}
+
+impl Sections {
+    fn new(e: &Equations<'_>) -> Sections {
+        let symbols: Vec<_> =
+            e.scene.symbols.table.iter().map(|&symbol| (identifier(e.scene.model, symbol), symbol)).collect();
+        let identifiers =
+            symbols.iter().enumerate().map(|(k, (identifier, _))| (SymbolId(k), identifier.clone())).collect();
+        let taken = symbols.iter().map(|(identifier, _)| identifier.text.clone()).collect();
+        Sections { page: Page { sections: Vec::new(), symbols }, identifiers, taken, sloped: HashSet::new() }
+    }
+
+    /// Writes values, with what they read before them.
+    fn lines(&mut self, e: &Equations<'_>, drafts: Vec<Draft>) -> Vec<Line> {
+        let wanted: Vec<Wanted> =
+            drafts.iter().map(|draft| Wanted { value: draft.value, collect: draft.collect.clone() }).collect();
+        let unknown = |id: SymbolId| entry("symbol", id.0.to_string(), Class::Defined);
+        let symbol = |id: SymbolId| self.identifiers.get(&id).cloned().unwrap_or_else(|| unknown(id));
+        let writing = write::write(&e.g, &wanted, &symbol, &self.taken);
+        let mut lines = Vec::new();
+        let mut waiting = writing.definitions;
+        for (k, (draft, right)) in drafts.into_iter().zip(writing.formulas).enumerate() {
+            let (now, later) = waiting.into_iter().partition(|apart| apart.reader == k);
+            waiting = later;
+            for apart in now {
+                self.taken.insert(apart.name.text.clone());
+                // What has no value is a result of a linear system or of an iteration: its name says what it is.
+                let Some(right) = apart.value else { continue };
+                let equation = Equation { left: Formula::Name(apart.name), right };
+                lines.push(Line { subject: Subject::Definition, equation, says: None });
+            }
+            let equation = Equation { left: draft.left, right };
+            lines.push(Line { subject: draft.subject, equation, says: draft.says });
+        }
+        lines
+    }
+
+    fn section(&mut self, title: &'static str, says: Vec<String>, lines: Vec<Line>) {
+        if !lines.is_empty() || !says.is_empty() {
+            self.page.sections.push(Section { title, says, lines });
+        }
+    }
+
+    fn name(&self, e: &Equations<'_>, symbol: Scalar) -> Formula {
+        let known = e.g.symbol_id(symbol).and_then(|id| self.identifiers.get(&id));
+        known.map_or_else(Formula::zero, |identifier| Formula::Name(identifier.clone()))
+    }
+
+    /// Coordinates with a prescribed course.
+    fn drives(&mut self, e: &mut Equations<'_>, reduction: &Reduction) {
+        let structure = Rc::clone(&e.scene.structure);
+        let mut drafts = Vec::new();
+        for (joint, roles) in structure.roles.iter().enumerate() {
+            for index in (0..roles.len()).filter(|&index| matches!(roles[index], Role::Driven(_))) {
+                let coordinate = Coordinate { joint: JointId(joint), index };
+                for (order, symbol) in e.coordinate_symbols(coordinate).into_iter().enumerate() {
+                    let value = e.g.symbol_id(symbol).and_then(|id| reduction.map.get(&id).copied());
+                    let Some(value) = value else { continue };
+                    let left = self.name(e, symbol);
+                    drafts.push(Draft::new(Subject::Driven(coordinate, order), left, value));
+                }
+            }
+        }
+        let lines = self.lines(e, drafts);
+        self.section("Prescribed coordinates", Vec::new(), lines);
+    }
+
+    /// Rates of the user's own states, and outputs.
+    fn own(&mut self, e: &mut Equations<'_>) {
+        let model = e.scene.model;
+        let mut drafts = Vec::new();
+        for (k, state) in model.states.iter().enumerate() {
+            let value = e.scalar(&state.rate);
+            let value = e.put_in_stand_ins(&[value])[0];
+            let name = self.name(e, e.scene.symbols.states[k]);
+            let left = match name {
+                Formula::Name(identifier) => Formula::Name(Identifier { dots: 1, ..identifier }),
+                other => other,
+            };
+            drafts.push(Draft::new(Subject::StateRate(k), left, value));
+        }
+        let lines = self.lines(e, drafts);
+        self.section("States", Vec::new(), lines);
+        let mut drafts = Vec::new();
+        let mut place = 0;
+        for output in &model.outputs {
+            let value = e.value(&output.value);
+            let mut flat = Vec::new();
+            value.flatten(&mut e.g, &mut flat);
+            let flat = e.put_in_stand_ins(&flat);
+            for (k, &value) in flat.iter().enumerate() {
+                let index = (flat.len() > 1).then(|| component(&output.value.ty, k));
+                let text = path(model, &output.place);
+                let left = Formula::Name(Identifier { text, dots: 0, index, class: Class::Defined });
+                if !has_block(&e.g, value) {
+                    drafts.push(Draft::new(Subject::Output(place + k), left, value));
+                }
+            }
+            place += flat.len();
+        }
+        let lines = self.lines(e, drafts);
+        self.section("Outputs", Vec::new(), lines);
+    }
+
+    /// Coordinates that follow from others: positions, rates, accelerations.
+    fn followers(&mut self, e: &mut Equations<'_>, reduction: &Reduction, motion: &Following) {
+        let mut drafts = Vec::new();
+        let mut says = Vec::new();
+        let structure = Rc::clone(&e.scene.structure);
+        for step in &structure.steps {
+            if matches!(step.means, Means::Newton { .. }) {
+                let names: Vec<String> = step
+                    .unknowns
+                    .iter()
+                    .map(|&unknown| format!("`{}`", coordinate_name(e.scene.model, unknown)))
+                    .collect();
+                says.push(format!("Found by Newton's method from the equations of their loops: {}.", names.join(", ")));
+            }
+        }
+        for definition in &reduction.definitions {
+            self.follower(e, reduction, definition.coordinate, definition.position, &mut drafts);
+        }
+        for named in &motion.named {
+            self.identifiers.extend(e.g.symbol_id(named.symbol).map(|id| (id, named.name.clone())));
+        }
+        // Each after what it reads: slopes, rates, what is left of accelerations.
+        let rates = self.rates(e, reduction, motion);
+        let (slopes, rests): (Vec<&Named>, Vec<&Named>) =
+            motion.named.iter().partition(|named| matches!(named.subject, Subject::Follows(..)));
+        let draft = |named: &&Named| Draft::new(named.subject, Formula::Name(named.name.clone()), named.value);
+        let written = |named: &&&Named| !has_block(&e.g, named.value);
+        drafts.extend(slopes.iter().filter(written).map(draft));
+        drafts.extend(rates);
+        drafts.extend(rests.iter().filter(written).map(draft));
+        let lines = self.lines(e, drafts);
+        let says_of = "`S` are the slopes of what follows by the state's velocities, `gamma` what is left of its acceleration where those of \
+                       the state are zero: x' = S q', x'' = S q'' + gamma.";
+        if !reduction.definitions.is_empty() {
+            says.push(says_of.to_owned());
+        }
+        self.section("Coordinates that follow", says, lines);
+    }
+
+    /// Rates of what follows: by the slopes, or as they come where a drive or time moves loops too.
+    fn rates(&self, e: &mut Equations<'_>, reduction: &Reduction, motion: &Following) -> Vec<Draft> {
+        let follow = reduction.definitions.iter().map(|definition| definition.coordinate);
+        let own = follow.chain(e.scene.structure.state.iter().copied());
+        let rest: Vec<(Scalar, Scalar)> = own.map(|c| (e.coordinate_symbols(c)[1], Scalar::ZERO)).collect();
+        let rest = e.map(&rest);
+        let rates: Vec<Scalar> = reduction.definitions.iter().map(|definition| definition.rate).collect();
+        let rates = e.put_in_stand_ins(&rates);
+        let drifts = e.g.substitute(&rates, &rest);
+        let moved = drifts.iter().any(|&drift| drift != Scalar::ZERO);
+        let state: Vec<Scalar> = e.scene.structure.state.iter().map(|&c| e.coordinate_symbols(c)[1]).collect();
+        let mut drafts = Vec::new();
+        for (definition, rate) in reduction.definitions.iter().zip(rates) {
+            let row = &motion.map[e.freedom(definition.coordinate)];
+            let terms: Vec<Scalar> = row.iter().zip(&state).map(|(&slope, &v)| e.g.mul(slope, v)).collect();
+            let value = if moved { rate } else { e.g.sum(&terms) };
+            if !has_block(&e.g, value) {
+                let left = self.name(e, e.coordinate_symbols(definition.coordinate)[1]);
+                drafts.push(Draft::new(Subject::Rate(definition.coordinate), left, value));
+            }
+        }
+        drafts
+    }
+
+    fn follower(
+        &self,
+        e: &mut Equations<'_>,
+        reduction: &Reduction,
+        coordinate: Coordinate,
+        position: Scalar,
+        drafts: &mut Vec<Draft>,
+    ) {
+        let name = self.name(e, e.coordinate_symbols(coordinate)[0]);
+        let position = e.put_in_stand_ins(&[position])[0];
+        let root = reduction.dead_centres.iter().find(|centre| centre.0 == coordinate).map(|centre| centre.1);
+        let says = root.map(|_| "real between its dead centres, where the root vanishes".to_owned());
+        if let ScalarNode::Angle(cos, sin) = *e.g.node(position) {
+            let sin = if position.is_negative() { -sin } else { sin };
+            let of = |function| Formula::Apply(function, vec![name.clone()]);
+            drafts.push(Draft { says, ..Draft::new(Subject::Cosine(coordinate), of(Function::Cos), cos) });
+            drafts.push(Draft::new(Subject::Sine(coordinate), of(Function::Sin), sin));
+        } else if !matches!(e.g.node(position), ScalarNode::Output(..)) {
+            drafts.push(Draft { says, ..Draft::new(Subject::Position(coordinate), name, position) });
+        }
+    }
+
+    /// Equations that keep multipliers.
+    fn constraints(&mut self, e: &mut Equations<'_>) {
+        let structure = Rc::clone(&e.scene.structure);
+        let mut drafts = Vec::new();
+        for &row in &structure.rows {
+            let residual = e.row(row);
+            let residual = e.put_in_stand_ins(&[residual])[0];
+            let name = entry("Phi", row_name(e.scene.model, row.closing, row.index), Class::Defined);
+            drafts.push(Draft::new(Subject::Constraint(row), Formula::Name(name), residual));
+        }
+        for (k, &row) in structure.rows.iter().enumerate() {
+            let residual = e.row(row);
+            let (rate, _) = e.implicit_rates(residual, &[]);
+            let rate = e.put_in_stand_ins(&[rate])[0];
+            for (j, &coordinate) in structure.state.iter().enumerate() {
+                let velocity = e.coordinate_symbols(coordinate)[1];
+                let slope = e.g.derivative(rate, &[(velocity, Scalar::ONE)]);
+                if slope == Scalar::ZERO {
+                    continue;
+                }
+                self.sloped.insert((k, j));
+                let index = format!(
+                    "{}, {}",
+                    row_name(e.scene.model, row.closing, row.index),
+                    coordinate_name(e.scene.model, coordinate)
+                );
+                let name = Formula::Name(entry("G", index, Class::Defined));
+                drafts.push(Draft::new(Subject::Slope(k, j), name, slope));
+            }
+        }
+        let lines = self.lines(e, drafts);
+        let says = match lines.is_empty() {
+            true => Vec::new(),
+            false => vec!["Each is zero where its loop is closed; `G` is their Jacobian by the velocities.".to_owned()],
+        };
+        self.section("Constraints", says, lines);
+    }
+
+    /// Equations of motion, their mass matrix and parts.
+    fn motion(&mut self, e: &mut Equations<'_>, following: &Following) {
+        let structure = Rc::clone(&e.scene.structure);
+        let state = structure.state.clone();
+        let names: Vec<String> = state.iter().map(|&c| coordinate_name(e.scene.model, c)).collect();
+        let matrix = following.mass_matrix(e);
+        let Parts { inertial, gravity, forces } = e.parts(LoadCase::Declared);
+        let inertial = e.g.substitute(&inertial, &following.still);
+        let [velocity, gravity, forces] = [inertial, gravity, forces].map(|list| following.project(e, &list));
+        let accelerations: Vec<Scalar> = state.iter().map(|&c| e.coordinate_symbols(c)[2]).collect();
+        let held = self.held(e, following);
+        let mut drafts = Vec::new();
+        for (i, name) in names.iter().enumerate() {
+            for (j, other) in names.iter().enumerate().skip(i) {
+                let left = Formula::Name(entry("M", format!("{name}, {other}"), Class::Defined));
+                drafts.push(Draft::new(Subject::Mass(i, j), left, matrix[i][j]));
+            }
+        }
+        for (letter, list) in [("c", &velocity), ("g", &gravity), ("Q", &forces)] {
+            for (i, name) in names.iter().enumerate() {
+                let subject = match letter {
+                    "c" => Subject::Inertial(i),
+                    "g" => Subject::Gravity(i),
+                    _ => Subject::Force(i),
+                };
+                let left = Formula::Name(entry(letter, name.clone(), Class::Defined));
+                drafts.push(Draft::new(subject, left, list[i]));
+            }
+        }
+        let full: Vec<Draft> = (0..names.len())
+            .map(|i| {
+                let terms: Vec<Scalar> =
+                    accelerations.iter().enumerate().map(|(j, &a)| e.g.mul(matrix[i][j], a)).collect();
+                let sum: Vec<Scalar> = terms.into_iter().chain([velocity[i], gravity[i]]).collect();
+                let left = e.g.sum(&sum);
+                let right = e.g.add(forces[i], held[i]);
+                let left =
+                    Draft { collect: accelerations.clone(), ..Draft::new(Subject::Motion(i), Formula::zero(), left) };
+                [left, Draft::new(Subject::Motion(i), Formula::zero(), right)]
+            })
+            .collect::<Vec<_>>()
+            .into_iter()
+            .flatten()
+            .collect();
+        let before = self.taken.clone();
+        let written = self.lines(e, full);
+        let rows = if written
+            .iter()
+            .all(|line| line.subject != Subject::Definition && line.equation.right.length() <= MOST_WRITTEN_OUT)
+        {
+            written.chunks(2).enumerate().filter_map(|(i, pair)| pair_up(i, pair)).collect()
+        } else {
+            self.taken = before;
+            self.by_name(e, &names, &state, &held)
+        };
+        self.section("Equations of motion", Vec::new(), rows);
+        let lines = self.lines(e, drafts);
+        let says = "`M` is the mass matrix, symmetric; `c` are the terms of velocities, `g` those of gravity, `Q` those of forces: \
+                    M a + c + g = Q.";
+        self.section("Mass matrix and forces", vec![says.to_owned()], lines);
+    }
+
+    /// Efforts of the multipliers on the state.
+    fn held(&self, e: &mut Equations<'_>, following: &Following) -> Vec<Scalar> {
+        if e.scene.structure.rows.is_empty() {
+            return vec![Scalar::ZERO; e.scene.structure.state.len()];
+        }
+        let [all, declared] = [LoadCase::Held, LoadCase::Declared].map(|case| {
+            let forces = e.parts(case).forces;
+            following.project(e, &forces)
+        });
+        all.iter().zip(&declared).map(|(&a, &b)| e.g.sub(a, b)).collect()
+    }
+
+    /// Equations of motion in the names of their parts.
+    fn by_name(&self, e: &Equations<'_>, names: &[String], state: &[Coordinate], held: &[Scalar]) -> Vec<Line> {
+        let named = |letter: &str, index: String| Formula::Name(entry(letter, index, Class::Defined));
+        let rows = names.iter().enumerate().map(|(i, name)| {
+            let mut terms: Vec<(bool, Formula)> = state
+                .iter()
+                .enumerate()
+                .map(|(j, &coordinate)| {
+                    let (first, second) = (i.min(j), i.max(j));
+                    let mass = named("M", format!("{}, {}", names[first], names[second]));
+                    let acceleration = self.name(e, e.coordinate_symbols(coordinate)[2]);
+                    (false, Formula::Product(vec![mass, acceleration]))
+                })
+                .collect();
+            terms.push((false, named("c", name.clone())));
+            terms.push((false, named("g", name.clone())));
+            let mut right = named("Q", name.clone());
+            if held[i] != Scalar::ZERO {
+                let structure = &e.scene.structure;
+                let mut sum = vec![(false, right)];
+                for (k, &row) in structure.rows.iter().enumerate().filter(|(k, _)| self.sloped.contains(&(*k, i))) {
+                    let index = format!("{}, {name}", row_name(e.scene.model, row.closing, row.index));
+                    let lambda = self.name(e, e.scene.symbols.multipliers[k]);
+                    sum.push((true, Formula::Product(vec![named("G", index), lambda])));
+                }
+                right = Formula::Sum(sum);
+            }
+            let equation = Equation { left: Formula::Sum(terms), right };
+            Line { subject: Subject::Motion(i), equation, says: None }
+        });
+        rows.collect()
+    }
+}
+
+/// Name of a component of an output.
+fn component(ty: &Type, k: usize) -> String {
+    match ty {
+        Type::Vec3 => ["x", "y", "z"][k % 3].to_owned(),
+        Type::Array(inner, _) => {
+            let width = inner.scalars().max(1);
+            if width == 1 { format!("{k}") } else { format!("{}, {}", k / width, component(inner, k % width)) }
+        }
+        _ => format!("{k}"),
+    }
+}
+
+/// Whether a value reads a result of a linear system or of an iteration: it has no formula.
+fn has_block(g: &Graph, value: Scalar) -> bool {
+    g.reachable_scalars(&[value]).into_iter().any(|index| g.is_output(index))
+}
+
+/// How coordinates of the tree move with those of the state: slopes and rests of accelerations as symbols of their own, so that
+/// equations are written with their names.
+struct Following {
+    named: Vec<Named>,
+    /// Slopes by the state's velocities, row by row of the tree's coordinates.
+    map: Vec<Vec<Scalar>>,
+    /// Accelerations where those of the state are zero.
+    still: Map,
+}
+
+/// A symbol with what it stands for.
+struct Named {
+    subject: Subject,
+    name: Identifier,
+    symbol: Scalar,
+    value: Scalar,
+}
+
+impl Following {
+    fn new(e: &mut Equations<'_>, reduction: &Reduction) -> Following {
+        let structure = Rc::clone(&e.scene.structure);
+        let places = e.state();
+        let mut map = vec![vec![Scalar::ZERO; places.len()]; e.scene.symbols.freedoms];
+        places.iter().enumerate().for_each(|(j, &place)| map[place][j] = Scalar::ONE);
+        let mut following = Following { named: Vec::new(), map, still: Map::new() };
+        // All symbols first: a coupling stands before what it is coupled to.
+        let mut slopes = Vec::new();
+        for (k, definition) in reduction.definitions.iter().enumerate() {
+            let place = e.freedom(definition.coordinate);
+            for j in 0..places.len() {
+                following.map[place][j] = e.g.symbol();
+                slopes.push((k, j));
+            }
+        }
+        for (k, j) in slopes {
+            let definition = &reduction.definitions[k];
+            let seeds: Vec<(Scalar, Scalar)> =
+                e.scene.symbols.velocities.concat().into_iter().zip(following.map.iter().map(|row| row[j])).collect();
+            let slope = e.g.derivative(definition.rate, &seeds);
+            let value = e.put_in_stand_ins(&[slope])[0];
+            let model = e.scene.model;
+            let index = [definition.coordinate, structure.state[j]].map(|c| coordinate_name(model, c)).join(", ");
+            let subject = Subject::Follows(definition.coordinate, j);
+            following.named.push(Named {
+                subject,
+                name: entry("S", index, Class::Defined),
+                symbol: following.map[e.freedom(definition.coordinate)][j],
+                value,
+            });
+        }
+        let rest: Vec<(Scalar, Scalar)> =
+            structure.state.iter().map(|&c| (e.coordinate_symbols(c)[2], Scalar::ZERO)).collect();
+        following.still = e.map(&rest);
+        let symbols: Vec<Scalar> = reduction.definitions.iter().map(|_| e.g.symbol()).collect();
+        for (definition, &symbol) in reduction.definitions.iter().zip(&symbols) {
+            let acceleration = e.coordinate_symbols(definition.coordinate)[2];
+            let put_in = e.map(&[(acceleration, symbol)]);
+            following.still.extend(put_in);
+        }
+        for (definition, symbol) in reduction.definitions.iter().zip(symbols) {
+            let value = e.put_in_stand_ins(&[definition.acceleration])[0];
+            let value = e.g.substitute(&[value], &following.still)[0];
+            let name = entry("gamma", coordinate_name(e.scene.model, definition.coordinate), Class::Defined);
+            following.named.push(Named { subject: Subject::Rest(definition.coordinate), name, symbol, value });
+        }
+        following.settle(e);
+        following
+    }
+
+    /// Symbols of what is a number or a name already go again.
+    fn settle(&mut self, e: &mut Equations<'_>) {
+        let short = |g: &Graph, value: Scalar| matches!(g.node(value), ScalarNode::Literal(_) | ScalarNode::Symbol(_));
+        loop {
+            let Some(at) = self.named.iter().position(|named| short(&e.g, named.value)) else { return };
+            let Named { symbol, value, .. } = self.named.remove(at);
+            let put_in = e.map(&[(symbol, value)]);
+            for named in &mut self.named {
+                named.value = e.g.substitute(&[named.value], &put_in)[0];
+            }
+            for row in &mut self.map {
+                *row = e.g.substitute(row, &put_in);
+            }
+            let entries: Vec<_> = self.still.iter().map(|(&id, &value)| (id, value)).collect();
+            for (id, value) in entries {
+                let value = e.g.substitute(&[value], &put_in)[0];
+                self.still.insert(id, value);
+            }
+        }
+    }
+
+    /// Efforts of the tree on the state.
+    fn project(&self, e: &mut Equations<'_>, efforts: &[Scalar]) -> Vec<Scalar> {
+        let size = e.scene.structure.state.len();
+        let efforts = e.put_in_stand_ins(efforts);
+        let columns = (0..size).map(|j| {
+            let terms: Vec<Scalar> =
+                self.map.iter().zip(&efforts).map(|(row, &effort)| e.g.mul(row[j], effort)).collect();
+            e.g.sum(&terms)
+        });
+        columns.collect()
+    }
+
+    /// S^T M S.
+    fn mass_matrix(&self, e: &mut Equations<'_>) -> Vec<Vec<Scalar>> {
+        let entries = e.mass_matrix();
+        let entries = e.put_in_stand_ins(&entries);
+        let n = self.map.len();
+        let size = e.scene.structure.state.len();
+        let columns: Vec<Vec<Scalar>> = (0..size)
+            .map(|j| {
+                let column = entries.chunks(n.max(1)).map(|row| {
+                    let terms: Vec<Scalar> = row.iter().zip(&self.map).map(|(&m, s)| e.g.mul(m, s[j])).collect();
+                    e.g.sum(&terms)
+                });
+                column.collect()
+            })
+            .collect();
+        let mut matrix = vec![vec![Scalar::ZERO; size]; size];
+        for (j, column) in columns.iter().enumerate() {
+            let projected = self.project(e, column);
+            for (i, entry) in projected.into_iter().enumerate() {
+                matrix[i][j] = entry;
+            }
+        }
+        matrix
+    }
+}
+
+/// Left and right side of an equation of motion.
+fn pair_up(i: usize, pair: &[Line]) -> Option<Line> {
+    let [left, right] = pair else { return None };
+    let equation = Equation { left: left.equation.right.clone(), right: right.equation.right.clone() };
+    Some(Line { subject: Subject::Motion(i), equation, says: None })
+}

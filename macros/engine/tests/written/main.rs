@@ -1,0 +1,12 @@
+//! What is written for readers: the equations of every model of the project against its compiled functions, and how formulas are
+//! set.
+
+#[path = "../common/corpus.rs"]
+#[allow(dead_code)]
+mod corpus;
+#[path = "../common/interpreter.rs"]
+mod interpreter;
+
+mod faithful;
+mod setting;
+mod values;

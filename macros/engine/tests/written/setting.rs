@@ -1,0 +1,65 @@
+//! How formulas are set, against textbooks.
+
+use multibody_engine::mechanics;
+use multibody_engine::mechanics::written::Subject;
+use multibody_engine::symbolic::write::{latex, mathml, text};
+
+use crate::corpus;
+
+/// Right sides with a subject, as text.
+fn lines(model: &str, wanted: impl Fn(Subject) -> bool) -> Vec<String> {
+    let model = corpus::model(model);
+    let structure = mechanics::analysis::analyse(&model).ok().unwrap();
+    let page = mechanics::page(&model, &structure).ok().unwrap();
+    let lines = page.sections.iter().flat_map(|section| &section.lines);
+    lines.filter(|line| wanted(line.subject)).map(|line| text::equation(&line.equation)).collect()
+}
+
+const PENDULUM: &str = "pub mod pendulum {
+    param m1 = 1.0;
+    param m2 = 2.0;
+    param l1 = 1.0;
+    param l2 = 0.5;
+    param g = 9.81;
+    world { gravity: -g * Y }
+    body upper { mass: m1, com: -l1 * Y }
+    body lower { mass: m2, com: -l2 * Y }
+    joint phi: Revolute { parent: ground, child: upper, axis: Z }
+    joint psi: Revolute { parent: upper.at(-l1 * Y), child: lower, axis: Z }
+    emit forward_dynamics;
+}";
+
+/// Two point masses, relative angles: Craig, Introduction to Robotics, with angles from the vertical.
+#[test]
+fn double_pendulum() {
+    let motion = |s| matches!(s, Subject::Mass(..) | Subject::Inertial(_) | Subject::Gravity(_));
+    let found = lines(PENDULUM, motion);
+    let textbook = [
+        "M[phi, phi] = m2 l2 (2 l1 cos(psi) + l2) + l1² (m1 + m2)",
+        "M[phi, psi] = m2 l2 (l1 cos(psi) + l2)",
+        "M[psi, psi] = m2 l2²",
+        "c[phi] = -m2 l1 l2 sin(psi) psi˙ (2 phi˙ + psi˙)",
+        "c[psi] = m2 l1 l2 sin(psi) (phi˙)²",
+        "g[phi] = g (l1 sin(phi) (m1 + m2) + m2 l2 sin(phi + psi))",
+        "g[psi] = m2 l2 g sin(phi + psi)",
+    ];
+    assert_eq!(found, textbook);
+}
+
+/// One name in each of the three ways.
+#[test]
+fn names() {
+    let model = corpus::model(PENDULUM);
+    let structure = mechanics::analysis::analyse(&model).ok().unwrap();
+    let page = mechanics::page(&model, &structure).ok().unwrap();
+    let set: Vec<[String; 3]> =
+        page.symbols.iter().map(|(name, _)| [text::name(name), latex::name(name), mathml::name(name)]).collect();
+    assert!(
+        set.contains(&["m1".into(), "m_{\\mathrm{1}}".into(), "<msub><mi>m</mi><mtext>1</mtext></msub>".into()]),
+        "{set:#?}"
+    );
+    assert!(
+        set.contains(&["phi˙".into(), "\\dot{\\phi}".into(), "<mover><mi>φ</mi><mo>˙</mo></mover>".into()]),
+        "{set:#?}"
+    );
+}
