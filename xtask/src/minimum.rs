@@ -5,7 +5,8 @@ use crate::{Stop, command, root};
 use std::fs;
 
 /// The packages that are published, and one that uses them.
-const PACKAGES: [&str; 4] = ["multibody-engine", "multibody-macros", "multibody", "multibody-examples"];
+const PACKAGES: [&str; 5] =
+    ["multibody-engine", "multibody-macros", "multibody", "multibody-cli", "multibody-examples"];
 
 pub(crate) fn run() -> Result<bool, Stop> {
     let manifest = fs::read_to_string(root().join("Cargo.toml"))?;
@@ -24,7 +25,7 @@ pub(crate) fn run() -> Result<bool, Stop> {
     for package in PACKAGES {
         cargo.args(["--package", package]);
     }
-    Ok(cargo.args(["--lib", "--example", "double_pendulum"]).status()?.success())
+    Ok(cargo.args(["--lib", "--bins", "--example", "double_pendulum"]).status()?.success())
 }
 
 fn rust_version(manifest: &str) -> Option<&str> {

@@ -1,13 +1,13 @@
-//! What would be published: the three packages say what they are, hold their README and both licences, and hold nothing that
+//! What would be published: the packages say what they are, hold their README and both licences, and hold nothing that
 //! only tests need; and each compiles from nothing but its package.
 
 use crate::{Stop, command, output, root};
 use serde_json::Value;
 
 /// In the order in which they would be published.
-const PACKAGES: [&str; 3] = ["multibody-engine", "multibody-macros", "multibody"];
+const PACKAGES: [&str; 4] = ["multibody-engine", "multibody-macros", "multibody", "multibody-cli"];
 
-const FILES: [&str; 5] = ["Cargo.toml", "README.md", "LICENSE-MIT", "LICENSE-APACHE", "src/lib.rs"];
+const FILES: [&str; 4] = ["Cargo.toml", "README.md", "LICENSE-MIT", "LICENSE-APACHE"];
 
 /// Folders of a package that its users don't need.
 const FOREIGN: [&str; 4] = ["tests/", "benches/", "examples/", "tools/"];
@@ -65,7 +65,9 @@ fn undeclared(package: &Value) -> impl Iterator<Item = &'static str> {
 }
 
 fn missing(files: &str) -> impl Iterator<Item = &'static str> {
-    FILES.into_iter().filter(move |wanted| !files.lines().any(|file| file == *wanted))
+    let has = |wanted: &str| files.lines().any(|file| file == wanted);
+    let root = (!has("src/lib.rs") && !has("src/main.rs")).then_some("src/lib.rs or src/main.rs");
+    FILES.into_iter().filter(move |wanted| !has(wanted)).chain(root)
 }
 
 fn foreign(files: &str) -> impl Iterator<Item = &str> {
@@ -81,6 +83,10 @@ mod tests {
     fn files_that_are_missing_or_foreign() {
         let files = "Cargo.toml\nLICENSE-APACHE\nLICENSE-MIT\nREADME.md\nsrc/lib.rs\n";
         assert_eq!((missing(files).count(), foreign(files).count()), (0, 0));
+        assert_eq!(
+            missing("Cargo.toml\nLICENSE-APACHE\nLICENSE-MIT\nREADME.md\n").collect::<Vec<_>>(),
+            ["src/lib.rs or src/main.rs"]
+        );
         let files = "Cargo.toml\nREADME.md\nsrc/lib.rs\nsrc/LICENSE-MIT\ntests/data/arm.json\nsrc/tests/mod.rs\n";
         assert_eq!(missing(files).collect::<Vec<_>>(), ["LICENSE-MIT", "LICENSE-APACHE"]);
         assert_eq!(foreign(files).collect::<Vec<_>>(), ["tests/data/arm.json"]);

@@ -129,7 +129,8 @@ pub enum Trouble {
 }
 
 impl Trouble {
-    fn report(self, model: &Model, diagnostics: &mut Diagnostics) {
+    /// Adds what is to be said of it, at the user's tokens.
+    pub fn report(self, model: &Model, diagnostics: &mut Diagnostics) {
         let span = model.name.span();
         match self {
             Trouble::Complaints(complaints) => {

@@ -1,0 +1,6 @@
+//! One file per command.
+
+pub(crate) mod check;
+pub(crate) mod counts;
+pub(crate) mod diff;
+pub(crate) mod expand;

@@ -1,0 +1,29 @@
+//! `check`: mistakes, else a line for each model.
+
+use multibody_engine::contracts::function::FunctionKind;
+
+use crate::Stop;
+use crate::arguments::Subject;
+use crate::build::{self, Built};
+
+pub(crate) fn run(subject: &Subject) -> Result<String, Stop> {
+    let models = build::models(subject)?;
+    Ok(models.iter().map(|model| format!("{}\n", line(model))).collect())
+}
+
+/// `four_bar: 3 bodies, 1 coordinate, 0 equations with multipliers; forward_dynamics, energy`
+fn line(built: &Built) -> String {
+    let counted = |count: usize, one: &str, many: &str| format!("{count} {}", if count == 1 { one } else { many });
+    // A model without outputs has that function all the same.
+    let kinds = built.compiled.functions.iter().map(|function| function.kind);
+    let kinds = kinds.filter(|kind| *kind != FunctionKind::Outputs || !built.model.outputs.is_empty());
+    let functions: Vec<String> = kinds.map(|kind| built.function(kind)).collect();
+    format!(
+        "{}: {}, {}, {} with multipliers; {}",
+        built.name(),
+        counted(built.model.bodies.len(), "body", "bodies"),
+        counted(built.structure.state.len(), "coordinate", "coordinates"),
+        counted(built.structure.rows.len(), "equation", "equations"),
+        functions.join(", ")
+    )
+}
