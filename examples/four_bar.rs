@@ -19,6 +19,10 @@ const SPEED: f64 = std::f64::consts::TAU;
 fn main() -> Result<(), IntegrationError> {
     torque();
     let_go()?;
+    println!("\nThe closed form of the loop, as the compiler has found it:\n");
+    for equation in free::EQUATIONS.iter().filter(|equation| equation.section == "Coordinates that follow") {
+        println!("  {equation}");
+    }
     println!("\nOperations of the generated functions:\n");
     for cost in free::COSTS.iter().chain(driven::COSTS).filter(|cost| cost.function != "new") {
         println!("  {cost}");

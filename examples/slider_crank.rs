@@ -21,6 +21,15 @@ fn main() -> Result<(), IntegrationError> {
     let model = Model::<f64>::default();
     motion(&model);
     run_up(&model)?;
+    println!("\nThe equations as the compiler has derived them:");
+    let mut section = "";
+    for equation in engine::EQUATIONS {
+        if equation.section != section {
+            section = equation.section;
+            println!("\n  {section}\n");
+        }
+        println!("    {equation}");
+    }
     println!("\nOperations of the generated functions:\n");
     for cost in engine::COSTS {
         println!("  {cost}");

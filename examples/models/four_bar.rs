@@ -41,7 +41,7 @@ linkage! {
         output rocker_angle = pivot.angle;
         /// [J]
         output energy = kinetic() + potential();
-        emit forward_dynamics, inverse_dynamics { solve_for: torque };
+        emit forward_dynamics, inverse_dynamics { solve_for: torque }, equations;
     }
 }
 

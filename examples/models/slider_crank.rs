@@ -29,6 +29,6 @@ multibody! {
         /// [N] on the crank
         output bearing: Vec3 = shaft.reaction.force;
         output energy = kinetic();
-        emit forward_dynamics, inverse_dynamics, kinematics { given: shaft, find: cylinder };
+        emit forward_dynamics, inverse_dynamics, equations, kinematics { given: shaft, find: cylinder };
     }
 }

@@ -81,6 +81,7 @@ mod cost;
 mod differentiable;
 #[doc(hidden)]
 pub mod emitted;
+mod equation;
 #[doc = include_str!("../docs/embedded.md")]
 pub mod embedded {}
 pub mod equilibrium;
@@ -112,6 +113,7 @@ pub use constrained::{Constrained, Kinematics};
 pub use coordinates::{Cylindrical, FreeRollPitchYaw, PinSlot, Planar, Pose, RollPitchYaw, Twist, Universal, Wrench};
 pub use cost::Cost;
 pub use differentiable::{Derivatives, Differentiable, Jacobian};
+pub use equation::Equation;
 pub use equilibrium::{Equilibrium, EquilibriumError, Free, constrained_equilibrium, equilibrium, trim};
 pub use feedback::Feedback;
 pub use impulsive::Impulsive;

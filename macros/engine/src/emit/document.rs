@@ -4,6 +4,7 @@
 //! public item has some: a crate that denies `missing_docs` accepts it.
 
 mod alike;
+mod equations;
 pub(super) mod fields;
 pub(super) mod formula;
 pub(super) mod loops;
@@ -179,6 +180,7 @@ pub(super) fn function(layout: &Layout<'_>, function: &Function) -> Vec<String> 
     }
     let (before, after) = (cost(&function.before), cost(&function.after));
     lines.push(format!("Operations: {after}; as derived, before optimisation: {before}."));
+    lines.extend(equations::of_function(layout, function.kind));
     lines
 }
 

@@ -97,10 +97,12 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
     if let Inertia::Own(entries) = &inertia {
         deriving.label(FunctionKind::MassMatrix, entries);
     }
+    let read = [Request::Report, Request::Equations];
+    let page = if read.iter().any(|request| model.emit.contains(request)) { Some(deriving.page()?) } else { None };
     let Deriving { graph, symbols, notes, dead_centres, .. } = deriving;
     let symbol_names = symbols.table.iter().map(|&symbol| names::symbol(model, symbol)).collect();
     let symbols = symbols.table.clone();
-    Ok(Derivation { graph, symbols, symbol_names, functions, notes, dead_centres, checks, inertia })
+    Ok(Derivation { graph, symbols, symbol_names, functions, notes, dead_centres, page, checks, inertia })
 }
 
 /// The equations of a model for readers, with loops closed as they are in the generated functions.
@@ -108,12 +110,7 @@ pub fn page(model: &Model, structure: &Structure) -> Result<Page, Vec<Complaint>
     let mut deriving = Deriving::new(model, structure);
     deriving.check()?;
     deriving.choose_writing()?;
-    let mut page = Page::default();
-    deriving.only("", |e| {
-        page = e.page()?;
-        Ok(Results::default())
-    })?;
-    Ok(page)
+    deriving.page()
 }
 
 /// What to derive, each once, in a fixed order.
@@ -169,6 +166,16 @@ impl<'m> Deriving<'m> {
             notes: Vec::new(),
             dead_centres: Vec::new(),
         }
+    }
+
+    /// Equations for readers.
+    fn page(&mut self) -> Result<Page, Vec<Complaint>> {
+        let mut page = Page::default();
+        self.only("", |e| {
+            page = e.page()?;
+            Ok(Results::default())
+        })?;
+        Ok(page)
     }
 
     /// What was asked for.

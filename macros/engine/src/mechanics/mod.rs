@@ -18,6 +18,8 @@ pub mod written;
 
 pub use derive::{MOST_FREEDOMS, derive, freedoms, page};
 
+use std::rc::Rc;
+
 use crate::contracts::function::FunctionKind;
 use crate::contracts::results::Results;
 use crate::contracts::symbol::Symbol;
@@ -26,6 +28,7 @@ use crate::symbolic::graph::{Graph, Scalar};
 
 use analysis::Complaint;
 use loops::structure::Structure;
+use written::Page;
 
 /// Structure and equations of a model.
 pub fn of(model: &Model) -> Result<(Structure, Derivation), Vec<Complaint>> {
@@ -34,6 +37,7 @@ pub fn of(model: &Model) -> Result<(Structure, Derivation), Vec<Complaint>> {
     let mut derivation = derive(model, &structure)?;
     let mut structure = structure.with_notes(std::mem::take(&mut derivation.notes));
     structure.dead_centres.clone_from(&derivation.dead_centres);
+    structure.page = derivation.page.take().map(Rc::new);
     Ok((structure, derivation))
 }
 
@@ -49,6 +53,8 @@ pub struct Derivation {
     pub notes: Vec<String>,
     /// Unknowns whose roots [`FunctionKind::DeadCentres`] gives, in this order.
     pub dead_centres: Vec<Coordinate>,
+    /// The equations for readers, where the model asks for them.
+    pub page: Option<Page>,
     /// For `Params::check`.
     pub checks: Vec<Test>,
     /// For `System::without_inertia`: entries row by row.

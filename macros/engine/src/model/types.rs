@@ -409,6 +409,10 @@ pub enum Request {
     Impulse,
     /// Momenta, their rates, velocities from momenta.
     Momentum,
+    /// The equations, in the module's documentation.
+    Report,
+    /// The equations as constants.
+    Equations,
 }
 
 /// A typed expression; shared subtrees (`const`, `let`) are shared here too.

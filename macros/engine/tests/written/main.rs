@@ -7,6 +7,7 @@ mod corpus;
 #[path = "../common/interpreter.rs"]
 mod interpreter;
 
+mod documented;
 mod faithful;
 mod setting;
 mod values;

@@ -14,7 +14,7 @@ use crate::mechanics::loops::structure::Structure;
 use crate::model::types::{Body, BodyRef, Docs, ExprNode, Frame, JointId, Model, Place, Type};
 use crate::optimize::program::Compiled;
 
-use super::{alike, code, cost, loops, unchecked, values};
+use super::{alike, code, cost, equations, loops, unchecked, values};
 
 /// The report as a Markdown document.
 pub fn report(model: &Model, structure: &Structure, compiled: &Compiled) -> String {
@@ -92,6 +92,7 @@ pub(in crate::emit) fn lines(context: &Context<'_>) -> Vec<String> {
             numbers.join(", ")
         ));
     }
+    lines.extend(equations::lines(layout));
     section(&mut lines, "Functions", &["function", "method", "operations", "as derived"], {
         let compiled = context.compiled;
         let new = vec![String::new(), cost(&compiled.prelude_cost), String::new()];

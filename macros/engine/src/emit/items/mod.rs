@@ -17,6 +17,7 @@ mod state;
 mod structs;
 mod system;
 mod verifiable;
+mod written;
 
 use proc_macro2::TokenStream;
 
@@ -41,6 +42,7 @@ pub(super) fn all(context: &Context<'_>) -> TokenStream {
         verifiable::item(context).unwrap_or_default(),
         parts::items(context),
         equations::items(context),
+        written::items(context),
         costs::items(context),
     ]
     .into_iter()

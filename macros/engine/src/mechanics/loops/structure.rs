@@ -5,8 +5,10 @@
 //! or follow a drive, or are found from the others in an order of steps; equations that no step solves keep multipliers.
 
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 use crate::mechanics::translate::symbols::has_quaternion;
+use crate::mechanics::written::Page;
 use crate::model::types::{ConstraintId, Coordinate, ForceId, JointId, LoopClosure, Model};
 
 use super::constraints::is_length;
@@ -52,6 +54,8 @@ pub struct Structure {
     pub closed: Vec<Closed>,
     /// Sentences for the report: choices that were made for the user.
     pub notes: Vec<String>,
+    /// The equations for readers, where the model asks for them; known once they are derived.
+    pub page: Option<Rc<Page>>,
 }
 
 /// A configuration in which all loops are closed.

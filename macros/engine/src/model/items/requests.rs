@@ -20,7 +20,7 @@ use crate::syntax::tree;
 
 use super::fields::{Known, field};
 
-const REQUESTS: [(&str, Request); 11] = [
+const REQUESTS: [(&str, Request); 13] = [
     ("forward_dynamics", Request::ForwardDynamics),
     ("inverse_dynamics", Request::InverseDynamics),
     ("mass_matrix", Request::MassMatrix),
@@ -32,6 +32,8 @@ const REQUESTS: [(&str, Request); 11] = [
     ("derivatives", Request::Derivatives),
     ("impulse", Request::Impulse),
     ("momentum", Request::Momentum),
+    ("report", Request::Report),
+    ("equations", Request::Equations),
 ];
 
 /// Named by the design, derived by later versions; what there is instead.

@@ -1,0 +1,33 @@
+//! Stage `emit`: the equations as constants, where the model asks for them.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::emit::Context;
+use crate::model::types::Request;
+use crate::symbolic::write::{latex, text};
+
+/// Expands to `pub const EQUATIONS: &[Equation] = &[..];`.
+pub(super) fn items(context: &Context<'_>) -> TokenStream {
+    let layout = &context.layout;
+    let krate = layout.krate();
+    let asked = layout.model.emit.contains(&Request::Equations);
+    let Some(page) = layout.structure.page.as_ref().filter(|_| asked && !context.hollow) else {
+        // Beside errors the name is there for those who read it.
+        return if asked {
+            quote!(#[doc = "Equations."] pub const EQUATIONS: &[#krate::Equation] = &[];)
+        } else {
+            quote!()
+        };
+    };
+    let equations =
+        page.sections.iter().flat_map(|section| section.lines.iter().map(move |line| (section.title, line)));
+    let equations = equations.map(|(section, line)| {
+        let (text, latex) = (text::equation(&line.equation), latex::equation(&line.equation));
+        quote!(#krate::Equation { section: #section, text: #text, latex: #latex })
+    });
+    quote! {
+        /// The equations of the model, each after those that it reads.
+        pub const EQUATIONS: &[#krate::Equation] = &[#(#equations),*];
+    }
+}

@@ -1,0 +1,101 @@
+//! What `emit report` and `emit equations` put into a module.
+
+use crate::corpus;
+
+const CRANE: &str = "pub mod crane {
+    param m = 200.0;
+    param length = 8.0;
+    input drive;
+    world { gravity: -9.81 * Y }
+    body trolley { mass: 2.0 * m }
+    body load { mass: m, com: -length * Y }
+    joint rail: Prismatic { parent: ground, child: trolley, axis: X }
+    joint theta: Revolute { parent: trolley, child: load, axis: Z }
+    force motor: Effort { joint: rail, value: drive }
+    output height = load.at(-length * Y).position.y;
+    emit forward_dynamics, mass_matrix, bias REQUESTS;
+}";
+
+fn module(requests: &str) -> String {
+    multibody_engine::expand(CRANE.replace("REQUESTS", requests).parse().unwrap()).to_string()
+}
+
+/// Lines of the documentation that stands before the module.
+fn documentation(module: &str) -> Vec<String> {
+    let head = module.split("pub mod crane").next().unwrap();
+    let file: syn::File = syn::parse_str(&format!("{head} mod m {{}}")).unwrap();
+    let syn::Item::Mod(item) = &file.items[0] else { panic!("no module") };
+    item.attrs
+        .iter()
+        .filter_map(|attr| match &attr.meta {
+            syn::Meta::NameValue(pair) => match &pair.value {
+                syn::Expr::Lit(syn::ExprLit { lit: syn::Lit::Str(text), .. }) => Some(text.value().trim().to_owned()),
+                _ => None,
+            },
+            _ => None,
+        })
+        .collect()
+}
+
+/// Every tag is closed in its order.
+fn is_balanced(html: &str) -> bool {
+    let mut open: Vec<&str> = Vec::new();
+    for tag in html.split('<').skip(1).filter_map(|rest| rest.split('>').next()) {
+        match tag.strip_prefix('/') {
+            Some(name) if open.pop() == Some(name) => {}
+            Some(_) => return false,
+            None => open.push(tag.split(' ').next().unwrap()),
+        }
+    }
+    open.is_empty()
+}
+
+#[test]
+fn the_page_has_equations_that_markdown_leaves_alone() {
+    let lines = documentation(&module(", report"));
+    let start = lines.iter().position(|line| line == "## Equations of motion").expect("a section");
+    let block: Vec<&String> = lines[start..].iter().skip_while(|line| !line.starts_with("<div>")).collect();
+    let end = block.iter().position(|line| line.ends_with("</div>")).expect("its end");
+    assert!(block[..=end].iter().all(|line| !line.is_empty()), "an empty line ends the block of HTML: {block:#?}");
+    let html: String = block[..=end].iter().map(|line| line.as_str()).collect();
+    assert!(is_balanced(&html), "{html}");
+    assert!(!html.contains(['*', '_', '`']), "{html}");
+    assert_eq!(html.matches("<math").count(), 2);
+}
+
+#[test]
+fn functions_have_what_they_compute() {
+    let module = module(", report");
+    for line in ["M[rail, rail] = 3 m", "M[rail, theta] = m length cos(theta)", "height = -length cos(theta)"] {
+        assert!(module.contains(line), "{line}");
+    }
+}
+
+#[test]
+fn constants_are_there_when_asked_for() {
+    let with = module(", equations");
+    assert!(
+        with.contains("EQUATIONS") && with.contains("section : \"Outputs\" , text : \"height = -length cos(theta)\"")
+    );
+    assert!(!with.contains("<math"));
+    let without = module("");
+    assert!(!without.contains("EQUATIONS") && !without.contains("<math"));
+}
+
+/// Whatever reads the constant beside a mistake has it.
+#[test]
+fn beside_errors_the_name_is_there() {
+    let text = CRANE.replace("REQUESTS", ", equations").replace("mass: 2.0 * m", "mass: 2.0 * n");
+    let module = multibody_engine::expand(text.parse().unwrap()).to_string();
+    assert!(module.contains("compile_error") && module.contains("EQUATIONS"));
+}
+
+/// Only what is asked for is derived.
+#[test]
+fn pages_are_made_when_asked_for() {
+    let page = |requests: &str| {
+        let model = corpus::model(&CRANE.replace("REQUESTS", requests));
+        multibody_engine::compile(&model).ok().unwrap().0.page.is_some()
+    };
+    assert!(!page("") && page(", report") && page(", equations"));
+}
