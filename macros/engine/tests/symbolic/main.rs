@@ -9,5 +9,6 @@ mod identity;
 mod inputs;
 #[path = "../common/rng.rs"]
 mod rng;
+mod signs;
 mod substitution;
 mod vectors;
