@@ -2,8 +2,10 @@
 
 use multibody_engine::contracts::call::Call;
 use multibody_engine::contracts::cost::Cost;
-use multibody_engine::symbolic::graph::{Graph, Scalar};
+use multibody_engine::symbolic::evaluate::Evaluator;
+use multibody_engine::symbolic::graph::{Graph, Scalar, SymbolId};
 use multibody_engine::symbolic::signs::{is_positive, is_proven};
+use multibody_engine::symbolic::sized::WithSizes;
 
 /// Squares are positive, symbols are anything, roots count as positive.
 #[test]
@@ -22,6 +24,7 @@ fn signs_of_forms() {
     let mask = g.call(Call::Less, &[x, y]);
     let mut select = |a: Scalar, b: Scalar| g.call(Call::Select, &[mask, a, b]);
     let (chosen, open, below) = (select(root, two), select(root, -two), select(-root, -two));
+    let touching = select(Scalar::ZERO, -two);
 
     let positive = [one, xx, yy, root, exp, both, sums[0], sums[1], sums[2], inverse, chosen];
     for s in positive {
@@ -30,7 +33,7 @@ fn signs_of_forms() {
     for s in [odd, below] {
         assert!(is_positive(&g, -s) && !is_positive(&g, s), "{:?}", g.node(s));
     }
-    for s in [x, cube, cross, mixed[0], mixed[1], mixed[2], mixed[3], other, open, Scalar::ZERO] {
+    for s in [x, cube, cross, mixed[0], mixed[1], mixed[2], mixed[3], other, open, touching, Scalar::ZERO] {
         assert!(!is_positive(&g, s) && !is_positive(&g, -s), "{:?}", g.node(s));
     }
 }
@@ -63,6 +66,7 @@ fn comparisons_that_hold_whatever_symbols_are() {
         order(Call::Less, xx, one),
         order(Call::Less, more, beyond),
         order(Call::Less, x, y),
+        order(Call::Less, x, x),
         order(Call::Equal, x, y),
     ];
     for (&mask, holds) in proven.iter().map(|mask| (mask, true)).chain(open.iter().map(|mask| (mask, false))) {
@@ -108,4 +112,18 @@ fn costs_of_nodes() {
     let roots = [&[sum, product, root, inverse][..], &pair, &calls].concat();
     let expected = Cost { add: 2 + 2, mul: 2, div: 1, sqrt: 1, sincos: 1, compare: 1, other: 1 };
     assert_eq!(g.cost(&roots), expected);
+}
+
+/// A sum of what cancels is rounding beside its terms, and zero beside nothing.
+#[test]
+fn sums_beside_their_terms() {
+    let mut g = Graph::new();
+    let [x, y] = [(); 2].map(|()| g.symbol());
+    let sum = g.add(x, y);
+    let is_rounding = |x: f64, y: f64| {
+        let symbols = |id: SymbolId| [x, y][id.0];
+        Evaluator::new(&g, WithSizes { symbols: &symbols }).run(&[sum])[0].is_rounding()
+    };
+    assert!(is_rounding(1.0, -1.0 + f64::EPSILON) && is_rounding(1.0, -1.0) && is_rounding(0.0, 0.0));
+    assert!(!is_rounding(1.0, 1.0) && !is_rounding(1.0, -0.999) && !is_rounding(1e-30, 0.0));
 }
