@@ -90,3 +90,30 @@ fn products((rows, pivots): &Echelon, n: usize) -> usize {
     }
     cost
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whatever columns are the first that can be solved for.
+    #[test]
+    fn columns_that_are_regular() {
+        let rows = |list: &[[i64; 4]]| -> Vec<Vec<Number>> {
+            list.iter().map(|row| row.map(Number::integer).to_vec()).collect()
+        };
+        for (list, expected) in [
+            ([[1, 1, 0, 0], [1, 1, 1, 0]], [0, 2]),
+            ([[0, 0, 1, 0], [0, 0, 0, 1]], [2, 3]),
+            ([[1, 2, 3, 0], [1, 2, 3, 1]], [0, 3]),
+        ] {
+            let (reduced, pivots) = best_pivots(&rows(&list), 4).expect("regular columns");
+            assert!(pivots.contains(&expected[1]), "{pivots:?}");
+            for (i, row) in reduced.iter().enumerate() {
+                for (at, &column) in pivots.iter().enumerate() {
+                    assert!(row[column] == if at == i { Number::ONE } else { Number::ZERO });
+                }
+            }
+        }
+        assert!(best_pivots(&rows(&[[1, 2, 3, 4], [2, 4, 6, 8]]), 4).is_none());
+    }
+}

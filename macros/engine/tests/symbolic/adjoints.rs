@@ -180,3 +180,16 @@ fn costs_are_those_of_the_map() {
         assert!(down < 2 * up, "{down} down, {up} up");
     }
 }
+
+/// A symbol may be given with a sign.
+#[test]
+fn symbols_with_a_sign() {
+    let mut g = Graph::new();
+    let [x, weight] = [(); 2].map(|()| g.symbol());
+    let three = g.integer(3);
+    let result = g.mul(three, x);
+    let plain = g.transpose_linear(&[(result, weight)], &[x]);
+    let turned = g.transpose_linear(&[(result, weight)], &[-x]);
+    assert_eq!(plain, [g.mul(three, weight)]);
+    assert_eq!(turned, [-plain[0]]);
+}

@@ -366,3 +366,33 @@ fn linear_systems() {
         assert!((value - expected.1).abs() < 1e-13 * (1.0 + value.abs()), "{value} {}", expected.1);
     }
 }
+
+/// An angle that is known by its cosine and sine: twice the arc tangent of x.
+#[test]
+fn angles_of_points() {
+    let mut g = Graph::new();
+    let x = g.symbol();
+    let xx = g.mul(x, x);
+    let (below, above) = (g.add(Scalar::ONE, xx), g.sub(Scalar::ONE, xx));
+    let inverse = g.reciprocal(below);
+    let two = g.integer(2);
+    let (cos, sin) = (g.mul(above, inverse), g.product(&[two, x, inverse]));
+    let angle = g.angle(cos, sin);
+    let expected = g.mul(two, inverse);
+    assert_eq!(g.derivative(angle, &[(x, Scalar::ONE)]), expected);
+    assert_eq!(g.derivative(angle, &[(-x, Scalar::ONE)]), -expected);
+}
+
+/// A linear system all of whose operands move.
+#[test]
+fn blocks_that_move_in_all_operands() {
+    let mut g = Graph::new();
+    let [a, b] = [(); 2].map(|()| g.symbol());
+    let kind = BlockKind::Solve { size: 1, symmetric: false, groups: Box::new([0]) };
+    let found = g.block_outputs(kind, &[a, b])[0];
+    let slope = g.derivative(found, &[(a, Scalar::ONE), (b, Scalar::ONE)]);
+    let symbols = |id: SymbolId| [3.0, 5.0][id.0];
+    let value = Evaluator::new(&g, Real { symbols: &symbols }).run(&[slope])[0];
+    // (b / a)' = b' / a - b a' / a^2
+    assert!((value - (1.0 / 3.0 - 5.0 / 9.0)).abs() < 1e-12, "{value}");
+}

@@ -192,3 +192,23 @@ fn dependent_rows_lose_rank() {
     assert_eq!(got[2], 1.0);
     assert!((got[0] + got[1] - 1.0).abs() < 1e-15);
 }
+
+/// More inputs than rows have no solution here.
+#[test]
+fn systems_that_are_not_square() {
+    let mut g = Graph::new();
+    let list = symbols(&mut g, 8);
+    let a: Vec<Vec<Scalar>> = list[..6].chunks(3).map(<[Scalar]>::to_vec).collect();
+    let found = inputs(&mut g, &a, &list[6..], usize::MAX, &[]);
+    assert_eq!((found.rank, found.constant), (Scalar::ZERO, 0));
+}
+
+/// One row of parameters, and one that moves.
+#[test]
+fn a_row_of_parameters() {
+    let mut g = Graph::new();
+    let list = symbols(&mut g, 6);
+    let a = vec![list[4..].to_vec(), list[..2].to_vec()];
+    let found = inputs(&mut g, &a, &list[2..4], 4, &list[4..]);
+    assert_eq!(check(&g, &a, &list[2..4], &found, &[0.7, -1.3, 1.0, 2.0, 0.4, 0.9]), 2.0);
+}

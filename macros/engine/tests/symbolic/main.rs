@@ -7,6 +7,7 @@ mod differentiation;
 mod expressions;
 mod identity;
 mod inputs;
+mod literals;
 #[path = "../common/rng.rs"]
 mod rng;
 mod signs;
