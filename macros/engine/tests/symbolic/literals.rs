@@ -90,7 +90,7 @@ fn exponentials_of_large_numbers() {
 #[test]
 fn signs_of_residues() {
     for n in 1..100_i128 {
-        let x = Check::integer(n) * Check::integer(1 << 40) * Check::integer(n).inverse() + Check::integer(n * n << 50);
+        let x = Check::integer(n) * Check::integer(1 << 40) * Check::integer(n).inverse() + Check::integer((n * n) << 50);
         assert!(x.canonical() == (-x).canonical());
     }
 }
