@@ -19,12 +19,9 @@ use multibody_engine::model::types::{Coordinate, JointId};
 use nalgebra::{DMatrix, DVector};
 
 use crate::campaign::{Chains, Family, Loops};
+use crate::corpus;
 use crate::oracle::Verdict;
 use crate::programs::{Failure, Programs, Values};
-
-#[path = "../../macros/engine/tests/common/corpus.rs"]
-#[allow(dead_code)]
-mod corpus;
 
 /// What it takes.
 pub const USAGE: &str = "[--record FOLDER] [--exact NAME..]";

@@ -2,7 +2,8 @@
 //!
 //! `mechanism` draws mechanisms as data and writes them in the language, `programs` compiles the text and interprets what
 //! comes of it, `plain` works the same data out in plain numbers, and `oracle` compares. A failure is made as small as it
-//! gets (`mechanism::shrink`) and printed as text. `jury` runs models for `cargo xtask mutants`.
+//! gets (`mechanism::shrink`) and printed as text. `jury` runs models for `cargo xtask mutants`,
+//! `written` puts equations for readers down as they are printed.
 
 pub mod algebra;
 pub mod campaign;
@@ -15,3 +16,12 @@ pub mod oracle;
 pub mod plain;
 pub mod programs;
 pub mod random;
+pub mod written;
+
+#[path = "../../macros/engine/tests/common/corpus.rs"]
+#[allow(dead_code)]
+mod corpus;
+#[path = "../../macros/engine/tests/common/interpreter.rs"]
+mod interpreter;
+#[path = "../../macros/engine/tests/common/pages.rs"]
+mod pages;

@@ -4,7 +4,7 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use multibody_fuzz::campaign::{Chains, Family, Loops, Plan, Tally, run};
-use multibody_fuzz::{grammar_campaign, jury};
+use multibody_fuzz::{grammar_campaign, jury, written};
 
 fn number(arguments: &[String], name: &str, default: u64) -> u64 {
     let at = arguments.iter().position(|word| word == name);
@@ -23,10 +23,39 @@ fn show(what: &str, tally: &Tally, start: Instant) -> bool {
     tally.failures() == 0
 }
 
+/// Equations as they are printed, to standard output.
+fn put_down(arguments: &[String]) -> ExitCode {
+    // Every option has a number behind it.
+    let files = (0..arguments.len()).filter(|&k| {
+        let behind = k.checked_sub(1).is_some_and(|before| arguments[before].starts_with("--"));
+        !behind && !arguments[k].starts_with("--")
+    });
+    let plan = written::Plan {
+        models: number(arguments, "--models", u64::MAX) as usize,
+        states: number(arguments, "--states", 100) as usize,
+        seed: number(arguments, "--seed", 1),
+        most_freedoms: number(arguments, "--most-freedoms", u64::MAX) as usize,
+        files: files.map(|k| arguments[k].clone()).collect(),
+    };
+    match written::run(&plan, &mut std::io::stdout().lock()) {
+        Ok(models) => {
+            eprintln!("{models} models");
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     if arguments.first().is_some_and(|word| word == "jury") {
         return if jury::run(&arguments[1..]) { ExitCode::SUCCESS } else { ExitCode::FAILURE };
+    }
+    if arguments.first().is_some_and(|word| word == "written") {
+        return put_down(&arguments[1..]);
     }
     let plan = Plan {
         models: number(&arguments, "--models", 1000) as usize,
@@ -59,6 +88,7 @@ fn main() -> ExitCode {
         _ => {
             println!("chains|loops|grammar|broken|rustc [--models N] [--seed S] [--shown K] [--seconds T]");
             println!("jury {}", jury::USAGE);
+            println!("written {}", written::USAGE);
             return ExitCode::FAILURE;
         }
     };

@@ -11,8 +11,7 @@ use multibody_engine::optimize::Refusal;
 use multibody_engine::optimize::program::Compiled;
 use multibody_engine::{Trouble, compile, model, syntax};
 
-#[path = "../../macros/engine/tests/common/interpreter.rs"]
-mod interpreter;
+use crate::interpreter;
 
 /// A compiled model.
 pub struct Programs {

@@ -6,6 +6,8 @@
 mod corpus;
 #[path = "../common/interpreter.rs"]
 mod interpreter;
+#[path = "../common/pages.rs"]
+mod pages;
 
 mod documented;
 mod faithful;

@@ -65,6 +65,8 @@ pub enum Subject {
     Follows(Coordinate, usize),
     /// What is left of its acceleration where those of the state are zero.
     Rest(Coordinate),
+    /// Its acceleration, where something reads it.
+    Acceleration(Coordinate),
     /// What is zero where the loop is closed.
     Constraint(Row),
     /// Its slope along a velocity of the state.

@@ -49,7 +49,7 @@ impl Equations<'_> {
         writer.followers(self, &reduction, &following);
         writer.constraints(self);
         writer.motion(self, &following);
-        writer.own(self);
+        writer.own(self, &reduction, &following);
         Ok(writer.page)
     }
 }
@@ -128,7 +128,7 @@ impl Sections {
     }
 
     /// Rates of the user's own states, and outputs.
-    fn own(&mut self, e: &mut Equations<'_>) {
+    fn own(&mut self, e: &mut Equations<'_>, reduction: &Reduction, motion: &Following) {
         let model = e.scene.model;
         let mut drafts = Vec::new();
         for (k, state) in model.states.iter().enumerate() {
@@ -160,6 +160,8 @@ impl Sections {
             }
             place += flat.len();
         }
+        let read: Vec<Scalar> = drafts.iter().map(|draft| draft.value).collect();
+        drafts.splice(0..0, self.accelerations(e, reduction, motion, &read));
         let lines = self.lines(e, drafts);
         self.section("Outputs", Vec::new(), lines);
     }
@@ -223,6 +225,32 @@ impl Sections {
                 let left = self.name(e, e.coordinate_symbols(definition.coordinate)[1]);
                 drafts.push(Draft::new(Subject::Rate(definition.coordinate), left, value));
             }
+        }
+        drafts
+    }
+
+    /// Accelerations of what follows, of those that values read.
+    fn accelerations(
+        &self,
+        e: &mut Equations<'_>,
+        reduction: &Reduction,
+        motion: &Following,
+        values: &[Scalar],
+    ) -> Vec<Draft> {
+        let read: HashSet<usize> = e.g.reachable_scalars(values).into_iter().collect();
+        let state: Vec<Scalar> = e.scene.structure.state.iter().map(|&c| e.coordinate_symbols(c)[2]).collect();
+        let mut drafts = Vec::new();
+        for definition in &reduction.definitions {
+            let acceleration = e.coordinate_symbols(definition.coordinate)[2];
+            if !read.contains(&acceleration.index()) {
+                continue;
+            }
+            let row = &motion.map[e.freedom(definition.coordinate)];
+            let mut terms: Vec<Scalar> = row.iter().zip(&state).map(|(&slope, &a)| e.g.mul(slope, a)).collect();
+            terms.extend(e.g.symbol_id(acceleration).map(|id| motion.still[&id]));
+            let value = e.g.sum(&terms);
+            let left = self.name(e, acceleration);
+            drafts.push(Draft::new(Subject::Acceleration(definition.coordinate), left, value));
         }
         drafts
     }

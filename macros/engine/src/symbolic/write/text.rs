@@ -1,9 +1,10 @@
 //! Stage `symbolic`, writing: formulas as plain text.
 //!
 //! In: a formula. Out: one line for terminals and text files: `m l² φ¨ + m g l sin(φ) = 0`. Factors stand side by side, `/`
-//! binds as a product does, a rate has a dot behind its name.
+//! binds as a product does, a rate has a dot behind its name. A bracket right behind a word holds its arguments; behind a space
+//! it is a factor. Beside words of functions only `if` and `else` have a meaning, which no name can be: `(a if x < y else b)`.
 
-use super::formula::{Equation, Formula, Function, Identifier, Relation};
+use super::formula::{Equation, Formula, Identifier, Relation};
 
 /// How strongly what stands around a formula binds.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -103,31 +104,29 @@ fn bare(text: &mut String, formula: &Formula) {
         }
         Formula::Root(x) => call(text, "sqrt", [&**x]),
         Formula::Absolute(x) => call(text, "abs", [&**x]),
-        Formula::Apply(function, list) => match function {
-            Function::Epsilon | Function::Undefined => text.push_str(function.word()),
-            _ => call(text, function.word(), list),
-        },
+        // What takes no arguments is told from names by its empty brackets.
+        Formula::Apply(function, list) => call(text, function.word(), list),
         Formula::Related(relation, a, b) => {
             put(text, a, Around::Sum);
             text.push_str(match relation {
                 Relation::Less => " < ",
                 Relation::LessEqual => " <= ",
                 Relation::Equal => " == ",
-                Relation::And => " and ",
-                Relation::Or => " or ",
+                Relation::And => " ∧ ",
+                Relation::Or => " ∨ ",
             });
             put(text, b, Around::Sum);
         }
         Formula::Not(x) => {
-            text.push_str("not ");
+            text.push('¬');
             put(text, x, Around::Power);
         }
         Formula::Cases(parts) => {
             let [condition, yes, no] = &**parts;
-            text.push_str("(if ");
-            put(text, condition, Around::Nothing);
-            text.push_str(" then ");
+            text.push('(');
             put(text, yes, Around::Nothing);
+            text.push_str(" if ");
+            put(text, condition, Around::Nothing);
             text.push_str(" else ");
             put(text, no, Around::Nothing);
             text.push(')');

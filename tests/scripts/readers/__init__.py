@@ -1,0 +1,1 @@
+"""Printed equations as SymPy expressions: a reader for each form."""

@@ -1,0 +1,181 @@
+"""A page of equations: its names, its lines one after the other, and what they come to."""
+
+import numpy
+import sympy
+
+from . import latex, mathml, text
+from .meaning import UNDEFINED, Unreadable
+
+FORMS = {"text": text, "latex": latex, "mathml": mathml}
+TOLERANCE = 1e-12
+
+
+class Page:
+    """Reads a page and compares it; `wrong` has what is found."""
+
+    def __init__(self, model):
+        self.model, self.wrong, self.worst = model, [], (0.0, "nothing")
+        self.names = {form: {} for form in FORMS}
+        self.legend()
+        lines = [self.line(k, line) for k, line in enumerate(model["lines"])]
+        if model["states"] and not self.wrong:
+            with numpy.errstate(all="ignore"):
+                self.compare([line for line in lines if line])
+
+    def say(self, what):
+        self.wrong.append(what)
+
+    def call(self, symbol, printed, what):
+        """A name in three forms; it must be no other's."""
+        for form in FORMS:
+            key = FORMS[form].name(printed[form])
+            if key is None:
+                self.say(f"{what}: {printed[form]} is no name in {form}")
+            elif self.names[form].setdefault(key, symbol) != symbol:
+                self.say(f"{what}: {printed['text']} looks like another in {form}: {printed[form]}")
+
+    def legend(self):
+        self.symbols = [sympy.Symbol(f"s{k}", real=True) for k in range(len(self.model["symbols"]))]
+        for symbol, printed in zip(self.symbols, self.model["symbols"]):
+            self.call(symbol, printed, "legend")
+        # Names of left sides first: a line may read what stands below it.
+        self.defined = {}
+        given = {symbol for symbol, printed in zip(self.symbols, self.model["symbols"]) if printed["given"]}
+        for k, line in enumerate(self.model["lines"]):
+            left = line["left"]
+            if line["subject"] in ("motion", "cosine", "sine"):
+                continue
+            known = self.names["text"].get(text.name(left["text"]))
+            if known in given or known in self.defined.values():
+                self.say(f"line {k}: {left['text']} is told twice")
+            self.defined[k] = known or sympy.Symbol(f"d{k}", real=True)
+            self.call(self.defined[k], left, f"line {k}")
+
+    def line(self, k, line):
+        """Both sides by form."""
+        try:
+            sides = {
+                side: {form: reader.read(line[side][form], self.names[form]) for form, reader in FORMS.items()}
+                for side in ("left", "right")
+            }
+        except (Unreadable, KeyError, IndexError, ValueError, SyntaxError) as error:
+            self.say(f"line {k}: {type(error).__name__} {error}")
+            return None
+        return k, line["subject"], line["at"], sides
+
+    def compare(self, lines):
+        states = self.model["states"]
+        still = self.evaluate(lines, [state["values"] for state in states])
+        self.against(still, states)
+        if None not in states[0]["moving"]:
+            moving = self.evaluate(lines, [state["moving"] for state in states])
+            self.last(moving, states)
+
+    def evaluate(self, lines, states):
+        """Values of right sides by subject, and of both sides of equations of motion."""
+        table = numpy.array(states, dtype=numpy.longdouble).T
+        given = zip(self.symbols, self.model["symbols"], table)
+        values = {symbol: list_ for symbol, printed, list_ in given if printed["given"]}
+        values[UNDEFINED] = numpy.full(len(states), numpy.nan)
+        found = {"cosine": {}, "sine": {}}
+        for k, subject, at, sides in sorted(lines, key=lambda line: line[1] == "motion"):
+            left, right = sides["left"]["text"], self.value(k, sides["right"], values, len(states))
+            if subject == "motion":
+                found[subject, *at] = self.value(k, sides["left"], values, len(states)), right
+            elif subject == "cosine":
+                found["cosine"][left.args[0]] = right
+            elif subject == "sine":
+                angle = left.args[0] if left.args else left
+                values[angle] = numpy.arctan2(right, found["cosine"][angle])
+            else:
+                values[self.defined[k]] = right
+                found[subject, *at] = right
+        return found
+
+    def value(self, k, forms, values, size):
+        """Of one side: the forms must agree."""
+        results = {}
+        for form, expression in forms.items():
+            if expression not in results:
+                arguments = sorted(expression.free_symbols, key=str)
+                missing = [str(symbol) for symbol in arguments if symbol not in values]
+                if missing:
+                    self.say(f"line {k}: {missing} have no value in {form}")
+                    return numpy.full(size, numpy.nan)
+                function = sympy.lambdify(arguments, expression, modules=[{"amax": greatest, "amin": least}, "numpy"])
+                result = numpy.asarray(function(*(values[symbol] for symbol in arguments)), dtype=numpy.longdouble)
+                results[expression] = numpy.broadcast_to(result, size)
+        first, *others = results.values()
+        scale = numpy.maximum(1, numpy.abs(first))
+        for other in others:
+            if not numpy.all((numpy.abs(first - other) <= TOLERANCE * scale) | (numpy.isnan(first) & numpy.isnan(other))):
+                self.say(f"line {k}: text, LaTeX and MathML differ: {self.model['lines'][k]['right']}")
+        return first
+
+    def check(self, what, got, want, scale):
+        """Entries by states, to a tolerance of the scale by states."""
+        got, want = numpy.array(got, dtype=numpy.longdouble), numpy.array(want, dtype=numpy.longdouble)
+        if got.shape != want.shape:
+            return self.say(f"{what}: {got.shape} entries on the page and {want.shape} compiled")
+        if got.size == 0:
+            return None
+        error = numpy.abs(got - want) / scale
+        self.worst = max(self.worst, (float(numpy.nanmax(error, initial=0)), what))
+        if not numpy.all(error <= TOLERANCE):
+            entry, state = numpy.argwhere(~(error <= TOLERANCE))[0]
+            self.say(f"{what} {entry} is {got[entry, state]} on the page and {want[entry, state]} compiled, state {state}")
+
+    def against(self, found, states):
+        """Of what does not depend on how the mechanism accelerates."""
+
+        def results(name):
+            return numpy.array([state[name] for state in states], dtype=numpy.longdouble).T
+
+        def entries(subject):
+            return numpy.array([found[key] for key in sorted(key for key in found if key[0] == subject)])
+
+        size, count = self.model["freedoms"], len(states)
+        if size == 0:
+            return
+        mass = results("mass").reshape(size, size, count)
+        upper = [mass[i, j] for i in range(size) for j in range(i, size)]
+        biggest = numpy.maximum(1, numpy.abs(mass).max(axis=(0, 1)))
+        self.check("mass matrix", entries("mass"), upper, biggest)
+        parts = [entries(subject) for subject in ("inertial", "gravity", "force")]
+        scale = numpy.maximum(1, numpy.abs(parts).max(axis=(0, 1)))
+        self.check("bias", parts[0] + parts[1] - parts[2], results("bias"), scale)
+        motion = entries("motion")
+        scale = numpy.maximum(numpy.maximum(biggest, scale), numpy.abs(motion).max(axis=(0, 1)))
+        self.check("equation of motion", motion[:, 0] - motion[:, 1], results("motion"), scale)
+        if states[0]["constraints"] is not None:
+            gaps = results("constraints")
+            self.check("constraint", entries("constraint"), gaps, numpy.maximum(1, numpy.abs(gaps).max(axis=0)))
+            slopes = results("jacobian")
+            own = numpy.zeros_like(slopes)
+            for key in found:
+                if key[0] == "slope":
+                    own[key[1] * size + key[2]] = found[key]
+            self.check("Jacobian", own, slopes, numpy.maximum(1, numpy.abs(slopes).max(axis=0)))
+
+    def last(self, found, states):
+        """Of what reads accelerations and multipliers as the motion has them."""
+        for name, subject in (("outputs", "output"), ("rates", "state rate")):
+            for key in found:
+                if key[0] == subject:
+                    want = numpy.array([state[name][key[1]] for state in states], dtype=numpy.longdouble)
+                    self.check(f"{subject} {key[1]}", [found[key]], [want], numpy.maximum(1, numpy.abs(want)))
+
+
+def greatest(list_, axis=0):
+    return reduced(numpy.maximum, list_)
+
+
+def least(list_, axis=0):
+    return reduced(numpy.minimum, list_)
+
+
+def reduced(choice, list_):
+    first, *others = list_
+    for other in others:
+        first = choice(first, other)
+    return first
