@@ -4,7 +4,7 @@
 use std::cell::Cell;
 
 use crate::on_graph::{Derived, derive, point};
-use crate::random::{Mechanism, State};
+use crate::random::{Kind, Mechanism, State};
 use crate::rng::Rng;
 use crate::{formulations, plain};
 use multibody_engine::dynamics::articulated;
@@ -134,6 +134,28 @@ fn floating_bases_agree_with_plain_numbers() {
         let state = mechanism.state(&mut rng);
         check_numbers(&mechanism, &state);
     }
+}
+
+/// Two slides and a hinge are a plane's where the hinge stands across both, in their axes.
+#[test]
+fn what_is_no_plane() {
+    let planar = (0..100).find_map(|seed| {
+        let mut mechanism = Mechanism::default();
+        mechanism.float(&mut Rng::new(seed));
+        (mechanism.bodies.len() == 3).then_some(mechanism)
+    });
+    let planar = planar.expect("three in ten are planar");
+    let bases = |mechanism: &Mechanism| floating_bases(&derive(mechanism).tree).len();
+    assert_eq!(bases(&planar), 1);
+    for slide in 0..2 {
+        let mut along = planar.clone();
+        let Kind::Prismatic(axis) = along.bodies[slide].kind else { panic!("a slide") };
+        along.bodies[2].kind = Kind::Revolute(axis);
+        assert_eq!(bases(&along), 0, "along slide {slide}");
+    }
+    let mut turned = planar;
+    turned.bodies[2].placement = [2, 1, 0, 0];
+    assert_eq!(bases(&turned), 0);
 }
 
 /// What acts on a carrier is felt by some of the translations only: without the floating base it says the same.

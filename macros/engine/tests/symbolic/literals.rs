@@ -70,8 +70,12 @@ fn calls_of_literals() {
     let power = g.decimal(-0.5);
     let (power, root) = (g.call(Call::Powf, &[two, power]), g.sqrt(two));
     assert_eq!(g.mul(power, root), Scalar::ONE);
-    // As near to 2 + sqrt(3) as 31 digits tell, and not that.
+    let six = g.decimal(6.0);
     let three = g.decimal(3.0);
+    let roots = [two, three, six].map(|x| g.sqrt(x));
+    assert_eq!(g.mul(roots[0], roots[1]), roots[2]);
+    assert_eq!(g.length([Scalar::ONE, Scalar::ZERO, -Scalar::ONE]), roots[0]);
+    // As near to 2 + sqrt(3) as 31 digits tell, and not that.
     let (root, little) = (g.sqrt(three), g.decimal(1e-26));
     let exact = g.add(two, root);
     let near = g.add(exact, little);
@@ -90,7 +94,8 @@ fn exponentials_of_large_numbers() {
 #[test]
 fn signs_of_residues() {
     for n in 1..100_i128 {
-        let x = Check::integer(n) * Check::integer(1 << 40) * Check::integer(n).inverse() + Check::integer((n * n) << 50);
+        let x =
+            Check::integer(n) * Check::integer(1 << 40) * Check::integer(n).inverse() + Check::integer((n * n) << 50);
         assert!(x.canonical() == (-x).canonical());
     }
 }
