@@ -15,8 +15,11 @@ FILE is a Rust file, or Markdown with blocks of Rust; its calls `multibody! { ..
 commands
   check FILE     mistakes with their places, as the compiler tells them; else one line per model
   counts FILE    operations of every function, as derived and as emitted
+  equations FILE the equations of each model, for readers: --text (so by default), --latex or --mathml
   expand FILE    the generated code, formatted, with a heading over each paragraph
-  diff OLD NEW   what has changed between two files in the operations of functions
+  diff OLD NEW   what has changed between two files in the operations of functions and in equations
+  compare FILE   each model in every choice of coordinates and constraints: sizes, operations of forward dynamics
+                 (--all: and of the other functions that it asks for), and which choice to take
 
 options
   --model NAME   only the model of this name
@@ -29,11 +32,23 @@ pub(crate) struct Subject {
     pub(crate) model: Option<String>,
 }
 
+/// How equations are printed.
+#[derive(Clone, Copy, Default)]
+pub(crate) enum Form {
+    #[default]
+    Text,
+    Latex,
+    Mathml,
+}
+
 pub(crate) enum Command {
     Help,
     Version,
     Check(Subject),
     Counts(Subject),
+    /// With all functions that models ask for, or forward dynamics alone.
+    Compare(Subject, bool),
+    Equations(Subject, Form),
     Expand(Subject),
     /// The older file, the newer one.
     Diff(Subject, Subject),
@@ -53,29 +68,37 @@ pub(crate) fn read(mut words: Vec<OsString>) -> Result<Command, String> {
     }
     let mut values = given.values.into_iter();
     let Some(name) = values.next() else { return Ok(Command::Help) };
-    let files = if name == "diff" { 2 } else { 1 };
-    let mut subjects: Vec<Subject> =
-        values.map(|file| Subject { file: file.into(), model: given.model.clone() }).collect();
     let name = name.to_string_lossy().into_owned();
-    let command: fn(Subject, Option<Subject>) -> Command = match name.as_str() {
-        "check" => |file, _| Command::Check(file),
-        "counts" => |file, _| Command::Counts(file),
-        "expand" => |file, _| Command::Expand(file),
-        "diff" => |old, new| new.map_or(Command::Help, |new| Command::Diff(old, new)),
-        _ => return Err(format!("unknown command `{name}`; `cargo multibody --help` lists them")),
-    };
-    if subjects.len() != files {
-        let noun = if files == 1 { "one file" } else { "two files" };
-        return Err(format!("`{name}` takes {noun}, and not {}", subjects.len()));
+    let subjects: Vec<Subject> = values.map(|file| Subject { file: file.into(), model: given.model.clone() }).collect();
+    match name.as_str() {
+        "check" => Ok(Command::Check(one(&name, subjects)?)),
+        "compare" => Ok(Command::Compare(one(&name, subjects)?, given.all)),
+        "counts" => Ok(Command::Counts(one(&name, subjects)?)),
+        "equations" => Ok(Command::Equations(one(&name, subjects)?, given.form)),
+        "expand" => Ok(Command::Expand(one(&name, subjects)?)),
+        "diff" => {
+            let [old, new] = files(&name, "two files", subjects)?;
+            Ok(Command::Diff(old, new))
+        }
+        _ => Err(format!("unknown command `{name}`; `cargo multibody --help` lists them")),
     }
-    let second = if files == 2 { subjects.pop() } else { None };
-    Ok(command(subjects.remove(0), second))
+}
+
+fn one(name: &str, subjects: Vec<Subject>) -> Result<Subject, String> {
+    files(name, "one file", subjects).map(|[subject]| subject)
+}
+
+fn files<const N: usize>(name: &str, wanted: &str, subjects: Vec<Subject>) -> Result<[Subject; N], String> {
+    let found = subjects.len();
+    subjects.try_into().map_err(|_| format!("`{name}` takes {wanted}, and not {found}"))
 }
 
 #[derive(Default)]
 struct Given {
     values: Vec<OsString>,
     model: Option<String>,
+    form: Form,
+    all: bool,
     help: bool,
     version: bool,
 }
@@ -88,6 +111,10 @@ impl Given {
             match argument {
                 Arg::Value(value) => given.values.push(value),
                 Arg::Long("model") => given.model = Some(parser.value()?.string()?),
+                Arg::Long("all") => given.all = true,
+                Arg::Long("text") => given.form = Form::Text,
+                Arg::Long("latex") => given.form = Form::Latex,
+                Arg::Long("mathml") => given.form = Form::Mathml,
                 Arg::Long("help") | Arg::Short('h') => given.help = true,
                 Arg::Long("version") | Arg::Short('V') => given.version = true,
                 other => return Err(other.unexpected()),

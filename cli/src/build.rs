@@ -5,10 +5,12 @@ use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::emit::function_name;
 use multibody_engine::invariant::fault::guard;
 use multibody_engine::mechanics::loops::structure::Structure;
+use multibody_engine::mechanics::written::Page;
 use multibody_engine::model::Soundness;
 use multibody_engine::model::types::Model;
 use multibody_engine::optimize::program::Compiled;
-use multibody_engine::{compile, model, syntax};
+use multibody_engine::optimize::{Excess, Refusal};
+use multibody_engine::{Trouble, compile, mechanics, model, syntax};
 
 use crate::Stop;
 use crate::arguments::Subject;
@@ -36,15 +38,53 @@ impl Built {
 
 /// All models of a file, or the one that was asked for. Mistakes are told, and then there are none.
 pub(crate) fn models(subject: &Subject) -> Result<Vec<Built>, Stop> {
+    let models = each(subject, "deriving", compile)?;
+    Ok(models.into_iter().map(|(model, (structure, compiled))| Built { model, structure, compiled }).collect())
+}
+
+/// Equations of the same, by name.
+pub(crate) fn pages(subject: &Subject) -> Result<Vec<(String, Page)>, Stop> {
+    let models = each(subject, "writing", page)?;
+    Ok(models.into_iter().map(|(model, page)| (model.name.to_string(), page)).collect())
+}
+
+fn page(model: &Model) -> Result<Page, Trouble> {
+    let freedoms = mechanics::freedoms(model);
+    if freedoms > mechanics::MOST_FREEDOMS {
+        return Err(Trouble::Refused(Refusal::TooLarge(Excess::Coordinates(freedoms))));
+    }
+    let written = guard("mechanics", || {
+        let structure = mechanics::analysis::analyse(model)?;
+        mechanics::page(model, &structure)
+    });
+    written.map_err(Trouble::Fault)?.map_err(Trouble::Complaints)
+}
+
+/// Models with what the work makes of them.
+fn each<T>(
+    subject: &Subject,
+    verb: &str,
+    work: impl Fn(&Model) -> Result<T, Trouble>,
+) -> Result<Vec<(Model, T)>, Stop> {
     let (file, found) = open(subject)?;
     let mut models = Vec::new();
-    let mut mistakes = Vec::new();
+    let mut wrong = Vec::new();
     for call in &found.calls {
-        let (built, wrong) = compiled(call, subject);
-        models.extend(built);
-        mistakes.extend(wrong);
+        let mut diagnostics = Diagnostics::default();
+        let source = syntax::parse(call.tokens.clone(), &mut diagnostics);
+        for model in checked(&source, &mut diagnostics) {
+            let name = model.name.to_string();
+            if subject.model.as_ref().is_some_and(|only| *only != name) {
+                continue;
+            }
+            match progress::during(&format!("{verb} `{name}`"), || work(&model)) {
+                Ok(made) => models.push((model, made)),
+                Err(trouble) => trouble.report(&model, &mut diagnostics),
+            }
+        }
+        wrong.extend(mistakes(&diagnostics, call));
     }
-    tell(&file, &mistakes)?;
+    tell(&file, &wrong)?;
     some(&models, subject, &file)?;
     Ok(models)
 }
@@ -88,24 +128,6 @@ pub(crate) fn some<T>(models: &[T], subject: &Subject, file: &File) -> Result<()
         Some(name) => Err(Stop::Usage(format!("{} has no model `{name}`", file.name))),
         None => Err(Stop::Usage(format!("{} has parts, and no model", file.name))),
     }
-}
-
-/// Models of a call, and what is wrong with others.
-fn compiled(call: &Call, subject: &Subject) -> (Vec<Built>, Vec<Mistake>) {
-    let mut diagnostics = Diagnostics::default();
-    let source = syntax::parse(call.tokens.clone(), &mut diagnostics);
-    let mut built = Vec::new();
-    for model in checked(&source, &mut diagnostics) {
-        let name = model.name.to_string();
-        if subject.model.as_ref().is_some_and(|only| *only != name) {
-            continue;
-        }
-        match progress::during(&format!("deriving `{name}`"), || compile(&model)) {
-            Ok((structure, compiled)) => built.push(Built { model, structure, compiled }),
-            Err(trouble) => trouble.report(&model, &mut diagnostics),
-        }
-    }
-    (built, mistakes(&diagnostics, call))
 }
 
 /// Models without mistakes.

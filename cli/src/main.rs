@@ -48,6 +48,8 @@ fn run(command: Command) -> Result<String, Stop> {
         Command::Version => Ok(format!("cargo-multibody {}\n", env!("CARGO_PKG_VERSION"))),
         Command::Check(subject) => commands::check::run(&subject),
         Command::Counts(subject) => commands::counts::run(&subject),
+        Command::Compare(subject, all) => commands::compare::run(&subject, all),
+        Command::Equations(subject, form) => commands::equations::run(&subject, form),
         Command::Expand(subject) => commands::expand::run(&subject),
         Command::Diff(old, new) => commands::diff::run(&old, &new),
     }

@@ -16,7 +16,8 @@ fn run(words: &[&str]) -> (String, String, i32) {
 /// The output of a command that has nothing to complain of; on a slow machine there may be progress.
 fn quiet(words: &[&str]) -> String {
     let (output, messages, code) = run(words);
-    let complaints: Vec<&str> = messages.lines().filter(|line| !line.starts_with("deriving `")).collect();
+    let complaints: Vec<&str> =
+        messages.lines().filter(|line| !line.starts_with("deriving `") && !line.starts_with("writing `")).collect();
     assert_eq!((complaints.as_slice(), code), (&[][..], 0));
     output
 }
@@ -133,10 +134,99 @@ pendulum
   mass_matrix       is gone
   kinetic_energy    is new
   potential_energy  is new
+  - 2 length² hinge¨ / 3 + 9.81 length sin(hinge) = 0
+  - M[hinge, hinge] = 2 length² / 3
+  + M[hinge, hinge] = 0.3 + length² / 2
+  + hinge¨ (0.3 + length² / 2) + 9.81 length sin(hinge) = 0
 slider: is gone
 ";
     assert_eq!(quiet(&["diff", "pendulum.rs", "changed.rs"]), expected);
     assert_eq!(quiet(&["diff", "changed.rs", "changed.rs"]), "pendulum: the same operations\n");
+}
+
+/// Cells of the rows of a comparison, without the time.
+fn cells(output: &str) -> Vec<Vec<&str>> {
+    let rows = output.lines().filter(|line| line.starts_with("  ") && !line.starts_with("   "));
+    let rows = rows.map(|line| line.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect());
+    rows.filter(|cells: &Vec<&str>| cells.len() > 2 && cells[0] != "coordinates").collect()
+}
+
+/// Coordinates, constraints, sizes of the rows of a comparison that are not refused.
+fn sizes(output: &str) -> Vec<String> {
+    cells(output).iter().filter(|cells| cells.len() > 3).map(|cells| cells[..5].join(" ")).collect()
+}
+
+#[test]
+fn choices_are_compared() {
+    let output = quiet(&["compare", "pendulum.rs"]);
+    let expected = [
+        "Joint* no equations 1 0 1",
+        "Absolute(RollPitchYaw) Multipliers 6 5 11",
+        "Absolute(RollPitchYaw) Reduced 1 0 1",
+        "Absolute(Quaternion) Multipliers 6 5 11",
+        "Joint Multipliers 3 2 5",
+        "Joint* Reduced 1 0 1",
+        "Absolute(RollPitchYaw) Multipliers 18 17 35",
+        "Absolute(RollPitchYaw) Reduced 1 0 1",
+        "Absolute(Quaternion) Multipliers 18 17 35",
+    ];
+    assert_eq!(sizes(&output), expected, "{output}");
+    assert!(output.contains(
+        "\n  coordinates Absolute(Quaternion), constraints Reduced is refused: the loop that `hinge` closes"
+    ));
+    assert!(output.contains(
+        "\n  recommended: coordinates Joint, as it is written\n    since forward dynamics takes least work, 22; next"
+    ));
+    assert!(output.contains("\n  recommended: coordinates Joint, constraints Reduced, as it is written\n"), "{output}");
+    // The counts are those of the model as it is written.
+    let row = cells(&output).into_iter().find(|row| row[..2] == ["Joint*", "Reduced"]).unwrap();
+    assert_eq!(row[5..12], ["35", "63", "2", "1", "1", "2", "144"]);
+}
+
+/// An iteration counts with all its rounds.
+#[test]
+fn rounds_count() {
+    let output = quiet(&["compare", "iteration.rs"]);
+    let work = |row: &Vec<&str>| row[11].parse::<u32>().unwrap();
+    let rows = cells(&output);
+    let reduced = rows.iter().find(|row| row[..2] == ["Joint*", "Reduced"]).unwrap();
+    let [add, mul, div, sqrt, sincos, other] = [5, 6, 7, 8, 9, 10].map(|cell| reduced[cell].parse::<u32>().unwrap());
+    assert!(work(reduced) > add + mul + 8 * (div + sqrt) + 20 * sincos + 20 * other, "{output}");
+}
+
+/// The numbers of equations of the README.
+#[test]
+fn the_platform_in_all_coordinates() {
+    let output = quiet(&["compare", "../../../tests/models/stewart.rs", "--model", "reduced"]);
+    let found = sizes(&output);
+    for row in [
+        "as declared Multipliers 24 18 42",
+        "as declared* Reduced 6 0 6",
+        "Joint Multipliers 21 15 36",
+        "Absolute(RollPitchYaw) Multipliers 78 72 150",
+    ] {
+        assert!(found.iter().any(|other| other == row), "{row} of\n{output}");
+    }
+    assert!(
+        output.contains("recommended: coordinates as declared, constraints Reduced, as it is written\n"),
+        "{output}"
+    );
+}
+
+#[test]
+fn equations_in_three_languages() {
+    let of = |form: &str| quiet(&["equations", "pendulum.rs", "--model", "pendulum", form]);
+    assert!(
+        of("--text").starts_with(
+            "pendulum\n\n  Equations of motion\n\n    2 length² hinge¨ / 3 + 9.81 length sin(hinge) = 0\n"
+        )
+    );
+    assert_eq!(of("--text"), quiet(&["equations", "pendulum.rs", "--model", "pendulum"]));
+    assert!(
+        of("--latex")
+            .contains("\\begin{gather*}\nM_{\\mathrm{hinge, hinge}} = \\frac{2\\,\\mathrm{length}^{2}}{3} \\\\\n")
+    );
+    assert!(of("--mathml").contains("<h3>Equations of motion</h3>\n<div><math display=\"block\">"));
 }
 
 #[test]

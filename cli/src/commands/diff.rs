@@ -1,8 +1,10 @@
-//! `diff`: what has changed between two files in the operations of functions.
+//! `diff`: what has changed between two files in the operations of functions, and in equations.
 
 use std::fmt::Write;
 
 use multibody_engine::contracts::cost::Cost;
+use multibody_engine::mechanics::written::Page;
+use multibody_engine::symbolic::write::text;
 
 use super::counts::{KINDS, numbers, rows};
 use crate::Stop;
@@ -11,12 +13,18 @@ use crate::build::{self, Built};
 use crate::table::Table;
 
 pub(crate) fn run(old: &Subject, new: &Subject) -> Result<String, Stop> {
+    let (old_pages, new_pages) = (build::pages(old)?, build::pages(new)?);
     let (old, new) = (build::models(old)?, build::models(new)?);
     let mut text = String::new();
-    for model in &old {
-        match new.iter().find(|other| other.name() == model.name()) {
-            Some(other) => text.push_str(&changes(model, other)),
-            None => text.push_str(&format!("{}: is gone\n", model.name())),
+    for (model, page) in old.iter().zip(&old_pages) {
+        match new.iter().zip(&new_pages).find(|(other, _)| other.name() == model.name()) {
+            Some((other, new_page)) => {
+                text.push_str(&changes(model, other));
+                text.push_str(&equations(&page.1, &new_page.1));
+            }
+            None => {
+                let _ = writeln!(text, "{}: is gone", model.name());
+            }
         }
     }
     for model in &new {
@@ -25,6 +33,28 @@ pub(crate) fn run(old: &Subject, new: &Subject) -> Result<String, Stop> {
         }
     }
     Ok(text)
+}
+
+/// Equations that stand in one page and not in the other, beside each other where their left sides are the same.
+fn equations(old: &Page, new: &Page) -> String {
+    let lines = |page: &Page| -> Vec<(String, String)> {
+        let lines = page.sections.iter().flat_map(|section| &section.lines);
+        lines.map(|line| (text::formula(&line.equation.left), text::equation(&line.equation))).collect()
+    };
+    let (old, new) = (lines(old), lines(new));
+    let mut out = String::new();
+    for (left, equation) in old.iter().filter(|line| !new.contains(line)) {
+        let _ = writeln!(out, "  - {equation}");
+        if let Some((_, equation)) = new.iter().find(|line| line.0 == *left && !old.contains(line)) {
+            let _ = writeln!(out, "  + {equation}");
+        }
+    }
+    for (left, equation) in new.iter().filter(|line| !old.contains(line)) {
+        if !old.iter().any(|line| line.0 == *left && !new.contains(line)) {
+            let _ = writeln!(out, "  + {equation}");
+        }
+    }
+    out
 }
 
 /// Functions of one model that have changed.

@@ -24,7 +24,8 @@ impl Cost {
         self.add + self.mul + self.compare + 8 * (self.div + self.sqrt) + 20 * (self.sincos + self.other)
     }
 
-    pub(crate) fn plus(self, other: Cost) -> Cost {
+    /// The sum of both.
+    pub fn plus(self, other: Cost) -> Cost {
         Cost {
             add: self.add + other.add,
             mul: self.mul + other.mul,

@@ -13,7 +13,7 @@ use super::graph::BlockKind;
 
 impl Cost {
     /// Of a block without what its operands cost.
-    pub(crate) fn of_block(kind: &BlockKind) -> Cost {
+    pub fn of_block(kind: &BlockKind) -> Cost {
         match kind {
             BlockKind::Iterate { .. } => Cost::default(),
             &BlockKind::Solve { size, symmetric, .. } => {
