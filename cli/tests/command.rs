@@ -64,6 +64,33 @@ error: the mass matrix is singular by structure: nothing resists the coordinate 
     assert_eq!(messages, expected);
 }
 
+/// Errors of the project's own tests of messages: places and words are those that rustc prints. What rustc says beyond them is
+/// about the user's code beside the model.
+#[test]
+fn mistakes_are_those_of_the_compiler() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/ui/fail");
+    let mut count = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let file = entry.unwrap().path();
+        if file.extension().is_none_or(|extension| extension != "rs") {
+            continue;
+        }
+        let compiler = std::fs::read_to_string(file.with_extension("stderr")).unwrap();
+        let name = format!("../../../tests/ui/fail/{}", file.file_name().unwrap().to_str().unwrap());
+        let (_, messages, _) = run(&["check", &name]);
+        for line in messages.lines() {
+            let words = line.trim_start();
+            if let Some(place) = words.strip_prefix(&format!("--> {name}")) {
+                count += 1;
+                assert!(compiler.contains(&format!(".rs{place}\n")), "{name}{place}");
+            } else if words.starts_with("error: ") || words.starts_with("help: ") {
+                assert!(compiler.contains(words), "{name}: {words}");
+            }
+        }
+    }
+    assert!(count >= 30, "{count}");
+}
+
 #[test]
 fn places_in_a_page_are_those_of_the_page() {
     let (_, messages, code) = run(&["check", "page.md"]);
