@@ -9,13 +9,11 @@
 //! The four symbols of a unit quaternion have derivatives along the sphere alone: the sums over them with a motion of
 //! the quaternion mean something, each by itself does not. The outputs of an iteration pass nothing on.
 
-use std::collections::HashMap;
-
 use crate::invariant::injection::{Break, broken};
 
 use super::differentiate::Differentiator;
 use super::graph::{
-    AnyNode, BlockId, BlockKind, Graph, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode,
+    AnyNode, BlockId, BlockKind, Graph, PlaceMap, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode,
 };
 use super::walk::Marks;
 
@@ -37,7 +35,8 @@ impl Graph {
         let vector_roots = vectors.iter().map(|(y, _)| AnyNode::Vector(y.index()));
         let nodes = self.reachable_from(scalar_roots.chain(vector_roots));
         let depends = self.depending(&nodes, symbols.iter().copied());
-        let mut adjoints = Adjoints { depends, scalars: HashMap::new(), vectors: HashMap::new(), block: None };
+        let mut adjoints =
+            Adjoints { depends, scalars: PlaceMap::default(), vectors: PlaceMap::default(), block: None };
         for &(y, weight) in weighted {
             adjoints.pass(y, weight);
         }
@@ -65,8 +64,8 @@ impl Graph {
 /// What users have passed on, by node.
 struct Adjoints {
     depends: Marks,
-    scalars: HashMap<usize, Vec<Scalar>>,
-    vectors: HashMap<usize, Vec<Vector>>,
+    scalars: PlaceMap<Vec<Scalar>>,
+    vectors: PlaceMap<Vec<Vector>>,
     /// The linear system whose unknowns are being visited, and their adjoints.
     block: Option<(BlockId, Vec<Scalar>)>,
 }

@@ -8,14 +8,12 @@
 //! Where a function has a kink the derivative is that of the branch which its value is taken from. Four symbols of a
 //! unit quaternion must be seeded along the sphere, all four at once: nodes were merged by its equation.
 
-use std::collections::HashMap;
-
 use crate::contracts::call::Call;
 use crate::invariant::fault::raise;
 use crate::invariant::injection::{Break, broken};
 
 use super::graph::{
-    AnyNode, BlockId, BlockKind, Graph, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode,
+    AnyNode, BlockId, BlockKind, Graph, PlaceMap, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode,
 };
 
 impl Graph {
@@ -32,9 +30,9 @@ impl Graph {
 
 /// Derivatives along one direction, shared by all that is asked for.
 pub struct Differentiator {
-    scalars: HashMap<usize, Scalar>,
-    vectors: HashMap<usize, Vector>,
-    rotations: HashMap<usize, Turning>,
+    scalars: PlaceMap<Scalar>,
+    vectors: PlaceMap<Vector>,
+    rotations: PlaceMap<Turning>,
 }
 
 /// How a rotation changes, whichever way it is applied.
@@ -55,7 +53,7 @@ impl Differentiator {
     /// Seeds are (symbol, derivative of the symbol).
     pub fn new(seeds: &[(Scalar, Scalar)]) -> Self {
         let scalars = seeds.iter().map(|&(s, seed)| (s.index(), seed.flip_if(s.is_negative() && seed != Scalar::ZERO)));
-        Differentiator { scalars: scalars.collect(), vectors: HashMap::new(), rotations: HashMap::new() }
+        Differentiator { scalars: scalars.collect(), vectors: PlaceMap::default(), rotations: PlaceMap::default() }
     }
 
     /// Of a node whose operands rest, but for those with a seed.

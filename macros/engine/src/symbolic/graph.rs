@@ -198,6 +198,34 @@ impl Hasher for PassHasher {
     fn write_usize(&mut self, _: usize) {}
 }
 
+/// Places of nodes are small numbers in no order: one product spreads them, and in a debug build costs a tenth of what the
+/// standard hasher does.
+#[derive(Default)]
+pub struct PlaceHasher(u64);
+
+impl Hasher for PlaceHasher {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+    fn write(&mut self, bytes: &[u8]) {
+        for &b in bytes {
+            self.write_u64(u64::from(b));
+        }
+    }
+    fn write_u32(&mut self, place: u32) {
+        self.write_u64(u64::from(place));
+    }
+    fn write_usize(&mut self, place: usize) {
+        self.write_u64(place as u64);
+    }
+    fn write_u64(&mut self, word: u64) {
+        self.0 = (self.0 ^ word).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    }
+}
+
+/// By the place of a node among those of its kind.
+pub(crate) type PlaceMap<T> = HashMap<usize, T, BuildHasherDefault<PlaceHasher>>;
+
 type PrintMap<K> = HashMap<K, u32, BuildHasherDefault<PassHasher>>;
 
 /// What a value is called in generated code.
@@ -253,8 +281,8 @@ pub struct Graph {
     pub(super) shunned: u128,
     /// Large numbers whose square roots are literals.
     pub(super) radicands: Vec<u128>,
-    names: HashMap<u32, Name>,
-    vector_names: HashMap<u32, Name>,
+    names: PlaceMap<Name>,
+    vector_names: PlaceMap<Name>,
     heading: Option<Arc<str>>,
 }
 
@@ -284,8 +312,8 @@ impl Graph {
             reads: Default::default(),
             shunned: 0,
             radicands: Vec::new(),
-            names: HashMap::new(),
-            vector_names: HashMap::new(),
+            names: PlaceMap::default(),
+            vector_names: PlaceMap::default(),
             heading: None,
         };
         graph.insert_scalar(ScalarNode::Literal(Number::ZERO), Print::ZERO);
@@ -539,7 +567,7 @@ impl Graph {
     }
 
     fn named_vector(&mut self, v: Vector, stands_alone: bool, text: impl FnOnce() -> String) -> Vector {
-        let index = v.index() as u32;
+        let index = v.index();
         if self.vector_names.get(&index).is_none_or(|known| stands_alone && !known.stands_alone) {
             let heading = self.heading.clone();
             self.vector_names.insert(index, Name { text: text(), stands_alone, is_minus: v.is_negative(), heading });
@@ -548,7 +576,7 @@ impl Graph {
     }
 
     fn named(&mut self, s: Scalar, stands_alone: bool, text: impl FnOnce() -> String) -> Scalar {
-        let index = s.index() as u32;
+        let index = s.index();
         let vacant = self.names.get(&index).is_none_or(|known| stands_alone && !known.stands_alone);
         if vacant && !matches!(self.node(s), ScalarNode::Literal(_) | ScalarNode::Symbol(_)) {
             let heading = self.heading.clone();
@@ -574,11 +602,11 @@ impl Graph {
 
     /// What the value at this handle's place is called, whatever the handle's sign.
     pub fn name_of(&self, s: Scalar) -> Option<&Name> {
-        self.names.get(&(s.index() as u32))
+        self.names.get(&s.index())
     }
 
     pub fn vector_name_of(&self, v: Vector) -> Option<&Name> {
-        self.vector_names.get(&(v.index() as u32))
+        self.vector_names.get(&v.index())
     }
 }
 

@@ -5,27 +5,25 @@
 //! is applied factor by factor, which costs less than its matrix unless many vectors pass through it; zeros vanish on
 //! the way since the constructors see them.
 
-use std::collections::HashMap;
-
 use crate::invariant::fault::OrFault;
 use crate::invariant::injection::{Break, broken};
 
-use super::graph::{AnyNode, Graph, Name, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode};
+use super::graph::{AnyNode, Graph, Name, PlaceMap, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode};
 
 /// Copies expressions of one graph into another, as scalars.
 pub struct Lowering<'g> {
     from: &'g Graph,
     pub to: Graph,
-    scalars: HashMap<usize, Scalar>,
-    vectors: HashMap<usize, [Scalar; 3]>,
-    matrices: HashMap<usize, [[Scalar; 3]; 3]>,
+    scalars: PlaceMap<Scalar>,
+    vectors: PlaceMap<[Scalar; 3]>,
+    matrices: PlaceMap<[[Scalar; 3]; 3]>,
 }
 
 impl<'g> Lowering<'g> {
     /// `to` must have the symbols of `from`, made in the same order.
     pub fn new(from: &'g Graph) -> Self {
         let to = from.empty_copy();
-        Lowering { from, to, scalars: HashMap::new(), vectors: HashMap::new(), matrices: HashMap::new() }
+        Lowering { from, to, scalars: PlaceMap::default(), vectors: PlaceMap::default(), matrices: PlaceMap::default() }
     }
 
     /// Lowers these scalars, operands before users, so that no recursion is deep.

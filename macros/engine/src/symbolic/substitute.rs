@@ -10,7 +10,9 @@
 
 use std::collections::HashMap;
 
-use super::graph::{AnyNode, Graph, Rotation, RotationNode, Scalar, ScalarNode, SymbolId, Vector, VectorNode};
+use super::graph::{
+    AnyNode, Graph, PlaceMap, Rotation, RotationNode, Scalar, ScalarNode, SymbolId, Vector, VectorNode,
+};
 
 use super::walk::Marks;
 
@@ -32,18 +34,18 @@ impl Graph {
 /// One replacement of symbols, shared by all that is asked for.
 pub struct Substitution {
     symbols: Vec<Scalar>,
-    scalars: HashMap<usize, Scalar>,
-    vectors: HashMap<usize, Vector>,
-    rotations: HashMap<usize, Rotation>,
+    scalars: PlaceMap<Scalar>,
+    vectors: PlaceMap<Vector>,
+    rotations: PlaceMap<Rotation>,
 }
 
 impl Substitution {
     /// Symbols that the graph doesn't have are left out.
     pub fn new(g: &Graph, map: &HashMap<SymbolId, Scalar>) -> Substitution {
-        let scalars: HashMap<usize, Scalar> =
+        let scalars: PlaceMap<Scalar> =
             map.iter().filter_map(|(&id, &by)| Some((g.symbol_handle(id)?.index(), by))).collect();
         let symbols = scalars.keys().map(|&index| Scalar::new(index, false)).collect();
-        Substitution { symbols, scalars, vectors: HashMap::new(), rotations: HashMap::new() }
+        Substitution { symbols, scalars, vectors: PlaceMap::default(), rotations: PlaceMap::default() }
     }
 
     /// In place of any scalars, not of symbols alone.
@@ -53,8 +55,8 @@ impl Substitution {
         Substitution {
             symbols,
             scalars: list.iter().map(entry).collect(),
-            vectors: HashMap::new(),
-            rotations: HashMap::new(),
+            vectors: PlaceMap::default(),
+            rotations: PlaceMap::default(),
         }
     }
 
