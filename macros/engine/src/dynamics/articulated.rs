@@ -11,6 +11,7 @@
 //! Translations of what floats ([`super::floating_bases`]) are eliminated where it sits, in its own axes, and turned back at the
 //! end. If they start from the ground they fall freely while no coordinate accelerates: then gravity goes no further.
 
+use crate::invariant::injection::{Break, broken};
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
 use super::articulated_inertia::ArticulatedInertia;
@@ -174,6 +175,7 @@ fn eliminate(
             inertia = inertia.less(g, &column, &gain);
             wrench = std::array::from_fn(|k| {
                 let handed = g.mul(gain[k], rest);
+                let handed = if broken(Break::HandedSign) { -handed } else { handed };
                 g.add(wrench[k], handed)
             });
             pivots.push(Pivot { link: index, freedom, twist, gain, drive });

@@ -4,6 +4,7 @@
 //! acceleration of its origin. The acceleration of a body-fixed point r is a + U r with U = [dw x] + [w x][w x]; its
 //! entries (Khalil and Kleinfinger 1987) serve the joints beyond, the force and the moment of the link.
 
+use crate::invariant::injection::{Break, broken};
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
 use super::tree::{Motion, Tree};
@@ -66,7 +67,7 @@ impl Field {
     /// U_ii - U_jj = w_i^2 - w_j^2
     pub fn difference(&self, g: &mut Graph, i: usize, j: usize) -> Scalar {
         let (a, b) = (self.square(g, i), self.square(g, j));
-        g.sub(a, b)
+        if broken(Break::CentrifugalSign) { g.sub(b, a) } else { g.sub(a, b) }
     }
 
     /// U r

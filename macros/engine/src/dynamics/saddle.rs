@@ -4,6 +4,7 @@
 //! G x = c, by the Schur complement G M^-1 G^T on the sparse factors of M. The complement is solved with pivots; its rank
 //! comes with the result.
 
+use crate::invariant::injection::{Break, broken};
 use crate::symbolic::graph::{BlockKind, Graph, Scalar};
 use crate::symbolic::linear_algebra::Factors;
 
@@ -87,6 +88,7 @@ impl Saddle {
         let mut driven = Vec::with_capacity(held.len());
         for (row, &held) in self.scaled.iter().zip(held) {
             let free = dot(g, row, &forward);
+            let held = if broken(Break::HeldSign) { -held } else { held };
             driven.push(g.sub(free, held));
         }
         let (multipliers, rank) = self.multipliers(g, driven);

@@ -7,6 +7,14 @@
 pub enum Break {
     /// Newton-Euler: the sign of what the acceleration of a link's origin asks of its moment.
     LeverSign,
+    /// Newton-Euler: the sign of what squares of angular velocities ask of a product of inertia.
+    CentrifugalSign,
+    /// Articulated bodies: the sign of what an eliminated freedom hands on to its parent.
+    HandedSign,
+    /// Factorised matrices: the sign of what a solved row takes from those before it.
+    BackwardSign,
+    /// Systems with multipliers: what is left of the second derivatives of the constraints has the wrong sign.
+    HeldSign,
     /// Composite bodies: the sign of a component of the way by which they are shifted to their parent.
     CompositeShift,
     /// Derivatives: the last factor of a product has none.
@@ -34,8 +42,12 @@ pub enum Break {
 }
 
 impl Break {
-    pub const ALL: [Break; 13] = [
+    pub const ALL: [Break; 17] = [
         Break::LeverSign,
+        Break::CentrifugalSign,
+        Break::HandedSign,
+        Break::BackwardSign,
+        Break::HeldSign,
         Break::CompositeShift,
         Break::ProductRule,
         Break::AdjointTerm,

@@ -13,6 +13,7 @@ mod labels;
 mod motion;
 mod recipes;
 mod ways;
+mod witnesses;
 
 use std::rc::Rc;
 
@@ -99,10 +100,13 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
     }
     let read = [Request::Report, Request::Equations];
     let page = if read.iter().any(|request| model.emit.contains(request)) { Some(deriving.page()?) } else { None };
+    // Last, so that nothing of them is found by what is emitted.
+    let asked: Vec<FunctionKind> = functions.iter().map(|function| function.kind).collect();
+    let witnesses = deriving.witnesses(&asked)?;
     let Deriving { graph, symbols, notes, dead_centres, .. } = deriving;
     let symbol_names = symbols.table.iter().map(|&symbol| names::symbol(model, symbol)).collect();
     let symbols = symbols.table.clone();
-    Ok(Derivation { graph, symbols, symbol_names, functions, notes, dead_centres, page, checks, inertia })
+    Ok(Derivation { graph, symbols, symbol_names, functions, notes, dead_centres, page, checks, inertia, witnesses })
 }
 
 /// The equations of a model for readers, with loops closed as they are in the generated functions.

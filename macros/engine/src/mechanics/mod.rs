@@ -59,6 +59,14 @@ pub struct Derivation {
     pub checks: Vec<Test>,
     /// For `System::without_inertia`: entries row by row.
     pub inertia: Inertia<Vec<Scalar>>,
+    /// Functions that were not asked for, which laws compare with those that were.
+    pub witnesses: Vec<Witness>,
+}
+
+/// A function in one formulation, for the check in numbers alone.
+pub struct Witness {
+    pub kind: FunctionKind,
+    pub results: Results<Scalar>,
 }
 
 /// What must hold of parameters.

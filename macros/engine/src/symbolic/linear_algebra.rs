@@ -5,6 +5,8 @@
 //! there is no fill-in (Featherstone 2005): zeros between branches stay zeros. Pivots are those of a positive definite
 //! matrix and so are never zero; each costs one reciprocal.
 
+use crate::invariant::injection::{Break, broken};
+
 use super::graph::{Graph, Scalar};
 
 /// Solves A x = b, eliminating row `order[0]` first. `matrix` is symmetric.
@@ -105,7 +107,8 @@ impl Factors {
         for (step, &k) in self.order.iter().enumerate().rev() {
             let mut terms = vec![g.mul(forward[k], self.reciprocal[k])];
             for &i in &self.order[step + 1..] {
-                terms.push(-g.mul(self.factors[k][i], x[i]));
+                let taken = g.mul(self.factors[k][i], x[i]);
+                terms.push(if broken(Break::BackwardSign) { taken } else { -taken });
             }
             x[k] = g.sum(&terms);
         }

@@ -5,6 +5,9 @@
 
 use super::graph::{AnyNode, Graph, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode};
 
+/// Of so many nodes less than one is found: then sorting takes less time than looking at all.
+const SCATTERED: usize = 16;
+
 /// One truth per node.
 pub(crate) struct Marks {
     scalars: Vec<bool>,
@@ -103,9 +106,14 @@ impl Graph {
             }
             self.each_operand(node, &mut |operand| stack.push(operand));
         }
-        // Nodes are numbered as they are made, operands before users.
-        found.sort_unstable_by_key(|&node| self.position(node));
-        found
+        // Nodes are numbered as they are made, operands before users. Those of one function stand together, as a rule.
+        let positions = || found.iter().map(|&node| self.position(node) as usize);
+        let (Some(least), Some(most)) = (positions().min(), positions().max()) else { return found };
+        if found.len() * SCATTERED < most - least {
+            found.sort_unstable_by_key(|&node| self.position(node));
+            return found;
+        }
+        self.order[least..=most].iter().copied().filter(|&node| needed.has(node)).collect()
     }
 
     /// All nodes that these scalars need, operands before users.

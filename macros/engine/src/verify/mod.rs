@@ -28,7 +28,7 @@ use crate::optimize::{self, Plain, Refusal};
 use crate::symbolic::graph::Scalar;
 use crate::symbolic::lower::Lowering;
 
-use laws::{Laws, Outcome};
+use laws::{Known, Laws, Outcome};
 use programs::{CLOSELY, Subject, Verdict};
 use states::{State, States};
 use tape::Tape;
@@ -219,7 +219,13 @@ fn judge(
     }
     check_checks(derivation, compiled, plain, &mut drawn, &mut found);
     check_inertia(derivation, compiled, &mut drawn, &mut found);
-    let functions: Vec<(&Function, &Tape)> = compiled.functions.iter().zip(&tapes).collect();
+    let beside: Vec<Tape> =
+        derivation.witnesses.iter().map(|witness| Tape::new(&derivation.graph, &witness.results.list)).collect();
+    let emitted = compiled.functions.iter().zip(&tapes);
+    let emitted = emitted.map(|(function, tape)| Known { kind: function.kind, parts: &function.parts, tape });
+    let witnesses = derivation.witnesses.iter().zip(&beside);
+    let witnesses = witnesses.map(|(witness, tape)| Known { kind: witness.kind, parts: &witness.results.parts, tape });
+    let functions: Vec<Known<'_>> = emitted.chain(witnesses).collect();
     let laws = Laws { model, structure, states: &states, functions: &functions };
     let mut pending = laws.all();
     let everywhere = [(1, 0..ATTEMPTS), (0, 0..ATTEMPTS), (0, ATTEMPTS..ATTEMPTS + FURTHER)];

@@ -112,6 +112,7 @@ fn case(k: usize) -> (Model, Compiled, f64) {
         dead_centres: Vec::new(),
         checks: Vec::new(),
         inertia: Default::default(),
+        witnesses: Vec::new(),
     })
     .unwrap();
     assert!(compiled.sound);

@@ -1,7 +1,7 @@
-//! Models that use every stage that is broken.
+//! Models that use every stage that is broken, with all that they may emit, and with forward dynamics alone.
 
 /// Name and text.
-pub(crate) const MODELS: [(&str, &str); 4] = [
+pub(crate) const MODELS: [(&str, &str); 9] = [
     (
         "double_pendulum",
         "mod double_pendulum {
@@ -62,6 +62,88 @@ pub(crate) const MODELS: [(&str, &str); 4] = [
             joint hinge: Revolute { parent: ground, child: rod, axis: Z }
             output bearing = atan2(2.0 * hinge + 1.0, cos(hinge) + 2.0);
             emit forward_dynamics, inverse_dynamics, mass_matrix, energy;
+        }",
+    ),
+    (
+        "double_pendulum_alone",
+        "mod double_pendulum_alone {
+            param l1 = 0.7;
+            param l2 = 0.4;
+            param m2 = 1.3;
+            world { gravity: -9.81 * Y }
+            body upper { mass: 2.0, com: -0.4 * l1 * Y, inertia: diag(0.1, 0.05, 0.12) }
+            body lower { mass: m2, com: -0.5 * l2 * Y + 0.1 * X, inertia: diag(0.1, 0.03, 0.11) }
+            joint shoulder: Universal { parent: ground, child: upper, axes: [Z, X] }
+            joint elbow: Revolute { parent: upper.at(-l1 * Y), child: lower, axis: Z }
+            emit forward_dynamics;
+        }",
+    ),
+    (
+        "four_bar_alone",
+        "mod four_bar_alone {
+            param a = 0.1;
+            param b = 0.31;
+            param c = 0.25;
+            param d = 0.29;
+            world { gravity: -9.81 * Y }
+            body crank { mass: 0.6, com: 0.5 * a * X, inertia: diag(0.0, 0.001, 0.001) }
+            body coupler { mass: 1.1, com: 0.5 * b * X, inertia: diag(0.0, 0.01, 0.01) }
+            body rocker { mass: 0.8, com: 0.5 * c * X, inertia: diag(0.0, 0.004, 0.004) }
+            joint drive: Revolute { parent: ground, child: crank, axis: Z }
+            joint knee: Revolute { parent: crank.at(a * X), child: coupler, axis: Z }
+            joint pivot: Revolute { parent: ground.at(d * X), child: rocker, axis: Z }
+            #[cut]
+            joint close: Revolute { parent: coupler.at(b * X), child: rocker.at(c * X), axis: Z }
+            solve (knee, pivot) from close { sin(pivot - knee - drive) > 0.0 }
+            formulation { constraints: Reduced }
+            emit forward_dynamics;
+        }",
+    ),
+    (
+        "held_alone",
+        "mod held_alone {
+            param d = 0.29;
+            world { gravity: -9.81 * Y }
+            body crank { mass: 0.6, com: 0.05 * X, inertia: diag(0.0, 0.001, 0.001) }
+            body coupler { mass: 1.1, com: 0.155 * X, inertia: diag(0.0, 0.01, 0.01) }
+            body rocker { mass: 0.8, com: 0.125 * X, inertia: diag(0.0, 0.004, 0.004) }
+            joint drive: Revolute { parent: ground, child: crank, axis: Z }
+            joint knee: Revolute { parent: crank.at(0.1 * X), child: coupler, axis: Z }
+            joint pivot: Revolute { parent: ground.at(d * X), child: rocker, axis: Z }
+            #[cut]
+            joint close: Revolute { parent: coupler.at(0.31 * X), child: rocker.at(0.25 * X), axis: Z }
+            formulation { constraints: Multipliers }
+            emit forward_dynamics;
+        }",
+    ),
+    (
+        "floating_alone",
+        "mod floating_alone {
+            input torque;
+            world { gravity: -9.81 * Y }
+            body hull { mass: 3.0, com: 0.1 * X + 0.05 * Z, inertia: inertia(0.3, 0.4, 0.5, 0.01, -0.02, 0.03) }
+            body fin { mass: 0.4, com: 0.2 * X - 0.1 * Y, inertia: inertia(0.02, 0.03, 0.04, 0.001, 0.002, 0.003) }
+            joint base: Free { parent: ground, child: hull }
+            joint hinge: Revolute { parent: hull.at(0.4 * X), child: fin, axis: Z }
+            force motor: Effort { joint: hinge, value: torque - 0.1 * hinge.rate }
+            emit forward_dynamics;
+        }",
+    ),
+    (
+        "chain_alone",
+        "mod chain_alone {
+            world { gravity: -9.81 * Y }
+            body a { mass: 0.9, com: 0.1 * X, inertia: inertia(0.03, 0.04, 0.05, 0.001, -0.002, 0.003) }
+            body b { mass: 0.8, com: 0.2 * Y, inertia: inertia(0.03, 0.04, 0.05, 0.002, -0.001, 0.004) }
+            body c { mass: 0.7, com: 0.1 * Z, inertia: inertia(0.02, 0.03, 0.04, 0.001, 0.002, -0.003) }
+            body d { mass: 0.6, com: 0.3 * X, inertia: inertia(0.02, 0.03, 0.04, 0.003, 0.001, 0.002) }
+            body e { mass: 0.5, com: 0.1 * Y, inertia: inertia(0.02, 0.02, 0.03, 0.001, 0.002, 0.001) }
+            joint ja: Revolute { parent: ground, child: a, axis: Z }
+            joint jb: Revolute { parent: a.at(0.3 * X + 0.1 * Y), child: b, axis: X }
+            joint jc: Revolute { parent: b.at(0.2 * Z + 0.1 * Y), child: c, axis: Y }
+            joint jd: Revolute { parent: c.at(0.2 * X + 0.3 * Y), child: d, axis: Z }
+            joint je: Revolute { parent: d.at(0.1 * X + 0.2 * Z), child: e, axis: X }
+            emit forward_dynamics;
         }",
     ),
 ];

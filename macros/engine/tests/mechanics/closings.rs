@@ -390,6 +390,7 @@ fn a_leg_costs_what_it_should() {
                 dead_centres: Vec::new(),
                 checks: Vec::new(),
                 inertia: Default::default(),
+                witnesses: Vec::new(),
             };
             let compiled = multibody_engine::optimize::compile(&derivation).expect("compiled");
             let cost = compiled.functions[0].after;

@@ -147,6 +147,7 @@ fn derivation(
         dead_centres: Vec::new(),
         checks: Vec::new(),
         inertia: Default::default(),
+        witnesses: Vec::new(),
     }
 }
 

@@ -127,6 +127,48 @@ fn every_break_of_derived_equations_is_told() {
     }
 }
 
+/// The same of functions that are asked for alone: what they are compared with is derived beside them.
+#[test]
+fn every_break_of_a_function_alone_is_told() {
+    let requests = [
+        ("forward_dynamics", &[FunctionKind::ForwardDynamics][..]),
+        ("inverse_dynamics", &[FunctionKind::InverseDynamics]),
+        ("mass_matrix", &[FunctionKind::MassMatrix]),
+        ("bias", &[FunctionKind::Bias]),
+        ("energy", &[FunctionKind::KineticEnergy, FunctionKind::PotentialEnergy]),
+        ("residual", &[FunctionKind::Residual]),
+        ("derivatives", &[FunctionKind::ForwardDerivatives, FunctionKind::InverseDerivatives]),
+        ("impulse", &[FunctionKind::Impulse]),
+        ("momentum", &[FunctionKind::Momentum, FunctionKind::MomentumRate, FunctionKind::MomentumVelocity]),
+    ];
+    for text in MODELS {
+        let emit = text.find("emit ").expect("functions");
+        for (request, kinds) in requests {
+            // What it says elsewhere: multipliers and quaternions have no momenta.
+            if request == "momentum" && !text.contains("mod tree") {
+                continue;
+            }
+            let text = format!("{}emit {request}; }}", &text[..emit]);
+            for &kind in kinds {
+                for factor in [-1.0, 1.000_001] {
+                    let mut case = Case::new(&text);
+                    let plain = case.check(&case.compiled);
+                    assert!(plain.broken.is_none() && plain.unchecked.is_empty(), "{} {kind:?}", case.model.name);
+                    let number = case.compiled.functions.iter().position(|f| f.kind == kind).expect("the function");
+                    let candidate = case.compiled.functions[number].candidate;
+                    let roots = &mut case.derivation.functions[number].candidates[candidate].1.list;
+                    let zero = multibody_engine::symbolic::graph::Scalar::ZERO;
+                    let root = roots.iter_mut().find(|root| **root != zero).expect("a result");
+                    let times = case.derivation.graph.decimal(factor);
+                    *root = case.derivation.graph.mul(times, *root);
+                    let found = case.check(&case.compiled);
+                    assert!(found.broken.is_some(), "{} {kind:?} {factor:?}: {found:?}", case.model.name);
+                }
+            }
+        }
+    }
+}
+
 /// Results in other slots than those that the function's value is built from, or one too few.
 #[test]
 fn slots_that_do_not_fit_are_told() {

@@ -36,6 +36,30 @@ pub(super) enum Way {
     Chosen(fn(&mut Deriving<'_>, FunctionKind) -> Candidates),
 }
 
+/// A [`Way`] without names and axes.
+#[derive(Clone, Copy)]
+pub(super) enum PlainWay {
+    OnTree(OnTree),
+    PutIn(OnTree),
+    OnLoops(OnLoops),
+    Written(fn(&mut Equations<'_>, &Reduction) -> Results<Scalar>),
+}
+
+impl PlainWay {
+    /// The function by this way; on an open tree there are no definitions.
+    pub(super) fn derive(self, e: &mut Equations<'_>, definitions: &Reduction) -> Found {
+        match self {
+            PlainWay::OnTree(f) => f(e),
+            PlainWay::PutIn(f) => {
+                let results = f(e)?;
+                Ok(Results { list: e.finish(definitions, &results.list), ..results })
+            }
+            PlainWay::OnLoops(f) => f(e, definitions),
+            PlainWay::Written(f) => Ok(f(e, definitions)),
+        }
+    }
+}
+
 /// The ways to one function.
 pub(super) struct Recipe {
     open: &'static [Way],
@@ -196,5 +220,18 @@ impl Deriving<'_> {
             });
         }
         Ok(candidates)
+    }
+
+    /// One way to a function, without a choice of axes; nothing where all depend on the model.
+    pub(super) fn plain_way(&self, kind: FunctionKind) -> Option<PlainWay> {
+        let recipe = recipe(kind, !self.model.solve_for.is_empty());
+        let ways = if self.is_open() { recipe.open } else { recipe.looped };
+        ways.iter().find_map(|way| match *way {
+            Way::InAxes(_, f) | Way::Plain(_, f) => Some(PlainWay::OnTree(f)),
+            Way::PutIn(_, f) => Some(PlainWay::PutIn(f)),
+            Way::Reduced(_, f) | Way::Defined(_, f) => Some(PlainWay::OnLoops(f)),
+            Way::Written(_, f) => Some(PlainWay::Written(f)),
+            Way::Lumped(_) | Way::Chosen(_) => None,
+        })
     }
 }

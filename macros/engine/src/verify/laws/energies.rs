@@ -3,7 +3,8 @@
 use crate::contracts::function::FunctionKind;
 use crate::contracts::results::Slot;
 use crate::contracts::symbol::Symbol;
-use crate::model::types::InputId;
+use crate::mechanics::translate::symbols::has_quaternion;
+use crate::model::types::{Coordinate, InputId};
 use crate::optimize::program::Doubt;
 use crate::symbolic::doubled::Doubled;
 
@@ -19,7 +20,7 @@ pub(super) const LAWS: &[Law] = &[
     Law { between: "the mass matrix and kinetic energy", judge: |at| at.energy() },
     Law { between: "the mass matrix and its transpose", judge: |at| at.symmetry() },
     Law { between: "the mass matrix and energies that are positive", judge: |at| at.pivots() },
-    Law { between: "energies and the power of efforts", judge: |at| at.balance() },
+    Law { between: "energies and the equations of motion", judge: |at| at.lagrange() },
 ];
 
 impl At<'_, '_> {
@@ -136,9 +137,13 @@ impl At<'_, '_> {
         Some(v.into_iter().map(Doubled::new).collect())
     }
 
-    /// The rate of both energies is the power of all else. Forces that vanish at rest without inputs and are linear in
-    /// velocities have opposite powers in opposite motions, so half the sum over both leaves inertia, weight and springs.
-    fn balance(&mut self) -> Judged {
+    /// Lagrange's equations, which say of r = v that the rate of both energies is the power of all else:
+    /// r M a + d(r p)/dq v - dT/dq r + r (w x p) + dU/dq r is the work of all other forces along r. With r at random they are all of
+    /// the equations of motion, from energies that share nothing with the recursions of the dynamics. Since T is v M v / 2, r p is
+    /// (T(v + r) - T(v - r)) / 2. Velocities w that are no rates of coordinates, those of quaternions, have r (w x p) beside it
+    /// (Hamel). Forces that vanish at rest without inputs and are linear in velocities are opposite in opposite motions, so
+    /// half the sum over both leaves inertia, weight and springs.
+    fn lagrange(&mut self) -> Judged {
         let (t, u) = (FunctionKind::KineticEnergy, FunctionKind::PotentialEnergy);
         let (fd, id, b) = (FunctionKind::ForwardDynamics, FunctionKind::InverseDynamics, FunctionKind::Bias);
         let g = FunctionKind::ConstraintJacobian;
@@ -159,6 +164,7 @@ impl At<'_, '_> {
         // closed, and stay so.
         let measured = rows > 0 && forces::on_closed_joints(model);
         let mut v = self.velocities();
+        let mut r: Vec<Doubled> = self.weights(v.len()).into_iter().map(Doubled::new).collect();
         let mut open = 0.0;
         if measured {
             if !self.has(g) || !self.has(FunctionKind::Constraints) {
@@ -166,53 +172,77 @@ impl At<'_, '_> {
             }
             open = self.gap()?;
             v = self.closed_velocities(v)?;
+            r = self.closed_velocities(r)?;
         }
         let inputs = model.inputs.iter().enumerate().flat_map(|(k, input)| {
             (0..input.ty.scalars()).map(move |element| (Symbol::Input { input: InputId(k), element }, Doubled::ZERO))
         });
-        let mut still: Vec<(Symbol, Doubled)> = inputs.collect();
-        let mut opposite = still.clone();
-        if measured {
-            still.extend(self.coordinates().iter().zip(&v).map(|(&c, &v)| (velocity(c), v)));
-        }
-        opposite.extend(self.coordinates().iter().zip(&v).map(|(&c, &v)| (velocity(c), -v)));
+        let inputs: Vec<(Symbol, Doubled)> = inputs.collect();
+        let coordinates = self.coordinates();
+        let moving = |velocities: &[Doubled]| {
+            let velocities = coordinates.iter().zip(velocities).map(|(&c, &v)| (velocity(c), v));
+            inputs.iter().copied().chain(velocities).collect::<Vec<(Symbol, Doubled)>>()
+        };
+        let sums: Vec<Doubled> = v.iter().zip(&r).map(|(&v, &r)| v + r).collect();
+        let differences: Vec<Doubled> = v.iter().zip(&r).map(|(&v, &r)| v - r).collect();
+        let opposite: Vec<Doubled> = v.iter().map(|&v| -v).collect();
         let symbols = self.symbols();
-        let kinetic = self.with(t, &still)?.slopes::<Doubled>(&[1.0], symbols);
-        let potential = self.with(u, &still)?.slopes::<Doubled>(&[1.0], symbols);
-        let (one, other) = (self.with(kind, &still)?, self.with(kind, &opposite)?);
+        let kinetic = self.with(t, &moving(&v))?.slopes::<Doubled>(&[1.0], symbols);
+        let faster = self.with(t, &moving(&sums))?.slopes::<Doubled>(&[1.0], symbols);
+        let slower = self.with(t, &moving(&differences))?.slopes::<Doubled>(&[1.0], symbols);
+        let potential = self.with(u, &moving(&v))?.slopes::<Doubled>(&[1.0], symbols);
+        let (one, other) = (self.with(kind, &moving(&v))?, self.with(kind, &moving(&opposite))?);
         let half = Doubled::new(0.5);
         let mean: Vec<Doubled> = one.roots().iter().zip(other.roots()).map(|(&x, y)| (x + y) * half).collect();
         let mut sum = Sum::default();
-        for slopes in [&kinetic, &potential] {
-            self.displacements(slopes).iter().zip(&v).for_each(|(&x, &v)| sum.product(&[x, v]));
-        }
-        let momenta = self.by(&kinetic, velocity);
+        self.displacements(&faster).iter().zip(&v).for_each(|(&x, &v)| sum.product(&[x, v, half]));
+        self.displacements(&slower).iter().zip(&v).for_each(|(&x, &v)| sum.product(&[-x, v, half]));
+        self.displacements(&kinetic).iter().zip(&r).for_each(|(&x, &r)| sum.product(&[-x, r]));
+        self.displacements(&potential).iter().zip(&r).for_each(|(&x, &r)| sum.product(&[x, r]));
+        self.turning(&self.by(&kinetic, velocity), &v, &r, &mut sum);
+        let inertia = self.by(&faster, velocity).into_iter().zip(self.by(&slower, velocity));
+        let inertia: Vec<Doubled> = inertia.map(|(x, y)| (x - y) * half).collect();
         let mut weights = vec![0.0; mean.len()];
         if kind == fd {
-            momenta.iter().zip(&mean).for_each(|(&p, &a)| sum.product(&[p, a]));
-            momenta.iter().zip(&mut weights).for_each(|(p, weight)| *weight = p.high);
+            inertia.iter().zip(&mean).for_each(|(&x, &a)| sum.product(&[x, a]));
+            inertia.iter().zip(&mut weights).for_each(|(x, weight)| *weight = x.high);
             if rows > 0 {
                 let (n, held) = (v.len(), self.place(fd, Slot::Multipliers));
-                let jacobian = self.with(g, &still)?.roots();
+                let jacobian = self.with(g, &inputs)?.roots();
                 for (at, &x) in jacobian.iter().enumerate() {
                     let (row, column) = (held.start + at / n, at % n);
-                    sum.product(&[x, mean[row], v[column]]);
-                    weights[row] += x.high * v[column].high;
+                    sum.product(&[x, mean[row], r[column]]);
+                    weights[row] += x.high * r[column].high;
                 }
             }
         } else {
             if kind == id {
                 let accelerations = self.of_state(acceleration);
-                momenta.iter().zip(&accelerations).for_each(|(&p, &a)| sum.product(&[p, a]));
+                inertia.iter().zip(&accelerations).for_each(|(&x, &a)| sum.product(&[x, a]));
             }
-            mean.iter().zip(&v).for_each(|(&x, &v)| sum.product(&[-x, v]));
-            v.iter().zip(&mut weights).for_each(|(v, weight)| *weight = v.high);
+            mean.iter().zip(&r).for_each(|(&x, &r)| sum.product(&[-x, r]));
+            r.iter().zip(&mut weights).for_each(|(r, weight)| *weight = r.high);
         }
         if sum.holds() != Some(true) {
             sum.open = open;
-            sum.bound = kinetic.bound + potential.bound;
+            sum.bound = kinetic.bound + faster.bound + slower.bound + potential.bound;
             sum.bound += one.slopes::<f64>(&weights, 0).bound + other.slopes::<f64>(&weights, 0).bound;
         }
         judged(&sum, if kind == fd { u } else { t }, kind)
+    }
+
+    /// r (w x p) of every orientation that is a quaternion.
+    fn turning(&self, p: &[Doubled], v: &[Doubled], r: &[Doubled], sum: &mut Sum) {
+        for (at, &Coordinate { joint, index }) in self.coordinates().iter().enumerate() {
+            let declared = &self.laws.model.joints[joint];
+            // The state has all coordinates of a quaternion, one behind the other.
+            if !has_quaternion(declared) || index + 3 != declared.kind.freedoms() {
+                continue;
+            }
+            for [i, j, k] in [[0, 1, 2], [1, 2, 0], [2, 0, 1]].map(|axes| axes.map(|axis| at + axis)) {
+                sum.product(&[r[i], v[j], p[k]]);
+                sum.product(&[-r[i], v[k], p[j]]);
+            }
+        }
     }
 }

@@ -21,7 +21,7 @@ struct Shape {
 
 const OTHER: Shape = Shape { constant: false, degree: 2, vanishes: false };
 
-/// See [`super::At`]'s balance of energies.
+/// See [`super::At`]'s equations of Lagrange.
 pub(super) fn are_balanced(model: &Model) -> bool {
     let mut known = HashMap::new();
     model.forces.iter().all(|force| match &force.kind {

@@ -16,12 +16,12 @@ mod outputs;
 use std::ops::Range;
 
 use crate::contracts::function::FunctionKind;
-use crate::contracts::results::Slot;
+use crate::contracts::results::{Parts, Slot};
 use crate::contracts::symbol::Symbol;
 use crate::mechanics::loops::structure::{Role, Structure};
 use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::types::{Coordinate, Model};
-use crate::optimize::program::{Doubt, Function};
+use crate::optimize::program::Doubt;
 use crate::symbolic::doubled::Doubled;
 use crate::symbolic::graph::SymbolId;
 
@@ -58,12 +58,19 @@ pub(super) struct Pending {
     pub doubt: Option<Doubt>,
 }
 
-/// The functions of one model.
+/// A function as it was derived.
+pub(super) struct Known<'a> {
+    pub kind: FunctionKind,
+    pub parts: &'a Parts,
+    pub tape: &'a Tape,
+}
+
+/// The functions of one model: those that are emitted, and those that were derived beside them.
 pub(super) struct Laws<'a> {
     pub model: &'a Model,
     pub structure: &'a Structure,
     pub states: &'a States<'a>,
-    pub functions: &'a [(&'a Function, &'a Tape)],
+    pub functions: &'a [Known<'a>],
 }
 
 /// A law under way: terms of one sum.
@@ -148,13 +155,13 @@ fn judged(sum: &Sum, a: FunctionKind, b: FunctionKind) -> Judged {
 
 impl<'a> At<'a, '_> {
     fn has(&self, kind: FunctionKind) -> bool {
-        self.laws.functions.iter().any(|function| function.0.kind == kind)
+        self.laws.functions.iter().any(|function| function.kind == kind)
     }
 
     /// Where a function's results stand that fill a slot.
     fn place(&self, kind: FunctionKind, slot: Slot) -> Range<usize> {
-        let function = self.laws.functions.iter().find(|function| function.0.kind == kind);
-        function.map_or(0..0, |function| function.0.parts.range(slot))
+        let function = self.laws.functions.iter().find(|function| function.kind == kind);
+        function.map_or(0..0, |function| function.parts.range(slot))
     }
 
     /// The rank of a function's system; zero where it has none.
@@ -164,7 +171,7 @@ impl<'a> At<'a, '_> {
     }
 
     fn tape(&self, kind: FunctionKind) -> Option<&'a Tape> {
-        self.laws.functions.iter().find(|function| function.0.kind == kind).map(|function| function.1)
+        self.laws.functions.iter().find(|function| function.kind == kind).map(|function| function.tape)
     }
 
     /// A function with some symbols set otherwise.
@@ -184,7 +191,7 @@ impl<'a> At<'a, '_> {
 
     /// A function as the state is.
     fn trace(&mut self, kind: FunctionKind) -> Option<&Trace<'a, Doubled>> {
-        let at = self.laws.functions.iter().position(|function| function.0.kind == kind)?;
+        let at = self.laws.functions.iter().position(|function| function.kind == kind)?;
         if self.traces[at].is_none() {
             self.traces[at] = self.with(kind, &[]);
         }
