@@ -199,6 +199,23 @@ fn springs_on_joints_that_close_loops() {
     }
 }
 
+/// The rate of a rotor on a joint that closes a loop is measured, too: open loops have no coordinate of which it is the rate.
+#[test]
+fn rotors_on_joints_that_close_loops() {
+    for (kind, coordinates) in [("Revolute", "Quaternion"), ("Prismatic", "RollPitchYaw")] {
+        let text = format!(
+            "pub mod m {{
+                body b0 {{ mass: 1, com: 0 * X, inertia: diag(0.1, 0.1, 0.1) }}
+                joint j0: {kind} {{ parent: ground, child: b0, axis: Z, armature: 0.10 }}
+                formulation {{ coordinates: Absolute({coordinates}) }}
+                emit forward_dynamics;
+            }}"
+        );
+        let (_, compiled) = compiled(&text);
+        assert!(compiled.unchecked.is_empty(), "{:?}", compiled.unchecked);
+    }
+}
+
 /// A body whose axis a closing joint holds, and whose place along that axis, through a point that stands still: closed,
 /// the axis fixes the place, so one equation follows from two others there and nowhere else.
 #[test]

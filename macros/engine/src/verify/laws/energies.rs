@@ -172,7 +172,11 @@ impl At<'_, '_> {
             }
             open = self.gap()?;
             v = self.closed_velocities(v)?;
-            r = self.closed_velocities(r)?;
+        }
+        // What is measured is no function of coordinates where loops are open: of that the power is all that is known.
+        let mut rotors = model.cuts.iter().filter(|&&joint| model.joints[joint].armature.is_some());
+        if measured || (rows > 0 && rotors.next().is_some()) {
+            r.clone_from(&v);
         }
         let inputs = model.inputs.iter().enumerate().flat_map(|(k, input)| {
             (0..input.ty.scalars()).map(move |element| (Symbol::Input { input: InputId(k), element }, Doubled::ZERO))
