@@ -158,7 +158,7 @@ type Found = Result<Results<Scalar>, Vec<Complaint>>;
 impl<'m> Deriving<'m> {
     fn new(model: &'m Model, structure: &Structure) -> Self {
         let mut graph = Graph::new();
-        let symbols = Symbols::new(&mut graph, model).with_structure(&mut graph, structure);
+        let symbols = Symbols::new(&mut graph, model).with_structure(&mut graph, model, structure);
         let symbols = symbols.with_impulses(&mut graph, model, structure);
         Deriving {
             model,

@@ -43,13 +43,14 @@ const UNWANTED: usize = 6;
 
 impl Symbols {
     /// The same with symbols for multipliers and iterations, if there are any.
-    pub fn with_structure(mut self, g: &mut Graph, structure: &Structure) -> Symbols {
+    pub fn with_structure(mut self, g: &mut Graph, model: &Model, structure: &Structure) -> Symbols {
         self.mark(g, structure);
         let table = &mut self.table;
         self.multipliers = several(g, table, structure.rows.len(), |row| Symbol::Multiplier { row });
         let guesses = structure.guesses();
         self.guesses = several(g, table, guesses, |index| Symbol::Guess { index });
-        let unknowns = if structure.steps.is_empty() { 0 } else { guesses + UNWANTED };
+        let solves = !structure.steps.is_empty() || !model.kinematics.is_empty();
+        let unknowns = if solves { guesses + UNWANTED } else { 0 };
         self.unknowns = several(g, table, unknowns, |index| Symbol::Unknown { index });
         self
     }

@@ -76,21 +76,23 @@ impl At<'_, '_> {
         if !self.state.defaults || !mass.iter().all(|x| x.is_finite()) {
             return None;
         }
-        let mut rest: Vec<f64> = mass.iter().map(|x| x.high).collect();
+        // In 31 digits: behind a pivot that is rounding alone, such as a thin rod's about its own axis, stands anything.
+        let mut rest = mass.clone();
+        let rounding = 1e-24 * mass.iter().fold(0.0_f64, |most, x| most.max(x.high.abs()));
         for k in 0..n {
             let pivot = rest[k * n + k];
             let size = mass[k * n + k].high;
-            if size < 0.0 || pivot < -1e-9 * size {
+            if size < -rounding || pivot.high < -1e-9 * size - rounding {
                 return Some(Some((a, a)));
             }
-            if pivot <= 1e-12 * size {
+            if pivot.high <= 1e-12 * size + rounding {
                 // Without inertia of its own: what is coupled to it says no more.
                 return Some(None);
             }
             for i in k + 1..n {
                 let factor = rest[i * n + k] / pivot;
                 for j in k + 1..n {
-                    rest[i * n + j] -= factor * rest[k * n + j];
+                    rest[i * n + j] = rest[i * n + j] - factor * rest[k * n + j];
                 }
             }
         }
