@@ -127,8 +127,14 @@ fn state(of: &Written, at: &HashMap<Symbol, f64>) -> Value {
         Some(forward[place])
     };
     let moving: Vec<Option<f64>> = of.page.symbols.iter().map(|&(_, symbol)| moving(symbol)).collect();
+    let number = |symbol: Symbol| of.page.symbols.iter().position(|known| known.1 == symbol);
+    let mut solved = at.clone();
+    solved.extend(of.page.symbols.iter().zip(&moving).filter_map(|((_, symbol), value)| Some((*symbol, (*value)?))));
+    let followed: Vec<(Option<usize>, f64)> =
+        of.followed(&solved).into_iter().map(|(symbol, value)| (number(symbol), value)).collect();
     json!({
         "values": values,
+        "followed": followed,
         "moving": moving,
         "mass": of.run(FunctionKind::MassMatrix, at),
         "bias": of.run(FunctionKind::Bias, at),

@@ -8,7 +8,7 @@ import sympy
 from . import meaning
 from .meaning import Unreadable
 
-TOKEN = re.compile(r"\\(?:left|right)[(|)]|\\[A-Za-z]+|\\[,_\\]|\d+(?:\.\d+)?|\s+|.")
+TOKEN = re.compile(r"\\(?:left|right)[(|)]|\\[A-Za-z]+|\\[,_\\ ]|\d+(?:\.\d+)?|\s+|.")
 GREEK = "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi rho sigma tau upsilon phi chi psi omega"
 CAPITALS = "Gamma Delta Theta Lambda Xi Sigma Upsilon Phi Psi Omega"
 GREEK = {f"\\{word}" for word in GREEK.split() + CAPITALS.split()}

@@ -24,7 +24,7 @@ def key(element):
 def is_name(element):
     if element.tag in ("msub", "mover"):
         return is_name(element[0])
-    return element.tag == "mi"
+    return element.tag in ("mi", "mtext")
 
 
 def name(source):

@@ -86,11 +86,12 @@ class Page:
                 found["cosine"][left.args[0]] = right
             elif subject == "sine":
                 angle = left.args[0] if left.args else left
+                found["sine"][angle] = right
                 values[angle] = numpy.arctan2(right, found["cosine"][angle])
             else:
                 values[self.defined[k]] = right
                 found[subject, *at] = right
-        return found
+        return found | {"values": values}
 
     def value(self, k, forms, values, size):
         """Of one side: the forms must agree."""
@@ -102,15 +103,23 @@ class Page:
                 if missing:
                     self.say(f"line {k}: {missing} have no value in {form}")
                     return numpy.full(size, numpy.nan)
-                function = sympy.lambdify(arguments, expression, modules=[{"amax": greatest, "amin": least}, "numpy"])
+                function = sympy.lambdify(arguments, expression, modules=MODULES)
                 result = numpy.asarray(function(*(values[symbol] for symbol in arguments)), dtype=numpy.longdouble)
                 results[expression] = numpy.broadcast_to(result, size)
-        first, *others = results.values()
-        scale = numpy.maximum(1, numpy.abs(first))
-        for other in others:
-            if not numpy.all((numpy.abs(first - other) <= TOLERANCE * scale) | (numpy.isnan(first) & numpy.isnan(other))):
-                self.say(f"line {k}: text, LaTeX and MathML differ: {self.model['lines'][k]['right']}")
+        if len(results) > 1:
+            self.agree(k, list(results))
+        first = next(iter(results.values()))
         return first
+
+    def agree(self, k, expressions):
+        """Expressions that SymPy has not made the same must have the same values, whatever their symbols stand for."""
+        symbols = sorted(set().union(*(expression.free_symbols for expression in expressions)), key=str)
+        points = numpy.random.default_rng(1).uniform(0.1, 0.9, (len(symbols), 8)).astype(numpy.longdouble)
+        functions = (sympy.lambdify(symbols, expression, modules=MODULES) for expression in expressions)
+        first, *others = (numpy.broadcast_to(numpy.asarray(function(*points), dtype=numpy.longdouble), 8) for function in functions)
+        near = numpy.all([numpy.isclose(first, other, rtol=TOLERANCE, atol=TOLERANCE, equal_nan=True) for other in others])
+        if not near:
+            self.say(f"line {k}: text, LaTeX and MathML differ: {self.model['lines'][k]}")
 
     def check(self, what, got, want, scale):
         """Entries by states, to a tolerance of the scale by states."""
@@ -164,6 +173,16 @@ class Page:
                 if key[0] == subject:
                     want = numpy.array([state[name][key[1]] for state in states], dtype=numpy.longdouble)
                     self.check(f"{subject} {key[1]}", [found[key]], [want], numpy.maximum(1, numpy.abs(want)))
+        # Coordinates that follow, their rates and accelerations, as far as they have lines.
+        for place, (number, _) in enumerate(states[0].get("followed", [])):
+            got = found["values"].get(self.symbols[number])
+            if got is not None:
+                want = numpy.array([state["followed"][place][1] for state in states], dtype=numpy.longdouble)
+                # An angle and the same some turns away are one.
+                turns = 2 * numpy.pi * numpy.round((got - want) / (2 * numpy.pi))
+                got = numpy.where(self.symbols[number] in found["sine"], got - turns, got)
+                name = self.model["symbols"][number]["text"]
+                self.check(name, [got], [want], numpy.maximum(1, numpy.abs(want)))
 
 
 def greatest(list_, axis=0):
@@ -179,3 +198,6 @@ def reduced(choice, list_):
     for other in others:
         first = choice(first, other)
     return first
+
+
+MODULES = [{"amax": greatest, "amin": least}, "numpy"]

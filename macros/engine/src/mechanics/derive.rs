@@ -31,6 +31,7 @@ use super::loops::structure::{Role, Structure};
 use super::results::euler_singularities;
 use super::scene::Method;
 use super::strut::inverse;
+use super::translate::dependencies::Dependencies;
 use super::translate::names;
 use super::translate::symbols::{Symbols, freedoms_of};
 use super::written::Page;
@@ -174,8 +175,12 @@ impl<'m> Deriving<'m> {
 
     /// Equations for readers.
     fn page(&mut self) -> Result<Page, Vec<Complaint>> {
+        // Reactions of `Fixed` joints are told only where these stay joints.
+        let model = self.model;
+        let told = model.outputs.iter().map(|output| &output.value).chain(model.states.iter().map(|state| &state.rate));
+        let kept = Dependencies::of(told).kept(model);
         let mut page = Page::default();
-        self.only("", |e| {
+        self.candidate("", self.way(), &kept, &mut |e| {
             page = e.page()?;
             Ok(Results::default())
         })?;

@@ -1,6 +1,7 @@
 //! Equations for readers beside compiled functions, at states drawn at random.
 
 use std::collections::HashMap;
+use std::rc::Rc;
 
 use multibody_engine::compile;
 use multibody_engine::contracts::function::FunctionKind;
@@ -8,13 +9,23 @@ use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics::loops::structure::{Role, Structure};
 use multibody_engine::mechanics::written::Page;
 use multibody_engine::mechanics::{self, analysis};
-use multibody_engine::model::types::{Coordinate, JointId, Model, Request};
+use multibody_engine::model::types::{
+    Coordinate, Docs, Expr, ExprNode, InstanceId, JointId, Model, Order, Output, Place, Request, Type,
+};
 use multibody_engine::optimize::program::Compiled;
+use multibody_engine::symbolic::evaluate::solve_f64;
+
+use proc_macro2::{Ident, Span};
 
 use super::interpreter;
 
 /// Beyond this a configuration is near a dead centre, where nothing can be told.
 const MOST: f64 = 1e6;
+
+/// What is left of a gap.
+const CLOSED: f64 = 1e-14;
+/// Most steps towards it.
+const MOST_STEPS: usize = 30;
 
 /// Fractions between minus one and one.
 pub(crate) struct Random(pub u64);
@@ -31,7 +42,31 @@ pub(crate) struct Written {
     pub model: Model,
     pub structure: Structure,
     pub compiled: Compiled,
+    /// Of the model as it is.
     pub page: Page,
+    /// What the compiled functions tell of coordinates that follow, as the last of the outputs.
+    following: Vec<(Coordinate, Order)>,
+}
+
+/// Coordinates outside of the state with their rates and accelerations.
+fn following(model: &Model, structure: &Structure) -> Vec<(Coordinate, Order)> {
+    let joints = (0..model.joints.len()).map(JointId).filter(|&joint| !model.joints[joint].kind.has_quaternion());
+    let coordinates =
+        joints.flat_map(|joint| (0..model.joints[joint].kind.freedoms()).map(move |index| Coordinate { joint, index }));
+    let follow = coordinates.filter(|&coordinate| structure.role(coordinate) != Role::State);
+    follow
+        .flat_map(|coordinate| [Order::Position, Order::Rate, Order::Acceleration].map(|order| (coordinate, order)))
+        .collect()
+}
+
+fn output_of(list: &[(Coordinate, Order)]) -> Output {
+    let expression = |node, ty| Expr { node: Rc::new(node), ty, span: Span::call_site() };
+    let entries = list.iter().map(|&(Coordinate { joint, index }, order)| {
+        expression(ExprNode::Coordinate { joint, index, order }, Type::Scalar)
+    });
+    let value = expression(ExprNode::Array(entries.collect()), Type::Array(Box::new(Type::Scalar), list.len()));
+    let place = Place { instance: InstanceId(0), field: Ident::new("following", Span::call_site()) };
+    Output { place, value, docs: Docs::default() }
 }
 
 impl Written {
@@ -49,9 +84,27 @@ impl Written {
             return None;
         }
         model.solve_for.clear();
+        let following = following(&model, &structure);
+        let own = model.outputs.len();
+        if !following.is_empty() {
+            model.outputs.push(output_of(&following));
+        }
         let (structure, compiled) = compile(&model).ok()?;
+        model.outputs.truncate(own);
         let Ok(page) = mechanics::page(&model, &structure) else { panic!("{}: no page", model.name) };
-        Some(Written { model, structure, compiled, page })
+        Some(Written { model, structure, compiled, page, following })
+    }
+
+    /// Positions, rates and accelerations of what follows, as compiled: symbols with their values.
+    pub(crate) fn followed(&self, at: &HashMap<Symbol, f64>) -> Vec<(Symbol, f64)> {
+        let outputs = self.run(FunctionKind::Outputs, at).unwrap_or_default();
+        let own = outputs.len() - outputs.len().min(self.following.len());
+        let symbols = self.following.iter().map(|&(Coordinate { joint, index: component }, order)| match order {
+            Order::Position => Symbol::Position { joint, component },
+            Order::Rate => Symbol::Velocity { joint, component },
+            Order::Acceleration => Symbol::Acceleration { joint, component },
+        });
+        symbols.zip(outputs[own..].iter().copied()).collect()
     }
 
     /// Values of symbols at a state, near a configuration in which loops are closed.
@@ -101,12 +154,59 @@ impl Written {
         Some(interpreter::run(&function.program, &symbols, &|field| fields[field.0]))
     }
 
-    /// The next state at which mass matrix and bias have sizes that say something.
+    /// The next state with its loops closed at which mass matrix and bias have sizes that say something.
     pub(crate) fn state(&self, random: &mut Random) -> Option<HashMap<Symbol, f64>> {
-        (0..40).map(|_| self.draw(random)).find(|at| {
+        (0..40).filter_map(|_| self.closed(self.draw(random))).find(|at| {
             let sizes = [FunctionKind::MassMatrix, FunctionKind::Bias].map(|kind| self.run(kind, at));
             sizes.iter().flatten().flatten().all(|x| x.is_finite() && x.abs() <= MOST)
         })
+    }
+
+    /// The state nearby with no gap in equations that keep multipliers: their efforts are what is written of them only there.
+    fn closed(&self, mut at: HashMap<Symbol, f64>) -> Option<HashMap<Symbol, f64>> {
+        for _ in 0..MOST_STEPS {
+            let Some(gaps) = self.run(FunctionKind::Constraints, &at) else { return Some(at) };
+            if gaps.iter().all(|gap| gap.abs() < CLOSED) {
+                return Some(at);
+            }
+            let slopes = self.run(FunctionKind::ConstraintJacobian, &at)?;
+            let columns = slopes.len() / gaps.len();
+            let rows: Vec<&[f64]> = slopes.chunks(columns).collect();
+            // The shortest step; what keeps redundant equations solvable is lost in the next one.
+            let square: Vec<f64> = (0..rows.len())
+                .flat_map(|i| (0..rows.len()).map(move |j| (i, j)))
+                .map(|(i, j)| {
+                    rows[i].iter().zip(rows[j]).map(|(a, b)| a * b).sum::<f64>() + if i == j { 1e-9 } else { 0.0 }
+                })
+                .collect();
+            let along = solve_f64(&square, &gaps);
+            let step = |k: usize| -rows.iter().zip(&along).map(|(row, y)| row[k] * y).sum::<f64>();
+            for (k, &coordinate) in self.structure.state.iter().enumerate() {
+                self.displace(&mut at, coordinate, step(k));
+            }
+        }
+        None
+    }
+
+    /// Moves along one velocity coordinate.
+    fn displace(&self, at: &mut HashMap<Symbol, f64>, Coordinate { joint, index }: Coordinate, by: f64) {
+        let kind = self.model.joints[joint].kind;
+        let start = kind.turning().start;
+        if !kind.has_quaternion() || index < start {
+            *at.get_mut(&Symbol::Position { joint, component: index }).unwrap() += by;
+            return;
+        }
+        // A small turn about an axis of the child: q (1, by / 2).
+        let place = [0, 1, 2, 3].map(|k| Symbol::Position { joint, component: start + k });
+        let [w, i, j, k] = place.map(|symbol| at[&symbol]);
+        let turned = match index - start {
+            0 => [-i, w, k, -j],
+            1 => [-j, -k, w, i],
+            _ => [-k, j, -i, w],
+        };
+        let next = [w, i, j, k].iter().zip(turned).map(|(q, d)| q + 0.5 * by * d).collect::<Vec<_>>();
+        let size = next.iter().map(|x| x * x).sum::<f64>().sqrt();
+        at.extend(place.into_iter().zip(next.into_iter().map(|x| x / size)));
     }
 
     /// Whether a symbol has an equation on the page, or none at all.

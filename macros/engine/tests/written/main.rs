@@ -7,6 +7,7 @@ mod corpus;
 #[path = "../common/interpreter.rs"]
 mod interpreter;
 #[path = "../common/pages.rs"]
+#[allow(dead_code)]
 mod pages;
 
 mod documented;

@@ -1,7 +1,10 @@
 //! How formulas are set, against textbooks.
 
+use std::collections::BTreeSet;
+
 use multibody_engine::mechanics;
 use multibody_engine::mechanics::written::Subject;
+use multibody_engine::symbolic::write::formula::{Formula, Identifier};
 use multibody_engine::symbolic::write::{latex, mathml, text};
 
 use crate::corpus;
@@ -44,6 +47,39 @@ fn double_pendulum() {
         "g[psi] = m2 l2 g sin(phi + psi)",
     ];
     assert_eq!(found, textbook);
+}
+
+/// Names that a letter with an index would make alike, and words that mean something else.
+#[test]
+fn names_are_told_apart() {
+    let model = corpus::model(
+        "pub mod alike {
+            param l1 = 1.0;
+            param l_1 = 2.0;
+            param arcsin = 3.0;
+            param pi = 0.5;
+            param phi = 0.25;
+            param φ = 0.125;
+            param g_q = 0.75;
+            world { gravity: -9.81 * Y }
+            body rod { mass: arcsin + pi, com: (l1 + l_1 + phi + φ + g_q) * X }
+            joint q: Revolute { parent: ground, child: rod, axis: Z }
+            emit forward_dynamics;
+        }",
+    );
+    let structure = mechanics::analysis::analyse(&model).ok().unwrap();
+    let page = mechanics::page(&model, &structure).ok().unwrap();
+    let lefts = page.sections.iter().flat_map(|section| &section.lines).filter_map(|line| match &line.equation.left {
+        Formula::Name(name) => Some(name),
+        _ => None,
+    });
+    let names: BTreeSet<&Identifier> = page.symbols.iter().map(|(name, _)| name).chain(lefts).collect();
+    for set in [text::name, latex::name, mathml::name] {
+        let looks: BTreeSet<String> = names.iter().map(|name| set(name)).collect();
+        assert_eq!(looks.len(), names.len(), "{looks:#?}");
+    }
+    let sine = names.iter().find(|name| name.text == "arcsin").unwrap();
+    assert_eq!((latex::name(sine), mathml::name(sine)), ("\\mathtt{arcsin}".into(), "<mtext>arcsin</mtext>".into()));
 }
 
 /// One name in each of the three ways.

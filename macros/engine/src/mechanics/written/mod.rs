@@ -10,9 +10,12 @@
 pub mod names;
 mod sections;
 
+use std::collections::{HashMap, HashSet};
+
 use crate::contracts::symbol::Symbol;
 use crate::model::types::Coordinate;
 use crate::symbolic::write::formula::{Equation, Identifier};
+use crate::symbolic::write::{latex, mathml};
 
 use super::loops::structure::Row;
 
@@ -22,6 +25,28 @@ pub struct Page {
     pub sections: Vec<Section>,
     /// Symbols of the equations, by number in the graph.
     pub symbols: Vec<(Identifier, Symbol)>,
+}
+
+impl Page {
+    /// Names that would look alike as a letter with an index, `l1` and `l_1`, are set as they are typed.
+    fn tell_apart(&mut self) {
+        let mut alike: HashMap<String, HashSet<Identifier>> = HashMap::new();
+        self.each_name(&mut |identifier| {
+            for look in [latex::name(identifier), mathml::name(identifier)] {
+                alike.entry(look).or_default().insert(identifier.clone());
+            }
+        });
+        let typed: HashSet<Identifier> = alike.into_values().filter(|names| names.len() > 1).flatten().collect();
+        self.each_name(&mut |identifier| identifier.typed |= typed.contains(identifier));
+    }
+
+    fn each_name(&mut self, visit: &mut dyn FnMut(&mut Identifier)) {
+        self.symbols.iter_mut().for_each(|(identifier, _)| visit(identifier));
+        for line in self.sections.iter_mut().flat_map(|section| &mut section.lines) {
+            line.equation.left.each_name_mut(visit);
+            line.equation.right.each_name_mut(visit);
+        }
+    }
 }
 
 /// Lines under one heading.

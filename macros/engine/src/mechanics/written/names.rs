@@ -13,7 +13,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 pub(in crate::mechanics) fn identifier(model: &Model, symbol: Symbol) -> Identifier {
     let leaf = |place: &Place, ty: &Type, element: usize, class| {
         let (elements, index) = place_of(ty, element);
-        Identifier { text: path(model, place) + &elements, dots: 0, index, class }
+        Identifier { text: path(model, place) + &elements, dots: 0, index, class, typed: false }
     };
     match symbol {
         Symbol::Time => named("t".to_owned(), Class::Time),
@@ -40,11 +40,11 @@ pub(in crate::mechanics) fn identifier(model: &Model, symbol: Symbol) -> Identif
 
 /// A matrix or a list with an index.
 pub(super) fn entry(text: &str, index: String, class: Class) -> Identifier {
-    Identifier { text: text.to_owned(), dots: 0, index: Some(index), class }
+    Identifier { text: text.to_owned(), dots: 0, index: Some(index), class, typed: false }
 }
 
 fn named(text: String, class: Class) -> Identifier {
-    Identifier { text, dots: 0, index: None, class }
+    Identifier { text, dots: 0, index: None, class, typed: false }
 }
 
 fn of_coordinate(what: &str, model: &Model, joint: JointId, index: usize) -> Identifier {
@@ -70,7 +70,7 @@ fn position(model: &Model, joint: JointId, component: usize) -> Identifier {
     match quaternion.and_then(|k| ["w", "i", "j", "k"].get(k)) {
         Some(name) => {
             let text = path(model, &model.joints[joint].place);
-            Identifier { text, dots: 0, index: Some((*name).to_owned()), class: Class::Position }
+            Identifier { text, dots: 0, index: Some((*name).to_owned()), class: Class::Position, typed: false }
         }
         None => named(coordinate_name(model, Coordinate { joint, index: component }), Class::Position),
     }
@@ -87,12 +87,14 @@ fn motion(model: &Model, joint: JointId, component: usize, order: u8) -> Identif
             dots: order - 1,
             index: Some((*axis).to_owned()),
             class,
+            typed: false,
         },
         None => Identifier {
             text: coordinate_name(model, Coordinate { joint, index: component }),
             dots: order,
             index: None,
             class,
+            typed: false,
         },
     }
 }

@@ -50,6 +50,7 @@ impl Equations<'_> {
         writer.constraints(self);
         writer.motion(self, &following);
         writer.own(self, &reduction, &following);
+        writer.page.tell_apart();
         Ok(writer.page)
     }
 }
@@ -153,7 +154,7 @@ impl Sections {
             for (k, &value) in flat.iter().enumerate() {
                 let index = (flat.len() > 1).then(|| component(&output.value.ty, k));
                 let text = path(model, &output.place);
-                let left = Formula::Name(Identifier { text, dots: 0, index, class: Class::Defined });
+                let left = Formula::Name(Identifier { text, dots: 0, index, class: Class::Defined, typed: false });
                 if !has_block(&e.g, value) {
                     drafts.push(Draft::new(Subject::Output(place + k), left, value));
                 }

@@ -94,6 +94,10 @@ fn decimal(x: f64) -> Quotient {
     let text = format!("{x:e}");
     let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
+    if x == 1.0 {
+        // One that rounding has made.
+        return Quotient { above: Vec::new(), below: Vec::new() };
+    }
     if (-MOST_ZEROS..=MOST_ZEROS).contains(&exponent) {
         return Quotient { above: vec![Formula::Number(format!("{x}"))], below: Vec::new() };
     }

@@ -13,6 +13,8 @@ pub struct Identifier {
     /// What the symbol is one entry of, such as `x` of a vector or `1, 2` of a matrix.
     pub index: Option<String>,
     pub class: Class,
+    /// Set letter by letter, as it is typed: taken apart into a letter and an index it would look like another.
+    pub typed: bool,
 }
 
 /// What an identifier is: products are written in this order, as textbooks do.
@@ -125,6 +127,22 @@ impl Formula {
 
     pub fn is_zero(&self) -> bool {
         matches!(self, Formula::Number(digits) if digits == "0")
+    }
+
+    pub fn each_name_mut(&mut self, visit: &mut dyn FnMut(&mut Identifier)) {
+        match self {
+            Formula::Number(_) | Formula::Pi => {}
+            Formula::Name(identifier) => visit(identifier),
+            Formula::Minus(x) | Formula::Power(x, _) | Formula::Root(x) | Formula::Absolute(x) | Formula::Not(x) => {
+                x.each_name_mut(visit)
+            }
+            Formula::Sum(terms) => terms.iter_mut().for_each(|(_, term)| term.each_name_mut(visit)),
+            Formula::Product(list) | Formula::Apply(_, list) => list.iter_mut().for_each(|x| x.each_name_mut(visit)),
+            Formula::Fraction(a, b) | Formula::General(a, b) | Formula::Related(_, a, b) => {
+                [a, b].into_iter().for_each(|x| x.each_name_mut(visit))
+            }
+            Formula::Cases(parts) => parts.iter_mut().for_each(|x| x.each_name_mut(visit)),
+        }
     }
 
     /// How long it is to read: names, numbers and signs, each one.

@@ -18,21 +18,19 @@ pub fn formula(formula: &Formula) -> String {
 
 /// A name with its index and dots.
 pub fn name(identifier: &Identifier) -> String {
-    let (stem, mut index) = parts(&identifier.text);
-    if let Some(own) = &identifier.index {
-        index = if index.is_empty() { own.clone() } else { format!("{index},{own}") };
-    }
+    let (stem, index) = taken_apart(identifier);
     let stem = match stem.as_str() {
+        word if is_typed(identifier) => format!("\\mathtt{{{}}}", escaped(word)),
         word if GREEK.contains(&word) => format!("\\{word}"),
         word if word.chars().count() == 1 => word.to_owned(),
-        word => format!("\\mathrm{{{}}}", word.replace('_', "\\_")),
+        word => format!("\\mathrm{{{}}}", escaped(word)),
     };
     let dotted = match identifier.dots {
         0 => stem,
         1 => format!("\\dot{{{stem}}}"),
         _ => format!("\\ddot{{{stem}}}"),
     };
-    if index.is_empty() { dotted } else { format!("{dotted}_{{\\mathrm{{{}}}}}", index.replace('_', "\\_")) }
+    if index.is_empty() { dotted } else { format!("{dotted}_{{\\mathrm{{{}}}}}", escaped(&index)) }
 }
 
 /// Letters that have a name of their own.
@@ -41,8 +39,53 @@ pub(super) const GREEK: [&str; 22] = [
     "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi", "omega",
 ];
 
+fn escaped(word: &str) -> String {
+    // Spaces are lost in mathematics; behind a comma there is one.
+    word.replace('_', "\\_").replace(' ', "\\ ").replace(",\\ ", ", ")
+}
+
+/// Whether a name is set as it is typed: one that is a function's word, or pi, would be read as that.
+pub(super) fn is_typed(identifier: &Identifier) -> bool {
+    identifier.typed || RESERVED.contains(&identifier.text.as_str())
+}
+
+/// Words that printers set for what is no name.
+const RESERVED: [&str; 19] = [
+    "sin",
+    "cos",
+    "tan",
+    "arcsin",
+    "arccos",
+    "arctan",
+    "atan2",
+    "sinh",
+    "cosh",
+    "tanh",
+    "exp",
+    "ln",
+    "sign",
+    "min",
+    "max",
+    "eps",
+    "undefined",
+    "pi",
+    "π",
+];
+
+/// A stem and all that is set below.
+pub(super) fn taken_apart(identifier: &Identifier) -> (String, String) {
+    if is_typed(identifier) {
+        let index = identifier.index.as_ref().map_or(String::new(), |index| format!("[{index}]"));
+        return (format!("{}{index}", identifier.text), String::new());
+    }
+    let (stem, index) = parts(&identifier.text);
+    let all = [Some(&index).filter(|index| !index.is_empty()), identifier.index.as_ref()];
+    let all: Vec<&str> = all.into_iter().flatten().map(String::as_str).collect();
+    (stem, all.join(","))
+}
+
 /// A stem and what is set below: `l1` is l and 1, `legs[2].knee` knee and legs 2, `theta_a` theta and a.
-pub(super) fn parts(text: &str) -> (String, String) {
+fn parts(text: &str) -> (String, String) {
     let (path, last) = text.rsplit_once('.').unwrap_or(("", text));
     let digits = last.trim_end_matches(|c: char| c.is_ascii_digit());
     let (stem, number) = if digits.is_empty() { (last, "") } else { last.split_at(digits.len()) };
@@ -185,7 +228,7 @@ fn bracketed(text: &mut String, formula: &Formula, brackets: bool) {
 fn base(text: &mut String, formula: &Formula) {
     let plain = match formula {
         Formula::Number(_) | Formula::Pi => true,
-        Formula::Name(identifier) => identifier.dots == 0 || parts(&identifier.text).1.is_empty(),
+        Formula::Name(identifier) => identifier.dots == 0 || taken_apart(identifier).1.is_empty(),
         _ => false,
     };
     bracketed(text, formula, !plain);

@@ -28,11 +28,9 @@ fn row(formula: &Formula) -> String {
 
 /// A name with its index and dots.
 pub fn name(identifier: &Identifier) -> String {
-    let (stem, mut index) = latex::parts(&identifier.text);
-    if let Some(own) = &identifier.index {
-        index = if index.is_empty() { own.clone() } else { format!("{index},{own}") };
-    }
+    let (stem, index) = latex::taken_apart(identifier);
     let stem = match greek(&stem) {
+        _ if latex::is_typed(identifier) => format!("<mtext>{}</mtext>", escaped(&stem)),
         Some(letter) => format!("<mi>{letter}</mi>"),
         None => format!("<mi>{}</mi>", escaped(&stem)),
     };

@@ -116,7 +116,7 @@ fn finish(
         .map(|(definition, reader)| {
             let wish = definition.name.as_deref().unwrap_or("u_1");
             let text = if reader.is_some() { vacant(wish, &mut taken) } else { wish.to_owned() };
-            Identifier { text, dots: 0, index: None, class: Class::Defined }
+            Identifier { text, dots: 0, index: None, class: Class::Defined, typed: false }
         })
         .collect();
     let lists: Vec<Vec<u32>> = wanted
