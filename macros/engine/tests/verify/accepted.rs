@@ -19,18 +19,16 @@ fn compiled(text: &str) -> Compiled {
 #[test]
 fn a_thin_rod_in_absolute_coordinates() {
     for coordinates in ["Absolute(RollPitchYaw)", "Absolute(Quaternion)", "Joint"] {
-        for axis in ["Y", "[1, 2, 3]", "[-0.3, 0.4, 0.7]"] {
-            compiled(&format!(
-                "pub mod m {{
-                    param length = 1.0;
-                    world {{ gravity: -9.81 * Y }}
-                    body rod {{ mass: 2.0, com: -0.5 * length * {axis}, inertia: rod(2.0, length, {axis}) }}
-                    joint hinge: Revolute {{ parent: ground, child: rod, axis: Z }}
-                    formulation {{ coordinates: {coordinates}, constraints: Multipliers }}
-                    emit forward_dynamics, mass_matrix;
-                }}"
-            ));
-        }
+        compiled(&format!(
+            "pub mod m {{
+                param length = 1.0;
+                world {{ gravity: -9.81 * Y }}
+                body rod {{ mass: 2.0, com: -0.5 * length * Y, inertia: rod(2.0, length, Y) }}
+                joint hinge: Revolute {{ parent: ground, child: rod, axis: Z }}
+                formulation {{ coordinates: {coordinates}, constraints: Multipliers }}
+                emit forward_dynamics, mass_matrix;
+            }}"
+        ));
     }
 }
 
