@@ -53,8 +53,8 @@ fn is_balanced(html: &str) -> bool {
 #[test]
 fn the_page_has_equations_that_markdown_leaves_alone() {
     let lines = documentation(&module(", report"));
-    let start = lines.iter().position(|line| line == "## Equations of motion").expect("a section");
-    let block: Vec<&String> = lines[start..].iter().skip_while(|line| !line.starts_with("<div>")).collect();
+    let start = lines.iter().position(|line| line == "### Equations of motion").expect("a section");
+    let block: Vec<&String> = lines[start..].iter().skip_while(|line| !line.starts_with("<div")).collect();
     let end = block.iter().position(|line| line.ends_with("</div>")).expect("its end");
     assert!(block[..=end].iter().all(|line| !line.is_empty()), "an empty line ends the block of HTML: {block:#?}");
     let html: String = block[..=end].iter().map(|line| line.as_str()).collect();

@@ -19,6 +19,9 @@ const MOST_WRITTEN: usize = 400;
 const MOST_LINES: usize = 10;
 const MOST_CHARACTERS: usize = 140;
 
+/// Browsers break no lines in equations: what is too long for the page is moved by hand.
+const WIDE: &str = "<div style=\"overflow-x:auto\">";
+
 fn page<'a>(layout: &Layout<'a>) -> Option<&'a Page> {
     let asked = layout.model.emit.contains(&Request::Report);
     layout.structure.page.as_deref().filter(|_| asked)
@@ -27,9 +30,9 @@ fn page<'a>(layout: &Layout<'a>) -> Option<&'a Page> {
 /// The sections of the module's page.
 pub(in crate::emit) fn lines(layout: &Layout<'_>) -> Vec<String> {
     let Some(page) = page(layout) else { return Vec::new() };
-    let mut lines = Vec::new();
+    let mut lines = vec![String::new(), "## Equations".to_owned()];
     for section in &page.sections {
-        lines.extend([String::new(), format!("## {}", section.title), String::new()]);
+        lines.extend([String::new(), format!("### {}", section.title), String::new()]);
         for says in &section.says {
             lines.extend([says.clone(), String::new()]);
         }
@@ -49,8 +52,8 @@ fn block(section: &Section) -> Vec<String> {
         block.push(format!("<p>and {} more</p>", count - MOST_WRITTEN));
     }
     let (open, close) = match count > MOST_UNFOLDED {
-        true => (format!("<details><summary>{count} equations</summary><div>"), "</div></details>"),
-        false => ("<div>".to_owned(), "</div>"),
+        true => (format!("<details><summary>{count} equations</summary>{WIDE}"), "</div></details>"),
+        false => (WIDE.to_owned(), "</div>"),
     };
     std::iter::once(open).chain(block).chain([close.to_owned()]).collect()
 }

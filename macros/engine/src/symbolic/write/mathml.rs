@@ -17,7 +17,7 @@ pub fn alone(formula: &Formula) -> String {
 }
 
 fn display(content: &str) -> String {
-    format!("<math display=\"block\"><mrow>{content}</mrow></math>")
+    format!("<math display=\"block\" style=\"margin:0.6em 0\"><mrow>{content}</mrow></math>")
 }
 
 fn row(formula: &Formula) -> String {
@@ -53,7 +53,8 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('_', "&#95;").replace('*', "&#42;")
 }
 
-const TIMES: &str = "<mo>&#8290;</mo>";
+/// Words beside each other need a space; the sign itself has none.
+const TIMES: &str = "<mo lspace=\"0.2em\" rspace=\"0em\">&#8290;</mo>";
 
 fn put(text: &mut String, formula: &Formula) {
     match formula {
