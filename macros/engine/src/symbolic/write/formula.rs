@@ -1,6 +1,6 @@
 //! Stage `symbolic`, writing: the small tree of mathematics that printers read.
 //!
-//! In: what [`super::compose`] and [`super::arrange`] make of nodes. Out: types alone. Everything that mathematics sets by position (fractions,
+//! In: what `compose` and `arrange` make of nodes. Out: types alone. Everything that mathematics sets by position (fractions,
 //! powers, roots, dots) is a node here, so a printer decides how something looks and never what it says.
 
 /// A name as users know it, and what stands on it.

@@ -3,9 +3,9 @@
 //! In: nodes of the graph, and the names of its symbols. Out: [`Formula`]s, and equations for what is written apart; printers
 //! (`mathml`, `latex`, `text`) say how these look.
 //!
-//! Generated code wants few operations; a reader wants few symbols. So nothing of the optimiser is used: [`compose`] multiplies
-//! out what stays short, in sums of products of atoms ([`polynomial`]), where equal terms meet whatever way they came; [`sines`]
-//! takes products of sines together by the angles of their sums; [`arrange`] takes common factors out again. What would grow
+//! Generated code wants few operations; a reader wants few symbols. So nothing of the optimiser is used: `compose` multiplies
+//! out what stays short, in sums of products of atoms (`polynomial`), where equal terms meet whatever way they came; `sines`
+//! takes products of sines together by the angles of their sums; `arrange` takes common factors out again. What would grow
 //! beyond a line stays whole: it gets a name and an equation of its own. Three bounds on the number of terms are tried, and the
 //! shortest text is taken.
 
