@@ -56,3 +56,24 @@ fn kinematics_beside_multipliers() {
         assert!(compiled.functions.iter().any(|function| function.kind == FunctionKind::Kinematics(0)));
     }
 }
+
+/// Thin rods in a loop of absolute bodies: along their own axes nothing tells the multipliers.
+#[test]
+fn thin_rods_in_a_loop() {
+    for coordinates in ["Absolute(RollPitchYaw)", "Absolute(Quaternion)"] {
+        compiled(&format!(
+            "pub mod m {{
+                param length = 1.0;
+                body crank {{ mass: 1.0, com: 0.1 * X, inertia: rod(1.0, 0.2, X) }}
+                body rod {{ mass: 1.0, com: 0.5 * length * X, inertia: rod(1.0, length, X) }}
+                body piston {{ mass: 1.0 }}
+                joint shaft: Revolute {{ parent: ground, child: crank, axis: Z }}
+                joint pin: Revolute {{ parent: crank.at(0.2 * X), child: rod, axis: Z }}
+                joint guide: Prismatic {{ parent: ground, child: piston, axis: X }}
+                joint wrist: Revolute {{ parent: rod.at(length * X), child: piston, axis: Z }}
+                formulation {{ coordinates: {coordinates}, constraints: Multipliers }}
+                emit forward_dynamics;
+            }}"
+        ));
+    }
+}

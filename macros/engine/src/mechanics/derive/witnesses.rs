@@ -61,6 +61,11 @@ impl Deriving<'_> {
         }
         let (mut plain, mut witnesses) = (Vec::new(), Vec::new());
         for kind in partners(asked, !self.model.solve_for.is_empty()) {
+            // Forward dynamics holds what has no inertia of its own by equations that inverse dynamics doesn't know.
+            let held = !self.structure.rows.is_empty() && asked.contains(&FunctionKind::ForwardDynamics);
+            if held && kind == FunctionKind::InverseDynamics {
+                continue;
+            }
             // As many entries as no derivation of what was asked for has made.
             if kind == FunctionKind::MassMatrix && self.structure.state.len() > MOST_COMPOSITE {
                 continue;

@@ -173,11 +173,16 @@ impl At<'_, '_> {
                 return Some(None);
             }
             open = self.gap()?;
+        }
+        // Where what moves has no inertia of its own, a thin rod in absolute coordinates, multipliers are determined along motions
+        // that keep the equations only.
+        let held = rows > 0 && kind == fd;
+        if measured || held {
             v = self.closed_velocities(v)?;
         }
         // What is measured is no function of coordinates where loops are open: of that the power is all that is known.
         let mut rotors = model.cuts.iter().filter(|&&joint| model.joints[joint].armature.is_some());
-        if measured || (rows > 0 && rotors.next().is_some()) {
+        if measured || held || (rows > 0 && rotors.next().is_some()) {
             r.clone_from(&v);
         }
         let inputs = model.inputs.iter().enumerate().flat_map(|(k, input)| {
@@ -234,7 +239,46 @@ impl At<'_, '_> {
             sum.bound = kinetic.bound + faster.bound + slower.bound + potential.bound;
             sum.bound += one.slopes::<f64>(&weights, 0).bound + other.slopes::<f64>(&weights, 0).bound;
         }
-        judged(&sum, if kind == fd { u } else { t }, kind)
+        let found = judged(&sum, if kind == fd { u } else { t }, kind);
+        // What has no inertia is held by equations of its own, which are no forces: where loops are open nothing follows from that.
+        if held && matches!(found, Some(Some(_))) && self.has_idle_motions(v.len(), &inputs)? {
+            return Some(None);
+        }
+        found
+    }
+
+    /// Whether some motion has no kinetic energy: a pivot of the mass matrix, which is made of the gradients of that energy, is
+    /// rounding.
+    fn has_idle_motions(&mut self, n: usize, still: &[(Symbol, Doubled)]) -> Option<bool> {
+        let coordinates = self.coordinates();
+        let mut rest: Vec<Vec<Doubled>> = Vec::with_capacity(n);
+        for k in 0..n {
+            let along = coordinates
+                .iter()
+                .enumerate()
+                .map(|(at, &c)| (velocity(c), if at == k { Doubled::new(1.0) } else { Doubled::ZERO }));
+            let symbols = self.symbols();
+            let all: Vec<(Symbol, Doubled)> = still.iter().copied().chain(along).collect();
+            let slopes = self.with(FunctionKind::KineticEnergy, &all)?.slopes::<Doubled>(&[1.0], symbols);
+            rest.push(self.by(&slopes, velocity));
+        }
+        for k in 0..n {
+            let size = rest[k][k].high;
+            let pivot = (0..k).fold(rest[k][k], |pivot, j| pivot - rest[k][j] * rest[j][k]);
+            if pivot.high <= 1e-9 * size {
+                return Some(true);
+            }
+            for i in k + 1..n {
+                for j in 0..k {
+                    let (left, right) = (rest[i][j], rest[j][k]);
+                    rest[i][k] = rest[i][k] - left * right;
+                    let (left, right) = (rest[k][j], rest[j][i]);
+                    rest[k][i] = rest[k][i] - left * right;
+                }
+                rest[i][k] = rest[i][k] / pivot;
+            }
+        }
+        Some(false)
     }
 
     /// r (w x p) of every orientation that is a quaternion.
