@@ -6,6 +6,7 @@
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
+use crate::invariant::fault::OrFault;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::constraints::{coordinate_name, path, row_name};
@@ -55,6 +56,9 @@ impl Equations<'_> {
     }
 }
 
+/// A term of the equations of motion: its letter, what its lines state, its values.
+type Part<'a> = (&'a str, fn(usize) -> Subject, &'a [Scalar]);
+
 struct Sections {
     page: Page,
     identifiers: HashMap<SymbolId, Identifier>,
@@ -77,8 +81,7 @@ impl Sections {
     fn lines(&mut self, e: &Equations<'_>, drafts: Vec<Draft>) -> Vec<Line> {
         let wanted: Vec<Wanted> =
             drafts.iter().map(|draft| Wanted { value: draft.value, collect: draft.collect.clone() }).collect();
-        let unknown = |id: SymbolId| entry("symbol", id.0.to_string(), Class::Defined);
-        let symbol = |id: SymbolId| self.identifiers.get(&id).cloned().unwrap_or_else(|| unknown(id));
+        let symbol = |id: SymbolId| self.identifiers.get(&id).cloned().or_fault("every symbol of a page has a name");
         let writing = write::write(&e.g, &wanted, &symbol, &self.taken);
         let mut lines = Vec::new();
         let mut waiting = writing.definitions;
@@ -106,7 +109,7 @@ impl Sections {
 
     fn name(&self, e: &Equations<'_>, symbol: Scalar) -> Formula {
         let known = e.g.symbol_id(symbol).and_then(|id| self.identifiers.get(&id));
-        known.map_or_else(Formula::zero, |identifier| Formula::Name(identifier.clone()))
+        Formula::Name(known.cloned().or_fault("every symbol of a page has a name"))
     }
 
     /// Coordinates with a prescribed course.
@@ -334,15 +337,12 @@ impl Sections {
                 drafts.push(Draft::new(Subject::Mass(i, j), left, matrix[i][j]));
             }
         }
-        for (letter, list) in [("c", &velocity), ("g", &gravity), ("Q", &forces)] {
+        let parts: [Part<'_>; 3] =
+            [("c", Subject::Inertial, &velocity), ("g", Subject::Gravity, &gravity), ("Q", Subject::Force, &forces)];
+        for (letter, subject, list) in parts {
             for (i, name) in names.iter().enumerate() {
-                let subject = match letter {
-                    "c" => Subject::Inertial(i),
-                    "g" => Subject::Gravity(i),
-                    _ => Subject::Force(i),
-                };
                 let left = Formula::Name(entry(letter, name.clone(), Class::Defined));
-                drafts.push(Draft::new(subject, left, list[i]));
+                drafts.push(Draft::new(subject(i), left, list[i]));
             }
         }
         let full: Vec<Draft> = (0..names.len())
@@ -373,9 +373,12 @@ impl Sections {
         };
         self.section("Equations of motion", Vec::new(), rows);
         let lines = self.lines(e, drafts);
-        let says = "`M` is the mass matrix, symmetric; `c` are the terms of velocities, `g` those of gravity, `Q` those of forces: \
-                    M a + c + g = Q.";
-        self.section("Mass matrix and forces", vec![says.to_owned()], lines);
+        let held = if structure.rows.is_empty() { "" } else { " - G^T lambda" };
+        let says = format!(
+            "`M` is the mass matrix, symmetric; `c` are the terms of velocities, `g` those of gravity, `Q` those of forces: \
+             M a + c + g = Q{held}."
+        );
+        self.section("Mass matrix and forces", vec![says], lines);
     }
 
     /// Efforts of the multipliers on the state.

@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 
 use crate::contracts::call::Call;
+use crate::invariant::fault::raise;
 use crate::symbolic::graph::SymbolId;
 use crate::symbolic::number::Number;
 
@@ -191,12 +192,14 @@ impl Arranger<'_> {
 
     fn applied(&self, head: Head, mut list: Vec<Formula>) -> Formula {
         let apply = |function, list| Formula::Apply(function, list);
-        let related = |relation, list: Vec<Formula>| {
-            let mut list = list.into_iter();
-            let mut next = || Box::new(list.next().unwrap_or_else(Formula::zero));
-            Formula::Related(relation, next(), next())
+        let first = |list: &mut Vec<Formula>| match list.is_empty() {
+            true => raise("a function has its arguments"),
+            false => Box::new(list.remove(0)),
         };
-        let first = |list: &mut Vec<Formula>| Box::new(if list.is_empty() { Formula::zero() } else { list.remove(0) });
+        let related = |relation, mut list: Vec<Formula>| {
+            let left = first(&mut list);
+            Formula::Related(relation, left, first(&mut list))
+        };
         match head {
             Head::Sine => apply(Function::Sin, list),
             Head::Cosine => apply(Function::Cos, list),

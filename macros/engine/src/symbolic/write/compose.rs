@@ -6,6 +6,7 @@
 use std::collections::{HashMap, HashSet};
 
 use crate::contracts::call::Call;
+use crate::invariant::fault::{OrFault, raise};
 use crate::symbolic::graph::{AnyNode, BlockKind, Graph, Scalar, ScalarNode};
 use crate::symbolic::number::Number;
 
@@ -91,13 +92,13 @@ impl<'g> Composer<'g> {
     }
 
     fn value(&self, s: Scalar) -> Polynomial {
-        let value = self.values.get(&s.index()).cloned().unwrap_or_default();
+        let value = self.values.get(&s.index()).cloned().or_fault("operands stand before what reads them");
         if s.is_negative() { value.scaled(-Number::ONE) } else { value }
     }
 
     /// As one term: a definition, if it has more.
     fn whole(&mut self, s: Scalar) -> Polynomial {
-        let value = self.values.get(&s.index()).cloned().unwrap_or_default();
+        let value = self.values.get(&s.index()).cloned().or_fault("operands stand before what reads them");
         if value.terms.len() < 2 {
             return self.value(s);
         }
@@ -149,7 +150,7 @@ impl<'g> Composer<'g> {
                 self.define(Definition { name: Some(name), value: None })
             }
             // The graph has been lowered.
-            ScalarNode::Component(..) | ScalarNode::Dot(..) => Polynomial::default(),
+            ScalarNode::Component(..) | ScalarNode::Dot(..) => raise("a lowered graph has scalars alone"),
         }
     }
 
@@ -203,7 +204,9 @@ impl<'g> Composer<'g> {
                 None => {
                     let whole = self.whole(factor);
                     // One term: the product has as many as before.
-                    self.atoms.product(&product, &whole, usize::MAX).unwrap_or_default()
+                    self.atoms
+                        .product(&product, &whole, usize::MAX)
+                        .or_fault("a product without a bound is multiplied out")
                 }
             };
         }
