@@ -10,7 +10,7 @@ multibody! {
         const ROD = 0.14;
         /// [N] on the piston, towards the crank
         input gas;
-        /// [N m] that the shaft gives away per rad/s
+        /// [N m s/rad] of the dynamometer on the shaft
         param load = 0.05;
 
         body crank { mass: 2.0, inertia: diag(0.005, 0.005, 0.01) }

@@ -4,7 +4,7 @@
 ///
 /// | field | unit | default |  |
 /// |---|---|---|---|
-/// | `load` | `N m` | `0.05` | that the shaft gives away per rad/s |
+/// | `load` | `N m s/rad` | `0.05` | of the dynamometer on the shaft |
 ///
 /// ## Coordinates
 ///
@@ -74,7 +74,7 @@ pub(crate) mod engine {
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Params<T = f64> {
-        /// `[N m]` that the shaft gives away per rad/s
+        /// `[N m s/rad]` of the dynamometer on the shaft
         ///
         /// Default: `0.05`
         pub load: T,

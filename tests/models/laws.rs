@@ -9,7 +9,7 @@ multibody! {
         param m = 0.7;
         /// [m] reach of most bodies
         param reach: Vec3 = [0.2, -0.3, 0.25];
-        /// [N/m] springs
+        /// N/m, and N m/rad, of all springs
         param k = 20.0;
         /// [N m] or [N], effort on every one-coordinate joint
         input push: [Scalar; 3];

@@ -36,7 +36,8 @@ struct Part {
     params: Vec<String>,
 }
 
-const UNITS: [&str; 4] = ["/// [kg] of something", "/// [N m]", "/// words", "/// [m/s^2]"];
+/// Brackets that hold no known unit: expressions here are drawn without regard to units, which the compiler would tell.
+const UNITS: [&str; 4] = ["/// [pieces] of something", "/// [items m]", "/// words", "/// [steps/s^2]"];
 
 impl Lines {
     fn push(&mut self, line: String) {

@@ -18,7 +18,7 @@ pub mod seed101 {
         force f9: Effort { joint: j5.roll, value: hypot(s6, t) * j5.yaw }
         output o10 = pose(X, rotation(X + 2 * Y, (u3 + l8.position.z)));
         output o11 = -((j5.pitch.effort * Z).x);
-        /// [m/s^2]
+        /// [steps/s^2]
         output o12 = j5.reaction.express(b4);
         emit mass_matrix;
         }
@@ -30,7 +30,7 @@ pub mod seed102 {
     multibody::multibody! {
         /// A model.
         pub mod m {
-        /// [N m]
+        /// [items m]
         param p1 = 0.7;
         input u2: Vec3;
         world { gravity: -9.81 * Z }
@@ -45,7 +45,7 @@ pub mod seed102 {
         let l8 = atan2(dot(b3.at([0.1, -0.2, 0.3]).position, b3.at([0.1, -0.2, 0.3]).position), 2.0);
         force f9: Effort { joint: j6.travel, value: norm([p1, 0, 4] + 3.0 * X) }
         output o10 = j4.reaction;
-        /// [kg] of something
+        /// [pieces] of something
         output q11 = b3.rotated([1, 1, 0], deg(40)).at(0.5 * Z).jacobian;
         output o12 = cross(X, X);
         emit forward_dynamics;
@@ -75,7 +75,7 @@ pub mod seed105 {
     multibody::multibody! {
         /// A model.
         pub mod m {
-        /// [m/s^2]
+        /// [steps/s^2]
         param p1: [Vec3; 2] = [[1, 0, 0], [0, 0.1, 0.2]];
         input u2;
         world { gravity: -9.81 * Z }
@@ -111,9 +111,9 @@ pub mod seed106 {
         state s9: rate = dot(X, t * b5.position), start: 2.6;
         let l10 = (Y).z / (1.5 + powi(powf(1.1 + powi(1.379, 2), 0.5), 2));
         force f11: Damper { joint: j6.angle, damping: input_3 }
-        /// [kg] of something
+        /// [pieces] of something
         output r#match = norm([j6.angle.rate, 0, 1.073] + 3.0 * X) / (1.5 + powi(l10, 2));
-        /// [N m]
+        /// [items m]
         output o13 = v7.jacobian.express(v7);
         output o14 = v7.jacobian;
         emit forward_dynamics, inverse_dynamics, bias, residual;

@@ -21,6 +21,7 @@ use super::types::{
     Body, Constraint, Coordinate, Drive, Expr, Force, Handling, Input, Joint, Kinematics, Model, Output, Param,
     Request, Solve, State, Type,
 };
+use super::units::Units;
 
 /// What the items have given so far; `None` for those with mistakes.
 #[derive(Default)]
@@ -28,11 +29,11 @@ pub(super) struct Collected<'a> {
     pub(super) states: Vec<Option<State>>,
     pub(super) bodies: Vec<Option<Body>>,
     pub(super) joints: Vec<Option<Joint>>,
-    forces: Vec<Option<Force>>,
+    pub(super) forces: Vec<Option<Force>>,
     pub(super) outputs: Vec<Option<Output>>,
     pub(super) constraints: Vec<Option<Constraint>>,
-    assumptions: Vec<Option<Expr>>,
-    gravity: Option<Expr>,
+    pub(super) assumptions: Vec<Option<Expr>>,
+    pub(super) gravity: Option<Expr>,
     pub(super) handling: Option<Handling>,
     pub(super) independent: Option<(&'a tree::Fields, ScopeId)>,
     pub(super) requested: Requested<'a>,
@@ -60,6 +61,8 @@ impl<'a> Checker<'a, '_> {
         let module = self.source.modules.get(index)?;
         self.expand_root(index);
         let mut collected = self.read_all();
+        let mut units = Units::new(self);
+        units.items(self, &collected);
         // Without all joints and bodies nothing can be said about how they hang together.
         let bodies: Option<Vec<Body>> = all(std::mem::take(&mut collected.bodies));
         let joints: Option<Vec<Joint>> = all(std::mem::take(&mut collected.joints));
@@ -70,6 +73,8 @@ impl<'a> Checker<'a, '_> {
         });
         let tree = found.as_ref().map(|(_, joints, topology)| (topology, joints.as_slice()));
         let loops = self.loops(&collected, tree);
+        units.loops(&loops);
+        units.tell(self.report);
         let (bodies, joints, topology) = found?;
         self.check_coordinate_uses(&topology, &joints);
         let mut constraints: Vec<Constraint> = all(collected.constraints)?;

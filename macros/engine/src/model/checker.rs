@@ -16,9 +16,11 @@ use super::joint_kinds::JointKind;
 use super::report::Report;
 use super::typed::{FrameValue, Typed};
 use super::types::{
-    BodyId, ConstraintId, Docs, ForceId, InputId, Instance, InstanceId, JointId, ParamId, PartType, Place, StateId,
-    Type,
+    BodyId, ConstraintId, Docs, Expr, ForceId, InputId, Instance, InstanceId, JointId, ParamId, PartType, Place,
+    StateId, Type,
 };
+use super::units::Declared;
+use super::units::quantities::Quantity;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ScopeId(pub(super) usize);
@@ -123,7 +125,19 @@ pub(super) struct Named<'a> {
     pub(super) home: ScopeId,
     /// The value, read in `context`.
     pub(super) expr: Option<&'a syn::Expr>,
+    /// Declared with it.
+    pub(super) unit: Option<Declared>,
     pub(super) state: Lazy<Meaning>,
+}
+
+impl Named<'_> {
+    /// Its meaning, if that has been asked for and is sound.
+    pub(super) fn known(&self) -> Option<&Meaning> {
+        match &self.state {
+            Lazy::Done(meaning) => meaning.as_ref(),
+            Lazy::Waiting | Lazy::Working => None,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -149,8 +163,10 @@ pub(super) struct ParamSlot<'a> {
     pub(super) item: &'a tree::Value,
     pub(super) scope: ScopeId,
     pub(super) docs: Docs,
-    /// Its type; the default is with the evaluator.
+    /// Its type; the default's value is with the evaluator.
     pub(super) state: Lazy<Type>,
+    /// Known when the type is.
+    pub(super) default: Option<Expr>,
 }
 
 pub(super) struct InputSlot<'a> {
@@ -229,6 +245,8 @@ pub(super) struct Checker<'a, 'd> {
     pub(super) coordinate_uses: Vec<(JointId, Span)>,
     pub(super) tasks: Vec<Task<'a>>,
     pub(super) evaluator: Evaluator,
+    /// What has become part of something else, such as the mass in `rod(mass, ..)`, with the unit that it should have.
+    pub(super) quantities: Vec<(Expr, Quantity)>,
     /// Modules that are being expanded, outermost first.
     pub(super) expanding: Vec<usize>,
     /// Items so far, over all instances.
@@ -272,6 +290,7 @@ impl<'a, 'd> Checker<'a, 'd> {
             coordinate_uses: Vec::new(),
             tasks: Vec::new(),
             evaluator: Evaluator::default(),
+            quantities: Vec::new(),
             expanding: Vec::new(),
             expanded: 0,
             alone,
@@ -301,8 +320,11 @@ impl<'a, 'd> Checker<'a, 'd> {
             home: named.home,
             expr: named.expr,
         };
-        let meaning = self.resolve_named(&request);
+        let mut meaning = self.resolve_named(&request);
         if let Some(named) = self.named.get_mut(id.0) {
+            if let (Some(unit), Some(Meaning::Value(value))) = (&named.unit, &mut meaning) {
+                value.expr.unit = Some(Rc::new(unit.clone().over(value.expr.unit.take())));
+            }
             named.state = Lazy::Done(meaning.clone());
         }
         meaning
@@ -323,12 +345,14 @@ impl<'a, 'd> Checker<'a, 'd> {
         }
         let (item, scope) = (slot.item, slot.scope);
         let found = self.resolve_param(item, scope);
-        let ty = found.map(|(ty, default)| {
-            self.evaluator.set_param(id, default);
-            ty
+        let default = found.map(|(expr, value)| {
+            self.evaluator.set_param(id, value);
+            expr
         });
+        let ty = default.as_ref().map(|expr| expr.ty.clone());
         if let Some(slot) = self.params.get_mut(id.0) {
             slot.state = Lazy::Done(ty.clone());
+            slot.default = default;
         }
         ty
     }

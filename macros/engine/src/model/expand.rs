@@ -13,8 +13,8 @@ use crate::rust_keywords::is_keyword;
 use crate::syntax::tree::{self, ItemKind};
 
 use super::checker::{
-    Checker, Context, InputSlot, JointSlot, Lazy, Meaning, Named, NamedId, ParamSlot, Role, Scope, ScopeId, Slot,
-    Subject, Symbol, Task,
+    Checker, Context, InputSlot, JointSlot, Lazy, Meaning, Named, NamedId, NamedRequest, ParamSlot, Role, Scope,
+    ScopeId, Slot, Subject, Symbol, Task,
 };
 use super::docs;
 use super::items::coordinates::Coordinates;
@@ -25,6 +25,7 @@ use super::typed::{FrameValue, Uses};
 use super::types::{
     BodyId, BodyRef, ConstraintId, ForceId, Frame, InputId, Instance, InstanceId, JointId, ParamId, Place, StateId,
 };
+use super::units::{self, Declared};
 
 /// Bound on the items of one model once its parts are expanded.
 pub(super) const MAX_ITEMS: usize = 10_000;
@@ -115,7 +116,8 @@ impl<'a> Checker<'a, '_> {
                 continue;
             }
             if let ItemKind::Output(value) = &item.kind {
-                own.push(self.declare_output(value, &text, scope));
+                let unit = units::declared(&text, &docs::docs(&item.attrs));
+                own.push(self.declare_output(value, &text, scope, unit));
                 continue;
             }
             if let Some(why) = names::refusal(&text) {
@@ -142,15 +144,16 @@ impl<'a> Checker<'a, '_> {
                 ItemKind::Let(value) => (value, Role::Let),
                 _ => continue,
             };
-            let item = Some(value);
-            let id = self.add_named(name, role, context, item, scope, value.value.as_ref());
+            let unit = units::declared(&text, &docs::docs(&item.attrs));
+            let request = NamedRequest { role, context, item: Some(value), home: scope, expr: value.value.as_ref() };
+            let id = self.add_named(name, request, unit);
             self.set_symbol(scope, name, Symbol::Named(id, keyword));
         }
         own
     }
 
     /// Enters the name of an output; whether it is its own. What else has that name doesn't matter.
-    fn declare_output(&mut self, value: &'a tree::Value, text: &str, scope: ScopeId) -> bool {
+    fn declare_output(&mut self, value: &'a tree::Value, text: &str, scope: ScopeId, unit: Option<Declared>) -> bool {
         let name = &value.name;
         if is_keyword(text) {
             let why = format!("`{text}` is a keyword of Rust");
@@ -163,23 +166,18 @@ impl<'a> Checker<'a, '_> {
             return false;
         }
         let context = Context { scope, index: None };
-        let id = self.add_named(name, Role::Output, context, Some(value), scope, value.value.as_ref());
+        let request =
+            NamedRequest { role: Role::Output, context, item: Some(value), home: scope, expr: value.value.as_ref() };
+        let id = self.add_named(name, request, unit);
         if let Some(scope) = self.scopes.get_mut(scope.0) {
             scope.outputs.insert(text.to_string(), id);
         }
         true
     }
 
-    fn add_named(
-        &mut self,
-        name: &'a Ident,
-        role: Role,
-        context: Context<'a>,
-        item: Option<&'a tree::Value>,
-        home: ScopeId,
-        expr: Option<&'a Expr>,
-    ) -> NamedId {
-        self.named.push(Named { name, role, context, item, home, expr, state: Lazy::Waiting });
+    fn add_named(&mut self, name: &'a Ident, request: NamedRequest<'a>, unit: Option<Declared>) -> NamedId {
+        let NamedRequest { role, context, item, home, expr } = request;
+        self.named.push(Named { name, role, context, item, home, expr, unit, state: Lazy::Waiting });
         NamedId(self.named.len() - 1)
     }
 
@@ -220,8 +218,10 @@ impl<'a> Checker<'a, '_> {
             }
             ItemKind::Param(value) => match binding.and_then(|b| bound(b, name)) {
                 Some((expr, context)) => {
+                    let unit = units::declared(&name.to_string(), &docs::docs(&item.attrs));
                     let (role, item) = (Role::BoundParam, Some(value));
-                    let id = self.add_named(name, role, context, item, scope, Some(expr));
+                    let request = NamedRequest { role, context, item, home: scope, expr: Some(expr) };
+                    let id = self.add_named(name, request, unit);
                     (Subject::Named(id), Symbol::Named(id, keyword))
                 }
                 None => {
@@ -232,17 +232,21 @@ impl<'a> Checker<'a, '_> {
                         scope,
                         docs: docs::docs(&item.attrs),
                         state: Lazy::Waiting,
+                        default: None,
                     });
                     (Subject::Param(id), Symbol::Param(id))
                 }
             },
             ItemKind::Port { .. } => match binding.and_then(|b| bound(b, name)) {
                 Some((expr, context)) => {
-                    let id = self.add_named(name, Role::Port, context, None, scope, Some(expr));
+                    let request = NamedRequest { role: Role::Port, context, item: None, home: scope, expr: Some(expr) };
+                    let id = self.add_named(name, request, None);
                     (Subject::Named(id), Symbol::Named(id, keyword))
                 }
                 None if self.alone => {
-                    let id = self.add_named(name, Role::Port, root(scope), None, scope, None);
+                    let request =
+                        NamedRequest { role: Role::Port, context: root(scope), item: None, home: scope, expr: None };
+                    let id = self.add_named(name, request, None);
                     self.leave_open(id, name);
                     (Subject::Named(id), Symbol::Named(id, keyword))
                 }

@@ -21,6 +21,7 @@ pub mod site;
 mod topology;
 mod typed;
 pub mod types;
+mod units;
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -202,7 +202,7 @@ pub(super) struct FrameValue {
 }
 
 pub(super) fn new_expr(node: ExprNode, ty: Type, span: Span) -> Expr {
-    Expr { node: Rc::new(node), ty, span }
+    Expr::new(node, ty, span)
 }
 
 pub(super) fn number(value: f64, span: Span) -> Expr {

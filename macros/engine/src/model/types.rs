@@ -14,6 +14,7 @@ use syn::{Attribute, Path, Visibility};
 use crate::invariant::index_vec::{IndexVec, id};
 
 use super::joint_kinds::JointKind;
+use super::units::Declared;
 
 macro_rules! ids {
     ($($(#[$doc:meta])* $name:ident),* $(,)?) => {$(
@@ -421,6 +422,14 @@ pub struct Expr {
     pub node: Rc<ExprNode>,
     pub ty: Type,
     pub span: Span,
+    /// Declared where the value has its name.
+    pub(super) unit: Option<Rc<Declared>>,
+}
+
+impl Expr {
+    pub fn new(node: ExprNode, ty: Type, span: Span) -> Expr {
+        Expr { node: Rc::new(node), ty, span, unit: None }
+    }
 }
 
 /// Vectors are components in world axes where they come from frames, plain triples where the user wrote them.

@@ -1,7 +1,6 @@
 //! Equations for readers beside compiled functions, at states drawn at random.
 
 use std::collections::HashMap;
-use std::rc::Rc;
 
 use multibody_engine::compile;
 use multibody_engine::contracts::function::FunctionKind;
@@ -60,7 +59,7 @@ fn following(model: &Model, structure: &Structure) -> Vec<(Coordinate, Order)> {
 }
 
 fn output_of(list: &[(Coordinate, Order)]) -> Output {
-    let expression = |node, ty| Expr { node: Rc::new(node), ty, span: Span::call_site() };
+    let expression = |node, ty| Expr::new(node, ty, Span::call_site());
     let entries = list.iter().map(|&(Coordinate { joint, index }, order)| {
         expression(ExprNode::Coordinate { joint, index, order }, Type::Scalar)
     });

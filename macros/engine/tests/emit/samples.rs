@@ -2,8 +2,6 @@
 
 #![allow(dead_code, unreachable_pub)]
 
-use std::rc::Rc;
-
 use multibody_engine::contracts::call::Call;
 use multibody_engine::contracts::cost::Cost;
 use multibody_engine::contracts::function::FunctionKind;
@@ -35,7 +33,7 @@ pub fn place(instance: usize, field: &str) -> Place {
 }
 
 pub fn expr(node: ExprNode, ty: Type) -> Expr {
-    Expr { node: Rc::new(node), ty, span: Span::call_site() }
+    Expr::new(node, ty, Span::call_site())
 }
 
 pub fn number(value: f64) -> Expr {

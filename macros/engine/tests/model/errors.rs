@@ -2,7 +2,8 @@
 
 use crate::support::said;
 
-const CASES: [&str; 2] = [include_str!("cases/errors.txt"), include_str!("cases/loops.txt")];
+const CASES: [&str; 3] =
+    [include_str!("cases/errors.txt"), include_str!("cases/loops.txt"), include_str!("cases/units.txt")];
 
 /// A body on a joint, for cases about other things.
 const AROUND: &str = "body b { mass: 1.0, com: 0.5 * X, inertia: diag(1.0, 1.0, 1.0) } \
@@ -22,6 +23,8 @@ const FOUR_BAR: &str = "input u; param p = 1.0; \
 const FREE: &str = "body b { mass: 1.0, inertia: diag(1.0, 1.0, 1.0) } ";
 
 fn text(case: &str) -> String {
+    // A comment would end at the end of a line.
+    let case = &case.replace('«', "#[doc = \"[").replace('»', "]\"]");
     if let Some(call) = case.strip_prefix("call: ") {
         return call.to_string();
     }

@@ -124,15 +124,22 @@ pub(in crate::model) fn element_of(array: &Checked, index: usize) -> Option<Chec
         return None;
     }
     if let ExprNode::Array(elements) = &*array.node {
-        return elements.get(index).cloned();
+        return elements.get(index).map(|element| in_unit_of(element.clone(), array));
     }
-    Some(new_expr(ExprNode::Index(array.clone(), index), (**ty).clone(), array.span))
+    Some(in_unit_of(new_expr(ExprNode::Index(array.clone(), index), (**ty).clone(), array.span), array))
 }
 
 /// Component of a `Vec3`; of a written one the component itself.
 pub(in crate::model) fn component_of(vector: &Checked, index: usize) -> Option<Checked> {
     if let ExprNode::Vec3(components) = &*vector.node {
-        return components.get(index).cloned();
+        return components.get(index).map(|component| in_unit_of(component.clone(), vector));
     }
-    (index < 3).then(|| new_expr(ExprNode::Component(vector.clone(), index), Type::Scalar, vector.span))
+    let component = || new_expr(ExprNode::Component(vector.clone(), index), Type::Scalar, vector.span);
+    (index < 3).then(|| in_unit_of(component(), vector))
+}
+
+/// What is declared of the whole holds of its parts.
+fn in_unit_of(mut part: Checked, whole: &Checked) -> Checked {
+    part.unit = whole.unit.clone().or(part.unit);
+    part
 }

@@ -36,7 +36,9 @@ impl<'a> Checker<'a, '_> {
 
     fn negate(&mut self, value: &Typed, at: Span) -> Option<Typed> {
         if let ExprNode::Number(x) = &*value.expr.node {
-            return Some(Typed::number(-x, at));
+            let mut number = Typed::number(-x, at);
+            number.expr.unit.clone_from(&value.expr.unit);
+            return Some(number);
         }
         let Some(value) = arithmetic(value) else {
             let message = format!("{} has no negative", type_text(&value.expr.ty));

@@ -13,6 +13,7 @@ use crate::model::checks::evaluate::dot;
 use crate::model::expressions::{component_of, source_text};
 use crate::model::typed::{Allowed, new_expr, number, type_text};
 use crate::model::types::{Expr, ExprNode, Type};
+use crate::model::units::quantities::{INERTIA, LENGTH, MASS};
 
 /// Shapes, their arguments and which of these are `Vec3`.
 const SHAPES: [(&str, &[&str]); 6] = [
@@ -98,6 +99,13 @@ impl<'a> Checker<'a, '_> {
                     _ => self.scalar(expr, context, Allowed::Parameters),
                 }?;
                 self.finite(&value)?;
+                let quantity = match *argument {
+                    "axis" => return Some(value.expr),
+                    "mass" => MASS,
+                    "length" | "radius" | "size" => LENGTH,
+                    _ => INERTIA,
+                };
+                self.quantities.push((value.expr.clone(), quantity));
                 Some(value.expr)
             })
             .collect();

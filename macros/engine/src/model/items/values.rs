@@ -11,7 +11,7 @@ use crate::model::docs;
 use crate::model::expand::root;
 use crate::model::names::TYPES;
 use crate::model::typed::{Allowed, Typed, type_text};
-use crate::model::types::{Output, State, Type};
+use crate::model::types::{Expr as Checked, Output, State, Type};
 use crate::syntax::tree::{self, ItemKind};
 
 /// Nesting of array types.
@@ -76,8 +76,12 @@ impl<'a> Checker<'a, '_> {
         }
     }
 
-    /// Type and default of a param.
-    pub(in crate::model) fn resolve_param(&mut self, item: &'a tree::Value, scope: ScopeId) -> Option<(Type, Value)> {
+    /// The default of a param: its type is the param's.
+    pub(in crate::model) fn resolve_param(
+        &mut self,
+        item: &'a tree::Value,
+        scope: ScopeId,
+    ) -> Option<(Checked, Value)> {
         let ty = match &item.ty {
             Some(written) => Some(self.read_type(written, root(scope), 0)?),
             None => None,
@@ -95,7 +99,7 @@ impl<'a> Checker<'a, '_> {
         let value = self.param_shape(value)?;
         self.finite(&value)?;
         let number = self.evaluator.value(&value.expr)?;
-        Some((value.expr.ty, number))
+        Some((value.expr, number))
     }
 
     /// Type of an input; a scalar unless it says otherwise.
