@@ -39,6 +39,8 @@ words! {
         "add it to the model: `emit forward_dynamics, kinematics {{ given: platform.pose, find: legs.stroke }};`"
     Derivatives "this model's `emit` does not ask for `derivatives`, which gives `forward_derivatives` and `inverse_derivatives`"
         "add it to the model: `emit forward_dynamics, derivatives;`"
+    Linearize "this model's `emit` does not ask for `linearize`"
+        "add it to the model: `emit forward_dynamics, linearize;`"
     Impulse "this model's `emit` does not ask for `impulse`"
         "add it to the model: `emit forward_dynamics, impulse;`"
     Momentum "this model's `emit` does not ask for `momentum`, which gives `momentum`, `momentum_rate` and `velocity`"

@@ -95,6 +95,7 @@ pub mod integrators;
 #[doc = include_str!("../docs/language.md")]
 pub mod language {}
 pub mod linear;
+mod linearization;
 mod opening;
 #[doc(hidden)]
 pub mod pivots;
@@ -123,6 +124,7 @@ pub use integrators::{
     ImplicitMidpoint, IntegrationError, Integrator, Method, Radau, Rk4, SemiImplicitEuler, Statistics, Steps,
     SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint, Tolerance, Verlet,
 };
+pub use linearization::Linearization;
 #[doc(hidden)]
 pub use multibody_macros::multibody as __multibody;
 pub use nalgebra;

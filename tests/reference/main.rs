@@ -2,7 +2,9 @@
 
 mod closed_forms;
 mod derivatives;
+mod linearization;
 mod loops;
+mod manipulations;
 mod motion;
 mod random_models;
 mod robots;

@@ -230,6 +230,9 @@ fn instead(kind: FunctionKind) -> &'static str {
         FunctionKind::ForwardDerivatives | FunctionKind::InverseDerivatives => {
             "leave `derivatives` out of `emit`: they grow with the square of the coordinates; or declare fewer bodies"
         }
+        FunctionKind::Linearization => {
+            "leave `linearize` out of `emit`: it grows with the square of the coordinates; or declare fewer bodies"
+        }
         FunctionKind::Outputs => "declare fewer outputs, or simpler ones: accelerations and reactions are dear",
         FunctionKind::Guess | FunctionKind::DeadCentres | FunctionKind::Kinematics(_) => {
             "solve the loops by `solve (..) from ..`, or hold them by multipliers, `constraints: Multipliers`"

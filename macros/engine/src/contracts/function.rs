@@ -46,6 +46,9 @@ pub enum FunctionKind {
     ForwardDerivatives,
     /// The same of the efforts, DOF of them.
     InverseDerivatives,
+    /// Matrices A, B, C, D of the equations linearised at a state, each row by row: of the rates of displacements, velocities
+    /// and own states, then of all scalars of outputs; by displacements, velocities and own states, and by scalars of inputs.
+    Linearization,
     /// The jump of the velocities; with constraints the multipliers and the rank of their system.
     Impulse,
     /// Momenta, by velocity coordinate.
@@ -154,6 +157,8 @@ pub enum Shape {
     Kinematics(usize),
     /// Of so many results: matrices by position, velocity, own states, inputs.
     Derivatives(usize),
+    /// Of so many components of the state.
+    Linearization(usize),
     /// The unknowns of all iterations, then the greatest residual.
     Closed,
 }
@@ -195,6 +200,14 @@ impl Shape {
             ]
             .into_iter()
             .fold(Parts::default(), |parts, (slot, columns)| parts.with(slot, Form::Matrix(results, columns))),
+            Shape::Linearization(state) => [
+                (Slot::StateMatrix, state, state),
+                (Slot::InputMatrix, state, sizes.inputs),
+                (Slot::OutputMatrix, sizes.outputs, state),
+                (Slot::Feedthrough, sizes.outputs, sizes.inputs),
+            ]
+            .into_iter()
+            .fold(Parts::default(), |parts, (slot, rows, columns)| parts.with(slot, Form::Matrix(rows, columns))),
             Shape::Closed => residual(Parts::default().with(Slot::Unknowns, Form::Vector(sizes.guesses))),
         }
     }
@@ -214,7 +227,7 @@ pub struct FunctionRow {
 
 impl FunctionKind {
     /// All of them in the order in which they are derived; the first kinematics for all.
-    pub const ALL: [FunctionKind; 23] = [
+    pub const ALL: [FunctionKind; 24] = [
         FunctionKind::ForwardDynamics,
         FunctionKind::InverseDynamics,
         FunctionKind::MassMatrix,
@@ -230,6 +243,7 @@ impl FunctionKind {
         FunctionKind::Kinematics(0),
         FunctionKind::ForwardDerivatives,
         FunctionKind::InverseDerivatives,
+        FunctionKind::Linearization,
         FunctionKind::Impulse,
         FunctionKind::Momentum,
         FunctionKind::MomentumRate,
@@ -377,6 +391,32 @@ impl FunctionKind {
                 |_| {
                     "Partial derivatives of the efforts that the accelerations `accel` need beside all declared forces, by \
                      displacements of the position, velocities, own states and inputs, at fixed `accel`."
+                },
+            ),
+            FunctionKind::Linearization => row(
+                by(R::Linearize, "linearize", "Linearize"),
+                "linearize",
+                Arguments::ALL,
+                |s| Shape::Linearization(2 * s.dof + s.states),
+                |s| match (s.states, s.outputs) {
+                    (0, 0) => {
+                        "The equations linearised: `x' = A x + B u`, where `x` are changes of the position, as displacements, and of \
+                         the velocities, and `u` changes of the inputs, both as flat as the structs are."
+                    }
+                    (0, _) => {
+                        "The equations linearised: `x' = A x + B u` and `y = C x + D u`, where `x` are changes of the position, as \
+                         displacements, and of the velocities, `u` changes of the inputs and `y` of the outputs, all as flat as \
+                         the structs are."
+                    }
+                    (_, 0) => {
+                        "The equations linearised: `x' = A x + B u`, where `x` are changes of the position, as displacements, of \
+                         the velocities and of the model's own states, and `u` changes of the inputs, all as flat as the structs are."
+                    }
+                    (..) => {
+                        "The equations linearised: `x' = A x + B u` and `y = C x + D u`, where `x` are changes of the position, as \
+                         displacements, of the velocities and of the model's own states, `u` changes of the inputs and `y` of the \
+                         outputs, all as flat as the structs are."
+                    }
                 },
             ),
             FunctionKind::Impulse => row(

@@ -34,6 +34,11 @@ pub enum Slot {
     ByVelocity,
     ByState,
     ByInput,
+    /// A, B, C and D of linearised equations.
+    StateMatrix,
+    InputMatrix,
+    OutputMatrix,
+    Feedthrough,
 }
 
 /// How numbers of a slot stand.

@@ -32,8 +32,8 @@ use super::results::euler_singularities;
 use super::scene::Method;
 use super::strut::inverse;
 use super::translate::dependencies::Dependencies;
-use super::translate::names;
 use super::translate::symbols::{Symbols, freedoms_of};
+use super::translate::{manipulations, names};
 use super::written::Page;
 use super::{Derivation, Derived, Inertia};
 
@@ -86,6 +86,7 @@ const MOST_COMPOSITE: usize = 32;
 /// Derives what the model asks for, and its outputs.
 pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Complaint>> {
     let mut deriving = Deriving::new(model, structure);
+    deriving.check_manipulations()?;
     deriving.check_impulses()?;
     deriving.check()?;
     deriving.choose_writing()?;
@@ -113,6 +114,7 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
 /// The equations of a model for readers, with loops closed as they are in the generated functions.
 pub fn page(model: &Model, structure: &Structure) -> Result<Page, Vec<Complaint>> {
     let mut deriving = Deriving::new(model, structure);
+    deriving.check_manipulations()?;
     deriving.check()?;
     deriving.choose_writing()?;
     deriving.page()
@@ -239,6 +241,14 @@ impl<'m> Deriving<'m> {
     fn is_open(&self) -> bool {
         let roles = self.structure.roles.iter().flatten();
         self.structure.rows.is_empty() && roles.copied().all(|role| role == Role::State)
+    }
+
+    /// Derivatives, substitutions and entries are of what is in the state.
+    fn check_manipulations(&self) -> Result<(), Vec<Complaint>> {
+        match manipulations::complaints(self.model, &self.structure) {
+            complaints if complaints.is_empty() => Ok(()),
+            complaints => Err(complaints),
+        }
     }
 
     /// Solutions are checked once, whatever is derived.

@@ -47,6 +47,11 @@ pub(super) const SPECIAL_FUNCTIONS: [&str; 3] = ["select", "kinetic", "potential
 /// Functions that make rotations and poses. Their names stay free for items: a call is never mistaken for one.
 pub(super) const CONSTRUCTORS: [&str; 4] = ["identity", "rotation", "roll_pitch_yaw", "pose"];
 
+/// Functions of whole expressions, and matrices of which entries are taken: `diff(x, t)`, `mass_matrix[a, b]`. Their names stay
+/// free for items.
+pub(super) const MANIPULATIONS: [&str; 2] = ["diff", "substitute"];
+pub(super) const MATRICES: [&str; 2] = ["mass_matrix", "bias"];
+
 /// Types that a user may name.
 pub(super) const TYPES: [&str; 7] = ["Scalar", "Vec3", "Pose", "Rotation", "Twist", "Wrench", "Jacobian"];
 

@@ -18,6 +18,8 @@ pub(super) enum Class {
     Position,
     /// Velocities, states, energies, and all that follows from them.
     State,
+    /// What is made of finished equations: derivatives, entries of matrices.
+    Finished,
     /// The potential energy, of which springs are a part.
     Potential,
     Acceleration,
@@ -25,12 +27,13 @@ pub(super) enum Class {
     Load,
 }
 
-const CLASSES: [Class; 8] = [
+const CLASSES: [Class; 9] = [
     Class::Parameter,
     Class::Time,
     Class::Input,
     Class::Position,
     Class::State,
+    Class::Finished,
     Class::Potential,
     Class::Acceleration,
     Class::Load,
@@ -43,6 +46,16 @@ pub(super) struct Culprit {
     /// The `let` through which it is seen.
     via: Option<String>,
     span: Span,
+}
+
+impl Culprit {
+    /// Of a sentence about it.
+    fn subject(&self) -> String {
+        match &self.via {
+            Some(via) => format!("`{via}` depends on `{}`, which", self.name),
+            None => format!("`{}`", self.name),
+        }
+    }
 }
 
 /// Per class the first culprit.
@@ -70,6 +83,12 @@ impl Uses {
         }
     }
 
+    /// The first name that brings a class in: its place, and the subject of a sentence about it.
+    pub(super) fn culprit(&self, class: Class) -> Option<(Span, String)> {
+        let culprit = self.0.get(class as usize)?.as_ref()?;
+        Some((culprit.span, culprit.subject()))
+    }
+
     /// The same dependences, seen at a use of the `let` called `name`.
     pub(super) fn through(&self, name: &str, span: Span) -> Uses {
         Uses(self.0.each_ref().map(|slot| {
@@ -85,11 +104,7 @@ impl Uses {
             if allowed.contains(*class) {
                 continue;
             }
-            let subject = match &culprit.via {
-                Some(via) => format!("`{via}` depends on `{}`, which", culprit.name),
-                None => format!("`{}`", culprit.name),
-            };
-            return Some((culprit.span, format!("{subject} {}", allowed.why(*class))));
+            return Some((culprit.span, format!("{} {}", culprit.subject(), allowed.why(*class))));
         }
         None
     }
@@ -142,6 +157,9 @@ impl Allowed {
                 "is an input, whose rate nobody knows; a drive follows time and parameters"
             }
             (Allowed::Time, _) => "moves with the mechanism; a drive follows time and parameters",
+            (_, Class::Finished) => {
+                "is made of finished equations; it may stand in outputs, forces, states, and the `let` that they use"
+            }
             (Allowed::Constraint, Class::State) => {
                 "is no position: constraints of velocities are not supported yet. A gear or rolling along a line is one of \
                  positions, such as `x - radius * angle`; elsewhere a stiff damper at the contact comes near"

@@ -406,6 +406,8 @@ pub enum Request {
     Kinematics,
     /// Partial derivatives of forward and inverse dynamics.
     Derivatives,
+    /// The equations and outputs linearised at a state.
+    Linearize,
     /// The jump of velocities under an impulse.
     Impulse,
     /// Momenta, their rates, velocities from momenta.
@@ -476,6 +478,22 @@ pub enum ExprNode {
         frame: Frame,
         vector: Expr,
     },
+    /// Partial derivative, of a scalar, vector, or several of them; by time the total one.
+    Derivative {
+        of: Expr,
+        by: Variable,
+        /// What is differentiated by time reads velocities: accelerations come in.
+        accelerated: bool,
+    },
+    /// A value with others in the place of variables.
+    Substituted {
+        of: Expr,
+        pairs: Vec<(Variable, Expr)>,
+    },
+    /// An entry of the mass matrix.
+    MassMatrix([Coordinate; 2]),
+    /// An entry of the bias.
+    Bias(Coordinate),
     Vec3([Expr; 3]),
     Array(Vec<Expr>),
     /// Element of an array, index known.
@@ -511,6 +529,18 @@ pub enum ExprNode {
     Not(Expr),
     /// Condition, then, else.
     Select(Expr, Expr, Expr),
+}
+
+/// A scalar by which values are differentiated, or in whose place others are put.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Variable {
+    Time,
+    /// A position or a rate.
+    Coordinate(Coordinate, Order),
+    State(StateId),
+    /// With the place of the scalar among all of it.
+    Param(ParamId, usize),
+    Input(InputId, usize),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -44,6 +44,17 @@ pub(super) fn index(expr: Box<Expr>, group: &Group, index: Box<Expr>) -> Box<Exp
     Box::new(Expr::Index(syn::ExprIndex { attrs: Vec::new(), expr, bracket_token, index }))
 }
 
+/// `a, b` between brackets.
+pub(super) fn pair(group: &Group, elems: Elements) -> Box<Expr> {
+    let paren_token = token::Paren { span: group.delim_span() };
+    Box::new(Expr::Tuple(syn::ExprTuple { attrs: Vec::new(), paren_token, elems }))
+}
+
+/// `name = value`
+pub(super) fn named(left: Box<Expr>, equals: Span, right: Box<Expr>) -> Box<Expr> {
+    Box::new(Expr::Assign(syn::ExprAssign { attrs: Vec::new(), left, eq_token: Token![=](equals), right }))
+}
+
 /// `base.name`
 pub(super) fn field(base: Box<Expr>, dot: Span, name: Ident) -> Box<Expr> {
     let (dot_token, member) = (Token![.](dot), Member::Named(name));

@@ -1,8 +1,8 @@
 //! Stage `syntax`: expressions.
 //!
 //! In: tokens. Out: `syn::Expr` of these kinds and no others: `Lit` (numbers), `Path` (one name), `Field`, `Index`,
-//! `Call` of a name, `MethodCall`, `Unary` (`-`, `!`), `Binary` (`+ - * /`, comparisons, `&&`, `||`), `Paren`, `Array`.
-//! They bind as in Rust. All else is refused at its token, with a hint.
+//! `Call` of a name, `MethodCall`, `Unary` (`-`, `!`), `Binary` (`+ - * /`, comparisons, `&&`, `||`), `Paren`, `Array`; and
+//! `Assign` (`name = value`) among the arguments of `substitute`, `Tuple` as the index of `mass_matrix`. They bind as in Rust. All else is refused at its token, with a hint.
 //!
 //! syn's own parser is not used: it fails whole at the first mistake, would have its result checked once more, and
 //! recurses without a bound, as does dropping what it returns.
@@ -33,7 +33,7 @@ pub(super) fn expression(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> 
 
 /// What is between brackets, with commas. Elements that can't be read are poisoned.
 pub(super) fn list(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Vec<Expr> {
-    let (nodes, _) = nodes(cursor, diagnostics);
+    let (nodes, _) = nodes(whole, cursor, diagnostics);
     nodes.into_iter().map(|node| node.map_or_else(|Reported| poison(), |node| *node.expr)).collect()
 }
 
@@ -119,7 +119,7 @@ fn operand(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Read<Node> {
         if cursor.take(".").is_some() {
             current = member(current, span, cursor, diagnostics)?;
         } else if let Some(group) = cursor.take_group(Delimiter::Bracket) {
-            let index = only(&group, cursor, diagnostics)?;
+            let index = index(&current.expr, &group, cursor, diagnostics)?;
             let height = current.height.max(index.height);
             current = grown(build::index(current.expr, &group, index.expr), height, span, diagnostics)?;
         } else {
@@ -163,8 +163,26 @@ fn value(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Read<Node> {
     let Some(group) = cursor.take_group(Delimiter::Parenthesis) else {
         return Ok(leaf);
     };
-    let (arguments, height) = elements(&group, cursor, diagnostics)?;
+    let item = if is_word(&leaf.expr, "substitute") { named } else { whole };
+    let (arguments, height) = elements_of(item, &group, cursor, diagnostics)?;
     grown(build::call(leaf.expr, &group, arguments), height, group.span_open(), diagnostics)
+}
+
+/// Whether this is the one word.
+fn is_word(expr: &Expr, word: &str) -> bool {
+    matches!(expr, Expr::Path(path) if path.path.is_ident(word))
+}
+
+/// What stands between the brackets behind `base`: one value, or the two indices of a matrix.
+fn index(base: &Expr, group: &Group, cursor: &Cursor, diagnostics: &mut Diagnostics) -> Read<Node> {
+    if !is_word(base, "mass_matrix") {
+        return only(group, cursor, diagnostics);
+    }
+    let (indices, height) = elements(group, cursor, diagnostics)?;
+    if indices.is_empty() {
+        return only(group, cursor, diagnostics);
+    }
+    Ok(Node { expr: build::pair(group, indices), height })
 }
 
 /// A number or name.
@@ -206,10 +224,22 @@ fn only(group: &Group, cursor: &Cursor, diagnostics: &mut Diagnostics) -> Read<N
     }
 }
 
+/// Reads one element.
+type Element = fn(&mut Cursor, &mut Diagnostics) -> Read<Node>;
+
 /// All expressions between brackets and the height of the highest; all of them are read, then the first error counts.
 fn elements(group: &Group, cursor: &Cursor, diagnostics: &mut Diagnostics) -> Read<(Elements, usize)> {
+    elements_of(whole, group, cursor, diagnostics)
+}
+
+fn elements_of(
+    element: Element,
+    group: &Group,
+    cursor: &Cursor,
+    diagnostics: &mut Diagnostics,
+) -> Read<(Elements, usize)> {
     let mut inner = cursor.enter(group, diagnostics)?;
-    let (nodes, complete) = nodes(&mut inner, diagnostics);
+    let (nodes, complete) = nodes(element, &mut inner, diagnostics);
     complete?;
     let mut elements = Elements::new();
     let mut height = 0;
@@ -222,7 +252,7 @@ fn elements(group: &Group, cursor: &Cursor, diagnostics: &mut Diagnostics) -> Re
 }
 
 /// Expressions with commas between them, each readable or not, and whether nothing else stood there.
-fn nodes(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> (Vec<Read<Node>>, Read<()>) {
+fn nodes(element: Element, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> (Vec<Read<Node>>, Read<()>) {
     let mut nodes = Vec::new();
     let mut complete = Ok(());
     while !cursor.at_end() {
@@ -230,7 +260,7 @@ fn nodes(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> (Vec<Read<Node>>
             diagnostics.error(cursor.span(), "expected a value, found `,`");
             complete = Err(Reported);
         } else {
-            nodes.push(whole(cursor, diagnostics));
+            nodes.push(element(cursor, diagnostics));
         }
         cursor.take(",");
     }
@@ -245,4 +275,21 @@ fn whole(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Read<Node> {
     }
     cursor.skip_to(&[","]);
     result
+}
+
+/// A value, or `name = value`.
+fn named(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Read<Node> {
+    let mut left = node(cursor, diagnostics);
+    let equals = cursor.span();
+    if left.is_ok() && cursor.take("=").is_some() {
+        let right = whole(cursor, diagnostics)?;
+        let left = left?;
+        let height = left.height.max(right.height);
+        return grown(build::named(left.expr, equals, right.expr), height, equals, diagnostics);
+    }
+    if left.is_ok() && !cursor.at_end() && !cursor.at(",") {
+        left = Err(hints::no_end("an operator or `,`", cursor, diagnostics));
+    }
+    cursor.skip_to(&[","]);
+    left
 }

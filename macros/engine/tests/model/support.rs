@@ -113,6 +113,13 @@ impl Writer<'_> {
             ExprNode::Express { frame, vector } => {
                 format!("Express({}, {})", self.frame(frame), self.expr(vector))
             }
+            ExprNode::Derivative { of, by, .. } => format!("Derivative({}, {by:?})", self.expr(of)),
+            ExprNode::Substituted { of, pairs } => {
+                let pairs: Vec<String> = pairs.iter().map(|(by, e)| format!("{by:?} = {}", self.expr(e))).collect();
+                format!("Substituted({}, {})", self.expr(of), pairs.join(", "))
+            }
+            ExprNode::MassMatrix(entry) => format!("{entry:?}"),
+            ExprNode::Bias(entry) => format!("{entry:?}"),
             ExprNode::Vec3(v) => format!("<{}>", self.list(v.iter())),
             ExprNode::Array(list) => self.list(list.iter()),
             ExprNode::Index(a, k) => format!("{}[{k}]", self.expr(a)),

@@ -14,9 +14,9 @@ use crate::model::types::{InstanceId, PartTypeId};
 use super::space;
 
 /// Expands to `impl<T: Real> Differentiable for Model<T> { .. }` where forward dynamics and its derivatives have been
-/// derived.
+/// derived, and to `impl Tangent for Input<T> { .. }` where anything has been differentiated by inputs.
 pub(super) fn item(context: &Context<'_>) -> TokenStream {
-    if !is_derived(context) {
+    if !moves_inputs(context) {
         return TokenStream::new();
     }
     let layout = &context.layout;
@@ -25,14 +25,19 @@ pub(super) fn item(context: &Context<'_>) -> TokenStream {
     } else {
         space::tangent(layout, StructKind::Input, None)
     };
-    if context.function(FunctionKind::ForwardDynamics).is_some() {
+    if is_derived(context) && context.function(FunctionKind::ForwardDynamics).is_some() {
         tokens.extend(differentiable(layout));
     }
     tokens
 }
 
+/// Whether something has been differentiated by inputs.
+pub(super) fn moves_inputs(context: &Context<'_>) -> bool {
+    is_derived(context) || context.function(FunctionKind::Linearization).is_some()
+}
+
 /// Whether there are derivatives.
-pub(super) fn is_derived(context: &Context<'_>) -> bool {
+fn is_derived(context: &Context<'_>) -> bool {
     context.function(FunctionKind::ForwardDerivatives).is_some()
 }
 

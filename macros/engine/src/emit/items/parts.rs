@@ -26,7 +26,7 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
             items.extend(defaults::implement(layout, group, owner));
             items.extend(match group {
                 StructKind::Velocity | StructKind::States => space::tangent(layout, group, owner),
-                StructKind::Input if differentiable::is_derived(context) => space::tangent(layout, group, owner),
+                StructKind::Input if differentiable::moves_inputs(context) => space::tangent(layout, group, owner),
                 StructKind::Position => space::configuration(layout, owner),
                 _ => TokenStream::new(),
             });

@@ -91,6 +91,11 @@ pub(in crate::emit) fn ty(layout: &Layout<'_>, kind: FunctionKind) -> TokenStrea
                 [results, sizes.dof, sizes.states, sizes.inputs].map(Literal::usize_unsuffixed);
             quote!(#krate::Derivatives<T, #results, #dof, #states, #inputs>)
         }
+        Shape::Linearization(state) => {
+            let sizes = layout.sizes(kind);
+            let [state, inputs, outputs] = [state, sizes.inputs, sizes.outputs].map(Literal::usize_unsuffixed);
+            quote!(#krate::Linearization<T, #state, #inputs, #outputs>)
+        }
         Shape::Closed => quote!(Closed<T>),
     }
 }
@@ -125,6 +130,16 @@ pub(in crate::emit) fn value(layout: &Layout<'_>, kind: FunctionKind, results: V
             quote! {
                 #krate::Derivatives { position: #position, velocity: #velocity, states: #states, input: #input }
             }
+        }
+        Shape::Linearization(state) => {
+            let sizes = layout.sizes(kind);
+            let matrix =
+                |slot, rows, columns| leaf::matrix(krate, rows, columns, &mut results.of(slot).iter().cloned());
+            let a = matrix(Slot::StateMatrix, state, state);
+            let b = matrix(Slot::InputMatrix, state, sizes.inputs);
+            let c = matrix(Slot::OutputMatrix, sizes.outputs, state);
+            let d = matrix(Slot::Feedthrough, sizes.outputs, sizes.inputs);
+            quote!(#krate::Linearization { a: #a, b: #b, c: #c, d: #d })
         }
         Shape::Closed => {
             let state = names::ident("state");

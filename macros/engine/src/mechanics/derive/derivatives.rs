@@ -2,15 +2,15 @@
 //!
 //! In: what the model asks for. Out: candidates for the derivatives of forward and inverse dynamics.
 
-use crate::contracts::results::Results;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::results::linearisation::Accumulation;
 use crate::mechanics::scene::Method;
-use crate::symbolic::graph::Scalar;
+use crate::mechanics::translate::dependencies::Dependencies;
+use crate::model::types::JointId;
 
-use super::{Candidate, Deriving};
+use super::{Candidate, Deriving, Found};
 
 /// Ways to derivatives. From the results' side common axes cost more than they save.
 const SIDES: [(Accumulation, &[&str]); 3] = [
@@ -29,24 +29,35 @@ const SIDES: [(Accumulation, &[&str]); 3] = [
 impl<'m> Deriving<'m> {
     /// Derivatives of forward dynamics.
     pub(super) fn forward_derivatives(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        self.linearised(&SIDES, |e, reduction, side| e.forward_derivatives(reduction, side))
+        self.linearised(&SIDES, &[], |e, reduction, side| Ok(e.forward_derivatives(reduction, side)))
     }
 
     /// Derivatives of inverse dynamics.
     pub(super) fn inverse_derivatives(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        self.linearised(&SIDES[..2], |e, reduction, side| e.inverse_derivatives(reduction, side))
+        self.linearised(&SIDES[..2], &[], |e, reduction, side| Ok(e.inverse_derivatives(reduction, side)))
+    }
+
+    /// The equations as a linear system. Weighted rows give no slopes of multipliers, which outputs may show.
+    pub(super) fn linearizations(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        let model = self.model;
+        let shown =
+            model.outputs.iter().map(|output| &output.value).chain(model.states.iter().map(|state| &state.rate));
+        let kept = Dependencies::of(shown).kept(model);
+        let sides = if self.structure.rows.is_empty() { &SIDES[..] } else { &SIDES[..2] };
+        self.linearised(sides, &kept, |e, reduction, side| e.linearized(reduction, side))
     }
 
     fn linearised(
         &mut self,
         sides: &[(Accumulation, &[&'static str])],
-        f: impl Fn(&mut Equations<'m>, &Reduction, Accumulation) -> Results<Scalar>,
+        kept: &[JointId],
+        f: impl Fn(&mut Equations<'m>, &Reduction, Accumulation) -> Found,
     ) -> Result<Vec<Candidate>, Vec<Complaint>> {
         let mut candidates = Vec::new();
         for &(side, names) in sides {
-            candidates.extend(self.in_all_axes(names, Method::Composite, &[], |e| {
+            candidates.extend(self.in_all_axes(names, Method::Composite, kept, |e| {
                 let reduction = e.reduce()?;
-                Ok(f(e, &reduction, side))
+                f(e, &reduction, side)
             })?);
         }
         // The functions are long: only ways that may come out as the cheapest are worth optimising.

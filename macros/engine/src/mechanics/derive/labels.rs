@@ -67,7 +67,9 @@ impl Deriving<'_> {
             FunctionKind::DeadCentres => (Vec::new(), "root"),
             FunctionKind::Margins => (Vec::new(), "margin"),
             FunctionKind::Granted => (Vec::new(), "gap"),
-            FunctionKind::ForwardDerivatives | FunctionKind::InverseDerivatives => (Vec::new(), "derivative"),
+            FunctionKind::ForwardDerivatives | FunctionKind::InverseDerivatives | FunctionKind::Linearization => {
+                (Vec::new(), "derivative")
+            }
             FunctionKind::Impulse => {
                 let mut names = of_state("jump");
                 names.extend((0..self.structure.rows.len()).map(|row| format!("multiplier_{}", row + 1)));

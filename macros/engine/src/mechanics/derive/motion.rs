@@ -11,9 +11,6 @@ use crate::mechanics::results::constrained::ConstrainedMotion;
 use crate::mechanics::scene::{Choices, Method, Style};
 use crate::mechanics::strut::forward;
 use crate::mechanics::translate::dependencies::Dependencies;
-use crate::mechanics::translate::values::width;
-use crate::model::site::Sited;
-use crate::model::types::Output;
 use crate::symbolic::graph::Scalar;
 
 use super::{Candidate, Deriving, METHODS, MOST_COMPOSITE, MOST_STRUT_WAYS, articulates, floats, freedoms};
@@ -103,26 +100,12 @@ impl<'m> Deriving<'m> {
         let needs = Dependencies::of(model.outputs.iter().map(|output| &output.value));
         let kept = needs.kept(model);
         let open = self.is_open();
-        let freedoms = self.structure.freedoms();
         let mut all = |equations: &mut Equations<'m>| {
-            let flat = |equations: &mut Equations<'m>| {
-                let mut results = Vec::new();
-                for output in &model.outputs {
-                    let value = equations.value(&output.value);
-                    let before = results.len();
-                    value.flatten(&mut equations.g, &mut results);
-                    // Generated code takes as many scalars as the type has: one too many, and all others are misplaced.
-                    if results.len() - before != width(&output.value.ty, freedoms) {
-                        return Err(vec![misplaced(output)]);
-                    }
-                }
-                Ok(results)
-            };
             if open {
-                return flat(equations).map(Results::vector);
+                return equations.output_scalars().map(Results::vector);
             }
             let reduction = equations.reduce()?;
-            let results = flat(equations)?;
+            let results = equations.output_scalars()?;
             Ok(Results::vector(match equations.solved() {
                 Some(solved) => equations.put_in_all(&reduction, &solved, &results),
                 None => equations.finish(&reduction, &results),
@@ -147,16 +130,5 @@ impl<'m> Deriving<'m> {
             candidates.extend(self.candidate(name, Choices { style, method, ..self.way() }, &kept, &mut all)?);
         }
         Ok(candidates)
-    }
-}
-
-fn misplaced(output: &Output) -> Complaint {
-    Complaint {
-        at: output.value.site(),
-        message: format!(
-            "the output `{}` was derived with another number of scalars than its type has",
-            output.place.field
-        ),
-        help: Some("this is an error of multibody: please report it with the model".to_owned()),
     }
 }

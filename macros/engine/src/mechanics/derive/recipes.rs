@@ -135,6 +135,10 @@ fn recipe(kind: FunctionKind, solves_inputs: bool) -> Recipe {
             const SAME: &[Way] = &[Chosen(|d, _| d.inverse_derivatives())];
             (SAME, SAME)
         }
+        F::Linearization => {
+            const SAME: &[Way] = &[Chosen(|d, _| d.linearizations())];
+            (SAME, SAME)
+        }
         F::Impulse | F::MomentumVelocity => {
             (const { &[Chosen(|d, _| d.jumps())] }, const { &[Chosen(|d, _| d.constrained_jumps())] })
         }

@@ -31,7 +31,7 @@ fn partners(asked: &[FunctionKind], solves_inputs: bool) -> Vec<FunctionKind> {
     let needed = !solves_inputs && still && has(&all, F::KineticEnergy);
     add(&mut all, needed, F::InverseDynamics);
     // What is differentiated, factorised, or what rates of momenta come from.
-    let needed = has(&all, F::ForwardDerivatives);
+    let needed = has(&all, F::ForwardDerivatives) || has(&all, F::Linearization);
     add(&mut all, needed, F::ForwardDynamics);
     let needed = !solves_inputs && (has(&all, F::InverseDerivatives) || has(&all, F::Residual));
     add(&mut all, needed, F::InverseDynamics);

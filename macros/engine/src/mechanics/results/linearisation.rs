@@ -12,7 +12,7 @@
 use std::collections::HashMap;
 
 use crate::contracts::results::{Results, Slot};
-use crate::dynamics::saddle::Saddle;
+use crate::dynamics::saddle::{Saddle, Solution};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::translate::forces::LoadCase;
@@ -39,10 +39,29 @@ pub(in crate::mechanics) enum Accumulation {
 type Weighted = Vec<(Scalar, Scalar)>;
 
 /// Directions, one per column, in the order of [`crate::contracts::function::FunctionKind::ForwardDerivatives`].
-struct Directions {
-    columns: Vec<Seeds>,
+pub(super) struct Directions {
+    pub columns: Vec<Seeds>,
     /// Numbers of positions, velocities, own states and inputs.
-    counts: [usize; 4],
+    pub counts: [usize; 4],
+}
+
+/// What changes along one direction.
+#[derive(Default)]
+pub(super) struct Column {
+    pub accelerations: Vec<Scalar>,
+    /// Not where rows are weighted.
+    pub multipliers: Vec<Scalar>,
+    /// Of own states.
+    pub rates: Vec<Scalar>,
+}
+
+/// Derivatives of the motion, with what they are derivatives of.
+pub(super) struct Motion {
+    pub directions: Directions,
+    pub columns: Vec<Column>,
+    /// What was differentiated.
+    pub values: Vec<Scalar>,
+    pub solved: ConstrainedMotion,
 }
 
 impl Equations<'_> {
@@ -65,6 +84,16 @@ impl Equations<'_> {
         reduction: &Reduction,
         accumulation: Accumulation,
     ) -> Results<Scalar> {
+        let motion = self.motion_slopes(reduction, accumulation);
+        let count = self.scene.structure.state.len() + self.scene.model.states.len();
+        let columns: Vec<Vec<Scalar>> =
+            motion.columns.into_iter().map(|column| [column.accelerations, column.rates].concat()).collect();
+        let results = motion.directions.matrices(&columns, count);
+        Results { list: kinks::guarded(&mut self.g, &motion.values, &results.list), ..results }
+    }
+
+    /// How accelerations, multipliers and rates of own states change along each direction.
+    pub(super) fn motion_slopes(&mut self, reduction: &Reduction, accumulation: Accumulation) -> Motion {
         let (mut saddle, rows, solved) = self.system(reduction);
         let directions = self.directions(reduction);
         // Positions and velocities move while accelerations and multipliers stay: these are symbols for now.
@@ -77,38 +106,33 @@ impl Equations<'_> {
             terms.push(gamma);
             residual.push(self.g.sum(&terms));
         }
-        let model = self.scene.model;
         saddle.invert(&mut self.g);
         let mut columns = match accumulation {
             Accumulation::Weighted => self.weighted(&saddle, &residual, &directions.columns, freedoms),
             accumulation => self.partials(&residual, &directions.columns, accumulation),
         };
         self.settle(&mut columns, &solved);
-        if accumulation != Accumulation::Weighted {
-            self.solve_columns(&saddle, freedoms, &mut columns);
-        }
+        let columns = columns.into_iter().map(|column| match accumulation {
+            Accumulation::Weighted => Column { accelerations: column, ..Column::default() },
+            _ => {
+                let negative: Vec<Scalar> = column.iter().map(|&entry| -entry).collect();
+                let (efforts, equations) = negative.split_at(freedoms);
+                let Solution { unknowns, multipliers, .. } = saddle.solve(&mut self.g, efforts, equations);
+                Column { accelerations: unknowns, multipliers, rates: Vec::new() }
+            }
+        });
+        let mut columns: Vec<Column> = columns.collect();
         // The checker lets no rate depend on accelerations or reactions.
+        let model = self.scene.model;
         let rates: Vec<Scalar> = model.states.iter().map(|state| self.scalar(&state.rate)).collect();
         let rates = self.finish(reduction, &rates);
         let values = [residual, rates.clone()].concat();
         let rates = self.partials(&rates, &directions.columns, Accumulation::Forward);
-        for (column, rates) in columns.iter_mut().zip(rates) {
-            column.extend(rates);
-        }
-        let results = directions.matrices(&columns, freedoms + model.states.len());
-        Results { list: kinks::guarded(&mut self.g, &values, &results.list), ..results }
+        columns.iter_mut().zip(rates).for_each(|(column, rates)| column.rates = rates);
+        Motion { directions, columns, values, solved }
     }
 
-    /// -(dF/dz)^-1 dF/dx, column by column; a column holds what the matrix has to solve.
-    fn solve_columns(&mut self, saddle: &Saddle, freedoms: usize, columns: &mut [Vec<Scalar>]) {
-        for column in columns {
-            let negative: Vec<Scalar> = column.iter().map(|&entry| -entry).collect();
-            let (efforts, equations) = negative.split_at(freedoms);
-            *column = saddle.solve(&mut self.g, efforts, equations).unknowns;
-        }
-    }
-
-    /// The same, row by row: the matrix is symmetric, so a column of its inverse is a row of weights for the equations.
+    /// -(dF/dz)^-1 dF/dx, row by row: the matrix is symmetric, so a column of its inverse is a row of weights for the equations.
     fn weighted(
         &mut self,
         saddle: &Saddle,
@@ -129,7 +153,7 @@ impl Equations<'_> {
     }
 
     /// Puts in the accelerations and multipliers that were found.
-    fn settle(&mut self, columns: &mut [Vec<Scalar>], solved: &ConstrainedMotion) {
+    pub(super) fn settle(&mut self, columns: &mut [Vec<Scalar>], solved: &ConstrainedMotion) {
         let state = self.scene.structure.state.clone();
         let accelerations = state.iter().map(|&coordinate| self.coordinate_symbols(coordinate)[2]);
         let symbols = accelerations.chain(self.scene.symbols.multipliers.iter().copied());
@@ -195,7 +219,12 @@ impl Equations<'_> {
     }
 
     /// Derivatives of results, column by column. Seeds may stand at any nodes: what is behind them is not visited.
-    fn partials(&mut self, results: &[Scalar], columns: &[Seeds], accumulation: Accumulation) -> Vec<Vec<Scalar>> {
+    pub(super) fn partials(
+        &mut self,
+        results: &[Scalar],
+        columns: &[Seeds],
+        accumulation: Accumulation,
+    ) -> Vec<Vec<Scalar>> {
         let g = &mut self.g;
         if accumulation == Accumulation::Forward {
             return columns.iter().map(|seeds| Differentiator::new(seeds).scalars(g, results)).collect();

@@ -14,5 +14,7 @@ pub(super) mod kinks;
 pub(super) mod linearisation;
 pub(super) mod margins;
 pub(super) mod momentum;
+pub(super) mod outputs;
 pub(super) mod parts;
 pub(super) mod reactions;
+pub(super) mod state_space;

@@ -32,6 +32,7 @@ impl Dependencies {
                 }
                 ExprNode::Power(_) | ExprNode::Express { .. } => needs.frames = true,
                 ExprNode::Coordinate { order: Order::Acceleration, .. } => needs.accelerations = true,
+                ExprNode::Derivative { accelerated, .. } => needs.accelerations |= *accelerated,
                 ExprNode::Reaction { joint, .. } => {
                     needs.accelerations = true;
                     needs.reactions.push(*joint);

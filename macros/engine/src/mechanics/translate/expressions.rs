@@ -113,6 +113,17 @@ impl Equations<'_> {
             ExprNode::Power(force) => Value::Scalar(self.power(*force)),
             ExprNode::Kinetic => Value::Scalar(self.kinetic()),
             ExprNode::Potential => Value::Scalar(self.potential()),
+            ExprNode::Derivative { of, by, accelerated } => {
+                let of = self.known(of);
+                self.derivative(&of, *by, *accelerated)
+            }
+            ExprNode::Substituted { of, pairs } => {
+                let pairs: Vec<_> = pairs.iter().map(|(by, value)| (*by, self.known(value).scalar())).collect();
+                let of = self.known(of);
+                self.substituted(&of, &pairs)
+            }
+            &ExprNode::MassMatrix(entry) => Value::Scalar(self.mass_matrix_entry(entry)),
+            &ExprNode::Bias(coordinate) => Value::Scalar(self.bias_entry(coordinate)),
             ExprNode::Express { frame, vector } => {
                 let place = self.place(frame);
                 Value::Vector(if self.stands_apart() {
@@ -260,6 +271,8 @@ impl Equations<'_> {
 pub(in crate::mechanics) fn operands(node: &ExprNode) -> Vec<&Expr> {
     match node {
         ExprNode::Express { vector, .. } => vec![vector],
+        ExprNode::Derivative { of, .. } => vec![of],
+        ExprNode::Substituted { of, pairs } => std::iter::once(of).chain(pairs.iter().map(|pair| &pair.1)).collect(),
         ExprNode::RotationAbout { axis, angle } => vec![axis, angle],
         ExprNode::RollPitchYaw(angles) => angles.iter().collect(),
         ExprNode::Compose(a, b) | ExprNode::Pose(a, b) => vec![a, b],

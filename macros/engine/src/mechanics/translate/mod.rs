@@ -10,6 +10,7 @@ pub(super) mod expressions;
 pub(super) mod forces;
 pub(super) mod frames;
 mod functions;
+pub(super) mod manipulations;
 pub(super) mod names;
 pub(super) mod orientation;
 mod springs;

@@ -71,8 +71,19 @@ impl<'a> Checker<'a, '_> {
     }
 
     pub(super) fn index(&mut self, index: &ExprIndex, context: Context<'a>) -> Option<Meaning> {
+        if let Some(matrix) = self.matrix_name(&index.expr, context) {
+            return self.entry(matrix, index, context).map(Meaning::Value);
+        }
+        let place = match &*index.index {
+            Expr::Tuple(several) if several.elems.len() == 1 => &several.elems[0],
+            Expr::Tuple(_) => {
+                self.report.help(span(&index.index), "one index at a time", "write `a[i][j]`");
+                return None;
+            }
+            one => one,
+        };
         let base = self.meaning(&index.expr, context);
-        let k = self.whole_number(&index.index, context);
+        let k = self.whole_number(place, context);
         let (base, k) = (base?, k?);
         let count = match &base {
             Meaning::Parts(scopes) => scopes.len(),

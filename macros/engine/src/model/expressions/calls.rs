@@ -7,7 +7,7 @@ use syn::spanned::Spanned;
 use syn::{Expr, ExprCall};
 
 use crate::model::checker::{Checker, Context};
-use crate::model::names::{CONSTRUCTORS, FUNCTIONS, SPECIAL_FUNCTIONS};
+use crate::model::names::{CONSTRUCTORS, FUNCTIONS, MANIPULATIONS, SPECIAL_FUNCTIONS};
 use crate::model::typed::{Class, Typed, Uses, type_text};
 use crate::model::types::{Expr as Checked, ExprNode, Function, Type};
 
@@ -35,6 +35,8 @@ impl<'a> Checker<'a, '_> {
         let arguments: Vec<&Expr> = call.args.iter().collect();
         match text.as_str() {
             "select" => return self.select(name, &arguments, at, context),
+            "diff" => return self.diff(name, &arguments, at, context),
+            "substitute" => return self.substitute(name, &arguments, at, context),
             "kinetic" | "potential" => {
                 self.arity(name, &arguments, 0, at)?;
                 let node = if text == "kinetic" { ExprNode::Kinetic } else { ExprNode::Potential };
@@ -188,9 +190,11 @@ impl<'a> Checker<'a, '_> {
             "mod" | "fmod" | "rem" | "floor" | "ceil" | "round" => {
                 pow("there is none: equations of motion need slopes")
             }
-            "der" | "ddt" | "dt" | "diff" => {
-                pow("the rate of a coordinate is `joint.rate`, of a point `frame.velocity`")
+            "der" | "ddt" | "dt" => {
+                pow("write `diff(x, t)`; the rate of a coordinate is `joint.rate`, of a point `frame.velocity`")
             }
+            "derivative" | "gradient" | "partial" => pow("write `diff(x, hinge)`"),
+            "subs" | "replace" => pow("write `substitute(x, hinge.rate = 0.0)`"),
             "if_else" | "ifelse" | "cond" => pow("write `select(condition, a, b)`"),
             _ => None,
         };
@@ -210,7 +214,12 @@ impl<'a> Checker<'a, '_> {
             name.span(),
             format!("unknown function `{text}`"),
             &text,
-            FUNCTIONS.iter().map(|(known, ..)| *known).chain(SPECIAL_FUNCTIONS).chain(CONSTRUCTORS),
+            FUNCTIONS
+                .iter()
+                .map(|(known, ..)| *known)
+                .chain(SPECIAL_FUNCTIONS)
+                .chain(CONSTRUCTORS)
+                .chain(MANIPULATIONS),
             None,
         );
     }

@@ -8,6 +8,7 @@ mod broadcast;
 mod calls;
 mod coerce;
 mod joints;
+mod manipulate;
 mod members;
 mod methods;
 mod operators;
@@ -80,6 +81,14 @@ impl<'a> Checker<'a, '_> {
             Expr::MethodCall(call) => self.method(call, context),
             Expr::Field(field) => self.member(field, context),
             Expr::Index(index) => self.index(index, context),
+            Expr::Assign(named) => {
+                self.report.help(
+                    span(&named.left),
+                    "a value with a name means nothing here",
+                    "names of values stand in `substitute(expression, name = value)`",
+                );
+                None
+            }
             // The parser has reported what stands here.
             Expr::Verbatim(_) => {
                 self.report.silent();

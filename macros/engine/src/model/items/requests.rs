@@ -20,7 +20,7 @@ use crate::syntax::tree;
 
 use super::fields::{Known, field};
 
-const REQUESTS: [(&str, Request); 13] = [
+const REQUESTS: [(&str, Request); 14] = [
     ("forward_dynamics", Request::ForwardDynamics),
     ("inverse_dynamics", Request::InverseDynamics),
     ("mass_matrix", Request::MassMatrix),
@@ -30,6 +30,7 @@ const REQUESTS: [(&str, Request); 13] = [
     ("residual", Request::Residual),
     ("kinematics", Request::Kinematics),
     ("derivatives", Request::Derivatives),
+    ("linearize", Request::Linearize),
     ("impulse", Request::Impulse),
     ("momentum", Request::Momentum),
     ("report", Request::Report),
@@ -37,11 +38,7 @@ const REQUESTS: [(&str, Request); 13] = [
 ];
 
 /// Named by the design, derived by later versions; what there is instead.
-const NOT_YET: [(&str, &str); 5] = [
-    (
-        "linearize",
-        "write `derivatives`: `forward_derivatives` are the matrices of the linearised equations at any state",
-    ),
+const NOT_YET: [(&str, &str); 4] = [
     ("regressor", "`inverse_dynamics` is linear in masses and moments of mass: differences of two calls give a column"),
     ("assemble", "call `multibody::assemble`, for models whose loops are held by multipliers"),
     ("reactions", "write `output name = joint.reaction;`"),
@@ -64,7 +61,7 @@ const TOGETHER: [(&str, &str); 11] = [
 ];
 
 /// What other tools call a function, or what is no function here.
-const ELSEWHERE: [(&str, &str); 12] = [
+const ELSEWHERE: [(&str, &str); 13] = [
     ("ForwardDynamics", "write `forward_dynamics`"),
     ("dynamics", "write `forward_dynamics`"),
     ("accelerations", "write `forward_dynamics`"),
@@ -72,8 +69,9 @@ const ELSEWHERE: [(&str, &str); 12] = [
     ("InverseDynamics", "write `inverse_dynamics`"),
     ("coriolis", "write `bias`: the efforts at zero acceleration"),
     ("inertia_matrix", "write `mass_matrix`"),
-    ("linearise", "write `derivatives`"),
-    ("linearization", "write `derivatives`"),
+    ("linearise", "write `linearize`"),
+    ("linearization", "write `linearize`"),
+    ("state_space", "write `linearize`"),
     ("gradients", "write `derivatives`"),
     ("jacobian", "write `output name = body.jacobian;`: outputs are always emitted"),
     ("forward_kinematics", "write `output name = body.pose;`: outputs are always emitted"),

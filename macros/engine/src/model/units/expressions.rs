@@ -10,7 +10,7 @@ use proc_macro2::Span;
 
 use crate::invariant::fault::OrFault;
 use crate::model::joint_kinds::JointKind;
-use crate::model::types::{Expr, ExprNode, Frame, FrameStep, Function, Type};
+use crate::model::types::{Expr, ExprNode, Frame, FrameStep, Function, Type, Variable};
 
 use super::declared::Declared;
 use super::dimension::{Unit, number};
@@ -138,6 +138,13 @@ impl Expressions {
                 self.frame(frame);
                 self.found(vector)
             }
+            ExprNode::Derivative { of, by, .. } => self.found(of).combined(self.variable(*by), Unit::over),
+            ExprNode::Substituted { of, .. } => self.found(of),
+            ExprNode::MassMatrix(_) => Value::Any,
+            ExprNode::Bias(coordinate) => {
+                let kind = self.joints.get(coordinate.joint.0).copied().flatten();
+                kind.map_or(Value::Any, |kind| OfCoordinate::of(kind, coordinate.index).effort.into())
+            }
             ExprNode::Vec3(elements) if is_unit_vector(elements) => Value::Number,
             ExprNode::Vec3(elements) => self.elements(elements),
             ExprNode::Array(elements) => self.elements(elements),
@@ -167,6 +174,20 @@ impl Expressions {
             }
             ExprNode::And(..) | ExprNode::Or(..) | ExprNode::Not(_) => Value::Any,
             ExprNode::Select(_, a, b) => self.one_unit(a, b, "`select`"),
+        }
+    }
+
+    /// Of what values are differentiated by.
+    fn variable(&self, variable: Variable) -> Value {
+        match variable {
+            Variable::Time => quantity::TIME.into(),
+            Variable::Coordinate(coordinate, order) => {
+                let kind = self.joints.get(coordinate.joint.0).copied().flatten();
+                kind.map_or(Value::Any, |kind| OfCoordinate::of(kind, coordinate.index).order(order).into())
+            }
+            Variable::State(id) => of_item(&self.states, id.0),
+            Variable::Param(id, _) => of_item(&self.params, id.0),
+            Variable::Input(id, _) => of_item(&self.inputs, id.0),
         }
     }
 
@@ -444,8 +465,12 @@ fn operands(node: &ExprNode) -> Vec<&Expr> {
         | ExprNode::Power(_)
         | ExprNode::Kinetic
         | ExprNode::Potential
+        | ExprNode::MassMatrix(_)
+        | ExprNode::Bias(_)
         | ExprNode::Identity => Vec::new(),
+        ExprNode::Substituted { of, pairs } => std::iter::once(of).chain(pairs.iter().map(|pair| &pair.1)).collect(),
         ExprNode::Express { vector: inner, .. }
+        | ExprNode::Derivative { of: inner, .. }
         | ExprNode::Index(inner, _)
         | ExprNode::Component(inner, _)
         | ExprNode::Linear(inner)

@@ -11,23 +11,79 @@ use super::{At, Judged, Law, Sum, judged, velocity};
 pub(super) const LAWS: &[Law] = &[
     Law {
         between: "the derivatives of forward dynamics and its slopes",
-        judge: |at| at.derivative(FunctionKind::ForwardDerivatives, FunctionKind::ForwardDynamics),
+        judge: |at| at.blocks(FunctionKind::ForwardDerivatives, FunctionKind::ForwardDynamics),
     },
     Law {
         between: "the derivatives of inverse dynamics and its slopes",
-        judge: |at| at.derivative(FunctionKind::InverseDerivatives, FunctionKind::InverseDynamics),
+        judge: |at| at.blocks(FunctionKind::InverseDerivatives, FunctionKind::InverseDynamics),
+    },
+    Law {
+        between: "the linearised equations and the slopes of forward dynamics",
+        judge: |at| at.linear(FunctionKind::ForwardDynamics, [Slot::StateMatrix, Slot::InputMatrix]),
+    },
+    Law {
+        between: "the linearised outputs and their slopes",
+        judge: |at| at.linear(FunctionKind::Outputs, [Slot::OutputMatrix, Slot::Feedthrough]),
     },
 ];
 
+/// Where derivatives of a function stand among the numbers of another.
+struct Entries<'a> {
+    derivative: FunctionKind,
+    function: FunctionKind,
+    /// Results of the function that are differentiated: the first so many.
+    rows: usize,
+    /// By the number of what it is differentiated by (position, velocity, own states, inputs), row and column.
+    place: &'a dyn Fn(usize, usize, usize) -> usize,
+}
+
 impl At<'_, '_> {
-    fn derivative(&mut self, derivative: FunctionKind, function: FunctionKind) -> Judged {
+    /// One matrix for each of what a function is differentiated by.
+    fn blocks(&mut self, derivative: FunctionKind, function: FunctionKind) -> Judged {
         let inverse = function == FunctionKind::InverseDynamics;
         if !self.has(derivative) || !self.has(function) || (inverse && !self.laws.model.solve_for.is_empty()) {
             return Some(None);
         }
-        let (n, model) = (self.dof(), self.laws.model);
-        let states = model.states.len();
-        let rows = n + if inverse { 0 } else { states };
+        let sizes = self.moving();
+        let rows = self.dof() + if inverse { 0 } else { sizes[2] };
+        let slots = [Slot::ByPosition, Slot::ByVelocity, Slot::ByState, Slot::ByInput];
+        let first = slots.map(|slot| self.place(derivative, slot).start);
+        let place = |block: usize, row: usize, column: usize| first[block] + row * sizes[block] + column;
+        self.derivative(&Entries { derivative, function, rows, place: &place })
+    }
+
+    /// A matrix by the state and one by the inputs; of the rates of the state the last rows are accelerations and rates of
+    /// own states.
+    fn linear(&mut self, function: FunctionKind, slots: [Slot; 2]) -> Judged {
+        let derivative = FunctionKind::Linearization;
+        if !self.has(derivative) || !self.has(function) {
+            return Some(None);
+        }
+        let [positions, velocities, states, inputs] = self.moving();
+        let width = positions + velocities + states;
+        let ranges = slots.map(|slot| self.place(derivative, slot));
+        let all = ranges[0].len() / width.max(1);
+        let above = if function == FunctionKind::ForwardDynamics { positions } else { 0 };
+        let rows = all - above;
+        let first = ranges.map(|range| range.start);
+        let before = [0, positions, positions + velocities];
+        let place = |block: usize, row: usize, column: usize| match before.get(block) {
+            Some(before) => first[0] + (above + row) * width + before + column,
+            None => first[1] + (above + row) * inputs + column,
+        };
+        self.derivative(&Entries { derivative, function, rows, place: &place })
+    }
+
+    /// Numbers of displacements, velocities, own states and inputs.
+    fn moving(&self) -> [usize; 4] {
+        let model = self.laws.model;
+        let inputs = model.inputs.iter().map(|input| input.ty.scalars()).sum();
+        [self.dof(), self.dof(), model.states.len(), inputs]
+    }
+
+    fn derivative(&mut self, entries: &Entries<'_>) -> Judged {
+        let &Entries { derivative, function, rows, place } = entries;
+        let model = self.laws.model;
         let mut r = self.weights(rows);
         let count = self.values(function)?.len();
         let rows_weights = r.clone();
@@ -36,7 +92,7 @@ impl At<'_, '_> {
         let slopes = self.trace(function)?.slopes::<Doubled>(&r, symbols);
         let (positions, velocities) = (self.displacements(&slopes), self.by(&slopes, velocity));
         let other = |symbol: Symbol| self.slope(&slopes, symbol);
-        let own = (0..states).map(|k| other(Symbol::State { state: StateId(k) })).collect();
+        let own = (0..model.states.len()).map(|k| other(Symbol::State { state: StateId(k) })).collect();
         let inputs = model.inputs.iter().enumerate().flat_map(|(k, input)| {
             let input_id = InputId(k);
             (0..input.ty.scalars()).map(move |element| Symbol::Input { input: input_id, element })
@@ -46,14 +102,12 @@ impl At<'_, '_> {
         let given = self.values(derivative)?;
         let mut weights = vec![0.0; given.len()];
         let mut sum = Sum::default();
-        let slots = [Slot::ByPosition, Slot::ByVelocity, Slot::ByState, Slot::ByInput];
-        for (block, slot) in blocks.iter().zip(slots) {
-            let first = self.place(derivative, slot).start;
+        for (number, block) in blocks.iter().enumerate() {
             let s = self.weights(block.len());
             block.iter().zip(&s).for_each(|(&x, &s)| sum.product(&[-x, Doubled::new(s)]));
             for (i, &r) in rows_weights.iter().enumerate() {
                 for (j, &s) in s.iter().enumerate() {
-                    let at = first + i * block.len() + j;
+                    let at = place(number, i, j);
                     sum.product(&[given[at], Doubled::new(r), Doubled::new(s)]);
                     weights[at] = r * s;
                 }

@@ -1,0 +1,267 @@
+//! Stage `mechanics`: derivatives, substitutions and entries of matrices, in expressions of the user.
+//!
+//! In: values on the tree, in which every coordinate is a symbol. Out: values on the tree again. A coordinate of the state
+//! takes those that follow from it along: with the velocity map v = S u their positions move by a column of S, and their
+//! rates by the derivative of S u. What parameters, time or another place of the state do to coordinates that follow is
+//! known only where their equations are solved, so there such derivatives and substitutions are refused.
+
+use std::collections::HashSet;
+use std::rc::Rc;
+
+use crate::invariant::fault::OrFault;
+use crate::mechanics::analysis::Complaint;
+use crate::mechanics::equations::Equations;
+use crate::mechanics::loops::constraints::coordinate_name;
+use crate::mechanics::loops::reduction::Reduction;
+use crate::mechanics::loops::structure::{Role, Structure};
+use crate::model::site::Sited;
+use crate::model::types::{Coordinate, Expr, ExprNode, ForceKind, Model, Order, Variable};
+use crate::symbolic::differentiate::Differentiator;
+use crate::symbolic::graph::Scalar;
+use crate::symbolic::substitute::Substitution;
+
+use super::expressions::operands;
+use super::time::Seeds;
+use super::values::{Part, Value};
+
+/// Definitions of coordinates outside the state are made before expressions are translated.
+const DEFINED: &str = "coordinates that follow are defined before expressions are translated";
+
+impl Equations<'_> {
+    /// The derivative of a value.
+    pub(super) fn derivative(&mut self, of: &Value, by: Variable, accelerated: bool) -> Value {
+        let seeds = self.seeds_of(by, accelerated);
+        let mut along = Differentiator::new(&seeds);
+        of.map(&mut self.g, &mut |g, part| match part {
+            Part::Scalar(s) => Part::Scalar(along.scalar(g, s)),
+            Part::Vector(v) => Part::Vector(along.vector(g, v)),
+        })
+    }
+
+    /// What moves with a variable, and how fast.
+    fn seeds_of(&mut self, by: Variable, accelerated: bool) -> Seeds {
+        match by {
+            Variable::Time => self.seeds_of_time(accelerated),
+            Variable::Coordinate(coordinate, Order::Position) => self.seeds_of_displacement(coordinate),
+            Variable::Coordinate(coordinate, _) => {
+                let symbol = self.coordinate_symbols(coordinate)[1];
+                let mut seeds = vec![(symbol, Scalar::ONE)];
+                let along = self.followers(coordinate);
+                seeds
+                    .extend(along.into_iter().map(|(dependent, slope)| (self.coordinate_symbols(dependent)[1], slope)));
+                seeds
+            }
+            other => vec![(self.variable(other), Scalar::ONE)],
+        }
+    }
+
+    /// All positions by velocities, own states by their rates; velocities by accelerations where these are read.
+    fn seeds_of_time(&mut self, accelerated: bool) -> Seeds {
+        let mut seeds = self.seeds(1);
+        let model = self.scene.model;
+        for (id, state) in model.states.iter().enumerate() {
+            let rate = self.scalar(&state.rate);
+            seeds.push((self.scene.symbols.states[id], rate));
+        }
+        if accelerated {
+            let velocities = self.scene.symbols.velocities.concat();
+            let accelerations = self.accelerations();
+            seeds.extend(velocities.into_iter().zip(accelerations.iter().copied()));
+        }
+        seeds
+    }
+
+    /// Along a displacement of one coordinate of the state.
+    fn seeds_of_displacement(&mut self, coordinate: Coordinate) -> Seeds {
+        let mut seeds = self.direction(coordinate);
+        for (dependent, slope) in self.followers(coordinate) {
+            let symbol = self.coordinate_symbols(dependent)[0];
+            seeds.push((symbol, slope));
+        }
+        let Some(reduction) = self.reduced.clone() else { return seeds };
+        let mut along = Differentiator::new(&seeds);
+        let rates: Vec<Scalar> = reduction.rates.iter().map(|&(_, rate)| along.scalar(&mut self.g, rate)).collect();
+        let velocities = self.scene.symbols.velocities.concat();
+        seeds.extend(reduction.rates.iter().zip(rates).map(|(&(freedom, _), rate)| (velocities[freedom], rate)));
+        seeds
+    }
+
+    /// Coordinates that follow from one of the state, each with its column of the velocity map.
+    fn followers(&mut self, coordinate: Coordinate) -> Vec<(Coordinate, Scalar)> {
+        let structure = Rc::clone(&self.scene.structure);
+        let unknowns: Vec<Coordinate> = structure.steps.iter().flat_map(|step| step.unknowns.iter().copied()).collect();
+        if unknowns.is_empty() {
+            return Vec::new();
+        }
+        let reduction = self.definitions();
+        let freedom = self.freedom(coordinate);
+        let map = self.velocity_map(&reduction, &[freedom]);
+        unknowns.into_iter().map(|unknown| (unknown, map[self.freedom(unknown)][0])).collect()
+    }
+
+    fn definitions(&self) -> Rc<Reduction> {
+        self.reduced.clone().or_fault(DEFINED)
+    }
+
+    /// A value with others in the place of variables.
+    pub(super) fn substituted(&mut self, of: &Value, pairs: &[(Variable, Scalar)]) -> Value {
+        let pairs: Vec<(Scalar, Scalar)> = pairs.iter().map(|&(by, value)| (self.variable(by), value)).collect();
+        let mut put = Substitution::of_nodes(&pairs);
+        of.map(&mut self.g, &mut |g, part| match part {
+            Part::Scalar(s) => Part::Scalar(put.scalars(g, &[s])[0]),
+            Part::Vector(v) => Part::Vector(put.vectors(g, &[v])[0]),
+        })
+    }
+
+    /// The symbol of a variable.
+    fn variable(&self, variable: Variable) -> Scalar {
+        let symbols = &self.scene.symbols;
+        match variable {
+            Variable::Time => symbols.time,
+            Variable::Coordinate(coordinate, Order::Position) => self.coordinate_symbols(coordinate)[0],
+            Variable::Coordinate(coordinate, Order::Rate) => self.coordinate_symbols(coordinate)[1],
+            Variable::Coordinate(coordinate, Order::Acceleration) => self.coordinate_symbols(coordinate)[2],
+            Variable::State(id) => symbols.states[id.0],
+            Variable::Param(id, place) => symbols.params[id.0][place],
+            Variable::Input(id, place) => symbols.inputs[id.0][place],
+        }
+    }
+
+    /// An entry of the mass matrix, on the tree.
+    pub(super) fn mass_matrix_entry(&mut self, [row, column]: [Coordinate; 2]) -> Scalar {
+        let structure = Rc::clone(&self.scene.structure);
+        if !self.is_constrained() {
+            let (row, column) = (self.freedom(row), self.freedom(column));
+            return self.mass_matrix()[row * self.scene.symbols.freedoms + column];
+        }
+        let place =
+            |of: Coordinate| structure.state.iter().position(|&at| at == of).or_fault("entries are of the state");
+        let reduction = self.definitions();
+        self.reduced_mass_matrix(&reduction)[place(row)][place(column)]
+    }
+
+    /// An entry of the bias, on the tree.
+    pub(super) fn bias_entry(&mut self, coordinate: Coordinate) -> Scalar {
+        if self.derives_forces() {
+            // Forces that depend on the bias are refused by the checker.
+            return Scalar::ZERO;
+        }
+        if !self.is_constrained() {
+            let freedom = self.freedom(coordinate);
+            return self.bias()[freedom];
+        }
+        let place = self.scene.structure.state.iter().position(|&at| at == coordinate);
+        let reduction = self.definitions();
+        self.reduced_bias(&reduction)[place.or_fault("entries are of the state")]
+    }
+}
+
+/// What is asked of coordinates that are not in the state.
+pub(in crate::mechanics) fn complaints(model: &Model, structure: &Structure) -> Vec<Complaint> {
+    let follows = structure.roles.iter().flatten().any(|role| *role != Role::State);
+    let (mut complaints, mut seen) = (Vec::new(), HashSet::new());
+    let mut stack = roots(model);
+    while let Some(expr) = stack.pop() {
+        if !seen.insert(Rc::as_ptr(&expr.node)) {
+            continue;
+        }
+        stack.extend(operands(&expr.node));
+        match &*expr.node {
+            ExprNode::Derivative { of, by, .. } => match by {
+                Variable::Coordinate(coordinate, _) => complaints.extend(outside(model, structure, *coordinate, expr)),
+                Variable::Param(..) if follows && reads_positions(of) => complaints.push(Complaint {
+                    at: expr.site(),
+                    message: "this reads positions, and some coordinates follow from others by equations that parameters are \
+                              in: their derivatives by parameters are not known"
+                        .to_owned(),
+                    help: Some("differentiate a part that reads no positions".to_owned()),
+                }),
+                _ => {}
+            },
+            ExprNode::Substituted { of, pairs } => {
+                let moved = |by: &Variable| !matches!(by, Variable::State(_) | Variable::Input(..));
+                for (by, _) in pairs {
+                    if let Variable::Coordinate(coordinate, _) = by {
+                        complaints.extend(outside(model, structure, *coordinate, expr));
+                    }
+                }
+                if follows && reads_positions(of) && pairs.iter().any(|pair| moved(&pair.0)) {
+                    complaints.push(Complaint {
+                        at: expr.site(),
+                        message: "this reads positions, and some coordinates follow from others by equations that would have \
+                                  to be solved anew"
+                            .to_owned(),
+                        help: Some("inputs and states can be put in here; or substitute in a part that reads no positions".to_owned()),
+                    });
+                }
+            }
+            ExprNode::MassMatrix(list) => {
+                complaints.extend(list.iter().filter_map(|coordinate| outside(model, structure, *coordinate, expr)));
+            }
+            ExprNode::Bias(coordinate) => complaints.extend(outside(model, structure, *coordinate, expr)),
+            _ => {}
+        }
+    }
+    complaints
+}
+
+/// A coordinate that is not in the state.
+fn outside(model: &Model, structure: &Structure, coordinate: Coordinate, expr: &Expr) -> Option<Complaint> {
+    let name = coordinate_name(model, coordinate);
+    let (what, help) = if model.cuts.contains(&coordinate.joint) {
+        ("is measured on a joint that closes a loop", "name a coordinate of the state")
+    } else {
+        match structure.role(coordinate) {
+            Role::State => return None,
+            Role::Driven(_) => ("follows the time", "name a coordinate of the state, or `t`"),
+            Role::Dependent(_) => ("follows from others", "name one of those; this one moves with them"),
+        }
+    };
+    Some(Complaint {
+        at: expr.site(),
+        message: format!("{name} {what}: it is no variable"),
+        help: Some(help.to_owned()),
+    })
+}
+
+/// Whether positions or velocities are read.
+fn reads_positions(expr: &Expr) -> bool {
+    let mut stack = vec![expr];
+    let mut seen = HashSet::new();
+    while let Some(expr) = stack.pop() {
+        if !seen.insert(Rc::as_ptr(&expr.node)) {
+            continue;
+        }
+        match &*expr.node {
+            ExprNode::Number(_)
+            | ExprNode::Pi
+            | ExprNode::Time
+            | ExprNode::Param(_)
+            | ExprNode::Input(_)
+            | ExprNode::State(_) => {}
+            node if operands(node).is_empty() => return true,
+            ExprNode::Express { .. } => return true,
+            node => stack.extend(operands(node)),
+        }
+    }
+    false
+}
+
+/// Expressions in which equations may be taken apart.
+fn roots(model: &Model) -> Vec<&Expr> {
+    let mut roots: Vec<&Expr> = model.outputs.iter().map(|output| &output.value).collect();
+    roots.extend(model.states.iter().map(|state| &state.rate));
+    for force in &model.forces {
+        match &force.kind {
+            ForceKind::Effort { values, .. } => roots.extend(values),
+            ForceKind::JointSpring { stiffness, damping, rest, .. } => {
+                roots.extend([stiffness, damping, rest].into_iter().flatten());
+            }
+            ForceKind::LineSpring { stiffness, damping, length, .. } => {
+                roots.extend([stiffness, damping, length].into_iter().flatten());
+            }
+            ForceKind::Force { value, .. } | ForceKind::Torque { value, .. } => roots.push(value),
+        }
+    }
+    roots
+}

@@ -1,0 +1,103 @@
+//! Models whose expressions are made of expressions: derivatives, substitutions, entries of matrices.
+
+use multibody::multibody;
+
+multibody! {
+    /// A skew arm of two links with a motor of its own, and what is to be differentiated as outputs.
+    pub mod arm {
+        /// [m]
+        param reach: Vec3 = [0.31, -0.12, 0.27];
+        /// [N m/rad], [kg]
+        param many: [Scalar; 2] = [3.7, 1.3];
+        /// [N m]
+        input torque: Vec3;
+        input valve;
+        world { gravity: [0.4, -0.7, -9.6] }
+        body upper { mass: many[1], com: 0.4 * reach, inertia: inertia(0.08, 0.09, 0.11, 0.005, -0.003, 0.002) }
+        body lower { mass: 0.8, com: [0.1, 0.05, -0.2], inertia: diag(0.02, 0.03, 0.015) }
+        joint shoulder: Universal { parent: ground, child: upper, axes: [[0.6, 0.0, 0.8], Y] }
+        joint elbow: Revolute { parent: upper.at(reach).rotated([1.0, 2.0, 0.5], 0.7), child: lower, axis: [0.0, 0.6, -0.8] }
+        force coil: SpringDamper { joint: elbow, stiffness: many[0], damping: 0.2, rest: 0.4 }
+        force motor: Effort { joint: elbow, value: torque.y * cos(lag) + valve * valve }
+        state lag: rate = sin(valve) - lag * elbow.rate, start: 0.2;
+
+        let grip = lower.at([0.05, 0.02, -0.4]);
+        let mixed = sin(lag) * torque.y * many[0] + powi(valve, 3) * exp(0.3 * lag) * cos(elbow.angle);
+        output place: Vec3 = grip.position;
+        output speed: Vec3 = grip.velocity;
+        output moving = kinetic();
+        output stored = potential();
+        output mixture = mixed;
+
+        output place_by_second: Vec3 = diff(grip.position, shoulder.second);
+        output speed_by_first: Vec3 = diff(grip.velocity, shoulder.first);
+        output moving_by_elbow = diff(kinetic(), elbow);
+        output moving_by_rate = diff(kinetic(), elbow.rate);
+        output stored_by_reach = diff(potential(), reach.z);
+        output stored_by_stiffness = diff(potential(), many[0]);
+        output mixture_by_lag = diff(mixed, lag);
+        output mixture_by_valve = diff(mixed, valve);
+        output mixture_by_torque = diff(mixed, torque.y);
+        output place_by_time: Vec3 = diff(grip.position, t);
+        output speed_by_time: Vec3 = diff(grip.velocity, t);
+        output acceleration: Vec3 = grip.acceleration;
+        output moving_by_time = diff(kinetic(), t);
+        output twice = diff(diff(kinetic(), elbow.rate), shoulder.first.rate);
+        output entry = mass_matrix[elbow, shoulder.first];
+        output effort = bias[elbow];
+        output still = substitute(kinetic(), elbow.rate = 0.0, shoulder.second = 0.3 * lag, many[1] = 2.0);
+        emit forward_dynamics, mass_matrix, bias;
+    }
+    /// The same arm under forces that hold it: gravity and the spring are taken from the potential energy.
+    pub mod held_arm {
+        world { gravity: [0.4, -0.7, -9.6] }
+        input pull: Vec3;
+        body upper { mass: 1.3, com: [0.1, -0.05, 0.1], inertia: inertia(0.08, 0.09, 0.11, 0.005, -0.003, 0.002) }
+        body lower { mass: 0.8, com: [0.1, 0.05, -0.2], inertia: diag(0.02, 0.03, 0.015) }
+        joint shoulder: Universal { parent: ground, child: upper, axes: [[0.6, 0.0, 0.8], Y] }
+        joint elbow: Revolute { parent: upper.at([0.31, -0.12, 0.27]), child: lower, axis: [0.0, 0.6, -0.8] }
+        force hold: Effort {
+            joint: shoulder,
+            value: [
+                diff(potential(), shoulder.first) + dot(diff(lower.position, shoulder.first), pull),
+                diff(potential(), shoulder.second) + dot(diff(lower.position, shoulder.second), pull),
+            ],
+        }
+        force hold_elbow: Effort {
+            joint: elbow, value: diff(potential(), elbow) + mass_matrix[elbow, elbow] * 0.5,
+        }
+        output slopes: Jacobian = lower.jacobian;
+        emit forward_dynamics, mass_matrix, bias;
+    }
+    /// A four-bar whose crank takes the others along.
+    pub mod bars {
+        formulation { constraints: Reduced }
+        param weight = 3.5;
+        world { gravity: [1.0, -9.0, 2.0] }
+        input torque;
+        body arm { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
+        body link { mass: 3.5, com: [1.7, 0.2, 0.0], inertia: diag(0.1, 3.0, 3.1) }
+        body lever { mass: 3.0, com: 1.5 * X, inertia: rod(3.0, 3.0, X) }
+        joint crank: Revolute { parent: ground, child: arm, axis: Z }
+        joint coupler: Revolute { parent: arm.at(X), child: link, axis: Z }
+        joint rocker: Revolute { parent: ground.at(4.0 * X), child: lever, axis: Z }
+        #[cut]
+        joint pin: Revolute { parent: link.at(3.5 * X), child: lever.at(3.0 * X), axis: Z }
+        force motor: Effort { joint: crank, value: torque + 0.1 * diff(link.at(2.0 * Y).position.y, crank) }
+        solve (coupler, rocker) from pin { sin(rocker.angle - crank.angle - coupler.angle) > 0.0 }
+        output top: Vec3 = link.at(2.0 * Y).position;
+        output top_speed: Vec3 = link.at(2.0 * Y).velocity;
+        output moving = kinetic();
+        output top_by_crank: Vec3 = diff(link.at(2.0 * Y).position, crank);
+        output speed_by_crank: Vec3 = diff(link.at(2.0 * Y).velocity, crank);
+        output speed_by_rate: Vec3 = diff(link.at(2.0 * Y).velocity, crank.rate);
+        output moving_by_crank = diff(kinetic(), crank);
+        output moving_by_time = diff(kinetic(), t);
+        output top_by_time: Vec3 = diff(link.at(2.0 * Y).position, t);
+        output speed_by_time: Vec3 = diff(link.at(2.0 * Y).velocity, t);
+        output top_acceleration: Vec3 = link.at(2.0 * Y).acceleration;
+        output inertia_seen = mass_matrix[crank, crank];
+        output work = substitute(torque * weight * torque, torque = 2.0, weight = 0.5);
+        emit forward_dynamics, mass_matrix;
+    }
+}

@@ -1,0 +1,159 @@
+//! `diff`, `substitute` and entries of matrices against dual numbers, and against what they are entries of.
+
+use multibody_tests::models::manipulations::{arm, bars, held_arm};
+use multibody_tests::support::random::Random;
+use num_dual::Dual64;
+
+const TOLERANCE: f64 = 1e-12;
+
+fn close(what: &str, got: &[f64], want: &[f64]) {
+    assert_eq!(got.len(), want.len(), "{what}");
+    let scale = 1.0 + want.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    for (got, want) in got.iter().zip(want) {
+        assert!((got - want).abs() <= TOLERANCE * scale, "{what}: {got} for {want}");
+    }
+}
+
+fn moving(list: &[Dual64]) -> Vec<f64> {
+    list.iter().map(|x| x.eps).collect()
+}
+
+/// A state of the arm with dual numbers, in which one of position, velocity and own state may move.
+fn arm_state(numbers: &[f64; 7], at: Option<usize>) -> arm::State<Dual64> {
+    let x: Vec<Dual64> =
+        numbers.iter().enumerate().map(|(k, x)| Dual64::new(*x, if at == Some(k) { 1.0 } else { 0.0 })).collect();
+    let mut state = arm::State::<Dual64>::default();
+    (state.q.shoulder.first, state.q.shoulder.second, state.q.elbow) = (x[0], x[1], x[2]);
+    (state.v.shoulder.first, state.v.shoulder.second, state.v.elbow) = (x[3], x[4], x[5]);
+    state.x.lag = x[6];
+    state
+}
+
+fn arm_outputs(
+    numbers: &[f64; 7],
+    inputs: &[f64; 4],
+    at: Option<usize>,
+    edit: impl Fn(&mut arm::Params<Dual64>),
+) -> arm::Output<Dual64> {
+    let mut params = arm::Params::<Dual64>::default();
+    edit(&mut params);
+    let seed = |k: usize, x: f64| Dual64::new(x, if at == Some(7 + k) { 1.0 } else { 0.0 });
+    let mut input = arm::Input::<Dual64>::default();
+    (0..3).for_each(|k| input.torque[k] = seed(k, inputs[k]));
+    input.valve = seed(3, inputs[3]);
+    arm::Model::new(&params).outputs(Dual64::from(0.0), &arm_state(numbers, at), &input)
+}
+
+#[test]
+fn open_tree() {
+    let mut random = Random::new(17);
+    for _ in 0..20 {
+        let numbers: [f64; 7] = std::array::from_fn(|_| 2.0 * random.unit());
+        let inputs: [f64; 4] = std::array::from_fn(|_| random.unit());
+        let at = |at: usize| arm_outputs(&numbers, &inputs, Some(at), |_| {});
+        let y = arm_outputs(&numbers, &inputs, None, |_| {});
+        let re = |list: &[Dual64]| -> Vec<f64> { list.iter().map(|x| x.re).collect() };
+        close("place by second", &re(y.place_by_second.as_slice()), &moving(at(1).place.as_slice()));
+        close("speed by first", &re(y.speed_by_first.as_slice()), &moving(at(0).speed.as_slice()));
+        close("moving by elbow", &re(&[y.moving_by_elbow]), &moving(&[at(2).moving]));
+        close("moving by rate", &re(&[y.moving_by_rate]), &moving(&[at(5).moving]));
+        close("mixture by lag", &re(&[y.mixture_by_lag]), &moving(&[at(6).mixture]));
+        close("mixture by torque", &re(&[y.mixture_by_torque]), &moving(&[at(8).mixture]));
+        close("mixture by valve", &re(&[y.mixture_by_valve]), &moving(&[at(10).mixture]));
+        close("twice", &re(&[y.twice]), &moving(&[at(3).moving_by_rate]));
+        let by = |edit: fn(&mut arm::Params<Dual64>)| arm_outputs(&numbers, &inputs, None, edit);
+        let stored = by(|p| p.reach.z.eps = 1.0).stored;
+        close("stored by reach", &re(&[y.stored_by_reach]), &moving(&[stored]));
+        let stored = by(|p| p.many[0].eps = 1.0).stored;
+        close("stored by stiffness", &re(&[y.stored_by_stiffness]), &moving(&[stored]));
+        // By time: the velocity, the acceleration, and the power by dual numbers along the motion.
+        close("place by time", &re(y.place_by_time.as_slice()), &re(y.speed.as_slice()));
+        close("speed by time", &re(y.speed_by_time.as_slice()), &re(y.acceleration.as_slice()));
+        let state = arm_state(&numbers, None);
+        let model = arm::Model::<Dual64>::default();
+        let mut input = arm::Input::<Dual64>::default();
+        (0..3).for_each(|k| input.torque[k] = Dual64::from(inputs[k]));
+        input.valve = Dual64::from(inputs[3]);
+        let rates = model.forward_dynamics(Dual64::from(0.0), &state, &input);
+        let along = |x: Dual64, rate: Dual64| Dual64::new(x.re, rate.re);
+        let mut later = state;
+        later.q.shoulder.first = along(state.q.shoulder.first, state.v.shoulder.first);
+        later.q.shoulder.second = along(state.q.shoulder.second, state.v.shoulder.second);
+        later.q.elbow = along(state.q.elbow, state.v.elbow);
+        later.v.shoulder.first = along(state.v.shoulder.first, rates.v.shoulder.first);
+        later.v.shoulder.second = along(state.v.shoulder.second, rates.v.shoulder.second);
+        later.v.elbow = along(state.v.elbow, rates.v.elbow);
+        later.x.lag = along(state.x.lag, rates.x.lag);
+        let moved = model.outputs(Dual64::from(0.0), &later, &input);
+        close("moving by time", &re(&[y.moving_by_time]), &moving(&[moved.moving]));
+        // Entries, and values put in.
+        let matrix = model.mass_matrix(&state.q);
+        close("entry", &re(&[y.entry]), &re(&[matrix[(2, 0)]]));
+        close("effort", &re(&[y.effort]), &re(&[model.bias(Dual64::from(0.0), &state, &input)[2]]));
+        let mut put = numbers;
+        (put[5], put[1]) = (0.0, 0.3 * numbers[6]);
+        let still = arm_outputs(&put, &inputs, None, |p| p.many[1] = Dual64::from(2.0)).moving;
+        close("still", &re(&[y.still]), &re(&[still]));
+    }
+}
+
+/// Where forces are the slopes of the potential energy and nothing else acts, what is left of the equations at rest is what was
+/// added to them.
+#[test]
+fn forces_from_energies() {
+    let model = held_arm::Model::<f64>::default();
+    let mut random = Random::new(5);
+    for _ in 0..20 {
+        let mut state = held_arm::State::<f64>::default();
+        state.q.shoulder.first = 3.0 * random.unit();
+        state.q.shoulder.second = 3.0 * random.unit();
+        state.q.elbow = 3.0 * random.unit();
+        let pull = [random.unit(), random.unit(), random.unit()];
+        let input = held_arm::Input { pull: pull.into() };
+        let bias = model.bias(0.0, &state, &input);
+        let matrix = model.mass_matrix(&state.q);
+        assert!((bias[2] + 0.5 * matrix[(2, 2)]).abs() < 1e-12, "{bias}");
+        // A pull at the origin of the lower link acts on the shoulder by the columns of its Jacobian.
+        let slopes = model.outputs(0.0, &state, &input).slopes;
+        for column in 0..2 {
+            let along: f64 = (0..3).map(|row| slopes[(row, column)] * pull[row]).sum();
+            assert!((bias[column] + along).abs() < 1e-12, "{bias}");
+        }
+    }
+}
+
+#[test]
+fn closed_loop() {
+    let mut random = Random::new(23);
+    let model = bars::Model::<f64>::default();
+    let dual = bars::Model::<Dual64>::default();
+    for _ in 0..20 {
+        let (q, v, torque) = (0.9 + 0.6 * random.unit(), random.unit(), random.unit());
+        let state = bars::State {
+            q: bars::Position { crank: q, ..Default::default() },
+            v: bars::Velocity { crank: v, ..Default::default() },
+            ..Default::default()
+        };
+        let input = bars::Input { torque };
+        let y = model.outputs(0.0, &state, &input);
+        let moved = |dq: f64, dv: f64| {
+            let state = bars::State {
+                q: bars::Position { crank: Dual64::new(q, dq), ..Default::default() },
+                v: bars::Velocity { crank: Dual64::new(v, dv), ..Default::default() },
+                ..Default::default()
+            };
+            dual.outputs(Dual64::from(0.0), &state, &bars::Input { torque: Dual64::from(torque) })
+        };
+        let (by_crank, by_rate) = (moved(1.0, 0.0), moved(0.0, 1.0));
+        close("top by crank", y.top_by_crank.as_slice(), &moving(by_crank.top.as_slice()));
+        close("speed by crank", y.speed_by_crank.as_slice(), &moving(by_crank.top_speed.as_slice()));
+        close("speed by rate", y.speed_by_rate.as_slice(), &moving(by_rate.top_speed.as_slice()));
+        close("moving by crank", &[y.moving_by_crank], &moving(&[by_crank.moving]));
+        close("top by time", y.top_by_time.as_slice(), y.top_speed.as_slice());
+        close("speed by time", y.speed_by_time.as_slice(), y.top_acceleration.as_slice());
+        let accel = model.forward_dynamics(0.0, &state, &input).crank;
+        close("moving by time", &[y.moving_by_time], &moving(&[moved(v, accel).moving]));
+        close("inertia seen", &[y.inertia_seen], &[model.mass_matrix(&state.q)[(0, 0)]]);
+        close("work", &[y.work], &[2.0]);
+    }
+}
