@@ -20,6 +20,8 @@ commands
   diff OLD NEW   what has changed between two files in the operations of functions and in equations
   compare FILE   each model in every choice of coordinates and constraints: sizes, operations of forward dynamics
                  (--all: and of the other functions that it asks for), and which choice to take
+  report FILE    a page about each model: graph, drawing, tables, structure of matrices, costs, candidates, equations;
+                 NAME.html in --out DIR (target/multibody by default), and with --markdown NAME.md beside it
 
 options
   --model NAME   only the model of this name
@@ -52,6 +54,8 @@ pub(crate) enum Command {
     Expand(Subject),
     /// The older file, the newer one.
     Diff(Subject, Subject),
+    /// Into a folder, and as Markdown too.
+    Report(Subject, Option<PathBuf>, bool),
 }
 
 /// The words behind the program's name. Cargo puts `multibody` before those of its user.
@@ -76,6 +80,7 @@ pub(crate) fn read(mut words: Vec<OsString>) -> Result<Command, String> {
         "counts" => Ok(Command::Counts(one(&name, subjects)?)),
         "equations" => Ok(Command::Equations(one(&name, subjects)?, given.form)),
         "expand" => Ok(Command::Expand(one(&name, subjects)?)),
+        "report" => Ok(Command::Report(one(&name, subjects)?, given.out, given.markdown)),
         "diff" => {
             let [old, new] = files(&name, "two files", subjects)?;
             Ok(Command::Diff(old, new))
@@ -99,6 +104,8 @@ struct Given {
     model: Option<String>,
     form: Form,
     all: bool,
+    out: Option<PathBuf>,
+    markdown: bool,
     help: bool,
     version: bool,
 }
@@ -112,6 +119,8 @@ impl Given {
                 Arg::Value(value) => given.values.push(value),
                 Arg::Long("model") => given.model = Some(parser.value()?.string()?),
                 Arg::Long("all") => given.all = true,
+                Arg::Long("out") => given.out = Some(parser.value()?.into()),
+                Arg::Long("markdown") => given.markdown = true,
                 Arg::Long("text") => given.form = Form::Text,
                 Arg::Long("latex") => given.form = Form::Latex,
                 Arg::Long("mathml") => given.form = Form::Mathml,

@@ -61,7 +61,7 @@ fn page(model: &Model) -> Result<Page, Trouble> {
 }
 
 /// Models with what the work makes of them.
-fn each<T>(
+pub(crate) fn each<T>(
     subject: &Subject,
     verb: &str,
     work: impl Fn(&Model) -> Result<T, Trouble>,

@@ -7,6 +7,7 @@ mod arguments;
 mod build;
 mod commands;
 mod progress;
+mod report;
 mod said;
 mod source;
 mod table;
@@ -51,6 +52,7 @@ fn run(command: Command) -> Result<String, Stop> {
         Command::Compare(subject, all) => commands::compare::run(&subject, all),
         Command::Equations(subject, form) => commands::equations::run(&subject, form),
         Command::Expand(subject) => commands::expand::run(&subject),
+        Command::Report(subject, folder, markdown) => commands::report::run(&subject, folder.as_deref(), markdown),
         Command::Diff(old, new) => commands::diff::run(&old, &new),
     }
 }

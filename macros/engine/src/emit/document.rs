@@ -3,13 +3,15 @@
 //! In: the user's `///` text and units, operation counts. Out: lines of Markdown, which become `#[doc]` attributes. Every
 //! public item has some: a crate that denies `missing_docs` accepts it.
 
-mod alike;
+pub(super) mod alike;
 mod equations;
+pub(super) mod facts;
 pub(super) mod fields;
 pub(super) mod formula;
 pub(super) mod loops;
 pub(super) mod report;
 mod unchecked;
+pub(super) mod unused;
 
 use proc_macro2::TokenStream;
 use quote::quote;

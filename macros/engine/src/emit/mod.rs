@@ -30,7 +30,10 @@ use crate::optimize::program::{Compiled, Function};
 use self::layout::Layout;
 
 pub use self::broken::skeleton::skeleton;
+pub use self::document::alike::once as alike;
+pub use self::document::facts::{BodyFact, ClosingFact, Declared, Facts, ForceFact, JointFact};
 pub use self::document::report::report;
+pub use self::document::unused::Unused;
 pub use self::methods::functions::name as function_name;
 pub use self::print::text::source;
 
@@ -74,6 +77,16 @@ pub fn misfit(model: &Model, structure: &Structure, compiled: &Compiled) -> Opti
         function.parts == parts && function.program.results.len() == parts.count()
     };
     compiled.functions.iter().find(|function| !fits(function)).map(|function| function.kind)
+}
+
+/// What is said of a model in its documentation.
+pub fn facts(model: &Model, structure: &Structure, compiled: &Compiled) -> Facts {
+    Facts::new(&context(model, structure, compiled, false))
+}
+
+/// What of a model no generated function reads.
+pub fn unused(model: &Model, structure: &Structure, compiled: &Compiled) -> Unused {
+    Unused::new(&context(model, structure, compiled, false))
 }
 
 fn context<'a>(model: &'a Model, structure: &'a Structure, compiled: &'a Compiled, hollow: bool) -> Context<'a> {

@@ -11,9 +11,12 @@ mod impulses;
 mod inertia;
 mod labels;
 mod motion;
+mod patterns;
 mod recipes;
 mod ways;
 mod witnesses;
+
+pub use patterns::{Entry, Patterns, patterns};
 
 use std::rc::Rc;
 

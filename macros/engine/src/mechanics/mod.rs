@@ -3,12 +3,13 @@
 //! Rooms: [`translate`] makes the tree of links and the values of expressions, [`loops`] says which coordinates follow and
 //! how, [`analysis`] decides that in numbers beforehand, `results` has one file per thing that functions give, [`strut`] the
 //! short way for bodies on struts; [`derive()`] tells which functions are made, and in which ways. [`scene`] is
-//! what a derivation is about, and [`equations`] what it has made.
+//! what a derivation is about, and [`equations`] what it has made. [`poses`] has frames in numbers, for drawings.
 
 pub mod analysis;
 mod derive;
 pub mod equations;
 pub mod loops;
+pub mod poses;
 mod results;
 pub mod scene;
 pub mod strut;
@@ -16,7 +17,8 @@ pub mod translate;
 mod trees;
 pub mod written;
 
-pub use derive::{MOST_FREEDOMS, derive, freedoms, page};
+pub use derive::{Entry, MOST_FREEDOMS, Patterns, derive, freedoms, page, patterns};
+pub use translate::reads::Reads;
 
 use std::rc::Rc;
 

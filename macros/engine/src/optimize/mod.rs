@@ -28,7 +28,7 @@ use crate::symbolic::graph::Scalar;
 use crate::symbolic::lower::Lowering;
 
 use dag::Dag;
-use program::{Checks, Compiled, Function, Program};
+use program::{Checks, Compiled, Function, Program, Rival};
 
 /// Most operations that one function may have before optimisation. Passes take about a second for ten thousand in an
 /// unoptimised build, and rustc takes longer.
@@ -87,6 +87,7 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>) -> Result<Compile
     let mut chosen: Vec<Chosen> = Vec::new();
     for function in &derivation.functions {
         let mut best: Option<(u32, Chosen)> = None;
+        let mut tried: Vec<Rival> = Vec::new();
         for (candidate, (method, results)) in function.candidates.iter().enumerate() {
             let mut lowering = Lowering::new(&derivation.graph);
             let roots = lowering.run(&results.list);
@@ -99,15 +100,19 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>) -> Result<Compile
             if !plain.functions.contains(&function.kind) {
                 sound &= simplify(&mut dag);
             }
-            let weight = dag.cost().0.weight();
+            let cost = dag.cost().0;
+            tried.push(Rival { method, cost });
+            let weight = cost.weight();
             if best.as_ref().is_none_or(|(least, _)| weight < *least) {
-                best = Some((
-                    weight,
-                    Chosen { kind: function.kind, parts: results.parts.clone(), method, candidate, before, dag },
-                ));
+                let (kind, parts, rivals) = (function.kind, results.parts.clone(), Vec::new());
+                best = Some((weight, Chosen { kind, parts, method, candidate, before, dag, rivals }));
             }
         }
-        chosen.extend(best.map(|(_, chosen)| chosen));
+        chosen.extend(best.map(|(_, mut chosen)| {
+            tried.remove(chosen.candidate);
+            chosen.rivals = tried;
+            chosen
+        }));
     }
     let dags: Vec<&Dag> = chosen.iter().map(|c| &c.dag).collect();
     let mut gathered = fields::gather(&dags, &derivation.symbols);
@@ -123,7 +128,7 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>) -> Result<Compile
     let prelude_cost = prelude.cost().1;
     let functions: Vec<Function> = chosen
         .iter()
-        .map(|Chosen { kind, parts, method, candidate, before, dag }| Function {
+        .map(|Chosen { kind, parts, method, candidate, before, dag, rivals }| Function {
             kind: *kind,
             parts: parts.clone(),
             program: with_results_broken(schedule::schedule(dag, &fields, &names)),
@@ -131,6 +136,7 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>) -> Result<Compile
             after: dag.cost().0,
             method,
             candidate: *candidate,
+            rivals: rivals.clone(),
         })
         .collect();
     let prelude = schedule::schedule(&prelude, &schedule::Fields::new(), &[]);
@@ -207,6 +213,8 @@ struct Chosen {
     candidate: usize,
     before: Cost,
     dag: Dag,
+    /// The others.
+    rivals: Vec<Rival>,
 }
 
 /// A rewrite, with its name.

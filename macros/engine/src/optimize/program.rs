@@ -149,6 +149,16 @@ pub struct Function {
     pub method: &'static str,
     /// Its number among the candidates of the derivation.
     pub candidate: usize,
+    /// The candidates that cost more, in the order in which they were derived; of equal ones the first is taken.
+    pub rivals: Vec<Rival>,
+}
+
+/// A way to a function that was not taken.
+#[derive(Clone, Debug)]
+pub struct Rival {
+    pub method: &'static str,
+    /// As it would have been emitted.
+    pub cost: Cost,
 }
 
 /// Everything that `emit` prints for one model, besides the model itself.

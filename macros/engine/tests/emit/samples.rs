@@ -234,6 +234,7 @@ pub fn derived(kind: FunctionKind, program: Program) -> Derived {
         after: Cost { add: 0, mul: 1, div: 0, sqrt: 0, sincos: 1, compare: 0, other: 0 },
         method: "articulated body",
         candidate: 0,
+        rivals: Vec::new(),
     }
 }
 

@@ -38,6 +38,7 @@ pub fn skeleton(checked: &Checked) -> TokenStream {
         after: Cost::default(),
         method: "",
         candidate: 0,
+        rivals: Vec::new(),
     }));
     module(&context(model, &structure, &compiled, true))
 }

@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 
 /// Lines that are alike once each; nested arrays are opened one after the other.
-pub(in crate::emit) fn once(lines: Vec<String>) -> Vec<String> {
+pub fn once(lines: Vec<String>) -> Vec<String> {
     let (mut lines, mut opened): (Vec<String>, Vec<String>) = (lines, Vec::new());
     // An array within one that has been opened has a new name.
     while let Some(array) =

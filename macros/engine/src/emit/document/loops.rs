@@ -14,8 +14,8 @@ use crate::model::types::{
 };
 use crate::optimize::program::Expression;
 
-use super::report::TableRow as Line;
-use super::report::{frame, row, section, text};
+use super::facts::{ClosingFact, Facts, carrier, text};
+use super::report::{cell, frame, row, section};
 use super::{alike, formula};
 
 impl Layout<'_> {
@@ -69,9 +69,8 @@ fn is_zero(entry: &Expression) -> bool {
     }
 }
 
-/// The report's section; nothing for a model without loops and drives.
-pub(super) fn section_lines(context: &Context<'_>) -> Vec<String> {
-    let layout = &context.layout;
+/// How loops are closed, what is driven, left out and assumed: sentences, each once for what is alike.
+pub(super) fn items(layout: &Layout<'_>) -> Vec<String> {
     let (model, structure) = (layout.model, layout.structure);
     let mut items = Vec::new();
     items.extend(structure.steps.iter().map(|step| dependents(layout, step)));
@@ -89,13 +88,26 @@ pub(super) fn section_lines(context: &Context<'_>) -> Vec<String> {
     let assumed = model.assumptions.iter();
     items.extend(assumed.map(|condition| format!("assumed: {}", quoted(&formula::text(layout, condition)))));
     items.extend(structure.notes.iter().chain(&model.skipped).cloned());
-    let unique = alike::once(items.iter().map(|item| format!("- {}", item.replace('\n', " "))).collect());
+    alike::once(items.iter().map(|item| item.replace('\n', " ")).collect())
+}
+
+/// The report's section; nothing for a model without loops and drives.
+pub(super) fn section_lines(context: &Context<'_>, facts: &Facts) -> Vec<String> {
+    let layout = &context.layout;
+    let structure = layout.structure;
     let mut lines = Vec::new();
-    let closings = closings(layout);
-    if closings.is_empty() && unique.is_empty() {
+    if facts.closings.is_empty() && facts.loops.is_empty() {
         return lines;
     }
-    section(&mut lines, "Loops", &["closed by", "kind", "between", "and", "equations", ""], closings.into_iter());
+    section(&mut lines, "Loops", &["closed by", "kind", "between", "and", "equations", ""], {
+        facts.closings.iter().map(|closing| {
+            let [a, b] = closing.between.each_ref().map(|body| match body {
+                Some(name) if name.is_empty() => String::new(),
+                body => frame(body.as_ref()),
+            });
+            row(&closing.name, vec![closing.kind.to_string(), a, b, closing.equations.clone(), cell(&closing.text)])
+        })
+    });
     if lines.is_empty() {
         lines.extend(["", "## Loops"].map(String::from));
     }
@@ -104,23 +116,23 @@ pub(super) fn section_lines(context: &Context<'_>) -> Vec<String> {
         String::new(),
         format!("{coordinates} velocity coordinates + {rows} constraint equations = {} equations.", coordinates + rows),
     ]);
-    if !unique.is_empty() {
+    if !facts.loops.is_empty() {
         lines.push(String::new());
-        lines.extend(unique);
+        lines.extend(facts.loops.iter().map(|item| format!("- {item}")));
     }
     if let Some(picture) = picture(context).filter(|_| rows > 0) {
         lines.extend(
             ["", "The Jacobian of the equations, `.` where an entry is always zero:", "", "```text"].map(String::from),
         );
-        let named = structure.rows.iter().zip(picture);
-        lines.extend(named.map(|(row, entries)| format!("{entries}  {}", layout.row(*row))));
+        let named = facts.equations.iter().zip(picture);
+        lines.extend(named.map(|(row, entries)| format!("{entries}  {row}")));
         lines.push("```".to_string());
     }
     lines
 }
 
-/// A row for each closing joint and constraint.
-fn closings(layout: &Layout<'_>) -> Vec<Line> {
+/// A fact for each closing joint and constraint.
+pub(super) fn closings(layout: &Layout<'_>) -> Vec<ClosingFact> {
     let (model, structure) = (layout.model, layout.structure);
     let count = |closing: LoopClosure| {
         let kept = structure.rows.iter().filter(|row| row.closing == closing).count();
@@ -139,22 +151,27 @@ fn closings(layout: &Layout<'_>) -> Vec<Line> {
     };
     let cuts = model.cuts.iter().map(|id| {
         let joint = &model.joints[*id];
-        let (parent, child) = (frame(layout, &joint.parent), frame(layout, &joint.child));
-        let kind = joint.kind.word.to_string();
-        let cells = vec![kind, parent, child, count(LoopClosure::Cut(*id)), text(&joint.docs)];
-        row(layout, &joint.place, cells)
+        ClosingFact {
+            name: layout.name(&joint.place),
+            kind: joint.kind.word,
+            between: [carrier(layout, &joint.parent), carrier(layout, &joint.child)],
+            equations: count(LoopClosure::Cut(*id)),
+            text: text(&joint.docs),
+        }
     });
     let constraints = model.constraints.iter().enumerate().map(|(number, constraint)| {
-        let (kind, parent, child) = match &constraint.kind {
-            ConstraintKind::Value(_) if constraint.drive.is_some() => ("drive", String::new(), String::new()),
-            ConstraintKind::Value(_) => ("expression", String::new(), String::new()),
-            ConstraintKind::Rod { between, .. } => {
-                let [a, b] = &**between;
-                ("rod", frame(layout, a), frame(layout, b))
-            }
+        let (kind, between) = match &constraint.kind {
+            ConstraintKind::Value(_) if constraint.drive.is_some() => ("drive", [const { Some(String::new()) }; 2]),
+            ConstraintKind::Value(_) => ("expression", [const { Some(String::new()) }; 2]),
+            ConstraintKind::Rod { between, .. } => ("rod", between.each_ref().map(|frame| carrier(layout, frame))),
         };
-        let count = count(LoopClosure::Constraint(ConstraintId(number)));
-        row(layout, &constraint.place, vec![kind.to_string(), parent, child, count, text(&constraint.docs)])
+        ClosingFact {
+            name: layout.name(&constraint.place),
+            kind,
+            between,
+            equations: count(LoopClosure::Constraint(ConstraintId(number))),
+            text: text(&constraint.docs),
+        }
     });
     cuts.chain(constraints).collect()
 }

@@ -6,9 +6,10 @@ use crate::emit::Context;
 use crate::emit::methods::functions;
 use crate::optimize::program::{Doubt, Part, Unchecked};
 
-pub(in crate::emit) fn lines(context: &Context<'_>) -> Vec<String> {
-    let list = &context.compiled.unchecked;
-    if list.is_empty() {
+use super::facts::Facts;
+
+pub(super) fn lines(facts: &Facts) -> Vec<String> {
+    if facts.unchecked.is_empty() {
         return Vec::new();
     }
     let mut lines: Vec<String> = ["", "## Not checked in numbers", ""].map(String::from).into();
@@ -19,8 +20,13 @@ pub(in crate::emit) fn lines(context: &Context<'_>) -> Vec<String> {
             .to_string(),
     );
     lines.push(String::new());
-    lines.extend(list.iter().map(item));
+    lines.extend(facts.unchecked.iter().map(|item| format!("- {item}")));
     lines
+}
+
+/// What could not be checked, and why.
+pub(super) fn items(context: &Context<'_>) -> Vec<String> {
+    context.compiled.unchecked.iter().map(item).collect()
 }
 
 fn item(unchecked: &Unchecked) -> String {
@@ -30,7 +36,7 @@ fn item(unchecked: &Unchecked) -> String {
         Part::Inertia => "`System::without_inertia`".to_string(),
         Part::Law(between) => between.to_string(),
     };
-    format!("- {what}: {}", reason(unchecked.doubt))
+    format!("{what}: {}", reason(unchecked.doubt))
 }
 
 fn reason(doubt: Doubt) -> &'static str {

@@ -13,6 +13,7 @@ mod functions;
 pub(super) mod manipulations;
 pub(super) mod names;
 pub(super) mod orientation;
+pub(super) mod reads;
 mod springs;
 pub mod symbols;
 pub mod time;
