@@ -48,6 +48,31 @@ fn deep_chains_end() {
     assert_eq!(third, Vec::<String>::new());
 }
 
+/// No text in brackets does harm, whether it is a unit or nearly one.
+#[test]
+fn any_brackets_are_read() {
+    let pieces = [
+        "m", "kg", "N", "rad", "1", "2", "-", "^", "*", "/", "(", ")", " ", ".", "·", "²", "⁻", "%", "°", "e9", "µ",
+        "k",
+    ];
+    let mut state = 1_u64;
+    let mut next = |count: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % count
+    };
+    let mut params = String::new();
+    for k in 0..3000 {
+        let text: String = (0..next(9)).map(|_| pieces[next(pieces.len())]).collect();
+        write!(
+            params,
+            "#[doc = \"[{text}]\"] param p{k} = 1.0; output o{k} = p{k} + powi(p{k}, 9) / sqrt(p{k}) - powi(p{k}, 1000) * p{k};"
+        )
+        .expect("a string");
+    }
+    let said = quickly(move || said(&format!("mod m {{ {BODY} {params} }}")));
+    assert!(said.len() > 10 && said.iter().all(|line| line.contains("a sum needs one unit")), "{said:?}");
+}
+
 #[test]
 fn doubling_stays_small() {
     let doubled: String = (1..60).map(|k| format!("let a{k} = a{0} * a{0};", k - 1)).collect();

@@ -12,7 +12,7 @@ use crate::model::joint_kinds::JointKind;
 use crate::model::report::Report;
 use crate::model::types::{
     Body, Constraint, ConstraintKind, Coordinate, Docs, Drive, DriveTarget, Expr, Force, ForceKind, Handling, Joint,
-    JointId, Solve, SolveHow, State,
+    JointId, ParamId, Solve, SolveHow, State,
 };
 
 use super::declared::{Declared, declared};
@@ -122,27 +122,13 @@ impl Units {
         for task in &checker.tasks {
             match task.subject {
                 Subject::Named(id) => match checker.named.get(id.0).and_then(|named| named.known()) {
-                    Some(Meaning::Value(value)) => match value.expr.unit.clone() {
-                        Some(declared) => self.named(&value.expr, &declared),
-                        None => {
-                            self.expressions.of(&value.expr);
-                        }
-                    },
+                    Some(Meaning::Value(value)) => self.named(&value.expr),
                     Some(Meaning::Frame(frame)) => self.expressions.frame(&frame.frame),
                     _ => {}
                 },
                 Subject::Param(id) => {
-                    let Some(default) = checker.params.get(id.0).and_then(|slot| slot.default.as_ref()) else {
-                        continue;
-                    };
-                    let declared = self.expressions.params.get(id.0).and_then(Option::as_ref);
-                    let known = declared.map(|declared| (declared.name.clone(), Known::from(declared)));
-                    match known {
-                        Some((name, known)) => self.declares(default, &name, &known),
-                        None => {
-                            self.expressions.of(default);
-                        }
-                    }
+                    let default = checker.params.get(id.0).and_then(|slot| slot.default.as_ref());
+                    default.into_iter().for_each(|default| self.default(id, default));
                 }
                 _ => {}
             }
@@ -150,17 +136,40 @@ impl Units {
     }
 
     /// The unit of a name against that of its value.
-    fn named(&mut self, expr: &Expr, declared: &Rc<Declared>) {
+    fn named(&mut self, expr: &Expr) {
+        let Some(declared) = &expr.unit else {
+            self.expressions.of(expr);
+            return;
+        };
         let wanted = Known::from(&**declared);
         if let Some((span, _, found)) = self.expressions.misfit_beneath(expr, &wanted) {
             self.differs(span, &declared.name, &wanted, &found);
+            self.expressions.refused.insert(Rc::as_ptr(declared));
         }
     }
 
-    fn declares(&mut self, expr: &Expr, name: &str, wanted: &Known) {
-        if let Some((span, _, found)) = self.expressions.misfit(expr, wanted) {
-            self.differs(span, name, wanted, &found);
+    /// The unit of a param against that of its default.
+    fn default(&mut self, id: ParamId, default: &Expr) {
+        let Some(slot) = self.expressions.params.get_mut(id.0) else { return };
+        let Some(declared) = slot.take() else {
+            self.expressions.of(default);
+            return;
+        };
+        // A default does not speak of its param.
+        if self.declares(default, &declared.name, &Known::from(&declared))
+            && let Some(slot) = self.expressions.params.get_mut(id.0)
+        {
+            *slot = Some(declared);
         }
+    }
+
+    /// Whether it may.
+    fn declares(&mut self, expr: &Expr, name: &str, wanted: &Known) -> bool {
+        let found = self.expressions.misfit(expr, wanted);
+        if let Some((span, _, found)) = &found {
+            self.differs(*span, name, wanted, found);
+        }
+        found.is_none()
     }
 
     fn differs(&mut self, span: proc_macro2::Span, name: &str, wanted: &Known, found: &Known) {
@@ -255,7 +264,9 @@ impl Units {
             ConstraintKind::Value(value) => {
                 let name = constraint.place.field.to_string();
                 match declared(&name, &constraint.docs) {
-                    Some(declared) => self.declares(value, &name, &Known::from(&declared)),
+                    Some(declared) => {
+                        self.declares(value, &name, &Known::from(&declared));
+                    }
                     None => {
                         self.expressions.of(value);
                     }

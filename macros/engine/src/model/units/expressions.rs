@@ -3,7 +3,7 @@
 //! In: typed expressions, and what parameters, inputs and states declare. Out: what is known of their units, each node
 //! once; mistakes inside them. Nothing here recurses over the height of an expression.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
 use proc_macro2::Span;
@@ -15,11 +15,9 @@ use crate::model::types::{Expr, ExprNode, Frame, FrameStep, Function, Type, Vari
 use super::declared::Declared;
 use super::dimension::{Unit, number};
 use super::quantities::{self as quantity, OfCoordinate, Quantity};
+use super::squares;
 use super::table::DEGREE;
 use super::value::{Known, Text, Value};
-
-/// How far a product is looked through for its factors.
-const MOST_FACTORS: usize = 16;
 
 /// One mistake.
 pub(super) struct Mistake {
@@ -35,6 +33,8 @@ pub(super) struct Expressions {
     pub(super) states: Vec<Option<Declared>>,
     pub(super) joints: Vec<Option<&'static JointKind>>,
     pub(super) mistakes: Vec<Mistake>,
+    /// Units of names whose values have others: told once.
+    pub(super) refused: HashSet<*const Declared>,
     /// By node, which is kept so that no other takes its address.
     pub(super) known: HashMap<*const ExprNode, (Rc<ExprNode>, Value)>,
 }
@@ -47,15 +47,19 @@ impl Expressions {
     /// The unit of an expression.
     pub(super) fn of(&mut self, expr: &Expr) -> Value {
         match &expr.unit {
-            Some(declared) => Value::Known((&**declared).into()),
+            Some(declared) => self.of_name(declared),
             None => self.of_node(expr),
         }
+    }
+
+    fn of_name(&self, declared: &Rc<Declared>) -> Value {
+        if self.refused.contains(&Rc::as_ptr(declared)) { Value::Wrong } else { Value::Known((&**declared).into()) }
     }
 
     /// The unit of an expression that declares one, by what it is made of.
     pub(super) fn beneath(&mut self, expr: &Expr) -> Value {
         match expr.unit.as_ref().and_then(|declared| declared.beneath.as_ref()) {
-            Some(beneath) => Value::Known((&**beneath).into()),
+            Some(beneath) => self.of_name(beneath),
             None => self.of_node(expr),
         }
     }
@@ -83,7 +87,7 @@ impl Expressions {
     /// The unit of an operand, which has been found before.
     fn found(&self, expr: &Expr) -> Value {
         match &expr.unit {
-            Some(declared) => Value::Known((&**declared).into()),
+            Some(declared) => self.of_name(declared),
             None => self.found_node(expr),
         }
     }
@@ -100,6 +104,14 @@ impl Expressions {
             Value::Halved(known) if self.is_quadratic(expr) => Value::Known(known),
             other => other,
         }
+    }
+
+    /// Whether a product holds a square, and besides it something of a declared unit.
+    fn is_quadratic(&self, expr: &Expr) -> bool {
+        squares::beside(expr).into_iter().any(|factor| match self.found(factor) {
+            Value::Known(known) => known.declared && !known.unit.dimension.is_none(),
+            Value::Any | Value::Number | Value::Halved(_) | Value::Wrong => false,
+        })
     }
 
     fn calculated(&mut self, expr: &Expr) -> Value {
@@ -405,42 +417,6 @@ impl Expressions {
         };
         name.map_or_else(|| otherwise.to_string(), |name| format!("`{name}`"))
     }
-
-    /// Whether a product holds a square, and besides it something of a declared unit.
-    fn is_quadratic(&self, expr: &Expr) -> bool {
-        let mut factors: Vec<&Expr> = Vec::new();
-        let mut waiting = vec![expr];
-        while let Some(next) = waiting.pop() {
-            // What the product itself declares is not what it is made of.
-            let whole = next.unit.is_none() || std::ptr::eq(next, expr);
-            match &*next.node {
-                ExprNode::Mul(a, b) if whole => waiting.extend([a, b]),
-                ExprNode::Div(a, _) | ExprNode::Neg(a) if whole => waiting.push(a),
-                _ => factors.push(next),
-            }
-            if factors.len() + waiting.len() > MOST_FACTORS {
-                return false;
-            }
-        }
-        let mut rest: Vec<&Expr> = factors.clone();
-        if let Some(square) = factors.iter().position(|factor| is_square(factor, 2)) {
-            rest.remove(square);
-        } else {
-            let twice = |(k, factor): (usize, &&Expr)| {
-                let other = factors.iter().skip(k + 1).position(|other| is_same(factor, other, 4));
-                other.map(|distance| (k, k + 1 + distance))
-            };
-            let Some((first, second)) = factors.iter().enumerate().find_map(twice) else {
-                return false;
-            };
-            rest.remove(second);
-            rest.remove(first);
-        }
-        rest.into_iter().any(|factor| match self.found(factor) {
-            Value::Known(known) => known.declared && !known.unit.dimension.is_none(),
-            Value::Any | Value::Number | Value::Halved(_) | Value::Wrong => false,
-        })
-    }
 }
 
 fn of_item(items: &[Option<Declared>], index: usize) -> Value {
@@ -502,54 +478,6 @@ fn is_unit_vector(elements: &[Expr; 3]) -> bool {
     let mut sizes = elements.each_ref().map(size);
     sizes.sort_by(f64::total_cmp);
     sizes == [0.0, 0.0, 1.0]
-}
-
-/// Whether it is a square, or a sum of squares.
-fn is_square(expr: &Expr, depth: usize) -> bool {
-    if expr.unit.is_some() {
-        return false;
-    }
-    match &*expr.node {
-        ExprNode::Call(Function::Powi, arguments) => {
-            matches!(arguments.as_slice(), [_, exponent] if matches!(&*exponent.node, ExprNode::Number(x) if *x == 2.0))
-        }
-        ExprNode::Call(Function::Dot, arguments) => {
-            matches!(arguments.as_slice(), [a, b] if is_same(a, b, 4))
-        }
-        ExprNode::Mul(a, b) => is_same(a, b, 4),
-        ExprNode::Add(a, b) => depth > 0 && is_square(a, depth - 1) && is_square(b, depth - 1),
-        _ => false,
-    }
-}
-
-/// Whether two names, or members of them, are the same; `abs` changes no unit.
-fn is_same(a: &Expr, b: &Expr, depth: usize) -> bool {
-    if Rc::ptr_eq(&a.node, &b.node) {
-        return true;
-    }
-    if depth == 0 {
-        return false;
-    }
-    match (&*a.node, &*b.node) {
-        (ExprNode::Call(Function::Abs, inner), _) => inner.first().is_some_and(|inner| is_same(inner, b, depth - 1)),
-        (_, ExprNode::Call(Function::Abs, inner)) => inner.first().is_some_and(|inner| is_same(a, inner, depth - 1)),
-        (ExprNode::Time, ExprNode::Time) => true,
-        (ExprNode::Param(a), ExprNode::Param(b)) => a == b,
-        (ExprNode::Input(a), ExprNode::Input(b)) => a == b,
-        (ExprNode::State(a), ExprNode::State(b)) => a == b,
-        (ExprNode::RelativeAngularVelocity(a), ExprNode::RelativeAngularVelocity(b)) => a == b,
-        (
-            ExprNode::Coordinate { joint, index, order },
-            ExprNode::Coordinate { joint: joint2, index: index2, order: order2 },
-        ) => (joint, index, order) == (joint2, index2, order2),
-        (ExprNode::OfFrame(a, of), ExprNode::OfFrame(b, of2)) => {
-            of == of2 && a.body == b.body && a.steps.is_empty() && b.steps.is_empty()
-        }
-        (ExprNode::Index(a, k), ExprNode::Index(b, l)) | (ExprNode::Component(a, k), ExprNode::Component(b, l)) => {
-            k == l && is_same(a, b, depth - 1)
-        }
-        _ => false,
-    }
 }
 
 /// How what differs by a factor alone becomes the other.

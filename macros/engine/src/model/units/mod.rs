@@ -32,6 +32,7 @@ pub(super) mod dimension;
 mod expressions;
 mod parse;
 pub(super) mod quantities;
+mod squares;
 mod table;
 mod value;
 
