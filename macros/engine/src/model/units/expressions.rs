@@ -10,7 +10,7 @@ use proc_macro2::Span;
 
 use crate::invariant::fault::OrFault;
 use crate::model::joint_kinds::JointKind;
-use crate::model::types::{Expr, ExprNode, Frame, FrameStep, Function, Type, Variable};
+use crate::model::types::{Expr, ExprNode, Frame, FrameQuantity, FrameStep, Function, JointId, Order, Variable};
 
 use super::declared::Declared;
 use super::dimension::{Unit, number};
@@ -122,14 +122,8 @@ impl Expressions {
             ExprNode::Param(id) => of_item(&self.params, id.0),
             ExprNode::Input(id) => of_item(&self.inputs, id.0),
             ExprNode::State(id) => of_item(&self.states, id.0),
-            ExprNode::Coordinate { joint, index, order } => {
-                let kind = self.joints.get(joint.0).copied().flatten();
-                kind.map_or(Value::Any, |kind| OfCoordinate::of(kind, *index).order(*order).into())
-            }
-            ExprNode::Effort { joint, index } => {
-                let kind = self.joints.get(joint.0).copied().flatten();
-                kind.map_or(Value::Any, |kind| OfCoordinate::of(kind, *index).effort.into())
-            }
+            ExprNode::Coordinate { joint, index, order } => self.coordinate(*joint, *index, |of| of.order(*order)),
+            ExprNode::Effort { joint, index } => self.coordinate(*joint, *index, |of| of.effort),
             ExprNode::RelativeAngularVelocity(_) => quantity::ANGULAR_VELOCITY.into(),
             ExprNode::OfFrame(frame, what) => {
                 self.frame(frame);
@@ -151,24 +145,23 @@ impl Expressions {
                 self.found(vector)
             }
             ExprNode::Derivative { of, by, .. } => self.found(of).combined(self.variable(*by), Unit::over),
-            ExprNode::Substituted { of, .. } => self.found(of),
-            ExprNode::MassMatrix(_) => Value::Any,
-            ExprNode::Bias(coordinate) => {
-                let kind = self.joints.get(coordinate.joint.0).copied().flatten();
-                kind.map_or(Value::Any, |kind| OfCoordinate::of(kind, coordinate.index).effort.into())
+            ExprNode::Substituted { of, pairs } => {
+                for (variable, value) in pairs {
+                    self.put(*variable, value);
+                }
+                self.found(of)
             }
+            ExprNode::MassMatrix([row, column]) => {
+                let acceleration = self.coordinate(column.joint, column.index, |of| of.order(Order::Acceleration));
+                self.coordinate(row.joint, row.index, |of| of.effort).combined(acceleration, Unit::over)
+            }
+            ExprNode::Bias(row) => self.coordinate(row.joint, row.index, |of| of.effort),
             ExprNode::Vec3(elements) if is_unit_vector(elements) => Value::Number,
             ExprNode::Vec3(elements) => self.elements(elements),
             ExprNode::Array(elements) => self.elements(elements),
             ExprNode::Index(inner, _) | ExprNode::Component(inner, _) | ExprNode::Neg(inner) => self.found(inner),
-            ExprNode::Linear(of) => match of.ty {
-                Type::Wrench => quantity::FORCE.into(),
-                _ => quantity::VELOCITY.into(),
-            },
-            ExprNode::Angular(of) => match of.ty {
-                Type::Wrench => quantity::TORQUE.into(),
-                _ => quantity::ANGULAR_VELOCITY.into(),
-            },
+            ExprNode::Linear(of) => halves(of).map_or(Value::Any, |(linear, _)| linear.into()),
+            ExprNode::Angular(of) => halves(of).map_or(Value::Any, |(_, angular)| angular.into()),
             ExprNode::Add(a, b) | ExprNode::Sub(a, b) => self.one_unit(a, b, "a sum"),
             ExprNode::RotationAbout { angle, .. } => self.angles([angle]),
             ExprNode::RollPitchYaw(angles) => self.angles(angles),
@@ -194,13 +187,28 @@ impl Expressions {
         match variable {
             Variable::Time => quantity::TIME.into(),
             Variable::Coordinate(coordinate, order) => {
-                let kind = self.joints.get(coordinate.joint.0).copied().flatten();
-                kind.map_or(Value::Any, |kind| OfCoordinate::of(kind, coordinate.index).order(order).into())
+                self.coordinate(coordinate.joint, coordinate.index, |of| of.order(order))
             }
             Variable::State(id) => of_item(&self.states, id.0),
             Variable::Param(id, _) => of_item(&self.params, id.0),
             Variable::Input(id, _) => of_item(&self.inputs, id.0),
         }
+    }
+
+    /// What is put in the place of a variable.
+    fn put(&mut self, variable: Variable, value: &Expr) {
+        if let Value::Known(wanted) = self.variable(variable)
+            && let Some((span, what, found)) = self.misfit(value, &wanted)
+        {
+            let message = format!("the variable is in {}, {what} is in {}", wanted.text(), found.text());
+            self.mistake(span, message, conversion(&found, &wanted, &what));
+        }
+    }
+
+    /// What belongs to a coordinate.
+    fn coordinate(&self, joint: JointId, index: usize, what: impl Fn(&OfCoordinate) -> Quantity) -> Value {
+        let kind = self.joints.get(joint.0).copied().flatten();
+        kind.map_or(Value::Any, |kind| what(OfCoordinate::of(kind, index)).into())
     }
 
     fn call(&mut self, function: Function, arguments: &[Expr]) -> Value {
@@ -466,6 +474,15 @@ fn operands(node: &ExprNode) -> Vec<&Expr> {
         | ExprNode::And(a, b)
         | ExprNode::Or(a, b) => vec![a, b],
         ExprNode::Select(condition, a, b) => vec![condition, a, b],
+    }
+}
+
+/// Linear and angular part of a twist or wrench of the language itself; of what is made of one nothing is known.
+fn halves(of: &Expr) -> Option<(Quantity, Quantity)> {
+    match &*of.node {
+        ExprNode::OfFrame(_, FrameQuantity::Twist) => Some((quantity::VELOCITY, quantity::ANGULAR_VELOCITY)),
+        ExprNode::Reaction { .. } => Some((quantity::FORCE, quantity::TORQUE)),
+        _ => None,
     }
 }
 
