@@ -3,7 +3,7 @@
 use multibody_engine::emit::{self, Declared, Facts};
 use multibody_engine::mechanics::written;
 use multibody_engine::optimize::program::{Function, Rival};
-use multibody_engine::symbolic::write::{latex, mathml};
+use multibody_engine::symbolic::write::{latex, mathml, text};
 
 use super::Material;
 use super::document::{Block, Document, Line, Section, Table};
@@ -60,7 +60,7 @@ fn lead(material: &Material<'_>) -> Vec<String> {
         counted(structure.state.len(), "velocity coordinate", "velocity coordinates"),
     ];
     if !facts.closings.is_empty() {
-        sizes.push(counted(facts.closings.len(), "closure of a loop", "closures of loops"));
+        sizes.push(counted(facts.closings.len(), "loop closure", "loop closures"));
         sizes.push(counted(structure.rows.len(), "equation with a multiplier", "equations with multipliers"));
     }
     if !model.states.is_empty() {
@@ -225,7 +225,7 @@ fn costs(material: &Material<'_>) -> Option<Section> {
     let compiled = material.compiled;
     let name = |function: &Function| code(&emit::function_name(function.kind));
     let told: Vec<&Function> = material.facts.functions.iter().map(|&number| &compiled.functions[number]).collect();
-    let heads = ["function"].into_iter().chain(KINDS).chain(["work"]).chain(KINDS).chain(["work", "left"]);
+    let heads = ["function"].into_iter().chain(KINDS).chain(["work"]).chain(KINDS).chain(["work", "of derived"]);
     let mut table = Table::new(heads, 1);
     table.titles = vec![(1, ""), (7, "as derived"), (7, "as emitted"), (1, "")];
     let cells = |cost| numbers(&cost).map(|n| n.to_string());
@@ -241,15 +241,14 @@ fn costs(material: &Material<'_>) -> Option<Section> {
         let row = [name(function)].into_iter().chain(cells(before)).chain([before.weight().to_string()]);
         table.rows.push(row.chain(cells(after)).chain([after.weight().to_string(), left]).collect());
     }
-    let mut blocks = vec![
-        Block::Words(
-            "Work counts additions, products, selections and comparisons as 1, quotients and roots as 8, sines with their \
-             cosines and other functions as 20. What parameters alone decide is done once, in `new`."
-                .to_owned(),
-        ),
-        Block::Table(table),
-        Block::Heading("Candidates".to_owned()),
-    ];
+    let mut says =
+        "Work counts additions, products, selections and comparisons as 1, quotients and roots as 8, sines with their \
+                    cosines and other functions as 20. What parameters alone decide is done once, in `new`."
+            .to_owned();
+    if material.structure.guesses() > 0 {
+        says.push_str(" Of Newton's method one round counts.");
+    }
+    let mut blocks = vec![Block::Words(says), Block::Table(table), Block::Heading("Candidates".to_owned())];
     let mut table = Table::new(["function", "method", "work", "against the one taken"], 2);
     for function in &told {
         let least = function.after.weight();
@@ -300,8 +299,9 @@ fn equations(material: &Material<'_>) -> Option<Section> {
 }
 
 fn line(line: &written::Line) -> Line {
-    let (mathml, latex) = (mathml::equation(&line.equation), latex::equation(&line.equation));
-    Line { mathml, latex, says: line.says.clone() }
+    let equation = &line.equation;
+    let (mathml, latex, text) = (mathml::equation(equation), latex::equation(equation), text::equation(equation));
+    Line { mathml, latex, text, says: line.says.clone() }
 }
 
 fn remarks(material: &Material<'_>) -> Option<Section> {

@@ -45,10 +45,12 @@ pub(crate) struct Figure {
     pub(crate) legend: Vec<(&'static str, &'static str)>,
 }
 
-/// An equation in both languages, and what is said of it.
+/// An equation in all languages, and what is said of it.
 pub(crate) struct Line {
     pub(crate) mathml: String,
     pub(crate) latex: String,
+    /// In letters, which lines break.
+    pub(crate) text: String,
     pub(crate) says: Option<String>,
 }
 

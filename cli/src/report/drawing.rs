@@ -32,13 +32,16 @@ const MOST_NAMES: usize = 26;
 /// Colours of bodies, as classes.
 const COLOURS: usize = 8;
 
-const LEGEND: [(&str, &str); 6] = [
+const LEGEND: [(&str, &str); 9] = [
     ("axis-x", "x axis of a frame"),
     ("axis-y", "y"),
     ("axis-z", "z"),
     ("mark-turns", "joint that turns"),
     ("mark-slides", "joint that slides"),
     ("mark-closes", "joint that closes a loop"),
+    ("mark-centre", "centre of mass"),
+    ("rods", "rod"),
+    ("springs", "spring or damper"),
 ];
 
 /// From metres to the sheet.
@@ -99,6 +102,8 @@ pub(super) fn figure(name: &str, scene: &Scene) -> Figure {
         "mark-turns" => scene.joints.iter().any(|joint| shape(joint) == "turns" && !joint.closes),
         "mark-slides" => scene.joints.iter().any(|joint| shape(joint) == "slides" && !joint.closes),
         "mark-closes" => scene.joints.iter().any(|joint| joint.closes),
+        "rods" => !scene.rods.is_empty(),
+        "springs" => !scene.springs.is_empty(),
         _ => true,
     };
     Figure { svg, text: String::new(), caption, legend: LEGEND.into_iter().filter(|(class, _)| shown(class)).collect() }

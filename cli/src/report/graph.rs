@@ -134,7 +134,7 @@ impl Graph {
     fn svg(&self, name: &str) -> String {
         let sizes: Vec<[f64; 2]> = self.nodes.iter().map(Node::size).collect();
         // What carries stands straight before what it carries.
-        let pull = |edge: &Edge| if edge.closes { 1.0 } else { 8.0 };
+        let pull = |edge: &Edge| if edge.closes { 1.0 } else { layers::STRAIGHT };
         let edges = self.edges.iter().map(|edge| layers::Edge { from: edge.from, to: edge.to, pull: pull(edge) });
         let edges: Vec<layers::Edge> = edges.collect();
         let placed = |downwards: bool| {

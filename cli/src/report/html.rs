@@ -99,8 +99,16 @@ fn figure(out: &mut String, figure: &Figure) {
     let _ = writeln!(out, "{}</figcaption>\n</figure>", words(&figure.caption));
 }
 
+/// Longer ones are wider than paper, and are printed in letters.
+const MOST_PRINTED: usize = 90;
+
 fn equation(out: &mut String, line: &Line) {
-    let _ = writeln!(out, "<div class=\"wide equation\">{}</div>", line.mathml);
+    let long = line.text.chars().count() > MOST_PRINTED;
+    let class = if long { "wide equation long" } else { "wide equation" };
+    let _ = writeln!(out, "<div class=\"{class}\">{}</div>", line.mathml);
+    if long {
+        let _ = writeln!(out, "<p class=\"letters\"><code>{}</code></p>", escaped(&line.text));
+    }
     if let Some(says) = &line.says {
         let _ = writeln!(out, "<p class=\"says\">{}</p>", words(says));
     }

@@ -26,8 +26,15 @@ pub(super) struct Gaps {
     pub(super) across: f64,
 }
 
-/// Rounds of ordering, and of moving.
+/// Rounds of ordering, of moving, and of moving what holds nothing.
 const ROUNDS: usize = 12;
+const SETTLING: usize = 8;
+
+/// An edge that pulls as much is to run straight, as those between two bends of one edge do.
+pub(super) const STRAIGHT: f64 = 8.0;
+
+/// What has settled pushes others aside.
+const SETTLED: f64 = 1e6;
 
 /// How wide an edge is where it passes a layer.
 const BEND: f64 = 10.0;
@@ -43,17 +50,20 @@ pub(super) struct Edge {
 /// By vertex: neighbours in the layer before and in the layer behind, with the pull of the edge.
 type Neighbours = Vec<[Vec<(usize, f64)>; 2]>;
 
+/// Where a vertex wants to be, given where all are, and how much it weighs.
+type Wish<'a> = &'a dyn Fn(&[f64], usize) -> (f64, f64);
+
 pub(super) fn place(vertices: &[Vertex], edges: &[Edge], gaps: Gaps) -> Placed {
     let mut all = vertices.to_vec();
     let mut neighbours: Neighbours = vec![Default::default(); all.len()];
     let mut bends: Vec<Vec<usize>> = Vec::new();
     for &Edge { from, to, pull } in edges {
-        let (mut last, mut own) = (from, Vec::new());
+        let (mut last, mut own): (usize, Vec<usize>) = (from, Vec::new());
         for layer in vertices[from].layer + 1..vertices[to].layer {
             all.push(Vertex { along: BEND, across: 0.0, layer });
             neighbours.push(Default::default());
             let bend = all.len() - 1;
-            connect(&mut neighbours, last, bend, pull);
+            connect(&mut neighbours, last, bend, if own.is_empty() { pull } else { STRAIGHT });
             own.push(bend);
             last = bend;
         }
@@ -61,7 +71,7 @@ pub(super) fn place(vertices: &[Vertex], edges: &[Edge], gaps: Gaps) -> Placed {
         bends.push(own);
     }
     let layers = ordered(&all, &neighbours);
-    let along = moved(&all, &neighbours, &layers, gaps.along);
+    let along = moved(&all, vertices.len(), &neighbours, &layers, gaps.along);
     let thickness: Vec<f64> =
         layers.iter().map(|layer| layer.iter().fold(0.0, |most: f64, &v| most.max(all[v].across))).collect();
     let mut across = Vec::new();
@@ -158,8 +168,8 @@ fn crossings(layers: &[Vec<usize>], neighbours: &Neighbours) -> usize {
     count
 }
 
-/// Centres along the layers.
-fn moved(all: &[Vertex], neighbours: &Neighbours, layers: &[Vec<usize>], gap: f64) -> Vec<f64> {
+/// Centres along the layers; the first so many vertices are no bends.
+fn moved(all: &[Vertex], real: usize, neighbours: &Neighbours, layers: &[Vec<usize>], gap: f64) -> Vec<f64> {
     let mut at = vec![0.0; all.len()];
     for layer in layers {
         let mut end = 0.0;
@@ -168,40 +178,44 @@ fn moved(all: &[Vertex], neighbours: &Neighbours, layers: &[Vec<usize>], gap: f6
             end += all[v].along + gap;
         }
     }
-    for round in 0..2 * ROUNDS {
-        let forwards = round % 2 == 0;
-        let order: Vec<usize> = if forwards { (0..layers.len()).collect() } else { (0..layers.len()).rev().collect() };
-        for layer in order {
-            // The last rounds look both ways, so that what stands alone on a vertex stands straight on it.
-            let near = |v: usize| -> Vec<(usize, f64)> {
-                let [before, after] = &neighbours[v];
-                match (forwards, round + 4 < 2 * ROUNDS) {
-                    (_, false) => before.iter().chain(after).copied().collect(),
-                    (true, true) => before.clone(),
-                    (false, true) => after.clone(),
-                }
-            };
-            let wanted: Vec<f64> = layers[layer]
-                .iter()
-                .map(|&v| {
-                    let near = near(v);
-                    let pull: f64 = near.iter().map(|&(_, pull)| pull).sum();
-                    let sum: f64 = near.iter().map(|&(n, pull)| pull * at[n]).sum();
-                    if near.is_empty() { at[v] } else { sum / pull }
-                })
-                .collect();
-            let sizes: Vec<f64> = layers[layer].iter().map(|&v| all[v].along).collect();
-            for (&v, x) in layers[layer].iter().zip(apart(&wanted, &sizes, gap)) {
-                at[v] = x;
-            }
-        }
+    let mean = |at: &[f64], near: &mut dyn Iterator<Item = &(usize, f64)>| {
+        let (sum, pull) = near.fold((0.0, 0.0), |(sum, all), &(n, pull)| (sum + pull * at[n], all + pull));
+        (pull > 0.0).then(|| sum / pull)
+    };
+    let mut move_layer = |layer: &[usize], wish: Wish<'_>| {
+        let wanted: Vec<(f64, f64)> = layer.iter().map(|&v| wish(&at, v)).collect();
+        let sizes: Vec<f64> = layer.iter().map(|&v| all[v].along).collect();
+        layer.iter().zip(apart(&wanted, &sizes, gap)).for_each(|(&v, x)| at[v] = x);
+    };
+    for _ in 0..ROUNDS {
+        let towards =
+            |side: usize| move |at: &[f64], v: usize| (mean(at, &mut neighbours[v][side].iter()).unwrap_or(at[v]), 1.0);
+        layers.iter().for_each(|layer| move_layer(layer, &towards(0)));
+        layers.iter().rev().for_each(|layer| move_layer(layer, &towards(1)));
+    }
+    // What carries others stands in their middle; what hangs between others, and bends, find their places about it.
+    let is_firm = |v: usize| v < real && neighbours[v].iter().flatten().any(|&(n, pull)| pull >= STRAIGHT && n < real);
+    layers
+        .iter()
+        .for_each(|layer| move_layer(layer, &|at, v| (mean(at, &mut neighbours[v][0].iter()).unwrap_or(at[v]), 1.0)));
+    let carried = |at: &[f64], v: usize| {
+        let mut firm = neighbours[v][1].iter().filter(|&&(n, pull)| pull >= STRAIGHT && n < real);
+        (mean(at, &mut firm).unwrap_or(at[v]), 1.0)
+    };
+    layers.iter().rev().for_each(|layer| move_layer(layer, &carried));
+    let loose = |at: &[f64], v: usize| match is_firm(v) {
+        true => (at[v], SETTLED),
+        false => (mean(at, &mut neighbours[v].iter().flatten()).unwrap_or(at[v]), 1.0),
+    };
+    for _ in 0..SETTLING {
+        layers.iter().for_each(|layer| move_layer(layer, &loose));
     }
     let least = (0..all.len()).map(|v| at[v] - all[v].along / 2.0).fold(f64::INFINITY, f64::min);
     at.iter().map(|x| x - least).collect()
 }
 
-/// The places nearest to those that are wanted, in this order and without overlaps.
-fn apart(wanted: &[f64], sizes: &[f64], gap: f64) -> Vec<f64> {
+/// The places nearest to those that are wanted, each with its weight, in this order and without overlaps.
+fn apart(wanted: &[(f64, f64)], sizes: &[f64], gap: f64) -> Vec<f64> {
     let mut offset = 0.0;
     let mut offsets = Vec::new();
     for (k, size) in sizes.iter().enumerate() {
@@ -210,18 +224,18 @@ fn apart(wanted: &[f64], sizes: &[f64], gap: f64) -> Vec<f64> {
         }
         offsets.push(offset);
     }
-    // Pools of neighbours that would overlap: their mean and how many they are.
-    let mut pools: Vec<(f64, usize)> = Vec::new();
-    for (x, offset) in wanted.iter().zip(&offsets) {
-        pools.push((x - offset, 1));
-        while let [.., (a, m), (b, n)] = pools[..]
+    // Pools of neighbours that would overlap: their mean, their weight and how many they are.
+    let mut pools: Vec<(f64, f64, usize)> = Vec::new();
+    for (&(x, weight), offset) in wanted.iter().zip(&offsets) {
+        pools.push((x - offset, weight, 1));
+        while let [.., (a, u, m), (b, v, n)] = pools[..]
             && a > b
         {
             pools.truncate(pools.len() - 2);
-            pools.push(((a * m as f64 + b * n as f64) / (m + n) as f64, m + n));
+            pools.push(((a * u + b * v) / (u + v), u + v, m + n));
         }
     }
-    let means = pools.iter().flat_map(|&(mean, count)| std::iter::repeat_n(mean, count));
+    let means = pools.iter().flat_map(|&(mean, _, count)| std::iter::repeat_n(mean, count));
     means.zip(&offsets).map(|(mean, offset)| mean + offset).collect()
 }
 
@@ -241,7 +255,9 @@ mod tests {
 
     #[test]
     fn neighbours_do_not_overlap_and_stand_near() {
-        assert_eq!(apart(&[0.0, 0.0, 100.0], &[10.0, 10.0, 10.0], 2.0), [-6.0, 6.0, 100.0]);
+        assert_eq!(apart(&[(0.0, 1.0), (0.0, 1.0), (100.0, 1.0)], &[10.0, 10.0, 10.0], 2.0), [-6.0, 6.0, 100.0]);
+        // One that weighs three times as much moves a third.
+        assert_eq!(apart(&[(0.0, 3.0), (0.0, 1.0)], &[10.0, 10.0], 2.0), [-3.0, 9.0]);
         // Two children stand about their parent.
         let placed = place(&vertices(&[0, 1, 1]), &edges(&[(0, 1), (0, 2)]), GAPS);
         let [parent, a, b] = placed.vertices[..] else { panic!() };

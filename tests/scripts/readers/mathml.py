@@ -57,7 +57,7 @@ class Reader:
     def peek(self, *signs):
         if self.at == len(self.elements) or self.elements[self.at].tag != "mo":
             return None
-        sign = self.elements[self.at].text
+        sign = (self.elements[self.at].text or "").replace("\N{MINUS SIGN}", "-")
         return sign if sign in signs else None
 
     def take(self, *signs):

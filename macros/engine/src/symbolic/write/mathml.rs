@@ -62,7 +62,7 @@ fn put(text: &mut String, formula: &Formula) {
         Formula::Pi => text.push_str("<mi>π</mi>"),
         Formula::Name(identifier) => text.push_str(&name(identifier)),
         Formula::Minus(x) => {
-            text.push_str("<mo>-</mo>");
+            text.push_str("<mo>−</mo>");
             bracketed(text, x, matches!(**x, Formula::Sum(_) | Formula::Minus(_)));
         }
         Formula::Sum(terms) => {
@@ -70,7 +70,7 @@ fn put(text: &mut String, formula: &Formula) {
                 text.push_str(match (k, minus) {
                     (0, false) => "",
                     (_, false) => "<mo>+</mo>",
-                    (_, true) => "<mo>-</mo>",
+                    (_, true) => "<mo>−</mo>",
                 });
                 bracketed(text, term, matches!(term, Formula::Sum(_) | Formula::Minus(_)));
             }
@@ -117,7 +117,7 @@ fn put(text: &mut String, formula: &Formula) {
         Formula::Cases(parts) => {
             let [condition, yes, no] = &**parts;
             text.push_str(&format!(
-                "<mrow><mo>{{</mo><mtable><mtr><mtd>{}</mtd><mtd><mtext>if </mtext>{}</mtd></mtr>\
+                "<mrow><mo>{{</mo><mtable><mtr><mtd>{}</mtd><mtd><mtext>if&#160;</mtext>{}</mtd></mtr>\
                  <mtr><mtd>{}</mtd><mtd><mtext>else</mtext></mtd></mtr></mtable></mrow>",
                 row(yes),
                 row(condition),
