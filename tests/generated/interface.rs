@@ -7,10 +7,11 @@ mod looped_sample;
 mod samples;
 
 use std::path::Path;
-use std::process::Command;
 
 use multibody_engine::emit::{emit, source};
 use multibody_tests::support::data::path;
+
+use crate::cargo;
 
 /// What a user would write around the module.
 const MAIN: &str = r#"
@@ -90,18 +91,13 @@ fn loops_against_the_runtime() {
     let runtime = path("../runtime").display().to_string();
     let manifest = format!(
         "[workspace]\n\n[package]\nname = \"interface\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n\
-         [dependencies]\nmultibody = {{ path = {runtime:?} }}\n\n[profile.dev.package.\"*\"]\ndebug = false\n"
+         [dependencies]\nmultibody = {{ path = {runtime:?} }}\n"
     );
     std::fs::write(root.join("Cargo.toml"), manifest).unwrap();
     let lib = format!("//! Generated.\n#![deny(warnings, missing_docs)]\n{looped}");
     std::fs::write(root.join("src/lib.rs"), lib).unwrap();
     let main = format!("//! Generated.\n#![deny(warnings)]\nuse interface::looped;\n{MAIN}");
     std::fs::write(root.join("src/main.rs"), main).unwrap();
-    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    command.args(["run", "--offline", "--quiet"]).current_dir(&root);
-    // With other workspaces that stand apart, so that the library is built once.
-    command.env("CARGO_TARGET_DIR", root.join("../apart"));
-    command.env_remove("RUSTFLAGS").env_remove("RUST_MIN_STACK");
-    let output = command.output().unwrap();
+    let output = cargo("run", &root).args(["--offline", "--quiet"]).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
 }

@@ -1,8 +1,7 @@
 //! Code in single precision holds no instruction of double precision, but for what decides about steps and iterations:
 //! the optimised assembly of `tests/single`.
 
-use std::path::Path;
-use std::process::Command;
+use crate::{apart, cargo, host};
 
 /// Arithmetic, comparison and conversion of doubles on x86-64, scalar or packed, with or without the `v` of AVX and FMA.
 /// Moves, shuffles and logic do not count: compilers move pairs of floats as one double.
@@ -72,21 +71,14 @@ fn steps_in_single_precision_hold_no_double() {
         println!("skipped: the assembly of another machine than x86-64");
         return;
     }
-    // With other workspaces that stand apart, so that the library is built once.
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("apart");
-    let output = Command::new(env!("CARGO"))
-        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/single"))
-        .env("CARGO_TARGET_DIR", &target)
-        .env_remove("RUSTFLAGS")
-        .env_remove("CARGO_ENCODED_RUSTFLAGS")
-        .env_remove("CARGO_BUILD_RUSTFLAGS")
-        .args(["rustc", "--locked", "--release", "--lib", "--", "--emit", "asm"])
+    let output = cargo("rustc", concat!(env!("CARGO_MANIFEST_DIR"), "/single"))
+        .args(["--locked", "--lib", "--", "--emit", "asm"])
         .output()
         .unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
 
     // The newest one: older builds leave theirs.
-    let files = std::fs::read_dir(target.join("release/deps")).unwrap().map(|entry| entry.unwrap());
+    let files = std::fs::read_dir(apart().join(host()).join("debug/deps")).unwrap().map(|entry| entry.unwrap());
     let ours = files.filter(|file| {
         let name = file.file_name().into_string().unwrap();
         name.starts_with("multibody_single-") && name.ends_with(".s")

@@ -11,6 +11,8 @@ use multibody_engine::{mechanics, optimize};
 use multibody_tests::support::data::path;
 use multibody_tests::support::engine::model_of;
 
+use crate::cargo;
+
 const STATEMENTS: usize = 10_000;
 
 /// x[k] = 0.75 x[k - 1] - 0.5 x[far], with an angle among them now and then; and what it comes to.
@@ -65,7 +67,7 @@ fn ten_thousand_statements() {
     write(
         &root.join("Cargo.toml"),
         "[workspace]\nmembers = [\"level0\", \"level3\"]\nresolver = \"3\"\n\n\
-         [profile.dev]\nopt-level = 0\ndebug = \"full\"\n\n[profile.dev.package.\"*\"]\ndebug = false\n\n\
+         [profile.dev]\nopt-level = 0\ndebug = \"full\"\n\n\
          [profile.dev.package.level3]\nopt-level = 3\ndebug = \"full\"\n",
     );
     let lock = path("../Cargo.lock");
@@ -86,17 +88,14 @@ fn ten_thousand_statements() {
         );
         write(&root.join(level).join("Cargo.toml"), &manifest);
     }
-    let cargo = |arguments: &[&str]| {
-        let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-        command.args(arguments).current_dir(&root).env("CARGO_TARGET_DIR", root.join("../apart"));
-        command.env_remove("RUSTFLAGS").env_remove("RUST_MIN_STACK");
-        let output = command.output().unwrap();
+    let run = |command: &mut Command| {
+        let output = command.args(["--offline", "--quiet"]).output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         String::from_utf8(output.stdout).unwrap()
     };
-    cargo(&["build", "--offline", "--quiet"]);
+    run(&mut cargo("build", &root));
     for level in ["level0", "level3"] {
-        let printed: f64 = cargo(&["run", "--offline", "--quiet", "--package", level]).trim().parse().unwrap();
+        let printed: f64 = run(cargo("run", &root).args(["--package", level])).trim().parse().unwrap();
         // The same operations in the same order, unless sums are contracted; they are not.
         assert_eq!(printed, expected, "{level}");
     }
