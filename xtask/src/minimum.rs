@@ -22,6 +22,8 @@ pub(crate) fn run() -> Result<bool, Stop> {
     cargo.args(["run", version, "cargo", "check", "--locked", "--quiet"]).current_dir(root());
     // This program was started by another toolchain's cargo, whose choices are not to be inherited.
     cargo.env_remove("RUSTC").env_remove("RUSTDOC").env("CARGO_TARGET_DIR", root().join("target/minimum"));
+    // The engine inside the macro runs on one small example.
+    cargo.env("CARGO_PROFILE_DEV_BUILD_OVERRIDE_OPT_LEVEL", "0").env("CARGO_PROFILE_DEV_BUILD_OVERRIDE_DEBUG", "0");
     for package in PACKAGES {
         cargo.args(["--package", package]);
     }
