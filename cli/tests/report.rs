@@ -264,21 +264,32 @@ fn frames_stand_where_they_are() {
     }
 }
 
-/// A closed loop is drawn closed, and on the branch that its conditions choose.
+/// A closed loop is drawn closed, and on the branch that its conditions choose, whatever holds it.
 #[test]
 fn loops_are_drawn_closed() {
-    let text = page("four_bar.rs", "closed", &[]);
-    let html = parsed(&text);
-    let (marks, scale) = drawn(&html);
-    let at = |name: &str| marks.iter().find(|mark| mark.0 == name).unwrap().1;
-    let length = |a: &str, b: &str| (at(a)[0] - at(b)[0]).hypot(at(a)[1] - at(b)[1]) / scale;
-    for (a, b, expected) in
-        [("drive_shaft", "knee", 1.0), ("knee", "pin", 3.5), ("pivot", "pin", 3.0), ("drive_shaft", "pivot", 4.0)]
-    {
-        assert!((length(a, b) - expected).abs() < 0.01, "{a} to {b}: {}", length(a, b));
+    let reduced = std::fs::read_to_string(Path::new(DATA).join("four_bar.rs")).unwrap();
+    let held =
+        reduced.replace("constraints: Reduced", "constraints: Multipliers").replace(" { solve_for: torque }", "");
+    for (name, source) in [("reduced", &reduced), ("held", &held)] {
+        let folder = folder(&format!("closed-{name}"));
+        std::fs::create_dir_all(&folder).unwrap();
+        let file = folder.join("four_bar.rs");
+        std::fs::write(&file, source).unwrap();
+        let paths = written(file.to_str().unwrap(), &folder, &[]);
+        let text = std::fs::read_to_string(&paths[0]).unwrap();
+        let html = parsed(&text);
+        assert_eq!(letters(html.root_element()).contains("Constraint Jacobian"), name == "held");
+        let (marks, scale) = drawn(&html);
+        let at = |name: &str| marks.iter().find(|mark| mark.0 == name).unwrap().1;
+        let length = |a: &str, b: &str| (at(a)[0] - at(b)[0]).hypot(at(a)[1] - at(b)[1]) / scale;
+        for (a, b, expected) in
+            [("drive_shaft", "knee", 1.0), ("knee", "pin", 3.5), ("pivot", "pin", 3.0), ("drive_shaft", "pivot", 4.0)]
+        {
+            assert!((length(a, b) - expected).abs() < 0.01, "{name}, {a} to {b}: {}", length(a, b));
+        }
+        // sin(pivot - drive_shaft - knee) > 0: above the base; pictures grow downwards.
+        assert!(at("pin")[1] < at("pivot")[1] - 100.0, "{name}");
     }
-    // sin(pivot - drive_shaft - knee) > 0: above the base; pictures grow downwards.
-    assert!(at("pin")[1] < at("pivot")[1] - 100.0);
 }
 
 #[test]

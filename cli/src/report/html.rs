@@ -100,7 +100,7 @@ fn figure(out: &mut String, figure: &Figure) {
 }
 
 /// Longer ones are wider than paper, and are printed in letters.
-const MOST_PRINTED: usize = 90;
+const MOST_PRINTED: usize = 110;
 
 fn equation(out: &mut String, line: &Line) {
     let long = line.text.chars().count() > MOST_PRINTED;

@@ -22,6 +22,9 @@ pub(super) struct Drawn {
     pub(super) lines: Vec<[[f64; 2]; 2]>,
 }
 
+/// Where no place is better than this, as one is that covers three marks, a name would be more noise than help.
+const WORST: f64 = 80.0;
+
 /// Distances from the point that are tried, in pixels.
 const DISTANCES: [f64; 4] = [9.0, 15.0, 24.0, 36.0];
 
@@ -61,7 +64,7 @@ pub(super) fn place(wanted: &[Wanted], drawn: &Drawn, sheet: Box2) -> Vec<Option
                 }
             }
         }
-        let place = best.map(|(_, place)| place);
+        let place = best.filter(|(cost, _)| *cost < WORST).map(|(_, place)| place);
         taken.extend(place);
         places.push(place);
     }

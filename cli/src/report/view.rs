@@ -1,7 +1,7 @@
 //! Where a mechanism is looked at from.
 //!
 //! In: its points, axes of its joints, which way is up. Out: an orthographic view: across the plane in which the points
-//! stand, if they do; across the line, so that hinges are seen as circles; else from the front, the right and above.
+//! stand, if they do; across the line, so that hinges are seen as circles; else, and where all is one point, from the front, the right and above.
 
 use super::space::{AXES, Point, cross, dot, principal, scale, sub, unit};
 
@@ -32,9 +32,11 @@ impl View {
         if let Some(view) = View::of(points, up) {
             return view;
         }
-        // All stand on a line, or in one point.
-        let [(most, first), ..] = principal(points);
-        let along = if most > 0.0 { first } else { up };
+        let [(most, along), ..] = principal(points);
+        if most == 0.0 {
+            return View::spatial(up);
+        }
+        // All stand on a line.
         let score = |n: &Point| {
             let seen = |axes: &[Point]| axes.iter().map(|&axis| dot(axis, *n).abs()).sum::<f64>();
             seen(turns) - seen(slides)

@@ -36,6 +36,9 @@ pub struct Still {
 
 /// Frames, and vectors that depend on parameters at most, of a model that stands where it does by default.
 pub fn still(model: &Model, structure: &Structure, frames: &[Frame], vectors: &[&Expr]) -> Still {
+    // `solve` items say on which branch a loop is closed, whatever holds it in the generated functions.
+    let held = !structure.rows.is_empty();
+    let structure = &if held && !model.solves.is_empty() { structure.solved(model) } else { structure.clone() };
     let mut graph = Graph::new();
     let symbols = Symbols::new(&mut graph, model).with_structure(&mut graph, model, structure);
     let scene = Scene { structure: structure.clone().into(), ..Scene::new(model, symbols.into()) };
@@ -85,7 +88,7 @@ pub fn still(model: &Model, structure: &Structure, frames: &[Frame], vectors: &[
     Still {
         poses: of_frames.chunks(12).map(pose).collect(),
         vectors: of_vectors.chunks(3).map(|list| triple(list, 0)).collect(),
-        is_closed: closed.is_some() || structure.rows.is_empty() && structure.guesses() == 0,
+        is_closed: closed.is_some() || !held && structure.guesses() == 0,
     }
 }
 
