@@ -101,3 +101,82 @@ multibody! {
         emit forward_dynamics, mass_matrix;
     }
 }
+
+multibody! {
+    /// A motor on a disc: the current, and what is left of it where the inductance counts for nothing.
+    pub mod motor {
+        param resistance = 1.7;
+        param constant = 0.23;
+        param inductance = 0.004;
+        input voltage;
+        body disc { mass: 1.0, inertia: diag(0.1, 0.1, 0.02) }
+        joint shaft: Revolute { parent: ground, child: disc, axis: Z }
+        state current: rate = (voltage - resistance * current - constant * shaft.rate) / inductance, start: 0.0;
+        simplify current.rate == 0.0;
+        force drive: Effort { joint: shaft, value: constant * current }
+        output flowing = current;
+        emit forward_dynamics;
+    }
+    /// Two currents of one field that turns with the shaft, both without a rate, beside one that keeps its own.
+    pub mod field_motor {
+        input voltage: [Scalar; 2];
+        body disc { mass: 1.0, inertia: diag(0.1, 0.1, 0.02) }
+        joint shaft: Revolute { parent: ground, child: disc, axis: Z }
+        state direct: rate = (voltage[0] - 0.8 * direct + 0.3 * shaft.rate * quadrature) / 0.01, start: 0.0;
+        state quadrature: rate = (voltage[1] - 0.7 * quadrature - 0.2 * shaft.rate * direct) / 0.02, start: 0.0;
+        state heat: rate = 0.8 * direct * direct - 0.1 * heat, start: 1.0;
+        simplify direct.rate == 0.0;
+        simplify quadrature.rate == 0;
+        force drive: Effort { joint: shaft, value: 1.1 * quadrature }
+        output currents = [direct, quadrature];
+        emit forward_dynamics;
+    }
+    /// Equations of the user's own, linear ones and one of second degree.
+    pub mod unknowns {
+        param many: [Scalar; 3] = [1.3, -0.4, 2.2];
+        input pull: Vec3;
+        body disc { mass: 1.0, inertia: diag(0.1, 0.1, 0.02) }
+        joint shaft: Revolute { parent: ground, child: disc, axis: Z }
+        solve (a, b, c) from [
+            many[0] * a - b == pull.x + cos(shaft.angle) * c,
+            a + (2.0 + many[1]) * b + 0.5 * c == 3.0 * pull.y,
+            a * shaft.rate + c == pull.z - b,
+        ];
+        solve (lone) from many[2] * lone + 1.0 == pull.x;
+        solve (root) from root * (root + pull.x) == 4.0 + powi(shaft.angle, 2) { root > 0.0 }
+        solve (other) from root * other * other - 3.0 == 0.2 * other { other < pull.y }
+        output found = [a, b, c];
+        output alone = lone;
+        output roots = [root, other];
+        force drive: Effort { joint: shaft, value: a - 0.1 * root }
+        emit forward_dynamics;
+    }
+}
+
+/// A pole on a cart on a slope, with a second pole on the first.
+macro_rules! poles {
+    ($name:ident { $($more:tt)* }) => {
+        multibody! {
+            pub mod $name {
+                world { gravity: [0.7, -9.6, 0.0] }
+                input push;
+                body cart { mass: 1.3 }
+                body pole { mass: 0.4, com: [0.02, 0.4, 0.0], inertia: diag(0.02, 0.003, 0.02) }
+                body tip { mass: 0.2, com: [0.1, 0.3, 0.0], inertia: diag(0.01, 0.002, 0.011) }
+                joint track: Prismatic { parent: ground, child: cart, axis: X }
+                joint hinge: Revolute { parent: cart, child: pole, axis: Z }
+                joint second: Revolute { parent: pole.at(0.8 * Y), child: tip, axis: Z }
+                force motor: Effort { joint: track, value: push * cos(hinge.angle) - 0.3 * track.rate }
+                force drag: Effort { joint: second, value: -0.1 * second.rate * abs(track.rate) }
+                output place: Vec3 = tip.position;
+                emit forward_dynamics, inverse_dynamics, mass_matrix, bias, derivatives, linearize;
+                $($more)*
+            }
+        }
+    };
+}
+
+poles! { exact_poles {} }
+poles! { small_poles { simplify small(hinge); } }
+poles! { smaller_poles { simplify small(hinge, second.angle); } }
+poles! { held_poles { simplify hinge == 0.3; } }

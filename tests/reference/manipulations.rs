@@ -1,6 +1,9 @@
 //! `diff`, `substitute` and entries of matrices against dual numbers, and against what they are entries of.
 
-use multibody_tests::models::manipulations::{arm, bars, held_arm};
+use multibody::nalgebra::SVector;
+use multibody_tests::models::manipulations::{
+    arm, bars, exact_poles, field_motor, held_arm, held_poles, motor, small_poles, smaller_poles, unknowns,
+};
 use multibody_tests::support::random::Random;
 use num_dual::Dual64;
 
@@ -156,4 +159,161 @@ fn closed_loop() {
         close("inertia seen", &[y.inertia_seen], &[model.mass_matrix(&state.q)[(0, 0)]]);
         close("work", &[y.work], &[2.0]);
     }
+}
+
+/// Without inductance the current is that of the resistance: i = (u - k w) / R.
+#[test]
+fn motor_without_inductance() {
+    let model = motor::Model::<f64>::default();
+    let p = motor::Params::<f64>::default();
+    let mut random = Random::new(2);
+    for _ in 0..10 {
+        let (speed, voltage) = (9.0 * random.unit(), 24.0 * random.unit());
+        let state = motor::State { v: motor::Velocity { shaft: speed }, ..Default::default() };
+        let input = motor::Input { voltage };
+        let current = (voltage - p.constant * speed) / p.resistance;
+        close("current", &[model.outputs(0.0, &state, &input).flowing], &[current]);
+        let accel = model.forward_dynamics(0.0, &state, &input).shaft;
+        close("acceleration", &[accel], &[p.constant * current / 0.02]);
+    }
+}
+
+#[test]
+fn currents_that_depend_on_each_other() {
+    let model = field_motor::Model::<f64>::default();
+    let mut random = Random::new(3);
+    for _ in 0..10 {
+        let (speed, voltage) = (9.0 * random.unit(), [random.unit(), random.unit()]);
+        let state = field_motor::State { v: field_motor::Velocity { shaft: speed }, ..Default::default() };
+        let input = field_motor::Input { voltage };
+        // 0.8 d - 0.3 w q = u, 0.2 w d + 0.7 q = v
+        let det = 0.56 + 0.06 * speed * speed;
+        let direct = (0.7 * voltage[0] + 0.3 * speed * voltage[1]) / det;
+        let quadrature = (0.8 * voltage[1] - 0.2 * speed * voltage[0]) / det;
+        close("currents", model.outputs(0.0, &state, &input).currents.as_slice(), &[direct, quadrature]);
+        let rates = model.forward_dynamics(0.0, &state, &input);
+        close("rates", &[rates.v.shaft, rates.x.heat], &[1.1 * quadrature / 0.02, 0.8 * direct * direct - 0.1]);
+    }
+}
+
+#[test]
+fn equations_of_ones_own() {
+    let model = unknowns::Model::<f64>::default();
+    let mut random = Random::new(4);
+    for _ in 0..20 {
+        let (q, w) = (random.unit(), random.unit());
+        let (x, y, z) = (random.unit(), -3.0 + random.unit(), random.unit());
+        let state = unknowns::State {
+            q: unknowns::Position { shaft: q },
+            v: unknowns::Velocity { shaft: w },
+            ..Default::default()
+        };
+        let found = model.outputs(0.0, &state, &unknowns::Input { pull: [x, y, z].into() });
+        let [a, b, c] = [0, 1, 2].map(|k| found.found[k]);
+        let gaps = [1.3 * a - b - x - q.cos() * c, a + 1.6 * b + 0.5 * c - 3.0 * y, a * w + c - z + b];
+        close("gaps", &gaps, &[0.0; 3]);
+        close("alone", &[found.alone], &[(x - 1.0) / 2.2]);
+        let [root, other] = [found.roots[0], found.roots[1]];
+        assert!(root > 0.0);
+        close("root", &[root * (root + x)], &[4.0 + q * q]);
+        // Of the two values one is positive and never below; the other only where it lies below y.
+        let below = (0.2 - (0.04 + 12.0 * root).sqrt()) / (2.0 * root);
+        if below < y {
+            close("other", &[other], &[below]);
+        } else {
+            assert!(other.is_nan());
+        }
+    }
+}
+
+/// To first order in what is small, at fixed accelerations: by dual numbers about zero.
+macro_rules! small {
+    ($module:ident, $($part:ident),*) => {{
+        let (small, exact) = ($module::Model::<f64>::default(), exact_poles::Model::<Dual64>::default());
+        let mut random = Random::new(8);
+        for _ in 0..20 {
+            let q: [f64; 3] = std::array::from_fn(|_| random.unit());
+            let v: [f64; 3] = std::array::from_fn(|_| random.unit());
+            let a: [f64; 3] = std::array::from_fn(|_| random.unit());
+            let push = random.unit();
+            let is_small = |name: &str| [$(stringify!($part)),*].contains(&name);
+            let names = ["track", "hinge", "second"];
+            // The expansion's argument moves all that is small at once: f(0) + df(0).
+            let along = |k: usize, x: f64| {
+                if is_small(names[k]) { Dual64::new(0.0, x) } else { Dual64::from(x) }
+            };
+            let state = exact_poles::State {
+                q: exact_poles::Position { track: along(0, q[0]), hinge: along(1, q[1]), second: along(2, q[2]) },
+                v: exact_poles::Velocity { track: along(0, v[0]), hinge: along(1, v[1]), second: along(2, v[2]) },
+                ..Default::default()
+            };
+            let lift = |k: usize| Dual64::from(a[k]);
+            let accel = exact_poles::Velocity { track: lift(0), hinge: lift(1), second: lift(2) };
+            let input = exact_poles::Input { push: Dual64::from(push) };
+            let sum = |x: Dual64| x.re + x.eps;
+            let t = Dual64::from(0.0);
+            let want_efforts = exact.inverse_dynamics(t, &state, &input, &accel);
+            let want_matrix: Vec<f64> = exact.mass_matrix(&state.q).iter().map(|x| sum(*x)).collect();
+            let want_bias: Vec<f64> = exact.bias(t, &state, &input).iter().map(|x| sum(*x)).collect();
+            let state = $module::State {
+                q: $module::Position { track: q[0], hinge: q[1], second: q[2] },
+                v: $module::Velocity { track: v[0], hinge: v[1], second: v[2] },
+                ..Default::default()
+            };
+            let input = $module::Input { push };
+            let accel = $module::Velocity { track: a[0], hinge: a[1], second: a[2] };
+            let efforts = small.inverse_dynamics(0.0, &state, &input, &accel);
+            close(
+                "efforts",
+                &[efforts.track, efforts.hinge, efforts.second],
+                &[want_efforts.track, want_efforts.hinge, want_efforts.second].map(sum),
+            );
+            let matrix = small.mass_matrix(&state.q);
+            close("mass matrix", matrix.as_slice(), &want_matrix);
+            let bias = small.bias(0.0, &state, &input);
+            close("bias", bias.as_slice(), &want_bias);
+            // Accelerations solve the expanded equations.
+            let accel = small.forward_dynamics(0.0, &state, &input);
+            let rest = matrix * SVector::from([accel.track, accel.hinge, accel.second]) + bias;
+            close("rest", rest.as_slice(), &[0.0; 3]);
+        }
+    }};
+}
+
+#[test]
+fn small_motions() {
+    small!(small_poles, hinge);
+    small!(smaller_poles, hinge, second);
+}
+
+/// What is linear in all that moves is what the exact equations are linearised to.
+#[test]
+fn small_motions_and_the_linearised_equations() {
+    let state = smaller_poles::State::<f64>::default();
+    let small = smaller_poles::Model::<f64>::default().linearize(0.0, &state, &smaller_poles::Input { push: 0.4 });
+    let state = exact_poles::State::<f64>::default();
+    let exact = exact_poles::Model::<f64>::default().linearize(0.0, &state, &exact_poles::Input { push: 0.4 });
+    // Gravity and the push accelerate the poles at zero: by them the mass matrix moves on, to first order too.
+    close("A", small.a.as_slice(), exact.a.as_slice());
+    close("B", small.b.as_slice(), exact.b.as_slice());
+}
+
+#[test]
+fn what_is_held_leaves_the_state() {
+    assert_eq!((exact_poles::DOF, held_poles::DOF), (3, 2));
+    let (held, exact) = (held_poles::Model::<f64>::default(), exact_poles::Model::<f64>::default());
+    let state = held_poles::State {
+        q: held_poles::Position { track: 0.2, second: -0.7 },
+        v: held_poles::Velocity { track: 0.5, second: 1.1 },
+        ..Default::default()
+    };
+    let accel = held.forward_dynamics(0.0, &state, &held_poles::Input { push: 0.6 });
+    let state = exact_poles::State {
+        q: exact_poles::Position { track: 0.2, hinge: 0.3, second: -0.7 },
+        v: exact_poles::Velocity { track: 0.5, hinge: 0.0, second: 1.1 },
+        ..Default::default()
+    };
+    let accel = exact_poles::Velocity { track: accel.track, hinge: 0.0, second: accel.second };
+    let efforts = exact.inverse_dynamics(0.0, &state, &exact_poles::Input { push: 0.6 }, &accel);
+    close("efforts", &[efforts.track, efforts.second], &[0.0, 0.0]);
 }

@@ -31,7 +31,7 @@ use super::analysis::{Complaint, Writings};
 use super::loops::constraints::Writing;
 use super::loops::known::Decided;
 use super::loops::structure::{Role, Structure};
-use super::results::euler_singularities;
+use super::results::{euler_singularities, first_order};
 use super::scene::Method;
 use super::strut::inverse;
 use super::translate::dependencies::Dependencies;
@@ -243,15 +243,15 @@ impl<'m> Deriving<'m> {
     /// Whether every coordinate is in the state and no equation keeps a multiplier.
     fn is_open(&self) -> bool {
         let roles = self.structure.roles.iter().flatten();
-        self.structure.rows.is_empty() && roles.copied().all(|role| role == Role::State)
+        let is_exact = self.model.small.is_empty();
+        is_exact && self.structure.rows.is_empty() && roles.copied().all(|role| role == Role::State)
     }
 
     /// Derivatives, substitutions and entries are of what is in the state.
     fn check_manipulations(&self) -> Result<(), Vec<Complaint>> {
-        match manipulations::complaints(self.model, &self.structure) {
-            complaints if complaints.is_empty() => Ok(()),
-            complaints => Err(complaints),
-        }
+        let mut complaints = manipulations::complaints(self.model, &self.structure);
+        complaints.extend(first_order::complaints(self.model, &self.structure));
+        if complaints.is_empty() { Ok(()) } else { Err(complaints) }
     }
 
     /// Solutions are checked once, whatever is derived.

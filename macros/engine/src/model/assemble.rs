@@ -39,6 +39,8 @@ pub(super) struct Collected<'a> {
     pub(super) requested: Requested<'a>,
     /// `drive` and `solve`, which need to know what hangs on what.
     pub(super) deferred: Vec<Task<'a>>,
+    /// What is small.
+    pub(super) small: Vec<(&'a syn::Expr, ScopeId)>,
     world: bool,
     formulation: bool,
 }
@@ -53,6 +55,7 @@ pub(super) struct Loops {
     pub(super) independent: Vec<Coordinate>,
     pub(super) kinematics: Vec<Kinematics>,
     pub(super) skipped: Vec<String>,
+    pub(super) small: Vec<Coordinate>,
 }
 
 impl<'a> Checker<'a, '_> {
@@ -96,6 +99,7 @@ impl<'a> Checker<'a, '_> {
         }
         let mut skipped = topology.skipped;
         skipped.extend(loops.skipped);
+        skipped.extend(self.settled_states());
         Some(Model {
             params: params.into(),
             inputs: inputs.into(),
@@ -111,6 +115,7 @@ impl<'a> Checker<'a, '_> {
             handling: collected.handling.unwrap_or_default(),
             independent: loops.independent,
             skipped,
+            small: loops.small,
             solve_for: collected.requested.solve_for,
             kinematics: loops.kinematics,
             forces: all(collected.forces)?.into(),
@@ -145,6 +150,7 @@ impl<'a> Checker<'a, '_> {
             handling: Handling::default(),
             independent: Vec::new(),
             skipped: Vec::new(),
+            small: Vec::new(),
             solve_for: Vec::new(),
             kinematics: Vec::new(),
             forces: IndexVec::new(),
@@ -212,6 +218,9 @@ impl<'a> Checker<'a, '_> {
                 let constraint = self.constraints.get(id.0).cloned();
                 into.constraints.push(constraint.and_then(|slot| self.finish_constraint(&slot)));
             }
+            Subject::System(id) => {
+                self.solve_system(id);
+            }
             Subject::None => {}
         }
         if !matches!(task.item.kind, ItemKind::Body { .. } | ItemKind::Joint { .. } | ItemKind::Force { .. }) {
@@ -247,6 +256,8 @@ impl<'a> Checker<'a, '_> {
             ItemKind::Emit(requests) => self.emit(requests, scope, &mut into.requested),
             ItemKind::Assume(condition) => into.assumptions.push(self.assumption(condition, root(scope))),
             ItemKind::Drive { .. } | ItemKind::Solve { .. } => into.deferred.push(task),
+            ItemKind::Settled(state) => self.check_settled(state, scope),
+            ItemKind::Small(list) => into.small.extend(list.iter().map(|expr| (expr, scope))),
             ItemKind::Port { ty, .. } if ty != "Frame" && ty != tree::UNREADABLE => {
                 self.report.help(ty.span(), format!("a port is no `{ty}`"), "write `port name: Frame;`");
             }
@@ -277,6 +288,9 @@ impl<'a> Checker<'a, '_> {
         }
         if let Some((fields, scope)) = collected.independent {
             loops.independent = self.independent(fields, scope, tree);
+        }
+        for (expr, scope) in &collected.small {
+            loops.small.extend(self.small(expr, root(*scope), tree));
         }
         for (request, scope) in &collected.requested.kinematics {
             loops.kinematics.extend(self.kinematics(request, *scope, tree));

@@ -28,6 +28,9 @@ pub(super) struct ScopeId(pub(super) usize);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct NamedId(pub(super) usize);
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct SystemId(pub(super) usize);
+
 /// Bound on the expressions of one model, once all parts are expanded.
 const MAX_EXPRESSIONS: usize = 1_000_000;
 
@@ -64,6 +67,8 @@ pub(super) enum Symbol {
     Joint(JointId),
     Force(ForceId),
     Constraint(ConstraintId),
+    /// An unknown of equations of the user's own.
+    Unknown(SystemId, usize),
     Part(ScopeId),
     Parts(Rc<[ScopeId]>),
 }
@@ -80,6 +85,7 @@ impl Symbol {
             Symbol::Joint(_) => "joint",
             Symbol::Force(_) => "force",
             Symbol::Constraint(_) => "constraint",
+            Symbol::Unknown(..) => "solve",
             Symbol::Part(_) | Symbol::Parts(_) => "part",
         }
     }
@@ -147,6 +153,28 @@ pub(super) enum Role {
     Output,
     BoundParam,
     Port,
+}
+
+/// Equations of the user's own, for unknowns of theirs.
+pub(super) struct System<'a> {
+    pub(super) unknowns: Vec<&'a Ident>,
+    /// Number of the first unknown among those of all systems.
+    pub(super) first: usize,
+    pub(super) equations: Vec<Equation<'a>>,
+    /// What chooses one of several solutions.
+    pub(super) branches: &'a [syn::Expr],
+    pub(super) scope: ScopeId,
+    /// Of the item.
+    pub(super) span: Span,
+    pub(super) state: Lazy<Rc<[Typed]>>,
+}
+
+#[derive(Clone, Copy)]
+pub(super) enum Equation<'a> {
+    /// Two sides.
+    Equal(&'a syn::Expr, &'a syn::Expr),
+    /// A rate that is zero.
+    Settled(&'a syn::Expr),
 }
 
 /// What it takes to resolve a [`Named`].
@@ -217,6 +245,7 @@ pub(super) enum Subject {
     Joint(JointId),
     Force(ForceId),
     Constraint(ConstraintId),
+    System(SystemId),
 }
 
 pub(super) struct Checker<'a, 'd> {
@@ -226,6 +255,7 @@ pub(super) struct Checker<'a, 'd> {
     pub(super) report: &'a mut Report<'d>,
     pub(super) scopes: Vec<Scope<'a>>,
     pub(super) named: Vec<Named<'a>>,
+    pub(super) systems: Vec<System<'a>>,
     pub(super) part_types: Vec<PartType>,
     /// Module of each part type, and the params that its instances set, with the first instance's name.
     pub(super) part_modules: Vec<(usize, Vec<String>, String)>,
@@ -275,6 +305,7 @@ impl<'a, 'd> Checker<'a, 'd> {
             report,
             scopes: Vec::new(),
             named: Vec::new(),
+            systems: Vec::new(),
             part_types: Vec::new(),
             part_modules: Vec::new(),
             instances: Vec::new(),

@@ -60,6 +60,9 @@ pub(super) fn declared(kind: &ItemKind) -> Option<(&Ident, &'static str)> {
         | ItemKind::Drive { .. }
         | ItemKind::Solve { .. }
         | ItemKind::Assume(_)
+        | ItemKind::System { .. }
+        | ItemKind::Small(_)
+        | ItemKind::Settled(_)
         | ItemKind::Emit(_) => return None,
     })
 }
@@ -92,8 +95,15 @@ impl<'a> Checker<'a, '_> {
         self.expanding.push(index);
         self.expanded += module.items.len();
         let own = self.declare(module, scope);
-        for (item, own) in module.items.iter().zip(own) {
-            let subject = self.expand_item(item, scope, binding, own);
+        let systems = self.declare_systems(module, scope);
+        let settled = self.declare_settled(module, scope);
+        for ((item, own), system) in module.items.iter().zip(own).zip(systems) {
+            let subject = match (&item.kind, system) {
+                (_, Some(system)) => Subject::System(system),
+                // It has no place among the states: it follows from its equation.
+                (ItemKind::State { name, .. }, None) if own && settled.contains(&name) => Subject::None,
+                _ => self.expand_item(item, scope, binding, own),
+            };
             self.tasks.push(Task { scope, item, subject });
         }
         self.expanding.pop();
@@ -110,29 +120,16 @@ impl<'a> Checker<'a, '_> {
                 continue;
             };
             let text = name.to_string();
-            if text == tree::UNREADABLE {
-                self.report.silent();
-                own.push(false);
-                continue;
-            }
-            if let ItemKind::Output(value) = &item.kind {
+            if let ItemKind::Output(value) = &item.kind
+                && text != tree::UNREADABLE
+            {
                 let unit = units::declared(&text, &docs::docs(&item.attrs));
                 own.push(self.declare_output(value, &text, scope, unit));
                 continue;
             }
-            if let Some(why) = names::refusal(&text) {
-                self.report.help(name.span(), why, "take another name");
-                own.push(false);
-                continue;
-            }
-            let taken = self.scopes.get(scope.0).and_then(|s| s.names.get(&text));
-            if let Some(first) = taken.map(Symbol::keyword) {
-                self.report.error(
-                    name.span(),
-                    format!("the name `{text}` is taken: {} `{first}` above has it already", article(first)),
-                );
+            if !self.is_free(name, scope) {
                 // Nothing can hang on it.
-                self.lost |= matches!(item.kind, ItemKind::Body { .. });
+                self.lost |= matches!(item.kind, ItemKind::Body { .. }) && self.is_taken(name, scope);
                 own.push(false);
                 continue;
             }
@@ -150,6 +147,32 @@ impl<'a> Checker<'a, '_> {
             self.set_symbol(scope, name, Symbol::Named(id, keyword));
         }
         own
+    }
+
+    /// Whether an item may have this name, which is reported if not.
+    pub(super) fn is_free(&mut self, name: &Ident, scope: ScopeId) -> bool {
+        let text = name.to_string();
+        if text == tree::UNREADABLE {
+            self.report.silent();
+            return false;
+        }
+        if let Some(why) = names::refusal(&text) {
+            self.report.help(name.span(), why, "take another name");
+            return false;
+        }
+        let taken = self.scopes.get(scope.0).and_then(|s| s.names.get(&text));
+        if let Some(first) = taken.map(Symbol::keyword) {
+            self.report.error(
+                name.span(),
+                format!("the name `{text}` is taken: {} `{first}` above has it already", article(first)),
+            );
+            return false;
+        }
+        true
+    }
+
+    fn is_taken(&self, name: &Ident, scope: ScopeId) -> bool {
+        self.scopes.get(scope.0).is_some_and(|scope| scope.names.contains_key(&name.to_string()))
     }
 
     /// Enters the name of an output; whether it is its own. What else has that name doesn't matter.
@@ -181,7 +204,7 @@ impl<'a> Checker<'a, '_> {
         NamedId(self.named.len() - 1)
     }
 
-    fn set_symbol(&mut self, scope: ScopeId, name: &Ident, symbol: Symbol) {
+    pub(super) fn set_symbol(&mut self, scope: ScopeId, name: &Ident, symbol: Symbol) {
         if let Some(scope) = self.scopes.get_mut(scope.0) {
             scope.names.insert(name.to_string(), symbol);
         }

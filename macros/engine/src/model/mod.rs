@@ -16,6 +16,7 @@ mod expressions;
 mod items;
 pub mod joint_kinds;
 mod names;
+mod operands;
 mod report;
 pub mod site;
 mod topology;

@@ -68,6 +68,8 @@ pub struct Model {
     pub independent: Vec<Coordinate>,
     /// Said in the report: items that another choice of coordinates has made void, such as a `#[cut]` in the tree.
     pub skipped: Vec<String>,
+    /// Coordinates whose motion is taken to first order.
+    pub small: Vec<Coordinate>,
     pub forces: IndexVec<ForceId, Force>,
     pub outputs: Vec<Output>,
     /// `Vec3` in world axes, m/s^2; `None`: no gravity declared.
@@ -490,6 +492,16 @@ pub enum ExprNode {
         of: Expr,
         pairs: Vec<(Variable, Expr)>,
     },
+    /// An unknown of equations of the user's own, inside them.
+    Unknown(usize),
+    /// One of the unknowns of a system of linear equations: the matrix row by row, then the right-hand sides.
+    Solved {
+        system: Rc<[Expr]>,
+        size: usize,
+        index: usize,
+    },
+    /// Not a number.
+    Undefined,
     /// An entry of the mass matrix.
     MassMatrix([Coordinate; 2]),
     /// An entry of the bias.

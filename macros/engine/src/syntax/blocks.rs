@@ -176,6 +176,13 @@ pub(super) fn solve(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Optio
     }
     cursor.bump();
     let joint = Box::new(expression(cursor, diagnostics).ok()?);
+    let equations = equations(&joint);
+    if let Some(equations) = &equations
+        && !cursor.at_group(0, Delimiter::Brace)
+    {
+        finish(Ok(()), "an operator, `;` or conditions in braces", cursor, diagnostics).ok()?;
+        return Some(ItemKind::System { unknowns, equations: equations.clone(), branches: Vec::new() });
+    }
     let Some(group) = cursor.take_group(Delimiter::Brace) else {
         let message = format!("expected `{{` and the conditions that choose a branch, found {}", cursor.found());
         diagnostics.error_help(cursor.span(), message, form(Keyword::Solve));
@@ -185,7 +192,23 @@ pub(super) fn solve(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Optio
         Ok(mut inner) => list(&mut inner, diagnostics),
         Err(Reported) => vec![poison()],
     };
-    Some(ItemKind::Solve { unknowns, how: Solution::From { joint, branches } })
+    Some(match equations {
+        Some(equations) => ItemKind::System { unknowns, equations, branches },
+        None => ItemKind::Solve { unknowns, how: Solution::From { joint, branches } },
+    })
+}
+
+/// `a == b`, or several in brackets.
+fn equations(expr: &syn::Expr) -> Option<Vec<syn::Expr>> {
+    let is_equation =
+        |expr: &syn::Expr| matches!(expr, syn::Expr::Binary(binary) if matches!(binary.op, syn::BinOp::Eq(_)));
+    match expr {
+        syn::Expr::Array(array) if !array.elems.is_empty() && array.elems.iter().all(is_equation) => {
+            Some(array.elems.iter().cloned().collect())
+        }
+        expr if is_equation(expr) => Some(vec![expr.clone()]),
+        _ => None,
+    }
 }
 
 /// `(a, b)`

@@ -4,7 +4,7 @@
 //! item is reported where it stands; reading goes on at the next item.
 
 use proc_macro2::{Delimiter, TokenTree};
-use syn::{BinOp, Expr};
+use syn::{BinOp, Expr, ExprLit, Lit, Member};
 
 use super::attributes::{outer, visibility};
 use super::blocks;
@@ -13,7 +13,7 @@ use super::expressions::{expression, is_name};
 use super::fields::{between, fields};
 use super::keywords::Keyword;
 use super::names::{finish, form, last_value, name, optional_type, unreadable};
-use super::tree::{Item, ItemKind, Request, Value, poison, poison_type, poisoned_type};
+use super::tree::{Item, ItemKind, Request, Value, poison, poison_type, poisoned, poisoned_type};
 use crate::diagnostics::Diagnostics;
 
 /// All items, and whether one was lost.
@@ -130,6 +130,7 @@ fn item(keyword: Keyword, cursor: &mut Cursor, diagnostics: &mut Diagnostics) ->
         Keyword::Constraint => blocks::constraint(cursor, diagnostics),
         Keyword::Drive => Some(drive(cursor, diagnostics)),
         Keyword::Solve => blocks::solve(cursor, diagnostics),
+        Keyword::Simplify => simplify(cursor, diagnostics),
         Keyword::Assume => Some(ItemKind::Assume(last_value(cursor, diagnostics))),
         Keyword::Part => blocks::part(cursor, diagnostics),
         Keyword::Emit => emit(cursor, diagnostics),
@@ -263,6 +264,45 @@ fn drive(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> ItemKind {
     cursor.take("=");
     let value = last_value(cursor, diagnostics);
     ItemKind::Drive { target, value }
+}
+
+/// `hinge == 0.0;`, `current.rate == 0.0;`, `small(hinge);`
+fn simplify(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Option<ItemKind> {
+    const FORMS: &str = "write `simplify hinge == 0.0;`, `simplify current.rate == 0.0;` or `simplify small(hinge);`";
+    let at = cursor.span();
+    match last_value(cursor, diagnostics) {
+        Expr::Call(call) if matches!(&*call.func, Expr::Path(path) if path.path.is_ident("small")) => {
+            if call.args.is_empty() {
+                diagnostics.error_help(at, "nothing is said to be small", FORMS);
+                return None;
+            }
+            Some(ItemKind::Small(call.args.into_iter().collect()))
+        }
+        Expr::Binary(binary) if matches!(binary.op, BinOp::Eq(_)) => match *binary.left {
+            Expr::Field(field) if matches!(&field.member, Member::Named(name) if name == "rate") => {
+                if !is_zero(&binary.right) {
+                    diagnostics.error_help(at, "a rate is left out where it is zero", FORMS);
+                    return None;
+                }
+                Some(ItemKind::Settled(*field.base))
+            }
+            // What is held at a value follows a course that does not move.
+            target => Some(ItemKind::Drive { target, value: *binary.right }),
+        },
+        expr if poisoned(&expr) => None,
+        _ => {
+            diagnostics.error_help(at, "nothing here can be left out", FORMS);
+            None
+        }
+    }
+}
+
+fn is_zero(expr: &Expr) -> bool {
+    match expr {
+        Expr::Lit(ExprLit { lit: Lit::Int(int), .. }) => int.base10_digits() == "0",
+        Expr::Lit(ExprLit { lit: Lit::Float(float), .. }) => float.base10_parse::<f64>().is_ok_and(|x| x == 0.0),
+        _ => false,
+    }
 }
 
 /// `a, b { field: value };`

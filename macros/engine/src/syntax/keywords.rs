@@ -69,6 +69,8 @@ keywords! {
     State "state" "state name: rate = value, start: 0.0;",
     /// A promise about the mechanism.
     Assume "assume" "assume value > 0.0;",
+    /// What is left out, or taken to first order.
+    Simplify "simplify" "simplify hinge == 0.0;",
     /// A field of `Output`.
     Output "output" "output name = value;",
     /// What to derive.

@@ -153,8 +153,21 @@ pub enum ItemKind {
         /// The formulas, or where to find them.
         how: Solution,
     },
+    /// `solve (x, y) from [a == b, c == d];`, of unknowns that are declared here.
+    System {
+        /// Names.
+        unknowns: Vec<Expr>,
+        /// Comparisons by `==`.
+        equations: Vec<Expr>,
+        /// Conditions that choose one solution.
+        branches: Vec<Expr>,
+    },
     /// `assume condition;`
     Assume(Expr),
+    /// `simplify small(hinge);`: first order in these coordinates and their rates.
+    Small(Vec<Expr>),
+    /// `simplify current.rate == 0.0;`: the state follows from its equation.
+    Settled(Expr),
     /// `emit a, b { field: value };`
     Emit(Vec<Request>),
 }

@@ -82,6 +82,7 @@ pub fn empty(module: &str) -> Model {
         handling: Handling::default(),
         independent: Vec::new(),
         skipped: Vec::new(),
+        small: Vec::new(),
         forces: IndexVec::new(),
         outputs: Vec::new(),
         gravity: None,

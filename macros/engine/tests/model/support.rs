@@ -118,6 +118,9 @@ impl Writer<'_> {
                 let pairs: Vec<String> = pairs.iter().map(|(by, e)| format!("{by:?} = {}", self.expr(e))).collect();
                 format!("Substituted({}, {})", self.expr(of), pairs.join(", "))
             }
+            ExprNode::Unknown(number) => format!("unknown {number}"),
+            ExprNode::Solved { system, index, .. } => format!("Solved({}, {index})", self.list(system.iter())),
+            ExprNode::Undefined => "Undefined".into(),
             ExprNode::MassMatrix(entry) => format!("{entry:?}"),
             ExprNode::Bias(entry) => format!("{entry:?}"),
             ExprNode::Vec3(v) => format!("<{}>", self.list(v.iter())),

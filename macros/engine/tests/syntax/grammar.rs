@@ -56,6 +56,11 @@ fn line(item: &Item) -> String {
         ItemKind::Solve { unknowns, how: Solution::From { joint, branches } } => {
             format!("solve {} from {} {}", list(unknowns), text(joint), list(branches))
         }
+        ItemKind::System { unknowns, equations, branches } => {
+            format!("system {} {} {}", list(unknowns), list(equations), list(branches))
+        }
+        ItemKind::Small(coordinates) => format!("small {}", list(coordinates)),
+        ItemKind::Settled(state) => format!("settled {}", text(state)),
         ItemKind::Assume(condition) => format!("assume {}", text(condition)),
         ItemKind::Emit(requests) => {
             let options = |f: &Option<Fields>| f.as_ref().map(fields).unwrap_or_default();

@@ -73,7 +73,7 @@ impl<'m> Deriving<'m> {
             let Some(found) = found else { break };
             candidates.push(found);
         }
-        if floats(model) {
+        if floats(model) && model.small.is_empty() {
             let name = "composite rigid body, LDL^T, translations first";
             let way = Choices { method: Method::Floating, ..self.way() };
             candidates.extend(self.candidate(name, way, &kept, &mut { all })?);

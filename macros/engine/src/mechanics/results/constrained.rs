@@ -103,7 +103,8 @@ impl Equations<'_> {
     /// Inverse dynamics in the coordinates of the state.
     pub(in crate::mechanics) fn reduced_efforts(&mut self, reduction: &Reduction, case: LoadCase) -> Vec<Scalar> {
         let efforts = self.state_efforts(reduction, case);
-        self.finish(reduction, &efforts)
+        let efforts = self.finish(reduction, &efforts);
+        self.first_order(&efforts)
     }
 
     /// The same where accelerations of the state are zero, under the declared forces.
@@ -113,7 +114,8 @@ impl Equations<'_> {
         let efforts = self.finish(reduction, &efforts);
         let rest = self.rest();
         let efforts = self.g.substitute(&efforts, &rest);
-        self.finish(reduction, &efforts)
+        let bias = self.finish(reduction, &efforts);
+        self.first_order(&bias)
     }
 
     /// Efforts of the state, before definitions are put in.
@@ -159,6 +161,7 @@ impl Equations<'_> {
             }
         }
         let flat = self.finish(reduction, &reduced.concat());
+        let flat = self.first_order(&flat);
         flat.chunks(size.max(1)).map(<[Scalar]>::to_vec).collect()
     }
 
@@ -335,5 +338,6 @@ impl Equations<'_> {
         !self.scene.structure.steps.is_empty()
             || !self.scene.structure.rows.is_empty()
             || self.scene.structure.roles.iter().flatten().any(|role| matches!(role, Role::Driven(_)))
+            || self.is_first_order()
     }
 }

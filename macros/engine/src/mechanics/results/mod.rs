@@ -8,6 +8,7 @@ pub(super) mod constraint_forces;
 pub(super) mod dynamics;
 pub(super) mod energy;
 pub(super) mod euler_singularities;
+pub(super) mod first_order;
 pub(super) mod jacobian;
 pub(super) mod jumps;
 pub(super) mod kinks;

@@ -51,7 +51,12 @@ impl Equations<'_> {
     pub(in crate::mechanics) fn platform(&mut self, reduction: &Reduction) -> Option<Platform> {
         let model = self.scene.model;
         let structure = Rc::clone(&self.scene.structure);
-        if !structure.rows.is_empty() || structure.steps.is_empty() || !self.rotors().is_empty() {
+        // Motions to first order are no motions of a body on struts.
+        if !model.small.is_empty()
+            || !structure.rows.is_empty()
+            || structure.steps.is_empty()
+            || !self.rotors().is_empty()
+        {
             return None;
         }
         let mut chains: Vec<(Chain, Triple)> = Vec::with_capacity(structure.steps.len());

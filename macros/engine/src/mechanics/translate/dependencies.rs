@@ -39,7 +39,7 @@ impl Dependencies {
                 }
                 _ => {}
             }
-            stack.extend(super::expressions::operands(&expr.node));
+            stack.extend(expr.node.operands());
         }
         needs
     }

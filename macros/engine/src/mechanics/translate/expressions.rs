@@ -34,7 +34,7 @@ impl Equations<'_> {
             if !self.caches.memo.known.contains_key(&key) {
                 let before = stack.len();
                 let open = |e: &&Expr| !self.caches.memo.known.contains_key(&Rc::as_ptr(&e.node));
-                stack.extend(operands(&top.node).into_iter().filter(open));
+                stack.extend(top.node.operands().into_iter().filter(open));
                 if stack.len() > before {
                     continue;
                 }
@@ -122,6 +122,12 @@ impl Equations<'_> {
                 let of = self.known(of);
                 self.substituted(&of, &pairs)
             }
+            ExprNode::Solved { system, size, index } => {
+                let system: Vec<Scalar> = system.iter().map(|entry| self.known(entry).scalar()).collect();
+                Value::Scalar(self.solved_system(system, *size, *index))
+            }
+            ExprNode::Undefined => Value::Scalar(self.g.call(Call::Nan, &[])),
+            ExprNode::Unknown(_) => raise("unknowns stand inside their equations, which have been solved"),
             &ExprNode::MassMatrix(entry) => Value::Scalar(self.mass_matrix_entry(entry)),
             &ExprNode::Bias(coordinate) => Value::Scalar(self.bias_entry(coordinate)),
             ExprNode::Express { frame, vector } => {
@@ -264,34 +270,5 @@ impl Equations<'_> {
     fn mask(&mut self, call: Call, operands: &[&Expr]) -> Value {
         let operands: Vec<Scalar> = operands.iter().map(|e| self.known(e).scalar()).collect();
         Value::Scalar(self.g.call(call, &operands))
-    }
-}
-
-/// What must be translated before a node; frames hold parameters alone and are translated with it.
-pub(in crate::mechanics) fn operands(node: &ExprNode) -> Vec<&Expr> {
-    match node {
-        ExprNode::Express { vector, .. } => vec![vector],
-        ExprNode::Derivative { of, .. } => vec![of],
-        ExprNode::Substituted { of, pairs } => std::iter::once(of).chain(pairs.iter().map(|pair| &pair.1)).collect(),
-        ExprNode::RotationAbout { axis, angle } => vec![axis, angle],
-        ExprNode::RollPitchYaw(angles) => angles.iter().collect(),
-        ExprNode::Compose(a, b) | ExprNode::Pose(a, b) => vec![a, b],
-        ExprNode::Vec3(list) => list.iter().collect(),
-        ExprNode::Array(list) | ExprNode::Call(_, list) => list.iter().collect(),
-        ExprNode::Index(a, _)
-        | ExprNode::Component(a, _)
-        | ExprNode::Linear(a)
-        | ExprNode::Angular(a)
-        | ExprNode::Neg(a)
-        | ExprNode::Not(a) => vec![a],
-        ExprNode::Add(a, b)
-        | ExprNode::Sub(a, b)
-        | ExprNode::Mul(a, b)
-        | ExprNode::Div(a, b)
-        | ExprNode::Compare(_, a, b)
-        | ExprNode::And(a, b)
-        | ExprNode::Or(a, b) => vec![a, b],
-        ExprNode::Select(m, a, b) => vec![m, a, b],
-        _ => Vec::new(),
     }
 }

@@ -17,10 +17,9 @@ use crate::mechanics::loops::structure::{Role, Structure};
 use crate::model::site::Sited;
 use crate::model::types::{Coordinate, Expr, ExprNode, ForceKind, Model, Order, Variable};
 use crate::symbolic::differentiate::Differentiator;
-use crate::symbolic::graph::Scalar;
+use crate::symbolic::graph::{BlockKind, Scalar};
 use crate::symbolic::substitute::Substitution;
 
-use super::expressions::operands;
 use super::time::Seeds;
 use super::values::{Part, Value};
 
@@ -127,6 +126,14 @@ impl Equations<'_> {
         }
     }
 
+    /// One unknown of a system of linear equations: the matrix row by row, then the right-hand sides.
+    pub(super) fn solved_system(&mut self, system: Vec<Scalar>, size: usize, index: usize) -> Scalar {
+        if let [slope, rest] = system[..] {
+            return self.g.div(rest, slope);
+        }
+        self.g.block_outputs(BlockKind::Solve { size, symmetric: false, groups: [].into() }, &system)[index]
+    }
+
     /// An entry of the mass matrix, on the tree.
     pub(super) fn mass_matrix_entry(&mut self, [row, column]: [Coordinate; 2]) -> Scalar {
         let structure = Rc::clone(&self.scene.structure);
@@ -165,7 +172,7 @@ pub(in crate::mechanics) fn complaints(model: &Model, structure: &Structure) -> 
         if !seen.insert(Rc::as_ptr(&expr.node)) {
             continue;
         }
-        stack.extend(operands(&expr.node));
+        stack.extend(expr.node.operands());
         match &*expr.node {
             ExprNode::Derivative { of, by, .. } => match by {
                 Variable::Coordinate(coordinate, _) => complaints.extend(outside(model, structure, *coordinate, expr)),
@@ -239,9 +246,9 @@ fn reads_positions(expr: &Expr) -> bool {
             | ExprNode::Param(_)
             | ExprNode::Input(_)
             | ExprNode::State(_) => {}
-            node if operands(node).is_empty() => return true,
+            node if node.operands().is_empty() => return true,
             ExprNode::Express { .. } => return true,
-            node => stack.extend(operands(node)),
+            node => stack.extend(node.operands()),
         }
     }
     false

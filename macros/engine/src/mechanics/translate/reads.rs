@@ -7,8 +7,6 @@ use std::rc::Rc;
 
 use crate::model::types::{BodyRef, Expr, ExprNode, Frame, JointId};
 
-use super::expressions::operands;
-
 /// What an expression reads.
 #[derive(Clone, Default)]
 pub struct Reads {
@@ -30,7 +28,7 @@ impl Reads {
                 ExprNode::OfFrame(frame, _) => reads.frames.push(frame.clone()),
                 _ => {}
             }
-            stack.extend(operands(&expr.node));
+            stack.extend(expr.node.operands());
         }
         reads.joints.sort_unstable();
         reads

@@ -14,6 +14,7 @@ mod methods;
 mod operators;
 mod paths;
 mod text;
+mod unknowns;
 
 use proc_macro2::Span;
 use syn::spanned::Spanned;

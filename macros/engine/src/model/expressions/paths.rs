@@ -129,6 +129,7 @@ impl<'a> Checker<'a, '_> {
             Symbol::Joint(id) => Some(Meaning::Joint(*id)),
             Symbol::Force(id) => Some(Meaning::Force(*id)),
             Symbol::Constraint(id) => Some(Meaning::Constraint(*id)),
+            Symbol::Unknown(system, place) => self.unknown(*system, *place, site).map(Meaning::Value),
             Symbol::Part(scope) => Some(Meaning::Part(*scope)),
             Symbol::Parts(scopes) => Some(Meaning::Parts(scopes.clone())),
         }

@@ -10,5 +10,6 @@ pub(super) mod loops;
 pub(super) mod parts;
 pub(super) mod requests;
 pub(super) mod solves;
+pub(super) mod systems;
 pub(super) mod values;
 mod world;

@@ -73,7 +73,7 @@ impl Expressions {
             if !entered {
                 waiting.push((next, true));
                 // In reverse, so that mistakes come in the order of the text.
-                let operands = operands(&next.node).into_iter().rev();
+                let operands = next.node.operands().into_iter().rev();
                 waiting.extend(operands.filter(|operand| operand.unit.is_none()).map(|operand| (operand, false)));
                 continue;
             }
@@ -156,6 +156,8 @@ impl Expressions {
                 self.coordinate(row.joint, row.index, |of| of.effort).combined(acceleration, Unit::over)
             }
             ExprNode::Bias(row) => self.coordinate(row.joint, row.index, |of| of.effort),
+            // The unknown takes the unit that fits; its equations are looked at as operands.
+            ExprNode::Unknown(_) | ExprNode::Solved { .. } | ExprNode::Undefined => Value::Any,
             ExprNode::Vec3(elements) if is_unit_vector(elements) => Value::Number,
             ExprNode::Vec3(elements) => self.elements(elements),
             ExprNode::Array(elements) => self.elements(elements),
@@ -429,52 +431,6 @@ impl Expressions {
 
 fn of_item(items: &[Option<Declared>], index: usize) -> Value {
     items.get(index).and_then(Option::as_ref).map_or(Value::Any, |declared| Value::Known(declared.into()))
-}
-
-/// What has to be known before a node is; what is in frames is looked at where they stand.
-fn operands(node: &ExprNode) -> Vec<&Expr> {
-    match node {
-        ExprNode::Number(_)
-        | ExprNode::Pi
-        | ExprNode::Time
-        | ExprNode::Param(_)
-        | ExprNode::Input(_)
-        | ExprNode::State(_)
-        | ExprNode::Coordinate { .. }
-        | ExprNode::RelativeAngularVelocity(_)
-        | ExprNode::Effort { .. }
-        | ExprNode::OfFrame(..)
-        | ExprNode::Jacobian { .. }
-        | ExprNode::Reaction { .. }
-        | ExprNode::Power(_)
-        | ExprNode::Kinetic
-        | ExprNode::Potential
-        | ExprNode::MassMatrix(_)
-        | ExprNode::Bias(_)
-        | ExprNode::Identity => Vec::new(),
-        ExprNode::Substituted { of, pairs } => std::iter::once(of).chain(pairs.iter().map(|pair| &pair.1)).collect(),
-        ExprNode::Express { vector: inner, .. }
-        | ExprNode::Derivative { of: inner, .. }
-        | ExprNode::Index(inner, _)
-        | ExprNode::Component(inner, _)
-        | ExprNode::Linear(inner)
-        | ExprNode::Angular(inner)
-        | ExprNode::Neg(inner)
-        | ExprNode::Not(inner) => vec![inner],
-        ExprNode::Vec3(elements) | ExprNode::RollPitchYaw(elements) => elements.iter().collect(),
-        ExprNode::Array(elements) | ExprNode::Call(_, elements) => elements.iter().collect(),
-        ExprNode::RotationAbout { axis: a, angle: b }
-        | ExprNode::Add(a, b)
-        | ExprNode::Sub(a, b)
-        | ExprNode::Compose(a, b)
-        | ExprNode::Pose(a, b)
-        | ExprNode::Mul(a, b)
-        | ExprNode::Div(a, b)
-        | ExprNode::Compare(_, a, b)
-        | ExprNode::And(a, b)
-        | ExprNode::Or(a, b) => vec![a, b],
-        ExprNode::Select(condition, a, b) => vec![condition, a, b],
-    }
 }
 
 /// Linear and angular part of a twist or wrench of the language itself; of what is made of one nothing is known.

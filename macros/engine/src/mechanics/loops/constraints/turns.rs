@@ -18,7 +18,6 @@ use std::rc::Rc;
 use crate::contracts::call::Call;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
-use crate::mechanics::translate::expressions::operands;
 use crate::model::site::Sited;
 use crate::model::types::{ConstraintId, ConstraintKind, Coordinate, Expr, ExprNode, LoopClosure, Model, Order};
 use crate::symbolic::evaluate::{Evaluator, Real};
@@ -192,7 +191,7 @@ fn measured<'e>(model: &Model, value: &'e Expr) -> Vec<(Coordinate, &'e Expr)> {
         {
             found.push((Coordinate { joint, index }, expr));
         }
-        open.extend(operands(&expr.node).into_iter().rev());
+        open.extend(expr.node.operands().into_iter().rev());
     }
     found
 }
