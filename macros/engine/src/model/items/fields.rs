@@ -41,6 +41,27 @@ impl Known<'_> {
         };
         self.has(meant).then_some(meant)
     }
+
+    /// The fields that one `name` stands for elsewhere.
+    fn parts(&self, name: &str) -> &'static [&'static str] {
+        match name {
+            "axes" if self.has("slide") => &["axis", "slide"],
+            _ => &[],
+        }
+    }
+
+    /// The field that may stand in the place of `name`.
+    fn instead_of(&self, name: &str) -> Option<&'static str> {
+        (name == "axis" && self.has("axes")).then_some("axes")
+    }
+
+    /// "`axis` or `axes`"
+    fn choice(&self, name: &str) -> String {
+        match self.instead_of(name) {
+            Some(other) => format!("`{name}` or `{other}`"),
+            None => format!("`{name}`"),
+        }
+    }
 }
 
 /// The value of a field; the first one where it is repeated.
@@ -54,7 +75,9 @@ impl Checker<'_, '_> {
     pub(super) fn check_fields(&mut self, owner: &str, at: &Ident, fields: &tree::Fields, known: &Known<'_>) {
         let given: Vec<String> = fields.list.iter().map(|f| f.name.to_string()).collect();
         let unknown: Vec<&str> = given.iter().map(String::as_str).filter(|given| !known.has(given)).collect();
-        let meant = |given: &str, name: &str| known.meant(given) == Some(name) || nearest(given, [name]).is_some();
+        let meant = |given: &str, name: &str| {
+            known.meant(given) == Some(name) || nearest(given, [name]).is_some() || known.parts(given).contains(&name)
+        };
         // A field under another name is reported as such, and not as a missing one too.
         let missing = known.required.iter().copied().filter(|name| field(fields, name).is_none());
         let missing: Vec<&str> = missing.filter(|name| !unknown.iter().any(|given| meant(given, name))).collect();
@@ -72,8 +95,17 @@ impl Checker<'_, '_> {
         if let [first, ..] = missing {
             self.report.help(
                 at.span(),
-                format!("{owner} lacks `{}`", missing.join("`, `")),
-                format!("write `{first}: {}`", example(first, known)),
+                format!(
+                    "{owner} lacks {}",
+                    missing.iter().map(|name| known.choice(name)).collect::<Vec<_>>().join(", ")
+                ),
+                match known.instead_of(first) {
+                    Some(other) => {
+                        let [first, other] = [first, other].map(|name| format!("`{name}: {}`", example(name, known)));
+                        format!("write {first}, or {other}")
+                    }
+                    None => format!("write `{first}: {}`", example(first, known)),
+                },
             );
         }
     }
@@ -93,7 +125,14 @@ impl Checker<'_, '_> {
                 continue;
             }
             let missing = instead.iter().find(|(given, _)| *given == name).map(|(_, missing)| *missing);
-            if let (false, Some(meant)) = (known.has(&name), known.meant(&name).or(missing)) {
+            let parts: Vec<&str> =
+                known.parts(&name).iter().copied().filter(|part| field(fields, part).is_none()).collect();
+            if let ([_, ..], false) = (&parts[..], known.has(&name)) {
+                let message = format!("{owner} has no field `{name}`");
+                let parts: Vec<String> =
+                    parts.iter().map(|part| format!("`{part}: {}`", example(part, known))).collect();
+                self.report.help(given.name.span(), message, format!("write {}", parts.join(" and ")));
+            } else if let (false, Some(meant)) = (known.has(&name), known.meant(&name).or(missing)) {
                 let message = format!("{owner} has no field `{name}`");
                 self.report.help(given.name.span(), message, format!("write `{meant}`"));
             } else if !known.has(&name) {
