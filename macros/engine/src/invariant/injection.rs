@@ -37,12 +37,20 @@ pub enum Break {
     LostRow,
     /// A parameter is one in expressions.
     LostParameter,
+    /// Frames are turned the other way.
+    FrameTurn,
+    /// An axis that is none of the frame's own is turned into place the other way.
+    AxisTurn,
+    /// A screw travels the other way.
+    Pitch,
+    /// Stiffness and damping change places.
+    SpringData,
     /// Arguments of functions are printed in the wrong order.
     PrintedArguments,
 }
 
 impl Break {
-    pub const ALL: [Break; 17] = [
+    pub const ALL: [Break; 21] = [
         Break::LeverSign,
         Break::CentrifugalSign,
         Break::HandedSign,
@@ -59,6 +67,10 @@ impl Break {
         Break::ClosedFormSign,
         Break::LostRow,
         Break::LostParameter,
+        Break::FrameTurn,
+        Break::AxisTurn,
+        Break::Pitch,
+        Break::SpringData,
         Break::PrintedArguments,
     ];
 }

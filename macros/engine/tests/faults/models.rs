@@ -1,7 +1,7 @@
 //! Models that use every stage that is broken, with all that they may emit, and with forward dynamics alone.
 
 /// Name and text.
-pub(crate) const MODELS: [(&str, &str); 9] = [
+pub(crate) const MODELS: [(&str, &str); 10] = [
     (
         "double_pendulum",
         "mod double_pendulum {
@@ -144,6 +144,19 @@ pub(crate) const MODELS: [(&str, &str); 9] = [
             joint jd: Revolute { parent: c.at(0.2 * X + 0.3 * Y), child: d, axis: Z }
             joint je: Revolute { parent: d.at(0.1 * X + 0.2 * Z), child: e, axis: X }
             emit forward_dynamics;
+        }",
+    ),
+    (
+        "oblique",
+        "mod oblique {
+            param k = 30.0;
+            world { gravity: -9.81 * Y }
+            body nut { mass: 0.9, com: 0.1 * X, inertia: inertia(0.03, 0.04, 0.05, 0.001, -0.002, 0.003) }
+            body arm { mass: 0.8, com: 0.2 * Y, inertia: inertia(0.03, 0.04, 0.05, 0.002, -0.001, 0.004) }
+            joint thread: Screw { parent: ground.rotated(X, 0.3), child: nut, axis: [1.0, 2.0, 2.0], pitch: 0.02 }
+            joint hinge: Revolute { parent: nut.at(0.1 * X), child: arm, axis: [0.6, 0.0, 0.8] }
+            force spring: SpringDamper { joint: hinge, stiffness: k, damping: 0.4 }
+            emit inverse_dynamics;
         }",
     ),
 ];

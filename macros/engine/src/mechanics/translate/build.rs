@@ -6,6 +6,7 @@
 
 use crate::dynamics::inertia::Inertia;
 use crate::dynamics::tree::{Motion, Tree};
+use crate::invariant::injection::{Break, broken};
 use crate::mechanics::equations::Equations;
 use crate::model::types::{Body, BodyRef, Frame, FrameStep, Joint, JointId};
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
@@ -166,7 +167,7 @@ impl Equations<'_> {
     }
 
     /// A frame's constant pose in its body.
-    fn steps(&mut self, frame: &Frame) -> (Rotation, Vector) {
+    pub(super) fn steps(&mut self, frame: &Frame) -> (Rotation, Vector) {
         let mut place = FixedFrame::GROUND;
         for step in &frame.steps {
             let (rotation, offset) = match step {
@@ -175,6 +176,7 @@ impl Equations<'_> {
                     let axis = self.vector(axis);
                     let axis = self.g.components(axis);
                     let angle = self.scalar(angle);
+                    let angle = if broken(Break::FrameTurn) { -angle } else { angle };
                     (directions::about(&mut self.g, axis, angle), Vector::ZERO)
                 }
                 FrameStep::Oriented(rows) => {

@@ -7,6 +7,7 @@
 
 use crate::dynamics::inertia::Inertia;
 use crate::dynamics::tree::{Link, Motion};
+use crate::invariant::injection::{Break, broken};
 use crate::mechanics::equations::Equations;
 use crate::model::joint_kinds;
 use crate::model::types::{Directions, Expr, Joint, JointId};
@@ -106,7 +107,10 @@ impl Equations<'_> {
         let motion = match (freedom.motion, &joint.pitch) {
             (joint_kinds::Motion::Slides, _) => Motion::Prismatic(axis.index),
             (joint_kinds::Motion::Turns, None) => Motion::Revolute(axis.index),
-            (joint_kinds::Motion::Turns, Some(pitch)) => Motion::Screw(axis.index, self.scalar(pitch)),
+            (joint_kinds::Motion::Turns, Some(pitch)) => {
+                let pitch = self.scalar(pitch);
+                Motion::Screw(axis.index, if broken(Break::Pitch) { -pitch } else { pitch })
+            }
         };
         (axis, motion)
     }

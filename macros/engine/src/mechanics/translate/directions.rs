@@ -5,6 +5,7 @@
 //! it is exact as they are, and a rotation times its transpose is one.
 
 use crate::contracts::call::Call;
+use crate::invariant::injection::{Break, broken};
 use crate::symbolic::graph::{Graph, Rotation, Scalar};
 use crate::symbolic::number::Number;
 use crate::symbolic::rotations::compose;
@@ -101,6 +102,7 @@ fn towards(
     length: impl Fn(&mut Graph) -> Scalar,
     typed: bool,
 ) -> Rotation {
+    let y = if broken(Break::AxisTurn) { -y } else { y };
     let (Some(along), Some(across)) = (g.literal(x), g.literal(y)) else {
         let angle = g.call(Call::Atan2, &[y, x]);
         return g.axis_rotation(axis, angle);

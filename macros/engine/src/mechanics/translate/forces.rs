@@ -7,6 +7,7 @@
 use std::rc::Rc;
 
 use crate::dynamics::newton_euler::Wrench;
+use crate::invariant::injection::{Break, broken};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::constraints::measured::Dual;
 use crate::mechanics::loops::constraints::{Held, row_count};
@@ -346,7 +347,8 @@ impl Equations<'_> {
     }
 
     pub(in crate::mechanics) fn optional(&mut self, data: [&Option<Expr>; 3]) -> [Scalar; 3] {
-        data.map(|expr| expr.as_ref().map_or(Scalar::ZERO, |expr| self.scalar(expr)))
+        let [a, b, c] = data.map(|expr| expr.as_ref().map_or(Scalar::ZERO, |expr| self.scalar(expr)));
+        if broken(Break::SpringData) { [b, a, c] } else { [a, b, c] }
     }
 
     /// Sum of `Effort`s and joint springs on one coordinate.

@@ -4,34 +4,12 @@
 
 use crate::model::checker::Checker;
 use crate::model::joint_kinds;
-use crate::model::types::{Body, BodyRef, Directions, Frame, FrameStep, Joint, JointId};
+use crate::model::types::{Body, BodyRef, Joint, JointId};
 
-use super::evaluate::{cross, dot};
-use super::matrix3::{IDENTITY, Matrix3, Vector3, add, product, rotation, scale, sub, times, transpose, unit};
+use super::evaluate::cross;
+use super::matrix3::{IDENTITY, Matrix3, Vector3, add, product, rotation, scale, sub, times, transpose};
+use super::placement::{Pose, directions, pose};
 use super::spatial::{Matrix6, Vector6, inertia, join};
-
-/// Orientation (columns are the axes) and origin of a frame.
-#[derive(Clone, Copy)]
-struct Pose {
-    rotation: Matrix3,
-    position: Vector3,
-}
-
-impl Pose {
-    const IDENTITY: Pose = Pose { rotation: IDENTITY, position: [0.0; 3] };
-
-    fn then(&self, next: &Pose) -> Pose {
-        Pose {
-            rotation: product(&self.rotation, &next.rotation),
-            position: add(self.position, times(&self.rotation, next.position)),
-        }
-    }
-
-    fn inverse(&self) -> Pose {
-        let rotation = transpose(self.rotation);
-        Pose { rotation, position: scale(-1.0, times(&rotation, self.position)) }
-    }
-}
 
 /// One joint of the tree with the body that it carries.
 pub(super) struct Link {
@@ -123,21 +101,6 @@ fn carried([a, b, c, d, e, f]: &Vector6, step: &Pose) -> Vector6 {
     join(times(&back, angular), times(&back, add(linear, cross(angular, step.position))))
 }
 
-/// Two directions across a third: the axis that follows its largest component, cyclically, then the last one.
-fn across(n: Vector3) -> [Vector3; 2] {
-    let [a, b, c] = n.map(f64::abs);
-    let [x, y, z] = IDENTITY;
-    let near = if c >= a && c >= b {
-        x
-    } else if a >= b {
-        y
-    } else {
-        z
-    };
-    let first = unit(sub(near, scale(dot(near, n), n)));
-    [first, cross(n, first)]
-}
-
 impl Checker<'_, '_> {
     /// The tree in numbers; nothing if one of them is not known or not finite.
     pub(super) fn links(&mut self, bodies: &[Body], joints: &[Joint], tree: &[JointId]) -> Option<Vec<Link>> {
@@ -146,7 +109,7 @@ impl Checker<'_, '_> {
         let mut links = Vec::with_capacity(tree.len());
         for (index, id) in tree.iter().enumerate() {
             let joint = joints.get(id.0)?;
-            let (parent, child) = (self.pose(&joint.parent)?, self.pose(&joint.child)?);
+            let (parent, child) = (pose(&mut self.evaluator, &joint.parent)?, pose(&mut self.evaluator, &joint.child)?);
             let (before, mount) = match joint.parent.body {
                 BodyRef::Ground => (None, parent),
                 BodyRef::Body(body) => {
@@ -174,7 +137,7 @@ impl Checker<'_, '_> {
 
     /// The freedoms of a joint, but for those of a quaternion.
     fn sequence(&mut self, joint: &Joint) -> Option<Vec<Freedom>> {
-        let directions = self.directions(joint)?;
+        let directions = directions(&mut self.evaluator, &joint.directions)?;
         let pitch = match &joint.pitch {
             Some(pitch) => self.evaluator.scalar(pitch)?,
             None => 0.0,
@@ -190,59 +153,6 @@ impl Checker<'_, '_> {
             Some(Freedom { index, axis, direction, amounts: [length, angle] })
         };
         joint.kind.sequence().into_iter().map(freedom).collect()
-    }
-
-    /// Unit vectors along a joint's directions.
-    fn directions(&mut self, joint: &Joint) -> Option<[Vector3; 3]> {
-        let mut axis = |axis| self.evaluator.vector(axis).map(unit);
-        Some(match &joint.directions {
-            Directions::Frame => IDENTITY,
-            Directions::Axis(written) => {
-                let axis = axis(written)?;
-                let [second, third] = across(axis);
-                [axis, second, third]
-            }
-            Directions::Crossed(axes) => {
-                let [first, second] = axes.each_ref().map(axis);
-                let (first, second) = (first?, second?);
-                [first, second, cross(first, second)]
-            }
-            Directions::Slot(axes) => {
-                let [axis, slide] = axes.each_ref().map(axis);
-                let axis = axis?;
-                let third = unit(cross(axis, slide?));
-                [axis, cross(third, axis), third]
-            }
-            Directions::Plane(axes) => {
-                let [first, second] = axes.each_ref().map(axis);
-                let first = first?;
-                let normal = unit(cross(first, second?));
-                [normal, first, cross(normal, first)]
-            }
-        })
-    }
-
-    fn pose(&mut self, frame: &Frame) -> Option<Pose> {
-        let mut pose = Pose::IDENTITY;
-        for step in &frame.steps {
-            let mut next = Pose::IDENTITY;
-            match step {
-                FrameStep::At(offset) => next.position = self.evaluator.vector(offset)?,
-                FrameStep::Rotated(axis, angle) => {
-                    let axis = self.evaluator.vector(axis)?;
-                    next.rotation = rotation(axis, self.evaluator.scalar(angle)?);
-                }
-                FrameStep::Oriented(rows) => {
-                    for (row, exprs) in next.rotation.iter_mut().zip(rows.iter()) {
-                        for (entry, expr) in row.iter_mut().zip(exprs) {
-                            *entry = self.evaluator.scalar(expr)?;
-                        }
-                    }
-                }
-            }
-            pose = pose.then(&next);
-        }
-        Some(pose)
     }
 
     fn body_inertia(&mut self, body: &Body, frame: &Pose) -> Option<Matrix6> {

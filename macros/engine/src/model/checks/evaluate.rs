@@ -64,15 +64,19 @@ pub(crate) struct Evaluator {
     /// By address of the node; the node is kept, so that the address stays its own.
     memo: HashMap<*const ExprNode, (Rc<ExprNode>, Option<Value>)>,
     is_cautious: bool,
+    /// By so many of its last digits everything that is rounded is moved, up and down by turns.
+    digits: f64,
+    moves: u64,
 }
 
 /// What is closer to a jump may be on either side of it: decimals are rounded.
 const BESIDE_A_JUMP: f64 = 1e-12;
 
 impl Evaluator {
-    /// Gives no value where rounding may decide: comparisons of equal numbers, signs of zero, angles of half a turn.
-    pub(crate) fn cautious() -> Self {
-        Evaluator { is_cautious: true, ..Evaluator::default() }
+    /// Gives no value where rounding may decide: comparisons of equal numbers, signs of zero, angles of half a turn. With
+    /// `digits` other than zero values are off by what rounding may do to them.
+    pub(crate) fn cautious(digits: f64) -> Self {
+        Evaluator { is_cautious: true, digits, ..Evaluator::default() }
     }
 
     fn may_jump(&self, x: f64, size: f64) -> bool {
@@ -97,15 +101,30 @@ impl Evaluator {
 
     pub(crate) fn value(&mut self, expr: &Expr) -> Option<Value> {
         if let ExprNode::Number(x) = &*expr.node {
-            return Some(Value::Scalar(*x));
+            // Integers are what they say.
+            return Some(Value::Scalar(if x.fract() == 0.0 { *x } else { self.moved(*x) }));
         }
         let key = Rc::as_ptr(&expr.node);
         if let Some((_, value)) = self.memo.get(&key) {
             return value.clone();
         }
-        let value = self.compute(&expr.node);
+        let value = match self.compute(&expr.node) {
+            Some(Value::Scalar(x)) => Some(Value::Scalar(self.moved(x))),
+            Some(Value::Vec3(v)) => Some(Value::Vec3(v.map(|x| self.moved(x)))),
+            other @ (Some(Value::Bool(_) | Value::Array(_)) | None) => other,
+        };
         self.memo.insert(key, (Rc::clone(&expr.node), value.clone()));
         value
+    }
+
+    fn moved(&mut self, x: f64) -> f64 {
+        if self.digits == 0.0 {
+            return x;
+        }
+        // Of the golden ratio's multiples: no pattern of signs that the order of operands could cancel.
+        self.moves = self.moves.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let sign = if self.moves >> 63 == 0 { 1.0 } else { -1.0 };
+        x * (1.0 + sign * self.digits * f64::EPSILON)
     }
 
     fn compute(&mut self, node: &ExprNode) -> Option<Value> {

@@ -5,4 +5,5 @@ pub(crate) mod evaluate;
 mod mass_matrix;
 mod massless;
 pub(super) mod matrix3;
+pub(crate) mod placement;
 pub(super) mod spatial;
