@@ -52,27 +52,33 @@ use model::Soundness;
 use model::types::Model;
 use optimize::program::Compiled;
 use optimize::{Excess, Refusal};
+use syntax::tree::Source;
 
 /// Tokens of a `multibody!` call to tokens of its modules, and of everything that is wrong. A model without a mistake is
 /// there in full whatever stands beside it, one with mistakes as an outline without equations: one mistake, one error.
 pub fn expand(tokens: TokenStream) -> TokenStream {
-    expand_by(tokens, emit::emit)
+    expand_by(tokens, syntax::parse, emit::emit)
 }
 
 /// The same for readers: paragraphs of statements have headings, as the attribute `#[doc = "// .."]`.
 pub fn commented(tokens: TokenStream) -> TokenStream {
-    expand_by(tokens, emit::commented)
+    expand_by(tokens, syntax::parse, emit::commented)
 }
 
-fn expand_by(tokens: TokenStream, emit: fn(&Model, &Structure, &Compiled) -> TokenStream) -> TokenStream {
+fn expand_by(
+    tokens: TokenStream,
+    parse: fn(TokenStream, &mut Diagnostics) -> Source,
+    emit: fn(&Model, &Structure, &Compiled) -> TokenStream,
+) -> TokenStream {
     let mut diagnostics = Diagnostics::default();
-    let source = syntax::parse(tokens, &mut diagnostics);
-    let mut modules = TokenStream::new();
-    let mut names = HashSet::new();
-    let checked = guard("model", || model::check_all(&source, &mut diagnostics)).unwrap_or_else(|fault| {
+    let source = guard("syntax", || parse(tokens, &mut diagnostics));
+    let checked = source.and_then(|source| guard("model", || model::check_all(&source, &mut diagnostics)));
+    let checked = checked.unwrap_or_else(|fault| {
         diagnostics.error_help(Span::call_site(), fault_of("the call", &fault), REPORT);
         Vec::new()
     });
+    let mut modules = TokenStream::new();
+    let mut names = HashSet::new();
     for checked in checked {
         let model = &checked.model;
         let has_cfg = model.attrs.iter().any(|attr| attr.path().is_ident("cfg"));
@@ -102,7 +108,7 @@ fn expand_by(tokens: TokenStream, emit: fn(&Model, &Structure, &Compiled) -> Tok
 
 /// The stages behind the checked model.
 pub fn compile(model: &Model) -> Result<(Structure, Compiled), Trouble> {
-    let freedoms = mechanics::freedoms(model);
+    let freedoms = guard("mechanics", || mechanics::freedoms(model)).map_err(Trouble::Fault)?;
     if freedoms > mechanics::MOST_FREEDOMS {
         return Err(Trouble::Refused(Refusal::TooLarge(Excess::Coordinates(freedoms))));
     }
@@ -238,5 +244,26 @@ fn instead(kind: FunctionKind) -> &'static str {
             "solve the loops by `solve (..) from ..`, or hold them by multipliers, `constraints: Multipliers`"
         }
         _ => "leave it out of `emit`, or declare fewer bodies",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proc_macro2::TokenStream;
+
+    use super::diagnostics::Diagnostics;
+    use super::syntax::tree::Source;
+    use super::{emit, expand_by};
+
+    fn fails(_: TokenStream, _: &mut Diagnostics) -> Source {
+        panic!("no token is left")
+    }
+
+    #[test]
+    fn a_panic_of_the_parser_is_one_error_that_names_the_stage() {
+        let output = expand_by(TokenStream::new(), fails, emit::emit).to_string();
+        assert_eq!(output.matches("compile_error").count(), 1, "{output}");
+        assert!(output.contains("the stage `syntax` has failed for the call: no token is left"), "{output}");
+        assert!(output.contains("please report it with the model"), "{output}");
     }
 }
