@@ -3,6 +3,8 @@
 //! In: directed edges with weights. Out: per node the edge that leads to it (Chu and Liu 1965, Edmonds 1967): every node
 //! takes its cheapest edge, and a cycle of such edges becomes one node, entered where that costs least.
 
+use crate::invariant::fault::OrFault;
+
 /// From one node to another.
 #[derive(Clone, Copy)]
 pub(super) struct Edge {
@@ -24,12 +26,12 @@ pub(super) fn cheapest(nodes: usize, root: usize, edges: &[Edge]) -> Option<Vec<
 
 fn contracted(nodes: usize, root: usize, edges: &[Edge], depth: usize) -> Option<Vec<Option<usize>>> {
     let mut best: Vec<Option<usize>> = vec![None; nodes];
-    let weight = |index: usize| edges.get(index).map_or(i128::MAX, |edge| edge.weight);
+    let weight = |index: usize| edges[index].weight;
     for (index, edge) in edges.iter().enumerate() {
         if edge.to == root || edge.from == edge.to {
             continue;
         }
-        let slot = best.get_mut(edge.to)?;
+        let slot = &mut best[edge.to];
         if slot.is_none_or(|old| edge.weight < weight(old)) {
             *slot = Some(index);
         }
@@ -42,73 +44,61 @@ fn contracted(nodes: usize, root: usize, edges: &[Edge], depth: usize) -> Option
     if count == nodes {
         return Some(best);
     }
-    let group = |node: usize| groups.get(node).copied().unwrap_or(NONE);
-    let cyclic = |node: usize| in_cycle.get(node) == Some(&true);
     let mut origins = Vec::new();
     let mut inner = Vec::new();
     for (index, edge) in edges.iter().enumerate() {
-        let (from, to) = (group(edge.from), group(edge.to));
+        let (from, to) = (groups[edge.from], groups[edge.to]);
         if from == to {
             continue;
         }
         // Entering a cycle here saves the edge that led here within it.
-        let saved = best.get(edge.to).copied().flatten().filter(|_| cyclic(edge.to)).map_or(0, weight);
+        let saved = best[edge.to].filter(|_| in_cycle[edge.to]).map_or(0, weight);
         origins.push(index);
         inner.push(Edge { from, to, weight: edge.weight - saved });
     }
-    let chosen = contracted(count, group(root), &inner, depth.checked_sub(1)?)?;
-    let enters = chosen.into_iter().flatten().filter_map(|position| origins.get(position).copied());
-    for index in enters {
-        let edge = edges.get(index)?;
-        *best.get_mut(edge.to)? = Some(index);
+    let chosen = contracted(count, groups[root], &inner, depth.checked_sub(1)?)?;
+    for position in chosen.into_iter().flatten() {
+        let index: usize = origins[position];
+        best[edges[index].to] = Some(index);
     }
     Some(best)
 }
 
 /// Numbers the nodes so that those of a cycle have one number, and says which lie in a cycle.
 fn cycles(best: &[Option<usize>], edges: &[Edge]) -> (Vec<usize>, Vec<bool>) {
-    let before = |node: usize| best.get(node).copied().flatten().and_then(|index| edges.get(index)).map(|e| e.from);
+    let before = |node: usize| best[node].map(|index| edges[index].from);
     let mut groups = vec![NONE; best.len()];
     let mut in_cycle = vec![false; best.len()];
     let mut walks = vec![NONE; best.len()];
     for start in 0..best.len() {
         let mut at = Some(start);
         while let Some(node) = at {
-            match walks.get_mut(node) {
-                Some(walk) if *walk == NONE => *walk = start,
-                _ => break,
+            if walks[node] != NONE {
+                break;
             }
+            walks[node] = start;
             at = before(node);
         }
         // Met again on the same walk, it closes a cycle.
-        let Some(first) = at.filter(|node| walks.get(*node) == Some(&start) && in_cycle.get(*node) == Some(&false))
-        else {
-            continue;
-        };
+        let Some(first) = at.filter(|node| walks[*node] == start && !in_cycle[*node]) else { continue };
         let mut node = first;
-        while let Some(slot) = in_cycle.get_mut(node).filter(|slot| !**slot) {
-            *slot = true;
-            if let Some(group) = groups.get_mut(node) {
-                *group = first;
-            }
-            node = before(node).unwrap_or(first);
+        while !in_cycle[node] {
+            in_cycle[node] = true;
+            groups[node] = first;
+            node = before(node).or_fault("each node of a cycle has one before it");
         }
     }
     // First the cycles are named by one of their nodes; now all are numbered.
     let mut numbers = vec![NONE; best.len()];
     let mut count = 0;
-    for node in 0..best.len() {
-        let name = groups.get(node).copied().filter(|name| *name != NONE).unwrap_or(node);
-        if let Some(number) = numbers.get_mut(name) {
-            if *number == NONE {
-                *number = count;
-                count += 1;
-            }
-            let number = *number;
-            if let Some(group) = groups.get_mut(node) {
-                *group = number;
-            }
+    for (node, group) in groups.iter_mut().enumerate() {
+        // What lies in no cycle is a group of its own.
+        let name = if *group == NONE { node } else { *group };
+        if numbers[name] == NONE {
+            numbers[name] = count;
+            count += 1;
         }
+        *group = numbers[name];
     }
     (groups, in_cycle)
 }

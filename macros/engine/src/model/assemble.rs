@@ -18,8 +18,8 @@ use super::items::requests::Requested;
 use super::items::solves::SolveItem;
 use super::topology::Topology;
 use super::types::{
-    Body, Constraint, Coordinate, Drive, Expr, Force, Handling, Input, Joint, Kinematics, Model, Output, Param,
-    Request, Solve, State, Type,
+    Bodies, Body, Constraint, Coordinate, Drive, Expr, Force, Handling, Input, Joint, Joints, Kinematics, Model,
+    Output, Param, Request, Solve, State, Type,
 };
 use super::units::Units;
 
@@ -61,20 +61,20 @@ pub(super) struct Loops {
 impl<'a> Checker<'a, '_> {
     /// Checks the module at `index` and all parts inside it.
     pub(super) fn model(&mut self, index: usize) -> Option<Model> {
-        let module = self.source.modules.get(index)?;
+        let module = &self.source.modules[index];
         self.expand_root(index);
         let mut collected = self.read_all();
         let mut units = Units::new(self);
         units.items(self, &collected);
         // Without all joints and bodies nothing can be said about how they hang together.
-        let bodies: Option<Vec<Body>> = all(std::mem::take(&mut collected.bodies));
-        let joints: Option<Vec<Joint>> = all(std::mem::take(&mut collected.joints));
+        let bodies: Option<Bodies> = all(std::mem::take(&mut collected.bodies)).map(Into::into);
+        let joints: Option<Joints> = all(std::mem::take(&mut collected.joints)).map(Into::into);
         let known = bodies.zip(joints).filter(|_| !self.alone && !self.lost_items());
         let found = known.and_then(|(bodies, joints)| {
             let topology = self.topology(&bodies, &joints, module)?;
             Some((bodies, joints, topology))
         });
-        let tree = found.as_ref().map(|(_, joints, topology)| (topology, joints.as_slice()));
+        let tree = found.as_ref().map(|(_, joints, topology)| (topology, joints));
         let loops = self.loops(&collected, tree);
         units.loops(&loops);
         units.tell(self.report);
@@ -87,7 +87,7 @@ impl<'a> Checker<'a, '_> {
         {
             self.report.error(span, "this model has no constraints");
         }
-        let held = self.held(bodies.len(), &joints, &topology, &constraints, &loops.drives);
+        let held = self.held(&bodies, &joints, &topology, &constraints, &loops.drives);
         let massless = self.check_massless(&bodies, &joints, &topology.tree, &held);
         if massless && !self.report.failed() {
             self.check_mass_matrix(&bodies, &joints, &topology.tree, &held);
@@ -104,8 +104,8 @@ impl<'a> Checker<'a, '_> {
             params: params.into(),
             inputs: inputs.into(),
             states: all(collected.states)?.into(),
-            bodies: bodies.into(),
-            joints: joints.into(),
+            bodies,
+            joints,
             tree: topology.tree,
             cuts: topology.cuts,
             constraints: constraints.into(),
@@ -134,8 +134,8 @@ impl<'a> Checker<'a, '_> {
             vis: module.vis.clone(),
             attrs: module.attrs.iter().filter(|attr| !docs::is_derive(attr)).cloned().collect(),
             krate: self.source.krate.clone().unwrap_or_else(runtime),
-            part_types: self.part_types.clone().into(),
-            instances: self.instances.clone().into(),
+            part_types: self.part_types.clone(),
+            instances: self.instances.clone(),
             params: IndexVec::new(),
             inputs: IndexVec::new(),
             states: IndexVec::new(),
@@ -184,39 +184,37 @@ impl<'a> Checker<'a, '_> {
             Subject::Named(id) => {
                 if let ItemKind::Output(_) = task.item.kind {
                     into.outputs.push(self.finish_output(id, task.item));
-                } else if let Some(named) = self.named.get(id.0) {
-                    let site = named.name.span();
+                } else {
+                    let site = self.named[id].name.span();
                     self.named_meaning(id, site);
                 }
             }
             Subject::Param(id) => {
-                if let Some(slot) = self.params.get(id.0) {
-                    let site = slot.item.name.span();
-                    self.param_type(id, site);
-                }
+                let site = self.params[id].item.name.span();
+                self.param_type(id, site);
             }
             Subject::Input(id) => {
                 self.input_type(id);
             }
             Subject::State(id) => {
-                let state = self.states.get(id.0).cloned();
-                into.states.push(state.and_then(|slot| self.finish_state(&slot)));
+                let slot = self.states[id].clone();
+                into.states.push(self.finish_state(&slot));
             }
             Subject::Body(id) => {
-                let body = self.bodies.get(id.0).cloned();
-                into.bodies.push(body.and_then(|slot| self.finish_body(&slot)));
-                if let Some(joint) = self.absolute.get(id.0).copied().flatten() {
+                let slot = self.bodies[id].clone();
+                into.bodies.push(self.finish_body(&slot));
+                if let Some(joint) = self.absolute[id] {
                     into.joints.push(self.finish_joint(joint));
                 }
             }
             Subject::Joint(id) => into.joints.push(self.finish_joint(id)),
             Subject::Force(id) => {
-                let force = self.forces.get(id.0).cloned();
-                into.forces.push(force.and_then(|slot| self.finish_force(&slot)));
+                let slot = self.forces[id].clone();
+                into.forces.push(self.finish_force(&slot));
             }
             Subject::Constraint(id) => {
-                let constraint = self.constraints.get(id.0).cloned();
-                into.constraints.push(constraint.and_then(|slot| self.finish_constraint(&slot)));
+                let slot = self.constraints[id].clone();
+                into.constraints.push(self.finish_constraint(&slot));
             }
             Subject::System(id) => {
                 self.solve_system(id);
@@ -266,7 +264,7 @@ impl<'a> Checker<'a, '_> {
     }
 
     /// What needs to know the tree. Without one its mistakes are reported all the same.
-    pub(super) fn loops(&mut self, collected: &Collected<'a>, tree: Option<(&Topology, &[Joint])>) -> Loops {
+    pub(super) fn loops(&mut self, collected: &Collected<'a>, tree: Option<(&Topology, &Joints)>) -> Loops {
         let mut loops = Loops::default();
         for task in &collected.deferred {
             let context = root(task.scope);
@@ -333,26 +331,23 @@ impl<'a> Checker<'a, '_> {
     }
 
     fn is_part_scope(&self, scope: super::checker::ScopeId) -> bool {
-        let scope = self.scopes.get(scope.0);
-        scope.is_some_and(|s| super::is_part(s.module))
+        super::is_part(self.scopes[scope].module)
     }
 
     fn finish_params(&mut self) -> Option<Vec<Param>> {
         let mut params = Vec::with_capacity(self.params.len());
-        for index in 0..self.params.len() {
-            let id = super::types::ParamId(index);
+        for id in self.params.ids() {
             let ty = self.param_type(id, Span::call_site())?;
             let mut default = Vec::new();
             self.evaluator.param(id)?.flatten(&mut default);
-            let slot = self.params.get(index)?;
+            let slot = &self.params[id];
             params.push(Param { place: slot.place.clone(), ty, default, docs: slot.docs.clone() });
         }
         Some(params)
     }
 
     fn finish_inputs(&mut self) -> Option<Vec<Input>> {
-        let types: Vec<Option<Type>> =
-            (0..self.inputs.len()).map(|index| self.input_type(super::types::InputId(index))).collect();
+        let types: Vec<Option<Type>> = self.inputs.ids().map(|id| self.input_type(id)).collect();
         let slots = self.inputs.iter().zip(types);
         slots.map(|(slot, ty)| Some(Input { place: slot.place.clone(), ty: ty?, docs: slot.docs.clone() })).collect()
     }

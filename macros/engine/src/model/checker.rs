@@ -8,6 +8,7 @@ use std::rc::Rc;
 
 use proc_macro2::{Ident, Span};
 
+use crate::invariant::index_vec::{IndexVec, id};
 use crate::syntax::tree;
 
 use super::checks::evaluate::Evaluator;
@@ -16,8 +17,8 @@ use super::joint_kinds::JointKind;
 use super::report::Report;
 use super::typed::{FrameValue, Typed};
 use super::types::{
-    BodyId, ConstraintId, Docs, Expr, ForceId, InputId, Instance, InstanceId, JointId, ParamId, PartType, Place,
-    StateId, Type,
+    BodyId, BodyRef, ConstraintId, Docs, Expr, ForceId, InputId, Instance, InstanceId, JointId, ParamId, PartType,
+    PartTypeId, Place, StateId, Type,
 };
 use super::units::Declared;
 use super::units::quantities::Quantity;
@@ -31,8 +32,13 @@ pub(super) struct NamedId(pub(super) usize);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct SystemId(pub(super) usize);
 
+id!(ScopeId, NamedId, SystemId);
+
 /// Bound on the expressions of one model, once all parts are expanded.
 const MAX_EXPRESSIONS: usize = 1_000_000;
+
+/// Ids from here on stand for what the ports of a part by itself lead to: more than there are items.
+pub(super) const FIRST_OF_PORTS: BodyId = BodyId(usize::MAX / 2);
 
 /// Names of one instance of a module. A part does not see the names of the model around it.
 pub(super) struct Scope<'a> {
@@ -253,24 +259,24 @@ pub(super) struct Checker<'a, 'd> {
     /// First module of each name.
     pub(super) modules: &'a BTreeMap<String, usize>,
     pub(super) report: &'a mut Report<'d>,
-    pub(super) scopes: Vec<Scope<'a>>,
-    pub(super) named: Vec<Named<'a>>,
-    pub(super) systems: Vec<System<'a>>,
-    pub(super) part_types: Vec<PartType>,
+    pub(super) scopes: IndexVec<ScopeId, Scope<'a>>,
+    pub(super) named: IndexVec<NamedId, Named<'a>>,
+    pub(super) systems: IndexVec<SystemId, System<'a>>,
+    pub(super) part_types: IndexVec<PartTypeId, PartType>,
     /// Module of each part type, and the params that its instances set, with the first instance's name.
-    pub(super) part_modules: Vec<(usize, Vec<String>, String)>,
-    pub(super) instances: Vec<Instance>,
-    pub(super) params: Vec<ParamSlot<'a>>,
-    pub(super) inputs: Vec<InputSlot<'a>>,
-    pub(super) states: Vec<Slot<'a>>,
-    pub(super) bodies: Vec<Slot<'a>>,
-    pub(super) joints: Vec<JointSlot<'a>>,
-    pub(super) forces: Vec<Slot<'a>>,
-    pub(super) constraints: Vec<Slot<'a>>,
+    pub(super) part_modules: IndexVec<PartTypeId, (usize, Vec<String>, String)>,
+    pub(super) instances: IndexVec<InstanceId, Instance>,
+    pub(super) params: IndexVec<ParamId, ParamSlot<'a>>,
+    pub(super) inputs: IndexVec<InputId, InputSlot<'a>>,
+    pub(super) states: IndexVec<StateId, Slot<'a>>,
+    pub(super) bodies: IndexVec<BodyId, Slot<'a>>,
+    pub(super) joints: IndexVec<JointId, JointSlot<'a>>,
+    pub(super) forces: IndexVec<ForceId, Slot<'a>>,
+    pub(super) constraints: IndexVec<ConstraintId, Slot<'a>>,
     /// What `formulation` says about the coordinates of all bodies.
     pub(super) coordinates: Option<Coordinates>,
-    /// Per body: its implicit joint on the ground, where its coordinates are absolute.
-    pub(super) absolute: Vec<Option<JointId>>,
+    /// Its implicit joint on the ground, where its coordinates are absolute.
+    pub(super) absolute: IndexVec<BodyId, Option<JointId>>,
     /// Where coordinates, rates, .. of joints are named.
     pub(super) coordinate_uses: Vec<(JointId, Span)>,
     pub(super) tasks: Vec<Task<'a>>,
@@ -303,21 +309,21 @@ impl<'a, 'd> Checker<'a, 'd> {
             source,
             modules,
             report,
-            scopes: Vec::new(),
-            named: Vec::new(),
-            systems: Vec::new(),
-            part_types: Vec::new(),
-            part_modules: Vec::new(),
-            instances: Vec::new(),
-            params: Vec::new(),
-            inputs: Vec::new(),
-            states: Vec::new(),
-            bodies: Vec::new(),
-            joints: Vec::new(),
-            forces: Vec::new(),
-            constraints: Vec::new(),
+            scopes: IndexVec::new(),
+            named: IndexVec::new(),
+            systems: IndexVec::new(),
+            part_types: IndexVec::new(),
+            part_modules: IndexVec::new(),
+            instances: IndexVec::new(),
+            params: IndexVec::new(),
+            inputs: IndexVec::new(),
+            states: IndexVec::new(),
+            bodies: IndexVec::new(),
+            joints: IndexVec::new(),
+            forces: IndexVec::new(),
+            constraints: IndexVec::new(),
             coordinates: None,
-            absolute: Vec::new(),
+            absolute: IndexVec::new(),
             coordinate_uses: Vec::new(),
             tasks: Vec::new(),
             evaluator: Evaluator::default(),
@@ -332,9 +338,19 @@ impl<'a, 'd> Checker<'a, 'd> {
         }
     }
 
+    /// The joint on the ground that stands for the coordinates of a body; nothing where they are those of its joints, and for what
+    /// a port of a part by itself leads to, which is no body of this model.
+    pub(super) fn own_joint(&self, body: BodyRef) -> Option<JointId> {
+        match body {
+            BodyRef::Body(id) if id >= FIRST_OF_PORTS => None,
+            BodyRef::Body(id) => self.absolute[id],
+            BodyRef::Ground => None,
+        }
+    }
+
     /// The value behind a `const`, `let`, `output`, bound param or port, asked for at `site`.
     pub(super) fn named_meaning(&mut self, id: NamedId, site: Span) -> Option<Meaning> {
-        let named = self.named.get_mut(id.0)?;
+        let named = &mut self.named[id];
         match &named.state {
             Lazy::Done(meaning) => return meaning.clone(),
             Lazy::Working => {
@@ -352,18 +368,17 @@ impl<'a, 'd> Checker<'a, 'd> {
             expr: named.expr,
         };
         let mut meaning = self.resolve_named(&request);
-        if let Some(named) = self.named.get_mut(id.0) {
-            if let (Some(unit), Some(Meaning::Value(value))) = (&named.unit, &mut meaning) {
-                value.expr.unit = Some(Rc::new(unit.clone().over(value.expr.unit.take())));
-            }
-            named.state = Lazy::Done(meaning.clone());
+        let named = &mut self.named[id];
+        if let (Some(unit), Some(Meaning::Value(value))) = (&named.unit, &mut meaning) {
+            value.expr.unit = Some(Rc::new(unit.clone().over(value.expr.unit.take())));
         }
+        named.state = Lazy::Done(meaning.clone());
         meaning
     }
 
     /// The type of a param, asked for at `site`; its default is known to the evaluator afterwards.
     pub(super) fn param_type(&mut self, id: ParamId, site: Span) -> Option<Type> {
-        let slot = self.params.get_mut(id.0)?;
+        let slot = &mut self.params[id];
         match &slot.state {
             Lazy::Done(ty) => return ty.clone(),
             Lazy::Working => {
@@ -381,24 +396,21 @@ impl<'a, 'd> Checker<'a, 'd> {
             expr
         });
         let ty = default.as_ref().map(|expr| expr.ty.clone());
-        if let Some(slot) = self.params.get_mut(id.0) {
-            slot.state = Lazy::Done(ty.clone());
-            slot.default = default;
-        }
+        let slot = &mut self.params[id];
+        slot.state = Lazy::Done(ty.clone());
+        slot.default = default;
         ty
     }
 
     /// The type of an input.
     pub(super) fn input_type(&mut self, id: InputId) -> Option<Type> {
-        let slot = self.inputs.get(id.0)?;
+        let slot = &self.inputs[id];
         if let Lazy::Done(ty) = &slot.state {
             return ty.clone();
         }
         let (item, scope) = (slot.item, slot.scope);
         let ty = self.resolve_input(item, scope);
-        if let Some(slot) = self.inputs.get_mut(id.0) {
-            slot.state = Lazy::Done(ty.clone());
-        }
+        self.inputs[id].state = Lazy::Done(ty.clone());
         ty
     }
 }

@@ -13,8 +13,8 @@ use crate::rust_keywords::is_keyword;
 use crate::syntax::tree::{self, ItemKind};
 
 use super::checker::{
-    Checker, Context, InputSlot, JointSlot, Lazy, Meaning, Named, NamedId, NamedRequest, ParamSlot, Role, Scope,
-    ScopeId, Slot, Subject, Symbol, Task,
+    Checker, Context, FIRST_OF_PORTS, InputSlot, JointSlot, Lazy, Meaning, Named, NamedId, NamedRequest, ParamSlot,
+    Role, Scope, ScopeId, Slot, Subject, Symbol, Task,
 };
 use super::docs;
 use super::items::coordinates::Coordinates;
@@ -22,9 +22,7 @@ use super::items::fields::field;
 use super::joint_kinds::{self, JointKind};
 use super::names;
 use super::typed::{FrameValue, Uses};
-use super::types::{
-    BodyId, BodyRef, ConstraintId, ForceId, Frame, InputId, Instance, InstanceId, JointId, ParamId, Place, StateId,
-};
+use super::types::{BodyId, BodyRef, Frame, Instance, InstanceId, JointId, Place};
 use super::units::{self, Declared};
 
 /// Bound on the items of one model once its parts are expanded.
@@ -70,9 +68,7 @@ pub(super) fn declared(kind: &ItemKind) -> Option<(&Ident, &'static str)> {
 impl<'a> Checker<'a, '_> {
     /// Expands the model (or the part that is checked by itself) and all parts inside it.
     pub(super) fn expand_root(&mut self, index: usize) {
-        let Some(module) = self.source.modules.get(index) else {
-            return;
-        };
+        let module = &self.source.modules[index];
         self.instances.push(Instance {
             parent: None,
             field: module.name.clone(),
@@ -88,10 +84,9 @@ impl<'a> Checker<'a, '_> {
         self.expand(index, InstanceId(0), None);
     }
 
-    fn expand(&mut self, index: usize, instance: InstanceId, binding: Option<Binding<'a>>) -> Option<ScopeId> {
-        let module = self.source.modules.get(index)?;
-        let scope = ScopeId(self.scopes.len());
-        self.scopes.push(Scope { module, instance, names: BTreeMap::new(), outputs: BTreeMap::new() });
+    fn expand(&mut self, index: usize, instance: InstanceId, binding: Option<Binding<'a>>) -> ScopeId {
+        let module = &self.source.modules[index];
+        let scope = self.scopes.push(Scope { module, instance, names: BTreeMap::new(), outputs: BTreeMap::new() });
         self.expanding.push(index);
         self.expanded += module.items.len();
         let own = self.declare(module, scope);
@@ -107,7 +102,7 @@ impl<'a> Checker<'a, '_> {
             self.tasks.push(Task { scope, item, subject });
         }
         self.expanding.pop();
-        Some(scope)
+        scope
     }
 
     /// Enters all names, so that the values which counts of parts need are there. Says per item whether the name is
@@ -160,7 +155,7 @@ impl<'a> Checker<'a, '_> {
             self.report.help(name.span(), why, "take another name");
             return false;
         }
-        let taken = self.scopes.get(scope.0).and_then(|s| s.names.get(&text));
+        let taken = self.scopes[scope].names.get(&text);
         if let Some(first) = taken.map(Symbol::keyword) {
             self.report.error(
                 name.span(),
@@ -172,7 +167,7 @@ impl<'a> Checker<'a, '_> {
     }
 
     fn is_taken(&self, name: &Ident, scope: ScopeId) -> bool {
-        self.scopes.get(scope.0).is_some_and(|scope| scope.names.contains_key(&name.to_string()))
+        self.scopes[scope].names.contains_key(&name.to_string())
     }
 
     /// Enters the name of an output; whether it is its own. What else has that name doesn't matter.
@@ -183,7 +178,7 @@ impl<'a> Checker<'a, '_> {
             self.report.help(name.span(), why, "take another name");
             return false;
         }
-        if self.scopes.get(scope.0).is_some_and(|scope| scope.outputs.contains_key(text)) {
+        if self.scopes[scope].outputs.contains_key(text) {
             let message = format!("the name `{text}` is taken: an `output` above has it already");
             self.report.error(name.span(), message);
             return false;
@@ -192,27 +187,21 @@ impl<'a> Checker<'a, '_> {
         let request =
             NamedRequest { role: Role::Output, context, item: Some(value), home: scope, expr: value.value.as_ref() };
         let id = self.add_named(name, request, unit);
-        if let Some(scope) = self.scopes.get_mut(scope.0) {
-            scope.outputs.insert(text.to_string(), id);
-        }
+        self.scopes[scope].outputs.insert(text.to_string(), id);
         true
     }
 
     fn add_named(&mut self, name: &'a Ident, request: NamedRequest<'a>, unit: Option<Declared>) -> NamedId {
         let NamedRequest { role, context, item, home, expr } = request;
-        self.named.push(Named { name, role, context, item, home, expr, unit, state: Lazy::Waiting });
-        NamedId(self.named.len() - 1)
+        self.named.push(Named { name, role, context, item, home, expr, unit, state: Lazy::Waiting })
     }
 
     pub(super) fn set_symbol(&mut self, scope: ScopeId, name: &Ident, symbol: Symbol) {
-        if let Some(scope) = self.scopes.get_mut(scope.0) {
-            scope.names.insert(name.to_string(), symbol);
-        }
+        self.scopes[scope].names.insert(name.to_string(), symbol);
     }
 
     fn place(&self, scope: ScopeId, field: &Ident) -> Place {
-        let instance = self.scopes.get(scope.0).map(|s| s.instance);
-        Place { instance: instance.unwrap_or(InstanceId(0)), field: field.clone() }
+        Place { instance: self.scopes[scope].instance, field: field.clone() }
     }
 
     /// Makes the slot of an item; `own`: whether its name may lead to it.
@@ -229,12 +218,11 @@ impl<'a> Checker<'a, '_> {
         let place = self.place(scope, name);
         let (subject, symbol) = match &item.kind {
             ItemKind::Output(_) => {
-                let id = self.scopes.get(scope.0).and_then(|scope| scope.outputs.get(&name.to_string()));
+                let id = self.scopes[scope].outputs.get(&name.to_string());
                 return id.filter(|_| own).map_or(Subject::None, |id| Subject::Named(*id));
             }
             ItemKind::Const(_) | ItemKind::Let(_) => {
-                let names = self.scopes.get(scope.0).map(|s| &s.names);
-                return match names.and_then(|n| n.get(&name.to_string())) {
+                return match self.scopes[scope].names.get(&name.to_string()) {
                     Some(Symbol::Named(id, _)) if own => Subject::Named(*id),
                     _ => Subject::None,
                 };
@@ -248,8 +236,7 @@ impl<'a> Checker<'a, '_> {
                     (Subject::Named(id), Symbol::Named(id, keyword))
                 }
                 None => {
-                    let id = ParamId(self.params.len());
-                    self.params.push(ParamSlot {
+                    let id = self.params.push(ParamSlot {
                         place,
                         item: value,
                         scope,
@@ -277,8 +264,7 @@ impl<'a> Checker<'a, '_> {
                 None => (Subject::None, Symbol::Opaque(keyword)),
             },
             ItemKind::Input(value) => {
-                let id = InputId(self.inputs.len());
-                self.inputs.push(InputSlot {
+                let id = self.inputs.push(InputSlot {
                     place,
                     item: value,
                     scope,
@@ -288,25 +274,22 @@ impl<'a> Checker<'a, '_> {
                 (Subject::Input(id), Symbol::Input(id))
             }
             ItemKind::State { .. } => {
-                let id = StateId(self.states.len());
-                self.states.push(Slot { place, item, scope });
+                let id = self.states.push(Slot { place, item, scope });
                 (Subject::State(id), Symbol::State(id))
             }
             ItemKind::Body { fields, .. } => {
-                let id = BodyId(self.bodies.len());
+                let id = self.bodies.next();
                 let joint = self.implicit_joint(id, fields, &place, item, scope);
                 self.absolute.push(joint);
                 self.bodies.push(Slot { place, item, scope });
                 (Subject::Body(id), Symbol::Body(id))
             }
             ItemKind::Force { .. } => {
-                let id = ForceId(self.forces.len());
-                self.forces.push(Slot { place, item, scope });
+                let id = self.forces.push(Slot { place, item, scope });
                 (Subject::Force(id), Symbol::Force(id))
             }
             ItemKind::Joint { kind, fields, .. } => {
-                let id = JointId(self.joints.len());
-                self.joints.push(JointSlot {
+                let id = self.joints.push(JointSlot {
                     place,
                     item,
                     scope,
@@ -323,8 +306,7 @@ impl<'a> Checker<'a, '_> {
                 }
             },
             ItemKind::ConstraintValue { .. } | ItemKind::ConstraintKind { .. } => {
-                let id = ConstraintId(self.constraints.len());
-                self.constraints.push(Slot { place, item, scope });
+                let id = self.constraints.push(Slot { place, item, scope });
                 (Subject::Constraint(id), Symbol::Constraint(id))
             }
             _ => (Subject::None, Symbol::Opaque(keyword)),
@@ -355,29 +337,25 @@ impl<'a> Checker<'a, '_> {
         let Coordinates::Absolute(orientation) = self.coordinates.or(own)? else {
             return None;
         };
-        let id = JointId(self.joints.len());
         let span = place.field.span();
         let frame = |body| FrameValue { frame: Frame { body, steps: Vec::new(), span }, uses: Uses::default() };
-        self.joints.push(JointSlot {
+        Some(self.joints.push(JointSlot {
             place: place.clone(),
             item,
             scope,
             kind: joint_kinds::FREE.oriented(orientation),
             frames: Lazy::Done(Some([frame(BodyRef::Ground), frame(BodyRef::Body(body))])),
-        });
-        Some(id)
+        }))
     }
 
     /// A part by itself: what its ports lead to is not known, but they are frames of different bodies.
     fn leave_open(&mut self, id: NamedId, name: &Ident) {
-        let body = BodyId(usize::MAX - self.ports);
+        let body = BodyId(FIRST_OF_PORTS.0 + self.ports);
         self.ports += 1;
-        if let Some(named) = self.named.get_mut(id.0) {
-            named.state = Lazy::Done(Some(Meaning::Frame(FrameValue {
-                frame: Frame { body: BodyRef::Body(body), steps: Vec::new(), span: name.span() },
-                uses: Uses::default(),
-            })));
-        }
+        self.named[id].state = Lazy::Done(Some(Meaning::Frame(FrameValue {
+            frame: Frame { body: BodyRef::Body(body), steps: Vec::new(), span: name.span() },
+            uses: Uses::default(),
+        })));
     }
 
     /// All instances of a part; nothing if the item is at fault.
@@ -404,7 +382,7 @@ impl<'a> Checker<'a, '_> {
         };
         self.check_part_fields(part, index);
         self.check_index(part, scope);
-        let part_type = self.part_type(index, part)?;
+        let part_type = self.part_type(index, part);
         let mut scopes = Vec::new();
         for k in 0..count.unwrap_or(1) {
             if self.expanded >= MAX_ITEMS {
@@ -415,10 +393,9 @@ impl<'a> Checker<'a, '_> {
                 );
                 return None;
             }
-            let parent = self.scopes.get(scope.0).map(|s| s.instance);
-            let instance = InstanceId(self.instances.len());
-            self.instances.push(Instance {
-                parent,
+            let parent = self.scopes[scope].instance;
+            let instance = self.instances.push(Instance {
+                parent: Some(parent),
                 field: part.name.clone(),
                 index: count.map(|n| (k, n)),
                 part_type: Some(part_type),
@@ -426,10 +403,11 @@ impl<'a> Checker<'a, '_> {
             });
             let context = Context { scope, index: part.index.as_ref().map(|name| (name, k)) };
             let binding = Binding { part, context };
-            scopes.push(self.expand(index, instance, Some(binding))?);
+            scopes.push(self.expand(index, instance, Some(binding)));
         }
         match count {
             Some(_) => Some(Symbol::Parts(Rc::from(scopes))),
+            // One part has been expanded.
             None => scopes.first().map(|scope| Symbol::Part(*scope)),
         }
     }

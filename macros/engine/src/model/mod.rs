@@ -114,7 +114,7 @@ fn modules(source: &tree::Source, report: &mut Report<'_>) -> BTreeMap<String, u
         if let Some(why) = names::module_refusal(&name) {
             report.help(module.name.span(), why, "take another name");
         }
-        match found.get(&name).and_then(|first| source.modules.get(*first)) {
+        match found.get(&name).map(|first| &source.modules[*first]) {
             Some(first) if is_part(first) || is_part(module) || !(has_cfg(first) && has_cfg(module)) => {
                 let message = format!("the name `{name}` is taken: a module above has it already");
                 report.error(module.name.span(), message);

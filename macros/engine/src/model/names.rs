@@ -132,7 +132,7 @@ impl JointKind {
         match self.coordinates().get(index) {
             Some(coordinate) => format!("`{name}.{coordinate}`"),
             None => {
-                let axis = ["x", "y", "z"].get(index % 3).copied().unwrap_or("x");
+                let axis = ["x", "y", "z"][index % 3];
                 format!("`{name}.angular_velocity.{axis}`")
             }
         }

@@ -12,7 +12,8 @@ use std::collections::BTreeSet;
 
 use super::arborescence::{self, Edge};
 use super::checker::Checker;
-use super::types::{Body, BodyId, BodyRef, ExprNode, Joint, JointId, Place};
+use super::types::{Bodies, BodyId, BodyRef, ExprNode, Joint, JointId, Joints, Place};
+use crate::invariant::index_vec::IndexVec;
 use crate::syntax::tree;
 
 /// What hangs on what.
@@ -31,9 +32,8 @@ impl Topology {
     }
 
     /// The joint that carries a body.
-    pub(super) fn carrier(&self, body: BodyRef, joints: &[Joint]) -> Option<JointId> {
-        let carries = |id: &&JointId| joints.get(id.0).is_some_and(|joint| joint.child.body == body);
-        self.tree.iter().find(carries).copied()
+    pub(super) fn carrier(&self, body: BodyRef, joints: &Joints) -> Option<JointId> {
+        self.tree.iter().copied().find(|id| joints[*id].child.body == body)
     }
 }
 
@@ -47,7 +47,7 @@ const CUT: i128 = 1 << 72;
 
 impl Checker<'_, '_> {
     /// The tree that costs least, and what is left over.
-    pub(super) fn topology(&mut self, bodies: &[Body], joints: &[Joint], module: &tree::Module) -> Option<Topology> {
+    pub(super) fn topology(&mut self, bodies: &Bodies, joints: &Joints, module: &tree::Module) -> Option<Topology> {
         if bodies.is_empty() && self.report.failed() {
             return None;
         }
@@ -56,28 +56,24 @@ impl Checker<'_, '_> {
             self.report.help(module.name.span(), message, "write `body name { mass: 1.0 }` and a joint that holds it");
             return None;
         }
-        let cuts: Vec<bool> = (0..joints.len()).map(|index| self.says_cut(index)).collect();
+        let cuts: Marks = joints.ids().map(|id| self.says_cut(id)).collect();
         // Where the formulation sets all coordinates, `#[cut]` is a wish.
         let firm = self.coordinates.is_none();
-        let usable: Vec<bool> = cuts.iter().map(|cut| !(firm && *cut)).collect();
-        let follow: Vec<bool> = joints
-            .iter()
-            .zip(&usable)
-            .enumerate()
-            .map(|(index, (joint, usable))| *usable && self.may_carry(JointId(index), joint))
-            .collect();
-        self.connected(bodies, joints, usable, follow.clone()).then_some(())?;
+        let usable: Marks = cuts.iter().map(|cut| !(firm && *cut)).collect();
+        let follow: Marks = joints.iter_ids().map(|(id, joint)| usable[id] && self.may_carry(id, joint)).collect();
+        self.connected(bodies, joints, &usable, follow.clone()).then_some(())?;
+        let all: Marks = joints.iter().map(|_| true).collect();
         let chosen = self.cheapest(bodies, joints, &cuts, &follow).unwrap_or_else(|| {
             // Any tree is a good one.
-            let mut walk = Walk::new(bodies.len(), joints, vec![true; joints.len()], follow);
+            let mut walk = Walk::new(bodies.len(), joints, &all, follow);
             walk.reach(BodyRef::Ground);
             walk.run();
-            (0..joints.len()).map(|index| walk.tree.contains(&JointId(index))).collect()
+            joints.ids().map(|id| walk.tree.contains(&id)).collect()
         });
-        let mut walk = Walk::new(bodies.len(), joints, vec![true; joints.len()], chosen.clone());
+        let mut walk = Walk::new(bodies.len(), joints, &all, chosen.clone());
         walk.reach(BodyRef::Ground);
         walk.run();
-        let closing = (0..joints.len()).filter(|index| chosen.get(*index) == Some(&false)).map(JointId);
+        let closing = joints.ids().filter(|id| !chosen[*id]);
         let void = chosen.iter().zip(&cuts).zip(joints).filter(|((chosen, cut), _)| **chosen && **cut);
         let skipped = void.map(|(_, joint)| {
             format!("`#[cut]` of `{}`: with these coordinates the joint lies in the tree", self.path_text(&joint.place))
@@ -87,27 +83,19 @@ impl Checker<'_, '_> {
 
     /// Whether the joint may be the one that carries its child.
     fn may_carry(&self, id: JointId, joint: &Joint) -> bool {
-        match joint.child.body {
-            BodyRef::Ground => false,
-            BodyRef::Body(body) => {
-                let implicit = self.absolute.get(body.0).copied().flatten();
-                implicit.is_none_or(|implicit| implicit == id)
-            }
-        }
+        joint.child.body != BodyRef::Ground && self.own_joint(joint.child.body).is_none_or(|own| own == id)
     }
 
     /// Reports bodies that are not reached from the ground, or only against the direction of a joint.
-    fn connected(&mut self, bodies: &[Body], joints: &[Joint], usable: Vec<bool>, follow: Vec<bool>) -> bool {
+    fn connected(&mut self, bodies: &Bodies, joints: &Joints, usable: &Marks, follow: Marks) -> bool {
         let mut walk = Walk::new(bodies.len(), joints, usable, follow);
         walk.reach(BodyRef::Ground);
         let mut sound = true;
         loop {
             walk.run();
             if let Some(id) = walk.against_the_tree() {
-                if let Some(joint) = joints.get(id.0) {
-                    self.report_against(joint);
-                    walk.reach(joint.parent.body);
-                }
+                self.report_against(&joints[id]);
+                walk.reach(joints[id].parent.body);
                 sound = false;
                 continue;
             }
@@ -115,7 +103,7 @@ impl Checker<'_, '_> {
             let group = walk.group(first);
             match self.held_by_cut(&group, joints) {
                 Some(joint) => {
-                    let body = bodies.get(first.0).map_or_else(String::new, |body| body.place.field.to_string());
+                    let body = &bodies[first].place.field;
                     let name = &joint.place.field;
                     self.report.help(
                         joint.span,
@@ -146,48 +134,41 @@ impl Checker<'_, '_> {
     }
 
     /// A cut joint that holds one of these bodies to something else.
-    fn held_by_cut<'j>(&self, group: &[BodyId], joints: &'j [Joint]) -> Option<&'j Joint> {
+    fn held_by_cut<'j>(&self, group: &[BodyId], joints: &'j Joints) -> Option<&'j Joint> {
         let inside = |body: BodyRef| matches!(body, BodyRef::Body(id) if group.binary_search(&id).is_ok());
-        let mut joints = joints.iter().enumerate();
-        let found = joints
-            .find(|(index, joint)| self.says_cut(*index) && inside(joint.child.body) != inside(joint.parent.body));
+        let mut joints = joints.iter_ids();
+        let found =
+            joints.find(|(id, joint)| self.says_cut(*id) && inside(joint.child.body) != inside(joint.parent.body));
         found.map(|(_, joint)| joint)
     }
 
     /// Which joints the cheapest tree is made of.
-    fn cheapest(&self, bodies: &[Body], joints: &[Joint], cuts: &[bool], follow: &[bool]) -> Option<Vec<bool>> {
+    fn cheapest(&self, bodies: &Bodies, joints: &Joints, cuts: &Marks, follow: &Marks) -> Option<Marks> {
         let node = |body| match body {
             BodyRef::Ground => bodies.len(),
             BodyRef::Body(id) => id.0,
         };
         let mut origins = Vec::new();
         let mut edges = Vec::new();
-        for (index, (joint, cut)) in joints.iter().zip(cuts).enumerate() {
-            if follow.get(index) != Some(&true) {
-                continue;
-            }
+        for (id, joint) in joints.iter_ids().filter(|(id, _)| follow[*id]) {
             let freedoms = if joint.kind.is_free() { 0 } else { i128::try_from(joint.kind.freedoms()).ok()? + 1 };
-            let absolute = match joint.parent.body {
-                BodyRef::Body(id) => self.absolute.get(id.0).is_some_and(Option::is_some),
-                BodyRef::Ground => false,
-            };
-            let mut weight = freedoms * FREEDOM + i128::try_from(index).ok()?;
-            weight += i128::from(absolute) * AT_ABSOLUTE + i128::from(*cut) * CUT;
+            let absolute = self.own_joint(joint.parent.body).is_some();
+            let mut weight = freedoms * FREEDOM + i128::try_from(id.0).ok()?;
+            weight += i128::from(absolute) * AT_ABSOLUTE + i128::from(cuts[id]) * CUT;
             weight += i128::from(!has_armature(joint)) * NO_ARMATURE;
-            origins.push(index);
+            origins.push(id);
             edges.push(Edge { from: node(joint.parent.body), to: node(joint.child.body), weight });
         }
         let best = arborescence::cheapest(bodies.len() + 1, bodies.len(), &edges)?;
-        let mut chosen = vec![false; joints.len()];
+        let mut chosen: Marks = joints.iter().map(|_| false).collect();
         for position in best.into_iter().flatten() {
-            *chosen.get_mut(*origins.get(position)?)? = true;
+            chosen[origins[position]] = true;
         }
         Some(chosen)
     }
 
-    pub(super) fn says_cut(&self, joint: usize) -> bool {
-        let slot = self.joints.get(joint);
-        slot.is_some_and(|slot| slot.item.attrs.iter().any(|a| a.path().is_ident("cut")))
+    pub(super) fn says_cut(&self, joint: JointId) -> bool {
+        self.joints[joint].item.attrs.iter().any(|a| a.path().is_ident("cut"))
     }
 
     /// Whether coordinates of the joint are measured where it closes a loop: it lies between bodies that stand in the tree by
@@ -197,26 +178,23 @@ impl Checker<'_, '_> {
             BodyRef::Ground => joint.parent.body,
             body => body,
         };
-        matches!(own, BodyRef::Body(id) if self.absolute.get(id.0).is_some_and(Option::is_some))
+        self.own_joint(own).is_some()
     }
 
     /// Refuses coordinates of joints that have none.
-    pub(super) fn check_coordinate_uses(&mut self, topology: &Topology, joints: &[Joint]) {
+    pub(super) fn check_coordinate_uses(&mut self, topology: &Topology, joints: &Joints) {
         for (id, span) in std::mem::take(&mut self.coordinate_uses) {
-            let measured = joints.get(id.0).is_some_and(|joint| self.is_measured(joint));
-            if topology.is_cut(id) && !measured {
+            if topology.is_cut(id) && !self.is_measured(&joints[id]) {
                 self.refuse_cut_coordinate(id, span, joints);
             }
         }
     }
 
-    pub(super) fn refuse_cut_coordinate(&mut self, id: JointId, span: proc_macro2::Span, joints: &[Joint]) {
-        let Some(joint) = joints.get(id.0) else {
-            return;
-        };
+    pub(super) fn refuse_cut_coordinate(&mut self, id: JointId, span: proc_macro2::Span, joints: &Joints) {
+        let joint = &joints[id];
         let help = if self.coordinates.is_some() {
             "with the coordinates that `formulation` sets it has none; take what frames have, such as `.position`"
-        } else if self.says_cut(id.0) {
+        } else if self.says_cut(id) {
             "take coordinates of the joints in the tree, or cut another joint of the loop"
         } else {
             "take coordinates of the joints in the tree, or choose another cut: `#[cut]` on another joint of the loop"
@@ -228,29 +206,25 @@ impl Checker<'_, '_> {
     /// `legs[2].ball`
     pub(super) fn path_text(&self, place: &Place) -> String {
         let mut text = place.field.to_string();
-        let mut at = self.instances.get(place.instance.0);
-        while let Some(instance) = at {
-            let Some(parent) = instance.parent else { break };
+        let mut instance = &self.instances[place.instance];
+        while let Some(parent) = instance.parent {
             text = match instance.index {
                 Some((k, _)) => format!("{}[{k}].{text}", instance.field),
                 None => format!("{}.{text}", instance.field),
             };
-            at = self.instances.get(parent.0);
+            instance = &self.instances[parent];
         }
         text
     }
 
-    fn report_disconnected(&mut self, first: BodyId, group: &[BodyId], bodies: &[Body]) {
-        let Some(body) = bodies.get(first.0) else {
-            return;
-        };
+    fn report_disconnected(&mut self, first: BodyId, group: &[BodyId], bodies: &Bodies) {
+        let body = &bodies[first];
         let name = &body.place.field;
         let others: Vec<String> = group
             .iter()
             .filter(|id| **id != first)
-            .filter_map(|id| bodies.get(id.0))
             .take(5)
-            .map(|body| format!("`{}`", body.place.field))
+            .map(|id| format!("`{}`", bodies[*id].place.field))
             .collect();
         let with =
             if others.is_empty() { String::new() } else { format!(", nor is what hangs on it: {}", others.join(", ")) };
@@ -267,18 +241,21 @@ fn has_armature(joint: &Joint) -> bool {
     joint.armature.as_ref().is_some_and(|armature| !matches!(*armature.node, ExprNode::Number(0.0)))
 }
 
+/// What is said of each joint.
+type Marks = IndexVec<JointId, bool>;
+
 /// A walk from the ground over joints.
 struct Walk<'j> {
-    joints: &'j [Joint],
+    joints: &'j Joints,
     /// Joints that may be followed from parent to child.
-    follow: Vec<bool>,
+    follow: Marks,
     /// Joints at each body, and at the ground as the last entry.
-    at: Vec<Vec<usize>>,
+    at: Vec<Vec<JointId>>,
     reached: Vec<bool>,
     /// Joints whose parent is reached and that were not looked at.
-    ready: BTreeSet<usize>,
+    ready: BTreeSet<JointId>,
     /// Joints whose child is reached and whose parent was not.
-    against: BTreeSet<usize>,
+    against: BTreeSet<JointId>,
     /// All bodies before this one are reached.
     searched: usize,
     tree: Vec<JointId>,
@@ -286,7 +263,7 @@ struct Walk<'j> {
 
 impl<'j> Walk<'j> {
     /// Over the `usable` joints; others are not there.
-    fn new(bodies: usize, joints: &'j [Joint], usable: Vec<bool>, follow: Vec<bool>) -> Self {
+    fn new(bodies: usize, joints: &'j Joints, usable: &Marks, follow: Marks) -> Self {
         let mut walk = Walk {
             joints,
             follow,
@@ -297,12 +274,10 @@ impl<'j> Walk<'j> {
             searched: 0,
             tree: Vec::new(),
         };
-        for (index, joint) in joints.iter().enumerate().filter(|(index, _)| usable.get(*index) == Some(&true)) {
+        for (id, joint) in joints.iter_ids().filter(|(id, _)| usable[*id]) {
             for body in [joint.parent.body, joint.child.body] {
                 let slot = walk.slot(body);
-                if let Some(list) = walk.at.get_mut(slot) {
-                    list.push(index);
-                }
+                walk.at[slot].push(id);
             }
         }
         walk
@@ -316,46 +291,37 @@ impl<'j> Walk<'j> {
     }
 
     fn is_reached(&self, body: BodyRef) -> bool {
-        self.reached.get(self.slot(body)).copied().unwrap_or(true)
+        self.reached[self.slot(body)]
     }
 
     fn reach(&mut self, body: BodyRef) {
         let slot = self.slot(body);
-        if let Some(reached) = self.reached.get_mut(slot) {
-            *reached = true;
-        }
-        let touching = self.at.get(slot).cloned().unwrap_or_default();
-        for index in touching {
-            let Some(joint) = self.joints.get(index) else {
-                continue;
-            };
-            if joint.parent.body != body {
-                self.against.insert(index);
-            } else if self.follow.get(index) == Some(&true) {
-                self.ready.insert(index);
+        self.reached[slot] = true;
+        for &id in &self.at[slot] {
+            if self.joints[id].parent.body != body {
+                self.against.insert(id);
+            } else if self.follow[id] {
+                self.ready.insert(id);
             }
         }
     }
 
     /// Follows joints from parents to children until no new body is found.
     fn run(&mut self) {
-        while let Some(index) = self.ready.pop_first() {
-            let Some(joint) = self.joints.get(index) else {
-                continue;
-            };
-            if !self.is_reached(joint.child.body) {
-                self.tree.push(JointId(index));
-                self.reach(joint.child.body);
+        while let Some(id) = self.ready.pop_first() {
+            let child = self.joints[id].child.body;
+            if !self.is_reached(child) {
+                self.tree.push(id);
+                self.reach(child);
             }
         }
     }
 
     /// The first joint that could only be followed from child to parent.
     fn against_the_tree(&mut self) -> Option<JointId> {
-        while let Some(index) = self.against.pop_first() {
-            let joint = self.joints.get(index)?;
-            if !self.is_reached(joint.parent.body) {
-                return Some(JointId(index));
+        while let Some(id) = self.against.pop_first() {
+            if !self.is_reached(self.joints[id].parent.body) {
+                return Some(id);
             }
         }
         None
@@ -385,10 +351,8 @@ impl<'j> Walk<'j> {
         let mut found: BTreeSet<usize> = BTreeSet::from([first.0]);
         let mut open = vec![first.0];
         while let Some(slot) = open.pop() {
-            for index in self.at.get(slot).into_iter().flatten() {
-                let Some(joint) = self.joints.get(*index) else {
-                    continue;
-                };
+            for &id in &self.at[slot] {
+                let joint = &self.joints[id];
                 for body in [joint.parent.body, joint.child.body] {
                     if let BodyRef::Body(id) = body
                         && found.insert(id.0)

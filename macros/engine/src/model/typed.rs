@@ -70,9 +70,7 @@ impl Uses {
     }
 
     pub(super) fn add(&mut self, class: Class, name: impl Into<String>, span: Span) {
-        if let Some(slot) = self.0.get_mut(class as usize) {
-            slot.get_or_insert_with(|| Rc::new(Culprit { name: name.into(), via: None, span }));
-        }
+        self.0[class as usize].get_or_insert_with(|| Rc::new(Culprit { name: name.into(), via: None, span }));
     }
 
     pub(super) fn merge(&mut self, other: &Uses) {

@@ -37,6 +37,9 @@ ids! {
     ConstraintId,
 }
 
+pub type Bodies = IndexVec<BodyId, Body>;
+pub type Joints = IndexVec<JointId, Joint>;
+
 /// A mechanism, ready for derivation.
 pub struct Model {
     pub name: Ident,
@@ -50,9 +53,9 @@ pub struct Model {
     pub params: IndexVec<ParamId, Param>,
     pub inputs: IndexVec<InputId, Input>,
     pub states: IndexVec<StateId, State>,
-    pub bodies: IndexVec<BodyId, Body>,
+    pub bodies: Bodies,
     /// In source order, which is the order of coordinates; `tree` gives the topological one.
-    pub joints: IndexVec<JointId, Joint>,
+    pub joints: Joints,
     /// Every body's joint towards the ground, parents before children.
     pub tree: Vec<JointId>,
     /// Joints that close loops, in source order: they have no coordinates and stand in no generated struct.

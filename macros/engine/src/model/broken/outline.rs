@@ -12,8 +12,10 @@ use proc_macro2::{Ident, Span};
 use syn::{Expr as Written, Type as WrittenType};
 
 use crate::diagnostics::nearest;
+use crate::invariant::fault::raise;
+use crate::invariant::index_vec::IndexVec;
 use crate::model::assemble::{Collected, Loops};
-use crate::model::checker::{Checker, Context, Role, Subject, Task};
+use crate::model::checker::{Checker, Context, Subject, Task};
 use crate::model::expand::root;
 use crate::model::items::fields::field;
 use crate::model::items::joints::{fields_of, meant};
@@ -22,9 +24,9 @@ use crate::model::joint_kinds::{self, JointKind};
 use crate::model::topology::Topology;
 use crate::model::typed::{bounded_scalars, new_expr};
 use crate::model::types::{
-    Body, BodyRef, Constraint, ConstraintKind, Coordinate, Directions, Docs, Drive, DriveTarget, Expr, ExprNode, Frame,
-    Handling, Input, InputId, InstanceId, Joint, JointId, Kinematics, Model, Output, Param, ParamId, Place, Request,
-    Solve, SolveHow, State, Type,
+    Bodies, Body, BodyRef, Constraint, ConstraintKind, Coordinate, Directions, Docs, Drive, DriveTarget, Expr,
+    ExprNode, Frame, Handling, Input, InstanceId, Joint, JointId, Joints, Kinematics, Model, Output, Param, Place,
+    Request, Solve, SolveHow, State, Type,
 };
 use crate::model::{Checked, Soundness};
 use crate::syntax::tree::{self, ItemKind};
@@ -43,18 +45,15 @@ impl<'a> Checker<'a, '_> {
     }
 
     fn filled(&mut self, index: usize) -> Option<Checked> {
-        let module = self.source.modules.get(index)?;
+        let module = &self.source.modules[index];
         let mut whole = !module.broken && !self.lost;
         let mut collected = self.read_all();
-        let bodies: Vec<Body> = self.filled_bodies(std::mem::take(&mut collected.bodies));
-        let mut ends = Vec::new();
-        let mut joints = Vec::new();
-        for (index, joint) in std::mem::take(&mut collected.joints).into_iter().enumerate() {
-            let found = joint.map(known_ends).or_else(|| self.filled_joint(JointId(index), &mut whole));
-            let Some((joint, known)) = found else {
-                whole = false;
-                continue;
-            };
+        let bodies: Bodies = self.filled_bodies(std::mem::take(&mut collected.bodies));
+        let mut ends: IndexVec<JointId, _> = IndexVec::new();
+        let mut joints: Joints = IndexVec::new();
+        for joint in std::mem::take(&mut collected.joints) {
+            let id = joints.next();
+            let (joint, known) = joint.map(known_ends).unwrap_or_else(|| self.filled_joint(id, &mut whole));
             joints.push(joint);
             ends.push(known);
         }
@@ -78,8 +77,8 @@ impl<'a> Checker<'a, '_> {
             inputs: self.filled_inputs().into(),
             states: self.filled_states(collected.states).into(),
             outputs: self.filled_outputs(),
-            bodies: bodies.into(),
-            joints: joints.into(),
+            bodies,
+            joints,
             tree: topology.tree,
             cuts: topology.cuts,
             constraints: constraints.into(),
@@ -95,7 +94,7 @@ impl<'a> Checker<'a, '_> {
         Some(Checked { model, state: if whole { Soundness::Whole } else { Soundness::Guessed } })
     }
 
-    fn filled_bodies(&mut self, bodies: Vec<Option<Body>>) -> Vec<Body> {
+    fn filled_bodies(&mut self, bodies: Vec<Option<Body>>) -> Bodies {
         let slots: Vec<_> = self.bodies.iter().map(|slot| slot.place.clone()).collect();
         let filled = bodies.into_iter().zip(slots).map(|(body, place)| {
             body.unwrap_or_else(|| Body {
@@ -112,11 +111,11 @@ impl<'a> Checker<'a, '_> {
 
     /// A joint with mistakes, and the bodies on both sides as far as they are known. Where misspelt words are all that was
     /// wrong, it is the joint that was meant.
-    fn filled_joint(&mut self, id: JointId, whole: &mut bool) -> Option<(Joint, [Option<BodyRef>; 2])> {
-        let slot = self.joints.get(id.0)?;
+    fn filled_joint(&mut self, id: JointId, whole: &mut bool) -> (Joint, [Option<BodyRef>; 2]) {
+        let slot = &self.joints[id];
         let (place, item, context) = (slot.place.clone(), slot.item, root(slot.scope));
         let ItemKind::Joint { kind, fields, .. } = &item.kind else {
-            return None;
+            raise("the joint of a body with absolute coordinates has no mistakes");
         };
         let meant_kind = slot.kind.unwrap_or_else(|| meant(&kind.to_string(), fields));
         let fields = self.corrected_fields(fields, &fields_of(meant_kind, fields), context);
@@ -142,7 +141,7 @@ impl<'a> Checker<'a, '_> {
             docs: Docs::default(),
             span: Span::call_site(),
         };
-        Some((joint, ends))
+        (joint, ends)
     }
 
     /// A frame whose steps may be wrong, and whether they are not: of `b.at(mistake)` the body is known.
@@ -172,7 +171,7 @@ impl<'a> Checker<'a, '_> {
     }
 
     /// Drives and `solve` items whose coordinates are known count, whatever is wrong with their values.
-    fn filled_loops(&mut self, collected: &Collected<'a>, tree: (&Topology, &[Joint]), whole: &mut bool) -> Loops {
+    fn filled_loops(&mut self, collected: &Collected<'a>, tree: (&Topology, &Joints), whole: &mut bool) -> Loops {
         let mut loops = Loops::default();
         for task in &collected.deferred {
             let context = root(task.scope);
@@ -229,10 +228,9 @@ impl<'a> Checker<'a, '_> {
 
     fn filled_params(&mut self) -> Vec<Param> {
         let mut params = Vec::with_capacity(self.params.len());
-        for index in 0..self.params.len() {
-            let id = ParamId(index);
+        for id in self.params.ids() {
             let known = self.param_type(id, Span::call_site());
-            let Some(slot) = self.params.get(index) else { continue };
+            let slot = &self.params[id];
             let (place, item, scope) = (slot.place.clone(), slot.item, slot.scope);
             let mut default = Vec::new();
             if let Some(value) = self.evaluator.param(id) {
@@ -248,9 +246,9 @@ impl<'a> Checker<'a, '_> {
 
     fn filled_inputs(&mut self) -> Vec<Input> {
         let mut inputs = Vec::with_capacity(self.inputs.len());
-        for index in 0..self.inputs.len() {
-            let known = self.input_type(InputId(index));
-            let Some(slot) = self.inputs.get(index) else { continue };
+        for id in self.inputs.ids() {
+            let known = self.input_type(id);
+            let slot = &self.inputs[id];
             let (place, item, scope) = (slot.place.clone(), slot.item, slot.scope);
             let ty = known.unwrap_or_else(|| self.seeming(item, root(scope)));
             inputs.push(Input { place, ty, docs: Docs::default() });
@@ -276,9 +274,9 @@ impl<'a> Checker<'a, '_> {
                 outputs.push(output);
                 continue;
             }
-            let Some(named) = self.named.get(id.0).filter(|named| named.role == Role::Output) else { continue };
+            let named = &self.named[id];
             let (field, home) = (named.name.clone(), named.home);
-            let instance = self.scopes.get(home.0).map_or(InstanceId(0), |scope| scope.instance);
+            let instance = self.scopes[home].instance;
             let ty = match self.seeming(value, root(home)) {
                 Type::Bool => Type::Scalar,
                 ty => ty,

@@ -8,10 +8,11 @@ use proc_macro2::Ident;
 use syn::{BinOp, Expr, Member};
 
 use crate::diagnostics::nearest;
+use crate::invariant::index_vec::IndexVec;
 use crate::model::checker::{Checker, Context, Meaning};
 use crate::model::names::{FUNCTIONS, VALUES};
 use crate::model::topology::Topology;
-use crate::model::types::{BodyRef, Function, Joint, JointId, Type};
+use crate::model::types::{BodyRef, Function, JointId, Joints, Type};
 use crate::syntax::tree::{Field, Fields};
 
 /// Members that vectors, and what has them, are asked for.
@@ -63,47 +64,40 @@ impl<'a> Checker<'a, '_> {
     pub(in crate::model) fn supposed(
         &self,
         bodies: usize,
-        joints: &[Joint],
-        ends: &[[Option<BodyRef>; 2]],
+        joints: &Joints,
+        ends: &IndexVec<JointId, [Option<BodyRef>; 2]>,
     ) -> Topology {
         let node = |body: BodyRef| match body {
             BodyRef::Ground => bodies,
-            BodyRef::Body(id) => id.0.min(bodies),
+            BodyRef::Body(id) => id.0,
         };
         let mut groups = Groups::new(bodies + 1);
-        let cost = |index: usize| {
-            let joint = joints.get(index);
-            let says_cut = self.coordinates.is_none() && self.says_cut(index);
-            let freedoms = joint.map_or(0, |joint| if joint.kind.is_free() { 0 } else { joint.kind.freedoms() + 1 });
-            (says_cut, freedoms, index)
+        let cost = |id: JointId| {
+            let kind = joints[id].kind;
+            let says_cut = self.coordinates.is_none() && self.says_cut(id);
+            (says_cut, if kind.is_free() { 0 } else { kind.freedoms() + 1 }, id)
         };
-        let mut order: Vec<usize> = (0..joints.len()).collect();
-        order.sort_by_key(|index| cost(*index));
-        let mut is_cut = vec![false; joints.len()];
-        let mut set = |index: usize, cut: bool| {
-            if let Some(slot) = is_cut.get_mut(index) {
-                *slot = cut;
-            }
-        };
-        for &index in &order {
-            if let Some([Some(parent), Some(child)]) = ends.get(index) {
-                set(index, !groups.join(node(*parent), node(*child)));
+        let mut order: Vec<JointId> = joints.ids().collect();
+        order.sort_by_key(|id| cost(*id));
+        let mut is_cut: IndexVec<JointId, bool> = joints.iter().map(|_| false).collect();
+        for &id in &order {
+            if let [Some(parent), Some(child)] = ends[id] {
+                is_cut[id] = !groups.join(node(parent), node(child));
             }
         }
         // An unknown frame lies wherever a body still hangs in the air.
-        for &index in &order {
-            if let Some(sides @ ([None, _] | [_, None])) = ends.get(index) {
+        for &id in &order {
+            if let sides @ ([None, _] | [_, None]) = &ends[id] {
                 let known = sides.iter().flatten().next().map_or(bodies, |body| node(*body));
                 let other = (0..=bodies).find(|other| !groups.joined(*other, known));
                 let joins = other.is_some_and(|other| groups.join(known, other));
                 // A child that nobody knows is a body that was lost.
-                let is_lost = sides.last().is_some_and(Option::is_none) && !cost(index).0;
-                set(index, !joins && !is_lost);
+                let is_lost = sides.last().is_some_and(Option::is_none) && !cost(id).0;
+                is_cut[id] = !joins && !is_lost;
             }
         }
-        let all = || (0..joints.len()).map(JointId);
-        let cut = |id: &JointId| is_cut.get(id.0) == Some(&true);
-        Topology { tree: all().filter(|id| !cut(id)).collect(), cuts: all().filter(cut).collect(), skipped: Vec::new() }
+        let (cuts, tree) = joints.ids().partition(|id| is_cut[*id]);
+        Topology { tree, cuts, skipped: Vec::new() }
     }
 
     /// Fields with misspelt names, in them and of them, replaced by the nearest.
@@ -262,8 +256,8 @@ impl Groups {
     fn root(&self, mut node: usize) -> usize {
         // A chain of parents is never longer than the list.
         for _ in 0..self.0.len() {
-            match self.0.get(node) {
-                Some(next) if *next != node => node = *next,
+            match self.0[node] {
+                next if next != node => node = next,
                 _ => break,
             }
         }
@@ -277,9 +271,7 @@ impl Groups {
     /// Whether they were apart.
     fn join(&mut self, a: usize, b: usize) -> bool {
         let (a, b) = (self.root(a), self.root(b));
-        if let Some(slot) = self.0.get_mut(a.max(b)) {
-            *slot = a.min(b);
-        }
+        self.0[a.max(b)] = a.min(b);
         a != b
     }
 }

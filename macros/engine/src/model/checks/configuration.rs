@@ -2,9 +2,11 @@
 //!
 //! In: bodies, joints, the tree. Out: per joint the inertia beyond it and its motion axes, in the joint's child frame.
 
+use crate::invariant::fault::OrFault;
+use crate::invariant::index_vec::IndexVec;
 use crate::model::checker::Checker;
 use crate::model::joint_kinds;
-use crate::model::types::{Body, BodyRef, Joint, JointId};
+use crate::model::types::{Bodies, Body, BodyId, BodyRef, Joint, JointId, Joints};
 
 use super::evaluate::cross;
 use super::matrix3::{IDENTITY, Matrix3, Vector3, add, product, rotation, scale, sub, times, transpose};
@@ -103,25 +105,23 @@ fn carried([a, b, c, d, e, f]: &Vector6, step: &Pose) -> Vector6 {
 
 impl Checker<'_, '_> {
     /// The tree in numbers; nothing if one of them is not known or not finite.
-    pub(super) fn links(&mut self, bodies: &[Body], joints: &[Joint], tree: &[JointId]) -> Option<Vec<Link>> {
+    pub(super) fn links(&mut self, bodies: &Bodies, joints: &Joints, tree: &[JointId]) -> Option<Vec<Link>> {
         // Per body: the joint that carries it, and that joint's child frame on it.
-        let mut carried: Vec<Option<(usize, Pose)>> = vec![None; bodies.len()];
+        let mut places: IndexVec<BodyId, Option<(usize, Pose)>> = bodies.iter().map(|_| None).collect();
         let mut links = Vec::with_capacity(tree.len());
         for (index, id) in tree.iter().enumerate() {
-            let joint = joints.get(id.0)?;
+            let joint = &joints[*id];
             let (parent, child) = (pose(&mut self.evaluator, &joint.parent)?, pose(&mut self.evaluator, &joint.child)?);
             let (before, mount) = match joint.parent.body {
                 BodyRef::Ground => (None, parent),
                 BodyRef::Body(body) => {
-                    let (before, frame) = (*carried.get(body.0)?)?;
+                    let (before, frame) = places[body].or_fault("the tree has parents before children");
                     (Some(before), frame.inverse().then(&parent))
                 }
             };
-            let BodyRef::Body(body) = joint.child.body else {
-                return None;
-            };
-            *carried.get_mut(body.0)? = Some((index, child));
-            let inertia = self.body_inertia(bodies.get(body.0)?, &child)?;
+            let body = super::massless::carried(joint);
+            places[body] = Some((index, child));
+            let inertia = self.body_inertia(&bodies[body], &child)?;
             let armature = match &joint.armature {
                 Some(armature) => self.evaluator.scalar(armature)?,
                 None => 0.0,
@@ -143,16 +143,16 @@ impl Checker<'_, '_> {
             None => 0.0,
         };
         let freedom = |index: usize| {
-            let freedom = joint.kind.freedoms.get(index)?;
-            let direction = *directions.get(freedom.direction)?;
+            let freedom = &joint.kind.freedoms[index];
+            let direction = directions[freedom.direction];
             let [length, angle] = match freedom.motion {
                 joint_kinds::Motion::Slides => [1.0, 0.0],
                 joint_kinds::Motion::Turns => [pitch, 1.0],
             };
             let axis = join(scale(angle, direction), scale(length, direction));
-            Some(Freedom { index, axis, direction, amounts: [length, angle] })
+            Freedom { index, axis, direction, amounts: [length, angle] }
         };
-        joint.kind.sequence().into_iter().map(freedom).collect()
+        Some(joint.kind.sequence().into_iter().map(freedom).collect())
     }
 
     fn body_inertia(&mut self, body: &Body, frame: &Pose) -> Option<Matrix6> {

@@ -141,12 +141,12 @@ impl Evaluator {
                 Some(values?.into())
             }
             ExprNode::Index(array, index) => match self.value(array)? {
-                Value::Array(elements) => elements.get(*index).cloned(),
+                Value::Array(elements) => Some(elements[*index].clone()),
                 _ => None,
             },
             ExprNode::Component(vector, index) => {
                 let vector = self.vector(vector)?;
-                vector.get(*index).map(|x| Value::Scalar(*x))
+                Some(Value::Scalar(vector[*index]))
             }
             ExprNode::Neg(a) => Some(match self.value(a)? {
                 Value::Vec3(v) => Value::Vec3(v.map(|x| -x)),

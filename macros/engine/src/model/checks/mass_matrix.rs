@@ -8,10 +8,13 @@
 //! configuration, linear in the number of bodies, finds it; and only a block that is singular in all of several
 //! configurations is singular by structure.
 
+use crate::invariant::fault::OrFault;
+use crate::invariant::index_vec::IndexVec;
 use crate::model::checker::Checker;
-use crate::model::types::{Body, BodyRef, Joint, JointId};
+use crate::model::types::{Bodies, BodyId, JointId, Joints};
 
 use super::configuration::{Configuration, Link};
+use super::massless::carried;
 use super::spatial::{Matrix6, Vector6, accumulate, apply, deflate, dot6, magnitude, shifted};
 
 /// Configurations that are tried.
@@ -40,10 +43,10 @@ struct Idle {
 impl Checker<'_, '_> {
     pub(in crate::model) fn check_mass_matrix(
         &mut self,
-        bodies: &[Body],
-        joints: &[Joint],
+        bodies: &Bodies,
+        joints: &Joints,
         tree: &[JointId],
-        held: &[bool],
+        held: &IndexVec<BodyId, bool>,
     ) {
         let Some(links) = self.links(bodies, joints, tree) else {
             return;
@@ -75,14 +78,12 @@ impl Checker<'_, '_> {
         }
     }
 
-    fn report_idle(&mut self, idle: &Idle, joints: &[Joint], tree: &[JointId]) {
+    fn report_idle(&mut self, idle: &Idle, joints: &Joints, tree: &[JointId]) {
         let largest = idle.shares.iter().copied().fold(0.0, f64::max);
         // The first of equals: rounding must not decide.
         let coordinate = idle.shares.iter().position(|share| *share > 0.999 * largest);
-        let joint = tree.get(idle.joint).and_then(|id| joints.get(id.0));
-        let (Some(joint), Some(coordinate)) = (joint, coordinate) else {
-            return;
-        };
+        let joint = &joints[tree[idle.joint]];
+        let coordinate = coordinate.or_fault("an idle motion has a share in a coordinate");
         let kind = joint.kind;
         let name = kind.coordinate_text(&joint.place.field.to_string(), coordinate);
         let help = if kind.freedoms() == 1 {
@@ -98,12 +99,8 @@ impl Checker<'_, '_> {
     }
 }
 
-fn is_held(idle: &Idle, joints: &[Joint], tree: &[JointId], held: &[bool]) -> bool {
-    let joint = tree.get(idle.joint).and_then(|id| joints.get(id.0));
-    joint.is_some_and(|joint| match joint.child.body {
-        BodyRef::Body(id) => held.get(id.0) == Some(&true),
-        BodyRef::Ground => false,
-    })
+fn is_held(idle: &Idle, joints: &Joints, tree: &[JointId], held: &IndexVec<BodyId, bool>) -> bool {
+    held[carried(&joints[tree[idle.joint]])]
 }
 
 /// One pass from the branch ends to the ground.
@@ -112,18 +109,13 @@ fn eliminate(links: &[Link], configuration: &Configuration) -> Vec<Idle> {
         links.iter().map(|link| Pass { composite: link.inertia, articulated: link.inertia }).collect();
     let mut idle = Vec::new();
     for (index, link) in links.iter().enumerate().rev() {
-        let Some(motion) = configuration.joints.get(index) else {
-            continue;
-        };
-        let Some(pass) = passes.get_mut(index) else {
-            continue;
-        };
+        let (motion, pass) = (&configuration.joints[index], &mut passes[index]);
         let null = pivots(pass, &motion.axes, link.armature);
         let (composite, articulated) = (pass.composite, pass.articulated);
         if let (Some(shares), true) = (null, idle.len() < MAX_REPORTED) {
             idle.push(Idle { joint: index, shares });
         }
-        if let Some(parent) = link.parent.and_then(|parent| passes.get_mut(parent)) {
+        if let Some(parent) = link.parent.map(|parent| &mut passes[parent]) {
             accumulate(&mut parent.composite, &shifted(&composite, motion));
             accumulate(&mut parent.articulated, &shifted(&articulated, motion));
         }

@@ -74,9 +74,7 @@ fn columns(column: impl Fn(Vector6) -> Vector6) -> Matrix6 {
     let mut matrix = [[0.0; 6]; 6];
     for (k, row) in matrix.iter_mut().enumerate() {
         let mut basis = [0.0; 6];
-        if let Some(x) = basis.get_mut(k) {
-            *x = 1.0;
-        }
+        basis[k] = 1.0;
         *row = column(basis);
     }
     matrix

@@ -108,7 +108,7 @@ impl<'a> Checker<'a, '_> {
             return None;
         };
         match base {
-            Meaning::Parts(scopes) => scopes.get(k).map(|scope| Meaning::Part(*scope)),
+            Meaning::Parts(scopes) => Some(Meaning::Part(scopes[k])),
             Meaning::Value(value) => {
                 let element = match value.expr.ty {
                     Type::Vec3 => component_of(&value.expr, k),

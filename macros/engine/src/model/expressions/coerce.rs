@@ -124,18 +124,20 @@ pub(in crate::model) fn element_of(array: &Checked, index: usize) -> Option<Chec
         return None;
     }
     if let ExprNode::Array(elements) = &*array.node {
-        return elements.get(index).map(|element| in_unit_of(element.clone(), array));
+        return Some(in_unit_of(elements[index].clone(), array));
     }
     Some(in_unit_of(new_expr(ExprNode::Index(array.clone(), index), (**ty).clone(), array.span), array))
 }
 
 /// Component of a `Vec3`; of a written one the component itself.
 pub(in crate::model) fn component_of(vector: &Checked, index: usize) -> Option<Checked> {
-    if let ExprNode::Vec3(components) = &*vector.node {
-        return components.get(index).map(|component| in_unit_of(component.clone(), vector));
-    }
-    let component = || new_expr(ExprNode::Component(vector.clone(), index), Type::Scalar, vector.span);
-    (index < 3).then(|| in_unit_of(component(), vector))
+    (index < 3).then(|| {
+        let component = match &*vector.node {
+            ExprNode::Vec3(components) => components[index].clone(),
+            _ => new_expr(ExprNode::Component(vector.clone(), index), Type::Scalar, vector.span),
+        };
+        in_unit_of(component, vector)
+    })
 }
 
 /// What is declared of the whole holds of its parts.

@@ -24,7 +24,7 @@ impl Checker<'_, '_> {
     }
 
     pub(in crate::model) fn joint_kind(&mut self, joint: JointId) -> Option<&'static JointKind> {
-        let kind = self.joints.get(joint.0).and_then(|slot| slot.kind);
+        let kind = self.joints[joint].kind;
         if kind.is_none() {
             // An unknown kind: reported with the joint itself.
             self.report.silent();

@@ -64,7 +64,7 @@ impl<'a> Checker<'a, '_> {
 
     fn part_member(&mut self, scope: ScopeId, base: &Expr, member: &Ident) -> Option<Meaning> {
         let name = member.to_string();
-        if let Some(symbol) = self.scopes.get(scope.0).and_then(|scope| scope.symbol(&name)) {
+        if let Some(symbol) = self.scopes[scope].symbol(&name) {
             return self.symbol(&symbol, member);
         }
         let known = self.names_of(scope);
@@ -95,7 +95,7 @@ impl<'a> Checker<'a, '_> {
         }
         let Some((_, quantity, ty, class)) = QUANTITIES.iter().find(|(known, ..)| *known == name) else {
             if let Some(joint) = self.absolute(&frame) {
-                let kind = self.joints.get(joint.0).and_then(|slot| slot.kind);
+                let kind = self.joints[joint].kind;
                 let coordinates = kind.map_or_else(Vec::new, JointKind::coordinates);
                 if coordinates.contains(&name.as_str()) || matches!(name.as_str(), "rates" | "effort") {
                     return self.joint_member(joint, base, member);
@@ -115,10 +115,7 @@ impl<'a> Checker<'a, '_> {
 
     /// The implicit joint of a body with absolute coordinates, if `frame` is that body's own.
     pub(in crate::model) fn absolute(&self, frame: &FrameValue) -> Option<JointId> {
-        match frame.frame.body {
-            BodyRef::Body(id) if frame.frame.steps.is_empty() => self.absolute.get(id.0).copied().flatten(),
-            _ => None,
-        }
+        self.own_joint(frame.frame.body).filter(|_| frame.frame.steps.is_empty())
     }
 
     fn unknown_quantity(&mut self, name: &str, base: &Expr, at: Span) {

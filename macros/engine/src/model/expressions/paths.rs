@@ -34,7 +34,7 @@ impl<'a> Checker<'a, '_> {
         if let Some(meaning) = builtin(&text, span) {
             return Some(meaning);
         }
-        if let Some(symbol) = self.scopes.get(context.scope.0).and_then(|scope| scope.symbol(&text)) {
+        if let Some(symbol) = self.scopes[context.scope].symbol(&text) {
             return self.symbol(&symbol, name);
         }
         if FUNCTIONS.iter().any(|(function, ..)| *function == text) || SPECIAL_FUNCTIONS.contains(&text.as_str()) {
@@ -66,12 +66,12 @@ impl<'a> Checker<'a, '_> {
     }
 
     pub(in crate::model) fn names_of(&self, scope: ScopeId) -> Vec<String> {
-        let scope = self.scopes.get(scope.0);
-        scope.map_or_else(Vec::new, |s| s.names.keys().chain(s.outputs.keys()).cloned().collect())
+        let scope = &self.scopes[scope];
+        scope.names.keys().chain(scope.outputs.keys()).cloned().collect()
     }
 
     pub(super) fn is_broken(&self, scope: ScopeId) -> bool {
-        self.scopes.get(scope.0).is_some_and(|s| s.module.broken)
+        self.scopes[scope].module.broken
     }
 
     /// What a declared name stands for; `site` is where it is used.

@@ -23,7 +23,7 @@ const MOST_UNKNOWNS: usize = 40;
 impl<'a> Checker<'a, '_> {
     /// What an unknown stands for: the solution, or inside its own equations a leaf.
     pub(super) fn unknown(&mut self, id: SystemId, place: usize, site: &Ident) -> Option<Typed> {
-        let system = self.systems.get(id.0)?;
+        let system = &self.systems[id];
         match &system.state {
             Lazy::Working => {
                 let leaf = ExprNode::Unknown(system.first + place);
@@ -32,7 +32,7 @@ impl<'a> Checker<'a, '_> {
             Lazy::Done(values) => values.as_ref().map(|values| values[place].clone().at(site.span())),
             Lazy::Waiting => {
                 self.solve_system(id);
-                let values = match &self.systems.get(id.0)?.state {
+                let values = match &self.systems[id].state {
                     Lazy::Done(Some(values)) => Rc::clone(values),
                     _ => return None,
                 };
@@ -43,18 +43,18 @@ impl<'a> Checker<'a, '_> {
 
     /// Solves a system when it is first asked for.
     pub(in crate::model) fn solve_system(&mut self, id: SystemId) -> Option<()> {
-        let system = self.systems.get_mut(id.0)?;
+        let system = &mut self.systems[id];
         match system.state {
             Lazy::Waiting => system.state = Lazy::Working,
             _ => return Some(()),
         }
         let found = self.solution(id);
-        self.systems.get_mut(id.0)?.state = Lazy::Done(found.map(Rc::from));
+        self.systems[id].state = Lazy::Done(found.map(Rc::from));
         Some(())
     }
 
     fn solution(&mut self, id: SystemId) -> Option<Vec<Typed>> {
-        let system = self.systems.get(id.0)?;
+        let system = &self.systems[id];
         let (first, count, at, context) = (system.first, system.unknowns.len(), system.span, root(system.scope));
         let (equations, branches) = (system.equations.clone(), system.branches);
         let names: Vec<String> = system.unknowns.iter().map(ToString::to_string).collect();

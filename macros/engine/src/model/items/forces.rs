@@ -100,9 +100,7 @@ impl<'a> Checker<'a, '_> {
             let value = self.scalar(value, context, Allowed::Forces)?;
             let zero = number(0.0, value.expr.span);
             let mut values = vec![zero; freedoms];
-            if let Some(slot) = values.get_mut(index) {
-                *slot = value.expr;
-            }
+            values[index] = value.expr;
             return Some(ForceKind::Effort { joint, values });
         }
         let values = match freedoms {
@@ -134,7 +132,7 @@ impl<'a> Checker<'a, '_> {
                 return None;
             }
         };
-        let kind = self.joints.get(joint.0).and_then(|slot| slot.kind);
+        let kind = self.joints[joint].kind;
         if kind.is_none() {
             self.report.silent();
         }

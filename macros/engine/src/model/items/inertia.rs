@@ -177,14 +177,13 @@ impl<'a> Checker<'a, '_> {
     fn revolved(&mut self, along: &Expr, across: &Expr, axis: &Expr, s: Builder) -> Option<Tensor> {
         let projector = self.projector(axis, s)?;
         let one = s.number(1.0);
-        let mut at = 0;
-        Some(Box::new(ENTRIES.map(|(row, column)| {
-            let p = projector.get(at).cloned().unwrap_or_else(|| s.number(0.0));
-            at += 1;
+        Some(Box::new(std::array::from_fn(|at| {
+            let (row, column) = ENTRIES[at];
+            let p = &projector[at];
             if row == column {
-                s.add(&s.mul(across, &s.sub(&one, &p)), &s.mul(along, &p))
+                s.add(&s.mul(across, &s.sub(&one, p)), &s.mul(along, p))
             } else {
-                s.mul(&s.sub(along, across), &p)
+                s.mul(&s.sub(along, across), p)
             }
         })))
     }
@@ -193,15 +192,16 @@ impl<'a> Checker<'a, '_> {
     fn projector(&mut self, axis: &Expr, s: Builder) -> Option<[Expr; 6]> {
         let [x, y, z] = [0, 1, 2].map(|k| component_of(axis, k));
         let parts = [x?, y?, z?];
-        let literal = parts.each_ref().map(literal_value).map(|value| value.unwrap_or(f64::NAN));
-        let pick = |row: usize| parts.get(row).cloned().unwrap_or_else(|| s.number(0.0));
-        if literal.iter().all(|x| x.is_finite()) {
+        if let [Some(x), Some(y), Some(z)] = parts.each_ref().map(literal_value)
+            && [x, y, z].iter().all(|x| x.is_finite())
+        {
+            let literal = [x, y, z];
             let length = dot(literal, literal);
-            let value = |row: usize| literal.get(row).copied().unwrap_or(0.0);
-            return Some(ENTRIES.map(|(r, c)| s.number(value(r) * value(c) / length)));
+            return Some(ENTRIES.map(|(r, c)| s.number(literal[r] * literal[c] / length)));
         }
-        let length = s.add(&s.add(&s.square(&pick(0)), &s.square(&pick(1))), &s.square(&pick(2)));
-        Some(ENTRIES.map(|(r, c)| s.quotient(&s.mul(&pick(r), &pick(c)), &length)))
+        let [x, y, z] = parts.each_ref().map(|part| s.square(part));
+        let length = s.add(&s.add(&x, &y), &z);
+        Some(ENTRIES.map(|(r, c)| s.quotient(&s.mul(&parts[r], &parts[c]), &length)))
     }
 }
 

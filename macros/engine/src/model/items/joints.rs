@@ -27,7 +27,7 @@ const SEQUENCES: [&str; 2] = ["Quaternion", "RollPitchYaw"];
 
 impl<'a> Checker<'a, '_> {
     pub(in crate::model) fn finish_joint(&mut self, id: JointId) -> Option<Joint> {
-        let slot = self.joints.get(id.0)?;
+        let slot = &self.joints[id];
         let (item, scope, place, known_kind) = (slot.item, slot.scope, slot.place.clone(), slot.kind);
         let ItemKind::Joint { name, kind: word, fields } = &item.kind else {
             return self.implicit(id);
@@ -80,7 +80,7 @@ impl<'a> Checker<'a, '_> {
     /// The joint of a body with absolute coordinates.
     fn implicit(&mut self, id: JointId) -> Option<Joint> {
         let [parent, child] = self.joint_frames(id, Span::call_site())?;
-        let slot = self.joints.get(id.0)?;
+        let slot = &self.joints[id];
         let kind = slot.kind.filter(|kind| kind.is_free())?;
         Some(Joint {
             place: slot.place.clone(),
@@ -97,7 +97,7 @@ impl<'a> Checker<'a, '_> {
 
     /// The frames of a joint, worked out when they are first asked for.
     pub(in crate::model) fn joint_frames(&mut self, id: JointId, site: Span) -> Option<[FrameValue; 2]> {
-        let slot = self.joints.get_mut(id.0)?;
+        let slot = &mut self.joints[id];
         match &slot.frames {
             Lazy::Done(frames) => return frames.clone(),
             Lazy::Working => {
@@ -119,9 +119,7 @@ impl<'a> Checker<'a, '_> {
             }
             _ => None,
         };
-        if let Some(slot) = self.joints.get_mut(id.0) {
-            slot.frames = Lazy::Done(frames.clone());
-        }
+        self.joints[id].frames = Lazy::Done(frames.clone());
         frames
     }
 

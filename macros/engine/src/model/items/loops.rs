@@ -15,7 +15,7 @@ use crate::model::topology::Topology;
 use crate::model::typed::{Allowed, FrameValue, new_expr};
 use crate::model::types::Expr as Checked;
 use crate::model::types::{
-    BodyRef, Constraint, ConstraintKind, Coordinate, Drive, DriveTarget, ExprNode, Joint, JointId, Order, Type,
+    BodyRef, Constraint, ConstraintKind, Coordinate, Drive, DriveTarget, ExprNode, Joint, JointId, Joints, Order, Type,
 };
 use crate::syntax::tree::{self, ItemKind};
 
@@ -115,7 +115,7 @@ impl<'a> Checker<'a, '_> {
         target: &Expr,
         value: &Expr,
         context: Context<'a>,
-        joints: Option<(&Topology, &[Joint])>,
+        joints: Option<(&Topology, &Joints)>,
     ) -> Option<Driven> {
         let found = self.drive_target(target, context, joints);
         let ty = match found {
@@ -134,7 +134,7 @@ impl<'a> Checker<'a, '_> {
         Some(match found? {
             DriveTarget::Coordinate(coordinate) if joints.is_some_and(|(tree, _)| tree.is_cut(coordinate.joint)) => {
                 let Coordinate { joint, index } = coordinate;
-                let place = self.joints.get(joint.0)?.place.clone();
+                let place = self.joints[joint].place.clone();
                 let order = Order::Position;
                 let measured = new_expr(ExprNode::Coordinate { joint, index, order }, Type::Scalar, span);
                 let gap = new_expr(ExprNode::Sub(measured, value.expr), Type::Scalar, span);
@@ -149,7 +149,7 @@ impl<'a> Checker<'a, '_> {
         &mut self,
         expr: &Expr,
         context: Context<'a>,
-        joints: Option<(&Topology, &[Joint])>,
+        joints: Option<(&Topology, &Joints)>,
     ) -> Option<DriveTarget> {
         if let Expr::Field(field) = expr
             && let Member::Named(member) = &field.member
@@ -187,7 +187,7 @@ impl<'a> Checker<'a, '_> {
         };
         if let Some((topology, list)) = joints
             && topology.is_cut(joint)
-            && !list.get(joint.0).is_some_and(|joint| self.is_measured(joint))
+            && !self.is_measured(&list[joint])
         {
             self.refuse_cut_coordinate(joint, expr.span(), list);
             return None;
@@ -201,7 +201,7 @@ impl<'a> Checker<'a, '_> {
         field: &ExprField,
         member: &str,
         context: Context<'a>,
-        joints: Option<(&Topology, &[Joint])>,
+        joints: Option<(&Topology, &Joints)>,
     ) -> Option<DriveTarget> {
         let joint = match self.meaning(&field.base, context)? {
             Meaning::Joint(joint) => joint,
@@ -230,15 +230,13 @@ impl<'a> Checker<'a, '_> {
     }
 
     /// A Free joint on the ground whose body has absolute coordinates is that body's own.
-    fn itself(&self, joint: JointId, joints: Option<(&Topology, &[Joint])>) -> JointId {
+    fn itself(&self, joint: JointId, joints: Option<(&Topology, &Joints)>) -> JointId {
         let Some((topology, list)) = joints else { return joint };
-        let Some(written) = list.get(joint.0).filter(|written| topology.is_cut(joint) && plain(written)) else {
+        let written = &list[joint];
+        if !(topology.is_cut(joint) && plain(written) && written.kind.is_free()) {
             return joint;
-        };
-        match written.child.body {
-            BodyRef::Body(id) if written.kind.is_free() => self.absolute.get(id.0).copied().flatten().unwrap_or(joint),
-            _ => joint,
         }
+        self.own_joint(written.child.body).unwrap_or(joint)
     }
 
     /// The Free joint on the ground whose coordinates are the pose of a body.
@@ -246,7 +244,7 @@ impl<'a> Checker<'a, '_> {
         &mut self,
         frame: &FrameValue,
         base: &Expr,
-        joints: Option<(&Topology, &[Joint])>,
+        joints: Option<(&Topology, &Joints)>,
     ) -> Option<JointId> {
         if let Some(joint) = self.absolute(frame) {
             return Some(joint);
@@ -255,9 +253,7 @@ impl<'a> Checker<'a, '_> {
         let (topology, list) = joints?;
         let text = source_text(base);
         let carrier = topology.carrier(frame.frame.body, list).filter(|_| frame.frame.steps.is_empty());
-        let free = carrier.filter(|id| {
-            list.get(id.0).is_some_and(|j| self.joint_kind(*id).is_some_and(JointKind::is_free) && plain(j))
-        });
+        let free = carrier.filter(|id| self.joint_kind(*id).is_some_and(JointKind::is_free) && plain(&list[*id]));
         if free.is_none() {
             self.report.help(
                 base.span(),
@@ -269,7 +265,7 @@ impl<'a> Checker<'a, '_> {
     }
 
     /// Refuses joints without coordinates.
-    fn in_the_tree(&mut self, joint: JointId, at: Span, joints: Option<(&Topology, &[Joint])>) -> Option<()> {
+    fn in_the_tree(&mut self, joint: JointId, at: Span, joints: Option<(&Topology, &Joints)>) -> Option<()> {
         match joints {
             Some((topology, list)) if topology.is_cut(joint) => {
                 self.refuse_cut_coordinate(joint, at, list);
@@ -282,7 +278,7 @@ impl<'a> Checker<'a, '_> {
     /// The coordinates that a drive takes.
     pub(in crate::model) fn driven(&self, target: DriveTarget) -> Vec<Coordinate> {
         let freedoms = |joint: JointId| {
-            let kind = self.joints.get(joint.0).and_then(|slot| slot.kind);
+            let kind = self.joints[joint].kind;
             kind.map_or(0, JointKind::freedoms)
         };
         let (joint, range) = match target {
@@ -296,9 +292,7 @@ impl<'a> Checker<'a, '_> {
 
     /// How messages name a coordinate.
     pub(in crate::model) fn coordinate_name(&self, coordinate: Coordinate) -> String {
-        let Some(slot) = self.joints.get(coordinate.joint.0) else {
-            return String::new();
-        };
+        let slot = &self.joints[coordinate.joint];
         let name = self.path_text(&slot.place);
         slot.kind.map_or_else(|| format!("`{name}`"), |kind| kind.coordinate_text(&name, coordinate.index))
     }

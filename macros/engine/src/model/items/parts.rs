@@ -18,7 +18,7 @@ impl<'a> Checker<'a, '_> {
         let name = kind.to_string();
         match self.modules.get(&name) {
             Some(&index) => {
-                let module = self.source.modules.get(index)?;
+                let module = &self.source.modules[index];
                 if crate::model::is_part(module) {
                     return Some(index);
                 }
@@ -59,8 +59,8 @@ impl<'a> Checker<'a, '_> {
     }
 
     /// Entry in the model's list of part types. All instances of one must set the same params: they share a struct.
-    pub(in crate::model) fn part_type(&mut self, index: usize, part: &'a tree::Part) -> Option<PartTypeId> {
-        let module = self.source.modules.get(index)?;
+    pub(in crate::model) fn part_type(&mut self, index: usize, part: &'a tree::Part) -> PartTypeId {
+        let module = &self.source.modules[index];
         let mut set: Vec<String> = module
             .items
             .iter()
@@ -72,8 +72,7 @@ impl<'a> Checker<'a, '_> {
             .collect();
         set.sort();
         set.dedup();
-        let known = self.part_modules.iter().position(|(m, ..)| *m == index);
-        if let Some((id, (_, first, name))) = known.and_then(|id| Some((id, self.part_modules.get(id)?))) {
+        if let Some((id, (_, first, name))) = self.part_modules.iter_ids().find(|(_, (m, ..))| *m == index) {
             if *first != set {
                 let list = match first.as_slice() {
                     [] => "none".to_string(),
@@ -85,18 +84,17 @@ impl<'a> Checker<'a, '_> {
                     format!("`{name}` sets {list}"),
                 );
             }
-            return Some(PartTypeId(id));
+            return id;
         }
         self.part_modules.push((index, set, part.name.to_string()));
-        self.part_types.push(PartType { name: module.name.clone(), docs: docs::docs(&module.attrs) });
-        Some(PartTypeId(self.part_types.len() - 1))
+        self.part_types.push(PartType { name: module.name.clone(), docs: docs::docs(&module.attrs) })
     }
 
     /// `|i|` belongs to arrays, and hides nothing.
     pub(in crate::model) fn check_index(&mut self, part: &'a tree::Part, scope: ScopeId) {
         let Some(index) = &part.index else { return };
         let name = index.to_string();
-        let names = self.scopes.get(scope.0).map(|s| &s.names);
+        let is_taken = self.scopes[scope].names.contains_key(&name);
         if part.count.is_none() {
             self.report.help(
                 index.span(),
@@ -105,16 +103,14 @@ impl<'a> Checker<'a, '_> {
             );
         } else if let Some(why) = names::refusal(&name) {
             self.report.help(index.span(), why, "take another name for the index");
-        } else if names.is_some_and(|n| n.contains_key(&name)) {
+        } else if is_taken {
             let message = format!("the name `{name}` is taken in this model");
             self.report.help(index.span(), message, "take another name for the index");
         }
     }
 
     pub(in crate::model) fn check_part_fields(&mut self, part: &'a tree::Part, index: usize) {
-        let Some(module) = self.source.modules.get(index) else {
-            return;
-        };
+        let module = &self.source.modules[index];
         let settable: Vec<(String, &str)> = module
             .items
             .iter()

@@ -15,7 +15,7 @@ use crate::model::expressions::source_text;
 use crate::model::topology::Topology;
 use crate::model::typed::MAX_SCALARS;
 use crate::model::types::Expr as Checked;
-use crate::model::types::{ExprNode, InputId, Joint, JointId, Kinematics, Request, SolveFor};
+use crate::model::types::{ExprNode, InputId, JointId, Joints, Kinematics, Request, SolveFor};
 use crate::syntax::tree;
 
 use super::fields::{Known, field};
@@ -208,7 +208,7 @@ impl<'a> Checker<'a, '_> {
         &mut self,
         request: &'a tree::Request,
         scope: ScopeId,
-        joints: Option<(&Topology, &[Joint])>,
+        joints: Option<(&Topology, &Joints)>,
     ) -> Option<Kinematics> {
         const FORM: &str = "write `kinematics { given: platform.pose, find: legs.stroke }`";
         let span = request.name.span();
@@ -251,7 +251,7 @@ impl<'a> Checker<'a, '_> {
         &mut self,
         expr: &'a Expr,
         context: Context<'a>,
-        joints: Option<(&Topology, &[Joint])>,
+        joints: Option<(&Topology, &Joints)>,
     ) -> Option<Vec<JointId>> {
         let elements: Vec<&Expr> = match expr {
             Expr::Array(array) => array.elems.iter().collect(),

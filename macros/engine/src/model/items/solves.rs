@@ -12,7 +12,7 @@ use crate::model::expressions::source_text;
 use crate::model::joint_kinds::JointKind;
 use crate::model::topology::Topology;
 use crate::model::typed::Allowed;
-use crate::model::types::{Coordinate, Joint, LoopClosure, Solve, SolveHow, Type};
+use crate::model::types::{Coordinate, Joints, LoopClosure, Solve, SolveHow, Type};
 use crate::syntax::tree::Solution;
 
 /// What a `solve` item gives.
@@ -29,7 +29,7 @@ impl<'a> Checker<'a, '_> {
         how: &Solution,
         keyword: Span,
         context: Context<'a>,
-        joints: Option<(&Topology, &[Joint])>,
+        joints: Option<(&Topology, &Joints)>,
     ) -> Option<SolveItem> {
         let uses = self.coordinate_uses.len();
         let found: Vec<Option<Vec<Coordinate>>> = unknowns
@@ -81,7 +81,7 @@ impl<'a> Checker<'a, '_> {
         let lists = lists?;
         for (expr, list) in unknowns.iter().zip(lists) {
             let quaternion = list.iter().any(|coordinate| {
-                let kind = self.joints.get(coordinate.joint.0).and_then(|slot| slot.kind);
+                let kind = self.joints[coordinate.joint].kind;
                 kind.is_some_and(JointKind::has_quaternion)
             });
             if quaternion {
@@ -139,7 +139,7 @@ impl<'a> Checker<'a, '_> {
         lists: &[Vec<Coordinate>],
         how: &SolveHow,
         at: Span,
-        (topology, joints): (&Topology, &[Joint]),
+        (topology, joints): (&Topology, &Joints),
     ) -> Option<Option<String>> {
         let changed = self.coordinates.is_some();
         let names: Vec<String> = lists.iter().flatten().map(|coordinate| self.coordinate_name(*coordinate)).collect();
@@ -147,7 +147,7 @@ impl<'a> Checker<'a, '_> {
         if let SolveHow::From { closing: LoopClosure::Cut(id), .. } = how
             && !topology.is_cut(*id)
         {
-            let joint = joints.get(id.0)?;
+            let joint = &joints[*id];
             if changed {
                 let name = self.path_text(&joint.place);
                 return Some(Some(format!("{subject}: with these coordinates the joint `{name}` lies in the tree")));
@@ -158,15 +158,13 @@ impl<'a> Checker<'a, '_> {
         }
         for (expr, list) in unknowns.iter().zip(lists) {
             let cut = list.iter().find(|coordinate| topology.is_cut(coordinate.joint));
-            let Some(joint) = cut.and_then(|coordinate| joints.get(coordinate.joint.0)) else {
-                continue;
-            };
+            let Some(&Coordinate { joint: id, .. }) = cut else { continue };
+            let joint = &joints[id];
             if changed {
                 let name = self.path_text(&joint.place);
                 let why = format!("{subject}: with these coordinates the joint `{name}` closes a loop and has none");
                 return Some(Some(why));
             }
-            let id = cut?.joint;
             self.refuse_cut_coordinate(id, expr.span(), joints);
             return None;
         }

@@ -10,7 +10,7 @@ use syn::{BinOp, Expr};
 use crate::model::checker::{Checker, Context, Equation, Lazy, ScopeId, Symbol, System, SystemId};
 use crate::model::expressions::source_text;
 use crate::model::topology::Topology;
-use crate::model::types::{Coordinate, Joint};
+use crate::model::types::{Coordinate, Joints};
 use crate::syntax::tree::{self, ItemKind};
 
 impl<'a> Checker<'a, '_> {
@@ -67,7 +67,7 @@ impl<'a> Checker<'a, '_> {
         let id = self.add_system(names, equations, branches, keyword, scope);
         if !complete {
             // What is left of the system has no solution, and that has been said.
-            self.systems[id.0].state = Lazy::Done(None);
+            self.systems[id].state = Lazy::Done(None);
         }
         id
     }
@@ -119,7 +119,7 @@ impl<'a> Checker<'a, '_> {
             Expr::Path(path) => path.path.get_ident(),
             _ => None,
         };
-        let symbol = own.and_then(|name| self.scopes.get(scope.0)?.symbol(&name.to_string()));
+        let symbol = own.and_then(|name| self.scopes[scope].symbol(&name.to_string()));
         match symbol {
             Some(Symbol::Unknown(system, _)) => {
                 self.solve_system(system);
@@ -147,7 +147,7 @@ impl<'a> Checker<'a, '_> {
         &mut self,
         expr: &Expr,
         context: Context<'a>,
-        joints: Option<(&Topology, &[Joint])>,
+        joints: Option<(&Topology, &Joints)>,
     ) -> Vec<Coordinate> {
         let found = self.several_coordinates(expr, context).unwrap_or_default();
         let mut small = Vec::new();

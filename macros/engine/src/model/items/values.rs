@@ -235,13 +235,13 @@ impl<'a> Checker<'a, '_> {
     }
 
     pub(in crate::model) fn finish_output(&mut self, id: NamedId, item: &'a tree::Item) -> Option<Output> {
-        let named = self.named.get(id.0)?;
+        let named = &self.named[id];
         let (name, scope) = (named.name, named.home);
         let meaning = self.named_meaning(id, name.span())?;
         let Meaning::Value(value) = meaning else {
             return None;
         };
-        let instance = self.scopes.get(scope.0)?.instance;
+        let instance = self.scopes[scope].instance;
         Some(Output {
             place: crate::model::types::Place { instance, field: name.clone() },
             value: value.expr,

@@ -11,7 +11,7 @@ use crate::model::expand::root;
 use crate::model::topology::Topology;
 use crate::model::typed::Allowed;
 use crate::model::types::Expr as Checked;
-use crate::model::types::{Coordinate, Handling, Joint};
+use crate::model::types::{Coordinate, Handling, Joints};
 use crate::syntax::tree;
 
 use super::fields::{Known, field};
@@ -101,7 +101,7 @@ impl<'a> Checker<'a, '_> {
         &mut self,
         fields: &'a tree::Fields,
         scope: ScopeId,
-        joints: Option<(&Topology, &[Joint])>,
+        joints: Option<(&Topology, &Joints)>,
     ) -> Vec<Coordinate> {
         let Some(expr) = field(fields, "independent") else {
             return Vec::new();

@@ -121,13 +121,13 @@ impl Units {
     fn names(&mut self, checker: &Checker<'_, '_>) {
         for task in &checker.tasks {
             match task.subject {
-                Subject::Named(id) => match checker.named.get(id.0).and_then(|named| named.known()) {
+                Subject::Named(id) => match checker.named[id].known() {
                     Some(Meaning::Value(value)) => self.named(&value.expr),
                     Some(Meaning::Frame(frame)) => self.expressions.frame(&frame.frame),
                     _ => {}
                 },
                 Subject::Param(id) => {
-                    let default = checker.params.get(id.0).and_then(|slot| slot.default.as_ref());
+                    let default = checker.params[id].default.as_ref();
                     default.into_iter().for_each(|default| self.default(id, default));
                 }
                 _ => {}
