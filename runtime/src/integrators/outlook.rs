@@ -393,3 +393,15 @@ impl<S: System> Reached<S> {
         Self { end, outlook }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::within;
+
+    #[test]
+    fn a_dead_centre_is_near_within_two_lengths() {
+        assert_eq!(within((0.125, "crank"), -4.0), Some("crank"));
+        assert_eq!(within((0.5, "crank"), 1.0), Some("crank"));
+        assert_eq!(within((0.4, "crank"), 1.0), None);
+    }
+}

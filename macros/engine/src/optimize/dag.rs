@@ -477,3 +477,19 @@ impl Dag {
 pub fn ratio(a: Number, b: Number) -> Print {
     a.residue * b.residue.inverse()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Dag;
+    use crate::contracts::symbol::Symbol;
+    use crate::symbolic::fingerprint::Print;
+
+    #[test]
+    fn a_pair_is_completed_once() {
+        let mut dag = Dag::new(&[Symbol::Time]);
+        let angle = dag.push(super::Kind::Symbol(crate::symbolic::graph::SymbolId(0)), Print::opaque(7, &[]));
+        let [sin, cos] = [true, false].map(|sine| dag.trigonometric(angle, sine));
+        assert_ne!(sin, cos);
+        assert_eq!([true, false].map(|sine| dag.trigonometric(angle, sine)), [sin, cos]);
+    }
+}

@@ -349,3 +349,26 @@ impl Across {
         same.then_some(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Across;
+    use crate::dynamics::tree::Motion;
+    use crate::symbolic::graph::{Graph, Scalar};
+
+    /// A turn about an axis keeps a direction if it is the axis, on both sides.
+    #[test]
+    fn directions_agree_across_a_turn_where_both_are_its_axis() {
+        let mut g = Graph::new();
+        let [x, z] = [[1, 0, 0], [0, 0, 1]].map(|v| {
+            let v = v.map(|n| g.integer(n));
+            g.vector(v)
+        });
+        let agree = |g: &mut Graph, motion, far, near| Across { motion }.agree(g, far, near).is_some();
+        for motion in [Motion::Revolute(2), Motion::Screw(2, Scalar::ONE)].map(Some) {
+            assert!(agree(&mut g, motion, z, z));
+            assert!(!agree(&mut g, motion, z, x) && !agree(&mut g, motion, x, z) && !agree(&mut g, motion, x, x));
+        }
+        assert!(agree(&mut g, None, x, x) && !agree(&mut g, None, x, z));
+    }
+}

@@ -82,16 +82,18 @@ struct Taken {
 }
 
 impl Opened<'_> {
+    /// Whether one turn more is another solution.
+    fn counts_turns(&self) -> bool {
+        self.winding.is_some() || matches!(self.motion, Motion::Screw(..))
+    }
+
     /// All equations in this unknown alone.
     pub(super) fn candidates(&self, g: &mut Graph) -> Vec<Candidate> {
         let groups: Vec<Taken> = self.runs(g).into_iter().map(|run| self.take(g, run)).collect();
         let mut list = Vec::new();
-        // Where turns count, nothing serves that gives an angle up to whole turns: it would be off by some of them.
-        let vague = |primitive: &Primitive| {
-            primitive.is_angle() && (self.winding.is_some() || matches!(self.motion, Motion::Screw(..)))
-        };
         let mut add = |source: Source, primitive: Option<Primitive>| {
-            let primitive = primitive.filter(|primitive| !vague(primitive));
+            // Where turns count, nothing serves that gives an angle up to whole turns: it would be off by some of them.
+            let primitive = primitive.filter(|primitive| !(primitive.is_angle() && self.counts_turns()));
             list.extend(primitive.map(|primitive| Candidate { primitive, source }));
         };
         add(Source::Winding, self.by_winding());
@@ -286,4 +288,19 @@ fn common_factor(g: &mut Graph, a: Scalar, b: Scalar) -> Option<Scalar> {
     };
     let factor = g.number(factor.is_sharp().then_some(factor)?);
     Some(g.reciprocal(factor))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Opened, Winding};
+    use crate::dynamics::tree::Motion;
+    use crate::symbolic::graph::Scalar;
+
+    #[test]
+    fn turns_count_of_a_screw_and_beside_one() {
+        let counts = |motion, winding| Opened { motion, rest: &[], winding }.counts_turns();
+        assert!(counts(Motion::Screw(2, Scalar::ONE), None));
+        assert!(counts(Motion::Revolute(2), Some(Winding::Open)));
+        assert!(!counts(Motion::Revolute(2), None));
+    }
 }

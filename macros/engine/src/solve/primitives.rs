@@ -270,3 +270,37 @@ pub fn three_spheres(g: &mut Graph, centres: [Vector; 3], squares: [Scalar; 3], 
     let step = g.scale(inverse, sum);
     (g.add_vectors(a, step), root)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Known, Value, root};
+    use crate::symbolic::evaluate::{Evaluator, Real};
+    use crate::symbolic::graph::{Graph, Scalar};
+
+    /// Each of the four forms, at coefficients of which one, or none, is zero by structure.
+    #[test]
+    fn roots_fulfil_their_equation() {
+        for absent in [None, Some(0), Some(1), Some(2)] {
+            let mut g = Graph::new();
+            let [x, a, b, c] = [(); 4].map(|()| g.symbol());
+            let mut raw = [a, b, c];
+            if let Some(k) = absent {
+                raw[k] = Scalar::ZERO;
+            }
+            for sign in [Scalar::ONE, -Scalar::ONE] {
+                let (value, ..) = root(&mut g, x, raw, sign, (&mut Known::default(), &mut Vec::new()));
+                let Value::Angle { cos, sin } = value else { panic!("an angle") };
+                let at = [0.0, 0.7, -0.9, 0.4];
+                let symbols = |id: crate::symbolic::graph::SymbolId| at[id.0];
+                let list = [&[cos, sin][..], &raw].concat();
+                let found = Evaluator::new(&g, Real { symbols: &symbols }).run(&list);
+                let [cos, sin, a, b, c] = found[..] else { panic!("five values") };
+                assert!((a * cos + b * sin - c).abs() < 1e-14, "{absent:?}");
+                assert!((cos.hypot(sin) - 1.0).abs() < 1e-14, "{absent:?}");
+                // The sign of the root is that of the slope.
+                let slope = b * cos - a * sin;
+                assert_eq!(slope > 0.0, sign == Scalar::ONE, "{absent:?}");
+            }
+        }
+    }
+}

@@ -417,3 +417,33 @@ fn eliminate(
     }
     Some((x, rank))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Constants, Known};
+    use crate::symbolic::graph::{Graph, Scalar};
+
+    #[test]
+    fn vectors_are_constant_where_all_of_them_is() {
+        let mut g = Graph::new();
+        let [p, x] = [(); 2].map(|()| g.symbol());
+        let parameter = g.symbol_id(p).unwrap();
+        let known = Known { parameter: &|id| id == parameter, nonzero: &|_, _| true };
+        let fixed = g.vector([p, Scalar::ONE, p]);
+        let about = |g: &mut Graph, angle| g.axis_rotation(2, angle);
+        let (swing, turn) = (about(&mut g, x), about(&mut g, p));
+        let (swung, turned) = (g.rotate(swing, fixed), g.rotate(turn, fixed));
+        let mut rows = [[p; 3]; 3];
+        rows[1][2] = x;
+        let matrix = g.matrix_rotation(rows);
+        let vectors = [g.scale(x, turned), g.scale(p, swung), g.cross(turned, swung), g.rotate(matrix, turned)];
+        let mut moving = vectors.map(|v| g.component(v, 0)).to_vec();
+        moving.push(g.dot(turned, swung));
+        let vectors = [g.scale(p, turned), g.cross(turned, fixed)];
+        let mut constant = vectors.map(|v| g.component(v, 0)).to_vec();
+        constant.push(g.dot(turned, fixed));
+        let constants = Constants::of(&g, &known, &[moving.clone(), constant.clone()]);
+        let holds = |list: &[Scalar]| list.iter().map(|&s| constants.holds(&g, s)).collect::<Vec<_>>();
+        assert_eq!((holds(&moving), holds(&constant)), (vec![false; 5], vec![true; 3]));
+    }
+}

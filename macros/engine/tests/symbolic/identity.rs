@@ -235,6 +235,7 @@ fn articulated_inertias_rotate() {
             let tilt = g.compose(tilts[0], tilts[1]);
             let placement = placement(&mut g, q);
             let inertia = ArticulatedInertia::from_entries(entries);
+            assert_eq!(inertia.entries(), entries);
             let result = if in_steps {
                 let placed = inertia.rotate(&mut g, placement);
                 placed.rotate(&mut g, tilt)
