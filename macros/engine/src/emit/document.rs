@@ -170,7 +170,7 @@ pub(super) fn function(layout: &Layout<'_>, function: &Function) -> Vec<String> 
     let text = (function.kind.row().documentation)(&layout.sizes(function.kind));
     let text = match function.kind {
         FunctionKind::Kinematics(number) => {
-            let found = layout.model.kinematics.get(number).map_or(&[][..], |kinematics| &kinematics.find);
+            let found = &layout.model.kinematics[number].find;
             let found: Vec<String> = found.iter().map(|c| format!("`{}`", code(&layout.coordinate(*c)))).collect();
             text.replace("{}", &found.join(", "))
         }

@@ -366,9 +366,7 @@ pub fn driven_by(model: &Model, target: DriveTarget) -> Vec<Coordinate> {
         DriveTarget::Coordinate(coordinate) => vec![coordinate],
         DriveTarget::Position(joint) => several(joint, 0..3),
         DriveTarget::Pose(joint) => several(joint, 0..6),
-        DriveTarget::Orientation(joint) => {
-            several(joint, model.joints.get(joint.0).map_or(0..0, |joint| joint.kind.turning()))
-        }
+        DriveTarget::Orientation(joint) => several(joint, model.joints[joint].kind.turning()),
     }
 }
 

@@ -75,7 +75,7 @@ impl Writer<'_> {
                 (_, Some((name, angle))) if depth > 0 => {
                     (format!("{name}({})", self.write(angle, depth - 1, left)?.0), Level::Atom)
                 }
-                _ => (self.locals.get(local.0).cloned().unwrap_or_default(), Level::Atom),
+                _ => (self.locals[local.0].clone(), Level::Atom),
             },
             Expression::Neg(inner) => (format!("-{}", self.bound(inner, Level::Product, depth, left)?), Level::Sum),
             Expression::Sum(terms) => {

@@ -64,7 +64,7 @@ impl Writer<'_> {
             ExprNode::Array(list) => format!("[{}]", self.list(list)),
             ExprNode::Index(array, index) => format!("{}[{index}]", self.write(array, Level::Unary)),
             ExprNode::Component(vector, axis) => {
-                let axis = ["x", "y", "z"].get(*axis).copied().unwrap_or("..");
+                let axis = ["x", "y", "z"][*axis];
                 format!("{}.{axis}", self.write(vector, Level::Unary))
             }
             ExprNode::Call(function, list) => {

@@ -192,13 +192,13 @@ fn dependents(layout: &Layout<'_>, step: &Step) -> String {
         Means::Linear(constraint) => {
             format!("{unknowns}: linear in the others, by {}", closing(LoopClosure::Constraint(*constraint)))
         }
-        Means::Solve(number) => match model.solves.get(*number).map(|solve| &solve.how) {
-            Some(SolveHow::From { closing: from, branches }) => {
+        Means::Solve(number) => match &model.solves[*number].how {
+            SolveHow::From { closing: from, branches } => {
                 let branches = branches.iter().map(|branch| quoted(&formula::text(layout, branch)));
                 let branches = listed(branches).map_or_else(String::new, |branches| format!(", where {branches}"));
                 format!("{unknowns}: in closed form from {}{branches}", closing(*from))
             }
-            _ => format!("{unknowns}: by the declared formulas"),
+            SolveHow::Formulas(_) => format!("{unknowns}: by the declared formulas"),
         },
         Means::Newton { rows, .. } => {
             let rows = rows.iter().map(|row| quoted(&layout.row(*row)));
@@ -208,8 +208,7 @@ fn dependents(layout: &Layout<'_>, step: &Step) -> String {
 }
 
 fn joint_name(layout: &Layout<'_>, joint: JointId) -> String {
-    let joint = layout.model.joints.get(joint.0);
-    joint.map_or_else(String::new, |joint| layout.name(&joint.place))
+    layout.name(&layout.model.joints[joint].place)
 }
 
 fn quoted(text: &str) -> String {

@@ -11,6 +11,7 @@ use crate::emit::methods::{functions, results};
 use crate::emit::print::blocks::groups_argument;
 use crate::emit::print::literals;
 use crate::emit::{Context, names};
+use crate::invariant::fault::OrFault;
 use crate::mechanics::loops::constraints::{is_length, row_name};
 use crate::mechanics::loops::structure::{Means, Row};
 
@@ -196,7 +197,7 @@ fn constrained_start(context: &Context<'_>, reads: &mut [bool; 2]) -> Option<Tok
     let scales = numbers(rows.iter().map(|&row| structure.scale(row)).collect());
     let kind = |row: &Row| (row.closing, is_length(layout.model, row.closing, row.index));
     let kinds = rows.iter().map(|row| {
-        let first = rows.iter().position(|other| kind(other) == kind(row)).unwrap_or_default();
+        let first = rows.iter().position(|other| kind(other) == kind(row)).or_fault("a row is of its own kind");
         Literal::usize_unsuffixed(first)
     });
     let kinds = quote!([#(#kinds),*]);

@@ -8,6 +8,7 @@ use quote::{ToTokens, quote};
 use syn::Path;
 
 use crate::emit::names;
+use crate::invariant::fault::OrFault;
 use crate::model::joint_kinds::{self, JointKind};
 use crate::model::types::{Orientation, Type};
 
@@ -191,12 +192,12 @@ impl Leaf {
         quaternion: &dyn Fn(&[TokenStream]) -> TokenStream,
     ) -> TokenStream {
         match self {
-            Leaf::Scalar => scalars.next().unwrap_or_default(),
+            Leaf::Scalar => next(scalars),
             Leaf::Vec3 => {
-                let list = scalars.take(3).map(element);
+                let list = (0..3).map(|_| element(next(scalars)));
                 quote!(#krate::nalgebra::Vector3::from([#(#list),*]))
             }
-            Leaf::Quaternion => quaternion(&scalars.take(4).collect::<Vec<_>>()),
+            Leaf::Quaternion => quaternion(&[(); 4].map(|()| next(scalars))),
             Leaf::Rotation => {
                 let matrix = matrix(krate, 3, 3, scalars);
                 quote!(#krate::nalgebra::Rotation3::from_matrix_unchecked(#matrix))
@@ -214,7 +215,7 @@ impl Leaf {
                 let name = names::ident(kind.struct_name);
                 let fields = kind.freedoms.iter().map(|freedom| {
                     let field = names::ident(freedom.name);
-                    initialiser(&field, &scalars.next().unwrap_or_default())
+                    initialiser(&field, &next(scalars))
                 });
                 quote!(#krate::#name { #(#fields),* })
             }
@@ -270,7 +271,7 @@ pub(in crate::emit) fn matrix(
     if rows * columns == 0 {
         return quote!(#krate::nalgebra::SMatrix::zeros());
     }
-    let entries: Vec<TokenStream> = scalars.take(rows * columns).map(element).collect();
+    let entries: Vec<TokenStream> = (0..rows * columns).map(|_| element(next(scalars))).collect();
     let columns = (0..columns).map(|column| {
         let list = entries.iter().skip(column).step_by(columns.max(1));
         quote!([#(#list),*])
@@ -278,7 +279,11 @@ pub(in crate::emit) fn matrix(
     quote!(#krate::nalgebra::SMatrix::from([#(#columns),*]))
 }
 
+fn next(scalars: &mut dyn Iterator<Item = TokenStream>) -> TokenStream {
+    scalars.next().or_fault("a leaf takes as many scalars as it has")
+}
+
 fn member(names: &[&str], component: usize) -> TokenStream {
-    let name = names::ident(names.get(component).copied().unwrap_or_default());
+    let name = names::ident(names[component]);
     quote!(.#name)
 }

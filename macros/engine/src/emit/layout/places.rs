@@ -7,6 +7,7 @@ use quote::quote;
 
 use crate::contracts::symbol::Symbol;
 use crate::emit::names;
+use crate::invariant::fault::OrFault;
 
 use super::{Entry, Layout, StructKind};
 
@@ -95,7 +96,7 @@ impl Layout<'_> {
     /// Expands to the path behind its variable: `.legs[2].force`.
     pub(in crate::emit) fn path_of(&self, symbol: Symbol) -> TokenStream {
         let place = match symbol {
-            Symbol::Time | Symbol::Unknown { .. } => None,
+            Symbol::Time | Symbol::Unknown { .. } => return TokenStream::new(),
             Symbol::Multiplier { row: index } | Symbol::Rate { row: index } => {
                 let index = Literal::usize_unsuffixed(index);
                 return quote!([#index]);
@@ -110,11 +111,9 @@ impl Layout<'_> {
             | Symbol::Impulse { joint, component }
             | Symbol::Momentum { joint, component } => self.joint(StructKind::Velocity, joint, component),
         };
-        let path = place.map(|(entry, component)| {
-            let (path, access) = (self.leaf_path(entry), entry.leaf.access(component));
-            quote!(#path #access)
-        });
-        path.unwrap_or_default()
+        let (entry, component) = place.or_fault("each symbol has a place in a struct");
+        let (path, access) = (self.leaf_path(entry), entry.leaf.access(component));
+        quote!(#path #access)
     }
 
     fn entry(&self, group: StructKind, index: usize, component: usize) -> Option<(&Entry, usize)> {

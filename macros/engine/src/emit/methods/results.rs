@@ -43,9 +43,9 @@ impl Layout<'_> {
     pub(in crate::emit) fn sizes(&self, kind: FunctionKind) -> Sizes {
         let [states, inputs, outputs] =
             [StructKind::States, StructKind::Input, StructKind::Output].map(|group| self.table(group).size);
-        let kinematics = match kind {
-            FunctionKind::Kinematics(number) => self.model.kinematics.get(number),
-            _ => None,
+        let found = match kind {
+            FunctionKind::Kinematics(number) => self.model.kinematics[number].find.len(),
+            _ => 0,
         };
         Sizes {
             dof: self.dof(),
@@ -55,7 +55,7 @@ impl Layout<'_> {
             outputs,
             guesses: self.structure.guesses(),
             solved: self.solves_inputs().then_some(self.model.solve_for.len()),
-            found: kinematics.map_or(0, |kinematics| kinematics.find.len()),
+            found,
             dead_centres: self.structure.dead_centres.len(),
             margins: self.structure.margins().len(),
             granted: self.structure.granted.len(),

@@ -263,13 +263,14 @@ fn joints(problem: &Problem, looked: &Looked) -> Vec<JointId> {
 }
 
 pub(super) fn thing(model: &Model, closing: LoopClosure) -> (Site, String) {
-    let here = model.site();
     match closing {
-        LoopClosure::Cut(id) => model.joints.get(id.0).map_or((here, String::new()), |joint| {
+        LoopClosure::Cut(id) => {
+            let joint = &model.joints[id];
             (joint.site(), format!("the loop that `{}` closes", path(model, &joint.place)))
-        }),
-        LoopClosure::Constraint(id) => model.constraints.get(id.0).map_or((here, String::new()), |constraint| {
+        }
+        LoopClosure::Constraint(id) => {
+            let constraint = &model.constraints[id];
             (constraint.site(), format!("the constraint `{}`", path(model, &constraint.place)))
-        }),
+        }
     }
 }

@@ -236,7 +236,7 @@ impl Problem {
             let column = match *mover {
                 Mover::Rests => continue,
                 Mover::Straight(column) => column,
-                Mover::Turns(number, _) => self.quaternions.get(number).map_or(usize::MAX, |q| q.column),
+                Mover::Turns(number, _) => self.quaternions[number].column,
             };
             if let (true, Some(slot), Some(&value)) = (columns.contains(&column), point.0.get_mut(k), from.0.get(k)) {
                 *slot = value;

@@ -131,12 +131,11 @@ impl Tape {
 
     /// Numbers of the symbols that a root depends on.
     pub(super) fn symbols(&self, root: usize) -> Vec<usize> {
-        let needs = self.needs.get(root).map_or(&[][..], Vec::as_slice);
-        let symbol = |&index: &usize| match self.nodes.get(index)?.op {
+        let symbol = |&index: &usize| match self.nodes[index].op {
             Op::Symbol(id) => Some(id),
             _ => None,
         };
-        needs.iter().filter_map(symbol).collect()
+        self.needs[root].iter().filter_map(symbol).collect()
     }
 
     /// Evaluates all nodes.
@@ -163,9 +162,9 @@ impl Tape {
                     }
                     product
                 }
-                Op::Reciprocal => 1.0 / operand(list, operands, 0),
-                Op::Sin => operand(list, operands, 0).sin(),
-                Op::Cos => operand(list, operands, 0).cos(),
+                Op::Reciprocal => 1.0 / operand(list, &operands[0]),
+                Op::Sin => operand(list, &operands[0]).sin(),
+                Op::Cos => operand(list, &operands[0]).cos(),
                 Op::Call(call) => {
                     let mut x = [0.0; 3];
                     for (slot, edge) in x.iter_mut().zip(operands) {
@@ -181,7 +180,7 @@ impl Tape {
 
     /// After `run`.
     pub(super) fn value(&self, values: &Values, root: usize) -> f64 {
-        self.roots.get(root).map_or(0.0, |root| root.sign * values.values[root.node])
+        operand(&values.values, &self.roots[root])
     }
 
     /// After `run`: (symbol, derivative by it) of one root.
@@ -226,16 +225,16 @@ impl Tape {
                 }
                 Op::Sin => {
                     if let Some(edge) = operands.first() {
-                        slopes[edge.node] += edge.sign * slope * operand(values, operands, 0).cos();
+                        slopes[edge.node] += edge.sign * slope * operand(values, &operands[0]).cos();
                     }
                 }
                 Op::Cos => {
                     if let Some(edge) = operands.first() {
-                        slopes[edge.node] -= edge.sign * slope * operand(values, operands, 0).sin();
+                        slopes[edge.node] -= edge.sign * slope * operand(values, &operands[0]).sin();
                     }
                 }
                 Op::Call(call) => {
-                    let x = [0, 1, 2].map(|k| operand(values, operands, k));
+                    let x = arguments(values, operands);
                     for (k, edge) in operands.iter().enumerate().take(3) {
                         slopes[edge.node] += edge.sign * slope * call_slope(call, &x, k, values[index]);
                     }
@@ -249,12 +248,12 @@ impl Tape {
     /// bound the error of the slopes (Higham 2002, chapter 3).
     pub(super) fn slope_bound(&self, values: &Values, root: usize, unit: impl Fn(usize) -> f64) -> f64 {
         let values = &values.values;
-        let (Some(edge), Some(needs)) = (self.roots.get(root), self.needs.get(root)) else { return 0.0 };
+        let (edge, needs) = (&self.roots[root], &self.needs[root]);
         let mut sizes = vec![0.0_f64; edge.node + 1];
         for &index in needs {
             let node = &self.nodes[index];
             let operands = &self.operands[node.first..node.last];
-            let size = |k: usize| operands.get(k).map_or(0.0, |edge: &Edge| sizes[edge.node]);
+            let size = |k: usize| sizes[operands[k].node];
             sizes[index] = match node.op {
                 Op::Literal(_) | Op::Symbol(_) | Op::Unknown => values[index].abs(),
                 Op::Sum => operands.iter().map(|edge| sizes[edge.node]).sum(),
@@ -262,7 +261,7 @@ impl Tape {
                 Op::Reciprocal => size(0) * values[index] * values[index],
                 Op::Sin | Op::Cos => 1.0,
                 Op::Call(call) => {
-                    let x = [0, 1, 2].map(|k| operand(values, operands, k));
+                    let x = arguments(values, operands);
                     let slope = |k: usize| call_slope(call, &x, k, values[index]).abs();
                     let parts = (0..operands.len().min(3)).map(|k| slope(k) * size(k));
                     parts.filter(|part| part.is_finite()).sum::<f64>() + values[index].abs()
@@ -289,7 +288,7 @@ impl Tape {
                     }
                     Op::Reciprocal => values[index] * values[index],
                     Op::Call(call) => {
-                        let x = [0, 1, 2].map(|k| operand(values, operands, k));
+                        let x = arguments(values, operands);
                         call_slope(call, &x, k, values[index]).abs()
                     }
                 };
@@ -304,13 +303,17 @@ impl Tape {
 
     /// Whether a root depends on sines or cosines.
     pub(super) fn turns(&self, root: usize) -> bool {
-        let needs = self.needs.get(root).map_or(&[][..], Vec::as_slice);
-        needs.iter().any(|&index| matches!(self.nodes[index].op, Op::Sin | Op::Cos))
+        self.needs[root].iter().any(|&index| matches!(self.nodes[index].op, Op::Sin | Op::Cos))
     }
 }
 
-fn operand(values: &[f64], operands: &[Edge], k: usize) -> f64 {
-    operands.get(k).map_or(0.0, |edge| edge.sign * values[edge.node])
+fn operand(values: &[f64], edge: &Edge) -> f64 {
+    edge.sign * values[edge.node]
+}
+
+/// Of a function, which reads as many of them as it has.
+fn arguments(values: &[f64], operands: &[Edge]) -> [f64; 3] {
+    [0, 1, 2].map(|k| operands.get(k).map_or(f64::NAN, |edge| operand(values, edge)))
 }
 
 /// Derivative of a function by its argument number k; `y` is its value.

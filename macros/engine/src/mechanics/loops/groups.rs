@@ -244,8 +244,7 @@ impl<'m> Forest<'m> {
 
     /// Joints on a body, on the ground for `None`.
     fn children(&self, carrier: Option<BodyId>) -> &[JointId] {
-        let place = carrier.map_or(self.children.len().saturating_sub(1), |body| body.0);
-        self.children.get(place).map_or(&[], Vec::as_slice)
+        &self.children[carrier.map_or(self.children.len() - 1, |body| body.0)]
     }
 
     /// Joints from the ground to a frame's body.

@@ -7,6 +7,7 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+use crate::invariant::fault::OrFault;
 use crate::mechanics::translate::symbols::has_quaternion;
 use crate::mechanics::written::Page;
 use crate::model::types::{ConstraintId, Coordinate, ForceId, JointId, LoopClosure, Model};
@@ -166,7 +167,9 @@ impl Structure {
             let other = if self.wavering.contains(row) { self.rows.iter().find(steady) } else { None };
             own(other.unwrap_or(row))
         };
-        let first = |row: &Row| self.rows.iter().position(|other| group(other) == group(row)).unwrap_or(0);
+        let first = |row: &Row| {
+            self.rows.iter().position(|other| group(other) == group(row)).or_fault("a row is in its own group")
+        };
         let groups: Box<[usize]> = self.rows.iter().map(first).collect();
         let alone = groups.iter().enumerate().all(|(k, &group)| k == group);
         if alone { Box::default() } else { groups }
@@ -178,8 +181,11 @@ impl Structure {
     }
 
     pub fn role(&self, coordinate: Coordinate) -> Role {
-        let roles = self.roles.get(coordinate.joint.0);
-        roles.and_then(|roles| roles.get(coordinate.index)).copied().unwrap_or(Role::State)
+        match self.roles.get(coordinate.joint.0).map(Vec::as_slice) {
+            // Before any role is given out; and of a joint that closes a loop, whose coordinates are measured, nothing follows.
+            None | Some([]) => Role::State,
+            Some(roles) => roles[coordinate.index],
+        }
     }
 
     /// Number of unknowns that Newton's method finds: the size of the guess in `State`.

@@ -25,11 +25,8 @@ impl Equations<'_> {
         rows.extend(self.freedoms_of(|role| matches!(role, Role::Driven(_))));
         let efforts: Vec<Scalar> = rows.iter().map(|&freedom| efforts[freedom]).collect();
         let efforts = self.finish(reduction, &efforts);
-        let inputs: Vec<Scalar> = model
-            .solve_for
-            .iter()
-            .filter_map(|wanted| self.scene.symbols.inputs.get(wanted.input.0)?.get(wanted.element).copied())
-            .collect();
+        let inputs: Vec<Scalar> =
+            model.solve_for.iter().map(|wanted| self.scene.symbols.inputs[wanted.input.0][wanted.element]).collect();
         let multipliers = self.scene.symbols.multipliers.clone();
         let (wanted, size) = (inputs.len(), inputs.len() + multipliers.len());
         let inputs: Vec<Scalar> = inputs.into_iter().chain(multipliers).collect();

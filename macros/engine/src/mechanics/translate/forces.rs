@@ -179,9 +179,7 @@ impl Equations<'_> {
                 held.push(Held { closing: row.closing, multipliers, writing: self.scene.way.writing });
                 held.len() - 1
             });
-            if let Some(slot) = held[at].multipliers.get_mut(row.index) {
-                *slot = multiplier;
-            }
+            held[at].multipliers[row.index] = multiplier;
         }
         held
     }
@@ -359,7 +357,7 @@ impl Equations<'_> {
             for force in &model.forces {
                 match &force.kind {
                     ForceKind::Effort { joint: at, values } if *at == joint => {
-                        terms.extend(values.get(index).map(|value| e.scalar(value)));
+                        terms.push(e.scalar(&values[index]));
                     }
                     ForceKind::JointSpring { joint: at, coordinate, stiffness, damping, rest }
                         if *at == joint && *coordinate == index =>

@@ -12,12 +12,11 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// A leaf's name with the part instances that it stands in.
 pub(in crate::mechanics) fn path(model: &Model, place: &Place) -> String {
     let mut parts = vec![plain(&place.field.to_string())];
-    let mut at = model.instances.get(place.instance.0);
-    while let Some(instance) = at {
-        let Some(parent) = instance.parent else { break };
+    let mut instance = &model.instances[place.instance];
+    while let Some(parent) = instance.parent {
         let index = instance.index.map_or(String::new(), |(index, _)| format!("_{index}"));
         parts.push(format!("{}{index}", plain(&instance.field.to_string())));
-        at = model.instances.get(parent.0);
+        instance = &model.instances[parent];
     }
     parts.reverse();
     parts.join("_")
@@ -29,41 +28,43 @@ fn plain(name: &str) -> String {
 
 /// Name of a symbol.
 pub(in crate::mechanics) fn symbol(model: &Model, symbol: Symbol) -> String {
-    let known = match symbol {
-        Symbol::Time => Some("t".to_owned()),
+    match symbol {
+        Symbol::Time => "t".to_owned(),
         Symbol::Param { param, element } => {
-            model.params.get(param.0).map(|param| path(model, &param.place) + &suffix(&param.ty, element))
+            let param = &model.params[param];
+            path(model, &param.place) + &suffix(&param.ty, element)
         }
         Symbol::Input { input, element } => {
-            model.inputs.get(input.0).map(|input| path(model, &input.place) + &suffix(&input.ty, element))
+            let input = &model.inputs[input];
+            path(model, &input.place) + &suffix(&input.ty, element)
         }
-        Symbol::State { state } => model.states.get(state.0).map(|state| path(model, &state.place)),
+        Symbol::State { state } => path(model, &model.states[state].place),
         Symbol::Position { joint, component } => of_joint(model, joint, |kind| position(kind, component)),
         Symbol::Velocity { joint, component } => of_joint(model, joint, |kind| rate(kind, component, "rate")),
         Symbol::Acceleration { joint, component } => of_joint(model, joint, |kind| rate(kind, component, "accel")),
         Symbol::Impulse { joint, component } => of_joint(model, joint, |kind| rate(kind, component, "impulse")),
         Symbol::Momentum { joint, component } => of_joint(model, joint, |kind| rate(kind, component, "momentum")),
-        Symbol::Rate { row } => Some(format!("rate_{row}")),
-        Symbol::Multiplier { row } => Some(format!("multiplier_{row}")),
-        Symbol::Guess { index } => Some(format!("guess_{index}")),
-        Symbol::Unknown { index } => Some(format!("unknown_{index}")),
-    };
-    known.unwrap_or_default()
+        Symbol::Rate { row } => format!("rate_{row}"),
+        Symbol::Multiplier { row } => format!("multiplier_{row}"),
+        Symbol::Guess { index } => format!("guess_{index}"),
+        Symbol::Unknown { index } => format!("unknown_{index}"),
+    }
 }
 
 /// Name of what belongs to a velocity coordinate.
 pub(in crate::mechanics) fn of_freedom(model: &Model, coordinate: Coordinate, what: &str) -> String {
-    of_joint(model, coordinate.joint, |kind| rate(kind, coordinate.index, what)).unwrap_or_default()
+    of_joint(model, coordinate.joint, |kind| rate(kind, coordinate.index, what))
 }
 
-fn of_joint(model: &Model, joint: JointId, suffix: impl Fn(&JointKind) -> String) -> Option<String> {
-    model.joints.get(joint.0).map(|joint| path(model, &joint.place) + &suffix(joint.kind))
+fn of_joint(model: &Model, joint: JointId, suffix: impl Fn(&JointKind) -> String) -> String {
+    let joint = &model.joints[joint];
+    path(model, &joint.place) + &suffix(joint.kind)
 }
 
 /// `_2_x` for an element of an array of `Vec3`.
 fn suffix(ty: &Type, element: usize) -> String {
     match ty {
-        Type::Vec3 => format!("_{}", AXES.get(element).unwrap_or(&"x")),
+        Type::Vec3 => format!("_{}", AXES[element]),
         Type::Array(inner, _) => {
             let width = inner.scalars().max(1);
             format!("_{}{}", element / width, suffix(inner, element % width))

@@ -7,6 +7,7 @@
 //! other end of a planar loop) is that rotation followed by a turn about this axis; any other becomes the rotation of a
 //! rational quaternion, or, where it has zeros, turns with rational half-angle tangents that have the same zeros.
 
+use crate::invariant::fault::OrFault;
 use crate::symbolic::graph::{Graph, Rotation, Scalar};
 use crate::symbolic::number::Number;
 use crate::symbolic::rotations::{self, compose};
@@ -33,19 +34,23 @@ pub(in crate::mechanics) fn direction(g: &Graph, components: [Scalar; 3]) -> [Sc
     if sizes.iter().any(Option::is_none) {
         return components;
     }
-    let mut list = components.iter().zip(sizes).map(|(&c, size)| match size {
+    std::array::from_fn(|k| match sizes[k] {
         Some(x) if x <= DUST * largest => Scalar::ZERO,
-        _ => c,
-    });
-    std::array::from_fn(|_| list.next().unwrap_or(Scalar::ZERO))
+        _ => components[k],
+    })
 }
 
 /// The rotation that is meant by a matrix, row by row.
 pub(in crate::mechanics) fn oriented(g: &mut Graph, rows: [[Scalar; 3]; 3]) -> Rotation {
-    let numbers = rows.map(|row| row.map(|s| g.literal(s)));
-    let known = numbers.iter().flatten().all(Option::is_some);
-    let numbers = numbers.map(|row| row.map(|n| n.unwrap_or(Number::ZERO)));
-    if !known || is_orthogonal(&numbers) {
+    let mut numbers = [[Number::ZERO; 3]; 3];
+    for (number, &entry) in numbers.as_flattened_mut().iter_mut().zip(rows.as_flattened()) {
+        match g.literal(entry) {
+            Some(literal) => *number = literal,
+            // No literal: taken as it is written.
+            None => return g.matrix_rotation(rows),
+        }
+    }
+    if is_orthogonal(&numbers) {
         return g.matrix_rotation(rows);
     }
     let m = numbers.map(|row| row.map(Number::value));
@@ -165,7 +170,7 @@ fn quaternion(m: &Matrix) -> [f64; 4] {
         [turns[1], both[2], 1.0 - x + y - z, both[0]],
         [turns[2], both[1], both[0], 1.0 - x - y + z],
     ];
-    let largest = (0..4).max_by(|&a, &b| forms[a][a].total_cmp(&forms[b][b])).unwrap_or(0);
+    let largest = (0..4).max_by(|&a, &b| forms[a][a].total_cmp(&forms[b][b])).or_fault("there are four forms");
     forms[largest]
 }
 
@@ -201,7 +206,8 @@ fn about_shared(g: &mut Graph, (there, rows): (Rotation, Matrix), m: &Matrix) ->
     let turn = simple_turn(g, &q, axis).unwrap_or_else(|| {
         // Scalar and axis as integers and their ratio, which is as good as any.
         let [w, v @ ..] = q;
-        let (along, whole) = (0..3).map(|k| (v[k], axis[k])).max_by_key(|one| one.1.abs()).unwrap_or_default();
+        let (along, whole) =
+            (0..3).map(|k| (v[k], axis[k])).max_by_key(|one| one.1.abs()).or_fault("an axis has three components");
         let (scalar, factor) = (w * whole as f64, along);
         let (scalar, factor) = if scalar.abs() < factor.abs() {
             (Number::decimal(scalar / factor), Number::ONE)

@@ -7,6 +7,7 @@ use std::f64::consts::PI;
 
 use crate::contracts::call::Call;
 use crate::contracts::symbol::Symbol;
+use crate::invariant::fault::OrFault;
 use crate::model::types::{Comparison, Expr, ExprNode, Function, Model};
 use crate::optimize::program::Expression;
 
@@ -83,17 +84,18 @@ fn call(model: &Model, function: Function, arguments: &[Expr]) -> Option<Vec<Exp
 fn special(function: Function, arguments: Vec<Vec<Expression>>) -> Option<Vec<Expression>> {
     let mut arguments = arguments.into_iter();
     let a = arguments.next()?;
-    let b = arguments.next().unwrap_or_default();
+    let mut b = || arguments.next().or_fault("a function of two values has two arguments");
     Some(match function {
         Function::Deg => pairwise(a, vec![Expression::Literal(PI / 180.0)], times),
-        Function::Dot => vec![dot(a, b)],
+        Function::Dot => vec![dot(a, b())],
         Function::Norm => vec![Expression::Call(Call::Sqrt, vec![dot(a.clone(), a)])],
         Function::Hypot => {
-            let sides = [a, b].concat();
+            let sides = [a, b()].concat();
             vec![Expression::Call(Call::Sqrt, vec![dot(sides.clone(), sides)])]
         }
         Function::Cross => {
-            let (Ok([ax, ay, az]), Ok([bx, by, bz])) = (<[Expression; 3]>::try_from(a), <[Expression; 3]>::try_from(b))
+            let (Ok([ax, ay, az]), Ok([bx, by, bz])) =
+                (<[Expression; 3]>::try_from(a), <[Expression; 3]>::try_from(b()))
             else {
                 return None;
             };

@@ -284,7 +284,7 @@ fn columns_of(symbols: &[usize], movers: &[Mover], quaternions: &[Quaternion]) -
         match movers.get(id) {
             Some(&Mover::Straight(column)) => list.push(column),
             Some(&Mover::Turns(number, _)) => {
-                let first = quaternions.get(number).map_or(0, |q: &Quaternion| q.column);
+                let first = quaternions[number].column;
                 list.extend(first..first + 3);
             }
             _ => {}

@@ -5,6 +5,7 @@
 //! coordinate axis.
 
 use crate::model::joint_kinds::Hold;
+use crate::model::types::Constraint;
 use crate::model::types::{Coordinate, Directions, Expr, ExprNode, Joint, LoopClosure, Model, Place};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -17,15 +18,14 @@ pub fn unfit(name: &str) -> String {
 /// Name of an equation.
 pub fn row_name(model: &Model, closing: LoopClosure, index: usize) -> String {
     match closing {
-        LoopClosure::Constraint(id) => model.constraints.get(id.0).map_or_else(String::new, |c| match c.drive {
-            Some(coordinate) => format!("drive of {}", coordinate_name(model, coordinate)),
-            None => path(model, &c.place),
-        }),
-        LoopClosure::Cut(id) => model.joints.get(id.0).map_or_else(String::new, |joint| {
-            let list = of_joint(joint);
-            let suffix = list.get(index).map_or("", String::as_str);
-            format!("{}.{suffix}", path(model, &joint.place))
-        }),
+        LoopClosure::Constraint(id) => match &model.constraints[id] {
+            Constraint { drive: Some(coordinate), .. } => format!("drive of {}", coordinate_name(model, *coordinate)),
+            constraint => path(model, &constraint.place),
+        },
+        LoopClosure::Cut(id) => {
+            let joint = &model.joints[id];
+            format!("{}.{}", path(model, &joint.place), of_joint(joint)[index])
+        }
     }
 }
 
@@ -36,7 +36,7 @@ pub fn coordinate_name(model: &Model, coordinate: Coordinate) -> String {
     let suffix = match kind.freedoms.get(coordinate.index) {
         Some(_) if kind.freedoms() == 1 => String::new(),
         Some(freedom) => format!(".{}", freedom.name),
-        None => AXES.get(coordinate.index - kind.freedoms.len()).map_or(String::new(), |axis| format!(".turn_{axis}")),
+        None => format!(".turn_{}", AXES[coordinate.index - kind.freedoms.len()]),
     };
     path(model, &joint.place) + &suffix
 }
