@@ -3,11 +3,12 @@
 //! `mechanism` draws mechanisms as data and writes them in the language, `programs` compiles the text and interprets what
 //! comes of it, `plain` works the same data out in plain numbers, and `oracle` compares. A failure is made as small as it
 //! gets (`mechanism::shrink`) and printed as text. `jury` runs models for `cargo xtask mutants`,
-//! `written` puts equations for readers down as they are printed.
+//! `written` puts equations for readers down as they are printed, `differentiated` compares `diff` with differences.
 
 pub mod algebra;
 pub mod campaign;
 pub mod closed;
+pub mod differentiated;
 pub mod grammar;
 pub mod grammar_campaign;
 pub mod jury;

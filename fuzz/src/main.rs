@@ -4,7 +4,7 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use multibody_fuzz::campaign::{Chains, Family, Loops, Plan, Tally, run};
-use multibody_fuzz::{grammar_campaign, jury, written};
+use multibody_fuzz::{differentiated, grammar_campaign, jury, written};
 
 fn number(arguments: &[String], name: &str, default: u64) -> u64 {
     let at = arguments.iter().position(|word| word == name);
@@ -49,6 +49,21 @@ fn put_down(arguments: &[String]) -> ExitCode {
     }
 }
 
+/// `diff` in all models of the project.
+fn differentiate(arguments: &[String]) -> ExitCode {
+    let found = differentiated::run(&differentiated::Plan {
+        models: number(arguments, "--models", u64::MAX) as usize,
+        states: number(arguments, "--states", 10) as usize,
+        seed: number(arguments, "--seed", 1),
+        most_freedoms: number(arguments, "--most-freedoms", 12) as usize,
+    });
+    for wrong in &found.wrong {
+        println!("{wrong}");
+    }
+    println!("{} models, {} derivatives compared, worst {:.1e}", found.models, found.numbers, found.worst);
+    if found.wrong.is_empty() && found.numbers > 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     if arguments.first().is_some_and(|word| word == "jury") {
@@ -56,6 +71,9 @@ fn main() -> ExitCode {
     }
     if arguments.first().is_some_and(|word| word == "written") {
         return put_down(&arguments[1..]);
+    }
+    if arguments.first().is_some_and(|word| word == "differentiated") {
+        return differentiate(&arguments[1..]);
     }
     let plan = Plan {
         models: number(&arguments, "--models", 1000) as usize,

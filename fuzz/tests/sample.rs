@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use multibody_fuzz::campaign::{Chains, Family, Loops, Plan, run};
-use multibody_fuzz::grammar_campaign;
+use multibody_fuzz::{differentiated, grammar_campaign};
 
 fn plan(models: usize, seed: u64) -> Plan {
     // On a slow machine fewer are looked at; none is judged less strictly.
@@ -32,6 +32,13 @@ fn calls_that_keep_to_the_grammar() {
     let (tally, good) = grammar_campaign::run(plan(60, 1), false);
     assert_eq!(tally.failures(), 0, "{:#?}\n{}", tally.classes, tally.reports.join("\n"));
     assert!(4 * good.len() > tally.models, "{} of {} compile", good.len(), tally.models);
+}
+
+#[test]
+fn derivatives_of_expressions() {
+    let found = differentiated::run(&differentiated::Plan { models: 24, states: 2, seed: 5, most_freedoms: 4 });
+    assert!(found.models == 24 && found.numbers > 1000, "{} models, {} numbers", found.models, found.numbers);
+    assert!(found.wrong.is_empty(), "{:#?}", found.wrong);
 }
 
 #[test]

@@ -188,7 +188,7 @@ impl Written {
     }
 
     /// Moves along one velocity coordinate.
-    fn displace(&self, at: &mut HashMap<Symbol, f64>, Coordinate { joint, index }: Coordinate, by: f64) {
+    pub(crate) fn displace(&self, at: &mut HashMap<Symbol, f64>, Coordinate { joint, index }: Coordinate, by: f64) {
         let kind = self.model.joints[joint].kind;
         let start = kind.turning().start;
         if !kind.has_quaternion() || index < start {
