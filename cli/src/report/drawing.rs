@@ -124,7 +124,7 @@ pub(super) fn table(scene: &Scene) -> Table {
 
 /// With as many digits as the mechanism's size gives a meaning to.
 fn metres(x: f64, size: f64) -> String {
-    let digits = (4.0 - size.max(1e-9).log10().ceil()).clamp(0.0, 12.0) as usize;
+    let digits = (5.0 - size.max(1e-9).log10().ceil()).clamp(0.0, 12.0) as usize;
     let text = format!("{x:.digits$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
@@ -154,7 +154,7 @@ fn svg(name: &str, scene: &Scene, sheet: &Sheet) -> (String, Names) {
         let ([u, v], [x, y]) = (sheet.at(world.origin), sheet.along(world.origin, axis, WORLD + 9.0));
         if (x - u).hypot(y - v) > 14.0 {
             pen.picture.text("world", "middle", [x, y + 4.0], name);
-            pen.drawn.marks.push(about([x, y], 6.0));
+            pen.drawn.letters.push(about([x, y], 5.0));
         }
     }
     scene.joints.iter().for_each(|joint| pen.joint(joint));

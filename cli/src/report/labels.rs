@@ -20,6 +20,8 @@ pub(super) struct Wanted {
 pub(super) struct Drawn {
     pub(super) marks: Vec<Box2>,
     pub(super) lines: Vec<[[f64; 2]; 2]>,
+    /// Letters that stand already: no name covers them.
+    pub(super) letters: Vec<Box2>,
 }
 
 /// Where no place is better than this, as one is that covers three marks, a name would be more noise than help.
@@ -34,7 +36,7 @@ const DIRECTIONS: [[f64; 2]; 8] =
 
 /// Boxes of the names, inside the sheet; nothing for those that find no room.
 pub(super) fn place(wanted: &[Wanted], drawn: &Drawn, sheet: Box2) -> Vec<Option<Box2>> {
-    let mut taken: Vec<Box2> = Vec::new();
+    let mut taken: Vec<Box2> = drawn.letters.clone();
     let mut places = Vec::new();
     for name in wanted {
         let mut best: Option<(f64, Box2)> = None;
@@ -107,8 +109,11 @@ mod tests {
     #[test]
     fn names_of_one_point_do_not_overlap() {
         let wanted: Vec<Wanted> = (0..30).map(|_| Wanted { at: [100.0, 50.0], size: [40.0, 12.0] }).collect();
-        let places = place(&wanted, &Drawn::default(), SHEET);
+        let letter = Box2 { at: [110.0, 40.0], size: [8.0, 8.0] };
+        let drawn = Drawn { letters: vec![letter], ..Drawn::default() };
+        let places = place(&wanted, &drawn, SHEET);
         let found: Vec<Box2> = places.iter().flatten().copied().collect();
+        assert!(found.iter().all(|name| !overlap(*name, letter)));
         assert!(found.len() >= 6 && found.len() < 30, "{}", found.len());
         for (k, a) in found.iter().enumerate() {
             assert!(found[k + 1..].iter().all(|b| !overlap(*a, *b)));
@@ -118,7 +123,7 @@ mod tests {
     #[test]
     fn lines_are_kept_off() {
         let line = [[100.0, 50.0], [180.0, 20.0]];
-        let drawn = Drawn { marks: Vec::new(), lines: vec![line] };
+        let drawn = Drawn { lines: vec![line], ..Drawn::default() };
         let [Some(found)] = place(&[Wanted { at: [100.0, 50.0], size: [40.0, 12.0] }], &drawn, SHEET)[..] else {
             panic!()
         };
