@@ -153,6 +153,23 @@ multibody! {
     }
 }
 
+multibody! {
+    pub mod four_unknowns {
+        input pull: Vec3;
+        body disc { mass: 1.0, inertia: diag(0.1, 0.1, 0.02) }
+        joint shaft: Revolute { parent: ground, child: disc, axis: Z }
+        // Four at once, with pivots: the first pivot in the order of the text is zero.
+        solve (d, e, f, g) from [
+            e + 2.0 * f - g == pull.x,
+            d - e + f * cos(shaft.angle) == 1.0,
+            3.0 * d + g == pull.y * pull.z,
+            0.5 * e + d - f + 2.0 * g == shaft.rate,
+        ];
+        output four = [d, e, f, g];
+        emit forward_dynamics;
+    }
+}
+
 /// A pole on a cart on a slope, with a second pole on the first.
 macro_rules! poles {
     ($name:ident { $($more:tt)* }) => {

@@ -2,7 +2,8 @@
 
 use multibody::nalgebra::SVector;
 use multibody_tests::models::manipulations::{
-    arm, bars, exact_poles, field_motor, held_arm, held_poles, motor, small_poles, smaller_poles, unknowns,
+    arm, bars, exact_poles, field_motor, four_unknowns, held_arm, held_poles, motor, small_poles, smaller_poles,
+    unknowns,
 };
 use multibody_tests::support::random::Random;
 use num_dual::Dual64;
@@ -223,6 +224,25 @@ fn equations_of_ones_own() {
         } else {
             assert!(other.is_nan());
         }
+    }
+}
+
+#[test]
+fn systems_with_pivots() {
+    let model = four_unknowns::Model::<f64>::default();
+    let mut random = Random::new(6);
+    for _ in 0..20 {
+        let (q, w) = (random.unit(), random.unit());
+        let (x, y, z) = (random.unit(), random.unit(), random.unit());
+        let state = four_unknowns::State {
+            q: four_unknowns::Position { shaft: q },
+            v: four_unknowns::Velocity { shaft: w },
+            ..Default::default()
+        };
+        let found = model.outputs(0.0, &state, &four_unknowns::Input { pull: [x, y, z].into() });
+        let [d, e, f, g] = [0, 1, 2, 3].map(|k| found.four[k]);
+        let gaps = [e + 2.0 * f - g - x, d - e + f * q.cos() - 1.0, 3.0 * d + g - y * z, 0.5 * e + d - f + 2.0 * g - w];
+        close("gaps of four", &gaps, &[0.0; 4]);
     }
 }
 

@@ -68,9 +68,26 @@ fn output_of(list: &[(Coordinate, Order)]) -> Output {
     Output { place, value, docs: Docs::default() }
 }
 
+/// Whether an output solves for more unknowns than are written as quotients.
+fn solves_with_pivots(model: &Model) -> bool {
+    let mut open: Vec<&Expr> = model.outputs.iter().map(|output| &output.value).collect();
+    let mut seen = std::collections::HashSet::new();
+    while let Some(expr) = open.pop() {
+        if !seen.insert(std::rc::Rc::as_ptr(&expr.node)) {
+            continue;
+        }
+        if matches!(&*expr.node, ExprNode::Solved { size, .. } if *size > 3) {
+            return true;
+        }
+        open.extend(expr.node.operands());
+    }
+    false
+}
+
 impl Written {
     /// Of a model with the functions that its equations speak of, and `more`; None where it has none, or no formulas because
-    /// Newton's method closes its loops or a user's program drives it.
+    /// Newton's method closes its loops, a user's program drives it, or it solves systems with pivots, whose unknowns have names
+    /// and no lines.
     pub(crate) fn new(mut model: Model, more: &[Request]) -> Option<Written> {
         model.emit = vec![Request::MassMatrix, Request::Bias, Request::InverseDynamics];
         model.emit.extend(more);
@@ -79,7 +96,7 @@ impl Written {
             model.emit.push(Request::Residual);
         }
         let driven = structure.roles.iter().flatten().any(|role| matches!(role, Role::Driven(_)));
-        if structure.guesses() > 0 || driven && model.drives.is_empty() {
+        if structure.guesses() > 0 || driven && model.drives.is_empty() || solves_with_pivots(&model) {
             return None;
         }
         model.solve_for.clear();

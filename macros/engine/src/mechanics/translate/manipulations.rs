@@ -26,6 +26,9 @@ use super::values::{Part, Value};
 /// Definitions of coordinates outside the state are made before expressions are translated.
 const DEFINED: &str = "coordinates that follow are defined before expressions are translated";
 
+/// Larger systems are solved with pivots.
+const MOST_WRITTEN: usize = 3;
+
 impl Equations<'_> {
     /// The derivative of a value.
     pub(super) fn derivative(&mut self, of: &Value, by: Variable, accelerated: bool) -> Value {
@@ -126,12 +129,39 @@ impl Equations<'_> {
         }
     }
 
-    /// One unknown of a system of linear equations: the matrix row by row, then the right-hand sides.
+    /// One unknown of a system of linear equations: the matrix row by row, then the right-hand sides. Up to three are quotients
+    /// of determinants, which people can read.
     pub(super) fn solved_system(&mut self, system: Vec<Scalar>, size: usize, index: usize) -> Scalar {
-        if let [slope, rest] = system[..] {
-            return self.g.div(rest, slope);
+        if size <= MOST_WRITTEN {
+            let (matrix, sides) = system.split_at(size * size);
+            let rows: Vec<Vec<Scalar>> = matrix.chunks(size).map(<[Scalar]>::to_vec).collect();
+            let mut replaced = rows.clone();
+            replaced.iter_mut().zip(sides).for_each(|(row, &side)| row[index] = side);
+            let (above, below) = (self.determinant(&replaced), self.determinant(&rows));
+            return self.g.div(above, below);
         }
         self.g.block_outputs(BlockKind::Solve { size, symmetric: false, groups: [].into() }, &system)[index]
+    }
+
+    /// By the first row.
+    fn determinant(&mut self, rows: &[Vec<Scalar>]) -> Scalar {
+        let Some((first, rest)) = rows.split_first() else { return Scalar::ONE };
+        let terms: Vec<Scalar> = (0..first.len())
+            .map(|column| {
+                let others = |row: &Vec<Scalar>| {
+                    row.iter()
+                        .enumerate()
+                        .filter(|(k, _)| *k != column)
+                        .map(|(_, &entry)| entry)
+                        .collect::<Vec<Scalar>>()
+                };
+                let minor: Vec<Vec<Scalar>> = rest.iter().map(others).collect();
+                let minor = self.determinant(&minor);
+                let term = self.g.mul(first[column], minor);
+                if column % 2 == 0 { term } else { -term }
+            })
+            .collect();
+        self.g.sum(&terms)
     }
 
     /// An entry of the mass matrix, on the tree.
