@@ -133,18 +133,13 @@ fn closed_loop() {
     let dual = bars::Model::<Dual64>::default();
     for _ in 0..20 {
         let (q, v, torque) = (0.9 + 0.6 * random.unit(), random.unit(), random.unit());
-        let state = bars::State {
-            q: bars::Position { crank: q, ..Default::default() },
-            v: bars::Velocity { crank: v, ..Default::default() },
-            ..Default::default()
-        };
+        let state = bars::State { q: bars::Position { crank: q }, v: bars::Velocity { crank: v } };
         let input = bars::Input { torque };
         let y = model.outputs(0.0, &state, &input);
         let moved = |dq: f64, dv: f64| {
             let state = bars::State {
-                q: bars::Position { crank: Dual64::new(q, dq), ..Default::default() },
-                v: bars::Velocity { crank: Dual64::new(v, dv), ..Default::default() },
-                ..Default::default()
+                q: bars::Position { crank: Dual64::new(q, dq) },
+                v: bars::Velocity { crank: Dual64::new(v, dv) },
             };
             dual.outputs(Dual64::from(0.0), &state, &bars::Input { torque: Dual64::from(torque) })
         };
@@ -204,11 +199,7 @@ fn equations_of_ones_own() {
     for _ in 0..20 {
         let (q, w) = (random.unit(), random.unit());
         let (x, y, z) = (random.unit(), -3.0 + random.unit(), random.unit());
-        let state = unknowns::State {
-            q: unknowns::Position { shaft: q },
-            v: unknowns::Velocity { shaft: w },
-            ..Default::default()
-        };
+        let state = unknowns::State { q: unknowns::Position { shaft: q }, v: unknowns::Velocity { shaft: w } };
         let found = model.outputs(0.0, &state, &unknowns::Input { pull: [x, y, z].into() });
         let [a, b, c] = [0, 1, 2].map(|k| found.found[k]);
         let gaps = [1.3 * a - b - x - q.cos() * c, a + 1.6 * b + 0.5 * c - 3.0 * y, a * w + c - z + b];
@@ -234,11 +225,8 @@ fn systems_with_pivots() {
     for _ in 0..20 {
         let (q, w) = (random.unit(), random.unit());
         let (x, y, z) = (random.unit(), random.unit(), random.unit());
-        let state = four_unknowns::State {
-            q: four_unknowns::Position { shaft: q },
-            v: four_unknowns::Velocity { shaft: w },
-            ..Default::default()
-        };
+        let state =
+            four_unknowns::State { q: four_unknowns::Position { shaft: q }, v: four_unknowns::Velocity { shaft: w } };
         let found = model.outputs(0.0, &state, &four_unknowns::Input { pull: [x, y, z].into() });
         let [d, e, f, g] = [0, 1, 2, 3].map(|k| found.four[k]);
         let gaps = [e + 2.0 * f - g - x, d - e + f * q.cos() - 1.0, 3.0 * d + g - y * z, 0.5 * e + d - f + 2.0 * g - w];
@@ -265,7 +253,6 @@ macro_rules! small {
             let state = exact_poles::State {
                 q: exact_poles::Position { track: along(0, q[0]), hinge: along(1, q[1]), second: along(2, q[2]) },
                 v: exact_poles::Velocity { track: along(0, v[0]), hinge: along(1, v[1]), second: along(2, v[2]) },
-                ..Default::default()
             };
             let lift = |k: usize| Dual64::from(a[k]);
             let accel = exact_poles::Velocity { track: lift(0), hinge: lift(1), second: lift(2) };
@@ -278,7 +265,6 @@ macro_rules! small {
             let state = $module::State {
                 q: $module::Position { track: q[0], hinge: q[1], second: q[2] },
                 v: $module::Velocity { track: v[0], hinge: v[1], second: v[2] },
-                ..Default::default()
             };
             let input = $module::Input { push };
             let accel = $module::Velocity { track: a[0], hinge: a[1], second: a[2] };
@@ -325,13 +311,11 @@ fn what_is_held_leaves_the_state() {
     let state = held_poles::State {
         q: held_poles::Position { track: 0.2, second: -0.7 },
         v: held_poles::Velocity { track: 0.5, second: 1.1 },
-        ..Default::default()
     };
     let accel = held.forward_dynamics(0.0, &state, &held_poles::Input { push: 0.6 });
     let state = exact_poles::State {
         q: exact_poles::Position { track: 0.2, hinge: 0.3, second: -0.7 },
         v: exact_poles::Velocity { track: 0.5, hinge: 0.0, second: 1.1 },
-        ..Default::default()
     };
     let accel = exact_poles::Velocity { track: accel.track, hinge: 0.0, second: accel.second };
     let efforts = exact.inverse_dynamics(0.0, &state, &exact_poles::Input { push: 0.6 }, &accel);
