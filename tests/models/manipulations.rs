@@ -100,6 +100,27 @@ multibody! {
         output work = substitute(torque * weight * torque, torque = 2.0, weight = 0.5);
         emit forward_dynamics, mass_matrix;
     }
+    /// The same four-bar, closed by iteration, driven by a force that compensates what its inertia does as it changes.
+    pub mod iterated_bars {
+        formulation { constraints: Reduced, independent: [crank] }
+        input torque;
+        body arm { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
+        body link { mass: 3.5, com: [1.7, 0.2, 0.0], inertia: diag(0.1, 3.0, 3.1) }
+        body lever { mass: 3.0, com: 1.5 * X, inertia: rod(3.0, 3.0, X) }
+        joint crank: Revolute { parent: ground, child: arm, axis: Z }
+        joint coupler: Revolute { parent: arm.at(X), child: link, axis: Z }
+        joint rocker: Revolute { parent: ground.at(4.0 * X), child: lever, axis: Z }
+        #[cut]
+        joint pin: Revolute { parent: link.at(3.5 * X), child: lever.at(3.0 * X), axis: Z }
+        let change = diff(mass_matrix[crank, crank], crank);
+        force motor: Effort {
+            joint: crank, value: torque * mass_matrix[crank, crank] + 0.5 * change * crank.rate * crank.rate,
+        }
+        output inertia_seen = mass_matrix[crank, crank];
+        output inertia_by_crank = change;
+        output inertia_by_time = diff(mass_matrix[crank, crank], t);
+        emit forward_dynamics;
+    }
 }
 
 multibody! {

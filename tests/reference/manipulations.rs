@@ -1,9 +1,10 @@
 //! `diff`, `substitute` and entries of matrices against dual numbers, and against what they are entries of.
 
+use multibody::System;
 use multibody::nalgebra::SVector;
 use multibody_tests::models::manipulations::{
-    arm, bars, exact_poles, field_motor, four_unknowns, held_arm, held_poles, motor, small_poles, smaller_poles,
-    unknowns,
+    arm, bars, exact_poles, field_motor, four_unknowns, held_arm, held_poles, iterated_bars, motor, small_poles,
+    smaller_poles, unknowns,
 };
 use multibody_tests::support::random::Random;
 use num_dual::Dual64;
@@ -154,6 +155,29 @@ fn closed_loop() {
         close("moving by time", &[y.moving_by_time], &moving(&[moved(v, accel).moving]));
         close("inertia seen", &[y.inertia_seen], &[model.mass_matrix(&state.q)[(0, 0)]]);
         close("work", &[y.work], &[2.0]);
+    }
+}
+
+/// Dependent coordinates that an iteration finds move with the crank too. With m(q) q'' + m'(q) q'^2 / 2 for what a mechanism
+/// of one freedom takes without gravity, the motor leaves an acceleration of its input.
+#[test]
+fn inertia_of_an_iterated_loop() {
+    let mut random = Random::new(31);
+    let model = iterated_bars::Model::<Dual64>::default();
+    let t = Dual64::from(0.0);
+    for _ in 0..10 {
+        let (q, v, torque) = (0.9 + 0.3 * random.unit(), random.unit(), random.unit());
+        let input = iterated_bars::Input { torque: Dual64::from(torque) };
+        let mut state = iterated_bars::State::<Dual64>::default();
+        state.q.crank = Dual64::new(q, 1.0);
+        state.v.crank = Dual64::from(v);
+        // Near the branch that is meant: elsewhere the iteration may end in the other one.
+        (state.guess.coupler, state.guess.rocker) = (Dual64::from(-2.0), Dual64::from(-2.2));
+        state = (0..10).fold(state, |state, _| model.accepted(t, &state, &input));
+        let y = model.outputs(t, &state, &input);
+        close("inertia by crank", &[y.inertia_by_crank.re], &[y.inertia_seen.eps]);
+        close("inertia by time", &[y.inertia_by_time.re], &[y.inertia_seen.eps * v]);
+        close("acceleration", &[model.derivative(t, &state, &input).0.crank.re], &[torque]);
     }
 }
 

@@ -288,7 +288,8 @@ impl<'a> Checker<'a, '_> {
             loops.independent = self.independent(fields, scope, tree);
         }
         for (expr, scope) in &collected.small {
-            loops.small.extend(self.small(expr, root(*scope), tree));
+            let found = self.small(expr, root(*scope), tree, &loops.small);
+            loops.small.extend(found);
         }
         for (request, scope) in &collected.requested.kinematics {
             loops.kinematics.extend(self.kinematics(request, *scope, tree));

@@ -134,6 +134,14 @@ impl Equations<'_> {
 
     /// S^T M S.
     pub(in crate::mechanics) fn reduced_mass_matrix(&mut self, reduction: &Reduction) -> Vec<Vec<Scalar>> {
+        let matrix = self.mass_matrix_on_tree(reduction);
+        let flat = self.finish(reduction, &matrix.concat());
+        let flat = self.first_order(&flat);
+        flat.chunks(matrix.len().max(1)).map(<[Scalar]>::to_vec).collect()
+    }
+
+    /// The same before definitions are put in: dependent coordinates are symbols.
+    pub(in crate::mechanics) fn mass_matrix_on_tree(&mut self, reduction: &Reduction) -> Vec<Vec<Scalar>> {
         let n = self.scene.symbols.freedoms;
         let entries = self.mass_matrix();
         let matrix: Vec<&[Scalar]> = entries.chunks(n.max(1)).collect();
@@ -160,9 +168,7 @@ impl Equations<'_> {
                 reduced[j][i] = reduced[i][j];
             }
         }
-        let flat = self.finish(reduction, &reduced.concat());
-        let flat = self.first_order(&flat);
-        flat.chunks(size.max(1)).map(<[Scalar]>::to_vec).collect()
+        reduced
     }
 
     /// S, a row per coordinate of the tree.

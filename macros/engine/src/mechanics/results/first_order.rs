@@ -26,7 +26,7 @@ const OTHERS: [(Request, &str); 6] = [
 
 impl Equations<'_> {
     /// Whether some motions are small.
-    pub(super) fn is_first_order(&self) -> bool {
+    pub(in crate::mechanics) fn is_first_order(&self) -> bool {
         !self.scene.model.small.is_empty()
     }
 

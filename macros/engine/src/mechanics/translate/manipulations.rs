@@ -174,7 +174,14 @@ impl Equations<'_> {
         let place =
             |of: Coordinate| structure.state.iter().position(|&at| at == of).or_fault("entries are of the state");
         let reduction = self.definitions();
-        self.reduced_mass_matrix(&reduction)[place(row)][place(column)]
+        // Derivatives follow dependent coordinates by the velocity map, so these stay symbols; an expansion puts them in, and
+        // is refused where they are found by iteration, which can't be differentiated.
+        let matrix = if self.is_first_order() {
+            self.reduced_mass_matrix(&reduction)
+        } else {
+            self.mass_matrix_on_tree(&reduction)
+        };
+        matrix[place(row)][place(column)]
     }
 
     /// An entry of the bias, on the tree.
@@ -206,6 +213,14 @@ pub(in crate::mechanics) fn complaints(model: &Model, structure: &Structure) -> 
         match &*expr.node {
             ExprNode::Derivative { of, by, .. } => match by {
                 Variable::Coordinate(coordinate, _) => complaints.extend(outside(model, structure, *coordinate, expr)),
+                Variable::Time if holds(of, |node| matches!(node, ExprNode::Potential)) && springs_read_inputs(model) => {
+                    complaints.push(Complaint {
+                        at: expr.site(),
+                        message: "a spring's energy depends on an input: its rate is not known, so there is no derivative by time"
+                            .to_owned(),
+                        help: Some("differentiate by coordinates, and multiply by their rates".to_owned()),
+                    });
+                }
                 Variable::Param(..) if follows && reads_positions(of) => complaints.push(Complaint {
                     at: expr.site(),
                     message: "this reads positions, and some coordinates follow from others by equations that parameters are \
@@ -279,6 +294,33 @@ fn reads_positions(expr: &Expr) -> bool {
             node if node.operands().is_empty() => return true,
             ExprNode::Express { .. } => return true,
             node => stack.extend(node.operands()),
+        }
+    }
+    false
+}
+
+/// Whether an input decides what energy a spring holds.
+fn springs_read_inputs(model: &Model) -> bool {
+    model.forces.iter().any(|force| {
+        let fields = match &force.kind {
+            ForceKind::JointSpring { stiffness, rest, .. } => [stiffness, rest],
+            ForceKind::LineSpring { stiffness, length, .. } => [stiffness, length],
+            _ => return false,
+        };
+        fields.into_iter().flatten().any(|field| holds(field, |node| matches!(node, ExprNode::Input(_))))
+    })
+}
+
+/// Whether a node of an expression is of a kind.
+fn holds(expr: &Expr, is: impl Fn(&ExprNode) -> bool) -> bool {
+    let mut stack = vec![expr];
+    let mut seen = HashSet::new();
+    while let Some(expr) = stack.pop() {
+        if seen.insert(Rc::as_ptr(&expr.node)) {
+            if is(&expr.node) {
+                return true;
+            }
+            stack.extend(expr.node.operands());
         }
     }
     false

@@ -12,7 +12,7 @@ use proc_macro2::{Ident, Span};
 
 use crate::model::checker::{Checker, Context, Equation, Lazy, SystemId};
 use crate::model::expand::root;
-use crate::model::typed::{Allowed, Class, Typed, new_expr, number};
+use crate::model::typed::{Allowed, Class, Typed, Uses, new_expr, number};
 use crate::model::types::{Expr, ExprNode, Function, Type};
 
 use super::span;
@@ -27,7 +27,8 @@ impl<'a> Checker<'a, '_> {
         match &system.state {
             Lazy::Working => {
                 let leaf = ExprNode::Unknown(system.first + place);
-                Some(Typed::leaf(leaf, Type::Scalar, site.span()))
+                let uses = Uses::of(Class::Finished, site.to_string(), site.span());
+                Some(Typed::leaf(leaf, Type::Scalar, site.span()).with(uses))
             }
             Lazy::Done(values) => values.as_ref().map(|values| values[place].clone().at(site.span())),
             Lazy::Waiting => {
@@ -102,7 +103,7 @@ impl<'a> Checker<'a, '_> {
         let mut solved = self.linear(&gaps, &mut algebra, at, &names)?;
         for condition in branches {
             // One solution needs no choice; a condition that it breaks leaves none.
-            let condition = self.typed(condition, context, &Type::Bool, Allowed::Forces)?;
+            let condition = self.condition(condition, &mut algebra, context)?;
             let values: Vec<Expr> = solved.iter().map(|value| value.expr.clone()).collect();
             let condition = algebra.put(&condition.expr, &|place| values[place].clone());
             for value in &mut solved {
@@ -112,6 +113,16 @@ impl<'a> Checker<'a, '_> {
             }
         }
         Some(solved)
+    }
+
+    /// A condition on a solution, in which solutions can be put.
+    fn condition(&mut self, branch: &'a syn::Expr, algebra: &mut Algebra, context: Context<'a>) -> Option<Typed> {
+        let condition = self.typed(branch, context, &Type::Bool, Allowed::Forces)?;
+        if algebra.holds_others(&condition.expr) || !algebra.can_put(&condition.expr) {
+            self.report.error(span(branch), "this condition can't choose a solution");
+            return None;
+        }
+        Some(condition)
     }
 
     /// Left side less right side.
@@ -203,11 +214,7 @@ impl<'a> Checker<'a, '_> {
         let mut parts = vec![gap.clone()];
         let mut conditions = Vec::new();
         for branch in branches {
-            let condition = self.typed(branch, context, &Type::Bool, Allowed::Forces)?;
-            if algebra.holds_others(&condition.expr) || !algebra.can_put(&condition.expr) {
-                self.report.error(span(branch), "this condition can't choose a solution");
-                return None;
-            }
+            let condition = self.condition(branch, algebra, context)?;
             conditions.push(condition.expr.clone());
             parts.push(condition);
         }

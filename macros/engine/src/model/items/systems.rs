@@ -142,16 +142,21 @@ impl<'a> Checker<'a, '_> {
             .collect()
     }
 
-    /// `small(hinge)`: coordinates of the tree.
+    /// `small(hinge)`: coordinates of the tree, each once, since each has one term of first order.
     pub(in crate::model) fn small(
         &mut self,
         expr: &Expr,
         context: Context<'a>,
         joints: Option<(&Topology, &Joints)>,
+        known: &[Coordinate],
     ) -> Vec<Coordinate> {
         let found = self.several_coordinates(expr, context).unwrap_or_default();
         let mut small = Vec::new();
         for (coordinate, at) in found {
+            if known.contains(&coordinate) || small.contains(&coordinate) {
+                self.report.error(at, "this coordinate is named twice");
+                continue;
+            }
             if let Some((topology, list)) = joints
                 && topology.is_cut(coordinate.joint)
             {
