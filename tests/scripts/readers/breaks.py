@@ -7,7 +7,8 @@ import re
 
 from .page import Page
 
-SIGN = {"text": re.compile("[+-]"), "latex": re.compile("[+-]"), "mathml": re.compile("(?<=<mo>)[+-](?=</mo>)")}
+MINUS = {"text": "-", "latex": "-", "mathml": "\u2212"}
+SIGN = {"text": re.compile("[+-]"), "latex": re.compile("[+-]"), "mathml": re.compile("(?<=<mo>)[+\u2212](?=</mo>)")}
 # Of each model, for each form and for all at once.
 MOST = 4
 
@@ -37,4 +38,4 @@ def run(model, seed=1):
 
 def flipped(form, printed, number):
     at = list(SIGN[form].finditer(printed))[number].start()
-    return printed[:at] + ("-" if printed[at] == "+" else "+") + printed[at + 1 :]
+    return printed[:at] + (MINUS[form] if printed[at] == "+" else "+") + printed[at + 1 :]
