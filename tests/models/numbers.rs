@@ -20,7 +20,7 @@ multibody! {
         state lag: rate = torque - 2.0 * lag, start: 0.1;
         output tip = arm.at(0.6 * X).position;
         output power = band.power;
-        emit forward_dynamics, inverse_dynamics, mass_matrix, bias, energy, impulse, derivatives;
+        emit forward_dynamics, inverse_dynamics, mass_matrix, bias, energy, impulse, derivatives, linearize;
     }
     /// A four-bar that keeps its equations.
     pub mod kept {

@@ -134,6 +134,7 @@ fn tree_in<T: Drawn>(n: &Numbers) {
         black_box(derivatives.jacobian_at(&[3, 99, 0]).position);
         black_box(derivatives.along_input(&[n.scalar()]));
         black_box(model.inverse_derivatives(t, &state, &input, &asked));
+        black_box(model.linearize(t, &state, &input));
         black_box(tree::Position::normalized(SVector::from_fn(|_, _| n.scalar::<T>())));
 
         let system = Bounded::new(&model, BOUND);

@@ -61,9 +61,15 @@ pub(in crate::mechanics) fn check(model: &Model) {
         _ => f64::NAN,
     };
     let found = Evaluator::new(&equations.g, Real { symbols: &value }).run(&translated);
-    let differs =
-        |(expected, found): (&Expected, &f64)| found.is_nan() || (expected.value - found).abs() > expected.reach;
-    if expected.len() != found.len() || expected.iter().zip(&found).any(differs) {
+    // A model that holds a literal below or beyond the range of numbers is refused for that.
+    let is_lost = |root: Scalar| {
+        let scalars = equations.g.reachable_scalars(&[root]).into_iter().map(|index| equations.g.scalar_at(index));
+        scalars.filter_map(|s| equations.g.literal(s)).any(|literal| !literal.value().is_finite())
+    };
+    let differs = |((expected, &found), &root): ((&Expected, &f64), &Scalar)| {
+        if found.is_nan() { !is_lost(root) } else { (expected.value - found).abs() > expected.reach }
+    };
+    if expected.len() != found.len() || expected.iter().zip(&found).zip(&translated).any(differs) {
         raise("an expression of parameters is translated to its value");
     }
 }
