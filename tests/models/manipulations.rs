@@ -97,8 +97,31 @@ multibody! {
         output speed_by_time: Vec3 = diff(link.at(2.0 * Y).velocity, t);
         output top_acceleration: Vec3 = link.at(2.0 * Y).acceleration;
         output inertia_seen = mass_matrix[crank, crank];
+        output closed_form: Vec3 = [closed(rocker) - rocker.angle, diff(closed(coupler), crank) - diff(coupler.angle, crank), 0.0];
         output work = substitute(torque * weight * torque, torque = 2.0, weight = 0.5);
         emit forward_dynamics, mass_matrix;
+    }
+    /// The same four-bar with multipliers, and a rack beside it: entries of what is held.
+    pub mod held_bars {
+        formulation { independent: [crank, slide] }
+        body arm { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
+        body link { mass: 3.5, com: [1.7, 0.2, 0.0], inertia: diag(0.1, 3.0, 3.1) }
+        body lever { mass: 3.0, com: 1.5 * X, inertia: rod(3.0, 3.0, X) }
+        body bar { mass: 0.5 }
+        joint crank: Revolute { parent: ground, child: arm, axis: Z }
+        joint coupler: Revolute { parent: arm.at(X), child: link, axis: Z }
+        joint rocker: Revolute { parent: ground.at(4.0 * X), child: lever, axis: Z }
+        joint slide: Prismatic { parent: ground, child: bar, axis: Y }
+        #[cut]
+        joint pin: Revolute { parent: link.at(3.5 * X), child: lever.at(3.0 * X), axis: Z }
+        constraint rack = slide + 0.3 * sin(rocker.angle) - 0.1 * crank * crank;
+        output left: Vec3 = [constraint[pin.x], constraint[pin.y], constraint[rack]];
+        output slopes = [
+            jacobian[pin.x, crank], jacobian[pin.x, coupler], jacobian[pin.x, rocker], jacobian[pin.x, slide],
+            jacobian[pin.y, crank], jacobian[pin.y, coupler], jacobian[pin.y, rocker], jacobian[pin.y, slide],
+            jacobian[rack, crank], jacobian[rack, coupler], jacobian[rack, rocker], jacobian[rack, slide],
+        ];
+        emit forward_dynamics, constraints;
     }
     /// The same four-bar, closed by iteration, driven by a force that compensates what its inertia does as it changes.
     pub mod iterated_bars {

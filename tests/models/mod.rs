@@ -3,6 +3,7 @@
 pub mod arms;
 pub mod energy;
 pub mod extremes;
+pub mod formulas;
 pub mod hundred_rods;
 pub mod impulses;
 pub mod laws;

@@ -2,6 +2,7 @@
 
 mod closed_forms;
 mod derivatives;
+mod formulas;
 mod linearization;
 mod loops;
 mod manipulations;

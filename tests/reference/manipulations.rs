@@ -3,8 +3,8 @@
 use multibody::System;
 use multibody::nalgebra::SVector;
 use multibody_tests::models::manipulations::{
-    arm, bars, exact_poles, field_motor, four_unknowns, held_arm, held_poles, iterated_bars, motor, small_poles,
-    smaller_poles, unknowns,
+    arm, bars, exact_poles, field_motor, four_unknowns, held_arm, held_bars, held_poles, iterated_bars, motor,
+    small_poles, smaller_poles, unknowns,
 };
 use multibody_tests::support::random::Random;
 use num_dual::Dual64;
@@ -154,7 +154,27 @@ fn closed_loop() {
         let accel = model.forward_dynamics(0.0, &state, &input).crank;
         close("moving by time", &[y.moving_by_time], &moving(&[moved(v, accel).moving]));
         close("inertia seen", &[y.inertia_seen], &[model.mass_matrix(&state.q)[(0, 0)]]);
+        close("closed", y.closed_form.as_slice(), &[0.0; 3]);
         close("work", &[y.work], &[2.0]);
+    }
+}
+
+/// Entries are those of the functions that give all of them, wherever the loop is open too.
+#[test]
+fn entries_of_constraints() {
+    assert_eq!(held_bars::CONSTRAINTS, 3);
+    let model = held_bars::Model::<f64>::default();
+    let mut random = Random::new(37);
+    for _ in 0..20 {
+        let mut state = held_bars::State::default();
+        (state.q.crank, state.q.coupler) = (3.0 * random.unit(), 3.0 * random.unit());
+        (state.q.rocker, state.q.slide) = (3.0 * random.unit(), random.unit());
+        let y = model.outputs(0.0, &state, &());
+        close("what is left", y.left.as_slice(), model.constraints(0.0, &state.q).as_slice());
+        let jacobian = model.constraint_jacobian(0.0, &state.q);
+        let (rows, columns) = jacobian.shape();
+        let all: Vec<f64> = (0..rows).flat_map(|i| (0..columns).map(move |j| jacobian[(i, j)])).collect();
+        close("slopes", &y.slopes, &all);
     }
 }
 

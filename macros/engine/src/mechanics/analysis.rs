@@ -32,6 +32,7 @@ use crate::model::types::{Coordinate, DriveTarget, Handling, JointId, LoopClosur
 use super::loops::constraints::{closings, coordinate_name, row_count, row_name, turns};
 use super::loops::groups;
 use super::loops::structure::{Means, Role, Row, Step, Structure};
+use super::translate::formulas;
 use closed::Sampled;
 use configurations::{Configuration, Effort, Found, follow};
 use linear::Elimination;
@@ -53,6 +54,7 @@ pub struct Complaint {
 
 /// Splits a model's coordinates and equations.
 pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
+    formulas::complaints(model)?;
     let mut structure = Structure::open(model);
     structure.groups = groups::find(model);
     if model.cuts.is_empty() && model.constraints.is_empty() && model.drives.is_empty() {

@@ -7,6 +7,7 @@
 
 mod checks;
 mod derivatives;
+pub(in crate::mechanics) mod formula;
 mod impulses;
 mod inertia;
 mod labels;

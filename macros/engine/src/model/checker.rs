@@ -3,15 +3,17 @@
 //! In: modules of the syntax tree. Out: scopes with their names, slots that the later steps fill, and the lazy
 //! resolution of named values with its guard against circles.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use proc_macro2::{Ident, Span};
 
+use crate::invariant::fault::OrFault;
 use crate::invariant::index_vec::{IndexVec, id};
 use crate::syntax::tree;
 
 use super::checks::evaluate::Evaluator;
+use super::expressions::formulas::Elsewhere;
 use super::items::coordinates::Coordinates;
 use super::joint_kinds::JointKind;
 use super::report::Report;
@@ -36,6 +38,9 @@ id!(ScopeId, NamedId, SystemId);
 
 /// Bound on the expressions of one model, once all parts are expanded.
 const MAX_EXPRESSIONS: usize = 1_000_000;
+
+/// Of the model, or of the part that is checked by itself.
+pub(super) const FIRST_SCOPE: ScopeId = ScopeId(0);
 
 /// Ids from here on stand for what the ports of a part by itself lead to: more than there are items.
 pub(super) const FIRST_OF_PORTS: BodyId = BodyId(usize::MAX / 2);
@@ -258,6 +263,8 @@ pub(super) struct Checker<'a, 'd> {
     pub(super) source: &'a tree::Source,
     /// First module of each name.
     pub(super) modules: &'a BTreeMap<String, usize>,
+    /// Modules that stand above and are models without mistakes.
+    pub(super) sound: &'a BTreeSet<usize>,
     pub(super) report: &'a mut Report<'d>,
     pub(super) scopes: IndexVec<ScopeId, Scope<'a>>,
     pub(super) named: IndexVec<NamedId, Named<'a>>,
@@ -283,6 +290,8 @@ pub(super) struct Checker<'a, 'd> {
     pub(super) evaluator: Evaluator,
     /// What has become part of something else, such as the mass in `rod(mass, ..)`, with the unit that it should have.
     pub(super) quantities: Vec<(Expr, Quantity)>,
+    /// What is asked of other models, by the call.
+    pub(super) asked_elsewhere: Elsewhere,
     /// Modules that are being expanded, outermost first.
     pub(super) expanding: Vec<usize>,
     /// Items so far, over all instances.
@@ -302,12 +311,14 @@ impl<'a, 'd> Checker<'a, 'd> {
     pub(super) fn new(
         source: &'a tree::Source,
         modules: &'a BTreeMap<String, usize>,
+        sound: &'a BTreeSet<usize>,
         report: &'a mut Report<'d>,
         alone: bool,
     ) -> Self {
         Checker {
             source,
             modules,
+            sound,
             report,
             scopes: IndexVec::new(),
             named: IndexVec::new(),
@@ -328,6 +339,7 @@ impl<'a, 'd> Checker<'a, 'd> {
             tasks: Vec::new(),
             evaluator: Evaluator::default(),
             quantities: Vec::new(),
+            asked_elsewhere: Elsewhere::default(),
             expanding: Vec::new(),
             expanded: 0,
             alone,
@@ -336,6 +348,13 @@ impl<'a, 'd> Checker<'a, 'd> {
             fuel: MAX_EXPRESSIONS,
             depth: 0,
         }
+    }
+
+    /// The module that is checked.
+    pub(super) fn module(&self) -> usize {
+        let own = &self.scopes[FIRST_SCOPE].module.name;
+        let mut modules = self.source.modules.iter();
+        modules.position(|module| std::ptr::eq(&module.name, own)).or_fault("the module is one of the call")
     }
 
     /// The joint on the ground that stands for the coordinates of a body; nothing where they are those of its joints, and for what

@@ -63,6 +63,7 @@ pub fn check_all(source: &tree::Source, diagnostics: &mut Diagnostics) -> Vec<Ch
     let modules = modules(source, &mut report);
     let mut used: BTreeSet<usize> = BTreeSet::new();
     let mut models = Vec::new();
+    let mut sound = BTreeSet::new();
     for (index, module) in source.modules.iter().enumerate() {
         if is_part(module) {
             continue;
@@ -72,14 +73,18 @@ pub fn check_all(source: &tree::Source, diagnostics: &mut Diagnostics) -> Vec<Ch
             docs::refuse_derive(attr, &mut report);
         }
         report.take_failed();
-        let mut checker = Checker::new(source, &modules, &mut report, false);
+        let mut checker = Checker::new(source, &modules, &sound, &mut report, false);
         let model = checker.model(index);
         let failed = checker.report.take_failed();
+        let is_sound = model.is_some() && !failed;
         models.extend(match model {
-            Some(model) if !failed => Some(Checked { model, state: Soundness::Sound }),
+            Some(model) if is_sound => Some(Checked { model, state: Soundness::Sound }),
             _ => checker.outline(index),
         });
         used.extend(checker.part_modules.iter().map(|(part, ..)| *part));
+        if is_sound {
+            sound.insert(index);
+        }
     }
     for (index, module) in source.modules.iter().enumerate() {
         if !is_part(module) {
@@ -89,7 +94,7 @@ pub fn check_all(source: &tree::Source, diagnostics: &mut Diagnostics) -> Vec<Ch
             report.error(cfg.path().span(), "`cfg` stands on a model, not on a part");
         }
         if !used.contains(&index) {
-            let mut checker = Checker::new(source, &modules, &mut report, true);
+            let mut checker = Checker::new(source, &modules, &sound, &mut report, true);
             checker.model(index);
             used.extend(checker.part_modules.iter().map(|(part, ..)| *part));
         }

@@ -49,8 +49,8 @@ pub(super) const CONSTRUCTORS: [&str; 4] = ["identity", "rotation", "roll_pitch_
 
 /// Functions of whole expressions, and matrices of which entries are taken: `diff(x, t)`, `mass_matrix[a, b]`. Their names stay
 /// free for items.
-pub(super) const MANIPULATIONS: [&str; 2] = ["diff", "substitute"];
-pub(super) const MATRICES: [&str; 2] = ["mass_matrix", "bias"];
+pub(super) const MANIPULATIONS: [&str; 3] = ["diff", "substitute", "closed"];
+pub(super) const MATRICES: [&str; 4] = ["mass_matrix", "bias", "constraint", "jacobian"];
 
 /// Types that a user may name.
 pub(super) const TYPES: [&str; 7] = ["Scalar", "Vec3", "Pose", "Rotation", "Twist", "Wrench", "Jacobian"];

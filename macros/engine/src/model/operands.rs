@@ -25,6 +25,8 @@ impl ExprNode {
             | ExprNode::Potential
             | ExprNode::MassMatrix(_)
             | ExprNode::Bias(_)
+            | ExprNode::Residual { .. }
+            | ExprNode::Closed(_)
             | ExprNode::Unknown(_)
             | ExprNode::Undefined
             | ExprNode::Identity => Vec::new(),
@@ -32,6 +34,7 @@ impl ExprNode {
             ExprNode::Substituted { of, pairs } => {
                 std::iter::once(of).chain(pairs.iter().map(|pair| &pair.1)).collect()
             }
+            ExprNode::Formula { given, .. } => given.iter().map(|given| &given.value).collect(),
             ExprNode::Express { vector: inner, .. }
             | ExprNode::Derivative { of: inner, .. }
             | ExprNode::Index(inner, _)

@@ -4,7 +4,9 @@
 
 use proc_macro2::Span;
 
-use super::types::{Constraint, Drive, Expr, Force, Joint, Kinematics, Model, Request, Solve, SolveFor};
+use super::types::{
+    Constraint, Drive, Expr, Force, Formula, Given, Joint, Kinematics, Model, Request, Solve, SolveFor,
+};
 
 /// Where something of the model is written.
 #[derive(Clone, Copy, Debug)]
@@ -31,7 +33,13 @@ macro_rules! sited {
     };
 }
 
-sited!(Constraint, Drive, Expr, Force, Joint, Kinematics, Solve, SolveFor);
+impl Sited for Formula {
+    fn site(&self) -> Site {
+        self.of.site()
+    }
+}
+
+sited!(Constraint, Drive, Expr, Force, Given, Joint, Kinematics, Solve, SolveFor);
 
 /// Its name.
 impl Sited for Model {

@@ -13,6 +13,8 @@ use super::types::{Expr, ExprNode, Frame, Type};
 pub(super) enum Class {
     Parameter,
     Time,
+    /// What another model says: known where equations are derived, and not while the model is checked.
+    Formula,
     Input,
     /// Coordinates, and where frames are.
     Position,
@@ -27,9 +29,10 @@ pub(super) enum Class {
     Load,
 }
 
-const CLASSES: [Class; 9] = [
+const CLASSES: [Class; 10] = [
     Class::Parameter,
     Class::Time,
+    Class::Formula,
     Class::Input,
     Class::Position,
     Class::State,
@@ -132,9 +135,9 @@ impl Allowed {
         match self {
             Allowed::Constants => false,
             Allowed::Parameters => class == Class::Parameter,
-            Allowed::Time => matches!(class, Class::Parameter | Class::Time),
+            Allowed::Time => matches!(class, Class::Parameter | Class::Time | Class::Formula),
             Allowed::Positions | Allowed::Constraint => {
-                matches!(class, Class::Parameter | Class::Time | Class::Position)
+                matches!(class, Class::Parameter | Class::Time | Class::Formula | Class::Position)
             }
             Allowed::Forces => !matches!(class, Class::Acceleration | Class::Load),
             Allowed::Springs => !matches!(class, Class::Potential | Class::Acceleration | Class::Load),
@@ -144,6 +147,10 @@ impl Allowed {
     fn why(self, class: Class) -> &'static str {
         match (self, class) {
             (Allowed::Constants, Class::Parameter) => "is a `param`; only literals and `const` may stand here",
+            (_, Class::Formula) => {
+                "is a formula of another model; it may stand in drives, constraints, `solve`, forces, states, outputs, and the \
+                 `let` that they use"
+            }
             (Allowed::Springs, Class::Potential) => "holds this spring's energy, so the spring can't follow from it",
             (Allowed::Forces | Allowed::Springs, Class::Acceleration) => {
                 "is an acceleration, not known where forces and states are evaluated"

@@ -12,6 +12,7 @@ use proc_macro2::{Ident, Span};
 use syn::{Attribute, Path, Visibility};
 
 use crate::invariant::index_vec::{IndexVec, id};
+use crate::invariant::kept::Kept;
 
 use super::joint_kinds::JointKind;
 use super::units::Declared;
@@ -389,6 +390,20 @@ pub enum ForceKind {
     Torque { at: Frame, value: Expr, axes: Frame },
 }
 
+impl ForceKind {
+    /// Its fields.
+    pub fn values(&self) -> Vec<&Expr> {
+        match self {
+            ForceKind::Effort { values, .. } => values.iter().collect(),
+            ForceKind::JointSpring { stiffness, damping, rest: length, .. }
+            | ForceKind::LineSpring { stiffness, damping, length, .. } => {
+                [stiffness, damping, length].into_iter().flatten().collect()
+            }
+            ForceKind::Force { value, .. } | ForceKind::Torque { value, .. } => vec![value],
+        }
+    }
+}
+
 pub struct Output {
     pub place: Place,
     /// Its type is the output's type.
@@ -505,10 +520,22 @@ pub enum ExprNode {
     },
     /// Not a number.
     Undefined,
+    /// What another model says, with values in the place of its variables.
+    Formula {
+        formula: Rc<Formula>,
+        given: Vec<Given>,
+    },
     /// An entry of the mass matrix.
     MassMatrix([Coordinate; 2]),
     /// An entry of the bias.
     Bias(Coordinate),
+    /// What an equation of a loop or a constraint leaves: that of a joint by the name of its component.
+    Residual {
+        closing: LoopClosure,
+        component: Option<String>,
+    },
+    /// A coordinate that follows from others by a formula.
+    Closed(Coordinate),
     Vec3([Expr; 3]),
     Array(Vec<Expr>),
     /// Element of an array, index known.
@@ -544,6 +571,23 @@ pub enum ExprNode {
     Not(Expr),
     /// Condition, then, else.
     Select(Expr, Expr, Expr),
+}
+
+/// An expression of another model of the same call.
+pub struct Formula {
+    pub model: Model,
+    /// In that model's terms: a number, a vector, or several of them.
+    pub of: Expr,
+    /// By `mechanics`.
+    pub solved: Kept,
+}
+
+/// A value for a variable of another model, or for all scalars of one.
+pub struct Given {
+    pub variables: Vec<Variable>,
+    pub value: Expr,
+    /// Where the variable is named.
+    pub span: Span,
 }
 
 /// A scalar by which values are differentiated, or in whose place others are put.

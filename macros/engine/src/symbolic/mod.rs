@@ -27,6 +27,7 @@ mod scalar;
 pub mod signs;
 pub mod sized;
 pub mod substitute;
+mod transplant;
 mod trigonometry;
 mod vector;
 pub mod walk;

@@ -10,8 +10,10 @@
 
 use std::collections::HashMap;
 
+use crate::invariant::fault::{OrFault, raise};
+
 use super::graph::{
-    AnyNode, Graph, PlaceMap, Rotation, RotationNode, Scalar, ScalarNode, SymbolId, Vector, VectorNode,
+    AnyNode, Block, Graph, PlaceMap, Rotation, RotationNode, Scalar, ScalarNode, SymbolId, Vector, VectorNode,
 };
 
 use super::walk::Marks;
@@ -31,12 +33,18 @@ impl Graph {
     }
 }
 
+/// What stands for nodes in a graph: others of it, or those of another graph.
+#[derive(Default)]
+pub(super) struct Images {
+    pub(super) scalars: PlaceMap<Scalar>,
+    vectors: PlaceMap<Vector>,
+    rotations: PlaceMap<Rotation>,
+}
+
 /// One replacement of symbols, shared by all that is asked for.
 pub struct Substitution {
     symbols: Vec<Scalar>,
-    scalars: PlaceMap<Scalar>,
-    vectors: PlaceMap<Vector>,
-    rotations: PlaceMap<Rotation>,
+    images: Images,
 }
 
 impl Substitution {
@@ -45,34 +53,30 @@ impl Substitution {
         let scalars: PlaceMap<Scalar> =
             map.iter().filter_map(|(&id, &by)| Some((g.symbol_handle(id)?.index(), by))).collect();
         let symbols = scalars.keys().map(|&index| Scalar::new(index, false)).collect();
-        Substitution { symbols, scalars, vectors: PlaceMap::default(), rotations: PlaceMap::default() }
+        Substitution { symbols, images: Images { scalars, ..Images::default() } }
     }
 
     /// In place of any scalars, not of symbols alone.
     pub fn of_nodes(list: &[(Scalar, Scalar)]) -> Substitution {
         let entry = |&(node, by): &(Scalar, Scalar)| (node.index(), if node.is_negative() { -by } else { by });
         let symbols = list.iter().map(|(node, _)| node.positive()).collect();
-        Substitution {
-            symbols,
-            scalars: list.iter().map(entry).collect(),
-            vectors: PlaceMap::default(),
-            rotations: PlaceMap::default(),
-        }
+        let scalars = list.iter().map(entry).collect();
+        Substitution { symbols, images: Images { scalars, ..Images::default() } }
     }
 
     pub fn scalars(&mut self, g: &mut Graph, roots: &[Scalar]) -> Vec<Scalar> {
         self.walk(g, roots.iter().map(|s| AnyNode::Scalar(s.index())));
-        roots.iter().map(|&s| self.of(s)).collect()
+        roots.iter().map(|&s| self.images.of(s)).collect()
     }
 
     pub fn vectors(&mut self, g: &mut Graph, roots: &[Vector]) -> Vec<Vector> {
         self.walk(g, roots.iter().map(|v| AnyNode::Vector(v.index())));
-        roots.iter().map(|&v| self.of_vector(v)).collect()
+        roots.iter().map(|&v| self.images.of_vector(v)).collect()
     }
 
     pub fn rotations(&mut self, g: &mut Graph, roots: &[Rotation]) -> Vec<Rotation> {
         self.walk(g, roots.iter().map(|r| AnyNode::Rotation(r.index())));
-        roots.iter().map(|&r| self.of_rotation(r)).collect()
+        roots.iter().map(|&r| self.images.of_rotation(r)).collect()
     }
 
     /// Makes anew what depends on the symbols and hasn't been made.
@@ -87,34 +91,60 @@ impl Substitution {
 
     fn make(&mut self, g: &mut Graph, nodes: Vec<AnyNode>, depends: &Marks) {
         for node in nodes {
-            if !depends.has(node) {
-                continue;
+            if depends.has(node) && !self.images.has(node) {
+                self.images.make(g, node, None);
             }
-            match node {
-                AnyNode::Scalar(i) if !self.scalars.contains_key(&i) => {
-                    let made = self.scalar(g, i);
-                    if let Some(name) = g.name_of(Scalar::new(i, false)).cloned() {
-                        g.name_like(made, &name);
-                    }
-                    self.scalars.insert(i, made);
+        }
+    }
+}
+
+impl Images {
+    pub(super) fn has(&self, node: AnyNode) -> bool {
+        match node {
+            AnyNode::Scalar(i) => self.scalars.contains_key(&i),
+            AnyNode::Vector(i) => self.vectors.contains_key(&i),
+            AnyNode::Rotation(i) => self.rotations.contains_key(&i),
+        }
+    }
+
+    /// Makes the image of a node, of this graph or of another one, whose operands have theirs.
+    pub(super) fn make(&mut self, g: &mut Graph, node: AnyNode, other: Option<&Graph>) {
+        let from: &Graph = other.unwrap_or(g);
+        match node {
+            AnyNode::Scalar(i) => {
+                let s = Scalar::new(i, false);
+                let (node, name) = (from.node(s).clone(), from.name_of(s).cloned());
+                if other.is_some() && matches!(node, ScalarNode::Symbol(_)) {
+                    raise("symbols of another graph have their images");
                 }
-                AnyNode::Vector(i) if !self.vectors.contains_key(&i) => {
-                    let made = self.vector(g, i);
-                    if let Some(name) = g.vector_name_of(Vector::new(i, false)).cloned() {
-                        g.name_vector_like(made, &name);
-                    }
-                    self.vectors.insert(i, made);
+                let block = match node {
+                    ScalarNode::Output(id, _) => Some(from.block(id).clone()),
+                    _ => None,
+                };
+                let made = self.scalar(g, s, node, block);
+                if let Some(name) = name {
+                    g.name_like(made, &name);
                 }
-                AnyNode::Rotation(i) if !self.rotations.contains_key(&i) => {
-                    let made = self.rotation(g, i);
-                    self.rotations.insert(i, made);
+                self.scalars.insert(i, made);
+            }
+            AnyNode::Vector(i) => {
+                let v = Vector::new(i, false);
+                let (node, name) = (from.vector_node(v).clone(), from.vector_name_of(v).cloned());
+                let made = self.vector(g, node);
+                if let Some(name) = name {
+                    g.name_vector_like(made, &name);
                 }
-                _ => {}
+                self.vectors.insert(i, made);
+            }
+            AnyNode::Rotation(i) => {
+                let node = from.rotation_node(Rotation::new(i, false)).clone();
+                let made = self.rotation(g, node);
+                self.rotations.insert(i, made);
             }
         }
     }
 
-    fn of(&self, s: Scalar) -> Scalar {
+    pub(super) fn of(&self, s: Scalar) -> Scalar {
         match self.scalars.get(&s.index()) {
             Some(&by) if s.is_negative() => -by,
             Some(&by) => by,
@@ -142,10 +172,10 @@ impl Substitution {
         list.iter().map(|&s| self.of(s)).collect()
     }
 
-    fn scalar(&self, g: &mut Graph, index: usize) -> Scalar {
-        let s = Scalar::new(index, false);
-        match g.node(s).clone() {
-            ScalarNode::Literal(_) | ScalarNode::Symbol(_) => s,
+    fn scalar(&self, g: &mut Graph, s: Scalar, node: ScalarNode, block: Option<Block>) -> Scalar {
+        match node {
+            ScalarNode::Literal(number) => g.number(number),
+            ScalarNode::Symbol(_) => s,
             ScalarNode::Sum(terms) => g.sum(&self.all(&terms)),
             ScalarNode::Product(factors) => g.product(&self.all(&factors)),
             ScalarNode::Reciprocal(x) => g.reciprocal(self.of(x)),
@@ -154,8 +184,8 @@ impl Substitution {
             ScalarNode::Cos(x) => g.cos(self.of(x)),
             ScalarNode::Call(call, list) => g.call(call, &self.all(&list)),
             ScalarNode::Angle(cos, sin) => g.angle(self.of(cos), self.of(sin)),
-            ScalarNode::Output(id, k) => {
-                let block = g.block(id).clone();
+            ScalarNode::Output(_, k) => {
+                let block = block.or_fault("an output is one of its block");
                 let outputs = g.block_outputs(block.kind, &self.all(&block.operands));
                 outputs[k]
             }
@@ -164,8 +194,8 @@ impl Substitution {
         }
     }
 
-    fn vector(&self, g: &mut Graph, index: usize) -> Vector {
-        match g.vector_node(Vector::new(index, false)).clone() {
+    fn vector(&self, g: &mut Graph, node: VectorNode) -> Vector {
+        match node {
             VectorNode::Triple(components) => g.vector(components.map(|c| self.of(c))),
             VectorNode::Sum(terms) => {
                 let terms: Vec<Vector> = terms.iter().map(|&t| self.of_vector(t)).collect();
@@ -177,10 +207,9 @@ impl Substitution {
         }
     }
 
-    fn rotation(&self, g: &mut Graph, index: usize) -> Rotation {
-        let r = Rotation::new(index, false);
-        match g.rotation_node(r).clone() {
-            RotationNode::Identity => r,
+    fn rotation(&self, g: &mut Graph, node: RotationNode) -> Rotation {
+        match node {
+            RotationNode::Identity => Rotation::IDENTITY,
             RotationNode::Axis(axis, angle) => g.axis_rotation(axis, self.of(angle)),
             RotationNode::Matrix(rows) => g.matrix_rotation(rows.map(|row| row.map(|s| self.of(s)))),
             RotationNode::Quaternion(q) => g.quaternion_rotation(q.map(|s| self.of(s))),

@@ -2,7 +2,8 @@
 //!
 //! In: tokens. Out: `syn::Expr` of these kinds and no others: `Lit` (numbers), `Path` (one name), `Field`, `Index`,
 //! `Call` of a name, `MethodCall`, `Unary` (`-`, `!`), `Binary` (`+ - * /`, comparisons, `&&`, `||`), `Paren`, `Array`; and
-//! `Assign` (`name = value`) among the arguments of `substitute`, `Tuple` as the index of `mass_matrix`. They bind as in Rust. All else is refused at its token, with a hint.
+//! `Assign` (`name = value`) among the arguments of a call, `Tuple` as the index of `mass_matrix`. They bind as in Rust. All
+//! else is refused at its token, with a hint.
 //!
 //! syn's own parser is not used: it fails whole at the first mistake, would have its result checked once more, and
 //! recurses without a bound, as does dropping what it returns.
@@ -163,8 +164,7 @@ fn value(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Read<Node> {
     let Some(group) = cursor.take_group(Delimiter::Parenthesis) else {
         return Ok(leaf);
     };
-    let item = if is_word(&leaf.expr, "substitute") { named } else { whole };
-    let (arguments, height) = elements_of(item, &group, cursor, diagnostics)?;
+    let (arguments, height) = elements_of(named, &group, cursor, diagnostics)?;
     grown(build::call(leaf.expr, &group, arguments), height, group.span_open(), diagnostics)
 }
 
@@ -175,7 +175,7 @@ fn is_word(expr: &Expr, word: &str) -> bool {
 
 /// What stands between the brackets behind `base`: one value, or the two indices of a matrix.
 fn index(base: &Expr, group: &Group, cursor: &Cursor, diagnostics: &mut Diagnostics) -> Read<Node> {
-    if !is_word(base, "mass_matrix") {
+    if !["mass_matrix", "jacobian"].iter().any(|word| is_word(base, word)) {
         return only(group, cursor, diagnostics);
     }
     let (indices, height) = elements(group, cursor, diagnostics)?;

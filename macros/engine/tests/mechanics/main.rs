@@ -23,3 +23,4 @@ mod random_outputs;
 mod ranks;
 mod reactions;
 mod support;
+mod worked;

@@ -120,6 +120,13 @@ impl Writer<'_> {
             }
             ExprNode::Unknown(number) => format!("unknown {number}"),
             ExprNode::Solved { system, index, .. } => format!("Solved({}, {index})", self.list(system.iter())),
+            ExprNode::Formula { formula, given } => {
+                let given: Vec<String> =
+                    given.iter().map(|given| format!("{:?} = {}", given.variables, self.expr(&given.value))).collect();
+                format!("Formula({}, {})", formula.model.name, given.join(", "))
+            }
+            ExprNode::Residual { closing, component } => format!("Residual({closing:?}, {component:?})"),
+            ExprNode::Closed(coordinate) => format!("Closed({coordinate:?})"),
             ExprNode::Undefined => "Undefined".into(),
             ExprNode::MassMatrix(entry) => format!("{entry:?}"),
             ExprNode::Bias(entry) => format!("{entry:?}"),

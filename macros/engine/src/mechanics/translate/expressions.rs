@@ -10,8 +10,9 @@ use crate::contracts::call::Call;
 use crate::invariant::fault::{OrFault, raise};
 use crate::invariant::injection::{Break, broken};
 use crate::mechanics::equations::Equations;
-use crate::mechanics::loops::structure::Role;
-use crate::model::types::{Coordinate, Expr, ExprNode};
+use crate::mechanics::loops::constraints::row_called;
+use crate::mechanics::loops::structure::{Role, Row};
+use crate::model::types::{Coordinate, Expr, ExprNode, Order};
 use crate::symbolic::graph::{Rotation, Scalar, Vector};
 use crate::symbolic::rotations;
 
@@ -126,6 +127,17 @@ impl Equations<'_> {
                 let system: Vec<Scalar> = system.iter().map(|entry| self.known(entry).scalar()).collect();
                 Value::Scalar(self.solved_system(system, *size, *index))
             }
+            ExprNode::Formula { formula, given } => {
+                let given: Vec<_> =
+                    given.iter().map(|given| (given.variables.clone(), self.known(&given.value))).collect();
+                self.formula(formula, &given, &formula.of.ty)
+            }
+            ExprNode::Residual { closing, component } => {
+                let index = row_called(self.scene.model, *closing, component.as_deref());
+                let index = index.or_fault("names of equations are looked at before anything is derived");
+                Value::Scalar(self.row(Row { closing: *closing, index }))
+            }
+            &ExprNode::Closed(coordinate) => Value::Scalar(self.coordinate(coordinate, Order::Position)),
             ExprNode::Undefined => Value::Scalar(self.g.call(Call::Nan, &[])),
             ExprNode::Unknown(_) => raise("unknowns stand inside their equations, which have been solved"),
             &ExprNode::MassMatrix(entry) => Value::Scalar(self.mass_matrix_entry(entry)),

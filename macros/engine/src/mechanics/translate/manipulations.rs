@@ -11,11 +11,11 @@ use std::rc::Rc;
 use crate::invariant::fault::OrFault;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
-use crate::mechanics::loops::constraints::coordinate_name;
+use crate::mechanics::loops::constraints::{coordinate_name, path, row_called, rows_of_joint};
 use crate::mechanics::loops::reduction::Reduction;
-use crate::mechanics::loops::structure::{Role, Structure};
+use crate::mechanics::loops::structure::{Means, Role, Structure};
 use crate::model::site::Sited;
-use crate::model::types::{Coordinate, Expr, ExprNode, ForceKind, Model, Order, Variable};
+use crate::model::types::{Coordinate, Expr, ExprNode, ForceKind, LoopClosure, Model, Order, Variable};
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::{BlockKind, Scalar};
 use crate::symbolic::substitute::Substitution;
@@ -202,9 +202,14 @@ impl Equations<'_> {
 
 /// What is asked of coordinates that are not in the state.
 pub(in crate::mechanics) fn complaints(model: &Model, structure: &Structure) -> Vec<Complaint> {
+    complaints_of(model, structure, roots(model))
+}
+
+/// The same of some expressions.
+pub(in crate::mechanics) fn complaints_of(model: &Model, structure: &Structure, roots: Vec<&Expr>) -> Vec<Complaint> {
     let follows = structure.roles.iter().flatten().any(|role| *role != Role::State);
     let (mut complaints, mut seen) = (Vec::new(), HashSet::new());
-    let mut stack = roots(model);
+    let mut stack = roots;
     while let Some(expr) = stack.pop() {
         if !seen.insert(Rc::as_ptr(&expr.node)) {
             continue;
@@ -247,6 +252,10 @@ pub(in crate::mechanics) fn complaints(model: &Model, structure: &Structure) -> 
                     });
                 }
             }
+            ExprNode::Residual { closing, component } => {
+                complaints.extend(no_row(model, *closing, component.as_deref(), expr));
+            }
+            ExprNode::Closed(coordinate) => complaints.extend(not_closed(model, structure, *coordinate, expr)),
             ExprNode::MassMatrix(list) => {
                 complaints.extend(list.iter().filter_map(|coordinate| outside(model, structure, *coordinate, expr)));
             }
@@ -255,6 +264,41 @@ pub(in crate::mechanics) fn complaints(model: &Model, structure: &Structure) -> 
         }
     }
     complaints
+}
+
+/// An equation that there isn't.
+fn no_row(model: &Model, closing: LoopClosure, component: Option<&str>, expr: &Expr) -> Option<Complaint> {
+    let LoopClosure::Cut(joint) = closing else { return None };
+    let name = path(model, &model.joints[joint].place);
+    if !model.cuts.contains(&joint) {
+        let message = format!("the joint `{name}` closes no loop: it has no equations");
+        return Some(Complaint { at: expr.site(), message, help: None });
+    }
+    if row_called(model, closing, component).is_some() {
+        return None;
+    }
+    let known: Vec<String> = rows_of_joint(model, joint).iter().map(|row| format!("`{name}.{row}`")).collect();
+    let message = format!("the joint `{name}` has no equation `{}`", component.unwrap_or_default());
+    Some(Complaint { at: expr.site(), message, help: Some(format!("its equations are {}", known.join(", "))) })
+}
+
+/// A coordinate without a formula.
+fn not_closed(model: &Model, structure: &Structure, coordinate: Coordinate, expr: &Expr) -> Option<Complaint> {
+    let name = coordinate_name(model, coordinate);
+    let (why, help) = if model.cuts.contains(&coordinate.joint) {
+        ("is measured on a joint that closes a loop", "name a coordinate that the loop gives")
+    } else {
+        match structure.role(coordinate) {
+            Role::State => {
+                ("is in the state: nothing gives it", "loops are solved by `formulation { constraints: Reduced }`")
+            }
+            Role::Dependent(step) if matches!(structure.steps[step].means, Means::Newton { .. }) => {
+                ("is found by iteration: there is no formula", "write `solve (..) from ..`")
+            }
+            Role::Driven(_) | Role::Dependent(_) => return None,
+        }
+    };
+    Some(Complaint { at: expr.site(), message: format!("{name} {why}"), help: Some(help.to_owned()) })
 }
 
 /// A coordinate that is not in the state.
@@ -330,17 +374,6 @@ fn holds(expr: &Expr, is: impl Fn(&ExprNode) -> bool) -> bool {
 fn roots(model: &Model) -> Vec<&Expr> {
     let mut roots: Vec<&Expr> = model.outputs.iter().map(|output| &output.value).collect();
     roots.extend(model.states.iter().map(|state| &state.rate));
-    for force in &model.forces {
-        match &force.kind {
-            ForceKind::Effort { values, .. } => roots.extend(values),
-            ForceKind::JointSpring { stiffness, damping, rest, .. } => {
-                roots.extend([stiffness, damping, rest].into_iter().flatten());
-            }
-            ForceKind::LineSpring { stiffness, damping, length, .. } => {
-                roots.extend([stiffness, damping, length].into_iter().flatten());
-            }
-            ForceKind::Force { value, .. } | ForceKind::Torque { value, .. } => roots.push(value),
-        }
-    }
+    roots.extend(model.forces.iter().flat_map(|force| force.kind.values()));
     roots
 }

@@ -8,6 +8,7 @@ pub(super) mod dependencies;
 pub(super) mod directions;
 pub(super) mod expressions;
 pub(super) mod forces;
+pub(super) mod formulas;
 pub(super) mod frames;
 mod functions;
 pub(super) mod manipulations;

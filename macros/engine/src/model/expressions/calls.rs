@@ -37,6 +37,7 @@ impl<'a> Checker<'a, '_> {
             "select" => return self.select(name, &arguments, at, context),
             "diff" => return self.diff(name, &arguments, at, context),
             "substitute" => return self.substitute(name, &arguments, at, context),
+            "closed" => return self.closed(name, &arguments, at, context),
             "kinetic" | "potential" => {
                 self.arity(name, &arguments, 0, at)?;
                 let node = if text == "kinetic" { ExprNode::Kinetic } else { ExprNode::Potential };
@@ -51,6 +52,9 @@ impl<'a> Checker<'a, '_> {
         }
         let found = FUNCTIONS.iter().find(|(known, ..)| *known == text);
         let Some((_, function, count)) = found else {
+            if let Some(module) = self.module_called(name) {
+                return self.formula(name, module, call, context);
+            }
             self.unknown_function(name, context);
             // What stands between the parentheses may hold mistakes of its own.
             for argument in arguments {

@@ -1,6 +1,7 @@
 //! Stage `model`: expressions made of expressions.
 //!
-//! In: `diff(x, hinge)`, `substitute(x, push = 0.0)`, `mass_matrix[a, b]`, `bias[a]`. Out: typed nodes. They are taken in
+//! In: `diff(x, hinge)`, `substitute(x, push = 0.0)`, `mass_matrix[a, b]`, `bias[a]`, `constraint[pin.x]`, `jacobian[pin.x, a]`,
+//! `closed(stroke)`. Out: typed nodes. They are taken in
 //! finished equations, so nothing that decides positions may use them; and what follows from forces or is an acceleration is
 //! not known in them, and can't be taken apart.
 
@@ -11,7 +12,7 @@ use syn::{Expr, ExprIndex};
 use crate::model::checker::{Checker, Context, Meaning};
 use crate::model::names::MATRICES;
 use crate::model::typed::{Class, Typed, Uses, type_text};
-use crate::model::types::{Coordinate, Expr as Checked, ExprNode, Order, Type, Variable};
+use crate::model::types::{Coordinate, Expr as Checked, ExprNode, LoopClosure, Order, Type, Variable};
 
 use super::{source_text, span};
 
@@ -127,6 +128,23 @@ impl<'a> Checker<'a, '_> {
         Some(value)
     }
 
+    /// The same, or all scalars of a parameter or an input, with the type of what is put in.
+    pub(super) fn variables(&mut self, expr: &Expr, context: Context<'a>) -> Option<(Vec<Variable>, Type)> {
+        if let Meaning::Value(value) = self.meaning(expr, context)?
+            && value.expr.ty != Type::Scalar
+            && let Some((node, first)) = place_of(&value.expr)
+        {
+            let places = first..first + value.expr.ty.scalars();
+            let all = places.map(|place| match *node {
+                ExprNode::Param(id) => Some(Variable::Param(id, place)),
+                ExprNode::Input(id) => Some(Variable::Input(id, place)),
+                _ => None,
+            });
+            return Some((all.collect::<Option<_>>()?, value.expr.ty));
+        }
+        Some((vec![self.variable(expr, context)?], Type::Scalar))
+    }
+
     /// A coordinate, rate, state, parameter, input, or time.
     fn variable(&mut self, expr: &Expr, context: Context<'a>) -> Option<Variable> {
         let meaning = self.meaning(expr, context)?;
@@ -165,13 +183,93 @@ impl<'a> Checker<'a, '_> {
         MATRICES.into_iter().find(|known| *known == name && !declared)
     }
 
-    /// `mass_matrix[a, b]`, `bias[a]`.
+    /// `closed(stroke)`: a coordinate for which there is a formula.
+    pub(super) fn closed(
+        &mut self,
+        name: &Ident,
+        arguments: &[&Expr],
+        at: Span,
+        context: Context<'a>,
+    ) -> Option<Typed> {
+        let &[written] = arguments else {
+            self.report.help(at, "`closed` takes a coordinate", "write `closed(stroke)`");
+            return None;
+        };
+        let Variable::Coordinate(coordinate, Order::Position) = self.variable(written, context)? else {
+            self.report.error(span(written), format!("`{}` is no coordinate", source_text(written)));
+            return None;
+        };
+        let mut uses = Uses::of(Class::Position, "closed", name.span());
+        uses.add(Class::Finished, "closed", name.span());
+        Some(Typed::leaf(ExprNode::Closed(coordinate), Type::Scalar, at).with(uses))
+    }
+
+    /// `constraint[ball.x]`, `jacobian[ball.x, crank]`: an equation that closes a loop, and its slope along a coordinate.
+    fn entry_of_constraints(
+        &mut self,
+        matrix: &'static str,
+        indices: &[&Expr],
+        at: &ExprIndex,
+        context: Context<'a>,
+    ) -> Option<Typed> {
+        let (row, column) = match (matrix, indices) {
+            ("constraint", &[row]) => (row, None),
+            ("jacobian", &[row, column]) => (row, Some(column)),
+            _ => {
+                let form =
+                    if matrix == "jacobian" { "write `jacobian[ball.x, hinge]`" } else { "write `constraint[ball.x]`" };
+                let message = format!("`{matrix}` has no entry of {} indices", indices.len());
+                self.report.help(span(&at.index), message, form);
+                return None;
+            }
+        };
+        let row = self.row(row, context);
+        let column = column.map(|column| self.entry_coordinate(matrix, column, context));
+        let (closing, component) = row?;
+        let residual = ExprNode::Residual { closing, component };
+        let mut uses = Uses::of(Class::Position, matrix, span(&at.expr));
+        uses.add(Class::Finished, matrix, span(&at.expr));
+        let residual = Typed::leaf(residual, Type::Scalar, at.span()).with(uses);
+        let Some(column) = column else { return Some(residual) };
+        let by = Variable::Coordinate(column?, Order::Position);
+        let node = ExprNode::Derivative { of: residual.expr.clone(), by, accelerated: false };
+        self.build(node, Type::Scalar, at.span(), &[&residual])
+    }
+
+    /// An equation by its name: a constraint, or a component of what a joint closes.
+    fn row(&mut self, expr: &Expr, context: Context<'a>) -> Option<(LoopClosure, Option<String>)> {
+        if let Expr::Field(field) = expr
+            && let syn::Member::Named(component) = &field.member
+            && let Meaning::Joint(joint) = self.meaning(&field.base, context)?
+        {
+            return Some((LoopClosure::Cut(joint), Some(component.to_string())));
+        }
+        match self.meaning(expr, context)? {
+            Meaning::Constraint(constraint) => Some((LoopClosure::Constraint(constraint), None)),
+            Meaning::Joint(_) => {
+                let text = source_text(expr);
+                let message = format!("`{text}` closes its loop by several equations");
+                self.report.help(span(expr), message, format!("name one, such as `{text}.x`"));
+                None
+            }
+            _ => {
+                let message = format!("`{}` is no constraint, and no joint that closes a loop", source_text(expr));
+                self.report.error(span(expr), message);
+                None
+            }
+        }
+    }
+
+    /// `mass_matrix[a, b]`, `bias[a]`, `constraint[rack]`, `jacobian[rack, a]`.
     pub(super) fn entry(&mut self, matrix: &'static str, index: &ExprIndex, context: Context<'a>) -> Option<Typed> {
         let at = index.span();
         let indices: Vec<&Expr> = match &*index.index {
             Expr::Tuple(several) => several.elems.iter().collect(),
             one => vec![one],
         };
+        if matches!(matrix, "constraint" | "jacobian") {
+            return self.entry_of_constraints(matrix, &indices, index, context);
+        }
         let coordinates: Vec<Option<Coordinate>> =
             indices.iter().map(|index| self.entry_coordinate(matrix, index, context)).collect();
         let coordinates: Vec<Coordinate> = coordinates.into_iter().collect::<Option<_>>()?;

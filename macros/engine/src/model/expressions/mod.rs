@@ -7,6 +7,7 @@ mod arrays;
 mod broadcast;
 mod calls;
 mod coerce;
+pub(super) mod formulas;
 mod joints;
 mod manipulate;
 mod members;
@@ -86,7 +87,8 @@ impl<'a> Checker<'a, '_> {
                 self.report.help(
                     span(&named.left),
                     "a value with a name means nothing here",
-                    "names of values stand in `substitute(expression, name = value)`",
+                    "to compare, write `==`; names of values stand in `substitute(expression, name = value)`, and where another model \
+                     is asked",
                 );
                 None
             }

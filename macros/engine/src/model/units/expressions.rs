@@ -10,7 +10,9 @@ use proc_macro2::Span;
 
 use crate::invariant::fault::OrFault;
 use crate::model::joint_kinds::JointKind;
-use crate::model::types::{Expr, ExprNode, Frame, FrameQuantity, FrameStep, Function, JointId, Order, Variable};
+use crate::model::types::{
+    Coordinate, Expr, ExprNode, Frame, FrameQuantity, FrameStep, Function, JointId, Order, Variable,
+};
 
 use super::declared::Declared;
 use super::dimension::{Unit, number};
@@ -155,7 +157,13 @@ impl Expressions {
                 let acceleration = self.coordinate(column.joint, column.index, |of| of.order(Order::Acceleration));
                 self.coordinate(row.joint, row.index, |of| of.effort).combined(acceleration, Unit::over)
             }
+            ExprNode::Residual { .. } => Value::Any,
+            &ExprNode::Closed(Coordinate { joint, index }) => {
+                self.coordinate(joint, index, |of| of.order(Order::Position))
+            }
             ExprNode::Bias(row) => self.coordinate(row.joint, row.index, |of| of.effort),
+            // The other model has its own check; values that it takes are looked at as operands.
+            ExprNode::Formula { .. } => Value::Any,
             // The unknown takes the unit that fits; its equations are looked at as operands.
             ExprNode::Unknown(_) | ExprNode::Solved { .. } | ExprNode::Undefined => Value::Any,
             ExprNode::Vec3(elements) if is_unit_vector(elements) => Value::Number,

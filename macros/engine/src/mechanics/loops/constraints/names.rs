@@ -6,7 +6,7 @@
 
 use crate::model::joint_kinds::Hold;
 use crate::model::types::Constraint;
-use crate::model::types::{Coordinate, Directions, Expr, ExprNode, Joint, LoopClosure, Model, Place};
+use crate::model::types::{Coordinate, Directions, Expr, ExprNode, Joint, JointId, LoopClosure, Model, Place};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -27,6 +27,20 @@ pub fn row_name(model: &Model, closing: LoopClosure, index: usize) -> String {
             format!("{}.{}", path(model, &joint.place), of_joint(joint)[index])
         }
     }
+}
+
+/// The equation of a closing that has a name; without one, the only one.
+pub(in crate::mechanics) fn row_called(model: &Model, closing: LoopClosure, component: Option<&str>) -> Option<usize> {
+    match (closing, component) {
+        (LoopClosure::Constraint(_), None) => Some(0),
+        (LoopClosure::Cut(id), Some(name)) => of_joint(&model.joints[id]).iter().position(|known| known == name),
+        _ => None,
+    }
+}
+
+/// Names of the equations of a joint that closes a loop.
+pub(in crate::mechanics) fn rows_of_joint(model: &Model, id: JointId) -> Vec<String> {
+    of_joint(&model.joints[id])
 }
 
 /// A coordinate as the user addresses it.

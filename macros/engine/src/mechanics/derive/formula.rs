@@ -1,0 +1,67 @@
+//! Stage `mechanics`: an expression of another model, closed.
+//!
+//! In: a model, an expression of it. Out: the expression in symbols of the model's state, inputs, parameters and time, with loops
+//! solved as they are in the model's own functions.
+
+use std::rc::Rc;
+
+use crate::contracts::results::Results;
+use crate::contracts::symbol::Symbol;
+use crate::mechanics::analysis::{Complaint, analyse};
+use crate::mechanics::loops::structure::Structure;
+use crate::mechanics::translate::manipulations;
+use crate::model::site::Sited;
+use crate::model::types::Formula;
+use crate::symbolic::graph::{Graph, Scalar, SymbolId};
+
+use super::Deriving;
+
+/// A formula, solved.
+pub(in crate::mechanics) struct Solved {
+    pub graph: Graph,
+    /// As many as its type has.
+    pub scalars: Vec<Scalar>,
+    /// What they read.
+    pub reads: Vec<(SymbolId, Symbol)>,
+    pub structure: Structure,
+}
+
+/// Why there is none.
+pub(in crate::mechanics) enum Unsolved {
+    /// The model has a mistake of its own, which is reported there.
+    Elsewhere,
+    /// What is asked of it.
+    Here(Complaint),
+}
+
+/// Solved once, whoever asks.
+pub(in crate::mechanics) fn solved(formula: &Formula) -> Rc<Result<Solved, Unsolved>> {
+    formula.solved.get_or(|| solve(formula))
+}
+
+fn solve(formula: &Formula) -> Result<Solved, Unsolved> {
+    let Formula { model, of, .. } = formula;
+    let structure = analyse(model).map_err(|_| Unsolved::Elsewhere)?;
+    let complaints = manipulations::complaints_of(model, &structure, vec![of]);
+    if let Some(complaint) = complaints.into_iter().next() {
+        return Err(Unsolved::Here(complaint));
+    }
+    let mut deriving = Deriving::new(model, &structure);
+    deriving.check_manipulations().map_err(|_| Unsolved::Elsewhere)?;
+    deriving.check().map_err(|_| Unsolved::Elsewhere)?;
+    let found = deriving.only("", |e| {
+        let reduction = e.reduce()?;
+        let mut scalars = Vec::new();
+        e.value(of).flatten(&mut e.g, &mut scalars);
+        Ok(Results::vector(e.finish(&reduction, &scalars)))
+    });
+    let found = found.map_err(|_| Unsolved::Elsewhere)?;
+    let scalars = found.into_iter().next().map(|(_, results)| results.list).unwrap_or_default();
+    let Some(read) = deriving.graph.formula_symbols(&scalars) else {
+        let message = format!("a loop of `{}` that this reads is closed by iteration: there is no formula", model.name);
+        let help = Some(format!("write `solve (..) from ..` in `{}`", model.name));
+        return Err(Unsolved::Here(Complaint { at: formula.site(), message, help }));
+    };
+    let reads = read.into_iter().map(|id| (id, deriving.symbols.table[id.0])).collect();
+    Ok(Solved { graph: deriving.graph, scalars, reads, structure })
+}

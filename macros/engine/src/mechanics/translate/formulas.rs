@@ -1,0 +1,188 @@
+//! Stage `mechanics`: what another model says, in this one's equations.
+//!
+//! In: a formula that `derive/formula` has solved, in a graph of its own, and values for that model's variables. Out: the same
+//! expression in this graph, with the values in the place of the symbols, and the declared numbers in the place of parameters
+//! without a value. From there on it is differentiated, shared and counted as anything else.
+
+use std::collections::{HashMap, HashSet};
+use std::rc::Rc;
+
+use crate::contracts::symbol::Symbol;
+use crate::invariant::fault::{OrFault, raise};
+use crate::mechanics::analysis::Complaint;
+use crate::mechanics::derive::formula::{Solved, Unsolved, solved};
+use crate::mechanics::equations::Equations;
+use crate::mechanics::loops::constraints::{coordinate_name, path};
+use crate::mechanics::loops::structure::{Role, Structure};
+use crate::model::site::Sited;
+use crate::model::types::{
+    ConstraintKind, Coordinate, Expr, ExprNode, Formula, Given, Handling, Model, Order, SolveHow, Type, Variable,
+};
+use crate::symbolic::graph::{Scalar, SymbolId};
+
+use super::values::Value;
+
+impl Equations<'_> {
+    /// The value of a formula: values of what is given are known.
+    pub(super) fn formula(&mut self, formula: &Formula, given: &[(Vec<Variable>, Value)], ty: &Type) -> Value {
+        let found = solved(formula);
+        let Ok(solved) = &*found else { raise("formulas are looked at before anything is derived") };
+        let mut values: HashMap<Variable, Scalar> = HashMap::new();
+        for (variables, value) in given {
+            let mut scalars = Vec::new();
+            value.flatten(&mut self.g, &mut scalars);
+            values.extend(variables.iter().copied().zip(scalars));
+        }
+        let put: HashMap<SymbolId, Scalar> = solved
+            .reads
+            .iter()
+            .map(|&(id, symbol)| {
+                let declared = || match symbol {
+                    Symbol::Param { param, element } => {
+                        let default = formula.model.params[param].default.get(element);
+                        Some(self.g.decimal(*default.or_fault("a parameter has a number for each scalar")))
+                    }
+                    _ => None,
+                };
+                let value = variable(&formula.model, symbol).and_then(|variable| values.get(&variable).copied());
+                (id, value.or_else(declared).or_fault("what a formula reads is given"))
+            })
+            .collect();
+        let scalars = self.g.transplant(&solved.graph, &solved.scalars, &put);
+        self.shaped(&scalars, ty)
+    }
+}
+
+/// What is wrong with formulas of other models, wherever they stand.
+pub(in crate::mechanics) fn complaints(model: &Model) -> Result<(), Vec<Complaint>> {
+    let (mut complaints, mut seen) = (Vec::new(), HashSet::new());
+    let mut is_sound = true;
+    let mut stack = roots(model);
+    while let Some(expr) = stack.pop() {
+        if !seen.insert(Rc::as_ptr(&expr.node)) {
+            continue;
+        }
+        stack.extend(expr.node.operands());
+        let ExprNode::Formula { formula, given } = &*expr.node else { continue };
+        match &*solved(formula) {
+            Ok(solved) => complaints.extend(of_formula(expr, formula, given, solved)),
+            Err(Unsolved::Here(complaint)) => complaints.push(complaint.clone()),
+            Err(Unsolved::Elsewhere) => is_sound = false,
+        }
+    }
+    if is_sound && complaints.is_empty() { Ok(()) } else { Err(complaints) }
+}
+
+fn of_formula(expr: &Expr, formula: &Formula, given: &[Given], solved: &Solved) -> Vec<Complaint> {
+    let model = &formula.model;
+    let mut complaints = Vec::new();
+    for given in given {
+        for &variable in &given.variables {
+            if let Variable::Coordinate(coordinate, _) = variable
+                && let Some(why) = not_given(model, &solved.structure, coordinate)
+            {
+                let message =
+                    format!("{} {why} in `{}`: it is not given", coordinate_name(model, coordinate), model.name);
+                complaints.push(Complaint { at: given.site(), message, help: None });
+            }
+        }
+    }
+    let is_given = |variable: Variable| given.iter().any(|given| given.variables.contains(&variable));
+    let mut missing = Vec::new();
+    for &(_, symbol) in &solved.reads {
+        match variable(model, symbol) {
+            Some(Variable::Param(..)) => {}
+            Some(variable) if is_given(variable) => {}
+            Some(variable) => missing.push(name(model, variable)),
+            None => {
+                let message = format!("this reads an orientation in `{}` that has no coordinates to give", model.name);
+                let help = Some("take `RollPitchYaw` there".to_owned());
+                return vec![Complaint { at: expr.site(), message, help }];
+            }
+        }
+    }
+    missing.sort_unstable();
+    missing.dedup();
+    if let Some(first) = missing.first().filter(|_| complaints.is_empty()) {
+        let all = missing.iter().map(|name| format!("`{name}`")).collect::<Vec<String>>().join(", ");
+        complaints.push(Complaint {
+            at: expr.site(),
+            message: format!("this needs values of {all} in `{}`", model.name),
+            help: Some(format!("write `{}(.., {first} = ..)`", model.name)),
+        });
+    }
+    complaints
+}
+
+/// Why a coordinate takes no value.
+fn not_given(model: &Model, structure: &Structure, coordinate: Coordinate) -> Option<&'static str> {
+    if model.cuts.contains(&coordinate.joint) {
+        return Some("is measured on a joint that closes a loop");
+    }
+    match structure.role(coordinate) {
+        Role::State => None,
+        Role::Driven(_) => Some("follows the time"),
+        Role::Dependent(_) => Some("follows from others"),
+    }
+}
+
+/// The variable that a symbol is; components of quaternions are none.
+fn variable(model: &Model, symbol: Symbol) -> Option<Variable> {
+    match symbol {
+        Symbol::Time => Some(Variable::Time),
+        Symbol::Param { param, element } => Some(Variable::Param(param, element)),
+        Symbol::Input { input, element } => Some(Variable::Input(input, element)),
+        Symbol::State { state } => Some(Variable::State(state)),
+        Symbol::Position { joint, component } => {
+            let freedom = model.joints[joint].kind.freedoms.get(component);
+            freedom.map(|_| Variable::Coordinate(Coordinate { joint, index: component }, Order::Position))
+        }
+        Symbol::Velocity { joint, component } => {
+            Some(Variable::Coordinate(Coordinate { joint, index: component }, Order::Rate))
+        }
+        Symbol::Acceleration { .. }
+        | Symbol::Multiplier { .. }
+        | Symbol::Impulse { .. }
+        | Symbol::Momentum { .. }
+        | Symbol::Rate { .. }
+        | Symbol::Guess { .. }
+        | Symbol::Unknown { .. } => None,
+    }
+}
+
+/// A variable as it is written.
+fn name(model: &Model, variable: Variable) -> String {
+    match variable {
+        Variable::Time => "t".to_owned(),
+        Variable::Coordinate(coordinate, Order::Rate) => coordinate_name(model, coordinate) + ".rate",
+        Variable::Coordinate(coordinate, _) => coordinate_name(model, coordinate),
+        Variable::State(id) => path(model, &model.states[id].place),
+        Variable::Param(id, _) => path(model, &model.params[id].place),
+        Variable::Input(id, _) => path(model, &model.inputs[id].place),
+    }
+}
+
+/// Expressions in which formulas of other models may stand.
+fn roots(model: &Model) -> Vec<&Expr> {
+    let mut roots: Vec<&Expr> = model.outputs.iter().map(|output| &output.value).collect();
+    roots.extend(model.states.iter().map(|state| &state.rate));
+    roots.extend(model.drives.iter().map(|drive| &drive.value));
+    roots.extend(&model.assumptions);
+    for solve in &model.solves {
+        match &solve.how {
+            SolveHow::Formulas(list) | SolveHow::From { branches: list, .. } => roots.extend(list),
+        }
+    }
+    for constraint in &model.constraints {
+        match &constraint.kind {
+            ConstraintKind::Value(value) | ConstraintKind::Rod { length: value, .. } => roots.push(value),
+        }
+    }
+    for force in &model.forces {
+        roots.extend(force.kind.values());
+    }
+    if let Handling::Stabilised { rate, position } = &model.handling {
+        roots.extend([rate, position]);
+    }
+    roots
+}

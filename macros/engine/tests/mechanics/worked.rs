@@ -1,0 +1,312 @@
+//! What is said of equations that are taken apart, and of formulas of other models: underlined text, message, help.
+
+use multibody_engine::diagnostics::Diagnostics;
+use multibody_engine::{Trouble, compile, model, syntax};
+
+/// A planar four-bar in a model of its own; what stands behind it is replaced.
+const FOUR_BAR: &str = "
+    input torque;
+    param reach = 4.0;
+    body arm { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
+    body link { mass: 3.5, com: 1.75 * X, inertia: rod(3.5, 3.5, X) }
+    body lever { mass: 3.0, com: 1.5 * X, inertia: rod(3.0, 3.0, X) }
+    joint crank: Revolute { parent: ground, child: arm, axis: Z }
+    joint coupler: Revolute { parent: arm.at(X), child: link, axis: Z }
+    joint rocker: Revolute { parent: ground.at(reach * X), child: lever, axis: Z }
+    #[cut]
+    joint pin: Revolute { parent: link.at(3.5 * X), child: lever.at(3.0 * X), axis: Z }
+    force motor: Effort { joint: crank, value: torque }
+    let swing = rocker.angle;
+    output lean = swing + 0.5;
+    formulation { constraints: Reduced }
+";
+const SOLVED: &str = "solve (coupler, rocker) from pin { sin(rocker.angle - crank.angle - coupler.angle) > 0.0 }";
+
+/// A cart that asks the four-bar.
+fn asking(bars: &str, items: &str) -> String {
+    format!(
+        "mod bars {{ {FOUR_BAR} {bars} }} mod m {{ body b {{ mass: 1.0 }} input push; param p = 1.0;
+         joint j: Prismatic {{ parent: ground, child: b, axis: X }}
+         body c {{ mass: 1.0, inertia: diag(1.0, 1.0, 1.0) }} joint k: Revolute {{ parent: b, child: c, axis: Z }} {items} }}"
+    )
+}
+
+/// One line per error: the underlined text, the message, the help.
+fn said(call: &str) -> Vec<String> {
+    let mut diagnostics = Diagnostics::default();
+    let source = syntax::parse(call.parse().unwrap(), &mut diagnostics);
+    let models = model::check(&source, &mut diagnostics);
+    for model in &models {
+        if let Err(trouble) = compile(model) {
+            assert!(matches!(trouble, Trouble::Complaints(_)), "no refusal of a whole model");
+            trouble.report(model, &mut diagnostics);
+        }
+    }
+    let line = |span: proc_macro2::Span, message: &str, help: Option<&str>| {
+        let text = span.source_text().unwrap_or_default();
+        format!("{text} | {message}{}", help.map_or_else(String::new, |help| format!(" | {help}")))
+    };
+    diagnostics.errors().iter().map(|e| line(e.span, &e.message, e.help.as_deref())).collect()
+}
+
+fn assert_said(call: &str, expected: &[&str]) {
+    assert_eq!(said(call), expected, "{call}");
+}
+
+#[test]
+fn formulas_of_other_models() {
+    let asked = |items: &str| asking(SOLVED, items);
+    // What is right.
+    for items in [
+        "output y = bars(rocker, crank = 0.7);",
+        "output y = bars([rocker, coupler.angle], crank = j.travel);",
+        "output y: Vec3 = bars(link.at(X).position, crank = j, reach = 3.0 + p);",
+        "output y = bars(rocker.rate, crank = 0.7, crank.rate = j.rate);",
+        "output y = bars(kinetic() + swing * lean, crank = push, crank.rate = 2.0);",
+        "output y = bars(diff(swing, crank), crank = t) + bars(mass_matrix[crank, crank], crank = push);",
+        "output y = bars(torque * torque, torque = j.accel);",
+        "drive j = bars(rocker, crank = 0.1 * t);",
+        "constraint held = j - bars(rocker, crank = k, reach = 4.2);",
+        "force f: Effort { joint: j, value: bars(lean, crank = push, reach = p + 3.0) }",
+    ] {
+        assert_said(&asked(items), &[]);
+    }
+    // What is not.
+    assert_said(
+        &asked("output y = bars(rocker);"),
+        &["bars(rocker) | this needs values of `crank` in `bars` | write `bars(.., crank = ..)`"],
+    );
+    assert_said(
+        &asked("output y = bars(rocker.rate * torque, crank = 0.7);"),
+        &["bars(rocker.rate * torque, crank = 0.7) | this needs values of `crank.rate`, `torque` in `bars` | write \
+           `bars(.., crank.rate = ..)`"],
+    );
+    assert_said(
+        &asked("output y = bars(crank, rocker = 0.7);"),
+        &["rocker | rocker follows from others in `bars`: it is not given"],
+    );
+    assert_said(
+        &asked("output y = bars(rocker.accel, crank = 0.7);"),
+        &[
+            "accel | `rocker.accel` follows from the equations of motion of `bars`: there is no formula | positions and velocities are \
+           formulas, and what is made of them",
+        ],
+    );
+    assert_said(
+        &asked("output y = bars(bias[crank], crank = 0.7);"),
+        &[
+            "bias | `bias` follows from the equations of motion of `bars`: there is no formula | positions and velocities are \
+           formulas, and what is made of them",
+        ],
+    );
+    assert_said(
+        &asked("output y = bars(rocker, crank = 0.7, crank.angle = 0.2);"),
+        &["crank.angle | this variable is named twice"],
+    );
+    assert_said(
+        &asked("output y = bars(rockr, crank = 0.7);"),
+        &["rockr | unknown name `rockr` | did you mean `rocker`?"],
+    );
+    assert_said(&asked("output y = bars(rocker, j = 0.7);"), &["j | unknown name `j`"]);
+    assert_said(&asked("output y = bars(rocker, crank = crank);"), &["crank | unknown name `crank`"]);
+    assert_said(&asked("output y = bars(rocker, crank = X);"), &["X | expected a scalar, found a Vec3"]);
+    assert_said(
+        &asked("output y = bars(rocker, 0.7);"),
+        &[
+            "0.7 | expected `variable = value` | write `bars(expression, variable = value)`, both in the terms of `bars`, the \
+           value in those of this model",
+        ],
+    );
+    assert_said(
+        &asked("output y = bars();"),
+        &[
+            "bars | `bars` is a model: what of it? | write `bars(expression, variable = value)`, both in the terms of `bars`, \
+           the value in those of this model",
+        ],
+    );
+    assert_said(
+        &asked("output y = bars(arm, crank = 0.7);"),
+        &["arm | expected a value, found a frame | take `.position`, `.velocity`, `.pose`, .. of it"],
+    );
+    assert_said(
+        &asked("output y = bars(arm.rotation, crank = 0.7);"),
+        &[
+            "arm.rotation | numbers and vectors are taken from `bars`, found a Rotation | take `.position`, an entry, or a \
+           component of it",
+        ],
+    );
+    assert_said(
+        &asked("param q = bars(rocker, crank = 0.7);"),
+        &[
+            "bars | `bars` is a formula of another model; it may stand in drives, constraints, `solve`, forces, states, \
+           outputs, and the `let` that they use",
+        ],
+    );
+    assert_said(
+        &asked("output y = bars(pin.angle, crank = 0.7);"),
+        &[
+            "pin.angle | the joint `pin` closes a loop and has no coordinates | take coordinates of the joints in the tree, or \
+           cut another joint of the loop",
+        ],
+    );
+    assert_said(
+        &asked("drive j = bars(rocker, crank = push);"),
+        &["push | `push` is an input, whose rate nobody knows; a drive follows time and parameters"],
+    );
+    assert_said(
+        &asked("output y = bars(diff(rocker, rocker), crank = push);"),
+        &[
+            "diff(rocker, rocker) | rocker follows from others: it is no variable | name one of those; this one moves with them",
+        ],
+    );
+}
+
+#[test]
+fn formulas_of_models_that_have_none() {
+    // Newton's method.
+    let lines = said(&asking("", "output y = bars(rocker, crank = 0.7);"));
+    assert_eq!(
+        lines,
+        [
+            "rocker | a loop of `bars` that this reads is closed by iteration: there is no formula | write `solve (..) from ..` \
+          in `bars`"
+        ]
+    );
+    // Below, itself, a part, a mistake elsewhere.
+    let body = "body b { mass: 1.0 } joint j: Prismatic { parent: ground, child: b, axis: X }";
+    assert_said(
+        &format!("mod m {{ {body} output y = n(j, j = 1.0); }} mod n {{ {body} }}"),
+        &["n | `n` does not stand above | a formula is taken from a model that stands above in the same call"],
+    );
+    assert_said(
+        &format!("mod m {{ {body} output y = m(j, j = 1.0); }}"),
+        &["m | `m` does not stand above | a formula is taken from a model that stands above in the same call"],
+    );
+    assert_said(
+        &format!(
+            "mod p {{ port a: Frame; output y = 1.0; }} mod m {{ {body} output y = p(y); part q: p {{ a: b }}; }}"
+        ),
+        &[
+            "p | `p` is a part: it has no equations of its own | formulas are taken from models, which are modules without \
+           ports",
+        ],
+    );
+    assert_said(
+        &format!("mod n {{ {body} output y = nothing; }} mod m {{ {body} output y = n(j, j = 1.0); }}"),
+        &["nothing | unknown name `nothing`"],
+    );
+    let lines = said(&asking(
+        "solve (coupler, rocker) from pin { sin(rocker.angle) > 5.0 }",
+        "output y = bars(rocker, crank = 0.7);",
+    ));
+    assert_eq!(lines.len(), 1, "one mistake is reported once: {lines:#?}");
+    assert_said(
+        &format!(
+            "#[cfg(any())] mod n {{ {body} }} #[cfg(not(any()))] mod n {{ {body} }} mod m {{ {body} output y = n(j, j = 1.0); }}"
+        ),
+        &["n | there are two modules `n`: which one is meant is not known here"],
+    );
+}
+
+#[test]
+fn equations_taken_apart() {
+    let apart = |items: &str| format!("mod bars {{ {FOUR_BAR} {SOLVED} {items} }}");
+    assert_said(
+        &apart("output y = diff(rocker, reach);"),
+        &[
+            "diff(rocker, reach) | this reads positions, and some coordinates follow from others by equations that parameters \
+           are in: their derivatives by parameters are not known | differentiate a part that reads no positions",
+        ],
+    );
+    assert_said(
+        &apart("output y = diff(rocker, coupler);"),
+        &[
+            "diff(rocker, coupler) | coupler follows from others: it is no variable | name one of those; this one moves with \
+           them",
+        ],
+    );
+    assert_said(
+        &apart("output y = substitute(rocker, crank = 0.3);"),
+        &[
+            "substitute(rocker, crank = 0.3) | this reads positions, and some coordinates follow from others by equations that \
+           would have to be solved anew | inputs and states can be put in here; or substitute in a part that reads no \
+           positions",
+        ],
+    );
+    assert_said(
+        &apart("output y = mass_matrix[crank, rocker];"),
+        &[
+            "mass_matrix[crank, rocker] | rocker follows from others: it is no variable | name one of those; this one moves \
+           with them",
+        ],
+    );
+    assert_said(
+        &apart("output y = bias[coupler];"),
+        &[
+            "bias[coupler] | coupler follows from others: it is no variable | name one of those; this one moves with them",
+        ],
+    );
+    for items in [
+        "output y = closed(rocker) + diff(closed(rocker.angle), crank);",
+        "output y = constraint[pin.x] + diff(constraint[pin.y], crank) + jacobian[pin.y, crank];",
+    ] {
+        assert_said(&apart(items), &[]);
+    }
+    assert_said(
+        &apart("output y = closed(crank);"),
+        &[
+            "closed(crank) | crank is in the state: nothing gives it | loops are solved by `formulation { constraints: Reduced \
+           }`",
+        ],
+    );
+    assert_said(
+        &format!("mod bars {{ {FOUR_BAR} output y = closed(rocker) + closed(coupler); }}"),
+        &[
+            "closed(coupler) | coupler is found by iteration: there is no formula | write `solve (..) from ..`",
+            "closed(rocker) | rocker is found by iteration: there is no formula | write `solve (..) from ..`",
+        ],
+    );
+    assert_said(&apart("output y = closed(torque);"), &["torque | `torque` is no coordinate"]);
+    assert_said(
+        &apart("output y = constraint[pin.w];"),
+        &[
+            "constraint[pin.w] | the joint `pin` has no equation `w` | its equations are `pin.x`, `pin.y`, `pin.z`, `pin.turn_y`, \
+           `pin.turn_x`",
+        ],
+    );
+    assert_said(
+        &apart("output y = constraint[crank.x];"),
+        &["constraint[crank.x] | the joint `crank` closes no loop: it has no equations"],
+    );
+    assert_said(
+        &apart("output y = constraint[pin];"),
+        &["pin | `pin` closes its loop by several equations | name one, such as `pin.x`"],
+    );
+    assert_said(
+        &apart("output y = jacobian[pin.x];"),
+        &["[pin.x] | `jacobian` has no entry of 1 indices | write `jacobian[ball.x, hinge]`"],
+    );
+    assert_said(
+        &apart("output y = jacobian[pin.x, rocker];"),
+        &[
+            "jacobian[pin.x, rocker] | rocker follows from others: it is no variable | name one of those; this one moves with \
+           them",
+        ],
+    );
+    assert_said(
+        &apart("constraint gear = crank - constraint[pin.x];"),
+        &[
+            "constraint | `constraint` is made of finished equations; it may stand in outputs, forces, states, and the `let` \
+           that they use",
+        ],
+    );
+    let cart = "body b { mass: 1.0 } input u; joint j: Prismatic { parent: ground, child: b, axis: X }
+                force s: Spring { joint: j, stiffness: u }";
+    assert_said(
+        &format!("mod m {{ {cart} output y = diff(potential(), t); }}"),
+        &[
+            "diff(potential(), t) | a spring's energy depends on an input: its rate is not known, so there is no derivative by \
+           time | differentiate by coordinates, and multiply by their rates",
+        ],
+    );
+}
