@@ -595,6 +595,17 @@ pub mod cart_pole {
         ) -> A::Result {
             A::never()
         }
+        /// Not derived: `emit linearize` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn linearize<A: ::multibody::emitted::Linearize>(
+            &self,
+            _t: T,
+            _state: &A,
+            _input: &Input<T>,
+        ) -> A::Result {
+            A::never()
+        }
         /// Not derived: `emit impulse` in the model asks for it.
         #[doc(hidden)]
         #[must_use]

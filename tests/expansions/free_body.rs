@@ -651,6 +651,17 @@ pub mod free_body {
         ) -> A::Result {
             A::never()
         }
+        /// Not derived: `emit linearize` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn linearize<A: ::multibody::emitted::Linearize>(
+            &self,
+            _t: T,
+            _state: &A,
+            _input: &(),
+        ) -> A::Result {
+            A::never()
+        }
         /// Not derived: `emit impulse` in the model asks for it.
         #[doc(hidden)]
         #[must_use]
