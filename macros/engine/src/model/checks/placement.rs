@@ -54,11 +54,19 @@ pub(crate) fn pose(evaluator: &mut Evaluator, frame: &Frame) -> Option<Pose> {
     Some(pose)
 }
 
-/// How far matrices that stand in a frame are from rotations: the largest entry of the sum of M M' - 1.
+/// How far what stands in a frame is from the rotation that it is meant to be: for matrices the largest entry of the sum of
+/// M M' - 1, for angles their last digit.
 pub(crate) fn defect(evaluator: &mut Evaluator, frame: &Frame) -> Option<f64> {
     let mut most = 0.0;
     for step in &frame.steps {
-        let FrameStep::Oriented(_) = step else { continue };
+        match step {
+            FrameStep::At(_) => continue,
+            FrameStep::Rotated(_, angle) => {
+                most += evaluator.scalar(angle)?.abs() * f64::EPSILON;
+                continue;
+            }
+            FrameStep::Oriented(_) => {}
+        }
         let alone = Frame { steps: vec![step.clone()], ..frame.clone() };
         let m = pose(evaluator, &alone)?.rotation;
         let square = product(&m, &transpose(m));

@@ -17,6 +17,9 @@ use super::source_text;
 
 const OF_FRAME: [&str; 4] = ["at", "rotated", "oriented", "express"];
 
+/// rad; beyond it more than six digits of an angle are lost.
+const MAX_ANGLE: f64 = 1e6;
+
 /// How far a matrix of the user may be from orthonormal.
 const ORTHONORMAL: f64 = 1e-6;
 
@@ -93,6 +96,7 @@ impl<'a> Checker<'a, '_> {
                 frame.uses.merge(&axis.uses);
                 frame.uses.merge(&angle.uses);
                 self.finite(&angle)?;
+                self.within_turns(&angle)?;
                 FrameStep::Rotated(axis.expr, angle.expr)
             }
             ("oriented", [matrix]) => {
@@ -193,6 +197,20 @@ impl<'a> Checker<'a, '_> {
             return Some(());
         }
         self.report.error(value.expr.span, "this value is not finite at the declared defaults");
+        None
+    }
+
+    /// Refuses angles whose last digits are no small part of a turn.
+    fn within_turns(&mut self, angle: &Typed) -> Option<()> {
+        if self.evaluator.scalar(&angle.expr)?.abs() <= MAX_ANGLE {
+            return Some(());
+        }
+        let message = "this angle has so many turns that what is left of the last one is lost in rounding";
+        self.report.help(
+            angle.expr.span,
+            message,
+            "leave whole turns out: angles are in radians, and `2.0 * PI` is one turn",
+        );
         None
     }
 
