@@ -162,6 +162,7 @@ fn part_fields(kind: &Ident, form: String, cursor: &mut Cursor, diagnostics: &mu
 /// `(unknowns) = (formulas);` or `(unknowns) from joint { branches }`
 pub(super) fn solve(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Option<ItemKind> {
     const FORMULAS: &str = "write `solve (a, b) = (formula, formula);`";
+    const EQUATIONS: &str = "write `solve (x) from a * x == b;`";
     let unknowns = parenthesised("the unknowns", &form(Keyword::Solve), cursor, diagnostics)?;
     if cursor.take("=").is_some() {
         let formulas = parenthesised("the formulas", FORMULAS, cursor, diagnostics);
@@ -182,6 +183,10 @@ pub(super) fn solve(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Optio
     {
         finish(Ok(()), "an operator, `;` or conditions in braces", cursor, diagnostics).ok()?;
         return Some(ItemKind::System { unknowns, equations: equations.clone(), branches: Vec::new() });
+    }
+    if cursor.at("=") {
+        diagnostics.error_help(cursor.span(), "an equation is written with `==`", EQUATIONS);
+        return None;
     }
     let Some(group) = cursor.take_group(Delimiter::Brace) else {
         let message = format!("expected `{{` and the conditions that choose a branch, found {}", cursor.found());

@@ -310,3 +310,75 @@ fn equations_taken_apart() {
         ],
     );
 }
+
+/// What newcomers write first: one message each, at the token.
+#[test]
+fn first_mistakes() {
+    let arm = |items: &str| {
+        format!(
+            "mod arm {{
+                #[doc = \" [m] of the lower link\"] param l = 0.4;
+                #[doc = \" [s] of a filter\"] param delay = 0.1;
+                #[doc = \" [N m]\"] input torque;
+                world {{ gravity: -9.81 * Z }}
+                body lower {{ mass: 1.0, com: 0.2 * X, inertia: rod(1.0, 0.4, X) }}
+                body upper {{ mass: 0.6, com: 0.2 * X, inertia: rod(0.6, 0.4, X) }}
+                joint base: Revolute {{ parent: ground, child: lower, axis: Y }}
+                joint elbow: Revolute {{ parent: lower.at(l * X), child: upper, axis: Y }}
+                force motor: Effort {{ joint: base, value: torque }}
+                {items}
+            }}"
+        )
+    };
+    for (items, expected) in [
+        ("output x = l + delay;", "delay | `l` is in m, `delay` in s: a sum needs one unit"),
+        ("output x = sin(l);", "l | `sin` takes an angle in rad, `l` is in m"),
+        (
+            "force f: Effort { joint: elbow, value: torque * l }",
+            "torque * l | a torque is in N m, this is in kg m^3/s^2",
+        ),
+        ("output x = diff(potential(), elbw);", "elbw | unknown name `elbw` | did you mean `elbow`?"),
+        (
+            "output x = der(elbow);",
+            "der | unknown function `der` | write `diff(x, t)`; the rate of a coordinate is `joint.rate`, of a point \
+             `frame.velocity`",
+        ),
+        (
+            "output x = diff(potential(), 2.0 * elbow);",
+            "2.0 * elbow | this expression is no variable | there are coordinates, their rates, states, parameters, inputs, \
+             and `t`",
+        ),
+        (
+            "output x = diff(elbow.accel, t);",
+            "accel | `elbow.accel` follows from the equations of motion: `diff` can't take it apart | `emit linearize` \
+             differentiates outputs, accelerations and reactions too",
+        ),
+        ("output x = mass_matrix[0, 1];", "0 | `0` is no coordinate: entries of `mass_matrix` are named by them"),
+        (
+            "output x = substitute(potential(), elbow == 0.0);",
+            "elbow == 0.0 | expected `variable = value` | write `substitute(expression, hinge.rate = 0.0)`",
+        ),
+        (
+            "force f: Effort { joint: elbow, value: bias[elbow] }",
+            "bias | `bias` follows from the forces, so no force or state may use it",
+        ),
+        (
+            "output x = diff(torque * elbow, t);",
+            "torque | `torque` is an input: its rate is not known, so there is no derivative by time",
+        ),
+        (
+            "simplify small(l);",
+            "l | expected a coordinate | write a joint's name, or one coordinate such as `gimbal.first`",
+        ),
+        (
+            "solve (x) from x + 1.0 = torque;",
+            "= | an equation is written with `==` | write `solve (x) from a * x == b;`",
+        ),
+        (
+            "output x = arm(elbow, elbow = 1.0);",
+            "arm | `arm` does not stand above | a formula is taken from a model that stands above in the same call",
+        ),
+    ] {
+        assert_said(&arm(items), &[expected]);
+    }
+}

@@ -169,7 +169,13 @@ impl<'a> Checker<'a, '_> {
             }
             Some(_) => found,
             None => {
-                self.report.help(span(expr), format!("`{}` is no variable", source_text(expr)), VARIABLES);
+                let what = match expr {
+                    Expr::Path(_) | Expr::Lit(_) | Expr::Field(_) | Expr::Index(_) => {
+                        format!("`{}`", source_text(expr))
+                    }
+                    _ => "this expression".to_owned(),
+                };
+                self.report.help(span(expr), format!("{what} is no variable"), VARIABLES);
                 None
             }
         }
@@ -270,9 +276,9 @@ impl<'a> Checker<'a, '_> {
         if matches!(matrix, "constraint" | "jacobian") {
             return self.entry_of_constraints(matrix, &indices, index, context);
         }
-        let coordinates: Vec<Option<Coordinate>> =
-            indices.iter().map(|index| self.entry_coordinate(matrix, index, context)).collect();
-        let coordinates: Vec<Coordinate> = coordinates.into_iter().collect::<Option<_>>()?;
+        // Whoever takes numbers for names takes them twice: said once.
+        let coordinates = indices.iter().map(|index| self.entry_coordinate(matrix, index, context));
+        let coordinates: Vec<Coordinate> = coordinates.collect::<Option<_>>()?;
         let (node, class) = match (matrix, coordinates.as_slice()) {
             ("mass_matrix", &[row, column]) => (ExprNode::MassMatrix([row, column]), Class::State),
             ("bias", &[row]) => (ExprNode::Bias(row), Class::Load),
