@@ -107,6 +107,8 @@ mod simulate;
 mod system;
 mod tangent;
 mod verify;
+#[doc(hidden)]
+pub mod words;
 
 pub use canonical::{Canonical, Separable};
 pub use configuration::Configuration;

@@ -57,27 +57,43 @@ use syntax::tree::Source;
 /// Tokens of a `multibody!` call to tokens of its modules, and of everything that is wrong. A model without a mistake is
 /// there in full whatever stands beside it, one with mistakes as an outline without equations: one mistake, one error.
 pub fn expand(tokens: TokenStream) -> TokenStream {
-    expand_by(tokens, syntax::parse, emit::emit)
+    let followed = if emit::references::for_an_editor() { Followed::Always } else { Followed::Sound };
+    expand_by(tokens, syntax::parse, emit::emit, followed)
 }
 
-/// The same for readers: paragraphs of statements have headings, as the attribute `#[doc = "// .."]`.
+/// The same for readers: paragraphs of statements have headings, as the attribute `#[doc = "// .."]`, and what editors alone
+/// follow is left out.
 pub fn commented(tokens: TokenStream) -> TokenStream {
-    expand_by(tokens, syntax::parse, emit::commented)
+    expand_by(tokens, syntax::parse, emit::commented, Followed::Never)
+}
+
+/// When references stand beside the modules, for editors to follow.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Followed {
+    Never,
+    /// In calls without a mistake: those of others may lead nowhere, which is one more error to a compiler.
+    Sound,
+    Always,
 }
 
 fn expand_by(
     tokens: TokenStream,
     parse: fn(TokenStream, &mut Diagnostics) -> Source,
     emit: fn(&Model, &Structure, &Compiled) -> TokenStream,
+    followed: Followed,
 ) -> TokenStream {
     let mut diagnostics = Diagnostics::default();
     let source = guard("syntax", || parse(tokens, &mut diagnostics));
+    // What is for editors alone never stands in the way of a build.
+    let references = source.as_ref().ok().filter(|_| followed != Followed::Never);
+    let references = references.and_then(|source| guard("model", || model::references::of(source)).ok());
     let checked = source.and_then(|source| guard("model", || model::check_all(&source, &mut diagnostics)));
     let checked = checked.unwrap_or_else(|fault| {
         diagnostics.error_help(Span::call_site(), fault_of("the call", &fault), REPORT);
         Vec::new()
     });
     let mut modules = TokenStream::new();
+    let mut fields = TokenStream::new();
     let mut names = HashSet::new();
     for checked in checked {
         let model = &checked.model;
@@ -87,10 +103,15 @@ fn expand_by(
             continue;
         }
         if checked.state == Soundness::Sound {
-            let module = |(structure, compiled)| guard("emit", || emit(model, &structure, &compiled));
+            let module = |(structure, compiled)| {
+                let module = guard("emit", || emit(model, &structure, &compiled))?;
+                Ok((module, structure))
+            };
             match compile(model).and_then(|compiled| module(compiled).map_err(Trouble::Fault)) {
-                Ok(module) => {
+                Ok((module, structure)) => {
                     modules.extend(module);
+                    let of_model = references.as_ref().map(|all| || emit::references::fields(all, model, &structure));
+                    fields.extend(of_model.and_then(|of_model| guard("emit", of_model).ok()));
                     continue;
                 }
                 Err(trouble) => trouble.report(model, &mut diagnostics),
@@ -101,8 +122,17 @@ fn expand_by(
             Err(fault) => Trouble::Fault(fault).report(model, &mut diagnostics),
         }
     }
-    let mut output = diagnostics.to_tokens();
+    let mut output = TokenStream::new();
+    let is_followed = followed == Followed::Always || diagnostics.is_empty();
+    if let Some(references) = references.filter(|_| is_followed) {
+        let all = followed == Followed::Always;
+        output.extend(guard("emit", || emit::references::names(&references, all)).ok());
+    } else {
+        fields = TokenStream::new();
+    }
+    output.extend(diagnostics.to_tokens());
     output.extend(modules);
+    output.extend(fields);
     output
 }
 
@@ -253,7 +283,7 @@ mod tests {
 
     use super::diagnostics::Diagnostics;
     use super::syntax::tree::Source;
-    use super::{emit, expand_by};
+    use super::{Followed, emit, expand_by};
 
     fn fails(_: TokenStream, _: &mut Diagnostics) -> Source {
         panic!("no token is left")
@@ -261,7 +291,7 @@ mod tests {
 
     #[test]
     fn a_panic_of_the_parser_is_one_error_that_names_the_stage() {
-        let output = expand_by(TokenStream::new(), fails, emit::emit).to_string();
+        let output = expand_by(TokenStream::new(), fails, emit::emit, Followed::Sound).to_string();
         assert_eq!(output.matches("compile_error").count(), 1, "{output}");
         assert!(output.contains("the stage `syntax` has failed for the call: no token is left"), "{output}");
         assert!(output.contains("please report it with the model"), "{output}");

@@ -23,7 +23,7 @@ use self::leaf::Leaf;
 use super::{document, names};
 
 /// The kinds of generated structs with fields of the model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum StructKind {
     Params,
     Position,

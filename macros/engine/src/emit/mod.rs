@@ -8,7 +8,7 @@
 //!
 //! Rooms: `layout` knows which field of which struct holds what, `print` writes programs, `methods` the functions of
 //! `Model`, `items` has one file per other generated thing, `document` writes documentation and the report, `broken` what
-//! stands in after errors.
+//! stands in after errors, `references` what editors follow.
 
 mod broken;
 mod document;
@@ -18,6 +18,7 @@ mod layout;
 mod methods;
 mod names;
 mod print;
+pub mod references;
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;

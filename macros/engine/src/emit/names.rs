@@ -12,6 +12,8 @@ use syn::ext::IdentExt;
 
 use crate::rust_keywords::is_keyword;
 
+use super::references::for_an_editor;
+
 /// An identifier for generated code; what can't be one is mended.
 pub(super) fn ident(name: &str) -> Ident {
     Ident::new(&valid(name), Span::mixed_site())
@@ -20,13 +22,24 @@ pub(super) fn ident(name: &str) -> Ident {
 /// The user's identifier, at the user's place.
 pub(super) fn field(user: &Ident) -> Ident {
     let mut ident = user.clone();
-    ident.set_span(Span::mixed_site().located_at(user.span()));
+    ident.set_span(place_of(user.span()));
     ident
+}
+
+/// A place of the user's for what is generated. To an editor it is the user's token itself: of others it shows the macro too, and
+/// renames none; it has no lints.
+fn place_of(user: Span) -> Span {
+    if for_an_editor() { user } else { Span::mixed_site().located_at(user) }
 }
 
 /// A name made from the user's, at the user's place.
 pub(super) fn derived(user: &Ident, name: &str) -> Ident {
-    Ident::new(&valid(name), Span::mixed_site().located_at(user.span()))
+    at(user.span(), name)
+}
+
+/// A name of ours at a place of the user's.
+pub(super) fn at(place: Span, name: &str) -> Ident {
+    Ident::new(&valid(name), place_of(place))
 }
 
 /// The user's name as text, without `r#`.

@@ -359,7 +359,7 @@ fn all<T>(list: Vec<Option<T>>) -> Option<Vec<T>> {
 }
 
 /// `::multibody`
-fn runtime() -> Path {
+pub(super) fn runtime() -> Path {
     let name = syn::Ident::new("multibody", Span::call_site());
     let mut path = Path::from(name);
     path.leading_colon = Some(syn::token::PathSep::default());

@@ -17,6 +17,7 @@ mod items;
 pub mod joint_kinds;
 mod names;
 mod operands;
+pub mod references;
 mod report;
 pub mod site;
 mod topology;

@@ -84,22 +84,22 @@ pub(super) fn part(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Option
     if !cursor.at_group(1, Delimiter::Bracket) {
         let kind = kind(keyword, cursor, diagnostics);
         let fields = part_fields(&kind, form(keyword), cursor, diagnostics);
-        return Some(ItemKind::Part(Part { name, kind, count: None, index: None, fields }));
+        return Some(ItemKind::Part(Part { name, kind, count: None, index: None, again: None, fields }));
     }
     if cursor.take(":").is_none() {
         diagnostics.error_help(cursor.span(), format!("expected `:`, found {}", cursor.found()), ARRAY);
         cursor.bump();
     }
     let (kind, count) = array(cursor, diagnostics);
-    let (index, fields) = match element(&kind, cursor, diagnostics) {
-        Ok(index) => (index, part_fields(&kind, ARRAY.to_owned(), cursor, diagnostics)),
-        Err(Reported) => (None, lost(cursor)),
+    let ((index, again), fields) = match element(&kind, cursor, diagnostics) {
+        Ok(element) => (element, part_fields(&kind, ARRAY.to_owned(), cursor, diagnostics)),
+        Err(Reported) => ((None, None), lost(cursor)),
     };
-    Some(ItemKind::Part(Part { name, kind, count: Some(count), index, fields }))
+    Some(ItemKind::Part(Part { name, kind, count: Some(count), index, again, fields }))
 }
 
-/// `= |i| kind`: the index.
-fn element(kind: &Ident, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Read<Option<Ident>> {
+/// `= |i| kind`: the index, and the kind as it stands here.
+fn element(kind: &Ident, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Read<(Option<Ident>, Option<Ident>)> {
     let mut wrong = |expected: &str, cursor: &Cursor| {
         let message = format!("expected {expected}, found {}", cursor.found());
         diagnostics.error_help(cursor.span(), message, ARRAY);
@@ -125,7 +125,7 @@ fn element(kind: &Ident, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> 
     if again.is_some() {
         cursor.bump();
     }
-    Ok(index.filter(|index| index != "_"))
+    Ok((index.filter(|index| index != "_"), again))
 }
 
 /// `[kind; n]`, which is known to come next.

@@ -217,6 +217,8 @@ pub struct Part {
     pub count: Option<Expr>,
     /// `|i|`
     pub index: Option<Ident>,
+    /// Of an array: the type once more, behind the index.
+    pub again: Option<Ident>,
     /// Ports and parameters.
     pub fields: Fields,
 }

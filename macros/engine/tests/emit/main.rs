@@ -1,11 +1,15 @@
 //! The module that is written: its parts, its expressions, its documentation, and that rustc takes it.
 
 mod blocks;
+#[path = "../common/corpus.rs"]
+#[allow(dead_code)]
+mod corpus;
 mod expressions;
 mod iterations;
 mod looped;
 mod loops;
 mod module;
 mod parsed;
+mod references;
 mod samples;
 mod skeleton;

@@ -1,10 +1,19 @@
 //! What stands beside errors has the names that the model would have had.
 
-use multibody_engine::expand;
+use multibody_engine::{commented, expand};
+use proc_macro2::TokenStream;
 
 /// All that a call expands to, errors first, without spaces.
 fn expanded(text: &str) -> String {
-    let tokens = expand(text.parse().expect("tokens"));
+    written(expand(text.parse().expect("tokens")))
+}
+
+/// The same without what editors alone follow.
+fn modules(text: &str) -> String {
+    written(commented(text.parse().expect("tokens")))
+}
+
+fn written(tokens: TokenStream) -> String {
     syn::parse2::<syn::File>(tokens.clone()).expect("items");
     tokens.to_string().split_whitespace().collect()
 }
@@ -124,16 +133,16 @@ const FOUR_BAR: &str = "
 /// A model without mistakes is there in full, whatever stands beside it.
 #[test]
 fn a_model_without_mistakes_stays_whole() {
-    let good = expanded(&format!("pub mod good {{ {FOUR_BAR} }}"));
+    let good = modules(&format!("pub mod good {{ {FOUR_BAR} }}"));
     let bad = "pub mod bad { body a { mass: 0.0 } joint x: Prismatic { parent: ground, child: a, axis: X } }";
-    let both = expanded(&format!("pub mod good {{ {FOUR_BAR} }} {bad}"));
+    let both = modules(&format!("pub mod good {{ {FOUR_BAR} }} {bad}"));
     assert_eq!(both.matches("compile_error!").count(), 1);
     assert!(both.contains(&good), "the good model has changed");
-    let both = expanded(&format!("{bad} pub mod good {{ {FOUR_BAR} }}"));
+    let both = modules(&format!("{bad} pub mod good {{ {FOUR_BAR} }}"));
     assert!(both.ends_with(&good), "the good model has changed");
     // Mistakes that only the equations show.
     let bad = bad.replace("mass: 0.0", "mass: 1e308 * 1e308");
-    let both = expanded(&format!("{bad} pub mod good {{ {FOUR_BAR} }}"));
+    let both = modules(&format!("{bad} pub mod good {{ {FOUR_BAR} }}"));
     assert_eq!(both.matches("compile_error!").count(), 1);
     assert!(both.ends_with(&good), "the good model has changed");
 }

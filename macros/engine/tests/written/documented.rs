@@ -24,7 +24,8 @@ fn module(requests: &str) -> String {
 fn documentation(module: &str) -> Vec<String> {
     let head = module.split("pub mod crane").next().unwrap();
     let file: syn::File = syn::parse_str(&format!("{head} mod m {{}}")).unwrap();
-    let syn::Item::Mod(item) = &file.items[0] else { panic!("no module") };
+    // What editors follow stands before it.
+    let Some(syn::Item::Mod(item)) = file.items.last() else { panic!("no module") };
     item.attrs
         .iter()
         .filter_map(|attr| match &attr.meta {

@@ -5,14 +5,15 @@
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use crate::contracts::function::FunctionKind;
+use crate::contracts::function::{Asked, FunctionKind};
 use crate::emit::layout::places::{RESERVED, Root};
 use crate::emit::print::blocks::{body, each_leaf_of};
 use crate::emit::print::expressions::Names;
 use crate::emit::{Context, document, names};
+use crate::model::site::Site;
 use crate::optimize::program::{Expression, Function, Program};
 
 use super::results;
@@ -23,6 +24,20 @@ pub fn name(kind: FunctionKind) -> Cow<'static, str> {
     match kind {
         FunctionKind::Kinematics(number) if number > 0 => Cow::Owned(format!("{}_{}", kind.row().name, number + 1)),
         kind => Cow::Borrowed(kind.row().name),
+    }
+}
+
+/// Name of the method, at the word in `emit` that asks for it.
+fn ident(context: &Context<'_>, kind: FunctionKind) -> Ident {
+    let model = context.layout.model;
+    let asked = match (kind, kind.row().asked) {
+        (FunctionKind::Kinematics(number), _) => model.kinematics.get(number).map(|kinematics| kinematics.span),
+        (_, Asked::By { request, .. }) => model.asked_at(request).map(Site::span),
+        _ => None,
+    };
+    match asked {
+        Some(span) => names::at(span, &name(kind)),
+        None => names::ident(&name(kind)),
     }
 }
 
@@ -56,7 +71,7 @@ pub(in crate::emit) fn method(context: &Context<'_>, function: &Function) -> Tok
         named.extend((kind == FunctionKind::Guess).then_some(Root::Guess));
     }
     let declared = arguments.declare(layout, &named);
-    let name = names::ident(&name(kind));
+    let name = ident(context, kind);
     let result = results::ty(layout, kind);
     let docs = document::attributes(&document::function(layout, function));
     let block = if context.hollow {

@@ -1,0 +1,99 @@
+//! Room `references`: names inside a call as fields of the generated structs.
+//!
+//! In: the references of a call; a model of it. Out: for each use of a name the fields of that name, so that renaming changes
+//! the model and the code that reads its state alike.
+
+use std::collections::{HashMap, HashSet};
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use crate::emit::layout::{Layout, StructKind};
+use crate::emit::names;
+use crate::mechanics::loops::structure::Structure;
+use crate::model::references::{Declared, References, Use};
+use crate::model::types::{Model, PartTypeId};
+
+/// Expands to `const _: () = { fn uses0(all: &pendulum::Params) { let _ = all.length; .. } .. };`.
+pub fn fields(references: &References, model: &Model, structure: &Structure) -> TokenStream {
+    let layout = Layout::new(model, structure);
+    let owners: Vec<Option<Owner>> = references
+        .modules
+        .iter()
+        .map(|module| {
+            let mut parts = model.part_types.iter().enumerate();
+            match module.is_part {
+                true => parts.find(|(_, part)| part.name == module.name).map(|(index, _)| Some(PartTypeId(index))),
+                false => (module.name == model.name).then_some(None),
+            }
+        })
+        .collect();
+    let mut structs: Vec<(StructKind, Owner, TokenStream)> = Vec::new();
+    for (index, owner) in owners.iter().enumerate() {
+        let Some(owner) = *owner else { continue };
+        for group in StructKind::ALL.into_iter().filter(|group| !layout.is_empty(*group, owner)) {
+            let fields = layout.fields(group, owner);
+            let declared = references.modules.get(index).into_iter().flat_map(|module| &module.declared);
+            let declared = declared.filter(|declared| !declared.hidden && holds(group, declared));
+            let named: HashSet<String> = declared.map(|declared| declared.name.to_string()).collect();
+            let found = fields.into_iter().filter(|field| named.contains(&field.name.to_string()));
+            let found: HashMap<String, Ident> = found.map(|field| (field.name.to_string(), field.name)).collect();
+            let mut statements = TokenStream::new();
+            let used = references.modules.iter().zip(&owners).filter(|(_, owner)| owner.is_some());
+            for (module, _) in used {
+                each_name(&module.uses, &mut |module, name| {
+                    if let (true, Some(field)) = (module == index, found.get(&name.to_string())) {
+                        let mut field = field.clone();
+                        field.set_span(names::field(name).span());
+                        statements.extend(quote!(let _ = all.#field;));
+                    }
+                });
+            }
+            if !statements.is_empty() {
+                structs.push((group, owner, statements));
+            }
+        }
+    }
+    if structs.is_empty() {
+        return TokenStream::new();
+    }
+    let module = names::field(&model.name);
+    let functions = structs.iter().enumerate().map(|(number, (group, owner, statements))| {
+        let name = names::ident(&format!("uses{number}"));
+        let path = layout.path(*group, *owner, false);
+        quote!(fn #name(all: &#module::#path) { #statements })
+    });
+    let cfg = model.attrs.iter().filter(|attr| attr.path().is_ident("cfg") || attr.path().is_ident("cfg_attr"));
+    quote! {
+        #(#cfg)*
+        const _: () = { #(#functions)* };
+    }
+}
+
+/// The model itself, or a part.
+type Owner = Option<PartTypeId>;
+
+/// Whether a struct's field of this name is what was declared: an output may have the name of something else.
+fn holds(group: StructKind, declared: &Declared) -> bool {
+    match declared.word {
+        "Part" => true,
+        "Param" => group == StructKind::Params,
+        "Input" => group == StructKind::Input,
+        "State" => group == StructKind::States,
+        "Output" => group == StructKind::Output,
+        // A body may have coordinates of its own.
+        "Const" | "Let" | "Port" | "Force" | "Constraint" | "Unknown" => false,
+        _ => matches!(group, StructKind::Position | StructKind::Velocity | StructKind::Guess),
+    }
+}
+
+/// Calls `f` with each use of a module's name.
+fn each_name(uses: &[Use], f: &mut impl FnMut(usize, &Ident)) {
+    for used in uses {
+        match used {
+            Use::Name { module, name, is_known: true } => f(*module, name),
+            Use::Index { uses, .. } => each_name(uses, f),
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! Stage `model`: where names are declared and used, for editors.
+//!
+//! In: the syntax tree of a call. Out: every name that is declared, with its documentation, and every use of it, each with the
+//! user's own token, in source order. Values and types play no role, and nothing is reported: what a name means follows from
+//! where it stands, so a model with mistakes has references as well. Each module is read once, however often it is used.
+
+mod walk;
+pub mod words;
+
+use proc_macro2::Ident;
+use syn::Path;
+
+use crate::syntax::tree;
+
+use super::types::Docs;
+use super::{assemble, is_part};
+
+/// All of one call.
+pub struct References {
+    /// Of the runtime crate.
+    pub krate: Path,
+    /// In source order, as in the syntax tree.
+    pub modules: Vec<Module>,
+}
+
+/// A model or part.
+pub struct Module {
+    pub name: Ident,
+    pub is_part: bool,
+    pub docs: Docs,
+    pub declared: Vec<Declared>,
+    pub uses: Vec<Use>,
+}
+
+/// A name that an item declares.
+pub struct Declared {
+    pub name: Ident,
+    pub docs: Docs,
+    /// The word of [`words`] that says what it is.
+    pub room: &'static str,
+    pub word: &'static str,
+    /// Another item of this name comes first, wherever the name is used.
+    pub hidden: bool,
+}
+
+/// A token that stands for something declared elsewhere.
+pub enum Use {
+    /// A name of a module.
+    Name { module: usize, name: Ident, is_known: bool },
+    /// The kind of a part, or a model that is asked for a formula.
+    Module { name: Ident, is_known: bool },
+    /// A word of the language with its fields.
+    Word { room: &'static str, word: Ident, fields: Vec<Ident> },
+    /// `|i|` with all that stands in the part's braces.
+    Index { name: Ident, uses: Vec<Use> },
+    /// A use of that `i`.
+    Counter(Ident),
+}
+
+/// Reads a call.
+pub fn of(source: &tree::Source) -> References {
+    let declared = |module: &tree::Module| {
+        let mut list: Vec<Declared> = walk::declared(module);
+        for k in 1..list.len() {
+            let (before, rest) = list.split_at_mut(k);
+            let Some(last) = rest.first_mut() else { continue };
+            last.hidden = before.iter().any(|earlier| earlier.name == last.name);
+        }
+        list
+    };
+    let mut modules: Vec<Module> = source
+        .modules
+        .iter()
+        .map(|module| Module {
+            name: module.name.clone(),
+            is_part: is_part(module),
+            docs: super::docs::docs(&module.attrs),
+            declared: declared(module),
+            uses: Vec::new(),
+        })
+        .collect();
+    for index in 0..modules.len() {
+        modules[index].uses = walk::uses(source, &modules, index);
+    }
+    References { krate: source.krate.clone().unwrap_or_else(assemble::runtime), modules }
+}

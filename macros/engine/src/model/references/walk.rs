@@ -1,0 +1,374 @@
+//! Stage `model`: the walk over one module that finds its names and their uses.
+//!
+//! In: the syntax tree, the names that all modules declare. Out: references in source order. What stands for a name is
+//! decided as `model/expressions` decides it: an index hides what has its name, then come values of the language, the module's own names, and
+//! outputs last; behind a part, or an array of them, stand names of the part's module.
+
+use proc_macro2::{Ident, Span};
+use syn::{Expr, Member, Type};
+
+use crate::model::docs;
+use crate::model::names::{CONSTRUCTORS, FUNCTIONS, MANIPULATIONS, MATRICES, SPECIAL_FUNCTIONS, VALUES};
+use crate::syntax::tree::{self, Fields, ItemKind, Solution, UNREADABLE};
+
+use super::words::{self, JOINT};
+use super::{Declared, Module, Use};
+
+/// As many names may lead to one another, as in `let a = legs[0]; let b = a;`.
+const MOST_STEPS: usize = 24;
+
+/// The names of a module; those of outputs last, since an output is what a name means last.
+pub(super) fn declared(module: &tree::Module) -> Vec<Declared> {
+    let mut names = Vec::new();
+    let mut outputs = Vec::new();
+    for item in &module.items {
+        let mut add = |name: &Ident, room, word| {
+            let list = if word == "Output" { &mut outputs } else { &mut names };
+            let docs = docs::docs(&item.attrs);
+            list.push(Declared { name: name.clone(), docs, room, word, hidden: false });
+        };
+        match &item.kind {
+            ItemKind::Const(value) => add(&value.name, "name", "Const"),
+            ItemKind::Param(value) => add(&value.name, "name", "Param"),
+            ItemKind::Input(value) => add(&value.name, "name", "Input"),
+            ItemKind::Let(value) => add(&value.name, "name", "Let"),
+            ItemKind::Output(value) => add(&value.name, "name", "Output"),
+            ItemKind::State { name, .. } => add(name, "name", "State"),
+            ItemKind::Port { name, .. } => add(name, "name", "Port"),
+            ItemKind::Body { name, .. } => add(name, "name", "Body"),
+            ItemKind::Joint { name, kind, .. } => match words::joint_kind(&kind.to_string()) {
+                Some(kind) => add(name, JOINT, kind),
+                None => add(name, "name", "Joint"),
+            },
+            ItemKind::Force { name, .. } => add(name, "name", "Force"),
+            ItemKind::ConstraintValue { name, .. } | ItemKind::ConstraintKind { name, .. } => {
+                add(name, "name", "Constraint");
+            }
+            ItemKind::Part(part) => add(&part.name, "name", "Part"),
+            ItemKind::System { unknowns, .. } => {
+                for unknown in unknowns.iter().filter_map(single) {
+                    add(unknown, "name", "Unknown");
+                }
+            }
+            ItemKind::World(_)
+            | ItemKind::Formulation(_)
+            | ItemKind::Drive { .. }
+            | ItemKind::Solve { .. }
+            | ItemKind::Assume(_)
+            | ItemKind::Small(_)
+            | ItemKind::Settled(_)
+            | ItemKind::Emit(_) => {}
+        }
+    }
+    names.append(&mut outputs);
+    names.retain(|declared| declared.name != UNREADABLE);
+    names
+}
+
+/// All uses in a module.
+pub(super) fn uses(source: &tree::Source, modules: &[Module], index: usize) -> Vec<Use> {
+    let mut walk = Walk { source, modules, module: index, index: None, uses: Vec::new() };
+    for item in source.modules.get(index).map_or(&[][..], |module| &module.items) {
+        walk.item(item);
+    }
+    walk.uses
+}
+
+struct Walk<'a> {
+    source: &'a tree::Source,
+    modules: &'a [Module],
+    module: usize,
+    /// `|i|` of the part whose fields are read.
+    index: Option<&'a Ident>,
+    uses: Vec<Use>,
+}
+
+impl<'a> Walk<'a> {
+    fn item(&mut self, item: &'a tree::Item) {
+        match &item.kind {
+            ItemKind::Const(value)
+            | ItemKind::Param(value)
+            | ItemKind::Input(value)
+            | ItemKind::Let(value)
+            | ItemKind::Output(value) => {
+                value.ty.iter().for_each(|ty| self.ty(ty));
+                self.all(&value.value);
+            }
+            ItemKind::State { rate, start, .. } => {
+                self.expr(rate);
+                self.all(start);
+            }
+            ItemKind::Port { ty, .. } => self.word("ty", ty.clone(), None),
+            ItemKind::World(fields) => self.fields("item", keyword("World"), fields),
+            ItemKind::Formulation(fields) => self.fields("item", keyword("Formulation"), fields),
+            ItemKind::Body { fields, .. } => self.fields("item", keyword("Body"), fields),
+            ItemKind::Joint { kind, fields, .. } => self.fields(JOINT, kind.clone(), fields),
+            ItemKind::Force { kind, fields, .. } => self.fields("force", kind.clone(), fields),
+            ItemKind::ConstraintKind { kind, fields, .. } => self.fields("constraint", kind.clone(), fields),
+            ItemKind::ConstraintValue { value, .. } | ItemKind::Assume(value) | ItemKind::Settled(value) => {
+                self.expr(value);
+            }
+            ItemKind::Part(part) => self.part(part),
+            ItemKind::Drive { target, value } => {
+                self.expr(target);
+                self.expr(value);
+            }
+            ItemKind::Solve { unknowns, how } => {
+                self.all(unknowns);
+                match how {
+                    Solution::Formulas(formulas) => self.all(formulas),
+                    Solution::From { joint, branches } => {
+                        self.expr(joint);
+                        self.all(branches);
+                    }
+                }
+            }
+            // The unknowns are declared here.
+            ItemKind::System { equations, branches, .. } => {
+                self.all(equations);
+                self.all(branches);
+            }
+            ItemKind::Small(coordinates) => self.all(coordinates),
+            ItemKind::Emit(requests) => {
+                for request in requests {
+                    self.word("emit", request.name.clone(), request.options.as_ref());
+                    let options = request.options.iter().flat_map(|options| &options.list);
+                    options.for_each(|option| self.expr(&option.value));
+                }
+            }
+        }
+    }
+
+    /// A word with fields, and what stands in these.
+    fn fields(&mut self, room: &'static str, word: Ident, fields: &'a Fields) {
+        self.word(room, word, Some(fields));
+        for field in &fields.list {
+            match field.name.to_string().as_str() {
+                "coordinates" => self.words_in("coordinates", &field.value),
+                "constraints" => self.words_in("handling", &field.value),
+                _ => self.expr(&field.value),
+            }
+        }
+    }
+
+    fn word(&mut self, room: &'static str, word: Ident, fields: Option<&Fields>) {
+        if word != UNREADABLE {
+            let names = fields.iter().flat_map(|fields| &fields.list).map(|field| field.name.clone());
+            let mut fields: Vec<Ident> = Vec::new();
+            for name in names.filter(|name| *name != UNREADABLE) {
+                // What is given twice is a mistake, which has been reported.
+                if !fields.contains(&name) {
+                    fields.push(name);
+                }
+            }
+            self.uses.push(Use::Word { room, word, fields });
+        }
+    }
+
+    /// `Absolute(Quaternion)`
+    fn words_in(&mut self, room: &'static str, expr: &Expr) {
+        match expr {
+            Expr::Call(call) => {
+                self.words_in(room, &call.func);
+                call.args.iter().for_each(|argument| self.words_in(room, argument));
+            }
+            other => {
+                if let Some(word) = single(other) {
+                    self.word(room, word.clone(), None);
+                }
+            }
+        }
+    }
+
+    fn part(&mut self, part: &'a tree::Part) {
+        let module = self.module_named(&part.kind);
+        for kind in [Some(&part.kind), part.again.as_ref()].into_iter().flatten().filter(|kind| **kind != UNREADABLE) {
+            self.uses.push(Use::Module { name: kind.clone(), is_known: self.module_named(kind).is_some() });
+        }
+        part.count.iter().for_each(|count| self.expr(count));
+        if let Some(module) = module {
+            for field in part.fields.list.iter().filter(|field| field.name != UNREADABLE) {
+                self.name(module, &field.name);
+            }
+        }
+        let before = std::mem::take(&mut self.uses);
+        self.index = part.index.as_ref();
+        for field in &part.fields.list {
+            self.expr(&field.value);
+        }
+        self.index = None;
+        let inside = std::mem::replace(&mut self.uses, before);
+        match &part.index {
+            Some(name) => self.uses.push(Use::Index { name: name.clone(), uses: inside }),
+            None => self.uses.extend(inside),
+        }
+    }
+
+    fn ty(&mut self, ty: &'a Type) {
+        match ty {
+            Type::Array(array) => {
+                self.ty(&array.elem);
+                self.expr(&array.len);
+            }
+            Type::Paren(inner) => self.ty(&inner.elem),
+            Type::Group(inner) => self.ty(&inner.elem),
+            Type::Path(path) => {
+                if let Some(name) = path.path.get_ident() {
+                    self.word("ty", name.clone(), None);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn all(&mut self, expressions: impl IntoIterator<Item = &'a Expr>) {
+        expressions.into_iter().for_each(|expr| self.expr(expr));
+    }
+
+    fn expr(&mut self, expr: &'a Expr) {
+        match expr {
+            Expr::Path(_) => self.path(expr),
+            Expr::Paren(inner) => self.expr(&inner.expr),
+            Expr::Group(inner) => self.expr(&inner.expr),
+            Expr::Unary(unary) => self.expr(&unary.expr),
+            Expr::Binary(binary) => {
+                self.expr(&binary.left);
+                self.expr(&binary.right);
+            }
+            Expr::Array(array) => self.all(&array.elems),
+            Expr::Tuple(tuple) => self.all(&tuple.elems),
+            Expr::Call(call) => self.call(call),
+            Expr::MethodCall(call) => {
+                self.expr(&call.receiver);
+                self.all(&call.args);
+            }
+            Expr::Field(field) => {
+                self.expr(&field.base);
+                if let (Member::Named(name), Some(module)) = (&field.member, self.part_of(&field.base)) {
+                    self.name(module, name);
+                }
+            }
+            Expr::Index(index) => {
+                self.expr(&index.expr);
+                self.expr(&index.index);
+            }
+            Expr::Assign(pair) => {
+                self.expr(&pair.left);
+                self.expr(&pair.right);
+            }
+            _ => {}
+        }
+    }
+
+    /// What is called is a function of the language, or another model: what it is asked for, and variables that are given, are names of
+    /// that model.
+    fn call(&mut self, call: &'a syn::ExprCall) {
+        let Some((name, model)) = single(&call.func).and_then(|name| Some((name, self.model_called(name)?))) else {
+            return self.all(&call.args);
+        };
+        self.uses.push(Use::Module { name: name.clone(), is_known: true });
+        for (place, argument) in call.args.iter().enumerate() {
+            match argument {
+                Expr::Assign(pair) => {
+                    self.elsewhere(model, &pair.left);
+                    self.expr(&pair.right);
+                }
+                question if place == 0 => self.elsewhere(model, question),
+                other => self.expr(other),
+            }
+        }
+    }
+
+    /// An expression in the terms of another module.
+    fn elsewhere(&mut self, module: usize, expr: &'a Expr) {
+        let (home, index) = (self.module, self.index.take());
+        self.module = module;
+        self.expr(expr);
+        self.module = home;
+        self.index = index;
+    }
+
+    /// The model that a function's name stands for, if it is none of the language.
+    fn model_called(&self, name: &Ident) -> Option<usize> {
+        let text = name.to_string();
+        let own = FUNCTIONS.iter().map(|function| function.0).chain(SPECIAL_FUNCTIONS).chain(CONSTRUCTORS);
+        if own.chain(MANIPULATIONS).any(|known| known == text) {
+            return None;
+        }
+        self.modules.iter().position(|module| module.name == *name)
+    }
+
+    fn path(&mut self, expr: &Expr) {
+        let Some(name) = single(expr) else { return };
+        let text = name.to_string();
+        if self.index == Some(name) {
+            self.uses.push(Use::Counter(name.clone()));
+        } else if self.is_declared(self.module, name) || !is_of_the_language(&text) {
+            self.name(self.module, name);
+        }
+    }
+
+    fn name(&mut self, module: usize, name: &Ident) {
+        self.uses.push(Use::Name { module, name: name.clone(), is_known: self.is_declared(module, name) });
+    }
+
+    fn is_declared(&self, module: usize, name: &Ident) -> bool {
+        let mut declared = self.modules.get(module).into_iter().flat_map(|module| &module.declared);
+        !VALUES.contains(&name.to_string().as_str()) && declared.any(|declared| declared.name == *name)
+    }
+
+    fn module_named(&self, kind: &Ident) -> Option<usize> {
+        self.modules.iter().position(|module| module.is_part && module.name == *kind)
+    }
+
+    /// The module of the part, or of the array of parts, that an expression means.
+    fn part_of(&self, expr: &Expr) -> Option<usize> {
+        self.part_in(self.module, expr, MOST_STEPS)
+    }
+
+    fn part_in(&self, module: usize, expr: &Expr, steps: usize) -> Option<usize> {
+        let steps = steps.checked_sub(1)?;
+        match expr {
+            Expr::Paren(inner) => self.part_in(module, &inner.expr, steps),
+            Expr::Group(inner) => self.part_in(module, &inner.expr, steps),
+            Expr::Index(index) => self.part_in(module, &index.expr, steps),
+            Expr::Field(field) => {
+                let Member::Named(name) = &field.member else { return None };
+                let inner = self.part_in(module, &field.base, steps)?;
+                self.part_named(inner, name, steps)
+            }
+            other => self.part_named(module, single(other)?, steps),
+        }
+    }
+
+    /// The module of the part that a name of `module` stands for, itself or by a `let`.
+    fn part_named(&self, module: usize, name: &Ident, steps: usize) -> Option<usize> {
+        let items = &self.source.modules.get(module)?.items;
+        items.iter().find_map(|item| match &item.kind {
+            ItemKind::Part(part) if part.name == *name => self.module_named(&part.kind),
+            ItemKind::Let(value) if value.name == *name => self.part_in(module, value.value.as_ref()?, steps),
+            _ => None,
+        })
+    }
+}
+
+/// A word whose token is the item's keyword, which has another text: it stands at no token.
+fn keyword(word: &str) -> Ident {
+    Ident::new(word, Span::mixed_site())
+}
+
+/// The one name that an expression is.
+fn single(expr: &Expr) -> Option<&Ident> {
+    match expr {
+        Expr::Path(path) if path.qself.is_none() => path.path.get_ident(),
+        _ => None,
+    }
+}
+
+/// Values, and functions that somebody forgot to call.
+fn is_of_the_language(name: &str) -> bool {
+    VALUES.contains(&name)
+        || FUNCTIONS.iter().any(|function| function.0 == name)
+        || SPECIAL_FUNCTIONS.contains(&name)
+        || MATRICES.contains(&name)
+}
