@@ -174,3 +174,65 @@ multibody! {
         emit forward_dynamics;
     }
 }
+
+multibody! {
+    /// A screw geared to an oblique hinge, and a rod in it that follows the time.
+    pub mod gears {
+        formulation { constraints: Reduced }
+        param ratio = 2.0;
+        input u: Vec3;
+        body a { mass: 1.0, inertia: diag(1.0, 1.0, 1.0) }
+        body b { mass: 1.0, com: [0.1, 0.2, 0.3], inertia: diag(1.0, 1.0, 1.0) }
+        body c { mass: 1.0, inertia: diag(1.0, 1.0, 1.0) }
+        joint ja: Revolute { parent: ground.rotated([1.0, 2.0, 3.0], 0.4), child: a, axis: [0.3, 0.1, 1.0] }
+        joint jb: Screw { parent: a.at([0.1, 0.2, 0.3]), child: b, axis: [1.0, 1.0, 0.0], pitch: 0.1 }
+        joint jc: Cylindrical { parent: b, child: c.at(0.2 * X), axis: Y }
+        constraint gear = jb.angle - ratio * ja.angle - 0.2;
+        drive jc.travel = 0.3 * sin(2.0 * t) + 0.1;
+        state s: rate = u.x - s, start: 0.2;
+        output place: Vec3 = c.at(Z).position;
+        output speed: Vec3 = c.at(Z).velocity;
+        output turn = jc.angle + jb.angle;
+        output mixed = s * u.y + kinetic();
+        emit forward_dynamics;
+    }
+    /// It asks from absolute coordinates.
+    pub mod asker {
+        formulation { coordinates: Absolute(RollPitchYaw) }
+        input w: Vec3;
+        param k = 3.0;
+        body d { mass: 1.0, inertia: diag(1.0, 1.2, 1.0) }
+        body e { mass: 1.0, inertia: diag(1.0, 1.2, 1.0) }
+        joint jd: Revolute { parent: ground, child: d, axis: Z }
+        joint je: Prismatic { parent: d, child: e, axis: X }
+        let p = e.position;
+        output place: Vec3 = gears(place, ja = p.x, jc.angle = p.y, t = t, ratio = k);
+        output speed: Vec3 =
+            gears(c.at(Z).velocity, ja = p.x, jc.angle = p.y, t = 2.0 * t, ja.rate = k, jc.angle.rate = w.z);
+        output moved: Vec3 = diff(gears(place, ja = k * t, jc.angle = t, t = t), t);
+        output mixed = gears(
+            mixed, s = w.x, u = w, ja = 0.1, ja.rate = 0.2, jc.angle = 0.3, jc.angle.rate = -0.4, t = 0.5, ratio = 2.0 * k,
+        );
+        force pull: Force { at: e, value: gears(place, ja = p.x, jc.angle = p.y, t = t), axes: ground }
+    }
+    /// It is held by what the gears say, with a multiplier.
+    pub mod pulled {
+        body cart { mass: 1.0 }
+        body wheel { mass: 1.0, inertia: diag(1.0, 1.0, 1.0) }
+        joint x: Prismatic { parent: ground, child: cart, axis: X }
+        joint phi: Revolute { parent: cart, child: wheel, axis: Z }
+        constraint follow = x - norm(gears(place, ja = phi, jc.angle = 0.2 * phi, t = 0.0));
+        emit forward_dynamics, constraints;
+    }
+    mod piece {
+        port on: Frame;
+        param gain = 1.0;
+        body p { mass: 1.0 }
+        joint q: Prismatic { parent: on, child: p, axis: X }
+        output seen = gears(turn, ja = gain * q, jc.angle = q.rate, ratio = gain);
+    }
+    pub mod pieces {
+        part all: [piece; 3] = |i| piece { on: ground, gain: 1.0 + i };
+        emit forward_dynamics;
+    }
+}

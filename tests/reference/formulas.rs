@@ -1,7 +1,7 @@
 //! Formulas of one model in another, against the model that they are taken from, and against models that are solved where they are.
 
 use multibody_tests::models::formulas::{
-    controlled_arm, follower, known_arm, slider, solved_platform, told_platform, twice,
+    asker, controlled_arm, follower, gears, known_arm, pieces, pulled, slider, solved_platform, told_platform, twice,
 };
 use multibody_tests::support::random::Random;
 
@@ -103,5 +103,53 @@ fn a_controller_with_a_model_of_its_own() {
         let y = controlled_arm::Model::<f64>::default().outputs(0.0, &state, &controlled_arm::Input::default());
         close("energy", &[y.energy_known], &[y.energy]);
         close("inertia", &[y.inertia_known], &[y.inertia]);
+    }
+}
+
+/// The gears, asked directly.
+fn geared(ratio: f64, [ja, angle]: [f64; 2], rates: [f64; 2], t: f64, s: f64, u: [f64; 3]) -> gears::Output<f64> {
+    let mut state = gears::State::default();
+    (state.q.ja, state.q.jc_angle) = (ja, angle);
+    (state.v.ja, state.v.jc_angle) = rates.into();
+    state.x.s = s;
+    gears::Model::<f64>::new(&gears::Params { ratio }).outputs(t, &state, &gears::Input { u: u.into() })
+}
+
+/// Couplings, drives, screws, states, inputs and parameters of the model that is asked; absolute coordinates, parts, forces and
+/// multipliers in those that ask.
+#[test]
+fn whatever_the_model_has() {
+    let mut random = Random::new(53);
+    let still = [0.0; 3];
+    for _ in 0..20 {
+        let (t, place) = (random.unit(), [3.0 * random.unit(), 3.0 * random.unit(), random.unit()]);
+        let w = [random.unit(), random.unit(), random.unit()];
+        let mut state = asker::State::default();
+        state.q.e.position = place.into();
+        let y = asker::Model::<f64>::default().outputs(t, &state, &asker::Input { w: w.into() });
+        let at = [place[0], place[1]];
+        close("place", y.place.as_slice(), geared(3.0, at, [0.0; 2], t, 0.0, still).place.as_slice());
+        close("speed", y.speed.as_slice(), geared(2.0, at, [3.0, w[2]], 2.0 * t, 0.0, still).speed.as_slice());
+        close("moved", y.moved.as_slice(), geared(2.0, [3.0 * t, t], [3.0, 1.0], t, 0.0, still).speed.as_slice());
+        close("mixed", &[y.mixed], &[geared(6.0, [0.1, 0.3], [0.2, -0.4], 0.5, w[0], w).mixed]);
+
+        let mut state = pieces::State::default();
+        for (i, (q, v)) in state.q.all.iter_mut().zip(&mut state.v.all).enumerate() {
+            (q.q, v.q) = (random.unit() + i as f64, random.unit());
+        }
+        let y = pieces::Model::<f64>::default().outputs(t, &state, &());
+        for (i, piece) in y.all.iter().enumerate() {
+            let gain = 1.0 + i as f64;
+            let at = [gain * state.q.all[i].q, state.v.all[i].q];
+            close("turn", &[piece.seen], &[geared(gain, at, [0.0; 2], 0.0, 0.0, still).turn]);
+        }
+
+        let model = pulled::Model::<f64>::default();
+        let (x, phi, h) = (random.unit(), 2.0 * random.unit(), 1e-5);
+        let reach = |phi: f64| geared(2.0, [phi, 0.2 * phi], [0.0; 2], 0.0, 0.0, still).place.norm();
+        let held = pulled::Position { x, phi };
+        close("left", model.constraints(0.0, &held).as_slice(), &[x - reach(phi)]);
+        let slope = model.constraint_jacobian(0.0, &held)[(0, 1)];
+        assert!((slope + (reach(phi + h) - reach(phi - h)) / (2.0 * h)).abs() < 1e-8);
     }
 }
