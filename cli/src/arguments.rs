@@ -19,7 +19,8 @@ commands
   expand FILE    the generated code, formatted, with a heading over each paragraph
   diff OLD NEW   what has changed between two files in the operations of functions and in equations
   compare FILE   each model in every choice of coordinates and constraints: sizes, operations of forward dynamics
-                 (--all: and of the other functions that it asks for), and which choice to take
+                 (--all: and of the other functions that it asks for), and which choice to take; --measure compiles
+                 and times all of them
   report FILE    a page about each model: graph, drawing, tables, structure of matrices, costs, candidates, equations;
                  NAME.html in --out DIR (target/multibody by default), and with --markdown NAME.md beside it
 
@@ -43,13 +44,21 @@ pub(crate) enum Form {
     Mathml,
 }
 
+/// What is compared.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Extent {
+    /// All functions that models ask for, not forward dynamics alone.
+    pub(crate) all: bool,
+    /// Times of the compiled code too.
+    pub(crate) measure: bool,
+}
+
 pub(crate) enum Command {
     Help,
     Version,
     Check(Subject),
     Counts(Subject),
-    /// With all functions that models ask for, or forward dynamics alone.
-    Compare(Subject, bool),
+    Compare(Subject, Extent),
     Equations(Subject, Form),
     Expand(Subject),
     /// The older file, the newer one.
@@ -76,7 +85,7 @@ pub(crate) fn read(mut words: Vec<OsString>) -> Result<Command, String> {
     let subjects: Vec<Subject> = values.map(|file| Subject { file: file.into(), model: given.model.clone() }).collect();
     match name.as_str() {
         "check" => Ok(Command::Check(one(&name, subjects)?)),
-        "compare" => Ok(Command::Compare(one(&name, subjects)?, given.all)),
+        "compare" => Ok(Command::Compare(one(&name, subjects)?, given.extent)),
         "counts" => Ok(Command::Counts(one(&name, subjects)?)),
         "equations" => Ok(Command::Equations(one(&name, subjects)?, given.form)),
         "expand" => Ok(Command::Expand(one(&name, subjects)?)),
@@ -103,7 +112,7 @@ struct Given {
     values: Vec<OsString>,
     model: Option<String>,
     form: Form,
-    all: bool,
+    extent: Extent,
     out: Option<PathBuf>,
     markdown: bool,
     help: bool,
@@ -118,7 +127,8 @@ impl Given {
             match argument {
                 Arg::Value(value) => given.values.push(value),
                 Arg::Long("model") => given.model = Some(parser.value()?.string()?),
-                Arg::Long("all") => given.all = true,
+                Arg::Long("all") => given.extent.all = true,
+                Arg::Long("measure") => given.extent.measure = true,
                 Arg::Long("out") => given.out = Some(parser.value()?.into()),
                 Arg::Long("markdown") => given.markdown = true,
                 Arg::Long("text") => given.form = Form::Text,

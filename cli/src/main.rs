@@ -49,7 +49,7 @@ fn run(command: Command) -> Result<String, Stop> {
         Command::Version => Ok(format!("cargo-multibody {}\n", env!("CARGO_PKG_VERSION"))),
         Command::Check(subject) => commands::check::run(&subject),
         Command::Counts(subject) => commands::counts::run(&subject),
-        Command::Compare(subject, all) => commands::compare::run(&subject, all),
+        Command::Compare(subject, extent) => commands::compare::run(&subject, extent),
         Command::Equations(subject, form) => commands::equations::run(&subject, form),
         Command::Expand(subject) => commands::expand::run(&subject),
         Command::Report(subject, folder, markdown) => commands::report::run(&subject, folder.as_deref(), markdown),

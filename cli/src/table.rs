@@ -34,6 +34,14 @@ impl Table {
         for row in self.rows.iter().filter(|row| row.len() < columns) {
             widen(&mut widths, &row[..row.len().saturating_sub(1)]);
         }
+        // A title that is longer than its columns moves the next one.
+        for pair in self.titles.windows(2) {
+            let [(from, title), (to, _)] = [pair[0], pair[1]];
+            let wide: usize = widths[from..to].iter().map(|width| width + 2).sum();
+            if let Some(last) = widths[from..to].last_mut() {
+                *last += (length(title) + 2).saturating_sub(wide);
+            }
+        }
         let mut text = String::new();
         if !self.titles.is_empty() {
             let mut line = String::new();
@@ -76,6 +84,13 @@ fn length(cell: &str) -> usize {
 #[cfg(test)]
 mod tests {
     use super::Table;
+
+    #[test]
+    fn titles_stand_apart() {
+        let mut table = Table::new(0, ["a", "b", "c"]).titled([(0, "a long title"), (1, "next")]);
+        table.row(["1", "2", "3"].map(String::from));
+        assert_eq!(table.text(), "  a long title  next\n             a  b  c\n             1  2  3\n");
+    }
 
     #[test]
     fn columns_are_aligned() {

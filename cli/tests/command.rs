@@ -202,12 +202,19 @@ fn choices_are_compared() {
         "\n  coordinates Absolute(Quaternion), constraints Reduced is refused: the loop that `hinge` closes"
     ));
     assert!(output.contains(
-        "\n  recommended: coordinates Joint, as it is written\n    since forward dynamics takes least work, 22; next"
+        "\n  recommended: coordinates Joint, as it is written\n    since forward_dynamics takes least work, 37; next"
     ));
     assert!(output.contains("\n  recommended: coordinates Joint, constraints Reduced, as it is written\n"), "{output}");
     // The counts are those of the model as it is written.
     let row = cells(&output).into_iter().find(|row| row[..2] == ["Joint*", "Reduced"]).unwrap();
-    assert_eq!(row[5..12], ["35", "63", "2", "1", "1", "2", "144"]);
+    assert_eq!(row[5..12], ["35", "63", "2", "1", "1", "2", "195"]);
+}
+
+/// A model that asks another one for a formula is compared with that one as it is written.
+#[test]
+fn models_that_ask_others_are_compared() {
+    let output = quiet(&["compare", "formulas.rs", "--model", "shaker"]);
+    assert!(sizes(&output).contains(&"Joint* no equations 1 0 1".to_owned()), "{output}");
 }
 
 /// An iteration counts with all its rounds.
@@ -218,7 +225,7 @@ fn rounds_count() {
     let rows = cells(&output);
     let reduced = rows.iter().find(|row| row[..2] == ["Joint*", "Reduced"]).unwrap();
     let [add, mul, div, sqrt, sincos, other] = [5, 6, 7, 8, 9, 10].map(|cell| reduced[cell].parse::<u32>().unwrap());
-    assert!(work(reduced) > add + mul + 8 * (div + sqrt) + 20 * sincos + 20 * other, "{output}");
+    assert!(work(reduced) > add + mul + 20 * (div + sqrt) + 35 * sincos + 220 * other, "{output}");
 }
 
 /// The numbers of equations of the README.

@@ -1,10 +1,11 @@
 //! `compare`: a model in every choice of coordinates and constraints, with what each costs, and which to take.
 
 mod choice;
+mod effort;
+mod measure;
+mod page;
 mod parallel;
-mod rounds;
 
-use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use multibody_engine::contracts::cost::Cost;
@@ -14,30 +15,21 @@ use multibody_engine::syntax::{self, tree::Source};
 use multibody_engine::{compile, emit};
 
 use self::choice::{Choice, Constraints, Coordinates, choices, is_part, rewrite, written};
-use super::counts::{KINDS, numbers};
+use self::effort::Effort;
+use self::measure::{Code, Package, Times};
 use crate::Stop;
-use crate::arguments::Subject;
+use crate::arguments::{Extent, Subject};
 use crate::build;
 use crate::progress;
 use crate::source::{Call, File};
-use crate::table::Table;
+
+/// The function by which choices are judged.
+const JUDGED: &str = "forward_dynamics";
 
 /// What has become of a model in one choice.
 struct Row {
     choice: Choice,
     result: Result<Figures, String>,
-}
-
-impl Row {
-    /// What is written in `formulation`.
-    fn words(&self) -> String {
-        match &self.result {
-            Ok(figures) if figures.multipliers == 0 && self.choice.constraints == Constraints::Multipliers => {
-                format!("coordinates {}", self.choice.coordinates.word())
-            }
-            _ => self.choice.words(),
-        }
-    }
 }
 
 struct Figures {
@@ -52,11 +44,42 @@ struct Figures {
     /// Of the other functions that the model asks for.
     others: Vec<(String, u32)>,
     has_dead_centres: bool,
-    time: Duration,
+    derived: Duration,
+    /// What is compiled where times are asked for.
+    code: Option<Code>,
+    /// Nanoseconds of functions, where they are measured.
+    times: Times,
 }
 
-pub(crate) fn run(subject: &Subject, all: bool) -> Result<String, Stop> {
+impl Row {
+    /// What is written in `formulation`.
+    fn words(&self) -> String {
+        match &self.result {
+            Ok(figures) if figures.multipliers == 0 && self.choice.constraints == Constraints::Multipliers => {
+                format!("coordinates {}", self.choice.coordinates.word())
+            }
+            _ => self.choice.words(),
+        }
+    }
+}
+
+impl Figures {
+    /// Coordinates and multipliers.
+    fn equations(&self) -> usize {
+        self.state + self.multipliers
+    }
+
+    /// Nanoseconds of a function.
+    fn time(&self, function: &str) -> Option<f64> {
+        self.times.iter().find(|(name, _)| name == function).map(|(_, time)| *time)
+    }
+}
+
+pub(crate) fn run(subject: &Subject, extent: Extent) -> Result<String, Stop> {
     let (file, found) = build::open(subject)?;
+    // What stands in its way is told before anything is derived.
+    let package = extent.measure.then(|| Package::beside(&subject.file));
+    let mut package = package.transpose().map_err(Stop::Usage)?;
     let mut mistakes = Vec::new();
     let mut models = Vec::new();
     for (number, call) in found.calls.iter().enumerate() {
@@ -68,8 +91,8 @@ pub(crate) fn run(subject: &Subject, all: bool) -> Result<String, Stop> {
         let names = source.modules.iter().filter(|module| !is_part(module)).map(|module| module.name.to_string());
         let asked = names.filter(|name| subject.model.as_ref().is_none_or(|only| only == name));
         models.extend(asked.map(|name| {
-            let source = alone(call, &name);
-            (number, name.clone(), written(&source, &name), choices(&source))
+            let source = until(call, &name);
+            (number, name.clone(), written(&source, &name), choices(&source, &name))
         }));
     }
     build::tell(&file, &mistakes)?;
@@ -77,15 +100,33 @@ pub(crate) fn run(subject: &Subject, all: bool) -> Result<String, Stop> {
     let tasks: Vec<Task<'_>> = models
         .iter()
         .flat_map(|(call, name, _, choices)| {
-            choices.iter().map(|&coordinates| Task { file: &file, call: *call, name, coordinates, all })
+            choices.iter().map(|&coordinates| Task { file: &file, call: *call, name, coordinates, extent })
         })
         .collect();
     let mut done = parallel::map(&tasks, Task::rows).into_iter();
-    let texts = models.iter().map(|(_, name, own, choices)| {
-        let rows: Vec<Row> = done.by_ref().take(choices.len()).flatten().collect();
-        told(name, *own, &rows)
-    });
-    Ok(texts.collect::<Vec<String>>().join("\n"))
+    let mut texts = Vec::new();
+    for (_, name, own, choices) in &models {
+        let mut rows: Vec<Row> = done.by_ref().take(choices.len()).flatten().collect();
+        if let Some(package) = &mut package {
+            timed(package, name, &mut rows).map_err(Stop::Usage)?;
+        }
+        texts.push(page::text(name, *own, &rows));
+    }
+    Ok(texts.join("\n"))
+}
+
+/// Compiles and times what is there of one model. No derivation runs beside it.
+fn timed(package: &mut Package, name: &str, rows: &mut [Row]) -> Result<(), String> {
+    let mut figures: Vec<&mut Figures> = rows.iter_mut().filter_map(|row| row.result.as_mut().ok()).collect();
+    let codes: Vec<&Code> = figures.iter().filter_map(|figures| figures.code.as_ref()).collect();
+    if codes.is_empty() {
+        return Ok(());
+    }
+    let times = measure::measure(package, name, &codes)?;
+    for (figures, times) in figures.iter_mut().zip(times) {
+        figures.times = times;
+    }
+    Ok(())
 }
 
 /// One model in one choice of coordinates.
@@ -95,8 +136,7 @@ struct Task<'a> {
     call: usize,
     name: &'a str,
     coordinates: Coordinates,
-    /// With all functions that the model asks for.
-    all: bool,
+    extent: Extent,
 }
 
 impl Task<'_> {
@@ -106,7 +146,7 @@ impl Task<'_> {
         let of = |constraints| {
             let choice = Choice { coordinates: self.coordinates, constraints };
             let what = format!("deriving `{}` with {}", self.name, choice.words());
-            Row { choice, result: progress::during(&what, || figures(call, self.name, choice, self.all)) }
+            Row { choice, result: progress::during(&what, || figures(call, self.name, choice, self.extent)) }
         };
         let held = of(Constraints::Multipliers);
         // Without equations there is nothing to choose.
@@ -115,50 +155,37 @@ impl Task<'_> {
     }
 }
 
-/// All choices of one model.
-fn told(name: &str, own: Choice, rows: &[Row]) -> String {
-    let mut text = format!("{name}\n{}", table(rows, own));
-    if rows.iter().any(|row| row.choice == own) {
-        text.push_str("  * as it is written\n");
-    }
-    for row in rows {
-        if let Err(reason) = &row.result {
-            let _ = writeln!(text, "  {} is refused: {reason}", row.choice.words());
-        }
-    }
-    text.push_str(&advice(rows, own));
-    text
-}
-
-/// The call without its other models.
-fn alone(call: &Call, name: &str) -> Source {
+/// The call without the models below, of which this one cannot ask for formulas.
+fn until(call: &Call, name: &str) -> Source {
     let mut source = syntax::parse(call.tokens.clone(), &mut Diagnostics::default());
-    source.modules.retain(|module| is_part(module) || module.name == name);
+    let last = source.modules.iter().rposition(|module| module.name == name);
+    let mut number = 0..;
+    source.modules.retain(|module| number.next() <= last || is_part(module));
     source
 }
 
 /// The model in this choice, or the first thing that is said against it.
-fn figures(call: &Call, name: &str, choice: Choice, all: bool) -> Result<Figures, String> {
-    let mut source = alone(call, name);
-    rewrite(&mut source, choice, all);
+fn figures(call: &Call, name: &str, choice: Choice, extent: Extent) -> Result<Figures, String> {
+    let mut source = until(call, name);
+    rewrite(&mut source, name, choice, extent.all);
     let mut diagnostics = Diagnostics::default();
-    let model = build::checked(&source, &mut diagnostics).pop();
+    let models = build::checked(&source, &mut diagnostics).into_iter();
+    let model = models.rev().find(|model| model.name == name);
     let begin = Instant::now();
-    let compiled = model.as_ref().filter(|_| diagnostics.is_empty()).map(|model| (model, compile(model)));
-    let time = begin.elapsed();
-    let (structure, compiled) = match compiled {
-        Some((_, Ok(done))) => done,
-        Some((model, Err(trouble))) => {
-            trouble.report(model, &mut diagnostics);
+    let Some(model) = model.filter(|_| diagnostics.is_empty()) else { return Err(first(&diagnostics)) };
+    let (structure, compiled) = match compile(&model) {
+        Ok(done) => done,
+        Err(trouble) => {
+            trouble.report(&model, &mut diagnostics);
             return Err(first(&diagnostics));
         }
-        None => return Err(first(&diagnostics)),
     };
+    let derived = begin.elapsed();
     let asked = compiled.functions.iter().filter(|function| matches!(function.kind.row().asked, Asked::By { .. }));
     let mut others = Vec::new();
     let mut forward = None;
     for function in asked {
-        let work = rounds::work(function);
+        let work = Effort::of(function).work();
         match function.kind {
             FunctionKind::ForwardDynamics => forward = Some((function.after, work)),
             kind => others.push((emit::function_name(kind).into_owned(), work)),
@@ -167,73 +194,13 @@ fn figures(call: &Call, name: &str, choice: Choice, all: bool) -> Result<Figures
     let (cost, work) = forward.ok_or("it has no forward dynamics")?;
     let has_dead_centres = !structure.dead_centres.is_empty();
     let (state, multipliers) = (structure.state.len(), structure.rows.len());
-    Ok(Figures { state, multipliers, cost, work, others, has_dead_centres, time })
+    let functions: Vec<String> = others.iter().map(|(name, _)| name.clone()).chain([JUDGED.to_owned()]).collect();
+    let code = extent.measure.then(|| Code::new(model, &structure, &compiled, &functions)).transpose()?;
+    let times = Times::new();
+    Ok(Figures { state, multipliers, cost, work, others, has_dead_centres, derived, code, times })
 }
 
 fn first(diagnostics: &Diagnostics) -> String {
     let first = diagnostics.errors().first();
     first.map_or_else(|| "the model is not what was written".to_owned(), |error| error.message.clone())
-}
-
-fn table(rows: &[Row], own: Choice) -> String {
-    let mut functions: Vec<&String> = Vec::new();
-    for (name, _) in rows.iter().filter_map(|row| row.result.as_ref().ok()).flat_map(|figures| &figures.others) {
-        if !functions.contains(&name) {
-            functions.push(name);
-        }
-    }
-    let heads = ["coordinates", "constraints", "state", "multipliers", "equations"].into_iter();
-    let heads = heads.chain(KINDS).chain(["work"]).map(String::from);
-    let heads = heads.chain(functions.iter().map(|name| (*name).clone())).chain(["derived".to_owned()]);
-    let mut titles = vec![(5, "forward_dynamics")];
-    titles.extend((!functions.is_empty()).then_some((12, "work of the other functions")));
-    let mut table = Table::new(2, heads).titled(titles);
-    for Row { choice, result } in rows {
-        let mark = if *choice == own { "*" } else { "" };
-        let held = match (choice.constraints, result) {
-            (Constraints::Multipliers, Ok(figures)) if figures.multipliers == 0 => "no equations",
-            (constraints, _) => constraints.word(),
-        };
-        let words = [format!("{}{mark}", choice.coordinates.word()), held.to_owned()];
-        let Ok(figures) = result else {
-            table.row(words.into_iter().chain(["refused".to_owned()]));
-            continue;
-        };
-        let sizes = [figures.state, figures.multipliers, figures.state + figures.multipliers].map(|n| n.to_string());
-        let counts = numbers(&figures.cost).map(|n| n.to_string());
-        let others = functions.iter().map(|name| {
-            let work = figures.others.iter().find(|(other, _)| other == *name);
-            work.map_or_else(|| "-".to_owned(), |(_, work)| work.to_string())
-        });
-        let time = format!("{:.0} ms", figures.time.as_secs_f64() * 1e3);
-        let cells = words.into_iter().chain(sizes).chain(counts).chain([figures.work.to_string()]);
-        table.row(cells.chain(others).chain([time]));
-    }
-    table.text()
-}
-
-/// The choice of least work, and why.
-fn advice(rows: &[Row], own: Choice) -> String {
-    let mut good: Vec<(&Row, &Figures)> =
-        rows.iter().filter_map(|row| Some((row, row.result.as_ref().ok()?))).collect();
-    good.sort_by_key(|(_, figures)| (figures.work, figures.state + figures.multipliers));
-    let Some((best, figures)) = good.first() else { return "  no choice is admitted\n".to_owned() };
-    let same = if best.choice == own { ", as it is written" } else { "" };
-    let mut text = format!("  recommended: {}{same}\n", best.words());
-    let reason = match good.get(1) {
-        Some((next, other)) => format!(
-            "forward dynamics takes least work, {}; next are {} with {:.2} times as much",
-            figures.work,
-            next.words(),
-            f64::from(other.work) / f64::from(figures.work.max(1))
-        ),
-        None => "no other choice is admitted".to_owned(),
-    };
-    let _ = writeln!(text, "    since {reason}");
-    if figures.multipliers > 0 {
-        let _ = writeln!(text, "    loops drift: they are kept closed by projection or by Baumgarte's terms");
-    } else if figures.has_dead_centres {
-        let _ = writeln!(text, "    loops cannot drift; motions end at the dead centres of their solution");
-    }
-    text
 }

@@ -67,9 +67,10 @@ pub(super) fn is_part(module: &Module) -> bool {
     module.items.iter().any(|item| matches!(item.kind, ItemKind::Port { .. }))
 }
 
-/// Coordinates that differ. Where no body declares its own they are those of joints unless the formulation says more.
-pub(super) fn choices(source: &Source) -> Vec<Coordinates> {
-    let items = source.modules.iter().flat_map(|module| &module.items);
+/// Coordinates of a model that differ. Where no body declares its own they are those of joints unless the formulation says more.
+pub(super) fn choices(source: &Source, name: &str) -> Vec<Coordinates> {
+    let modules = source.modules.iter().filter(|module| is_part(module) || module.name == name);
+    let items = modules.flat_map(|module| &module.items);
     let mut bodies = items.filter_map(|item| match &item.kind {
         ItemKind::Body { fields, .. } => Some(fields),
         _ => None,
@@ -87,7 +88,7 @@ pub(super) fn written(source: &Source, name: &str) -> Choice {
         _ => None,
     });
     let said = |name: &str| fields?.list.iter().find(|field| field.name == name).map(|field| &field.value);
-    let all = choices(source);
+    let all = choices(source, name);
     let coordinates = match said("coordinates") {
         Some(value) => all.iter().copied().find(|choice| choice.value().as_ref() == Some(value)),
         None => all.first().copied(),
@@ -98,10 +99,10 @@ pub(super) fn written(source: &Source, name: &str) -> Choice {
     Choice { coordinates: coordinates.unwrap_or(Coordinates::Declared), constraints }
 }
 
-/// Writes the choice into the formulation of the models. Unless `all` that is asked for shall stay, what is left is forward
+/// Writes the choice into the formulation of the model. Unless `all` that is asked for shall stay, what is left is forward
 /// dynamics: a function or an output may be written for one choice of coordinates.
-pub(super) fn rewrite(source: &mut Source, choice: Choice, all: bool) {
-    for module in source.modules.iter_mut().filter(|module| !is_part(module)) {
+pub(super) fn rewrite(source: &mut Source, name: &str, choice: Choice, all: bool) {
+    for module in source.modules.iter_mut().filter(|module| module.name == name) {
         let span = module.name.span();
         if !all {
             module.items.retain(|item| !matches!(item.kind, ItemKind::Emit(_) | ItemKind::Output(_)));
