@@ -20,8 +20,11 @@ fn main() -> Result<(), IntegrationError> {
     torque();
     let_go()?;
     println!("\nThe closed form of the loop, as the compiler has found it:\n");
-    for equation in free::EQUATIONS.iter().filter(|equation| equation.section == "Coordinates that follow") {
-        println!("  {equation}");
+    for equation in free::FORMULAS.iter().filter(|equation| equation.section == "Coordinates that follow") {
+        println!("  {}", equation.text);
+        if !equation.says.is_empty() {
+            println!("      {}", equation.says);
+        }
     }
     println!("\nOperations of the generated functions:\n");
     for cost in free::COSTS.iter().chain(driven::COSTS).filter(|cost| cost.function != "new") {

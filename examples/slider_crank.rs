@@ -23,12 +23,15 @@ fn main() -> Result<(), IntegrationError> {
     run_up(&model)?;
     println!("\nThe equations as the compiler has derived them:");
     let mut section = "";
-    for equation in engine::EQUATIONS {
+    for equation in engine::FORMULAS {
         if equation.section != section {
             section = equation.section;
             println!("\n  {section}\n");
         }
-        println!("    {equation}");
+        println!("    {}", equation.text);
+        if !equation.says.is_empty() {
+            println!("        {}", equation.says);
+        }
     }
     println!("\nOperations of the generated functions:\n");
     for cost in engine::COSTS {

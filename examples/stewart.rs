@@ -20,8 +20,8 @@ mod times;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use multibody::Cost;
 use multibody::nalgebra::{SVector, Vector3};
+use multibody::{Cost, Equation};
 
 use models::{absolute, hybrid, joints, level, one_leg, reduced};
 use svg::Structure;
@@ -126,8 +126,22 @@ fn leg_equations() {
     counts("as derived, on a graph that shares what is equal", &[before.add, before.mul, 2 * before.sincos]);
     counts("in the code", &[after.add, after.mul, 2 * after.sincos]);
     println!(
-        "\n  87 published products hold five explicit factors of one. `Model::new` does the heading's sine and cosine."
+        "\n  87 published products hold five explicit factors of one. `Model::new` does the heading's sine and cosine.\n"
     );
+    print_equations("  They are:", one_leg::FORMULAS, |equation| {
+        equation.section == "Constraints" && !equation.text.starts_with("G[")
+    });
+}
+
+/// Equations as the compiler writes them, each with what it says of where it holds.
+fn print_equations(heading: &str, all: &[Equation], wanted: impl Fn(&Equation) -> bool) {
+    println!("{heading}\n");
+    for equation in all.iter().filter(|equation| wanted(equation)) {
+        println!("    {}", equation.text);
+        if !equation.says.is_empty() {
+            println!("        {}", equation.says);
+        }
+    }
 }
 
 fn heading() {
@@ -144,15 +158,19 @@ fn find<'a>(costs: &'a [Cost], function: &str) -> &'a Cost {
 }
 
 fn closed_form() {
-    println!(
-        "
-`solve (gimbal, stroke) from ball {{ stroke > -1.0, cos(gimbal.second) > 0.0 }}` is, in each leg:
-
-  d = Rz(heading)^T (pin - foot)                           pin = position + Rz(yaw) Ry(pitch) Rx(roll) PIN
-  stroke = sqrt(dx^2 + dy^2 + dz^2) - 1                    distance of two points
-  sin(second) = dx / (1 + stroke), cos(second) > 0         distance of a point from a plane
-  (cos(first), sin(first)) = (dz, -dy) / sqrt(dy^2 + dz^2) a point on both sides"
-    );
+    println!();
+    // What the legs have alike stands once, behind what is told of each: where its pin is from its foot, in its axes.
+    let follows = |equation: &&Equation| equation.section == "Coordinates that follow";
+    let positions: Vec<Equation> = reduced::FORMULAS
+        .iter()
+        .filter(follows)
+        .take_while(|equation| !equation.text.starts_with("S["))
+        .copied()
+        .collect();
+    print_equations("  `solve (gimbal, stroke) from ball { .. }`, in the first leg with", &positions, |equation| {
+        equation.text.starts_with("legs[0].")
+    });
+    print_equations("\n  is", &positions, |equation| equation.says.starts_with("for i"));
     let model = reduced::Model::<f64>::default();
     let q = SVector::from([-1.45, 0.05, 1.05, 0.1, -0.05, 0.15]).into();
     let state = reduced::State { q, v: reduced::Velocity::default() };

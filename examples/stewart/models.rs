@@ -115,7 +115,8 @@ manipulator! {
             output energy = kinetic() + potential();
             emit forward_dynamics, inverse_dynamics { solve_for: legs.thrust },
                 kinematics { given: platform.pose, find: legs.stroke },
-                kinematics { given: platform.pose, find: [legs.gimbal, legs.stroke] };
+                kinematics { given: platform.pose, find: [legs.gimbal, legs.stroke] },
+                equations;
         }
     }
 }
@@ -159,6 +160,6 @@ multibody! {
         #[cut]
         joint ball: Ball { parent: piston, child: plate }
         formulation { constraints: Multipliers }
-        emit constraints;
+        emit constraints, equations;
     }
 }

@@ -103,6 +103,7 @@ fn subject(of: &Written, subject: Subject) -> (&'static str, Vec<usize>) {
         Subject::Constraint(row) => {
             ("constraint", of.structure.rows.iter().position(|known| *known == row).into_iter().collect())
         }
+        Subject::Closing(_) => ("closing", vec![]),
         Subject::Slope(i, j) => ("slope", vec![i, j]),
         Subject::Output(k) => ("output", vec![k]),
         Subject::StateRate(k) => ("state rate", vec![k]),

@@ -15,11 +15,14 @@ pub struct Equation {
     pub text: &'static str,
     /// What stands in an `equation` of LaTeX with amsmath.
     pub latex: &'static str,
+    /// Where it holds: for which of several identical parts, on which branch, where it is real. Empty if it holds as it is.
+    pub says: &'static str,
 }
 
-/// The plain text.
+/// The plain text, and in brackets where it holds.
 impl fmt::Display for Equation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.text)
+        f.write_str(self.text)?;
+        if self.says.is_empty() { Ok(()) } else { write!(f, "    ({})", self.says) }
     }
 }

@@ -418,6 +418,6 @@ pub mod emit {
     /// The equations, in the documentation of the module.
     pub struct report;
 
-    /// `EQUATIONS`, the equations as text and LaTeX.
+    /// `FORMULAS`, the equations as text and LaTeX.
     pub struct equations;
 }

@@ -910,87 +910,109 @@ pub(crate) mod engine {
     pub const COORDINATES: &[&str] = &["shaft"];
     /// The coordinates whose dead centres `dead_centres` tells of, in order.
     pub const DEAD_CENTRES: &[&str] = &["cylinder"];
-    /// The equations of the model, each after those that it reads.
-    pub const EQUATIONS: &[::multibody::Equation] = &[
+    /// The equations of the model, each after those that it reads, those of identical parts once.
+    pub const FORMULAS: &[::multibody::Equation] = &[
         ::multibody::Equation {
             section: "Coordinates that follow",
-            text: "cylinder = sqrt(0.018 + 0.0016 cos(shaft)²) + 0.04 cos(shaft)",
-            latex: "\\mathrm{cylinder} = \\sqrt{0.018 + 0.0016\\,\\left(\\cos\\left(\\mathrm{shaft}\\right)\\right)^{2}} + 0.04\\,\\cos\\left(\\mathrm{shaft}\\right)",
+            text: "u_1 = sqrt(0.018 + 0.0016 cos(shaft)²)",
+            latex: "u_{\\mathrm{1}} = \\sqrt{0.018 + 0.0016\\,\\left(\\cos\\left(\\mathrm{shaft}\\right)\\right)^{2}}",
+            says: "",
+        },
+        ::multibody::Equation {
+            section: "Coordinates that follow",
+            text: "cylinder = u_1 + 0.04 cos(shaft)",
+            latex: "\\mathrm{cylinder} = u_{\\mathrm{1}} + 0.04\\,\\cos\\left(\\mathrm{shaft}\\right)",
+            says: "the branch with cylinder > 0; real everywhere",
         },
         ::multibody::Equation {
             section: "Coordinates that follow",
             text: "cos(big_end) = 2 (25 cylinder cos(shaft) - 1) / 7",
             latex: "\\cos\\left(\\mathrm{big\\_end}\\right) = \\frac{2\\,\\left(25\\,\\mathrm{cylinder}\\,\\cos\\left(\\mathrm{shaft}\\right) - 1\\right)}{7}",
+            says: "",
         },
         ::multibody::Equation {
             section: "Coordinates that follow",
             text: "sin(big_end) = -50 cylinder sin(shaft) / 7",
             latex: "\\sin\\left(\\mathrm{big\\_end}\\right) = -\\frac{50\\,\\mathrm{cylinder}\\,\\sin\\left(\\mathrm{shaft}\\right)}{7}",
+            says: "",
         },
         ::multibody::Equation {
             section: "Coordinates that follow",
-            text: "S[cylinder, shaft] = -0.04 cylinder sin(shaft) / sqrt(0.018 + 0.0016 cos(shaft)²)",
-            latex: "S_{\\mathrm{cylinder, shaft}} = -\\frac{0.04\\,\\mathrm{cylinder}\\,\\sin\\left(\\mathrm{shaft}\\right)}{\\sqrt{0.018 + 0.0016\\,\\left(\\cos\\left(\\mathrm{shaft}\\right)\\right)^{2}}}",
+            text: "S[cylinder, shaft] = -0.04 cylinder sin(shaft) / u_1",
+            latex: "S_{\\mathrm{cylinder, shaft}} = -\\frac{0.04\\,\\mathrm{cylinder}\\,\\sin\\left(\\mathrm{shaft}\\right)}{u_{\\mathrm{1}}}",
+            says: "",
         },
         ::multibody::Equation {
             section: "Coordinates that follow",
             text: "S[big_end, shaft] = -50 (S[cylinder, shaft] sin(shaft + big_end) + cylinder cos(shaft + big_end)) / 7",
             latex: "S_{\\mathrm{big\\_end, shaft}} = -\\frac{50\\,\\left(S_{\\mathrm{cylinder, shaft}}\\,\\sin\\left(\\mathrm{shaft} + \\mathrm{big\\_end}\\right) + \\mathrm{cylinder}\\,\\cos\\left(\\mathrm{shaft} + \\mathrm{big\\_end}\\right)\\right)}{7}",
+            says: "",
         },
         ::multibody::Equation {
             section: "Coordinates that follow",
             text: "cylinder˙ = S[cylinder, shaft] shaft˙",
             latex: "\\dot{\\mathrm{cylinder}} = S_{\\mathrm{cylinder, shaft}}\\,\\dot{\\mathrm{shaft}}",
+            says: "",
         },
         ::multibody::Equation {
             section: "Coordinates that follow",
             text: "big_end˙ = S[big_end, shaft] shaft˙",
             latex: "\\dot{\\mathrm{big\\_end}} = S_{\\mathrm{big\\_end, shaft}}\\,\\dot{\\mathrm{shaft}}",
+            says: "",
         },
         ::multibody::Equation {
             section: "Coordinates that follow",
-            text: "gamma[cylinder] = -(0.04 cylinder cos(shaft) (shaft˙)² + 0.08 sin(shaft) shaft˙ cylinder˙ + (cylinder˙)²) / sqrt(0.018 + 0.0016 cos(shaft)²)",
-            latex: "\\gamma_{\\mathrm{cylinder}} = -\\frac{0.04\\,\\mathrm{cylinder}\\,\\cos\\left(\\mathrm{shaft}\\right)\\,\\dot{\\mathrm{shaft}}^{2} + 0.08\\,\\sin\\left(\\mathrm{shaft}\\right)\\,\\dot{\\mathrm{shaft}}\\,\\dot{\\mathrm{cylinder}} + \\dot{\\mathrm{cylinder}}^{2}}{\\sqrt{0.018 + 0.0016\\,\\left(\\cos\\left(\\mathrm{shaft}\\right)\\right)^{2}}}",
+            text: "gamma[cylinder] = -(0.04 cylinder cos(shaft) (shaft˙)² + 0.08 sin(shaft) shaft˙ cylinder˙ + (cylinder˙)²) / u_1",
+            latex: "\\gamma_{\\mathrm{cylinder}} = -\\frac{0.04\\,\\mathrm{cylinder}\\,\\cos\\left(\\mathrm{shaft}\\right)\\,\\dot{\\mathrm{shaft}}^{2} + 0.08\\,\\sin\\left(\\mathrm{shaft}\\right)\\,\\dot{\\mathrm{shaft}}\\,\\dot{\\mathrm{cylinder}} + \\dot{\\mathrm{cylinder}}^{2}}{u_{\\mathrm{1}}}",
+            says: "",
         },
         ::multibody::Equation {
             section: "Coordinates that follow",
-            text: "gamma[big_end] = -2 (50 cos(shaft + big_end) cylinder˙ (shaft˙ + big_end˙) + sin(big_end) (big_end˙)² - 25 sin(shaft + big_end) (cylinder ((shaft˙)² + 2 shaft˙ big_end˙ + (big_end˙)²) - gamma[cylinder])) / 7",
-            latex: "\\gamma_{\\mathrm{big\\_end}} = -\\frac{2\\,\\left(50\\,\\cos\\left(\\mathrm{shaft} + \\mathrm{big\\_end}\\right)\\,\\dot{\\mathrm{cylinder}}\\,\\left(\\dot{\\mathrm{shaft}} + \\dot{\\mathrm{big\\_end}}\\right) + \\sin\\left(\\mathrm{big\\_end}\\right)\\,\\dot{\\mathrm{big\\_end}}^{2} - 25\\,\\sin\\left(\\mathrm{shaft} + \\mathrm{big\\_end}\\right)\\,\\left(\\mathrm{cylinder}\\,\\left(\\dot{\\mathrm{shaft}}^{2} + 2\\,\\dot{\\mathrm{shaft}}\\,\\dot{\\mathrm{big\\_end}} + \\dot{\\mathrm{big\\_end}}^{2}\\right) - \\gamma_{\\mathrm{cylinder}}\\right)\\right)}{7}",
+            text: "gamma[big_end] = -2 (50 cos(shaft + big_end) cylinder˙ (shaft˙ + big_end˙) + 25 gamma[cylinder] sin(shaft + big_end) + sin(big_end) (big_end˙)² - 25 cylinder sin(shaft + big_end) (shaft˙ + big_end˙)²) / 7",
+            latex: "\\gamma_{\\mathrm{big\\_end}} = -\\frac{2\\,\\left(50\\,\\cos\\left(\\mathrm{shaft} + \\mathrm{big\\_end}\\right)\\,\\dot{\\mathrm{cylinder}}\\,\\left(\\dot{\\mathrm{shaft}} + \\dot{\\mathrm{big\\_end}}\\right) + 25\\,\\gamma_{\\mathrm{cylinder}}\\,\\sin\\left(\\mathrm{shaft} + \\mathrm{big\\_end}\\right) + \\sin\\left(\\mathrm{big\\_end}\\right)\\,\\dot{\\mathrm{big\\_end}}^{2} - 25\\,\\mathrm{cylinder}\\,\\sin\\left(\\mathrm{shaft} + \\mathrm{big\\_end}\\right)\\,\\left(\\dot{\\mathrm{shaft}} + \\dot{\\mathrm{big\\_end}}\\right)^{2}\\right)}{7}",
+            says: "",
         },
         ::multibody::Equation {
             section: "Equations of motion",
             text: "shaft¨ (S[big_end, shaft] (0.00248 + 0.00124 S[big_end, shaft] + 0.0012 cos(big_end)) + 0.01172 + 0.4 S[cylinder, shaft]² + 0.0012 cos(big_end)) + gamma[big_end] (0.00124 + 0.00124 S[big_end, shaft] + 0.0006 cos(big_end)) + 0.4 S[cylinder, shaft] gamma[cylinder] - 0.0006 sin(big_end) (2 shaft˙ big_end˙ + (big_end˙)² - S[big_end, shaft] (shaft˙)²) = -load shaft˙ - gas S[cylinder, shaft]",
             latex: "\\ddot{\\mathrm{shaft}}\\,\\left(S_{\\mathrm{big\\_end, shaft}}\\,\\left(0.00248 + 0.00124\\,S_{\\mathrm{big\\_end, shaft}} + 0.0012\\,\\cos\\left(\\mathrm{big\\_end}\\right)\\right) + 0.01172 + 0.4\\,S_{\\mathrm{cylinder, shaft}}^{2} + 0.0012\\,\\cos\\left(\\mathrm{big\\_end}\\right)\\right) + \\gamma_{\\mathrm{big\\_end}}\\,\\left(0.00124 + 0.00124\\,S_{\\mathrm{big\\_end, shaft}} + 0.0006\\,\\cos\\left(\\mathrm{big\\_end}\\right)\\right) + 0.4\\,S_{\\mathrm{cylinder, shaft}}\\,\\gamma_{\\mathrm{cylinder}} - 0.0006\\,\\sin\\left(\\mathrm{big\\_end}\\right)\\,\\left(2\\,\\dot{\\mathrm{shaft}}\\,\\dot{\\mathrm{big\\_end}} + \\dot{\\mathrm{big\\_end}}^{2} - S_{\\mathrm{big\\_end, shaft}}\\,\\dot{\\mathrm{shaft}}^{2}\\right) = -\\mathrm{load}\\,\\dot{\\mathrm{shaft}} - \\mathrm{gas}\\,S_{\\mathrm{cylinder, shaft}}",
+            says: "",
         },
         ::multibody::Equation {
             section: "Mass matrix and forces",
             text: "M[shaft, shaft] = S[big_end, shaft] (0.00248 + 0.00124 S[big_end, shaft] + 0.0012 cos(big_end)) + 0.01172 + 0.4 S[cylinder, shaft]² + 0.0012 cos(big_end)",
             latex: "M_{\\mathrm{shaft, shaft}} = S_{\\mathrm{big\\_end, shaft}}\\,\\left(0.00248 + 0.00124\\,S_{\\mathrm{big\\_end, shaft}} + 0.0012\\,\\cos\\left(\\mathrm{big\\_end}\\right)\\right) + 0.01172 + 0.4\\,S_{\\mathrm{cylinder, shaft}}^{2} + 0.0012\\,\\cos\\left(\\mathrm{big\\_end}\\right)",
+            says: "",
         },
         ::multibody::Equation {
             section: "Mass matrix and forces",
             text: "c[shaft] = gamma[big_end] (0.00124 + 0.00124 S[big_end, shaft] + 0.0006 cos(big_end)) + 0.4 S[cylinder, shaft] gamma[cylinder] - 0.0006 sin(big_end) (2 shaft˙ big_end˙ + (big_end˙)² - S[big_end, shaft] (shaft˙)²)",
             latex: "c_{\\mathrm{shaft}} = \\gamma_{\\mathrm{big\\_end}}\\,\\left(0.00124 + 0.00124\\,S_{\\mathrm{big\\_end, shaft}} + 0.0006\\,\\cos\\left(\\mathrm{big\\_end}\\right)\\right) + 0.4\\,S_{\\mathrm{cylinder, shaft}}\\,\\gamma_{\\mathrm{cylinder}} - 0.0006\\,\\sin\\left(\\mathrm{big\\_end}\\right)\\,\\left(2\\,\\dot{\\mathrm{shaft}}\\,\\dot{\\mathrm{big\\_end}} + \\dot{\\mathrm{big\\_end}}^{2} - S_{\\mathrm{big\\_end, shaft}}\\,\\dot{\\mathrm{shaft}}^{2}\\right)",
+            says: "",
         },
         ::multibody::Equation {
             section: "Mass matrix and forces",
             text: "g[shaft] = 0",
             latex: "g_{\\mathrm{shaft}} = 0",
+            says: "",
         },
         ::multibody::Equation {
             section: "Mass matrix and forces",
             text: "Q[shaft] = -load shaft˙ - gas S[cylinder, shaft]",
             latex: "Q_{\\mathrm{shaft}} = -\\mathrm{load}\\,\\dot{\\mathrm{shaft}} - \\mathrm{gas}\\,S_{\\mathrm{cylinder, shaft}}",
+            says: "",
         },
         ::multibody::Equation {
             section: "Outputs",
             text: "bearing[z] = 0",
             latex: "\\mathrm{bearing}_{\\mathrm{z}} = 0",
+            says: "",
         },
         ::multibody::Equation {
             section: "Outputs",
             text: "energy = shaft˙ (0.0006 cos(big_end) (shaft˙ + big_end˙) + 0.00586 shaft˙ + 0.00124 big_end˙) + 0.00062 (big_end˙)² + 0.2 (cylinder˙)²",
             latex: "\\mathrm{energy} = \\dot{\\mathrm{shaft}}\\,\\left(0.0006\\,\\cos\\left(\\mathrm{big\\_end}\\right)\\,\\left(\\dot{\\mathrm{shaft}} + \\dot{\\mathrm{big\\_end}}\\right) + 0.00586\\,\\dot{\\mathrm{shaft}} + 0.00124\\,\\dot{\\mathrm{big\\_end}}\\right) + 0.00062\\,\\dot{\\mathrm{big\\_end}}^{2} + 0.2\\,\\dot{\\mathrm{cylinder}}^{2}",
+            says: "",
         },
     ];
     /// Operation counts of every function, and of `Model::new`.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use multibody_engine::mechanics::written::{Page, Section};
+use multibody_engine::mechanics::written::{Line, Page, Section};
 use multibody_engine::symbolic::write::{latex, mathml, text};
 
 use crate::Stop;
@@ -20,18 +20,22 @@ pub(crate) fn run(subject: &Subject, form: Form) -> Result<String, Stop> {
     Ok(pages.join("\n"))
 }
 
-fn sections(page: &Page, mut print: impl FnMut(&Section)) {
-    page.sections.iter().for_each(&mut print);
+/// Sections with their lines, what is alike in identical parts once.
+fn sections(page: &Page, mut print: impl FnMut(&Section, &[Line])) {
+    for section in &page.sections {
+        let lines: Vec<Line> = page.folded(section).into_iter().map(|folded| folded.line).collect();
+        print(section, &lines);
+    }
 }
 
 fn as_text(name: &str, page: &Page) -> String {
     let mut out = format!("{name}\n");
-    sections(page, |section| {
+    sections(page, |section, lines| {
         let _ = writeln!(out, "\n  {}\n", section.title);
         for sentence in &section.says {
             let _ = writeln!(out, "  {sentence}\n");
         }
-        for line in &section.lines {
+        for line in lines {
             let says = line.says.as_ref().map_or_else(String::new, |says| format!("    ({says})"));
             let _ = writeln!(out, "    {}{says}", text::equation(&line.equation));
         }
@@ -42,16 +46,15 @@ fn as_text(name: &str, page: &Page) -> String {
 /// Sections for a document with amsmath.
 fn as_latex(name: &str, page: &Page) -> String {
     let mut out = format!("\\section*{{{}}}\n", latex_prose(name));
-    sections(page, |section| {
+    sections(page, |section, lines| {
         let _ = writeln!(out, "\n\\subsection*{{{}}}", latex_prose(section.title));
         for sentence in &section.says {
             let _ = writeln!(out, "{}\n", latex_prose(sentence));
         }
-        if section.lines.is_empty() {
+        if lines.is_empty() {
             return;
         }
-        let rows: Vec<String> = section
-            .lines
+        let rows: Vec<String> = lines
             .iter()
             .map(|line| {
                 let says = line.says.as_ref();
@@ -87,12 +90,12 @@ fn latex_prose(markdown: &str) -> String {
 /// A piece of a page in HTML.
 fn as_mathml(name: &str, page: &Page) -> String {
     let mut out = format!("<h2>{}</h2>\n", html_prose(name));
-    sections(page, |section| {
+    sections(page, |section, lines| {
         let _ = writeln!(out, "<h3>{}</h3>", html_prose(section.title));
         for sentence in &section.says {
             let _ = writeln!(out, "<p>{}</p>", html_prose(sentence));
         }
-        for line in &section.lines {
+        for line in lines {
             let _ = writeln!(out, "<div>{}</div>", mathml::equation(&line.equation));
             if let Some(says) = &line.says {
                 let _ = writeln!(out, "<p>{}</p>", html_prose(says));

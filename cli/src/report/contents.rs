@@ -281,11 +281,13 @@ fn equations(material: &Material<'_>) -> Option<Section> {
     for part in &material.page.sections {
         blocks.push(Block::Heading(part.title.to_owned()));
         blocks.extend(part.says.iter().map(|says| Block::Words(says.clone())));
-        let count = part.lines.len();
+        let shown = material.page.folded(part);
+        let count = shown.len();
         if count == 0 {
             continue;
         }
-        let mut lines = vec![Block::Equations(part.lines.iter().take(MOST_WRITTEN).map(line).collect())];
+        let shown = shown.iter().take(MOST_WRITTEN).map(|folded| line(&folded.line));
+        let mut lines = vec![Block::Equations(shown.collect())];
         if count > MOST_WRITTEN {
             let more = count - MOST_WRITTEN;
             lines.push(Block::Words(format!("and {more} more, which `cargo multibody equations` prints")));

@@ -56,7 +56,7 @@ pub(super) const MATRICES: [&str; 4] = ["mass_matrix", "bias", "constraint", "ja
 pub(super) const TYPES: [&str; 7] = ["Scalar", "Vec3", "Pose", "Rotation", "Twist", "Wrench", "Jacobian"];
 
 /// Structs and constants of a generated module.
-const GENERATED: [&str; 19] = [
+const GENERATED: [&str; 20] = [
     "Params",
     "Position",
     "Velocity",
@@ -75,6 +75,7 @@ const GENERATED: [&str; 19] = [
     "COORDINATES",
     "CONSTRAINTS",
     "EQUATIONS",
+    "FORMULAS",
     "JACOBIAN",
 ];
 

@@ -76,11 +76,39 @@ fn functions_have_what_they_compute() {
 fn constants_are_there_when_asked_for() {
     let with = module(", equations");
     assert!(
-        with.contains("EQUATIONS") && with.contains("section : \"Outputs\" , text : \"height = -length cos(theta)\"")
+        with.contains("FORMULAS") && with.contains("section : \"Outputs\" , text : \"height = -length cos(theta)\"")
     );
     assert!(!with.contains("<math"));
     let without = module("");
-    assert!(!without.contains("EQUATIONS") && !without.contains("<math"));
+    assert!(!without.contains("FORMULAS") && !without.contains("<math"));
+}
+
+/// Names of constraint equations are a constant of their own.
+#[test]
+fn constants_of_a_model_with_multipliers_have_names_of_their_own() {
+    let text = "pub mod ring {
+        body bead { mass: 1.0, coordinates: Absolute(RollPitchYaw) }
+        body other { mass: 1.0, inertia: diag(1.0, 1.0, 1.0) }
+        joint hinge: Revolute { parent: ground, child: other, axis: Z }
+        joint slide: Revolute { parent: ground, child: bead.at(-X), axis: Z }
+        formulation { constraints: Multipliers }
+        emit forward_dynamics, equations;
+    }";
+    let file: syn::File = syn::parse_str(&multibody_engine::expand(text.parse().unwrap()).to_string()).unwrap();
+    let module = file.items.iter().find_map(|item| match item {
+        syn::Item::Mod(module) if module.ident == "ring" => module.content.as_ref(),
+        _ => None,
+    });
+    let constants = module.unwrap().1.iter().filter_map(|item| match item {
+        syn::Item::Const(constant) => Some(constant.ident.to_string()),
+        _ => None,
+    });
+    let mut constants: Vec<String> = constants.filter(|name| name != "_").collect();
+    constants.sort();
+    assert!(["EQUATIONS", "FORMULAS"].iter().all(|name| constants.iter().any(|own| own == name)), "{constants:?}");
+    let all = constants.len();
+    constants.dedup();
+    assert_eq!(constants.len(), all, "{constants:?}");
 }
 
 /// Whatever reads the constant beside a mistake has it.
@@ -88,7 +116,7 @@ fn constants_are_there_when_asked_for() {
 fn beside_errors_the_name_is_there() {
     let text = CRANE.replace("REQUESTS", ", equations").replace("mass: 2.0 * m", "mass: 2.0 * n");
     let module = multibody_engine::expand(text.parse().unwrap()).to_string();
-    assert!(module.contains("compile_error") && module.contains("EQUATIONS"));
+    assert!(module.contains("compile_error") && module.contains("FORMULAS"));
 }
 
 /// Only what is asked for is derived.

@@ -12,5 +12,10 @@ mod pages;
 
 mod documented;
 mod faithful;
+mod folded;
+mod leg;
+mod reader;
+mod readme;
 mod setting;
+mod textbook;
 mod values;

@@ -7,7 +7,7 @@
 use crate::contracts::function::FunctionKind;
 use crate::mechanics::written::{Line, Page, Section, Subject};
 use crate::model::types::Request;
-use crate::symbolic::write::{mathml, text};
+use crate::symbolic::write::mathml;
 
 use super::super::layout::Layout;
 
@@ -36,18 +36,19 @@ pub(in crate::emit) fn lines(layout: &Layout<'_>) -> Vec<String> {
         for says in &section.says {
             lines.extend([says.clone(), String::new()]);
         }
-        lines.extend(block(section));
+        lines.extend(block(page, section));
     }
     lines
 }
 
 /// The equations of a section as one block of HTML.
-fn block(section: &Section) -> Vec<String> {
-    let count = section.lines.len();
+fn block(page: &Page, section: &Section) -> Vec<String> {
+    let shown = page.folded(section);
+    let count = shown.len();
     if count == 0 {
         return Vec::new();
     }
-    let mut block: Vec<String> = section.lines.iter().take(MOST_WRITTEN).map(equation).collect();
+    let mut block: Vec<String> = shown.iter().take(MOST_WRITTEN).map(|folded| equation(&folded.line)).collect();
     if count > MOST_WRITTEN {
         block.push(format!("<p>and {} more</p>", count - MOST_WRITTEN));
     }
@@ -61,9 +62,30 @@ fn block(section: &Section) -> Vec<String> {
 fn equation(line: &Line) -> String {
     let math = mathml::equation(&line.equation);
     match &line.says {
-        Some(says) => format!("{math}<p style=\"text-align:center\">{says}</p>"),
+        Some(says) => format!("{math}<p style=\"text-align:center\">{}</p>", in_block(says)),
         None => math,
     }
+}
+
+/// Markdown for a block of HTML, inside which it is not read.
+fn in_block(says: &str) -> String {
+    let mut html = String::new();
+    let mut is_code = false;
+    for letter in says.chars() {
+        match letter {
+            '`' => {
+                is_code = !is_code;
+                html.push_str(if is_code { "<code>" } else { "</code>" });
+            }
+            '<' => html.push_str("&lt;"),
+            '>' => html.push_str("&gt;"),
+            '&' => html.push_str("&amp;"),
+            '_' => html.push_str("&#95;"),
+            '*' => html.push_str("&#42;"),
+            other => html.push(other),
+        }
+    }
+    html
 }
 
 /// Equations of what a function gives, where they are few and short.
@@ -80,9 +102,9 @@ pub(super) fn of_function(layout: &Layout<'_>, kind: FunctionKind) -> Vec<String
         FunctionKind::Outputs => matches!(subject, Subject::Output(_)),
         _ => false,
     };
-    let lines = page.sections.iter().flat_map(|section| &section.lines);
-    let lines: Vec<String> =
-        lines.filter(|line| wanted(line.subject)).map(|line| text::equation(&line.equation)).collect();
+    let lines = page.sections.iter().flat_map(|section| page.folded(section));
+    let lines = lines.filter(|folded| wanted(folded.line.subject));
+    let lines: Vec<String> = lines.map(|folded| folded.text()).collect();
     let long = lines.len() > MOST_LINES || lines.iter().any(|line| line.chars().count() > MOST_CHARACTERS);
     if lines.is_empty() || long {
         return Vec::new();

@@ -7,7 +7,7 @@ use crate::emit::Context;
 use crate::model::types::Request;
 use crate::symbolic::write::{latex, text};
 
-/// Expands to `pub const EQUATIONS: &[Equation] = &[..];`.
+/// Expands to `pub const FORMULAS: &[Equation] = &[..];`.
 pub(super) fn items(context: &Context<'_>) -> TokenStream {
     let layout = &context.layout;
     let krate = layout.krate();
@@ -15,19 +15,22 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
     let Some(page) = layout.structure.page.as_ref().filter(|_| asked && !context.hollow) else {
         // Beside errors the name is there for those who read it.
         return if asked {
-            quote!(#[doc = "Equations."] pub const EQUATIONS: &[#krate::Equation] = &[];)
+            quote!(#[doc = "Equations."] pub const FORMULAS: &[#krate::Equation] = &[];)
         } else {
             quote!()
         };
     };
-    let equations =
-        page.sections.iter().flat_map(|section| section.lines.iter().map(move |line| (section.title, line)));
+    let equations = page
+        .sections
+        .iter()
+        .flat_map(|section| page.folded(section).into_iter().map(|line| (section.title, line.line)));
     let equations = equations.map(|(section, line)| {
         let (text, latex) = (text::equation(&line.equation), latex::equation(&line.equation));
-        quote!(#krate::Equation { section: #section, text: #text, latex: #latex })
+        let says = line.says.unwrap_or_default().replace('`', "");
+        quote!(#krate::Equation { section: #section, text: #text, latex: #latex, says: #says })
     });
     quote! {
-        /// The equations of the model, each after those that it reads.
-        pub const EQUATIONS: &[#krate::Equation] = &[#(#equations),*];
+        /// The equations of the model, each after those that it reads, those of identical parts once.
+        pub const FORMULAS: &[#krate::Equation] = &[#(#equations),*];
     }
 }

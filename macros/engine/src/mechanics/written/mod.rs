@@ -7,7 +7,11 @@
 //! short, and in the state alone nobody would read them. Generated code takes whatever is cheapest, so the page says what the
 //! functions compute and not how.
 
+mod apart;
+mod domains;
+pub mod folded;
 pub mod names;
+mod rows;
 mod sections;
 
 use std::collections::{HashMap, HashSet};
@@ -94,6 +98,8 @@ pub enum Subject {
     Acceleration(Coordinate),
     /// What is zero where the loop is closed.
     Constraint(Row),
+    /// What Newton's method makes zero.
+    Closing(Row),
     /// Its slope along a velocity of the state.
     Slope(usize, usize),
     /// A component of an output, by its place among all.

@@ -19,8 +19,9 @@ use crate::symbolic::graph::{Graph, Scalar, ScalarNode, SymbolId};
 use crate::symbolic::write::formula::{Class, Equation, Formula, Function, Identifier};
 use crate::symbolic::write::{self, Wanted};
 
+use super::domains::Conditions;
 use super::names::{entry, identifier};
-use super::{Line, Page, Section, Subject};
+use super::{Line, Page, Section, Subject, apart, domains, rows};
 
 /// An equation of motion is written out where it is no longer than this many symbols.
 const MOST_WRITTEN_OUT: usize = 120;
@@ -32,11 +33,13 @@ struct Draft {
     value: Scalar,
     collect: Vec<Scalar>,
     says: Option<String>,
+    /// What must not be negative for the value to be real.
+    radicand: Option<Scalar>,
 }
 
 impl Draft {
     fn new(subject: Subject, left: Formula, value: Scalar) -> Draft {
-        Draft { subject, left, value, collect: Vec::new(), says: None }
+        Draft { subject, left, value, collect: Vec::new(), says: None, radicand: None }
     }
 }
 
@@ -79,11 +82,27 @@ impl Sections {
 
     /// Writes values, with what they read before them.
     fn lines(&mut self, e: &Equations<'_>, drafts: Vec<Draft>) -> Vec<Line> {
-        let wanted: Vec<Wanted> =
+        self.lines_with(e, drafts, true)
+    }
+
+    /// The same; `shortens` what several of them have in common.
+    fn lines_with(&mut self, e: &Equations<'_>, drafts: Vec<Draft>, shortens: bool) -> Vec<Line> {
+        let mut wanted: Vec<Wanted> =
             drafts.iter().map(|draft| Wanted { value: draft.value, collect: draft.collect.clone() }).collect();
+        // Behind all others, so that nothing is written apart for them alone.
+        let radicands = drafts.iter().filter_map(|draft| draft.radicand);
+        wanted.extend(radicands.map(|value| Wanted { value, collect: Vec::new() }));
         let symbol = |id: SymbolId| self.identifiers.get(&id).cloned().or_fault("every symbol of a page has a name");
-        let writing = write::write(&e.g, &wanted, &symbol, &self.taken);
-        let mut lines = Vec::new();
+        let mut writing = write::write(&e.g, &wanted, &symbol, &self.taken);
+        let mut radicands = writing.formulas.split_off(drafts.len()).into_iter();
+        let hidden: Vec<Identifier> = writing
+            .definitions
+            .iter()
+            .filter(|apart| apart.reader >= drafts.len())
+            .map(|apart| apart.name.clone())
+            .collect();
+        let mut lines: Vec<Line> = Vec::new();
+        let mut under_roots: Vec<(Subject, Formula)> = Vec::new();
         let mut waiting = writing.definitions;
         for (k, (draft, right)) in drafts.into_iter().zip(writing.formulas).enumerate() {
             let (now, later) = waiting.into_iter().partition(|apart| apart.reader == k);
@@ -95,8 +114,22 @@ impl Sections {
                 let equation = Equation { left: Formula::Name(apart.name), right };
                 lines.push(Line { subject: Subject::Definition, equation, says: None });
             }
+            let radicand = draft.radicand.and_then(|_| radicands.next());
+            under_roots.extend(radicand.map(|radicand| (draft.subject, radicand)));
             let equation = Equation { left: draft.left, right };
             lines.push(Line { subject: draft.subject, equation, says: draft.says });
+        }
+        if shortens {
+            lines = rows::shortened(lines, &mut self.taken);
+        }
+        let part = |subject| apart::part_of(e.scene.model, &e.scene.structure, subject);
+        let renamed = apart::by_element(&mut lines, &part, &mut self.taken);
+        for (subject, mut radicand) in under_roots {
+            apart::rename(&mut radicand, &renamed);
+            for line in lines.iter_mut().filter(|line| line.subject == subject) {
+                let real = domains::real(&radicand, &line.equation.right, &hidden);
+                line.says = domains::joined(line.says.take(), Some(real));
+            }
         }
         lines
     }
@@ -176,17 +209,27 @@ impl Sections {
         let mut says = Vec::new();
         let structure = Rc::clone(&e.scene.structure);
         for step in &structure.steps {
-            if matches!(step.means, Means::Newton { .. }) {
+            if let Means::Newton { rows, .. } = &step.means {
                 let names: Vec<String> = step
                     .unknowns
                     .iter()
                     .map(|&unknown| format!("`{}`", coordinate_name(e.scene.model, unknown)))
                     .collect();
-                says.push(format!("Found by Newton's method from the equations of their loops: {}.", names.join(", ")));
+                says.push(format!(
+                    "Newton's method finds {}: with them `Phi` of their loops is zero.",
+                    names.join(", ")
+                ));
+                for &row in rows {
+                    let residual = e.row(row);
+                    let residual = e.put_in_stand_ins(&[residual])[0];
+                    let name = entry("Phi", row_name(e.scene.model, row.closing, row.index), Class::Defined);
+                    drafts.push(Draft::new(Subject::Closing(row), Formula::Name(name), residual));
+                }
             }
         }
+        let conditions = self.conditions(e, reduction);
         for definition in &reduction.definitions {
-            self.follower(e, reduction, definition.coordinate, definition.position, &mut drafts);
+            self.follower(e, reduction, &conditions, definition.coordinate, definition.position, &mut drafts);
         }
         for named in &motion.named {
             self.identifiers.extend(e.g.symbol_id(named.symbol).map(|id| (id, named.name.clone())));
@@ -259,10 +302,27 @@ impl Sections {
         drafts
     }
 
+    /// What chooses the solutions of loops, by the coordinate that each condition is about.
+    fn conditions(&self, e: &mut Equations<'_>, reduction: &Reduction) -> Conditions {
+        let values = domains::chosen(e, reduction);
+        let wanted: Vec<Wanted> = values.iter().map(|&(_, value)| Wanted { value, collect: Vec::new() }).collect();
+        let symbol = |id: SymbolId| self.identifiers.get(&id).cloned().or_fault("every symbol of a page has a name");
+        let writing = write::write(&e.g, &wanted, &symbol, &self.taken);
+        let mut conditions = Conditions::new();
+        // What is too long for one formula is said in the model.
+        if writing.definitions.is_empty() {
+            for ((coordinate, _), formula) in values.into_iter().zip(&writing.formulas) {
+                conditions.entry(coordinate).or_default().push(format!("`{}`", domains::condition(formula)));
+            }
+        }
+        conditions
+    }
+
     fn follower(
         &self,
         e: &mut Equations<'_>,
         reduction: &Reduction,
+        conditions: &Conditions,
         coordinate: Coordinate,
         position: Scalar,
         drafts: &mut Vec<Draft>,
@@ -270,14 +330,15 @@ impl Sections {
         let name = self.name(e, e.coordinate_symbols(coordinate)[0]);
         let position = e.put_in_stand_ins(&[position])[0];
         let root = reduction.dead_centres.iter().find(|centre| centre.0 == coordinate).map(|centre| centre.1);
-        let says = root.map(|_| "real between its dead centres, where the root vanishes".to_owned());
+        let radicand = root.map(|root| domains::radicand(e, root));
+        let says = conditions.get(&coordinate).map(|list| format!("the branch with {}", list.join(", ")));
         if let ScalarNode::Angle(cos, sin) = *e.g.node(position) {
             let sin = if position.is_negative() { -sin } else { sin };
             let of = |function| Formula::Apply(function, vec![name.clone()]);
-            drafts.push(Draft { says, ..Draft::new(Subject::Cosine(coordinate), of(Function::Cos), cos) });
+            drafts.push(Draft { says, radicand, ..Draft::new(Subject::Cosine(coordinate), of(Function::Cos), cos) });
             drafts.push(Draft::new(Subject::Sine(coordinate), of(Function::Sin), sin));
         } else if !matches!(e.g.node(position), ScalarNode::Output(..)) {
-            drafts.push(Draft { says, ..Draft::new(Subject::Position(coordinate), name, position) });
+            drafts.push(Draft { says, radicand, ..Draft::new(Subject::Position(coordinate), name, position) });
         }
     }
 
@@ -311,7 +372,14 @@ impl Sections {
                 drafts.push(Draft::new(Subject::Slope(k, j), name, slope));
             }
         }
-        let lines = self.lines(e, drafts);
+        let lines = self.lines_with(e, drafts, false);
+        let closing = |subject| match subject {
+            Subject::Constraint(row) => Some(row.closing),
+            Subject::Slope(k, _) => Some(structure.rows[k].closing),
+            _ => None,
+        };
+        let part = |subject| apart::part_of(e.scene.model, &structure, subject);
+        let lines = rows::shared(lines, &closing, &part, &mut self.taken);
         let says = match lines.is_empty() {
             true => Vec::new(),
             false => vec!["Each is zero where its loop is closed; `G` is their Jacobian by the velocities.".to_owned()],
@@ -361,7 +429,7 @@ impl Sections {
             .flatten()
             .collect();
         let before = self.taken.clone();
-        let written = self.lines(e, full);
+        let written = self.lines_with(e, full, false);
         let rows = if written
             .iter()
             .all(|line| line.subject != Subject::Definition && line.equation.right.length() <= MOST_WRITTEN_OUT)

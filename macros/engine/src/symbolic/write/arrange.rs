@@ -60,7 +60,13 @@ impl Arranger<'_> {
         }
         let mut best = self.flat(p);
         let mut least = length(&best);
-        for atom in self.frequent(p) {
+        if let Some(terms) = self.square(p)
+            && length(&terms) < least
+        {
+            (best, least) = (terms, 0);
+        }
+        let frequent = if least > 0 { self.frequent(p) } else { Vec::new() };
+        for atom in frequent {
             let (with, without) = split(p, atom);
             let mut terms = self.terms(&with);
             terms.extend(self.terms(&without));
@@ -73,6 +79,43 @@ impl Arranger<'_> {
         // What is added stands first.
         best.sort_by_key(|term| term.0);
         best
+    }
+
+    /// With three terms as a square, `(x - y)^2` times what they have in common.
+    fn square(&self, p: &Polynomial) -> Option<Vec<(bool, Formula)>> {
+        let squared = |monomial: &Monomial| -> Vec<(AtomId, Monomial)> {
+            let twice = monomial.iter().filter(|factor| factor.1 == 2);
+            twice.map(|&(atom, _)| (atom, times(monomial, &vec![(atom, -2)]))).collect()
+        };
+        let squares: Vec<(AtomId, Monomial, Number)> = p
+            .terms
+            .iter()
+            .flat_map(|(monomial, &n)| squared(monomial).into_iter().map(move |(atom, rest)| (atom, rest, n)))
+            .collect();
+        for (at, (x, rest, n)) in squares.iter().enumerate() {
+            for (y, other, m) in &squares[at + 1..] {
+                if x == y || rest != other || n != m {
+                    continue;
+                }
+                let product = times(&times(rest, &vec![(*x, 1)]), &vec![(*y, 1)]);
+                let Some(&between) = p.terms.get(&product).filter(|&&k| k == *n + *n || k == -(*n + *n)) else {
+                    continue;
+                };
+                let mut left = p.clone();
+                for atom in [x, y] {
+                    left.terms.remove(&times(rest, &vec![(*atom, 2)]));
+                }
+                left.terms.remove(&product);
+                let minus = between.is_negative() != n.is_negative();
+                // What moves less what it moves from.
+                let (first, second) = if minus == (self.rank(*x) < self.rank(*y)) { (y, x) } else { (x, y) };
+                let sum = Formula::Sum(vec![(false, self.factor(*first, 1)), (minus, self.factor(*second, 1))]);
+                let mut terms = self.terms(&left);
+                terms.push(self.product(*n, rest, Some(Formula::Power(Box::new(sum), 2))));
+                return Some(terms);
+            }
+        }
+        None
     }
 
     fn flat(&self, p: &Polynomial) -> Vec<(bool, Formula)> {

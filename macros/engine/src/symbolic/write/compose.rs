@@ -185,7 +185,25 @@ impl<'g> Composer<'g> {
         result
     }
 
+    /// A sign that conditions choose has a name and a line, as the sign before a root of a book.
+    fn choice(&mut self, s: Scalar) {
+        let is_number = |s: Scalar| matches!(self.graph.node(s), ScalarNode::Literal(_));
+        let is_choice = match self.graph.node(s) {
+            ScalarNode::Call(Call::Select, list) => list.get(1).is_some_and(|&chosen| is_number(chosen)),
+            _ => false,
+        };
+        if !is_choice || self.known.contains_key(&s.index()) {
+            return;
+        }
+        let value = self.value(s.positive());
+        let name = self.graph.name_of(s).map_or_else(|| "branch".to_owned(), |name| name.text.clone());
+        let atom = self.define(Definition { name: Some(name), value: Some(value) });
+        self.known.insert(s.index(), atom.clone());
+        self.values.insert(s.index(), atom);
+    }
+
     fn product(&mut self, factors: &[Scalar]) -> Polynomial {
+        factors.iter().for_each(|&factor| self.choice(factor));
         let expanded = factors.iter().try_fold(Polynomial::number(Number::ONE), |product, &factor| {
             let value = self.value(factor);
             self.atoms.product(&product, &value, self.most)
@@ -235,7 +253,10 @@ impl<'g> Composer<'g> {
     fn applied(&mut self, head: Head, list: &[Scalar]) -> Polynomial {
         let arguments =
             list.iter().map(|&x| if self.value(x).terms.len() > self.most / 4 { self.whole(x) } else { self.value(x) });
-        let arguments: Vec<Polynomial> = arguments.collect();
+        let mut arguments: Vec<Polynomial> = arguments.collect();
+        if head == Head::Root {
+            arguments.iter_mut().for_each(|argument| self.atoms.complement(argument));
+        }
         Polynomial::atom(self.atoms.of(head, arguments), 1)
     }
 }

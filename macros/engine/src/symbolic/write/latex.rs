@@ -93,13 +93,28 @@ fn parts(text: &str) -> (String, String) {
         Some((first, rest)) => (first, rest),
         None => (stem, ""),
     };
-    let path = path.replace(['[', ']'], "");
+    let path = without_brackets(path);
     let mut index = [path.as_str(), below].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(",");
     // A number stands right behind what it counts: `theta_a1` has the index a1, `legs[2].l1` has legs2,1.
     if !index.is_empty() && below.is_empty() && !number.is_empty() {
         index.push(',');
     }
     (stem.trim_end_matches('_').to_owned(), index + number)
+}
+
+/// `legs[2]` as `legs2`; a letter for the number keeps off the word, `legs i`.
+fn without_brackets(path: &str) -> String {
+    let mut result = String::new();
+    let mut rest = path;
+    while let Some((before, behind)) = rest.split_once('[') {
+        result.push_str(before);
+        if behind.starts_with(char::is_alphabetic) {
+            result.push(' ');
+        }
+        rest = behind;
+    }
+    result.push_str(rest);
+    result.replace(']', "")
 }
 
 fn is_letter(word: &str) -> bool {

@@ -6,7 +6,7 @@
 //! Generated code wants few operations; a reader wants few symbols. So nothing of the optimiser is used: `compose` multiplies
 //! out what stays short, in sums of products of atoms (`polynomial`), where equal terms meet whatever way they came; `sines`
 //! takes products of sines together by the angles of their sums; `arrange` takes common factors out again. What would grow
-//! beyond a line stays whole: it gets a name and an equation of its own. Three bounds on the number of terms are tried, and the
+//! beyond a line stays whole: it gets a name and an equation of its own; `share` names what several formulas have in common. Three bounds on the number of terms are tried, and the
 //! shortest text is taken.
 
 mod arrange;
@@ -16,6 +16,7 @@ pub mod formula;
 pub mod latex;
 pub mod mathml;
 mod polynomial;
+pub mod share;
 mod sines;
 pub mod text;
 
@@ -104,9 +105,13 @@ fn finish(
     taken: &HashSet<String>,
 ) -> Writing {
     let Composer { mut atoms, definitions, .. } = composer;
-    let values: Vec<Polynomial> = values.iter().map(|p| sines::shortened(&mut atoms, p)).collect();
-    let apart: Vec<Option<Polynomial>> =
-        definitions.iter().map(|d| d.value.as_ref().map(|p| sines::shortened(&mut atoms, p))).collect();
+    let mut shortened = |p: &Polynomial| {
+        let mut p = sines::shortened(&mut atoms, p);
+        atoms.complement(&mut p);
+        p
+    };
+    let values: Vec<Polynomial> = values.iter().map(&mut shortened).collect();
+    let apart: Vec<Option<Polynomial>> = definitions.iter().map(|d| d.value.as_ref().map(&mut shortened)).collect();
     let mut readers = vec![None; definitions.len()];
     values.iter().enumerate().for_each(|(reader, p)| mark(&atoms, p, &apart, reader, &mut readers));
     let mut taken = taken.clone();
@@ -159,7 +164,7 @@ fn mark(
 }
 
 /// A name that nothing else has.
-fn vacant(wish: &str, taken: &mut HashSet<String>) -> String {
+pub(crate) fn vacant(wish: &str, taken: &mut HashSet<String>) -> String {
     let stem = wish.trim_end_matches(|c: char| c.is_ascii_digit() || c == '_');
     let mut name = wish.to_owned();
     let mut number = 1;

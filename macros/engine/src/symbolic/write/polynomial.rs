@@ -228,6 +228,29 @@ impl Atoms {
         self.applied.get(&key).copied()
     }
 
+    /// c x cos^2 - c x = -c x sin^2, and the same of the sine, wherever two terms are one then.
+    pub(super) fn complement(&mut self, p: &mut Polynomial) {
+        loop {
+            let found = p.terms.iter().find_map(|(monomial, &c)| {
+                monomial.iter().filter(|factor| factor.1 >= 2).find_map(|&(atom, _)| {
+                    let (head, angle) = match self.get(atom) {
+                        Atom::Of(Head::Sine, angle) => (Head::Cosine, angle),
+                        Atom::Of(Head::Cosine, angle) => (Head::Sine, angle),
+                        _ => return None,
+                    };
+                    let base = times(monomial, &vec![(atom, -2)]);
+                    let d = *p.terms.get(&base)?;
+                    (d == -c).then(|| (monomial.clone(), base, head, angle.clone(), c))
+                })
+            });
+            let Some((monomial, base, head, angle, c)) = found else { return };
+            let partner = self.of(head, angle);
+            p.terms.remove(&monomial);
+            p.terms.remove(&base);
+            p.add_term(times(&base, &vec![(partner, 2)]), -c);
+        }
+    }
+
     /// c x sin^2 + c x cos^2 = c x, wherever that takes two terms together.
     pub(super) fn meet(&self, p: &mut Polynomial) {
         loop {

@@ -1,0 +1,93 @@
+//! Equations of identical parts stand once on a page: with each number put in again they are the lines that were there.
+
+use multibody_engine::mechanics;
+use multibody_engine::mechanics::freedoms;
+use multibody_engine::mechanics::written::Page;
+use multibody_engine::symbolic::write::formula::Equation;
+use multibody_engine::symbolic::write::{latex, mathml, text};
+
+use crate::corpus;
+
+/// Larger models are left out.
+const MOST_FREEDOMS: usize = 30;
+
+fn pages() -> Vec<(String, Page)> {
+    let mut pages = Vec::new();
+    for (file, call) in corpus::calls() {
+        for model in corpus::models(call) {
+            // Of models without arrays of parts no line is alike another.
+            let has_arrays = model.instances.iter().any(|instance| instance.index.is_some());
+            if !has_arrays || freedoms(&model) > MOST_FREEDOMS {
+                continue;
+            }
+            if let Ok(structure) = mechanics::analysis::analyse(&model)
+                && let Ok(page) = mechanics::page(&model, &structure)
+            {
+                pages.push((format!("{file}: {}", model.name), page));
+            }
+        }
+    }
+    pages
+}
+
+#[test]
+fn folded_lines_are_the_lines() {
+    let mut with_index = 0;
+    for (label, page) in pages() {
+        for section in &page.sections {
+            let line =
+                |equation: &Equation| [text::equation(equation), latex::equation(equation), mathml::equation(equation)];
+            let mut all: Vec<String> = section.lines.iter().map(|line| text::equation(&line.equation)).collect();
+            let mut found = Vec::new();
+            for folded in page.folded(section) {
+                let Some((letter, numbers)) = &folded.index else {
+                    found.push(text::equation(&folded.line.equation));
+                    continue;
+                };
+                with_index += 1;
+                assert!(numbers.len() > 1, "{label}");
+                // What is printed has nothing but the letter in place of the number.
+                let printed = text::equation(&folded.line.equation);
+                found.extend(numbers.iter().map(|k| printed.replace(&format!("[{letter}]"), &format!("[{k}]"))));
+                let says = folded.line.says.as_deref().unwrap_or_default();
+                assert!(says.starts_with(&format!("for `{letter}` = {}", numbers[0])), "{label}: {says}");
+                assert!(line(&folded.line.equation).iter().all(|form| form.contains(letter.as_str())), "{label}");
+            }
+            all.sort();
+            found.sort();
+            assert_eq!(all, found, "{label}, {}", section.title);
+        }
+    }
+    assert!(with_index > 20, "{with_index}");
+}
+
+/// Springs between masses in a row: equations of each alike, but for those at the ends.
+#[test]
+fn a_folded_line_says_for_which_parts_it_holds() {
+    let model = corpus::model(
+        "mod pendulum {
+            port top: Frame;
+            param m = 1.0;
+            param l = 1.0;
+            body bob { mass: m, com: -l * Y }
+            joint phi: Revolute { parent: top, child: bob, axis: Z }
+            force friction: Damper { joint: phi, damping: 0.1 }
+        }
+        pub mod row {
+            param g = 9.81;
+            world { gravity: -g * Y }
+            part rods: [pendulum; 4] = |i| pendulum { top: ground.at([0.0, 0.0, 0.3 * i]) };
+            emit forward_dynamics;
+        }",
+    );
+    let structure = mechanics::analysis::analyse(&model).ok().unwrap();
+    let page = mechanics::page(&model, &structure).ok().unwrap();
+    let motion = page.sections.iter().find(|section| section.title == "Equations of motion").unwrap();
+    let found: Vec<String> = page.folded(motion).iter().map(|folded| folded.text()).collect();
+    assert_eq!(
+        found,
+        [
+            "rods[i].m rods[i].l² rods[i].phi¨ + g rods[i].m rods[i].l sin(rods[i].phi) = -0.1 rods[i].phi˙    (for i = 0 to 3)"
+        ]
+    );
+}
