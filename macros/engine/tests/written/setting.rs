@@ -82,6 +82,36 @@ fn names_are_told_apart() {
     assert_eq!((latex::name(sine), mathml::name(sine)), ("\\mathtt{arcsin}".into(), "<mtext>arcsin</mtext>".into()));
 }
 
+/// A vector of the user's with the name of a term, whose component is named as a coordinate is.
+#[test]
+fn letters_of_terms_keep_off_names_of_users() {
+    let model = corpus::model(
+        "pub mod letters {
+            param c: Vec3 = [0.1, 0.2, 0.3];
+            param r#g: [Scalar; 2] = [1.0, 2.0];
+            world { gravity: -9.81 * Y }
+            body block { mass: r#g[0], com: c }
+            joint x: Prismatic { parent: ground, child: block, axis: X }
+            joint y: Revolute { parent: block, child: arm, axis: Z }
+            body arm { mass: r#g[1], com: c }
+            emit forward_dynamics;
+        }",
+    );
+    let structure = mechanics::analysis::analyse(&model).ok().unwrap();
+    let page = mechanics::page(&model, &structure).ok().unwrap();
+    let lefts = page.sections.iter().flat_map(|section| &section.lines).filter_map(|line| match &line.equation.left {
+        Formula::Name(name) => Some(text::name(name)),
+        _ => None,
+    });
+    let lefts: Vec<String> = lefts.collect();
+    let own: BTreeSet<String> = page.symbols.iter().map(|(name, _)| text::name(name)).collect();
+    assert!(own.contains("c[x]") && own.contains("g[1]"), "{own:?}");
+    assert!(lefts.contains(&"c_1[x]".to_owned()) && lefts.contains(&"g_1[y]".to_owned()), "{lefts:?}");
+    assert!(lefts.iter().all(|left| !own.contains(left)), "{lefts:?}");
+    let says: Vec<&String> = page.sections.iter().flat_map(|section| &section.says).collect();
+    assert!(says.iter().any(|says| says.ends_with("M a + c_1 + g_1 = Q.")), "{says:?}");
+}
+
 /// One name in each of the three ways.
 #[test]
 fn names() {

@@ -10,6 +10,7 @@
 mod apart;
 mod domains;
 pub mod folded;
+mod letters;
 pub mod names;
 mod rows;
 mod sections;

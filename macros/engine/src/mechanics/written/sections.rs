@@ -54,6 +54,7 @@ impl Equations<'_> {
         writer.constraints(self);
         writer.motion(self, &following);
         writer.own(self, &reduction, &following);
+        writer.page.keep_letters_apart();
         writer.page.tell_apart();
         Ok(writer.page)
     }
