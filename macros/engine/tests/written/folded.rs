@@ -9,7 +9,7 @@ use multibody_engine::symbolic::write::{latex, mathml, text};
 use crate::corpus;
 
 /// Larger models are left out.
-const MOST_FREEDOMS: usize = 30;
+const MOST_FREEDOMS: usize = 12;
 
 fn pages() -> Vec<(String, Page)> {
     let mut pages = Vec::new();

@@ -112,6 +112,55 @@ fn letters_of_terms_keep_off_names_of_users() {
     assert!(says.iter().any(|says| says.ends_with("M a + c_1 + g_1 = Q.")), "{says:?}");
 }
 
+/// What has no formula is said to be solved for: a system of four unknowns, and a loop that iterates.
+#[test]
+fn what_is_solved_in_numbers_is_said() {
+    let said = |text: &str| -> (String, Vec<String>) {
+        let model = corpus::model(text);
+        let structure = mechanics::analysis::analyse(&model).ok().unwrap();
+        let page = mechanics::page(&model, &structure).ok().unwrap();
+        let says: Vec<String> = page.sections.iter().flat_map(|section| section.says.clone()).collect();
+        let lines = page.sections.iter().flat_map(|section| &section.lines);
+        (says.join(" "), lines.map(|line| text::equation(&line.equation)).collect())
+    };
+    let (says, _) = said(
+        "pub mod system {
+            param k = 2.0;
+            body arm { mass: 1.0, com: X }
+            joint q: Revolute { parent: ground, child: arm, axis: Z }
+            solve (a, b, c, d) from [
+                k * a + b == q.angle, a - b + c == 1.0, b + 3.0 * c - d == 0.0, a + d * cos(q.angle) == 2.0,
+            ];
+            output first = a;
+            emit forward_dynamics;
+        }",
+    );
+    assert!(says.contains("Solved for, without a formula, by elimination with pivots: `first`."), "{says}");
+    let (says, lines) = said(
+        "pub mod iterated {
+            body crank { mass: 1.0, com: 0.5 * X }
+            body coupler { mass: 3.5, com: 1.75 * X }
+            body rocker { mass: 3.0, com: 1.5 * X }
+            joint theta: Revolute { parent: ground, child: crank, axis: Z }
+            joint knee: Revolute { parent: crank.at(X), child: coupler, axis: Z }
+            joint psi: Revolute { parent: ground.at(4.0 * X), child: rocker, axis: Z }
+            #[cut]
+            joint pin: Revolute { parent: coupler.at(3.5 * X), child: rocker.at(3.0 * X), axis: Z }
+            formulation { constraints: Reduced, independent: [theta] }
+            emit forward_dynamics;
+        }",
+    );
+    assert!(says.contains("Newton's method finds `knee`, `psi`: with them `Phi` of their loops is zero"), "{says}");
+    let zeros: Vec<&String> = lines.iter().filter(|line| line.starts_with("Phi[")).collect();
+    assert_eq!(
+        zeros,
+        [
+            "Phi[pin.x] = 4 + 3 cos(psi) - 7 cos(theta + knee) / 2 - cos(theta)",
+            "Phi[pin.y] = 3 sin(psi) - 7 sin(theta + knee) / 2 - sin(theta)",
+        ]
+    );
+}
+
 /// One name in each of the three ways.
 #[test]
 fn names() {

@@ -182,6 +182,7 @@ impl Sections {
         let lines = self.lines(e, drafts);
         self.section("States", Vec::new(), lines);
         let mut drafts = Vec::new();
+        let mut solved = Vec::new();
         let mut place = 0;
         for output in &model.outputs {
             let value = e.value(&output.value);
@@ -196,12 +197,19 @@ impl Sections {
                     drafts.push(Draft::new(Subject::Output(place + k), left, value));
                 }
             }
+            if flat.iter().any(|&value| has_block(&e.g, value)) {
+                solved.push(format!("`{}`", path(model, &output.place)));
+            }
             place += flat.len();
         }
+        let says = match solved.is_empty() {
+            true => Vec::new(),
+            false => vec![format!("Solved for, without a formula, by elimination with pivots: {}.", solved.join(", "))],
+        };
         let read: Vec<Scalar> = drafts.iter().map(|draft| draft.value).collect();
         drafts.splice(0..0, self.accelerations(e, reduction, motion, &read));
         let lines = self.lines(e, drafts);
-        self.section("Outputs", Vec::new(), lines);
+        self.section("Outputs", says, lines);
     }
 
     /// Coordinates that follow from others: positions, rates, accelerations.
@@ -217,7 +225,8 @@ impl Sections {
                     .map(|&unknown| format!("`{}`", coordinate_name(e.scene.model, unknown)))
                     .collect();
                 says.push(format!(
-                    "Newton's method finds {}: with them `Phi` of their loops is zero.",
+                    "Newton's method finds {}: with them `Phi` of their loops is zero, and the derivatives of `Phi` by them are the \
+                     matrix of the linear systems that give their rates and accelerations.",
                     names.join(", ")
                 ));
                 for &row in rows {
