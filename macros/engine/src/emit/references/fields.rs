@@ -28,6 +28,11 @@ pub fn fields(references: &References, model: &Model, structure: &Structure) -> 
             }
         })
         .collect();
+    // What names of each module are used by this model and its parts.
+    let mut used: HashMap<usize, Vec<(&Ident, String)>> = HashMap::new();
+    for (module, _) in references.modules.iter().zip(&owners).filter(|(_, owner)| owner.is_some()) {
+        each_name(&module.uses, &mut |module, name| used.entry(module).or_default().push((name, name.to_string())));
+    }
     let mut structs: Vec<(StructKind, Owner, TokenStream)> = Vec::new();
     for (index, owner) in owners.iter().enumerate() {
         let Some(owner) = *owner else { continue };
@@ -39,15 +44,12 @@ pub fn fields(references: &References, model: &Model, structure: &Structure) -> 
             let found = fields.into_iter().filter(|field| named.contains(&field.name.to_string()));
             let found: HashMap<String, Ident> = found.map(|field| (field.name.to_string(), field.name)).collect();
             let mut statements = TokenStream::new();
-            let used = references.modules.iter().zip(&owners).filter(|(_, owner)| owner.is_some());
-            for (module, _) in used {
-                each_name(&module.uses, &mut |module, name| {
-                    if let (true, Some(field)) = (module == index, found.get(&name.to_string())) {
-                        let mut field = field.clone();
-                        field.set_span(names::field(name).span());
-                        statements.extend(quote!(let _ = all.#field;));
-                    }
-                });
+            for (name, text) in used.get(&index).into_iter().flatten() {
+                if let Some(field) = found.get(text) {
+                    let mut field = field.clone();
+                    field.set_span(names::field(name).span());
+                    statements.extend(quote!(let _ = all.#field;));
+                }
             }
             if !statements.is_empty() {
                 structs.push((group, owner, statements));
@@ -88,7 +90,7 @@ fn holds(group: StructKind, declared: &Declared) -> bool {
 }
 
 /// Calls `f` with each use of a module's name.
-fn each_name(uses: &[Use], f: &mut impl FnMut(usize, &Ident)) {
+fn each_name<'a>(uses: &'a [Use], f: &mut impl FnMut(usize, &'a Ident)) {
     for used in uses {
         match used {
             Use::Name { module, name, is_known: true } => f(*module, name),

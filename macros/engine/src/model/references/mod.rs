@@ -7,6 +7,8 @@
 mod walk;
 pub mod words;
 
+use std::collections::HashSet;
+
 use proc_macro2::Ident;
 use syn::Path;
 
@@ -61,10 +63,9 @@ pub enum Use {
 pub fn of(source: &tree::Source) -> References {
     let declared = |module: &tree::Module| {
         let mut list: Vec<Declared> = walk::declared(module);
-        for k in 1..list.len() {
-            let (before, rest) = list.split_at_mut(k);
-            let Some(last) = rest.first_mut() else { continue };
-            last.hidden = before.iter().any(|earlier| earlier.name == last.name);
+        let mut before = HashSet::new();
+        for declared in &mut list {
+            declared.hidden = !before.insert(declared.name.to_string());
         }
         list
     };
@@ -79,8 +80,11 @@ pub fn of(source: &tree::Source) -> References {
             uses: Vec::new(),
         })
         .collect();
-    for index in 0..modules.len() {
-        modules[index].uses = walk::uses(source, &modules, index);
+    // A compiler's identifiers are compared by asking it for their texts, so texts are what is looked up.
+    let known = walk::Known::new(source, &modules);
+    let uses: Vec<Vec<Use>> = (0..modules.len()).map(|index| walk::uses(source, &known, index)).collect();
+    for (module, uses) in modules.iter_mut().zip(uses) {
+        module.uses = uses;
     }
     References { krate: source.krate.clone().unwrap_or_else(assemble::runtime), modules }
 }

@@ -4,6 +4,8 @@
 //! decided as `model/expressions` decides it: an index hides what has its name, then come values of the language, the module's own names, and
 //! outputs last; behind a part, or an array of them, stand names of the part's module.
 
+use std::collections::HashMap;
+
 use proc_macro2::{Ident, Span};
 use syn::{Expr, Member, Type};
 
@@ -65,9 +67,83 @@ pub(super) fn declared(module: &tree::Module) -> Vec<Declared> {
     names
 }
 
+/// What is looked up, by text.
+pub(super) struct Known<'a> {
+    /// The first module of each name, and whether it is a part.
+    modules: HashMap<String, (usize, bool)>,
+    /// The names of each module, with the items that may stand for parts.
+    names: Vec<HashMap<String, Option<&'a ItemKind>>>,
+}
+
+impl<'a> Known<'a> {
+    pub(super) fn new(source: &'a tree::Source, modules: &[Module]) -> Self {
+        let mut known = Known { modules: HashMap::new(), names: Vec::new() };
+        for (index, (module, tree)) in modules.iter().zip(&source.modules).enumerate() {
+            known.modules.entry(module.name.to_string()).or_insert((index, module.is_part));
+            let declared = module.declared.iter().map(|declared| (declared.name.to_string(), None));
+            let mut names: HashMap<String, Option<&ItemKind>> = declared.collect();
+            for item in &tree.items {
+                let name = match &item.kind {
+                    ItemKind::Part(part) => &part.name,
+                    ItemKind::Let(value) => &value.name,
+                    _ => continue,
+                };
+                names.entry(name.to_string()).or_default().get_or_insert(&item.kind);
+            }
+            names.retain(|name, _| !VALUES.contains(&name.as_str()));
+            known.names.push(names);
+        }
+        known
+    }
+
+    fn is_declared(&self, module: usize, name: &str) -> bool {
+        self.names.get(module).is_some_and(|names| names.contains_key(name))
+    }
+
+    fn part(&self, kind: &Ident) -> Option<usize> {
+        let (index, is_part) = self.modules.get(&kind.to_string())?;
+        is_part.then_some(*index)
+    }
+
+    /// The model that a function's name stands for, if it is none of the language.
+    fn model(&self, name: &Ident) -> Option<usize> {
+        let text = name.to_string();
+        let own = FUNCTIONS.iter().map(|function| function.0).chain(SPECIAL_FUNCTIONS).chain(CONSTRUCTORS);
+        if own.chain(MANIPULATIONS).any(|known| known == text) {
+            return None;
+        }
+        self.modules.get(&text).map(|module| module.0)
+    }
+
+    /// The module of the part, or of the array of parts, that an expression in `module` means.
+    fn part_in(&self, module: usize, expr: &Expr, steps: usize) -> Option<usize> {
+        let steps = steps.checked_sub(1)?;
+        match expr {
+            Expr::Paren(inner) => self.part_in(module, &inner.expr, steps),
+            Expr::Group(inner) => self.part_in(module, &inner.expr, steps),
+            Expr::Index(index) => self.part_in(module, &index.expr, steps),
+            Expr::Field(field) => {
+                let Member::Named(name) = &field.member else { return None };
+                let inner = self.part_in(module, &field.base, steps)?;
+                self.part_named(inner, name, steps)
+            }
+            other => self.part_named(module, single(other)?, steps),
+        }
+    }
+
+    /// The module of the part that a name of `module` stands for, itself or by a `let`.
+    fn part_named(&self, module: usize, name: &Ident, steps: usize) -> Option<usize> {
+        match self.names.get(module)?.get(&name.to_string())? {
+            Some(ItemKind::Part(part)) => self.part(&part.kind),
+            Some(ItemKind::Let(value)) => self.part_in(module, value.value.as_ref()?, steps),
+            _ => None,
+        }
+    }
+}
+
 /// All uses in a module.
-pub(super) fn uses(source: &tree::Source, modules: &[Module], index: usize) -> Vec<Use> {
-    let mut walk = Walk { source, modules, module: index, index: None, uses: Vec::new() };
+pub(super) fn uses(source: &tree::Source, known: &Known<'_>, index: usize) -> Vec<Use> {
+    let mut walk = Walk { known, module: index, index: None, uses: Vec::new() };
     for item in source.modules.get(index).map_or(&[][..], |module| &module.items) {
         walk.item(item);
     }
@@ -75,8 +151,7 @@ pub(super) fn uses(source: &tree::Source, modules: &[Module], index: usize) -> V
 }
 
 struct Walk<'a> {
-    source: &'a tree::Source,
-    modules: &'a [Module],
+    known: &'a Known<'a>,
     module: usize,
     /// `|i|` of the part whose fields are read.
     index: Option<&'a Ident>,
@@ -181,9 +256,9 @@ impl<'a> Walk<'a> {
     }
 
     fn part(&mut self, part: &'a tree::Part) {
-        let module = self.module_named(&part.kind);
+        let module = self.known.part(&part.kind);
         for kind in [Some(&part.kind), part.again.as_ref()].into_iter().flatten().filter(|kind| **kind != UNREADABLE) {
-            self.uses.push(Use::Module { name: kind.clone(), is_known: self.module_named(kind).is_some() });
+            self.uses.push(Use::Module { name: kind.clone(), is_known: self.known.part(kind).is_some() });
         }
         part.count.iter().for_each(|count| self.expr(count));
         if let Some(module) = module {
@@ -244,7 +319,9 @@ impl<'a> Walk<'a> {
             }
             Expr::Field(field) => {
                 self.expr(&field.base);
-                if let (Member::Named(name), Some(module)) = (&field.member, self.part_of(&field.base)) {
+                if let (Member::Named(name), Some(module)) =
+                    (&field.member, self.known.part_in(self.module, &field.base, MOST_STEPS))
+                {
                     self.name(module, name);
                 }
             }
@@ -263,7 +340,7 @@ impl<'a> Walk<'a> {
     /// What is called is a function of the language, or another model: what it is asked for, and variables that are given, are names of
     /// that model.
     fn call(&mut self, call: &'a syn::ExprCall) {
-        let Some((name, model)) = single(&call.func).and_then(|name| Some((name, self.model_called(name)?))) else {
+        let Some((name, model)) = single(&call.func).and_then(|name| Some((name, self.known.model(name)?))) else {
             return self.all(&call.args);
         };
         self.uses.push(Use::Module { name: name.clone(), is_known: true });
@@ -288,67 +365,19 @@ impl<'a> Walk<'a> {
         self.index = index;
     }
 
-    /// The model that a function's name stands for, if it is none of the language.
-    fn model_called(&self, name: &Ident) -> Option<usize> {
-        let text = name.to_string();
-        let own = FUNCTIONS.iter().map(|function| function.0).chain(SPECIAL_FUNCTIONS).chain(CONSTRUCTORS);
-        if own.chain(MANIPULATIONS).any(|known| known == text) {
-            return None;
-        }
-        self.modules.iter().position(|module| module.name == *name)
-    }
-
     fn path(&mut self, expr: &Expr) {
         let Some(name) = single(expr) else { return };
         let text = name.to_string();
         if self.index == Some(name) {
             self.uses.push(Use::Counter(name.clone()));
-        } else if self.is_declared(self.module, name) || !is_of_the_language(&text) {
+        } else if self.known.is_declared(self.module, &text) || !is_of_the_language(&text) {
             self.name(self.module, name);
         }
     }
 
     fn name(&mut self, module: usize, name: &Ident) {
-        self.uses.push(Use::Name { module, name: name.clone(), is_known: self.is_declared(module, name) });
-    }
-
-    fn is_declared(&self, module: usize, name: &Ident) -> bool {
-        let mut declared = self.modules.get(module).into_iter().flat_map(|module| &module.declared);
-        !VALUES.contains(&name.to_string().as_str()) && declared.any(|declared| declared.name == *name)
-    }
-
-    fn module_named(&self, kind: &Ident) -> Option<usize> {
-        self.modules.iter().position(|module| module.is_part && module.name == *kind)
-    }
-
-    /// The module of the part, or of the array of parts, that an expression means.
-    fn part_of(&self, expr: &Expr) -> Option<usize> {
-        self.part_in(self.module, expr, MOST_STEPS)
-    }
-
-    fn part_in(&self, module: usize, expr: &Expr, steps: usize) -> Option<usize> {
-        let steps = steps.checked_sub(1)?;
-        match expr {
-            Expr::Paren(inner) => self.part_in(module, &inner.expr, steps),
-            Expr::Group(inner) => self.part_in(module, &inner.expr, steps),
-            Expr::Index(index) => self.part_in(module, &index.expr, steps),
-            Expr::Field(field) => {
-                let Member::Named(name) = &field.member else { return None };
-                let inner = self.part_in(module, &field.base, steps)?;
-                self.part_named(inner, name, steps)
-            }
-            other => self.part_named(module, single(other)?, steps),
-        }
-    }
-
-    /// The module of the part that a name of `module` stands for, itself or by a `let`.
-    fn part_named(&self, module: usize, name: &Ident, steps: usize) -> Option<usize> {
-        let items = &self.source.modules.get(module)?.items;
-        items.iter().find_map(|item| match &item.kind {
-            ItemKind::Part(part) if part.name == *name => self.module_named(&part.kind),
-            ItemKind::Let(value) if value.name == *name => self.part_in(module, value.value.as_ref()?, steps),
-            _ => None,
-        })
+        let is_known = self.known.is_declared(module, &name.to_string());
+        self.uses.push(Use::Name { module, name: name.clone(), is_known });
     }
 }
 
