@@ -102,7 +102,9 @@ pub(super) fn of_function(layout: &Layout<'_>, kind: FunctionKind) -> Vec<String
         FunctionKind::Outputs => matches!(subject, Subject::Output(_)),
         _ => false,
     };
-    let lines = page.sections.iter().flat_map(|section| page.folded(section));
+    // Sections that say nothing of it are not folded.
+    let sections = page.sections.iter().filter(|section| section.lines.iter().any(|line| wanted(line.subject)));
+    let lines = sections.flat_map(|section| page.folded(section));
     let lines = lines.filter(|folded| wanted(folded.line.subject));
     let lines: Vec<String> = lines.map(|folded| folded.text()).collect();
     let long = lines.len() > MOST_LINES || lines.iter().any(|line| line.chars().count() > MOST_CHARACTERS);
