@@ -1,9 +1,11 @@
 //! Equations of identical parts stand once on a page: with each number put in again they are the lines that were there.
 
+use std::collections::{HashMap, HashSet};
+
 use multibody_engine::mechanics;
 use multibody_engine::mechanics::freedoms;
-use multibody_engine::mechanics::written::Page;
-use multibody_engine::symbolic::write::formula::Equation;
+use multibody_engine::mechanics::written::{Page, Section};
+use multibody_engine::symbolic::write::formula::{Equation, Formula};
 use multibody_engine::symbolic::write::{latex, mathml, text};
 
 use crate::corpus;
@@ -30,6 +32,51 @@ fn pages() -> Vec<(String, Page)> {
     pages
 }
 
+fn each_name(formula: &Formula, visit: &mut dyn FnMut(String)) {
+    if let Formula::Name(name) = formula {
+        visit(text::name(name));
+    }
+    formula.each_part(&mut |part| each_name(part, visit));
+}
+
+/// Definitions that a line reads before they are told, of lines with all that each stands for.
+fn late(lines: &[Vec<(String, &Equation)>]) -> Vec<String> {
+    let all: HashSet<&String> = lines.iter().flatten().map(|line| &line.0).collect();
+    let (mut told, mut late) = (HashSet::new(), Vec::new());
+    for lines in lines {
+        for (_, equation) in lines {
+            each_name(&equation.right, &mut |name| {
+                if all.contains(&name) && !told.contains(&name) {
+                    late.push(name);
+                }
+            });
+        }
+        told.extend(lines.iter().map(|line| line.0.clone()));
+    }
+    late
+}
+
+fn told_late_as_they_are(section: &Section) -> Vec<String> {
+    let lines = section.lines.iter().map(|line| vec![(text::formula(&line.equation.left), &line.equation)]);
+    late(&lines.collect::<Vec<_>>())
+}
+
+fn told_late(page: &Page, section: &Section) -> Vec<String> {
+    let by_left: HashMap<String, &Equation> =
+        section.lines.iter().map(|line| (text::formula(&line.equation.left), &line.equation)).collect();
+    let folded = page.folded(section).into_iter().map(|folded| {
+        let left = text::formula(&folded.line.equation.left);
+        let lefts = match &folded.index {
+            Some((letter, numbers)) => {
+                numbers.iter().map(|k| left.replace(&format!("[{letter}]"), &format!("[{k}]"))).collect()
+            }
+            None => vec![left],
+        };
+        lefts.into_iter().map(|left| (left.clone(), by_left[&left])).collect()
+    });
+    late(&folded.collect::<Vec<_>>())
+}
+
 #[test]
 fn folded_lines_are_the_lines() {
     let mut with_index = 0;
@@ -53,6 +100,7 @@ fn folded_lines_are_the_lines() {
                 assert!(says.starts_with(&format!("for `{letter}` = {}", numbers[0])), "{label}: {says}");
                 assert!(line(&folded.line.equation).iter().all(|form| form.contains(letter.as_str())), "{label}");
             }
+            assert_eq!(told_late(&page, section), told_late_as_they_are(section), "{label}, {}", section.title);
             all.sort();
             found.sort();
             assert_eq!(all, found, "{label}, {}", section.title);

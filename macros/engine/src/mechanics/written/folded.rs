@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::symbolic::write::formula::{Equation, Identifier};
+use crate::symbolic::write::formula::{Equation, Formula, Identifier};
 use crate::symbolic::write::text;
 
 use super::{Line, Page, Section};
@@ -54,7 +54,7 @@ impl Page {
         LETTERS.into_iter().find(|letter| !names.contains(*letter))
     }
 
-    /// The lines of a section with those that are alike once, where the last of them stood: behind all that any of them reads.
+    /// The lines of a section with those that are alike once, each behind what it reads.
     pub fn folded(&self, section: &Section) -> Vec<Folded> {
         let alone = |line: &Line| Folded { line: line.clone(), index: None };
         let Some(letter) = self.letter() else { return section.lines.iter().map(alone).collect() };
@@ -72,22 +72,70 @@ impl Page {
         let is_whole = |opened: &Opened, members: &[usize]| {
             members.len() > 1 && members.len() == elements[opened.array.as_str()].len()
         };
-        let mut folded = Vec::new();
+        // What is shown, and the lines that it stands for.
+        let mut shown: Vec<(Vec<usize>, Folded)> = Vec::new();
         for (at, line) in section.lines.iter().enumerate() {
             let members = opened[at].as_ref().map_or(&[][..], |opened| &alike[opened.key.as_str()]);
             match &opened[at] {
                 Some(one) if is_whole(one, members) => {
-                    if members.last() == Some(&at) {
+                    if members.first() == Some(&at) {
                         let numbers: Vec<usize> =
                             members.iter().filter_map(|&at| opened[at].as_ref()).map(|opened| opened.number).collect();
-                        folded.push(one.said_for(letter, numbers));
+                        shown.push((members.to_vec(), one.said_for(letter, numbers)));
                     }
                 }
-                _ => folded.push(alone(line)),
+                _ => shown.push((vec![at], alone(line))),
             }
         }
-        folded
+        in_order(shown, &section.lines)
     }
+}
+
+/// Each as early as it can stand behind what any of its lines reads.
+fn in_order(shown: Vec<(Vec<usize>, Folded)>, lines: &[Line]) -> Vec<Folded> {
+    if shown.len() == lines.len() {
+        return shown.into_iter().map(|entry| entry.1).collect();
+    }
+    let mut tells: BTreeMap<&Identifier, usize> = BTreeMap::new();
+    for (entry, (members, _)) in shown.iter().enumerate() {
+        for &at in members {
+            let left = &lines[at].equation.left;
+            let name = match left {
+                Formula::Apply(_, angle) => angle.first(),
+                other => Some(other),
+            };
+            if let Some(Formula::Name(name)) = name {
+                tells.insert(name, entry);
+            }
+        }
+    }
+    let needs: Vec<BTreeSet<usize>> = shown
+        .iter()
+        .enumerate()
+        .map(|(entry, (members, _))| {
+            let mut needs = BTreeSet::new();
+            for &at in members {
+                each_name(&lines[at].equation.right, &mut |name| needs.extend(tells.get(name)));
+            }
+            needs.remove(&entry);
+            needs
+        })
+        .collect();
+    let mut left: BTreeMap<usize, Folded> = shown.into_iter().map(|entry| entry.1).enumerate().collect();
+    let mut ordered = Vec::with_capacity(left.len());
+    while let Some((&first, _)) = left.first_key_value() {
+        // Where two read each other, the first stands first.
+        let ready = left.keys().copied().find(|&entry| needs[entry].iter().all(|need| !left.contains_key(need)));
+        ordered.extend(left.remove(&ready.unwrap_or(first)));
+    }
+    ordered
+}
+
+fn each_name<'f>(formula: &'f Formula, visit: &mut dyn FnMut(&'f Identifier)) {
+    if let Formula::Name(name) = formula {
+        visit(name);
+    }
+    formula.each_part(&mut |part| each_name(part, visit));
 }
 
 /// A line with a letter for its number.
