@@ -205,6 +205,9 @@ fn choices_are_compared() {
         "\n  recommended: coordinates Joint, as it is written\n    since forward_dynamics takes least work, 37; next"
     ));
     assert!(output.contains("\n  recommended: coordinates Joint, constraints Reduced, as it is written\n"), "{output}");
+    let next =
+        "Multipliers with 1.75 times as much (52 percent of its work in linear systems, the largest of 2 unknowns)\n";
+    assert!(output.contains(next), "{output}");
     // The counts are those of the model as it is written.
     let row = cells(&output).into_iter().find(|row| row[..2] == ["Joint*", "Reduced"]).unwrap();
     assert_eq!(row[5..12], ["35", "63", "2", "1", "1", "2", "195"]);

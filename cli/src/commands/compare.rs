@@ -41,6 +41,8 @@ struct Figures {
     cost: Cost,
     /// The same weighted, iterations with all their rounds.
     work: u32,
+    /// What a good part of it goes into.
+    burden: Option<String>,
     /// Of the other functions that the model asks for.
     others: Vec<(String, u32)>,
     has_dead_centres: bool,
@@ -185,19 +187,20 @@ fn figures(call: &Call, name: &str, choice: Choice, extent: Extent) -> Result<Fi
     let mut others = Vec::new();
     let mut forward = None;
     for function in asked {
-        let work = Effort::of(function).work();
+        let effort = Effort::of(function);
+        let work = effort.work();
         match function.kind {
-            FunctionKind::ForwardDynamics => forward = Some((function.after, work)),
+            FunctionKind::ForwardDynamics => forward = Some((function.after, work, effort.burden())),
             kind => others.push((emit::function_name(kind).into_owned(), work)),
         }
     }
-    let (cost, work) = forward.ok_or("it has no forward dynamics")?;
+    let (cost, work, burden) = forward.ok_or("it has no forward dynamics")?;
     let has_dead_centres = !structure.dead_centres.is_empty();
     let (state, multipliers) = (structure.state.len(), structure.rows.len());
     let functions: Vec<String> = others.iter().map(|(name, _)| name.clone()).chain([JUDGED.to_owned()]).collect();
     let code = extent.measure.then(|| Code::new(model, &structure, &compiled, &functions)).transpose()?;
     let times = Times::new();
-    Ok(Figures { state, multipliers, cost, work, others, has_dead_centres, derived, code, times })
+    Ok(Figures { state, multipliers, cost, work, burden, others, has_dead_centres, derived, code, times })
 }
 
 fn first(diagnostics: &Diagnostics) -> String {

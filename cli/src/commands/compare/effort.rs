@@ -33,6 +33,8 @@ pub(super) struct Effort {
     straight: Cost,
     /// Pivoted solutions of linear systems: size, whether they are symmetric, how many.
     systems: Vec<(usize, bool, u32)>,
+    /// Of `straight` what rounds of iterations are beyond the first.
+    rounds: Cost,
 }
 
 impl Effort {
@@ -42,6 +44,7 @@ impl Effort {
         // What was added are rounds beyond the first: the count has this one, with the work of systems.
         let systems = effort.systems.iter().map(|&(size, symmetric, _)| of_system(size, symmetric));
         let systems = systems.fold(Cost::default(), Cost::plus);
+        effort.rounds = effort.straight;
         effort.straight = less(function.after.plus(effort.straight), systems);
         effort
     }
@@ -73,14 +76,35 @@ impl Effort {
 
     /// One number by which choices are compared: about eight to the nanosecond.
     pub(super) fn work(&self) -> u32 {
-        let Cost { add, mul, div, sqrt, sincos, compare, other } = self.straight;
-        let weighed =
-            [(add, SHORT), (mul, SHORT), (compare, SHORT), (div, LONG), (sqrt, LONG), (sincos, SINES), (other, CALL)];
-        let straight = weighed.into_iter().map(|(count, weight)| count.saturating_mul(weight));
+        weighed(self.straight).saturating_add(self.in_systems())
+    }
+
+    fn in_systems(&self) -> u32 {
         let systems =
             self.systems.iter().map(|&(size, symmetric, times)| times.saturating_mul(system(size, symmetric)));
-        straight.chain(systems).fold(0, u32::saturating_add)
+        systems.fold(0, u32::saturating_add)
     }
+
+    /// What the structure of the equations makes dear, where that is a quarter of the work or more.
+    pub(super) fn burden(&self) -> Option<String> {
+        let share = |part: u32| 100.0 * f64::from(part) / f64::from(self.work().max(1));
+        let (systems, rounds) = (share(self.in_systems()), share(weighed(self.rounds)));
+        let largest = self.systems.iter().map(|(size, ..)| *size).max().unwrap_or(0);
+        if rounds.max(systems) < 25.0 {
+            return None;
+        }
+        Some(match rounds > systems {
+            true => format!("{rounds:.0} percent of its work in the rounds of Newton's method"),
+            false => format!("{systems:.0} percent of its work in linear systems, the largest of {largest} unknowns"),
+        })
+    }
+}
+
+fn weighed(cost: Cost) -> u32 {
+    let Cost { add, mul, div, sqrt, sincos, compare, other } = cost;
+    let weighed =
+        [(add, SHORT), (mul, SHORT), (compare, SHORT), (div, LONG), (sqrt, LONG), (sincos, SINES), (other, CALL)];
+    weighed.into_iter().map(|(count, weight)| count.saturating_mul(weight)).fold(0, u32::saturating_add)
 }
 
 /// A pivoted solution.

@@ -155,10 +155,11 @@ fn choose<'a>(
     let reason = match list.iter().find(|other| other.row.choice != best.row.choice) {
         None => "no other choice is admitted".to_owned(),
         Some(next) if next.amount >= best.amount * equal => format!(
-            "{JUDGED} takes least {what}, {}; next are {} with {:.2} times as much",
+            "{JUDGED} takes least {what}, {}; next are {} with {:.2} times as much{}",
             written(best.amount),
             next.row.words(),
-            next.amount / best.amount.max(f64::MIN_POSITIVE)
+            next.amount / best.amount.max(f64::MIN_POSITIVE),
+            next.figures.burden.as_ref().map_or_else(String::new, |burden| format!(" ({burden})"))
         ),
         Some(next) => {
             let with = match next.figures.multipliers.cmp(&best.figures.multipliers) {
