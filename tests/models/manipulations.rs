@@ -115,6 +115,8 @@ multibody! {
         #[cut]
         joint pin: Revolute { parent: link.at(3.5 * X), child: lever.at(3.0 * X), axis: Z }
         constraint rack = slide + 0.3 * sin(rocker.angle) - 0.1 * crank * crank;
+        let end = link.at(3.5 * X);
+        output gap: Vec3 = end.express(lever.at(3.0 * X).position - end.position);
         output left: Vec3 = [constraint[pin.x], constraint[pin.y], constraint[rack]];
         output slopes = [
             jacobian[pin.x, crank], jacobian[pin.x, coupler], jacobian[pin.x, rocker], jacobian[pin.x, slide],

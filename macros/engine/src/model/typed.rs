@@ -148,7 +148,7 @@ impl Allowed {
         match (self, class) {
             (Allowed::Constants, Class::Parameter) => "is a `param`; only literals and `const` may stand here",
             (_, Class::Formula) => {
-                "is a formula of another model; it may stand in drives, constraints, `solve`, forces, states, outputs, and the \
+                "is a formula of another model; it may stand in drives, constraints, `solve`, `assume`, forces, states, outputs, and the \
                  `let` that they use"
             }
             (Allowed::Springs, Class::Potential) => "holds this spring's energy, so the spring can't follow from it",

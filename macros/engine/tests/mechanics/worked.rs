@@ -138,8 +138,8 @@ fn formulas_of_other_models() {
     assert_said(
         &asked("param q = bars(rocker, crank = 0.7);"),
         &[
-            "bars | `bars` is a formula of another model; it may stand in drives, constraints, `solve`, forces, states, \
-           outputs, and the `let` that they use",
+            "bars | `bars` is a formula of another model; it may stand in drives, constraints, `solve`, `assume`, forces, \
+           states, outputs, and the `let` that they use",
         ],
     );
     assert_said(
@@ -157,6 +157,76 @@ fn formulas_of_other_models() {
         &asked("output y = bars(diff(rocker, rocker), crank = push);"),
         &[
             "diff(rocker, rocker) | rocker follows from others: it is no variable | name one of those; this one moves with them",
+        ],
+    );
+}
+
+/// What is asked of a model that asks another one is looked at as well.
+#[test]
+fn formulas_of_formulas() {
+    let call = |between: &str, items: &str| {
+        format!(
+            "mod bars {{ {FOUR_BAR} {SOLVED} }}
+             mod between {{ body b {{ mass: 1.0 }} joint r: Prismatic {{ parent: ground, child: b, axis: X }} {between} }}
+             mod m {{ body b {{ mass: 1.0 }} joint j: Prismatic {{ parent: ground, child: b, axis: X }} {items} }}"
+        )
+    };
+    assert_said(&call("", "output y = between(bars(rocker, crank = r), r = j);"), &[]);
+    assert_said(
+        &call("", "output y = between(bars(rocker, crank = r, rocker = 0.7), r = j);"),
+        &["rocker | rocker follows from others in `bars`: it is not given"],
+    );
+    assert_said(
+        &call("", "output y = between(bars(rocker), r = j);"),
+        &["bars(rocker) | this needs values of `crank` in `bars` | write `bars(.., crank = ..)`"],
+    );
+    assert_said(
+        &call("let seen = bars(rocker);", "output y = between(seen);"),
+        &["seen | this needs values of `crank` in `bars` | write `bars(.., crank = ..)`"],
+    );
+}
+
+/// Loops that close for the declared parameters alone, and formulas of the user, which were tested with these.
+#[test]
+fn formulas_keep_what_loops_rest_on() {
+    let call = |loops: &str, items: &str| {
+        format!(
+            "mod bars {{
+                formulation {{ constraints: Reduced }}
+                param reach = 4.0;
+                param weight = 1.0;
+                body arm {{ mass: weight, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }}
+                body link {{ mass: 3.5, com: 1.75 * X, inertia: rod(3.5, 4.0, X) }}
+                body lever {{ mass: 3.0, com: 0.5 * X, inertia: rod(3.0, 1.0, X) }}
+                joint crank: Revolute {{ parent: ground, child: arm, axis: Z }}
+                joint coupler: Revolute {{ parent: arm.at(X), child: link, axis: Z }}
+                joint rocker: Revolute {{ parent: ground.at(reach * X), child: lever, axis: Z }}
+                #[cut]
+                joint pin: Revolute {{ parent: link.at(4.0 * X), child: lever.at(X), axis: Z }}
+                {loops}
+            }}
+            mod m {{ body b {{ mass: 1.0 }} joint j: Prismatic {{ parent: ground, child: b, axis: X }} {items} }}"
+        )
+    };
+    let own = "solve (coupler, rocker) = (-crank, crank);";
+    assert_said(&call(own, "output y = bars(rocker, crank = j);"), &[]);
+    assert_said(
+        &call(own, "output y = bars(rocker, crank = j, reach = 4.5);"),
+        &[
+            "reach | the loops of `bars` are known to close for the declared `reach` only | solve them by `solve (..) from ..`, \
+           with equations that hold for any",
+        ],
+    );
+    // A pin whose axis is that of the other joints for a tilt of zero alone.
+    let tilted = format!("mod bars {{ param tilt = 0.0; {FOUR_BAR} {SOLVED} }}")
+        .replace("parent: link.at(3.5 * X)", "parent: link.at(3.5 * X).rotated(X, tilt)");
+    let cart = "body b { mass: 1.0 } joint j: Prismatic { parent: ground, child: b, axis: X }";
+    assert_said(&format!("{tilted} mod m {{ {cart} output y = bars(rocker, crank = j, reach = 4.01); }}"), &[]);
+    assert_said(
+        &format!("{tilted} mod m {{ {cart} output y = bars(rocker, crank = j, tilt = 0.3); }}"),
+        &[
+            "tilt | the loops of `bars` are known to close for the declared `tilt` only | solve them by `solve (..) from ..`, \
+           with equations that hold for any",
         ],
     );
 }
@@ -246,11 +316,27 @@ fn equations_taken_apart() {
             "bias[coupler] | coupler follows from others: it is no variable | name one of those; this one moves with them",
         ],
     );
-    for items in [
-        "output y = closed(rocker) + diff(closed(rocker.angle), crank);",
-        "output y = constraint[pin.x] + diff(constraint[pin.y], crank) + jacobian[pin.y, crank];",
-    ] {
+    for items in ["output y = closed(rocker) + diff(closed(rocker.angle), crank);"] {
         assert_said(&apart(items), &[]);
+    }
+    let held = |items: &str| {
+        let bars = FOUR_BAR.replace("formulation { constraints: Reduced }", "");
+        format!("mod bars {{ {bars} {items} }}")
+    };
+    assert_said(
+        &held(
+            "output y = constraint[pin.x] + diff(constraint[pin.y], crank) + jacobian[pin.y, rocker] + constraint[pin.z];",
+        ),
+        &[],
+    );
+    for items in ["constraint[pin.x]", "jacobian[pin.y, crank]"] {
+        assert_said(
+            &apart(&format!("output y = {items};")),
+            &[&format!(
+                "{items} | no equation of `pin` keeps a multiplier: they are solved, and nothing is left of them | `formulation \
+                 {{ constraints: Multipliers }}` keeps them"
+            )],
+        );
     }
     assert_said(
         &apart("output y = closed(crank);"),
@@ -289,8 +375,8 @@ fn equations_taken_apart() {
     assert_said(
         &apart("output y = jacobian[pin.x, rocker];"),
         &[
-            "jacobian[pin.x, rocker] | rocker follows from others: it is no variable | name one of those; this one moves with \
-           them",
+            "jacobian[pin.x, rocker] | no equation of `pin` keeps a multiplier: they are solved, and nothing is left of them | \
+           `formulation { constraints: Multipliers }` keeps them",
         ],
     );
     assert_said(

@@ -118,13 +118,13 @@ impl Writer<'_> {
             }
             Use::Index { name, uses } => {
                 let inside = self.statements(uses);
-                if !is_written(name) {
+                if !is_written(name) || may_be_constant(name) {
                     return inside;
                 }
                 let name = names::field(name);
                 quote!({ let #name: #krate::words::name::Index = A::any(); #inside })
             }
-            Use::Counter(name) if is_written(name) => {
+            Use::Counter(name) if is_written(name) && !may_be_constant(name) => {
                 let name = names::field(name);
                 quote!(let _ = #name;)
             }
@@ -142,4 +142,9 @@ fn enum_of(module: usize) -> Ident {
 fn is_written(name: &Ident) -> bool {
     let text = name.to_string();
     text != "_" && !is_keyword(&text)
+}
+
+/// As a pattern such a name would be a constant of the user's around the call, if there is one.
+fn may_be_constant(name: &Ident) -> bool {
+    name.to_string().trim_start_matches("r#").starts_with(char::is_uppercase)
 }

@@ -9,7 +9,7 @@ use crate::contracts::results::Results;
 use crate::contracts::symbol::Symbol;
 use crate::mechanics::analysis::{Complaint, analyse};
 use crate::mechanics::loops::structure::Structure;
-use crate::mechanics::translate::manipulations;
+use crate::mechanics::translate::{formulas, manipulations};
 use crate::model::site::Sited;
 use crate::model::types::Formula;
 use crate::symbolic::graph::{Graph, Scalar, SymbolId};
@@ -41,6 +41,9 @@ pub(in crate::mechanics) fn solved(formula: &Formula) -> Rc<Result<Solved, Unsol
 
 fn solve(formula: &Formula) -> Result<Solved, Unsolved> {
     let Formula { model, of, .. } = formula;
+    // It may ask others.
+    formulas::complaints_of(vec![of])
+        .map_err(|complaints| complaints.into_iter().next().map_or(Unsolved::Elsewhere, Unsolved::Here))?;
     let structure = analyse(model).map_err(|_| Unsolved::Elsewhere)?;
     let complaints = manipulations::complaints_of(model, &structure, vec![of]);
     if let Some(complaint) = complaints.into_iter().next() {

@@ -10,8 +10,8 @@ use crate::contracts::call::Call;
 use crate::invariant::fault::{OrFault, raise};
 use crate::invariant::injection::{Break, broken};
 use crate::mechanics::equations::Equations;
-use crate::mechanics::loops::constraints::row_called;
-use crate::mechanics::loops::structure::{Role, Row};
+use crate::mechanics::loops::constraints::{ClosedIn, Writing, row_called};
+use crate::mechanics::loops::structure::Role;
 use crate::model::types::{Coordinate, Expr, ExprNode, Order};
 use crate::symbolic::graph::{Rotation, Scalar, Vector};
 use crate::symbolic::rotations;
@@ -135,7 +135,9 @@ impl Equations<'_> {
             ExprNode::Residual { closing, component } => {
                 let index = row_called(self.scene.model, *closing, component.as_deref());
                 let index = index.or_fault("names of equations are looked at before anything is derived");
-                Value::Scalar(self.row(Row { closing: *closing, index }))
+                // In the axes that equations are named by, whatever those are in which loops are closed.
+                let rows = self.residuals(*closing, Writing { axes: ClosedIn::Parent, ..Writing::PLAIN });
+                Value::Scalar(rows.get(index).copied().or_fault("a row is one of the equations of its closing"))
             }
             &ExprNode::Closed(coordinate) => Value::Scalar(self.coordinate(coordinate, Order::Position)),
             ExprNode::Undefined => Value::Scalar(self.g.call(Call::Nan, &[])),

@@ -55,15 +55,24 @@ impl Equations<'_> {
 
 /// What is wrong with formulas of other models, wherever they stand.
 pub(in crate::mechanics) fn complaints(model: &Model) -> Result<(), Vec<Complaint>> {
-    let (mut complaints, mut seen) = (Vec::new(), HashSet::new());
+    complaints_of(roots(model))
+}
+
+/// The same of some expressions.
+pub(in crate::mechanics) fn complaints_of(roots: Vec<&Expr>) -> Result<(), Vec<Complaint>> {
+    let (mut complaints, mut seen, mut told) = (Vec::new(), HashSet::new(), HashSet::new());
     let mut is_sound = true;
-    let mut stack = roots(model);
+    let mut stack = roots;
     while let Some(expr) = stack.pop() {
         if !seen.insert(Rc::as_ptr(&expr.node)) {
             continue;
         }
         stack.extend(expr.node.operands());
         let ExprNode::Formula { formula, given } = &*expr.node else { continue };
+        // A call in an array of parts is one mistake.
+        if !told.insert(Rc::as_ptr(formula)) {
+            continue;
+        }
         match &*solved(formula) {
             Ok(solved) => complaints.extend(of_formula(expr, formula, given, solved)),
             Err(Unsolved::Here(complaint)) => complaints.push(complaint.clone()),
@@ -77,6 +86,13 @@ fn of_formula(expr: &Expr, formula: &Formula, given: &[Given], solved: &Solved) 
     let model = &formula.model;
     let mut complaints = Vec::new();
     for given in given {
+        if let Some(name) = declared_only(model, &solved.structure, given) {
+            complaints.push(Complaint {
+                at: given.site(),
+                message: format!("the loops of `{}` are known to close for the declared `{name}` only", model.name),
+                help: Some("solve them by `solve (..) from ..`, with equations that hold for any".to_owned()),
+            });
+        }
         for &variable in &given.variables {
             if let Variable::Coordinate(coordinate, _) = variable
                 && let Some(why) = not_given(model, &solved.structure, coordinate)
@@ -95,7 +111,10 @@ fn of_formula(expr: &Expr, formula: &Formula, given: &[Given], solved: &Solved) 
             Some(variable) if is_given(variable) => {}
             Some(variable) => missing.push(name(model, variable)),
             None => {
-                let message = format!("this reads an orientation in `{}` that has no coordinates to give", model.name);
+                let message = format!(
+                    "this reads an orientation in `{}`, or its rate, that has no coordinates to give",
+                    model.name
+                );
                 let help = Some("take `RollPitchYaw` there".to_owned());
                 return vec![Complaint { at: expr.site(), message, help }];
             }
@@ -112,6 +131,29 @@ fn of_formula(expr: &Expr, formula: &Formula, given: &[Given], solved: &Solved) 
         });
     }
     complaints
+}
+
+/// A parameter that keeps its declared value: equations hold for that alone, or formulas of the user were tested with it.
+fn declared_only(model: &Model, structure: &Structure, given: &Given) -> Option<String> {
+    let is_tested = model.solves.iter().any(|solve| matches!(solve.how, SolveHow::Formulas(_)));
+    let is_declared = |at: usize, declared: f64| {
+        let value = match &*given.value.node {
+            ExprNode::Vec3(components) => &components[at].node,
+            ExprNode::Array(elements) if elements.len() == given.variables.len() => &elements[at].node,
+            _ => &given.value.node,
+        };
+        let value = &**value;
+        matches!(value, ExprNode::Number(x) if *x == declared)
+    };
+    let is_kept = |&(at, variable): &(usize, &Variable)| match *variable {
+        Variable::Param(id, element) => {
+            let declared = model.params[id].default.get(element).copied();
+            let declared = declared.or_fault("a parameter has a number for each scalar");
+            (is_tested || structure.pinned.contains(&(id.0, element))) && !is_declared(at, declared)
+        }
+        _ => false,
+    };
+    given.variables.iter().enumerate().find(is_kept).map(|(_, &variable)| name(model, variable))
 }
 
 /// Why a coordinate takes no value.
@@ -138,7 +180,8 @@ fn variable(model: &Model, symbol: Symbol) -> Option<Variable> {
             freedom.map(|_| Variable::Coordinate(Coordinate { joint, index: component }, Order::Position))
         }
         Symbol::Velocity { joint, component } => {
-            Some(Variable::Coordinate(Coordinate { joint, index: component }, Order::Rate))
+            let freedom = model.joints[joint].kind.freedoms.get(component);
+            freedom.map(|_| Variable::Coordinate(Coordinate { joint, index: component }, Order::Rate))
         }
         Symbol::Acceleration { .. }
         | Symbol::Multiplier { .. }
@@ -157,8 +200,20 @@ fn name(model: &Model, variable: Variable) -> String {
         Variable::Coordinate(coordinate, Order::Rate) => coordinate_name(model, coordinate) + ".rate",
         Variable::Coordinate(coordinate, _) => coordinate_name(model, coordinate),
         Variable::State(id) => path(model, &model.states[id].place),
-        Variable::Param(id, _) => path(model, &model.params[id].place),
-        Variable::Input(id, _) => path(model, &model.inputs[id].place),
+        Variable::Param(id, element) => path(model, &model.params[id].place) + &place(&model.params[id].ty, element),
+        Variable::Input(id, element) => path(model, &model.inputs[id].place) + &place(&model.inputs[id].ty, element),
+    }
+}
+
+/// Behind the name of a parameter or an input, one of its scalars.
+fn place(ty: &Type, scalar: usize) -> String {
+    match ty {
+        Type::Vec3 => format!(".{}", ["x", "y", "z"][scalar % 3]),
+        Type::Array(element, _) => {
+            let width = element.scalars().max(1);
+            format!("[{}]{}", scalar / width, place(element, scalar % width))
+        }
+        _ => String::new(),
     }
 }
 

@@ -216,6 +216,8 @@ pub(in crate::mechanics) fn complaints_of(model: &Model, structure: &Structure, 
         }
         stack.extend(expr.node.operands());
         match &*expr.node {
+            // What is wrong with an equation is said there.
+            ExprNode::Derivative { of, .. } if is_wrong_row(model, structure, of) => {}
             ExprNode::Derivative { of, by, .. } => match by {
                 Variable::Coordinate(coordinate, _) => complaints.extend(outside(model, structure, *coordinate, expr)),
                 Variable::Time if holds(of, |node| matches!(node, ExprNode::Potential)) && springs_read_inputs(model) => {
@@ -253,7 +255,7 @@ pub(in crate::mechanics) fn complaints_of(model: &Model, structure: &Structure, 
                 }
             }
             ExprNode::Residual { closing, component } => {
-                complaints.extend(no_row(model, *closing, component.as_deref(), expr));
+                complaints.extend(no_row(model, structure, *closing, component.as_deref(), expr));
             }
             ExprNode::Closed(coordinate) => complaints.extend(not_closed(model, structure, *coordinate, expr)),
             ExprNode::MassMatrix(list) => {
@@ -266,16 +268,40 @@ pub(in crate::mechanics) fn complaints_of(model: &Model, structure: &Structure, 
     complaints
 }
 
+fn is_wrong_row(model: &Model, structure: &Structure, expr: &Expr) -> bool {
+    match &*expr.node {
+        ExprNode::Residual { closing, component } => {
+            no_row(model, structure, *closing, component.as_deref(), expr).is_some()
+        }
+        _ => false,
+    }
+}
+
 /// An equation that there isn't.
-fn no_row(model: &Model, closing: LoopClosure, component: Option<&str>, expr: &Expr) -> Option<Complaint> {
-    let LoopClosure::Cut(joint) = closing else { return None };
+fn no_row(
+    model: &Model,
+    structure: &Structure,
+    closing: LoopClosure,
+    component: Option<&str>,
+    expr: &Expr,
+) -> Option<Complaint> {
+    let is_kept = structure.rows.iter().any(|row| row.closing == closing);
+    let solved = |name: &str| Complaint {
+        at: expr.site(),
+        message: format!("no equation of `{name}` keeps a multiplier: they are solved, and nothing is left of them"),
+        help: Some("`formulation { constraints: Multipliers }` keeps them".to_owned()),
+    };
+    let joint = match closing {
+        LoopClosure::Cut(joint) => joint,
+        LoopClosure::Constraint(id) => return (!is_kept).then(|| solved(&path(model, &model.constraints[id].place))),
+    };
     let name = path(model, &model.joints[joint].place);
     if !model.cuts.contains(&joint) {
         let message = format!("the joint `{name}` closes no loop: it has no equations");
         return Some(Complaint { at: expr.site(), message, help: None });
     }
     if row_called(model, closing, component).is_some() {
-        return None;
+        return (!is_kept).then(|| solved(&name));
     }
     let known: Vec<String> = rows_of_joint(model, joint).iter().map(|row| format!("`{name}.{row}`")).collect();
     let message = format!("the joint `{name}` has no equation `{}`", component.unwrap_or_default());

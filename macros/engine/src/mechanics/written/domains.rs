@@ -5,6 +5,7 @@
 
 use std::collections::HashMap;
 
+use crate::contracts::call::Call;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::loops::structure::Means;
@@ -35,6 +36,12 @@ pub(super) fn radicand(e: &mut Equations<'_>, root: Scalar) -> Scalar {
         _ => under(&e.g, root),
     };
     found.unwrap_or_else(|| e.g.mul(root, root))
+}
+
+/// Whether conditions choose the value when it is evaluated.
+pub(super) fn is_chosen(g: &Graph, value: Scalar) -> bool {
+    let scalars = g.reachable_scalars(&[value]).into_iter().map(|index| g.scalar_at(index));
+    scalars.into_iter().any(|s| matches!(g.node(s), ScalarNode::Call(Call::Select, _)))
 }
 
 /// Where a root is real. `hidden` are names that stand nowhere else.

@@ -340,6 +340,8 @@ impl Sections {
         let name = self.name(e, e.coordinate_symbols(coordinate)[0]);
         let position = e.put_in_stand_ins(&[position])[0];
         let root = reduction.dead_centres.iter().find(|centre| centre.0 == coordinate).map(|centre| centre.1);
+        // Where conditions are evaluated at run time, the formula is none where they fail too.
+        let root = root.filter(|_| !domains::is_chosen(&e.g, position));
         let radicand = root.map(|root| domains::radicand(e, root));
         let says = conditions.get(&coordinate).map(|list| format!("the branch with {}", list.join(", ")));
         if let ScalarNode::Angle(cos, sin) = *e.g.node(position) {

@@ -162,7 +162,7 @@ impl Expressions {
                 self.coordinate(joint, index, |of| of.order(Order::Position))
             }
             ExprNode::Bias(row) => self.coordinate(row.joint, row.index, |of| of.effort),
-            // The other model has its own check; values that it takes are looked at as operands.
+            // Units of a question in another model's terms are not known here; values that it takes are looked at as operands.
             ExprNode::Formula { .. } => Value::Any,
             // The unknown takes the unit that fits; its equations are looked at as operands.
             ExprNode::Unknown(_) | ExprNode::Solved { .. } | ExprNode::Undefined => Value::Any,
