@@ -222,6 +222,13 @@ fn formulas_keep_what_loops_rest_on() {
         .replace("parent: link.at(3.5 * X)", "parent: link.at(3.5 * X).rotated(X, tilt)");
     let cart = "body b { mass: 1.0 } joint j: Prismatic { parent: ground, child: b, axis: X }";
     assert_said(&format!("{tilted} mod m {{ {cart} output y = bars(rocker, crank = j, reach = 4.01); }}"), &[]);
+    // Of an array of parts each element gives its own value.
+    let pieces = "mod piece { port on: Frame; param lean = 0.0; body p { mass: 1.0 }
+                  joint q: Prismatic { parent: on, child: p, axis: X } output y = bars(rocker, crank = q, tilt = lean); }";
+    for (leans, mistakes) in [("[0.0, 0.0, 0.0]", 0), ("[0.0, 0.1, 0.2]", 1), ("[0.2, 0.1, 0.0]", 1)] {
+        let all = format!("const L = {leans}; part all: [piece; 3] = |i| piece {{ on: ground, lean: L[i] }};");
+        assert_eq!(said(&format!("{tilted} {pieces} mod m {{ {all} }}")).len(), mistakes, "{all}");
+    }
     assert_said(
         &format!("{tilted} mod m {{ {cart} output y = bars(rocker, crank = j, tilt = 0.3); }}"),
         &[

@@ -7,6 +7,7 @@ use std::rc::Rc;
 
 use crate::contracts::results::Results;
 use crate::contracts::symbol::Symbol;
+use crate::invariant::fault::OrFault;
 use crate::mechanics::analysis::{Complaint, analyse};
 use crate::mechanics::loops::structure::Structure;
 use crate::mechanics::translate::{formulas, manipulations};
@@ -34,7 +35,7 @@ pub(in crate::mechanics) enum Unsolved {
     Here(Complaint),
 }
 
-/// Solved once, whoever asks.
+/// Solved once for each question, however often its value is needed.
 pub(in crate::mechanics) fn solved(formula: &Formula) -> Rc<Result<Solved, Unsolved>> {
     formula.solved.get_or(|| solve(formula))
 }
@@ -59,7 +60,8 @@ fn solve(formula: &Formula) -> Result<Solved, Unsolved> {
         Ok(Results::vector(e.finish(&reduction, &scalars)))
     });
     let found = found.map_err(|_| Unsolved::Elsewhere)?;
-    let scalars = found.into_iter().next().map(|(_, results)| results.list).unwrap_or_default();
+    let (_, results) = found.into_iter().next().or_fault("there is a way to each formula");
+    let scalars = results.list;
     let Some(read) = deriving.graph.formula_symbols(&scalars) else {
         let message = format!("a loop of `{}` that this reads is closed by iteration: there is no formula", model.name);
         let help = Some(format!("write `solve (..) from ..` in `{}`", model.name));

@@ -69,14 +69,17 @@ pub(in crate::mechanics) fn complaints_of(roots: Vec<&Expr>) -> Result<(), Vec<C
         }
         stack.extend(expr.node.operands());
         let ExprNode::Formula { formula, given } = &*expr.node else { continue };
-        // A call in an array of parts is one mistake.
-        if !told.insert(Rc::as_ptr(formula)) {
-            continue;
-        }
-        match &*solved(formula) {
-            Ok(solved) => complaints.extend(of_formula(expr, formula, given, solved)),
-            Err(Unsolved::Here(complaint)) => complaints.push(complaint.clone()),
-            Err(Unsolved::Elsewhere) => is_sound = false,
+        let found = match &*solved(formula) {
+            Ok(solved) => of_formula(expr, formula, given, solved),
+            Err(Unsolved::Here(complaint)) => vec![complaint.clone()],
+            Err(Unsolved::Elsewhere) => {
+                is_sound = false;
+                continue;
+            }
+        };
+        // A call in an array of parts is one mistake; but each element gives values of its own.
+        if !found.is_empty() && told.insert(Rc::as_ptr(formula)) {
+            complaints.extend(found);
         }
     }
     if is_sound && complaints.is_empty() { Ok(()) } else { Err(complaints) }
