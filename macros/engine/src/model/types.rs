@@ -15,7 +15,7 @@ use crate::invariant::index_vec::{IndexVec, id};
 use crate::invariant::kept::Kept;
 
 use super::joint_kinds::JointKind;
-use super::units::Declared;
+use super::units::{Declared, Value, Wanted};
 
 macro_rules! ids {
     ($($(#[$doc:meta])* $name:ident),* $(,)?) => {$(
@@ -578,6 +578,8 @@ pub struct Formula {
     pub model: Model,
     /// In that model's terms: a number, a vector, or several of them.
     pub of: Expr,
+    /// That it has there.
+    pub(in crate::model) unit: Value,
     /// By `mechanics`.
     pub solved: Kept,
 }
@@ -586,6 +588,8 @@ pub struct Formula {
 pub struct Given {
     pub variables: Vec<Variable>,
     pub value: Expr,
+    /// Its unit in that model, if it is known.
+    pub(in crate::model) wanted: Option<Wanted>,
     /// Where the variable is named.
     pub span: Span,
 }

@@ -20,8 +20,9 @@ use crate::model::expand::root;
 use crate::model::is_part;
 use crate::model::typed::{Class, Typed, Uses, type_text};
 use crate::model::types::{ExprNode, Formula, Given, Type, Variable};
+use crate::model::units::{Units, Wanted};
 
-use super::span;
+use super::{source_text, span};
 
 /// What each call asks another model for, by its address: in an array of parts one call stands many times.
 pub(in crate::model) type Elsewhere = HashMap<*const ExprCall, Option<Asked>>;
@@ -32,6 +33,8 @@ pub(in crate::model) struct Asked {
     formula: Rc<Formula>,
     /// What is given, in order.
     variables: Rc<[(Vec<Variable>, Type)]>,
+    /// Their units in the model that is asked.
+    units: Rc<[Option<Wanted>]>,
 }
 
 impl<'a> Checker<'a, '_> {
@@ -79,10 +82,11 @@ impl<'a> Checker<'a, '_> {
             return None;
         };
         let values: Vec<Typed> = values.into_iter().collect::<Option<_>>()?;
-        let listed = given.iter().zip(asked.variables.iter()).zip(&values);
-        let listed = listed.map(|((pair, (variables, _)), value)| Given {
+        let listed = given.iter().zip(asked.variables.iter()).zip(asked.units.iter()).zip(&values);
+        let listed = listed.map(|(((pair, (variables, _)), wanted), value)| Given {
             variables: variables.clone(),
             value: value.expr.clone(),
+            wanted: wanted.clone(),
             span: span(&pair.left),
         });
         let ty = asked.formula.of.ty.clone();
@@ -156,8 +160,13 @@ impl<'a> Checker<'a, '_> {
             }
         }
         let value = value.filter(|_| complete)?;
-        let formula = Formula { model, of: value.expr, solved: Kept::default() };
-        Some(Asked { formula: Rc::new(formula), variables: variables.into() })
+        let mut units = Units::of_asked(self, &model.constraints);
+        let unit = units.question(&value.expr);
+        let written = given.iter().zip(&variables);
+        let wanted = written.map(|(pair, (variables, _))| units.wanted(source_text(&pair.left), variables)).collect();
+        units.tell(self.report);
+        let formula = Formula { model, of: value.expr, unit, solved: Kept::default() };
+        Some(Asked { formula: Rc::new(formula), variables: variables.into(), units: wanted })
     }
 
     /// A number, a vector or several of them, of what is known without forces.

@@ -17,13 +17,13 @@ use crate::model::types::{
 
 use super::declared::{Declared, declared};
 use super::dimension::Unit;
-use super::expressions::{Expressions, conversion};
+use super::expressions::{Expressions, Held, conversion};
 use super::quantities::{self as quantity, OfCoordinate, Quantity, SLIDES};
 use super::value::{Known, Text};
 
 /// The units of one model.
 pub(in crate::model) struct Units {
-    expressions: Expressions,
+    pub(super) expressions: Expressions,
     /// Without a declared unit there is nothing to compare.
     idle: bool,
 }
@@ -46,6 +46,8 @@ impl Units {
         let items = [&expressions.params, &expressions.inputs, &expressions.states];
         let declares = items.into_iter().flatten().any(Option::is_some)
             || checker.named.iter().any(|named| named.unit.is_some())
+            // Others may declare what this model gives them.
+            || !checker.asked_elsewhere.is_empty()
             || checker.joints.iter().any(|slot| docs::docs(&slot.item.attrs).unit.is_some())
             || checker
                 .forces
@@ -60,6 +62,7 @@ impl Units {
         if self.idle {
             return;
         }
+        self.hold(collected.constraints.iter().map(Option::as_ref));
         self.names(checker);
         for (expr, wanted) in &checker.quantities {
             self.expressions.expect(expr, *wanted);
@@ -89,6 +92,17 @@ impl Units {
         for condition in collected.assumptions.iter().flatten() {
             self.expressions.of(condition);
         }
+    }
+
+    /// What constraints hold, for what names their equations; nothing of those with mistakes.
+    pub(super) fn hold<'c>(&mut self, constraints: impl Iterator<Item = Option<&'c Constraint>>) {
+        let held = |constraint: &Constraint| match &constraint.kind {
+            ConstraintKind::Rod { .. } => Held::Rod,
+            ConstraintKind::Value(value) => {
+                Held::Value(value.clone(), declared(&constraint.place.field.to_string(), &constraint.docs))
+            }
+        };
+        self.expressions.held = constraints.map(|constraint| constraint.map(held)).collect();
     }
 
     /// What speaks of the tree.

@@ -11,7 +11,7 @@ use proc_macro2::Span;
 use crate::invariant::fault::OrFault;
 use crate::model::joint_kinds::JointKind;
 use crate::model::types::{
-    Coordinate, Expr, ExprNode, Frame, FrameQuantity, FrameStep, Function, JointId, Order, Variable,
+    Coordinate, Expr, ExprNode, Frame, FrameQuantity, FrameStep, Function, JointId, LoopClosure, Order, Variable,
 };
 
 use super::declared::Declared;
@@ -28,12 +28,21 @@ pub(super) struct Mistake {
     pub(super) help: Option<String>,
 }
 
+/// What a constraint holds.
+pub(super) enum Held {
+    /// The half square of a length.
+    Rod,
+    Value(Expr, Option<Declared>),
+}
+
 #[derive(Default)]
 pub(super) struct Expressions {
     pub(super) params: Vec<Option<Declared>>,
     pub(super) inputs: Vec<Option<Declared>>,
     pub(super) states: Vec<Option<Declared>>,
     pub(super) joints: Vec<Option<&'static JointKind>>,
+    /// By constraint.
+    pub(super) held: Vec<Option<Held>>,
     pub(super) mistakes: Vec<Mistake>,
     /// Units of names whose values have others: told once.
     pub(super) refused: HashSet<*const Declared>,
@@ -157,13 +166,20 @@ impl Expressions {
                 let acceleration = self.coordinate(column.joint, column.index, |of| of.order(Order::Acceleration));
                 self.coordinate(row.joint, row.index, |of| of.effort).combined(acceleration, Unit::over)
             }
-            ExprNode::Residual { .. } => Value::Any,
+            ExprNode::Residual { closing, component } => self.residual(*closing, component.as_deref()),
             &ExprNode::Closed(Coordinate { joint, index }) => {
                 self.coordinate(joint, index, |of| of.order(Order::Position))
             }
             ExprNode::Bias(row) => self.coordinate(row.joint, row.index, |of| of.effort),
-            // Units of a question in another model's terms are not known here; values that it takes are looked at as operands.
-            ExprNode::Formula { .. } => Value::Any,
+            ExprNode::Formula { formula, given } => {
+                let model = &formula.model.name;
+                for given in given {
+                    if let Some(wanted) = &given.wanted {
+                        self.gives(&format!("`{}` of `{model}`", wanted.name), &given.value, &wanted.unit);
+                    }
+                }
+                formula.unit.clone()
+            }
             // The unknown takes the unit that fits; its equations are looked at as operands.
             ExprNode::Unknown(_) | ExprNode::Solved { .. } | ExprNode::Undefined => Value::Any,
             ExprNode::Vec3(elements) if is_unit_vector(elements) => Value::Number,
@@ -193,7 +209,7 @@ impl Expressions {
     }
 
     /// Of what values are differentiated by.
-    fn variable(&self, variable: Variable) -> Value {
+    pub(super) fn variable(&self, variable: Variable) -> Value {
         match variable {
             Variable::Time => quantity::TIME.into(),
             Variable::Coordinate(coordinate, order) => {
@@ -207,11 +223,32 @@ impl Expressions {
 
     /// What is put in the place of a variable.
     fn put(&mut self, variable: Variable, value: &Expr) {
-        if let Value::Known(wanted) = self.variable(variable)
-            && let Some((span, what, found)) = self.misfit(value, &wanted)
-        {
-            let message = format!("the variable is in {}, {what} is in {}", wanted.text(), found.text());
-            self.mistake(span, message, conversion(&found, &wanted, &what));
+        if let Value::Known(wanted) = self.variable(variable) {
+            self.gives("the variable", value, &wanted);
+        }
+    }
+
+    fn gives(&mut self, variable: &str, value: &Expr, wanted: &Known) {
+        if let Some((span, what, found)) = self.misfit(value, wanted) {
+            let message = format!("{variable} is in {}, {what} is in {}", wanted.text(), found.text());
+            self.mistake(span, message, conversion(&found, wanted, &what));
+        }
+    }
+
+    /// What an equation leaves. Those of joints are lengths and cosines of angles, the latter called `turn..`.
+    fn residual(&mut self, closing: LoopClosure, component: Option<&str>) -> Value {
+        match (closing, component) {
+            (LoopClosure::Cut(_), Some(name)) if name.starts_with("turn") => quantity::NUMBER.into(),
+            (LoopClosure::Cut(_), _) => quantity::LENGTH.into(),
+            (LoopClosure::Constraint(id), _) => match self.held.get(id.0).and_then(Option::as_ref) {
+                Some(Held::Rod) => Value::from(quantity::LENGTH).power(2.0),
+                Some(Held::Value(_, Some(declared))) => Value::Known(declared.into()),
+                Some(Held::Value(value, None)) => {
+                    let value = value.clone();
+                    self.of(&value)
+                }
+                None => Value::Any,
+            },
         }
     }
 

@@ -24,8 +24,10 @@
 //!   numbers.
 //! - What stands in a field has the field's unit, an output, `const`, `let` or default its own, a state's rate its own
 //!   per second; of vectors and arrays that are written out each element.
+//! - What is asked of another model has the unit that it has there, and what its variables are given theirs (`asked`).
 //! - A mistake is said once: what is calculated from it is not checked.
 
+mod asked;
 mod check;
 mod declared;
 pub(super) mod dimension;
@@ -36,5 +38,7 @@ mod squares;
 mod table;
 mod value;
 
+pub(super) use asked::Wanted;
 pub(super) use check::Units;
 pub(super) use declared::{Declared, declared};
+pub(super) use value::Value;

@@ -9,7 +9,7 @@ use super::dimension::Unit;
 use super::quantities::Quantity;
 
 #[derive(Clone, Debug)]
-pub(super) enum Value {
+pub(in crate::model) enum Value {
     /// It fits everywhere.
     Any,
     /// A plain number in products, and fits everywhere else: PI, unit vectors.
@@ -22,7 +22,7 @@ pub(super) enum Value {
 }
 
 #[derive(Clone, Debug)]
-pub(super) struct Known {
+pub(in crate::model) struct Known {
     pub(super) unit: Unit,
     /// Whether the user has declared a unit on the way to it.
     pub(super) declared: bool,
@@ -30,7 +30,7 @@ pub(super) struct Known {
 }
 
 #[derive(Clone, Debug)]
-pub(super) enum Text {
+pub(in crate::model) enum Text {
     Written(Rc<str>),
     OfLanguage(&'static str),
     /// It is calculated.
