@@ -200,6 +200,31 @@ multibody! {
 }
 
 multibody! {
+    /// Unknown angles.
+    pub mod unknown_angles {
+        param many: [Scalar; 3] = [1.3, -0.4, 2.2];
+        input pull: Vec3;
+        body disc { mass: 1.0, inertia: diag(0.1, 0.1, 0.02) }
+        joint shaft: Revolute { parent: ground, child: disc, axis: Z }
+        // The unknown within sums of angles, in a product of vectors, on both sides, backwards.
+        let crooked = dot(cross([0.2, many[1], cos(x - 0.3)], [0.4, -1.1, 0.3]), [0.5, shaft.rate, 0.9]);
+        solve (x) from crooked + many[0] * sin(shaft.angle - x) == 0.3 * pull.x - (sin(x) - cos(-x + 2.0 * shaft.angle)) / many[2] {
+            cos(x - shaft.angle) > 0.2
+        }
+        // One of the coefficients is zero, or both terms are on one side.
+        solve (level) from 2.0 * cos(level) == pull.y { sin(level) < 0.0 }
+        solve (direction) from (3.0 + pull.y) * sin(direction) == pull.x * cos(direction) { cos(direction) > 0.0 }
+        solve (after) from sin(after) * sin(level) == 0.4 * pull.z { after > -0.5 * PI, after < 0.5 * PI }
+        output found = [x, level, direction, after];
+        output turned = cos(x) + many[0] * sin(2.0 * level);
+        output crookedness = crooked;
+        output slopes = diff(x + direction, shaft.angle);
+        force drive: Effort { joint: shaft, value: sin(level + shaft.angle) }
+        emit forward_dynamics;
+    }
+}
+
+multibody! {
     pub mod four_unknowns {
         input pull: Vec3;
         body disc { mass: 1.0, inertia: diag(0.1, 0.1, 0.02) }

@@ -4,7 +4,7 @@ use multibody::System;
 use multibody::nalgebra::SVector;
 use multibody_tests::models::manipulations::{
     arm, bars, exact_poles, field_motor, four_unknowns, held_arm, held_bars, held_poles, iterated_bars, motor,
-    small_poles, smaller_poles, unknowns,
+    small_poles, smaller_poles, unknown_angles, unknowns,
 };
 use multibody_tests::support::random::Random;
 use num_dual::Dual64;
@@ -268,6 +268,71 @@ fn equations_of_ones_own() {
             assert!(other.is_nan());
         }
     }
+}
+
+/// Against all roots of an equation's values, found without its form.
+#[test]
+fn angles_of_ones_own() {
+    use std::f64::consts::PI;
+    let model = unknown_angles::Model::<f64>::default();
+    let mut random = Random::new(5);
+    let (mut known, mut unknown) = (0, 0);
+    for _ in 0..200 {
+        let (q, w) = (3.0 * random.unit(), random.unit());
+        let [x, y, z] = [8.0 * random.unit(), 0.8 * random.unit(), 2.0 * random.unit()];
+        let state = unknown_angles::State {
+            q: unknown_angles::Position { shaft: q },
+            v: unknown_angles::Velocity { shaft: w },
+        };
+        let input = unknown_angles::Input { pull: [x, y, z].into() };
+        let found = model.outputs(0.0, &state, &input);
+        let crooked = |a: f64| {
+            let (u, v) = ([0.2, -0.4, (a - 0.3).cos()], [0.4, -1.1, 0.3]);
+            let cross = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+            0.5 * cross[0] + w * cross[1] + 0.9 * cross[2]
+        };
+        let first = |a: f64, q: f64| crooked(a) + 1.3 * (q - a).sin() - 0.3 * x + (a.sin() - (2.0 * q - a).cos()) / 2.2;
+        let level = -(0.5 * y).acos();
+        let direction = (x / (3.0 + y)).atan();
+        let after = (0.4 * z / level.sin()).asin();
+        let meant: Vec<f64> = roots(|a| first(a, q)).into_iter().filter(|a| (a - q).cos() > 0.2).collect();
+        match meant[..] {
+            [a] => {
+                known += 1;
+                close("angles", found.found.as_slice(), &[a, level, direction, after]);
+                close("crooked", &[found.crookedness], &[crooked(a)]);
+                close("turned", &[found.turned], &[a.cos() + 1.3 * (2.0 * level).sin()]);
+                // The other unknown doesn't turn with the shaft; this one by its equation.
+                let h = 1e-6;
+                let by = |at: f64, q: f64| (first(at + h, q) - first(at - h, q)) / (2.0 * h);
+                let along = (first(a, q + h) - first(a, q - h)) / (2.0 * h);
+                assert!((found.slopes + along / by(a, q)).abs() < 1e-6 * (1.0 + found.slopes.abs()) / by(a, q).abs());
+            }
+            _ => {
+                unknown += 1;
+                assert!(found.found[0].is_nan());
+                close("other angles", &found.found.as_slice()[1..], &[level, direction, after]);
+            }
+        }
+        let force = model.forward_dynamics(0.0, &state, &input).shaft;
+        close("force", &[force], &[(level + q).sin() / 0.02]);
+        assert!(found.found.iter().all(|a| a.is_nan() || a.abs() <= PI));
+    }
+    assert!(known > 50 && unknown > 20, "{known} and {unknown}");
+}
+
+/// Where a function changes its sign between -pi and pi.
+fn roots(f: impl Fn(f64) -> f64) -> Vec<f64> {
+    let at = |k: i32| f64::from(k) * std::f64::consts::PI / 500.0;
+    let bisect = |k: i32| {
+        let (mut a, mut b) = (at(k), at(k + 1));
+        for _ in 0..60 {
+            let middle = 0.5 * (a + b);
+            if f(a) * f(middle) <= 0.0 { b = middle } else { a = middle }
+        }
+        0.5 * (a + b)
+    };
+    (-500..500).filter(|&k| f(at(k)) * f(at(k + 1)) < 0.0).map(bisect).collect()
 }
 
 #[test]

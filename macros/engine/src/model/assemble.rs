@@ -164,7 +164,14 @@ impl<'a> Checker<'a, '_> {
     /// What all items give.
     pub(super) fn read_all(&mut self) -> Collected<'a> {
         let mut collected = Collected::default();
-        for task in self.tasks.clone() {
+        let tasks = self.tasks.clone();
+        // First, so that a `let` that is read both in the equations of an unknown and behind them is no circle.
+        for task in &tasks {
+            if let Subject::System(id) = task.subject {
+                self.solve_system(id);
+            }
+        }
+        for task in tasks {
             self.task(task, &mut collected);
         }
         collected
@@ -216,10 +223,7 @@ impl<'a> Checker<'a, '_> {
                 let slot = self.constraints[id].clone();
                 into.constraints.push(self.finish_constraint(&slot));
             }
-            Subject::System(id) => {
-                self.solve_system(id);
-            }
-            Subject::None => {}
+            Subject::System(_) | Subject::None => {}
         }
         if !matches!(task.item.kind, ItemKind::Body { .. } | ItemKind::Joint { .. } | ItemKind::Force { .. }) {
             let attributes = docs::attributes(&task.item.attrs, self.report);

@@ -391,7 +391,9 @@ impl<'a, 'd> Checker<'a, 'd> {
         if let (Some(unit), Some(Meaning::Value(value))) = (&named.unit, &mut meaning) {
             value.expr.unit = Some(Rc::new(unit.clone().over(value.expr.unit.take())));
         }
-        named.state = Lazy::Done(meaning.clone());
+        // Inside its equations an unknown is another value than behind them.
+        let open = matches!(&meaning, Some(Meaning::Value(value)) if self.holds_unknown(&value.expr));
+        self.named[id].state = if open { Lazy::Waiting } else { Lazy::Done(meaning.clone()) };
         meaning
     }
 

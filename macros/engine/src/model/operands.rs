@@ -31,6 +31,7 @@ impl ExprNode {
             | ExprNode::Undefined
             | ExprNode::Identity => Vec::new(),
             ExprNode::Solved { system, .. } => system.iter().collect(),
+            ExprNode::OneOfTwo { coefficients, .. } => coefficients.iter().collect(),
             ExprNode::Substituted { of, pairs } => {
                 std::iter::once(of).chain(pairs.iter().map(|pair| &pair.1)).collect()
             }

@@ -454,6 +454,15 @@ impl Expr {
     }
 }
 
+/// Equations in one unknown x with the coefficients a, b, c.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TwoRoots {
+    /// a x^2 + 2 b x + c = 0
+    Quadratic,
+    /// a cos x + b sin x = c
+    Circular,
+}
+
 /// Vectors are components in world axes where they come from frames, plain triples where the user wrote them.
 pub enum ExprNode {
     Number(f64),
@@ -517,6 +526,12 @@ pub enum ExprNode {
         system: Rc<[Expr]>,
         size: usize,
         index: usize,
+    },
+    /// A solution of an equation in one unknown that has two of them.
+    OneOfTwo {
+        form: TwoRoots,
+        coefficients: Rc<[Expr; 3]>,
+        second: bool,
     },
     /// Not a number.
     Undefined,

@@ -26,7 +26,7 @@ use pairs::{Opened, Winding};
 use plan::Step;
 use primitives::Known;
 
-pub use primitives::three_spheres;
+pub use primitives::{circular, quadratic, three_spheres};
 
 /// One element of a cycle: the next frame in the present one.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -135,11 +135,14 @@ impl Primitive {
                 let product = g.mul(slope, symbol);
                 (Value::Length(value), g.add(product, one), inverse, None)
             }
-            Primitive::Quadratic { square, half, one } => {
-                quadratic(g, symbol, [square, half, one], sign, (known, parts))
-            }
+            Primitive::Quadratic { square, half, one } => travel(g, symbol, [square, half, one], sign, (known, parts)),
         };
         Solved { symbol, value, equation, inverse_slope, how, root, parts: std::mem::take(parts) }
+    }
+
+    /// The value alone. Nobody reads the equation, so its unknown needs no symbol.
+    fn alone(&self, g: &mut Graph, sign: Scalar) -> Value {
+        self.solve(g, Scalar::ZERO, sign, &mut Known::default(), String::new()).value
     }
 }
 
@@ -213,13 +216,7 @@ fn root(g: &mut Graph, x: Scalar, raw: [Scalar; 3], sign: Scalar, (known, parts)
 }
 
 /// square x^2 + 2 half x + one = 0
-fn quadratic(
-    g: &mut Graph,
-    x: Scalar,
-    raw: [Scalar; 3],
-    sign: Scalar,
-    (known, parts): (&mut Known, &mut Parts),
-) -> Found {
+fn travel(g: &mut Graph, x: Scalar, raw: [Scalar; 3], sign: Scalar, (known, parts): (&mut Known, &mut Parts)) -> Found {
     let [square, half, one] = known.simplest(g, raw);
     let (whole, product) = (g.mul(half, half), g.mul(square, one));
     let rest = g.sub(whole, product);
@@ -237,6 +234,16 @@ fn quadratic(
     let terms = [g.product(&[half, scaled, x]), g.mul(middle, x), g.mul(half, raw[2])];
     let equation = g.sum(&terms);
     (Value::Length(value), equation, g.reciprocal(r), Some(root))
+}
+
+/// An x with a cos x + b sin x = c; minus one as `sign` gives the other one.
+pub fn circular(g: &mut Graph, [a, b, c]: [Scalar; 3], sign: Scalar) -> Value {
+    Primitive::Root { a, b, c }.alone(g, sign)
+}
+
+/// An x with a x^2 + 2 b x + c = 0; minus one as `sign` gives the other one.
+pub fn quadratic(g: &mut Graph, [square, half, one]: [Scalar; 3], sign: Scalar) -> Value {
+    Primitive::Quadratic { square, half, one }.alone(g, sign)
 }
 
 /// The point (x, y, z) with given distances from three points: two solutions, on either side of their plane. Squares of

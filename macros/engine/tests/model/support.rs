@@ -120,6 +120,9 @@ impl Writer<'_> {
             }
             ExprNode::Unknown(number) => format!("unknown {number}"),
             ExprNode::Solved { system, index, .. } => format!("Solved({}, {index})", self.list(system.iter())),
+            ExprNode::OneOfTwo { form, coefficients, second } => {
+                format!("OneOfTwo({form:?}, {}, {second})", self.list(coefficients.iter()))
+            }
             ExprNode::Formula { formula, given } => {
                 let given: Vec<String> =
                     given.iter().map(|given| format!("{:?} = {}", given.variables, self.expr(&given.value))).collect();

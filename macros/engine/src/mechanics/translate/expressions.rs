@@ -127,6 +127,10 @@ impl Equations<'_> {
                 let system: Vec<Scalar> = system.iter().map(|entry| self.known(entry).scalar()).collect();
                 Value::Scalar(self.solved_system(system, *size, *index))
             }
+            ExprNode::OneOfTwo { form, coefficients, second } => {
+                let coefficients = coefficients.each_ref().map(|entry| self.known(entry).scalar());
+                Value::Scalar(self.one_of_two(*form, coefficients, *second))
+            }
             ExprNode::Formula { formula, given } => {
                 let given: Vec<_> =
                     given.iter().map(|given| (given.variables.clone(), self.known(&given.value))).collect();

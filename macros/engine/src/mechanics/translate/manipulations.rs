@@ -15,7 +15,8 @@ use crate::mechanics::loops::constraints::{coordinate_name, path, row_called, ro
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::loops::structure::{Means, Role, Structure};
 use crate::model::site::Sited;
-use crate::model::types::{Coordinate, Expr, ExprNode, ForceKind, LoopClosure, Model, Order, Variable};
+use crate::model::types::{Coordinate, Expr, ExprNode, ForceKind, LoopClosure, Model, Order, TwoRoots, Variable};
+use crate::solve;
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::{BlockKind, Scalar};
 use crate::symbolic::substitute::Substitution;
@@ -141,6 +142,19 @@ impl Equations<'_> {
             return self.g.div(above, below);
         }
         self.g.block_outputs(BlockKind::Solve { size, symmetric: false, groups: [].into() }, &system)[index]
+    }
+
+    /// A solution of an equation in one unknown.
+    pub(super) fn one_of_two(&mut self, form: TwoRoots, coefficients: [Scalar; 3], second: bool) -> Scalar {
+        let sign = if second { -Scalar::ONE } else { Scalar::ONE };
+        let found = match form {
+            TwoRoots::Quadratic => solve::quadratic(&mut self.g, coefficients, sign),
+            TwoRoots::Circular => solve::circular(&mut self.g, coefficients, sign),
+        };
+        match found {
+            solve::Value::Angle { cos, sin } => self.g.angle(cos, sin),
+            solve::Value::Length(x) => x,
+        }
     }
 
     /// By the first row.

@@ -2,8 +2,10 @@
 //!
 //! In: a system of equations, two sides each. Out: its solution, as expressions. Equations that are linear in their unknowns
 //! are taken apart by putting numbers in: what an equation is with all unknowns zero, and with one of them one, gives the
-//! right-hand side and a column of the matrix. Unknowns that share no equation are solved apart. One equation of second degree
-//! in one unknown has two solutions, from which conditions choose: where none or both satisfy them there is none.
+//! right-hand side and a column of the matrix. Unknowns that share no equation are solved apart. One equation in one unknown
+//! that is of second degree, or linear in its cosine and sine, has two solutions, from which conditions choose: where none or
+//! both satisfy them there is none. Its coefficients are found by putting numbers in too, its solutions by the primitives that
+//! close loops.
 
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -13,7 +15,7 @@ use proc_macro2::{Ident, Span};
 use crate::model::checker::{Checker, Context, Equation, Lazy, SystemId};
 use crate::model::expand::root;
 use crate::model::typed::{Allowed, Class, Typed, Uses, new_expr, number};
-use crate::model::types::{Expr, ExprNode, Function, Type};
+use crate::model::types::{Expr, ExprNode, Function, TwoRoots, Type};
 
 use super::span;
 
@@ -54,6 +56,12 @@ impl<'a> Checker<'a, '_> {
         Some(())
     }
 
+    /// Whether an expression reads an unknown of equations that are being solved.
+    pub(in crate::model) fn holds_unknown(&self, expr: &Expr) -> bool {
+        let open = self.systems.iter().any(|system| matches!(system.state, Lazy::Working));
+        open && any(expr, &mut |node| matches!(node, ExprNode::Unknown(_)))
+    }
+
     fn solution(&mut self, id: SystemId) -> Option<Vec<Typed>> {
         let system = &self.systems[id];
         let (first, count, at, context) = (system.first, system.unknowns.len(), system.span, root(system.scope));
@@ -73,6 +81,13 @@ impl<'a> Checker<'a, '_> {
         }
         let mut algebra = Algebra { first, count, degrees: HashMap::new() };
         let degrees: Vec<u8> = gaps.iter().map(|gap| algebra.degree(&gap.expr)).collect();
+        let form = match (&gaps[..], &degrees[..]) {
+            (_, [2]) => Some(TwoRoots::Quadratic),
+            ([gap], [OTHER]) if algebra.circular(&gap.expr, &mut HashMap::new()) == Circular::Linear => {
+                Some(TwoRoots::Circular)
+            }
+            _ => None,
+        };
         for (gap, degree) in gaps.iter().zip(&degrees) {
             if algebra.holds_others(&gap.expr) {
                 let message = format!("{} is found from what is found from it", list(&names));
@@ -86,19 +101,20 @@ impl<'a> Checker<'a, '_> {
             let message = match degree {
                 0 => format!("this equation holds none of {}", list(&names)),
                 1 => continue,
-                2 if count == 1 => continue,
+                _ if form.is_some() => continue,
                 2 => format!("this equation is of second degree in {}", list(&names)),
                 _ => format!("{} can't be taken out of this equation", list(&names)),
             };
             self.report.help(
                 gap.expr.span,
                 message,
-                "equations are linear in their unknowns, or there is one unknown of second degree, such as `x * x`",
+                "equations are linear in their unknowns, or there is one, of second degree, such as `x * x`, or as \
+                 `a * cos(x) + b * sin(x)`",
             );
             return None;
         }
-        if degrees == [2] {
-            return self.quadratic(&gaps[0], &mut algebra, branches, context, &names[0]).map(|root| vec![root]);
+        if let Some(form) = form {
+            return self.one_of_two(form, &gaps[0], &mut algebra, branches, context, &names[0]).map(|root| vec![root]);
         }
         let mut solved = self.linear(&gaps, &mut algebra, at, &names)?;
         for condition in branches {
@@ -180,9 +196,10 @@ impl<'a> Checker<'a, '_> {
         solved.into_iter().collect()
     }
 
-    /// a x^2 + b x + c = 0, with conditions that hold for one of the two solutions.
-    fn quadratic(
+    /// An equation with two solutions, and conditions that hold for one of them.
+    fn one_of_two(
         &mut self,
+        form: TwoRoots,
         gap: &Typed,
         algebra: &mut Algebra,
         branches: &'a [syn::Expr],
@@ -192,25 +209,18 @@ impl<'a> Checker<'a, '_> {
         let at = gap.expr.span;
         if branches.is_empty() {
             let message = format!("two values of `{name}` satisfy this equation");
-            self.report.help(at, message, format!("say which one: `solve ({name}) from .. {{ {name} > 0.0 }}`"));
+            let example = match form {
+                TwoRoots::Quadratic => format!("{name} > 0.0"),
+                TwoRoots::Circular => format!("cos({name}) > 0.0"),
+            };
+            self.report.help(at, message, format!("say which one: `solve ({name}) from .. {{ {example} }}`"));
             return None;
         }
-        let scalar = |node| new_expr(node, Type::Scalar, at);
-        let of = |algebra: &mut Algebra, x: f64| algebra.put(&gap.expr, &|_| number(x, at));
-        let (c, plus, minus) = (of(algebra, 0.0), of(algebra, 1.0), of(algebra, -1.0));
-        let half = |node| scalar(ExprNode::Mul(number(0.5, at), scalar(node)));
-        let sum = half(ExprNode::Add(plus.clone(), minus.clone()));
-        let a = scalar(ExprNode::Sub(sum, c.clone()));
-        let b = half(ExprNode::Sub(plus, minus));
-        let square = scalar(ExprNode::Mul(b.clone(), b.clone()));
-        let product = scalar(ExprNode::Mul(number(4.0, at), scalar(ExprNode::Mul(a.clone(), c))));
-        let discriminant = scalar(ExprNode::Sub(square, product));
-        let root = scalar(ExprNode::Call(Function::Sqrt, vec![discriminant]));
-        let twice = scalar(ExprNode::Mul(number(2.0, at), a));
-        let solutions = [
-            scalar(ExprNode::Div(scalar(ExprNode::Sub(root.clone(), b.clone())), twice.clone())),
-            scalar(ExprNode::Div(scalar(ExprNode::Neg(scalar(ExprNode::Add(root, b)))), twice)),
-        ];
+        let coefficients = Rc::new(coefficients(form, &gap.expr, algebra));
+        let solutions = [false, true].map(|second| {
+            let node = ExprNode::OneOfTwo { form, coefficients: Rc::clone(&coefficients), second };
+            new_expr(node, Type::Scalar, at)
+        });
         let mut parts = vec![gap.clone()];
         let mut conditions = Vec::new();
         for branch in branches {
@@ -227,12 +237,38 @@ impl<'a> Checker<'a, '_> {
         let one = |this: Expr, other: Expr| boolean(ExprNode::And(this, boolean(ExprNode::Not(other))));
         let [plus, minus] = solutions;
         let rest = ExprNode::Select(one(second.clone(), first.clone()), minus, undefined(at));
-        let node = ExprNode::Select(one(first, second), plus, scalar(rest));
+        let rest = new_expr(rest, Type::Scalar, at);
+        let node = ExprNode::Select(one(first, second), plus, rest);
         let parts: Vec<&Typed> = parts.iter().collect();
         let mut value = self.build(node, Type::Scalar, at, &parts)?;
         value.depth = value.depth.saturating_add(12);
         value.uses.add(Class::Finished, name, at);
         Some(value)
+    }
+}
+
+/// Of an equation that is known to have a form: what it is at three values of its unknown.
+fn coefficients(form: TwoRoots, gap: &Expr, algebra: &Algebra) -> [Expr; 3] {
+    let at = gap.span;
+    let scalar = |node| new_expr(node, Type::Scalar, at);
+    let scaled = |factor: f64, of: ExprNode| scalar(ExprNode::Mul(number(factor, at), scalar(of)));
+    let put = |x: &Expr| algebra.put(gap, &|_| x.clone());
+    let pi = scalar(ExprNode::Pi);
+    match form {
+        TwoRoots::Quadratic => {
+            let [none, plus, minus] = [0.0, 1.0, -1.0].map(|x| put(&number(x, at)));
+            let mean = scaled(0.5, ExprNode::Add(plus.clone(), minus.clone()));
+            let square = scalar(ExprNode::Sub(mean, none.clone()));
+            [square, scaled(0.25, ExprNode::Sub(plus, minus)), none]
+        }
+        TwoRoots::Circular => {
+            let (none, half) = (put(&number(0.0, at)), put(&pi));
+            let quarter = put(&scalar(ExprNode::Mul(number(0.5, at), pi)));
+            let mean = scaled(0.5, ExprNode::Add(none.clone(), half.clone()));
+            let cosine = scaled(0.5, ExprNode::Sub(none, half));
+            let sine = scalar(ExprNode::Sub(quarter, mean.clone()));
+            [cosine, sine, scalar(ExprNode::Neg(mean))]
+        }
     }
 }
 
@@ -273,6 +309,15 @@ struct Algebra {
 
 /// More than a polynomial of second degree.
 const OTHER: u8 = 3;
+
+/// How an expression holds the one unknown of an equation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Circular {
+    Free,
+    /// Linear in its cosine and sine.
+    Linear,
+    Other,
+}
 
 impl Algebra {
     /// Which of the own unknowns a node is.
@@ -317,6 +362,55 @@ impl Algebra {
         };
         self.degrees.insert(key, degree);
         degree
+    }
+
+    /// Whether an expression is linear in the cosine and sine of the one unknown.
+    fn circular(&mut self, expr: &Expr, known: &mut HashMap<*const ExprNode, Circular>) -> Circular {
+        let key = Rc::as_ptr(&expr.node);
+        if let Some(known) = known.get(&key) {
+            return *known;
+        }
+        let free = |list: &[&Expr], algebra: &mut Algebra| list.iter().all(|part| algebra.degree(part) == 0);
+        let found = match &*expr.node {
+            _ if self.degree(expr) == 0 => Circular::Free,
+            ExprNode::Call(Function::Sin | Function::Cos, parts) => {
+                match parts.iter().map(|part| self.slope(part)).min() {
+                    Some(Some(1 | -1)) => Circular::Linear,
+                    _ => Circular::Other,
+                }
+            }
+            ExprNode::Neg(a) | ExprNode::Component(a, _) | ExprNode::Index(a, _) => self.circular(a, known),
+            ExprNode::Add(a, b) | ExprNode::Sub(a, b) => self.circular(a, known).max(self.circular(b, known)),
+            ExprNode::Vec3(parts) => parts.iter().map(|part| self.circular(part, known)).fold(Circular::Free, Ord::max),
+            ExprNode::Array(parts) => {
+                parts.iter().map(|part| self.circular(part, known)).fold(Circular::Free, Ord::max)
+            }
+            ExprNode::Mul(a, b) if free(&[a], self) || free(&[b], self) => {
+                self.circular(a, known).max(self.circular(b, known))
+            }
+            ExprNode::Div(a, b) if free(&[b], self) => self.circular(a, known),
+            ExprNode::Call(Function::Dot | Function::Cross, parts) if parts.iter().any(|part| free(&[part], self)) => {
+                parts.iter().map(|part| self.circular(part, known)).fold(Circular::Free, Ord::max)
+            }
+            ExprNode::Select(condition, a, b) if free(&[condition], self) => {
+                self.circular(a, known).max(self.circular(b, known))
+            }
+            _ => Circular::Other,
+        };
+        known.insert(key, found);
+        found
+    }
+
+    /// How often an angle holds the one unknown, where that is a whole number.
+    fn slope(&mut self, angle: &Expr) -> Option<i32> {
+        match &*angle.node {
+            node if self.place(node).is_some() => Some(1),
+            _ if self.degree(angle) == 0 => Some(0),
+            ExprNode::Neg(a) => Some(-self.slope(a)?),
+            ExprNode::Add(a, b) => Some(self.slope(a)? + self.slope(b)?),
+            ExprNode::Sub(a, b) => Some(self.slope(a)? - self.slope(b)?),
+            _ => None,
+        }
     }
 
     fn most(&mut self, parts: &[Expr]) -> u8 {

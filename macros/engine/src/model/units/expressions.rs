@@ -181,7 +181,9 @@ impl Expressions {
                 formula.unit.clone()
             }
             // The unknown takes the unit that fits; its equations are looked at as operands.
-            ExprNode::Unknown(_) | ExprNode::Solved { .. } | ExprNode::Undefined => Value::Any,
+            ExprNode::Unknown(_) | ExprNode::Solved { .. } | ExprNode::OneOfTwo { .. } | ExprNode::Undefined => {
+                Value::Any
+            }
             ExprNode::Vec3(elements) if is_unit_vector(elements) => Value::Number,
             ExprNode::Vec3(elements) => self.elements(elements),
             ExprNode::Array(elements) => self.elements(elements),
