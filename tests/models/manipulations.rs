@@ -265,6 +265,6 @@ macro_rules! poles {
 }
 
 poles! { exact_poles {} }
-poles! { small_poles { simplify small(hinge); } }
+poles! { small_poles { simplify small(hinge); emit impulse, equations; } }
 poles! { smaller_poles { simplify small(hinge, second.angle); } }
 poles! { held_poles { simplify hinge == 0.3; } }

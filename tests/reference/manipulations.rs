@@ -409,6 +409,24 @@ fn small_motions() {
     small!(smaller_poles, hinge, second);
 }
 
+/// Equations are printed as they are derived, and impulses move the expanded masses.
+#[test]
+fn small_motions_in_print_and_under_impulses() {
+    let model = small_poles::Model::<f64>::default();
+    let q = small_poles::Position { track: 0.2, hinge: 0.3, second: -0.7 };
+    let impulse = small_poles::Velocity { track: 0.5, hinge: -0.3, second: 1.1 };
+    let jump = model.impulse(&q, &impulse);
+    let left = model.mass_matrix(&q) * SVector::from([jump.track, jump.hinge, jump.second]);
+    close("impulse", left.as_slice(), &[0.5, -0.3, 1.1]);
+    let motion: Vec<&str> = small_poles::FORMULAS
+        .iter()
+        .map(|line| line.text)
+        .filter(|text| text.contains("hinge") && !text.starts_with("place"))
+        .collect();
+    assert!(motion.len() > 3, "{motion:?}");
+    assert!(!motion.iter().any(|text| text.contains("sin(hinge") || text.contains("cos(hinge")), "{motion:#?}");
+}
+
 /// What is linear in all that moves is what the exact equations are linearised to.
 #[test]
 fn small_motions_and_the_linearised_equations() {

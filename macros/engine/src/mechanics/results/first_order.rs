@@ -2,8 +2,9 @@
 //!
 //! In: finished equations of motion, M(q) a + h(q, v, ..) in the coordinates of the state. Out: the same to first order in the
 //! positions and rates that the model calls small, at fixed accelerations: f(0) + df/ds(0) s. Mass matrix, bias and inverse
-//! dynamics are expanded alike, and accelerations solve what is left of them, so all of these go on saying the same. Nothing is
-//! taken to be small before it has been differentiated: the slope of a cosine is a sine, and not the slope of one.
+//! dynamics are expanded alike, and accelerations solve what is left of them, so all of these go on saying the same; so do the
+//! equations that are printed, term by term, where no coordinate of theirs follows from others. Nothing is taken to be small
+//! before it has been differentiated: the slope of a cosine is a sine, and not the slope of one.
 
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
@@ -14,16 +15,6 @@ use crate::model::types::{Model, Request};
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::Scalar;
 
-/// Functions that are no consequence of the expanded equations.
-const OTHERS: [(Request, &str); 6] = [
-    (Request::Residual, "residual"),
-    (Request::Impulse, "impulse"),
-    (Request::Momentum, "momentum"),
-    (Request::Kinematics, "kinematics"),
-    (Request::Report, "report"),
-    (Request::Equations, "equations"),
-];
-
 impl Equations<'_> {
     /// Whether some motions are small.
     pub(in crate::mechanics) fn is_first_order(&self) -> bool {
@@ -31,7 +22,7 @@ impl Equations<'_> {
     }
 
     /// Finished expressions to first order in what is small.
-    pub(super) fn first_order(&mut self, list: &[Scalar]) -> Vec<Scalar> {
+    pub(in crate::mechanics) fn first_order(&mut self, list: &[Scalar]) -> Vec<Scalar> {
         if !self.is_first_order() {
             return list.to_vec();
         }
@@ -77,11 +68,9 @@ pub(in crate::mechanics) fn complaints(model: &Model, structure: &Structure) -> 
         let message = "inputs are not solved for where motions are taken to be small".to_owned();
         complaints.push(complaint(at, message, "write `inverse_dynamics` without `solve_for`"));
     }
-    for (request, name) in OTHERS {
-        if let Some(at) = model.asked_at(request) {
-            let message = format!("`{name}` is not derived where motions are taken to be small");
-            complaints.push(complaint(at, message, "leave it out of `emit`, or remove `simplify small(..)`"));
-        }
+    if let Some(at) = model.asked_at(Request::Momentum) {
+        let message = "`momentum` is not derived where motions are taken to be small".to_owned();
+        complaints.push(complaint(at, message, "leave it out of `emit`, or remove `simplify small(..)`"));
     }
     complaints
 }

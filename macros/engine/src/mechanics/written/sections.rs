@@ -402,12 +402,23 @@ impl Sections {
     /// Equations of motion, their mass matrix and parts.
     fn motion(&mut self, e: &mut Equations<'_>, following: &Following) {
         let structure = Rc::clone(&e.scene.structure);
+        if e.is_first_order() && !structure.steps.is_empty() {
+            // What follows is a symbol here, so nothing could be expanded in what it follows from.
+            let says = "Equations of motion are taken to first order in what is small, with all that follows put in: too long to be \
+                        written.";
+            self.section("Equations of motion", vec![says.to_owned()], Vec::new());
+            return;
+        }
         let state = structure.state.clone();
         let names: Vec<String> = state.iter().map(|&c| coordinate_name(e.scene.model, c)).collect();
         let matrix = following.mass_matrix(e);
         let Parts { inertial, gravity, forces } = e.parts(LoadCase::Declared);
         let inertial = e.g.substitute(&inertial, &following.still);
-        let [velocity, gravity, forces] = [inertial, gravity, forces].map(|list| following.project(e, &list));
+        let [velocity, gravity, forces] = [inertial, gravity, forces].map(|list| {
+            let list = following.project(e, &list);
+            e.first_order(&list)
+        });
+        let matrix: Vec<Vec<Scalar>> = matrix.iter().map(|row| e.first_order(row)).collect();
         let accelerations: Vec<Scalar> = state.iter().map(|&c| e.coordinate_symbols(c)[2]).collect();
         let held = self.held(e, following);
         let mut drafts = Vec::new();
