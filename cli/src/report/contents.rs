@@ -1,9 +1,9 @@
 //! What a report says of a model, section by section.
 
-use multibody_engine::emit::{self, Declared, Facts};
+use multibody_engine::emit::{self, Declared, Facts, Form, Shown};
 use multibody_engine::mechanics::written;
 use multibody_engine::optimize::program::{Function, Rival};
-use multibody_engine::symbolic::write::{latex, mathml, text};
+use multibody_engine::symbolic::write::{latex, text};
 
 use super::Material;
 use super::document::{Block, Document, Line, Section, Table};
@@ -15,10 +15,6 @@ use crate::commands::counts::{KINDS, numbers};
 /// A graph of more nodes is folded, and so are a matrix of more rows and a table of more rows.
 const MOST_NODES: usize = 90;
 const MOST_ROWS: usize = 40;
-
-/// A section of more equations is folded, and one of more is cut.
-const MOST_UNFOLDED: usize = 24;
-const MOST_WRITTEN: usize = 400;
 
 pub(super) fn document(material: &Material<'_>) -> Document {
     let sections = [
@@ -280,30 +276,36 @@ fn equations(material: &Material<'_>) -> Option<Section> {
     let mut blocks = Vec::new();
     for part in &material.page.sections {
         blocks.push(Block::Heading(part.title.to_owned()));
+        let shown = Shown::new(&material.page, part);
         blocks.extend(part.says.iter().map(|says| Block::Words(says.clone())));
-        let shown = material.page.folded(part);
-        let count = shown.len();
-        if count == 0 {
+        blocks.extend(shown.says().map(|says| Block::Words(says.to_owned())));
+        if shown.count() == 0 {
             continue;
         }
-        let shown = shown.iter().take(MOST_WRITTEN).map(|folded| line(&folded.line));
-        let mut lines = vec![Block::Equations(shown.collect())];
-        if count > MOST_WRITTEN {
-            let more = count - MOST_WRITTEN;
-            lines.push(Block::Words(format!("and {more} more, which `cargo multibody equations` prints")));
+        let mut lines = Vec::new();
+        for form in &shown.lines {
+            match (form, lines.last_mut()) {
+                (Form::Set(mathml, of), Some(Block::Equations(set))) => set.push(line(mathml, of)),
+                (Form::Set(mathml, of), _) => lines.push(Block::Equations(vec![line(mathml, of)])),
+                (Form::Plain(text), Some(Block::Letters(plain))) => plain.push(text.clone()),
+                (Form::Plain(text), _) => lines.push(Block::Letters(vec![text.clone()])),
+            }
         }
-        match count > MOST_UNFOLDED {
-            true => blocks.push(Block::Folded(format!("{count} equations"), lines)),
+        if !shown.rest.is_empty() {
+            lines.push(Block::Folded(shown.over_rest(), vec![Block::Letters(shown.rest.clone())]));
+        }
+        lines.extend(shown.at_end().map(Block::Words));
+        match shown.is_folded() {
+            true => blocks.push(Block::Folded(format!("{} equations", shown.count() + shown.more), lines)),
             false => blocks.extend(lines),
         }
     }
     section("Equations", blocks)
 }
 
-fn line(line: &written::Line) -> Line {
-    let equation = &line.equation;
-    let (mathml, latex, text) = (mathml::equation(equation), latex::equation(equation), text::equation(equation));
-    Line { mathml, latex, text, says: line.says.clone() }
+fn line(mathml: &str, line: &written::Line) -> Line {
+    let (latex, text) = (latex::equation(&line.equation), text::equation(&line.equation));
+    Line { mathml: mathml.to_owned(), latex, text, says: line.says.clone() }
 }
 
 fn remarks(material: &Material<'_>) -> Option<Section> {

@@ -23,6 +23,8 @@ pub(crate) enum Block {
     Figure(Figure),
     Heading(String),
     Equations(Vec<Line>),
+    /// Equations as plain text, each on a line.
+    Letters(Vec<String>),
     /// What is long stands behind its summary.
     Folded(String, Vec<Block>),
 }

@@ -55,6 +55,13 @@ fn block(out: &mut String, one: &Block) {
             let _ = writeln!(out, "<h3>{}</h3>", words(title));
         }
         Block::Equations(lines) => lines.iter().for_each(|line| equation(out, line)),
+        Block::Letters(lines) => {
+            out.push_str("<ul class=\"plain\">\n");
+            for line in lines {
+                let _ = writeln!(out, "<li><code>{}</code></li>", escaped(line));
+            }
+            out.push_str("</ul>\n");
+        }
         Block::Folded(summary, blocks) => {
             let _ = writeln!(out, "<details>\n<summary>{}</summary>", words(summary));
             blocks.iter().for_each(|one| block(out, one));

@@ -46,6 +46,9 @@ fn block(out: &mut String, one: &Block) {
                 }
             }
         }
+        Block::Letters(lines) => {
+            let _ = write!(out, "\n```text\n{}\n```\n", lines.join("\n"));
+        }
         Block::Folded(summary, blocks) => {
             let _ = write!(out, "\n{summary}:\n");
             blocks.iter().for_each(|one| block(out, one));

@@ -1,5 +1,5 @@
 """MathML: operators are `mo`, factors are parted by the invisible sign of multiplication or a dot, a function's name has the
-sign of application behind it, a name is an `mi`, with `mover` for dots and `msub` for an index."""
+sign of application behind it, a name is an `mi`, with `mover` for dots and `msub` for an index. A function of one name has no brackets."""
 
 import xml.etree.ElementTree as Tree
 
@@ -134,7 +134,9 @@ def bracket(parts, names):
 
 
 def arguments(element, names):
-    """Of a function: a row in brackets, parted by commas."""
+    """Of a function: a row in brackets, parted by commas, or one name."""
+    if is_name(element):
+        return [value(element, names)]
     parts, lists = list(element)[1:-1], [[]]
     for part in parts:
         if part.tag == "mo" and part.text == ",":

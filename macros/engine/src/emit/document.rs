@@ -10,6 +10,7 @@ pub(super) mod fields;
 pub(super) mod formula;
 pub(super) mod loops;
 pub(super) mod report;
+pub(super) mod shown;
 mod unchecked;
 pub(super) mod unused;
 

@@ -34,6 +34,7 @@ pub use self::broken::skeleton::skeleton;
 pub use self::document::alike::once as alike;
 pub use self::document::facts::{BodyFact, ClosingFact, Declared, Facts, ForceFact, JointFact};
 pub use self::document::report::report;
+pub use self::document::shown::{Form, Shown};
 pub use self::document::unused::Unused;
 pub use self::methods::functions::name as function_name;
 pub use self::print::text::source;

@@ -39,7 +39,7 @@ fn documentation(module: &str) -> Vec<String> {
 }
 
 /// Every tag is closed in its order.
-fn is_balanced(html: &str) -> bool {
+pub(crate) fn is_balanced(html: &str) -> bool {
     let mut open: Vec<&str> = Vec::new();
     for tag in html.split('<').skip(1).filter_map(|rest| rest.split('>').next()) {
         match tag.strip_prefix('/') {

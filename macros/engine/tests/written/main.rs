@@ -13,6 +13,7 @@ mod pages;
 mod documented;
 mod faithful;
 mod folded;
+mod large;
 mod leg;
 mod reader;
 mod readme;

@@ -1,20 +1,16 @@
 //! Stage `emit`: equations in documentation.
 //!
 //! In: the page of a model that says `emit report`. Out: Markdown. The module's page has them as MathML, which browsers set
-//! without a script, in `<div>` blocks without empty lines, long sections folded; a function has the equations of what it gives
+//! without a script, in `<div>` blocks without empty lines, long sections folded and large ones as plain text from some line on; a function has the equations of what it gives
 //! as plain text, since editors that show documentation know no MathML.
 
 use crate::contracts::function::FunctionKind;
-use crate::mechanics::written::{Line, Page, Section, Subject};
+use crate::mechanics::written::{Line, Page, Subject};
 use crate::model::types::Request;
-use crate::symbolic::write::mathml;
 
 use super::super::layout::Layout;
+use super::shown::{Form, Shown};
 
-/// A section of more equations is folded.
-const MOST_UNFOLDED: usize = 24;
-/// Beyond this many a section is cut: nobody reads them on a page, and constants and files have them all.
-const MOST_WRITTEN: usize = 400;
 /// Lines in the documentation of a function, each no longer than this.
 const MOST_LINES: usize = 10;
 const MOST_CHARACTERS: usize = 140;
@@ -33,38 +29,48 @@ pub(in crate::emit) fn lines(layout: &Layout<'_>) -> Vec<String> {
     let mut lines = vec![String::new(), "## Equations".to_owned()];
     for section in &page.sections {
         lines.extend([String::new(), format!("### {}", section.title), String::new()]);
-        for says in &section.says {
-            lines.extend([says.clone(), String::new()]);
+        let shown = Shown::new(page, section);
+        for says in section.says.iter().map(String::as_str).chain(shown.says()) {
+            lines.extend([says.to_owned(), String::new()]);
         }
-        lines.extend(block(page, section));
+        lines.extend(block(&shown));
     }
     lines
 }
 
 /// The equations of a section as one block of HTML.
-fn block(page: &Page, section: &Section) -> Vec<String> {
-    let shown = page.folded(section);
-    let count = shown.len();
-    if count == 0 {
+fn block(shown: &Shown) -> Vec<String> {
+    if shown.count() == 0 {
         return Vec::new();
     }
-    let mut block: Vec<String> = shown.iter().take(MOST_WRITTEN).map(|folded| equation(&folded.line)).collect();
-    if count > MOST_WRITTEN {
-        block.push(format!("<p>and {} more</p>", count - MOST_WRITTEN));
+    let mut block = vec![WIDE.to_owned()];
+    block.extend(shown.lines.iter().map(equation));
+    block.push("</div>".to_owned());
+    if !shown.rest.is_empty() {
+        block.push(format!("<details><summary>{}</summary>", shown.over_rest()));
+        block.push(letters(&shown.rest.join("\n")));
+        block.push("</details>".to_owned());
     }
-    let (open, close) = match count > MOST_UNFOLDED {
-        true => (format!("<details><summary>{count} equations</summary>{WIDE}"), "</div></details>"),
-        false => (WIDE.to_owned(), "</div>"),
-    };
-    std::iter::once(open).chain(block).chain([close.to_owned()]).collect()
+    block.extend(shown.at_end().map(|says| format!("<p>{}</p>", in_block(&says))));
+    if shown.is_folded() {
+        block.insert(0, format!("<details><summary>{} equations</summary>", shown.count() + shown.more));
+        block.push("</details>".to_owned());
+    }
+    block
 }
 
-fn equation(line: &Line) -> String {
-    let math = mathml::equation(&line.equation);
-    match &line.says {
-        Some(says) => format!("{math}<p style=\"text-align:center\">{}</p>", in_block(says)),
-        None => math,
+fn equation(form: &Form) -> String {
+    match form {
+        Form::Set(math, Line { says: Some(says), .. }) => {
+            format!("{math}<p style=\"text-align:center\">{}</p>", in_block(says))
+        }
+        Form::Set(math, _) => math.clone(),
+        Form::Plain(text) => letters(text),
     }
+}
+
+fn letters(text: &str) -> String {
+    format!("<pre style=\"white-space:pre-wrap\">{}</pre>", in_block(text))
 }
 
 /// Markdown for a block of HTML, inside which it is not read.

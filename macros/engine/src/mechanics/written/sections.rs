@@ -460,7 +460,7 @@ impl Sections {
             written.chunks(2).enumerate().filter_map(|(i, pair)| pair_up(i, pair)).collect()
         } else {
             self.taken = before;
-            self.by_name(e, &names, &state, &held)
+            self.by_name(e, &names, &held, &matrix, [&velocity, &gravity, &forces])
         };
         self.section("Equations of motion", Vec::new(), rows);
         let lines = self.lines(e, drafts);
@@ -484,37 +484,53 @@ impl Sections {
         all.iter().zip(&declared).map(|(&a, &b)| e.g.sub(a, b)).collect()
     }
 
-    /// Equations of motion in the names of their parts.
-    fn by_name(&self, e: &Equations<'_>, names: &[String], state: &[Coordinate], held: &[Scalar]) -> Vec<Line> {
+    /// Equations of motion in the names of their parts, without those that are zero.
+    fn by_name(
+        &self,
+        e: &Equations<'_>,
+        names: &[String],
+        held: &[Scalar],
+        matrix: &[Vec<Scalar>],
+        [velocity, gravity, forces]: [&[Scalar]; 3],
+    ) -> Vec<Line> {
+        let structure = &e.scene.structure;
         let named = |letter: &str, index: String| Formula::Name(entry(letter, index, Class::Defined));
+        let part = |letter: &str, list: &[Scalar], i: usize| {
+            (list[i] != Scalar::ZERO).then(|| (false, named(letter, names[i].clone())))
+        };
         let rows = names.iter().enumerate().map(|(i, name)| {
-            let mut terms: Vec<(bool, Formula)> = state
-                .iter()
-                .enumerate()
-                .map(|(j, &coordinate)| {
-                    let (first, second) = (i.min(j), i.max(j));
-                    let mass = named("M", format!("{}, {}", names[first], names[second]));
-                    let acceleration = self.name(e, e.coordinate_symbols(coordinate)[2]);
-                    (false, Formula::Product(vec![mass, acceleration]))
-                })
-                .collect();
-            terms.push((false, named("c", name.clone())));
-            terms.push((false, named("g", name.clone())));
-            let mut right = named("Q", name.clone());
+            let mut left: Vec<(bool, Formula)> = Vec::new();
+            for (j, &coordinate) in structure.state.iter().enumerate().filter(|&(j, _)| matrix[i][j] != Scalar::ZERO) {
+                let mass = named("M", format!("{}, {}", names[i.min(j)], names[i.max(j)]));
+                let acceleration = self.name(e, e.coordinate_symbols(coordinate)[2]);
+                left.push((false, Formula::Product(vec![mass, acceleration])));
+            }
+            left.extend(part("c", velocity, i));
+            left.extend(part("g", gravity, i));
+            let mut right: Vec<(bool, Formula)> = part("Q", forces, i).into_iter().collect();
             if held[i] != Scalar::ZERO {
-                let structure = &e.scene.structure;
-                let mut sum = vec![(false, right)];
                 for (k, &row) in structure.rows.iter().enumerate().filter(|(k, _)| self.sloped.contains(&(*k, i))) {
                     let index = format!("{}, {name}", row_name(e.scene.model, row.closing, row.index));
                     let lambda = self.name(e, e.scene.symbols.multipliers[k]);
-                    sum.push((true, Formula::Product(vec![named("G", index), lambda])));
+                    right.push((true, Formula::Product(vec![named("G", index), lambda])));
                 }
-                right = Formula::Sum(sum);
             }
-            let equation = Equation { left: Formula::Sum(terms), right };
+            let equation = Equation { left: sum(left), right: sum(right) };
             Line { subject: Subject::Motion(i), equation, says: None }
         });
         rows.collect()
+    }
+}
+
+/// Terms with whether each is subtracted.
+fn sum(mut terms: Vec<(bool, Formula)>) -> Formula {
+    match terms.len() {
+        0 => Formula::zero(),
+        1 => {
+            let (is_minus, term) = terms.remove(0);
+            if is_minus { Formula::Minus(Box::new(term)) } else { term }
+        }
+        _ => Formula::Sum(terms),
     }
 }
 

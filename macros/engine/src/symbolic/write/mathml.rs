@@ -1,14 +1,22 @@
 //! Stage `symbolic`, writing: formulas in MathML Core.
 //!
-//! In: a formula. Out: a `<math>` element that browsers set without a script. Markdown passes it as it is where it stands in a
-//! `<div>` on lines of its own; no line is empty and none is indented, which would end the block.
+//! In: a formula. Out: a `<math>` element that browsers set without a script, in few tags: no rows around one thing, no brackets
+//! around the one name that a sine is of, no attributes that are the operator's anyway. Markdown passes it as it is where it stands
+//! in a `<div>` on lines of its own; no line is empty and none is indented, which would end the block.
 
 use super::formula::{Equation, Formula, Function, Identifier, Relation};
 use super::latex;
 
 /// One equation as a display.
 pub fn equation(Equation { left, right }: &Equation) -> String {
-    display(&format!("{}<mo>=</mo>{}", row(left), row(right)))
+    // Right behind the equals sign a minus would be one between two terms.
+    let is_negative = match right {
+        Formula::Minus(_) => true,
+        Formula::Sum(terms) => terms.first().is_some_and(|(minus, _)| *minus),
+        _ => false,
+    };
+    let right = if is_negative { one(right) } else { row(right) };
+    display(&format!("{}<mo>=</mo>{right}", row(left)))
 }
 
 /// A formula as a display.
@@ -17,7 +25,7 @@ pub fn alone(formula: &Formula) -> String {
 }
 
 fn display(content: &str) -> String {
-    format!("<math display=\"block\" style=\"margin:0.6em 0\"><mrow>{content}</mrow></math>")
+    format!("<math display=\"block\" style=\"margin:0.6em 0\">{content}</math>")
 }
 
 fn row(formula: &Formula) -> String {
@@ -39,7 +47,11 @@ pub fn name(identifier: &Identifier) -> String {
         1 => format!("<mover>{stem}<mo>˙</mo></mover>"),
         _ => format!("<mover>{stem}<mo>¨</mo></mover>"),
     };
-    if index.is_empty() { dotted } else { format!("<msub>{dotted}<mtext>{}</mtext></msub>", escaped(&index)) }
+    match index.as_str() {
+        "" => dotted,
+        digits if digits.bytes().all(|byte| byte.is_ascii_digit()) => format!("<msub>{dotted}<mn>{digits}</mn></msub>"),
+        words => format!("<msub>{dotted}<mi>{}</mi></msub>", escaped(words)),
+    }
 }
 
 fn greek(word: &str) -> Option<char> {
@@ -53,8 +65,41 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('_', "&#95;").replace('*', "&#42;")
 }
 
-/// Words beside each other need a space; the sign itself has none.
-const TIMES: &str = "<mo lspace=\"0.2em\" rspace=\"0em\">&#8290;</mo>";
+/// The sign between factors. It has no width, so words beside each other need a space.
+fn times(before: &Formula, after: &Formula) -> &'static str {
+    let is_function = matches!(after, Formula::Apply(..));
+    let is_bracket = matches!(after, Formula::Sum(_) | Formula::Minus(_) | Formula::Related(..));
+    match () {
+        () if starts_with_digit(after) => "<mo>·</mo>",
+        () if is_function || is_word(after) || is_word(before) && !is_bracket => "<mo lspace=\".2em\">\u{2062}</mo>",
+        () => "<mo>\u{2062}</mo>",
+    }
+}
+
+/// Whether a factor is set in letters that would run into those beside it.
+fn is_word(factor: &Formula) -> bool {
+    match factor {
+        Formula::Name(identifier) => {
+            let (stem, index) = latex::taken_apart(identifier);
+            let is_letter = stem.chars().count() == 1 || greek(&stem).is_some();
+            !is_letter || index.chars().count() > 1
+        }
+        Formula::Power(x, _) => is_word(x),
+        Formula::Apply(..) => true,
+        _ => false,
+    }
+}
+
+/// A row where one thing must stand.
+fn one(formula: &Formula) -> String {
+    let is_one = match formula {
+        Formula::Number(_) | Formula::Pi | Formula::Name(_) | Formula::Fraction(..) | Formula::Power(..) => true,
+        Formula::General(..) | Formula::Root(_) | Formula::Absolute(_) | Formula::Cases(_) => true,
+        Formula::Apply(function, _) => matches!(function, Function::Epsilon | Function::Undefined),
+        Formula::Minus(_) | Formula::Sum(_) | Formula::Product(_) | Formula::Related(..) | Formula::Not(_) => false,
+    };
+    if is_one { row(formula) } else { format!("<mrow>{}</mrow>", row(formula)) }
+}
 
 fn put(text: &mut String, formula: &Formula) {
     match formula {
@@ -78,24 +123,30 @@ fn put(text: &mut String, formula: &Formula) {
         Formula::Product(factors) => {
             for (k, factor) in factors.iter().enumerate() {
                 if k > 0 {
-                    text.push_str(if starts_with_digit(factor) { "<mo>·</mo>" } else { TIMES });
+                    text.push_str(times(&factors[k - 1], factor));
                 }
                 bracketed(text, factor, matches!(factor, Formula::Sum(_) | Formula::Minus(_) | Formula::Related(..)));
             }
         }
         Formula::Fraction(above, below) => {
-            text.push_str(&format!("<mfrac><mrow>{}</mrow><mrow>{}</mrow></mfrac>", row(above), row(below)));
+            text.push_str(&format!("<mfrac>{}{}</mfrac>", one(above), one(below)));
         }
         Formula::Power(x, n) => text.push_str(&format!("<msup>{}<mn>{n}</mn></msup>", base(x))),
-        Formula::General(x, y) => text.push_str(&format!("<msup>{}<mrow>{}</mrow></msup>", base(x), row(y))),
+        Formula::General(x, y) => text.push_str(&format!("<msup>{}{}</msup>", base(x), one(y))),
         Formula::Root(x) => text.push_str(&format!("<msqrt>{}</msqrt>", row(x))),
         Formula::Absolute(x) => text.push_str(&format!("<mrow><mo>|</mo>{}<mo>|</mo></mrow>", row(x))),
         Formula::Apply(function, list) => {
             text.push_str(&format!("<mi>{}</mi>", function.word()));
-            if !matches!(function, Function::Epsilon | Function::Undefined) {
-                let arguments: Vec<String> = list.iter().map(row).collect();
-                let arguments = arguments.join("<mo>,</mo>");
-                text.push_str(&format!("<mo>&#8289;</mo><mrow><mo>(</mo>{arguments}<mo>)</mo></mrow>"));
+            match &list[..] {
+                _ if matches!(function, Function::Epsilon | Function::Undefined) => {}
+                [Formula::Name(argument)] => {
+                    text.push_str(&format!("<mo rspace=\".17em\">\u{2061}</mo>{}", name(argument)));
+                }
+                list => {
+                    let arguments: Vec<String> = list.iter().map(row).collect();
+                    let arguments = arguments.join("<mo>,</mo>");
+                    text.push_str(&format!("<mo>\u{2061}</mo><mrow><mo>(</mo>{arguments}<mo>)</mo></mrow>"));
+                }
             }
         }
         Formula::Related(relation, a, b) => {
@@ -149,5 +200,5 @@ fn base(formula: &Formula) -> String {
     let mut text = String::new();
     let plain = matches!(formula, Formula::Number(_) | Formula::Pi | Formula::Name(_));
     bracketed(&mut text, formula, !plain);
-    if plain || text.starts_with("<mrow>") { text } else { format!("<mrow>{text}</mrow>") }
+    text
 }
