@@ -8,7 +8,7 @@
 //! invariant:
 //! rust_keywords:
 //! diagnostics:
-//! syntax: diagnostics
+//! syntax: diagnostics rust_keywords
 //! model: syntax diagnostics rust_keywords invariant
 //! contracts: model invariant
 //! symbolic: contracts::call contracts::cost invariant

@@ -48,6 +48,7 @@ pub mod keywords;
 mod modules;
 mod names;
 mod numbers;
+mod raw;
 pub mod tree;
 
 use proc_macro2::TokenStream;
@@ -56,5 +57,5 @@ use crate::diagnostics::Diagnostics;
 
 /// Reads what can be read of one `multibody! { .. }`. Stacks stay small and time linear whatever the tokens.
 pub fn parse(tokens: TokenStream, diagnostics: &mut Diagnostics) -> tree::Source {
-    modules::source(tokens, diagnostics)
+    modules::source(raw::plain(tokens), diagnostics)
 }

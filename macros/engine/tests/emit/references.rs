@@ -213,6 +213,30 @@ fn a_formula_leads_into_its_model() {
     assert!(text.contains(want), "{text}");
 }
 
+/// `r#arm` is `arm`: one name of the module's, to which both lead. A keyword is a name as a raw one alone.
+#[test]
+fn raw_names_are_names() {
+    let call = "mod r#swing {
+        param r#arm = 1.0;
+        param r#type = 2.0;
+        body rod { mass: r#type, com: arm * X }
+        joint hinge: Revolute { parent: ground, child: r#rod, axis: Z }
+        output reach = r#arm * cos(hinge);
+    }";
+    let tokens = names_of(call.parse().unwrap(), false);
+    syn::parse2::<syn::File>(tokens.clone()).expect("items");
+    let text = tokens.to_string().replace(' ', "");
+    assert_eq!(text.matches("let_=NamesOf0::arm;").count(), 2, "{text}");
+    assert_eq!(text.matches("let_=NamesOf0::rod;").count(), 1, "{text}");
+    assert!(text.contains("let_=NamesOf0::r#type;") && !text.contains("r#arm") && !text.contains("r#swing"), "{text}");
+    assert!(!expand(call.parse().unwrap()).to_string().contains("compile_error"));
+    // Two of one name are a mistake, and no two names of one enum.
+    let twice = call.replace("param r#type", "param arm = 1.0; param r#type");
+    let text = names_of(twice.parse().unwrap(), true).to_string();
+    assert!(syn::parse_str::<syn::File>(&text).is_ok() && !text.contains("r#arm"), "{text}");
+    assert!(expand(twice.parse().unwrap()).to_string().contains("the name `arm` is taken"));
+}
+
 /// A model with mistakes has references for editors, which complete what is unknown, and none for a compiler, to which each
 /// would be one more error.
 #[test]

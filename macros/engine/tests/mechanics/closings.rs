@@ -186,7 +186,7 @@ fn multipliers_act_as_the_transposed_jacobian() {
             close(kind, &values.of(&e, &residuals), &vec![0.0; rows], 1e-12);
             let lambda: Vec<Scalar> = (0..rows).map(|k| e.g.decimal(0.3 + 0.7 * k as f64)).collect();
             let wanted = transposed(&mut e, &residuals, &lambda);
-            let held = Held { closing, multipliers: lambda, writing };
+            let held = Held { closing, multipliers: lambda, writing, open: false };
             let efforts = e.constraint_efforts(&[held]);
             // On the branch with the axes the other way round a screw turns the other way.
             let aligned = e.alignments(closing);
@@ -195,6 +195,25 @@ fn multipliers_act_as_the_transposed_jacobian() {
                 let what = format!("{kind} {rest} {writing:?}");
                 close(&what, &values.of(&e, &efforts), &values.of(&e, &wanted), 1e-11);
             }
+        }
+    }
+}
+
+/// As derivatives take them: far from any closed position, in all axes.
+#[test]
+fn multipliers_may_act_exactly_where_loops_are_open() {
+    for (kind, rest, rows) in KINDS {
+        let model = loose(kind, rest, "");
+        let closing = closings(&model)[0];
+        for (seed, writing) in Writing::ALL.into_iter().enumerate() {
+            let mut e = Equations::plain(&model);
+            let residuals = e.residuals(closing, writing);
+            let values = draw(&e, 200 + seed as u64);
+            let lambda: Vec<Scalar> = (0..rows).map(|k| e.g.decimal(0.3 + 0.7 * k as f64)).collect();
+            let wanted = transposed(&mut e, &residuals, &lambda);
+            let efforts = e.constraint_efforts(&[Held { closing, multipliers: lambda, writing, open: true }]);
+            let what = format!("{kind} {rest} {writing:?}");
+            close(&what, &values.of(&e, &efforts), &values.of(&e, &wanted), 1e-11);
         }
     }
 }
@@ -233,7 +252,7 @@ fn rods_and_expressions_are_exact() {
             let residuals = e.residuals(closing, writing);
             let lambda = vec![e.g.decimal(0.7)];
             let wanted = transposed(&mut e, &residuals, &lambda);
-            let efforts = e.constraint_efforts(&[Held { closing, multipliers: lambda, writing }]);
+            let efforts = e.constraint_efforts(&[Held { closing, multipliers: lambda, writing, open: false }]);
             close("efforts", &values.of(&e, &efforts), &values.of(&e, &wanted), 1e-12);
             // r' = G v + dr/dt
             let rates = e.residual_rates(closing, writing);

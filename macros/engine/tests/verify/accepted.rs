@@ -77,3 +77,47 @@ fn thin_rods_in_a_loop() {
         ));
     }
 }
+
+/// The gap of the loop is measured in the axes of the table, which turns: its equations push the table only where the loop is
+/// open, but how they push changes as it opens. With parameters other than the declared ones it is open.
+#[test]
+fn a_loop_on_a_turning_table() {
+    let requests =
+        ["forward_dynamics, derivatives, linearize", "residual, inverse_dynamics", "residual, forward_dynamics"];
+    for table in ["Revolute { parent: ground, child: table, axis: Z }", "Ball { parent: ground, child: table }"] {
+        for request in requests {
+            compiled(&format!(
+                "mod m {{
+                    param length = 0.56;
+                    body table {{ mass: 2.8, inertia: sphere(2.8, 0.3) }}
+                    body crank {{ mass: 0.2, inertia: diag(1e-3, 1e-3, 1e-3) }}
+                    body link {{ mass: 0.1, com: 0.15 * X, inertia: rod(0.1, 0.56, X) }}
+                    body slider {{ mass: 2.5 }}
+                    joint turn: {table}
+                    joint first: Revolute {{ parent: table, child: crank, axis: Z }}
+                    joint second: Revolute {{ parent: crank.at(0.1 * X), child: link, axis: Z }}
+                    joint push: Prismatic {{ parent: table, child: slider, axis: X }}
+                    joint pin: Revolute {{ parent: link.at(length * X), child: slider, axis: Z }}
+                    emit {request};
+                }}"
+            ));
+        }
+    }
+}
+
+/// A thread between two bodies that count no turns pushes and turns them as far as it lags and leans.
+#[test]
+fn a_thread_that_counts_no_turns() {
+    for request in ["forward_dynamics, derivatives", "residual, inverse_dynamics"] {
+        compiled(&format!(
+            "mod m {{
+                param lean = 0.7;
+                body nut {{ mass: 0.7, inertia: diag(0.1, 0.2, 0.25) }}
+                body bolt {{ mass: 0.7, inertia: diag(0.1, 0.2, 0.25) }}
+                joint thread: Screw {{ parent: nut.rotated(X + 2 * Y, lean), child: bolt, axis: Z, pitch: 0.1 }}
+                formulation {{ coordinates: Absolute(Quaternion) }}
+                emit {request};
+            }}"
+        ));
+    }
+}

@@ -3,7 +3,7 @@
 //! In: the references of a call; a model of it. Out: for each use of a name the fields of that name, so that renaming changes
 //! the model and the code that reads its state alike.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -17,25 +17,22 @@ use crate::model::types::{Model, PartTypeId};
 /// Expands to `const _: () = { fn uses0(all: &pendulum::Params) { let _ = all.length; .. } .. };`.
 pub fn fields(references: &References, model: &Model, structure: &Structure) -> TokenStream {
     let layout = Layout::new(model, structure);
-    let owners: Vec<Option<Owner>> = references
-        .modules
-        .iter()
-        .map(|module| {
-            let mut parts = model.part_types.iter().enumerate();
-            match module.is_part {
-                true => parts.find(|(_, part)| part.name == module.name).map(|(index, _)| Some(PartTypeId(index))),
-                false => (module.name == model.name).then_some(None),
-            }
-        })
-        .collect();
+    // In source order.
+    let mut owners: BTreeMap<usize, Owner> = BTreeMap::new();
+    let is_part = |module: usize| references.modules.get(module).is_some_and(|module| module.is_part);
+    let models = references.called(&model.name).iter().filter(|&&module| !is_part(module));
+    owners.extend(models.map(|&module| (module, None)));
+    for (number, part) in model.part_types.iter().enumerate() {
+        let parts = references.called(&part.name).iter().filter(|&&module| is_part(module));
+        owners.extend(parts.map(|&module| (module, Some(PartTypeId(number)))));
+    }
     // What names of each module are used by this model and its parts.
     let mut used: HashMap<usize, Vec<(&Ident, String)>> = HashMap::new();
-    for (module, _) in references.modules.iter().zip(&owners).filter(|(_, owner)| owner.is_some()) {
+    for module in owners.keys().filter_map(|&module| references.modules.get(module)) {
         each_name(&module.uses, &mut |module, name| used.entry(module).or_default().push((name, name.to_string())));
     }
     let mut structs: Vec<(StructKind, Owner, TokenStream)> = Vec::new();
-    for (index, owner) in owners.iter().enumerate() {
-        let Some(owner) = *owner else { continue };
+    for (&index, &owner) in &owners {
         for group in StructKind::ALL.into_iter().filter(|group| !layout.is_empty(*group, owner)) {
             let fields = layout.fields(group, owner);
             let declared = references.modules.get(index).into_iter().flat_map(|module| &module.declared);

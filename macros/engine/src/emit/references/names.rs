@@ -43,8 +43,7 @@ struct Writer<'a> {
 impl Writer<'_> {
     /// Whether no module before has the same name, of which `cfg` may take one away.
     fn is_first(&self, index: usize, module: &Module) -> bool {
-        let mut before = self.references.modules.iter().take(index);
-        !before.any(|other| other.name == module.name) && is_written(&module.name)
+        self.references.called(&module.name).first() == Some(&index) && is_written(&module.name)
     }
 
     fn krate(&self) -> &Path {

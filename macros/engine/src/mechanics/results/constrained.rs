@@ -335,7 +335,7 @@ impl Equations<'_> {
 
     /// Dynamic rows with the multipliers' forces, then the equations.
     pub(in crate::mechanics) fn residual(&mut self, reduction: &Reduction) -> Results<Scalar> {
-        let efforts = self.reduced_efforts(reduction, LoadCase::Held);
+        let efforts = self.reduced_efforts(reduction, LoadCase::HeldOpen);
         Results::velocity(efforts).with_any(Slot::Gaps, self.constraints(reduction))
     }
 

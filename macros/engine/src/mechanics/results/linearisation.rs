@@ -97,7 +97,7 @@ impl Equations<'_> {
         let (mut saddle, rows, solved) = self.system(reduction);
         let directions = self.directions(reduction);
         // Positions and velocities move while accelerations and multipliers stay: these are symbols for now.
-        let mut residual = self.reduced_efforts(reduction, LoadCase::Held);
+        let mut residual = self.reduced_efforts(reduction, LoadCase::HeldOpen);
         let freedoms = residual.len();
         let state = self.scene.structure.state.clone();
         let accelerations: Vec<Scalar> = state.iter().map(|&at| self.coordinate_symbols(at)[2]).collect();

@@ -143,7 +143,7 @@ impl Equations<'_> {
         let mut loads = self.with_rotors(loads, &user);
         let holding = self.reaction_multipliers();
         if !holding.is_empty() {
-            loads = self.held_by(&loads, &holding);
+            loads = self.held_by(&loads, &holding, false);
         }
         let base = self.base();
         let motions = motions(&mut self.g, tree, &tree.velocity, &acceleration, base);

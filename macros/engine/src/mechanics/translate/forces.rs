@@ -99,6 +99,8 @@ pub(in crate::mechanics) enum LoadCase {
     Declared,
     /// And those of the multipliers, which are symbols.
     Held,
+    /// The same, exact where loops are open too: slopes of what is left out where they are closed are not zero.
+    HeldOpen,
 }
 
 /// Forces that are derived, or being derived.
@@ -106,6 +108,7 @@ pub(in crate::mechanics) enum LoadCase {
 pub(in crate::mechanics) struct Forces {
     declared: Option<Rc<Loads>>,
     held: Option<Rc<Loads>>,
+    held_open: Option<Rc<Loads>>,
     /// The checker lets no force depend on others, and here that would be an endless regress.
     deriving: bool,
 }
@@ -116,6 +119,7 @@ impl Equations<'_> {
         let known = |forces: &Forces| match case {
             LoadCase::Declared => forces.declared.clone(),
             LoadCase::Held => forces.held.clone(),
+            LoadCase::HeldOpen => forces.held_open.clone(),
         };
         if let Some(loads) = known(&self.caches.forces) {
             return loads;
@@ -126,11 +130,13 @@ impl Equations<'_> {
                 self.caches.forces.declared = Some(Rc::clone(&loads));
                 loads
             }
-            LoadCase::Held => {
+            LoadCase::Held | LoadCase::HeldOpen => {
                 let declared = self.loads(LoadCase::Declared);
                 let multiplied = self.rows_with_multipliers();
-                let loads = if multiplied.is_empty() { declared } else { self.held_by(&declared, &multiplied) };
-                self.caches.forces.held = Some(Rc::clone(&loads));
+                let open = case == LoadCase::HeldOpen;
+                let loads = if multiplied.is_empty() { declared } else { self.held_by(&declared, &multiplied, open) };
+                let known = &mut self.caches.forces;
+                *if open { &mut known.held_open } else { &mut known.held } = Some(Rc::clone(&loads));
                 loads
             }
         }
@@ -164,8 +170,14 @@ impl Equations<'_> {
     }
 
     /// Loads with the forces of multipliers.
-    pub(in crate::mechanics) fn held_by(&mut self, loads: &Loads, multiplied: &[(Row, Scalar)]) -> Rc<Loads> {
+    pub(in crate::mechanics) fn held_by(
+        &mut self,
+        loads: &Loads,
+        multiplied: &[(Row, Scalar)],
+        open: bool,
+    ) -> Rc<Loads> {
         let held = self.by_closing(multiplied);
+        let held: Vec<Held> = held.into_iter().map(|held| Held { open, ..held }).collect();
         let others = self.constraint_wrenches(&held);
         Rc::new(loads.add(&mut self.g, &others))
     }
@@ -176,7 +188,7 @@ impl Equations<'_> {
         for &(row, multiplier) in multiplied {
             let at = held.iter().position(|one| one.closing == row.closing).unwrap_or_else(|| {
                 let multipliers = vec![Scalar::ZERO; row_count(self.scene.model, row.closing)];
-                held.push(Held { closing: row.closing, multipliers, writing: self.scene.way.writing });
+                held.push(Held { closing: row.closing, multipliers, writing: self.scene.way.writing, open: false });
                 held.len() - 1
             });
             held[at].multipliers[row.index] = multiplier;

@@ -7,7 +7,7 @@
 mod walk;
 pub mod words;
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use proc_macro2::Ident;
 use syn::Path;
@@ -23,6 +23,15 @@ pub struct References {
     pub krate: Path,
     /// In source order, as in the syntax tree.
     pub modules: Vec<Module>,
+    /// Places among these, by name: `cfg` lets several have one.
+    places: HashMap<String, Vec<usize>>,
+}
+
+impl References {
+    /// The modules of a name, in source order.
+    pub fn called(&self, name: &Ident) -> &[usize] {
+        self.places.get(&name.to_string()).map_or(&[], Vec::as_slice)
+    }
 }
 
 /// A model or part.
@@ -86,5 +95,9 @@ pub fn of(source: &tree::Source) -> References {
     for (module, uses) in modules.iter_mut().zip(uses) {
         module.uses = uses;
     }
-    References { krate: source.krate.clone().unwrap_or_else(assemble::runtime), modules }
+    let mut places: HashMap<String, Vec<usize>> = HashMap::new();
+    for (index, module) in modules.iter().enumerate() {
+        places.entry(module.name.to_string()).or_default().push(index);
+    }
+    References { krate: source.krate.clone().unwrap_or_else(assemble::runtime), modules, places }
 }

@@ -151,6 +151,35 @@ impl Equations<'_> {
         }
     }
 
+    /// How the equation of a screw that doesn't count its turns changes with the travel, and with turns of the child against the
+    /// parent; nothing where it is linear in both.
+    pub(super) fn thread_slopes(
+        &mut self,
+        cut: &Cut,
+        view: &View,
+        k: usize,
+        pitch: Scalar,
+    ) -> Option<(Scalar, Vector)> {
+        if self.winding(view, &cut.ends, k).is_some() {
+            return None;
+        }
+        let way = self.see_cut_way(view, cut);
+        let axis = self.see_axis(view, &cut.ends[0], k);
+        let travel = self.g.dot(way, axis);
+        let (sin, cos) = self.thread(travel, pitch)?;
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        let (c, s) = (self.see_cosine(view, cut, i, i), self.see_cosine(view, cut, i, j));
+        let child = self.see_axis(view, &cut.ends[1], i);
+        let [first, second] = [i, j].map(|axis| self.see_axis(view, &cut.ends[0], axis));
+        let g = &mut self.g;
+        let products = [g.mul(cos, c), g.mul(sin, s)];
+        let advance = g.sum(&products);
+        let (by_cosine, by_sine) = (g.cross(child, first), g.cross(child, second));
+        let (by_cosine, by_sine) = (g.scale(sin, by_cosine), g.scale(cos, by_sine));
+        let twist = g.sub_vectors(by_cosine, by_sine);
+        Some((advance, g.scale(pitch, twist)))
+    }
+
     /// The angle of a cut joint that counts its turns: of a screw, or of a joint that holds an angle where a screw stands
     /// in its loop.
     pub(in crate::mechanics) fn counted_turns(&mut self, joint: JointId) -> Option<Scalar> {

@@ -6,9 +6,9 @@
 //! for axes c of the child and p of the parent (w_child - w_parent) . (c x p), for a rod d . (v_2 - v_1).
 //!
 //! Exact everywhere: ways along an axis of the parent, cosines, rods and expressions ([`super::expression`]). For the gap of a
-//! point the term
-//! w_A . (f x d) is left out, and for a screw that doesn't count its turns the cosine of its lag is taken as one: both hold
-//! where the loop is closed.
+//! point the term w_A . (f x d) is left out, and the thread of a screw that doesn't count its turns is taken as it runs along
+//! aligned axes without a lag: both hold where the loop is closed. Their slopes are not those of the exact wrenches, and
+//! a residual is looked at where loops are open too, so derivatives and the residual ask for exact ones ([`Held::open`]).
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -30,6 +30,8 @@ pub struct Held {
     pub closing: LoopClosure,
     pub multipliers: Vec<Scalar>,
     pub writing: Writing,
+    /// Whether wrenches are exact where the loop is open too.
+    pub open: bool,
 }
 
 /// What the multipliers of a joint amount to, in the axes of its view: on the child at its point, and against it on the
@@ -104,10 +106,16 @@ impl Equations<'_> {
 
     fn hold_cut(&mut self, gathered: &mut WrenchSums, cut: &Cut, held: &Held) {
         let view = self.view(&cut.ends, held.writing);
-        let push = self.push(cut, &view, &held.multipliers);
+        let push = self.push(cut, &view, held);
         let [parent, child] = &cut.ends;
         self.apply(gathered, &view, child, push.force, push.moment);
         self.apply(gathered, &view, parent, -push.force, -push.moment);
+        if held.open && view.place.link.is_some() && push.force != Vector::ZERO {
+            // The axes of the gap turn with the body that they are fixed to.
+            let way = self.see_way(&view, &cut.ends);
+            let moment = self.g.cross(push.force, way);
+            self.apply(gathered, &view, &view.place, Vector::ZERO, moment);
+        }
         if push.away == Vector::ZERO {
             return;
         }
@@ -119,10 +127,10 @@ impl Equations<'_> {
     }
 
     /// Minus G^T lambda on the child.
-    fn push(&mut self, cut: &Cut, view: &View, multipliers: &[Scalar]) -> Push {
+    fn push(&mut self, cut: &Cut, view: &View, held: &Held) -> Push {
         let mut gap = [Scalar::ZERO; 3];
         let (mut along, mut moments) = (Vec::new(), Vec::new());
-        for (&equation, &multiplier) in cut.equations.iter().zip(multipliers) {
+        for (&equation, &multiplier) in cut.equations.iter().zip(&held.multipliers) {
             if multiplier == Scalar::ZERO {
                 continue;
             }
@@ -144,6 +152,14 @@ impl Equations<'_> {
                 }
                 Equation::Pitch(k, pitch) => {
                     let axis = self.see_axis(view, &cut.ends[0], k);
+                    if held.open
+                        && let Some((advance, twist)) = self.thread_slopes(cut, view, k, pitch)
+                    {
+                        let force = self.g.mul(multiplier, advance);
+                        along.push(self.g.scale(-force, axis));
+                        moments.push(self.g.scale(-multiplier, twist));
+                        continue;
+                    }
                     let turn = self.g.mul(pitch, multiplier);
                     along.push(self.g.scale(-multiplier, axis));
                     moments.push(self.g.scale(turn, axis));
@@ -216,7 +232,7 @@ impl Equations<'_> {
     pub fn cut_reaction(&mut self, joint: JointId, held: &Held, axes: &FixedFrame) -> [Vector; 2] {
         let Some(cut) = self.cut(joint) else { return [Vector::ZERO; 2] };
         let view = self.view(&cut.ends, held.writing);
-        let push = self.push(&cut, &view, &held.multipliers);
+        let push = self.push(&cut, &view, held);
         let force = self.g.add_vectors(push.force, push.away);
         [force, push.moment].map(|v| {
             let v = self.unsee(&view, v, axes.link);
