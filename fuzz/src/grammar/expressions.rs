@@ -1,5 +1,6 @@
 //! Random expressions of the language, of every type that a place takes.
 
+use super::manipulated;
 use super::names::{Names, Shape};
 use crate::random::Random;
 
@@ -67,6 +68,9 @@ pub fn scalar(random: &mut Random, names: &Names, level: Level, depth: usize) ->
     if depth == 0 || random.chance(25) {
         return atom(random, names, level);
     }
+    if let Some(other) = newer(random, names, level, depth - 1) {
+        return other;
+    }
     let a = scalar(random, names, level, depth - 1);
     match random.below(20) {
         0 | 1 => format!("({a} + {})", scalar(random, names, level, depth - 1)),
@@ -98,6 +102,15 @@ pub fn scalar(random: &mut Random, names: &Names, level: Level, depth: usize) ->
         17 => format!("ln(1 + powi({a}, 2))"),
         18 => format!("powf(1.1 + powi({a}, 2), 0.5)"),
         _ => a,
+    }
+}
+
+/// What is made of finished equations, or of another model.
+fn newer(random: &mut Random, names: &Names, level: Level, depth: usize) -> Option<String> {
+    match (random.below(100), &names.aid) {
+        (0..8, _) if level >= Level::Force => manipulated::finished(random, names, level, depth),
+        (8..14, Some(aid)) if level >= Level::Time => Some(manipulated::asked(random, names, aid, level)),
+        _ => None,
     }
 }
 
@@ -155,6 +168,16 @@ pub fn vector(random: &mut Random, names: &Names, level: Level, depth: usize) ->
         let quantity = *random.pick(&["acceleration", "angular_acceleration"]);
         choices.extend(names.frame(random).map(|f| format!("{f}.{quantity}")));
         choices.extend(names.joint(random).map(|j| format!("{j}.reaction.moment")));
+    }
+    if depth > 0 && level >= Level::Time && random.chance(12) {
+        let other = match &names.aid {
+            Some(aid) if random.chance(50) => Some(manipulated::asked_vector(random, names, aid, level)),
+            _ if level >= Level::Force => manipulated::finished_vector(random, names, level, depth - 1),
+            _ => None,
+        };
+        if let Some(other) = other {
+            return other;
+        }
     }
     if depth > 0 {
         let s = scalar(random, names, level, depth - 1);

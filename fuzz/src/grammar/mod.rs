@@ -4,15 +4,17 @@
 //! messages of the compiler's own; the code must pass `rustc` and clippy without a word (`rustc`).
 
 pub mod expressions;
+pub mod manipulated;
 pub mod mutate;
 pub mod names;
 pub mod oracle;
 pub mod rustc;
 
 use std::fmt::Write;
+use std::rc::Rc;
 
 use expressions::{Level, axis, literal, output, positive, rotation, scalar, vector};
-use names::{Names, Shape};
+use names::{Aid, Names, Shape};
 
 use crate::random::Random;
 
@@ -20,7 +22,8 @@ use crate::random::Random;
 pub fn call(random: &mut Random) -> Vec<String> {
     let mut out = Lines::default();
     let part = random.chance(35).then(|| out.part(random));
-    out.model(random, part.as_ref());
+    let aid = random.chance(40).then(|| Rc::new(out.aid(random)));
+    out.model(random, part.as_ref(), aid);
     out.lines
 }
 
@@ -47,8 +50,10 @@ impl Lines {
     fn name(&mut self, random: &mut Random, stem: &str) -> String {
         self.count += 1;
         // Words of Rust and of generated code among them.
-        let odd =
-            ["state", "time", "model", "self_", "r#type", "v", "q", "params", "input_", "r#match", "values", "c1"];
+        let odd = [
+            "state", "time", "model", "self_", "r#type", "r#arm", "v", "q", "params", "input_", "r#match", "values",
+            "c1",
+        ];
         if random.chance(6) {
             let word = *random.pick(&odd);
             if !["state", "time"].contains(&word) {
@@ -197,6 +202,7 @@ impl Lines {
         names.frames.push(body.clone());
         names.bodies.push(body);
         names.coordinates.extend(coordinates.iter().map(|c| format!("{joint}.{c}")));
+        names.variables.extend(coordinates.iter().map(|c| format!("{joint}.{c}")));
         if random.chance(80) {
             names.joints.push(joint);
         }
@@ -254,10 +260,138 @@ impl Lines {
     fn states(&mut self, random: &mut Random, names: &mut Names) {
         if random.chance(30) {
             let name = self.name(random, "s");
+            if random.chance(30) {
+                // One that may be settled: its rate is linear in it.
+                let factor = positive(random, names, Level::Parameter);
+                let rest = scalar(random, names, Level::Force, 2);
+                self.push(format!("state {name}: rate = {rest} - ({factor}) * {name}, start: {};", literal(random)));
+                let is_settled = random.chance(60);
+                if is_settled {
+                    self.push(format!("simplify {name}.rate == 0;"));
+                }
+                names.scalars.push((if is_settled { Shape::LetForce } else { Shape::State }, name));
+                return;
+            }
             names.scalars.push((Shape::State, name.clone()));
             let rate = scalar(random, names, Level::Force, 2);
             self.push(format!("state {name}: rate = {rate}, start: {};", literal(random)));
         }
+    }
+
+    /// Unknowns of one's own.
+    fn unknowns(&mut self, random: &mut Random, names: &mut Names) {
+        if !random.chance(20) {
+            return;
+        }
+        let (x, y) = (self.name(random, "x"), self.name(random, "y"));
+        let of = |random: &mut Random, depth| scalar(random, names, Level::Force, depth);
+        let factor = positive(random, names, Level::Parameter);
+        let many = match random.below(5) {
+            0 => {
+                let lines = [of(random, 1), of(random, 2), of(random, 1)];
+                let [a, b, c] = lines;
+                self.push(format!(
+                    "solve ({x}, {y}) from [{factor} * {x} - ({a}) * {y} == {b}, {x} + 2 * {y} == {c}];"
+                ));
+                true
+            }
+            1 => {
+                let c = of(random, 1);
+                self.push(format!("solve ({x}) from {factor} * {x} * {x} + {x} == powi({c}, 2) {{ {x} >= 0 }}"));
+                false
+            }
+            2 => {
+                let c = of(random, 1);
+                self.push(format!("solve ({x}) from powi({x}, 2) == 1 + powi({c}, 2) {{ {x} > 0.0 }}"));
+                false
+            }
+            _ => {
+                let (b, c) = (of(random, 2), of(random, 1));
+                self.push(format!("solve ({x}) from {factor} * {x} + {b} == {c};"));
+                false
+            }
+        };
+        names.scalars.push((Shape::LetForce, x));
+        if many {
+            names.scalars.push((Shape::LetForce, y));
+        }
+    }
+
+    /// What is left out.
+    fn simplified(&mut self, random: &mut Random, names: &mut Names) {
+        let Some(one) = names.variable(random) else { return };
+        match random.below(12) {
+            0 => {
+                self.push(format!("simplify {one} == {};", literal(random)));
+                names.variables.retain(|name| *name != one);
+            }
+            1 => {
+                let other = names.variable(random).filter(|other| *other != one);
+                let other = other.map_or_else(String::new, |other| format!(", {other}"));
+                self.push(format!("simplify small({one}{other});"));
+            }
+            _ => {}
+        }
+    }
+
+    /// A crank that pushes a rod, solved by a formula or held by multipliers.
+    fn slider(&mut self, random: &mut Random, names: &mut Names, parent: &str) {
+        let [crank, link, rod] = ["b", "b", "b"].map(|stem| self.name(random, stem));
+        let [turn, elbow, push, pin] = ["j", "j", "j", "j"].map(|stem| self.name(random, stem));
+        let long = format!("{:.2}", random.between(0.3, 0.6));
+        self.push(format!("body {crank} {{ mass: 0.2, inertia: diag(1e-3, 1e-3, 1e-3) }}"));
+        self.push(format!("body {link} {{ mass: 0.1, com: 0.15 * X, inertia: rod(0.1, {long}, X) }}"));
+        self.push(format!("body {rod} {{ mass: {} }}", positive(random, names, Level::Parameter)));
+        self.push(format!("joint {turn}: Revolute {{ parent: {parent}, child: {crank}, axis: Z }}"));
+        self.push(format!("joint {elbow}: Revolute {{ parent: {crank}.at(0.1 * X), child: {link}, axis: Z }}"));
+        self.push(format!("joint {push}: Prismatic {{ parent: {parent}, child: {rod}, axis: X }}"));
+        self.push("#[cut]".into());
+        self.push(format!("joint {pin}: Revolute {{ parent: {link}.at({long} * X), child: {rod}, axis: Z }}"));
+        let turning = [&turn, &elbow].map(|joint| format!("{joint}.angle"));
+        names.coordinates.extend(turning);
+        names.coordinates.push(format!("{push}.travel"));
+        names.frames.extend([crank.clone(), link.clone(), rod.clone()]);
+        names.bodies.push(rod);
+        if random.chance(70) {
+            self.push("formulation { constraints: Reduced }".into());
+            self.push(format!("solve ({elbow}, {push}) from {pin} {{ {push} > 0.0 }}"));
+            names.variables.push(format!("{turn}.angle"));
+            names.closed.extend([format!("{elbow}.angle"), push]);
+        } else {
+            names.variables.extend([turn, elbow, push]);
+            names.rows.extend(["x", "y"].map(|row| format!("{pin}.{row}")));
+        }
+    }
+
+    /// A model that others ask.
+    fn aid(&mut self, random: &mut Random) -> Aid {
+        let mut names = Names::default();
+        let name = self.name(random, "aid");
+        self.push("/// A model that others ask.".into());
+        self.push(format!("pub mod {name} {{"));
+        self.values(random, &mut names, false);
+        if random.chance(50) {
+            self.slider(random, &mut names, "ground");
+        } else {
+            self.link(random, &mut names, "ground", 14);
+            if random.chance(50) {
+                let parent = names.bodies[0].clone();
+                self.link(random, &mut names, &parent, 12);
+            }
+        }
+        self.states(random, &mut names);
+        self.lets(random, &mut names);
+        self.push("}".into());
+        let mut given: Vec<String> = names.variables.clone();
+        given.extend(names.variables.iter().map(|variable| format!("{variable}.rate")));
+        let local = names.scalars.iter().filter(|(shape, _)| matches!(shape, Shape::State));
+        given.extend(local.map(|(_, name)| name.clone()));
+        let settled = names.scalars.iter().filter(|(shape, _)| *shape == Shape::Input);
+        given.extend(settled.map(|(_, name)| name.clone()));
+        given.push("t".into());
+        // A name without a value is none of an expression's.
+        names.vectors.retain(|(shape, _)| *shape != Shape::Input);
+        Aid { name, names, given }
     }
 
     /// A module with a port.
@@ -284,8 +418,8 @@ impl Lines {
         Part { names, params }
     }
 
-    fn model(&mut self, random: &mut Random, part: Option<&Part>) {
-        let mut names = Names::default();
+    fn model(&mut self, random: &mut Random, part: Option<&Part>, aid: Option<Rc<Aid>>) {
+        let mut names = Names { aid, ..Names::default() };
         self.push("/// A model.".into());
         self.push("pub mod m {".into());
         self.values(random, &mut names, false);
@@ -305,9 +439,11 @@ impl Lines {
         if let Some(part) = part {
             self.use_part(random, &mut names, part);
         }
-        let driven = self.held(random, &names, &simple);
+        let driven = self.held(random, &mut names, &simple);
         self.states(random, &mut names);
+        self.unknowns(random, &mut names);
         self.lets(random, &mut names);
+        self.simplified(random, &mut names);
         for _ in 0..random.below(3) {
             self.force(random, &mut names);
         }
@@ -322,7 +458,8 @@ impl Lines {
             let at = names.frame(random).unwrap_or_else(|| "ground".into());
             self.push(format!("assume {at}.position.z > -100;"));
         }
-        self.emit(random, &names, driven);
+        let absolute = self.lines.iter().any(|line| line.starts_with("formulation { coordinates: Absolute"));
+        self.emit(random, &names, driven, absolute);
         self.push("}".into());
     }
 
@@ -347,11 +484,13 @@ impl Lines {
     }
 
     /// A drive, a constraint, or neither; whether there is one.
-    fn held(&mut self, random: &mut Random, names: &Names, coordinates: &[String]) -> bool {
+    fn held(&mut self, random: &mut Random, names: &mut Names, coordinates: &[String]) -> bool {
         match random.below(10) {
             0 | 1 if !coordinates.is_empty() => {
                 let target = random.pick(coordinates).clone();
                 self.push(format!("drive {target} = {};", scalar(random, names, Level::Time, 2)));
+                names.variables.retain(|name| *name != target);
+                names.closed.push(target);
                 true
             }
             2 | 3 if coordinates.len() > 1 => {
@@ -363,8 +502,15 @@ impl Lines {
                 };
                 let factor = positive(random, names, Level::Parameter);
                 self.push(format!("constraint gear: {a} - {factor} * {b}{extra};").replacen(':', " =", 1));
-                if random.chance(60) {
-                    self.push("formulation { constraints: Reduced }".into());
+                if random.chance(35) {
+                    self.push("formulation { constraints: Multipliers }".into());
+                    names.rows.push("gear".into());
+                } else {
+                    if random.chance(50) {
+                        self.push("formulation { constraints: Reduced }".into());
+                    }
+                    names.variables.retain(|name| name != a && name != b);
+                    names.closed.extend([a.clone(), b.clone()]);
                 }
                 true
             }
@@ -375,6 +521,7 @@ impl Lines {
                 if random.chance(30) {
                     self.push(format!("output reach = norm({first}.position);"));
                 }
+                names.rows.push("link".into());
                 true
             }
             5 => {
@@ -385,6 +532,12 @@ impl Lines {
                     "constraints: Stabilised, rate: 10, position: 25",
                 ]);
                 self.push(format!("formulation {{ {said} }}"));
+                if said.ends_with("(RollPitchYaw)") {
+                    let of = |body: &String| ["x", "z", "pitch"].map(|name| format!("{body}.{name}"));
+                    names.variables = names.bodies.iter().flat_map(of).collect();
+                } else if said.contains("Absolute") {
+                    names.variables.clear();
+                }
                 true
             }
             6 if random.chance(30) => {
@@ -396,11 +549,16 @@ impl Lines {
                 self.push(format!("drive {joint}.orientation = {};", rotation(random, names, Level::Time)));
                 true
             }
+            7 => {
+                let parent = names.frame(random).unwrap_or_else(|| "ground".into());
+                self.slider(random, names, &parent);
+                true
+            }
             _ => false,
         }
     }
 
-    fn emit(&mut self, random: &mut Random, names: &Names, held: bool) {
+    fn emit(&mut self, random: &mut Random, names: &Names, held: bool, absolute: bool) {
         let all = [
             "forward_dynamics",
             "inverse_dynamics",
@@ -412,12 +570,15 @@ impl Lines {
             "residual",
             "impulse",
             "momentum",
+            "linearize",
+            "report",
+            "equations",
         ];
         let chance = *random.pick(&[10, 30, 60]);
         let mut words: Vec<String> = Vec::new();
         for word in all {
             // Momenta have conditions of their own, which refusals would fill with.
-            let void = word == "constraints" && !held;
+            let void = word == "constraints" && !absolute && names.rows.is_empty();
             if random.chance(chance) && !void && !(word == "momentum" && (held || random.chance(60))) {
                 words.push(word.into());
             }

@@ -1,5 +1,7 @@
 //! What has been declared so far, for expressions to speak of.
 
+use std::rc::Rc;
+
 use crate::random::Random;
 
 /// What a name stands for.
@@ -36,6 +38,25 @@ pub struct Names {
     pub joints: Vec<String>,
     /// Forces.
     pub forces: Vec<String>,
+    /// Coordinates that should be in the state.
+    pub variables: Vec<String>,
+    /// Coordinates that should have a formula.
+    pub closed: Vec<String>,
+    /// Equations that should keep a multiplier.
+    pub rows: Vec<String>,
+    /// Another model, which can be asked.
+    pub aid: Option<Rc<Aid>>,
+}
+
+/// A model that stands above.
+#[derive(Debug)]
+pub struct Aid {
+    /// Of the module.
+    pub name: String,
+    /// What is known inside.
+    pub names: Names,
+    /// All that must be given.
+    pub given: Vec<String>,
 }
 
 fn any(random: &mut Random, list: &[String]) -> Option<String> {
@@ -73,6 +94,21 @@ impl Names {
         any(random, &self.coordinates)
     }
 
+    /// Some coordinate of the state.
+    pub fn variable(&self, random: &mut Random) -> Option<String> {
+        any(random, &self.variables)
+    }
+
+    /// Some coordinate that follows from others.
+    pub fn closed(&self, random: &mut Random) -> Option<String> {
+        any(random, &self.closed)
+    }
+
+    /// Some equation of a loop.
+    pub fn row(&self, random: &mut Random) -> Option<String> {
+        any(random, &self.rows)
+    }
+
     /// Some joint.
     pub fn joint(&self, random: &mut Random) -> Option<String> {
         any(random, &self.joints)
@@ -95,6 +131,8 @@ impl Names {
             coordinates: inside(&self.coordinates),
             joints: inside(&self.joints),
             forces: inside(&self.forces),
+            variables: inside(&self.variables),
+            ..Names::default()
         }
     }
 
@@ -107,5 +145,6 @@ impl Names {
         self.coordinates.extend(other.coordinates);
         self.joints.extend(other.joints);
         self.forces.extend(other.forces);
+        self.variables.extend(other.variables);
     }
 }
