@@ -220,6 +220,27 @@ fn models_that_ask_others_are_compared() {
     assert!(sizes(&output).contains(&"Joint* no equations 1 0 1".to_owned()), "{output}");
 }
 
+/// Outputs are left out, but for those that something else reads.
+#[test]
+fn outputs_that_forces_read_stay() {
+    let output = quiet(&["compare", "read_outputs.rs"]);
+    let rows = ["Joint* no equations 1 0 1", "Absolute(RollPitchYaw) Multipliers 6 5 11"];
+    assert!(rows.iter().all(|row| sizes(&output).contains(&(*row).to_owned())), "{output}");
+    assert!(!output.contains("unknown name"), "{output}");
+}
+
+/// Of two models of one name each is compared, and has its own mark.
+#[test]
+fn models_of_one_name_are_compared() {
+    let output = quiet(&["compare", "twins.rs"]);
+    let (first, second) = output.split_once("\narm where ").expect("two models");
+    assert!(first.starts_with("arm where not (feature = \"absolute\")\n"), "{output}");
+    assert!(second.starts_with("feature = \"absolute\"\n"), "{output}");
+    assert!(sizes(first).contains(&"Joint* no equations 1 0 1".to_owned()), "{output}");
+    assert!(sizes(second).contains(&"Joint no equations 2 0 2".to_owned()), "{output}");
+    assert!(sizes(second).contains(&"Absolute(Quaternion)* Multipliers 12 10 22".to_owned()), "{output}");
+}
+
 /// An iteration counts with all its rounds.
 #[test]
 fn rounds_count() {

@@ -13,6 +13,7 @@ use multibody_engine::contracts::function::{Asked, FunctionKind};
 use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::syntax::{self, tree::Source};
 use multibody_engine::{compile, emit};
+use syn::Meta;
 
 use self::choice::{Choice, Constraints, Coordinates, choices, is_part, rewrite, written};
 use self::effort::Effort;
@@ -90,29 +91,30 @@ pub(crate) fn run(subject: &Subject, extent: Extent) -> Result<String, Stop> {
         // What is wrong whatever the formulation.
         build::checked(&source, &mut diagnostics);
         mistakes.extend(build::mistakes(&diagnostics, call));
-        let names = source.modules.iter().filter(|module| !is_part(module)).map(|module| module.name.to_string());
-        let asked = names.filter(|name| subject.model.as_ref().is_none_or(|only| only == name));
-        models.extend(asked.map(|name| {
-            let source = until(call, &name);
-            (number, name.clone(), written(&source, &name), choices(&source, &name))
+        let all = source.modules.iter().enumerate().filter(|(_, module)| !is_part(module));
+        let asked = all.filter(|(_, module)| subject.model.as_ref().is_none_or(|only| module.name == only));
+        models.extend(asked.map(|(module, _)| Subjected {
+            call: number,
+            module,
+            title: title(&source, module),
+            written: written(&source, module),
+            choices: choices(&source, module),
         }));
     }
     build::tell(&file, &mistakes)?;
     build::some(&models, subject, &file)?;
     let tasks: Vec<Task<'_>> = models
         .iter()
-        .flat_map(|(call, name, _, choices)| {
-            choices.iter().map(|&coordinates| Task { file: &file, call: *call, name, coordinates, extent })
-        })
+        .flat_map(|model| model.choices.iter().map(|&coordinates| Task { file: &file, model, coordinates, extent }))
         .collect();
     let mut done = parallel::map(&tasks, Task::rows).into_iter();
     let mut texts = Vec::new();
-    for (_, name, own, choices) in &models {
-        let mut rows: Vec<Row> = done.by_ref().take(choices.len()).flatten().collect();
+    for model in &models {
+        let mut rows: Vec<Row> = done.by_ref().take(model.choices.len()).flatten().collect();
         if let Some(package) = &mut package {
-            timed(package, name, &mut rows).map_err(Stop::Usage)?;
+            timed(package, &model.title, &mut rows).map_err(Stop::Usage)?;
         }
-        texts.push(page::text(name, *own, &rows));
+        texts.push(page::text(&model.title, model.written, &rows));
     }
     Ok(texts.join("\n"))
 }
@@ -131,12 +133,35 @@ fn timed(package: &mut Package, name: &str, rows: &mut [Row]) -> Result<(), Stri
     Ok(())
 }
 
+/// A model that is compared.
+struct Subjected {
+    /// The number of its call in the file: tokens do not go from thread to thread.
+    call: usize,
+    /// Its number in the call: `cfg` lets two have one name.
+    module: usize,
+    title: String,
+    /// The choice that its text has made.
+    written: Choice,
+    choices: Vec<Coordinates>,
+}
+
+/// The name, with its `cfg` where another module has it too.
+fn title(source: &Source, module: usize) -> String {
+    let Some(this) = source.modules.get(module) else { return String::new() };
+    if source.modules.iter().filter(|other| other.name == this.name).count() < 2 {
+        return this.name.to_string();
+    }
+    let conditions = this.attrs.iter().filter_map(|attr| match &attr.meta {
+        Meta::List(list) if list.path.is_ident("cfg") => Some(list.tokens.to_string()),
+        _ => None,
+    });
+    format!("{} where {}", this.name, conditions.collect::<Vec<_>>().join(", "))
+}
+
 /// One model in one choice of coordinates.
 struct Task<'a> {
     file: &'a File,
-    /// The number of its call in the file: tokens do not go from thread to thread.
-    call: usize,
-    name: &'a str,
+    model: &'a Subjected,
     coordinates: Coordinates,
     extent: Extent,
 }
@@ -144,11 +169,11 @@ struct Task<'a> {
 impl Task<'_> {
     fn rows(&self) -> Vec<Row> {
         let found = self.file.calls();
-        let call = &found.calls[self.call];
+        let call = &found.calls[self.model.call];
         let of = |constraints| {
             let choice = Choice { coordinates: self.coordinates, constraints };
-            let what = format!("deriving `{}` with {}", self.name, choice.words());
-            Row { choice, result: progress::during(&what, || figures(call, self.name, choice, self.extent)) }
+            let what = format!("deriving `{}` with {}", self.model.title, choice.words());
+            Row { choice, result: progress::during(&what, || figures(call, self.model.module, choice, self.extent)) }
         };
         let held = of(Constraints::Multipliers);
         // Without equations there is nothing to choose.
@@ -158,21 +183,20 @@ impl Task<'_> {
 }
 
 /// The call without the models below, of which this one cannot ask for formulas.
-fn until(call: &Call, name: &str) -> Source {
+fn until(call: &Call, model: usize) -> Source {
     let mut source = syntax::parse(call.tokens.clone(), &mut Diagnostics::default());
-    let last = source.modules.iter().rposition(|module| module.name == name);
     let mut number = 0..;
-    source.modules.retain(|module| number.next() <= last || is_part(module));
+    source.modules.retain(|module| number.next().is_some_and(|number| number <= model) || is_part(module));
     source
 }
 
 /// The model in this choice, or the first thing that is said against it.
-fn figures(call: &Call, name: &str, choice: Choice, extent: Extent) -> Result<Figures, String> {
-    let mut source = until(call, name);
-    rewrite(&mut source, name, choice, extent.all);
+fn figures(call: &Call, model: usize, choice: Choice, extent: Extent) -> Result<Figures, String> {
+    let mut source = until(call, model);
+    rewrite(&mut source, model, choice, extent.all);
     let mut diagnostics = Diagnostics::default();
-    let models = build::checked(&source, &mut diagnostics).into_iter();
-    let model = models.rev().find(|model| model.name == name);
+    // The last one: of those without a mistake it may be another, but then there are diagnostics.
+    let model = build::checked(&source, &mut diagnostics).pop();
     let begin = Instant::now();
     let Some(model) = model.filter(|_| diagnostics.is_empty()) else { return Err(first(&diagnostics)) };
     let (structure, compiled) = match compile(&model) {

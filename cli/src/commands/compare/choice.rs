@@ -1,5 +1,8 @@
 //! Choices of coordinates and constraints, and models rewritten in them.
 
+use std::collections::HashSet;
+
+use multibody_engine::model::references::{self, Use};
 use multibody_engine::syntax::tree::{Field, Fields, Item, ItemKind, Module, Request, Source};
 use proc_macro2::{Ident, Span};
 use syn::{Expr, parse_quote};
@@ -68,9 +71,9 @@ pub(super) fn is_part(module: &Module) -> bool {
 }
 
 /// Coordinates of a model that differ. Where no body declares its own they are those of joints unless the formulation says more.
-pub(super) fn choices(source: &Source, name: &str) -> Vec<Coordinates> {
-    let modules = source.modules.iter().filter(|module| is_part(module) || module.name == name);
-    let items = modules.flat_map(|module| &module.items);
+pub(super) fn choices(source: &Source, model: usize) -> Vec<Coordinates> {
+    let modules = source.modules.iter().enumerate().filter(|(index, module)| *index == model || is_part(module));
+    let items = modules.flat_map(|(_, module)| &module.items);
     let mut bodies = items.filter_map(|item| match &item.kind {
         ItemKind::Body { fields, .. } => Some(fields),
         _ => None,
@@ -81,14 +84,14 @@ pub(super) fn choices(source: &Source, name: &str) -> Vec<Coordinates> {
 }
 
 /// The choice that the user has made. `Stabilised` are multipliers too.
-pub(super) fn written(source: &Source, name: &str) -> Choice {
-    let module = source.modules.iter().find(|module| module.name == name);
-    let fields = module.into_iter().flat_map(|module| &module.items).find_map(|item| match &item.kind {
-        ItemKind::Formulation(fields) => Some(fields),
-        _ => None,
-    });
+pub(super) fn written(source: &Source, model: usize) -> Choice {
+    let fields =
+        source.modules.get(model).into_iter().flat_map(|module| &module.items).find_map(|item| match &item.kind {
+            ItemKind::Formulation(fields) => Some(fields),
+            _ => None,
+        });
     let said = |name: &str| fields?.list.iter().find(|field| field.name == name).map(|field| &field.value);
-    let all = choices(source, name);
+    let all = choices(source, model);
     let coordinates = match said("coordinates") {
         Some(value) => all.iter().copied().find(|choice| choice.value().as_ref() == Some(value)),
         None => all.first().copied(),
@@ -100,32 +103,71 @@ pub(super) fn written(source: &Source, name: &str) -> Choice {
 }
 
 /// Writes the choice into the formulation of the model. Unless `all` that is asked for shall stay, what is left is forward
-/// dynamics: a function or an output may be written for one choice of coordinates.
-pub(super) fn rewrite(source: &mut Source, name: &str, choice: Choice, all: bool) {
-    for module in source.modules.iter_mut().filter(|module| module.name == name) {
-        let span = module.name.span();
-        if !all {
-            module.items.retain(|item| !matches!(item.kind, ItemKind::Emit(_) | ItemKind::Output(_)));
+/// dynamics with what it reads: a function or an output may be written for one choice of coordinates.
+pub(super) fn rewrite(source: &mut Source, model: usize, choice: Choice, all: bool) {
+    if !all {
+        leave_out(source, model);
+    }
+    let Some(module) = source.modules.get_mut(model) else { return };
+    let span = module.name.span();
+    let has = |kind: fn(&ItemKind) -> bool| module.items.iter().any(|item| kind(&item.kind));
+    let formulated = has(|kind| matches!(kind, ItemKind::Formulation(_)));
+    let asks = has(|kind| match kind {
+        ItemKind::Emit(list) => list.iter().any(|request| request.name == "forward_dynamics"),
+        _ => false,
+    });
+    let item = |kind| Item { attrs: Vec::new(), keyword: span, kind };
+    if !formulated {
+        let fields = Fields { span, list: Vec::new(), broken: false };
+        module.items.push(item(ItemKind::Formulation(fields)));
+    }
+    if !asks {
+        let request = Request { name: Ident::new("forward_dynamics", span), options: None };
+        module.items.push(item(ItemKind::Emit(vec![request])));
+    }
+    for item in &mut module.items {
+        if let ItemKind::Formulation(fields) = &mut item.kind {
+            say(fields, choice, span);
         }
-        let has = |kind: fn(&ItemKind) -> bool| module.items.iter().any(|item| kind(&item.kind));
-        let formulated = has(|kind| matches!(kind, ItemKind::Formulation(_)));
-        let asks = has(|kind| match kind {
-            ItemKind::Emit(list) => list.iter().any(|request| request.name == "forward_dynamics"),
-            _ => false,
+    }
+}
+
+/// Takes out what is asked for, and outputs that nothing else reads.
+fn leave_out(source: &mut Source, model: usize) {
+    let Some(module) = source.modules.get_mut(model) else { return };
+    let items = std::mem::take(&mut module.items);
+    let (mut outputs, mut others) = (Vec::new(), Vec::new());
+    for item in items {
+        match item.kind {
+            ItemKind::Emit(_) => {}
+            ItemKind::Output(_) => outputs.push(item),
+            _ => others.push(item),
+        }
+    }
+    module.items = others;
+    loop {
+        // A name that nothing else declares is that of an output, which may read others.
+        let mut missing = HashSet::new();
+        each_unknown(&references::of(source).modules, model, &mut |name| {
+            missing.insert(name.to_string());
         });
-        let item = |kind| Item { attrs: Vec::new(), keyword: span, kind };
-        if !formulated {
-            let fields = Fields { span, list: Vec::new(), broken: false };
-            module.items.push(item(ItemKind::Formulation(fields)));
-        }
-        if !asks {
-            let request = Request { name: Ident::new("forward_dynamics", span), options: None };
-            module.items.push(item(ItemKind::Emit(vec![request])));
-        }
-        for item in &mut module.items {
-            if let ItemKind::Formulation(fields) = &mut item.kind {
-                say(fields, choice, span);
-            }
+        let is_read =
+            |item: &Item| matches!(&item.kind, ItemKind::Output(value) if missing.contains(&value.name.to_string()));
+        let (read, rest): (Vec<Item>, Vec<Item>) = outputs.into_iter().partition(is_read);
+        outputs = rest;
+        let Some(module) = source.modules.get_mut(model).filter(|_| !read.is_empty()) else { return };
+        module.items.extend(read);
+    }
+}
+
+/// Names of a module that it does not declare.
+fn each_unknown(modules: &[references::Module], model: usize, f: &mut impl FnMut(&Ident)) {
+    let mut waiting: Vec<&Use> = modules.iter().flat_map(|module| &module.uses).collect();
+    while let Some(next) = waiting.pop() {
+        match next {
+            Use::Name { module, name, is_known: false } if *module == model => f(name),
+            Use::Index { uses, .. } => waiting.extend(uses),
+            _ => {}
         }
     }
 }

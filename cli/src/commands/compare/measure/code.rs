@@ -6,7 +6,7 @@ use multibody_engine::model::types::{JointId, Model};
 use multibody_engine::optimize::program::Compiled;
 use proc_macro2::TokenStream;
 use quote::quote;
-use syn::{FnArg, ImplItem, ImplItemFn, Item, ItemMod, Pat, Type, Visibility, parse_quote};
+use syn::{FnArg, ImplItem, ImplItemFn, Item, ItemMod, Pat, Type, parse_quote};
 
 /// What is compiled of one choice.
 pub(in crate::commands::compare) struct Code {
@@ -24,7 +24,7 @@ impl Code {
     ) -> Result<Code, String> {
         // Conditional compilation, visibility and the library's name are those of the user's crate.
         model.attrs.clear();
-        model.vis = Visibility::Inherited;
+        model.vis = parse_quote!(pub);
         model.krate = parse_quote!(::multibody);
         let tokens = emit::emit(&model, structure, compiled);
         let module: ItemMod =
@@ -39,8 +39,9 @@ impl Code {
         });
         let text = quote! {
             use crate::harness::{self, Bench, Subject};
-            use self::#name as generated;
-            #tokens
+            use self::user::#name as generated;
+            /// Apart from the names around it, of which it may have one.
+            mod user { #tokens }
             /// Functions that are timed, none where accelerations are not finite.
             pub fn subjects(number: usize) -> Vec<Subject> {
                 let model = generated::Model::<f64>::default();
@@ -124,7 +125,53 @@ fn call(method: &ImplItemFn) -> TokenStream {
 
 #[cfg(test)]
 mod tests {
-    use super::rotation;
+    use std::collections::HashSet;
+
+    use multibody_engine::diagnostics::Diagnostics;
+    use multibody_engine::{compile, model, syntax};
+    use syn::{Item, UseTree};
+
+    use super::{Code, rotation};
+
+    /// A user's model may have any name, those of the crate around it among them.
+    #[test]
+    fn names_of_models_are_apart() {
+        for name in ["generated", "harness", "user", "subjects", "Bench"] {
+            let text = format!(
+                "mod {name} {{ body b {{ mass: 1.0 }} joint j: Prismatic {{ parent: ground, child: b, axis: X }} }}"
+            );
+            let mut diagnostics = Diagnostics::default();
+            let source = syntax::parse(text.parse().expect("tokens"), &mut diagnostics);
+            let model = model::check(&source, &mut diagnostics).pop().expect("a model");
+            let Ok((structure, compiled)) = compile(&model) else { panic!("{name}") };
+            let code = Code::new(model, &structure, &compiled, &["forward_dynamics".to_owned()]).expect("code");
+            let mut names = HashSet::new();
+            for item in syn::parse_file(code.text()).expect("Rust").items {
+                let declared = match item {
+                    Item::Mod(item) => vec![item.ident],
+                    Item::Fn(item) => vec![item.sig.ident],
+                    Item::Use(item) => leaves(&item.tree, None),
+                    _ => Vec::new(),
+                };
+                for declared in declared {
+                    assert!(names.insert(declared.to_string()), "{name}: {declared} stands twice");
+                }
+            }
+            assert!(names.contains("generated") && names.contains("harness"));
+        }
+    }
+
+    /// What `use` declares.
+    fn leaves(tree: &UseTree, inside: Option<&syn::Ident>) -> Vec<syn::Ident> {
+        match tree {
+            UseTree::Path(path) => leaves(&path.tree, Some(&path.ident)),
+            UseTree::Name(name) if name.ident == "self" => inside.into_iter().cloned().collect(),
+            UseTree::Name(name) => vec![name.ident.clone()],
+            UseTree::Rename(rename) => vec![rename.rename.clone()],
+            UseTree::Group(group) => group.items.iter().flat_map(|tree| leaves(tree, inside)).collect(),
+            UseTree::Glob(_) => Vec::new(),
+        }
+    }
 
     #[test]
     fn quaternions_are_turns() {
