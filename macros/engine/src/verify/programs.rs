@@ -30,6 +30,10 @@ const FORMS: f64 = 1e4;
 /// What may be missing of what is left where parameters open a loop.
 const OPEN: f64 = 0.1;
 
+/// What is zero up to the rounding of 31 digits beside the largest result, such as the square of a cosine of axes that the state
+/// has at right angles, has no digits: a program that is off by one rounding of the largest is neither right nor wrong there.
+const LOST: f64 = 1e-28;
+
 /// Results that keep fewer digits than this are not worth a comparison.
 const POOR: f64 = 1e-6;
 
@@ -169,7 +173,7 @@ fn judge(
     if lost > POOR * largest {
         return Verdict::Unclear(Doubt::Rounding);
     }
-    let mut suspects: Vec<(f64, usize, f64)> = Vec::new();
+    let (mut suspects, mut open): (Vec<(f64, usize, f64)>, bool) = (Vec::new(), false);
     for at in which {
         let (exact, result) = (derived[at], results[at]);
         if !result.is_finite() {
@@ -179,7 +183,13 @@ fn judge(
         // Below what single numbers can hold there are no relative errors.
         let scale = scales[at].max(f64::MIN_POSITIVE / f64::EPSILON);
         let ratio = error.abs() / (f64::EPSILON * scale);
-        if ratio > times * PLAIN {
+        if ratio <= times * PLAIN {
+            continue;
+        }
+        let no_digits = exact.high != 0.0 && exact.high.abs() <= LOST * largest;
+        if no_digits && result.abs() <= PLAIN * f64::EPSILON * largest {
+            open = true;
+        } else {
             suspects.push((ratio, at, error.signum() / scale));
         }
     }
@@ -188,7 +198,7 @@ fn judge(
     let cost = exact.tape.nodes.len().max(1);
     let count = (*closely / cost).max(1).min(suspects.len());
     *closely = closely.saturating_sub(count * cost);
-    let mut open = count < suspects.len();
+    open |= count < suspects.len();
     for &(ratio, at, weight) in &suspects[..count] {
         let mut single = vec![0.0; derived.len()];
         single[at] = weight;

@@ -121,3 +121,20 @@ fn a_thread_that_counts_no_turns() {
         ));
     }
 }
+
+/// Where the loop is closed the roll of the child does not turn the joint: the damping of that turn is the square of a cosine that
+/// is zero there, and rounding of the form in which it is computed.
+#[test]
+fn entries_that_are_zero_where_the_loop_is_closed() {
+    compiled(
+        "mod m {
+            param p = 0.58;
+            body a { mass: 0.5, com: X, inertia: diag(0.1, 0.2, 0.25) }
+            body b { mass: 0.5 * p + 0.25, com: p * Z, inertia: cylinder(0.5 * p + 0.25, p, 0.5 * p + 0.25, X + 2 * Y) }
+            joint hinge: Revolute { parent: a.rotated(X + 2 * Y, p), child: b.rotated(Z, dot(Z, X)).at([p, 0, 5]), axis: Z }
+            formulation { coordinates: Absolute(RollPitchYaw) }
+            force loss: Damper { joint: hinge.angle, damping: 1.39 }
+            emit inverse_dynamics, derivatives;
+        }",
+    );
+}
