@@ -73,8 +73,15 @@ fn svg(title: &str, entries: &[Entry], rows: &[String], columns: usize) -> Strin
             }
         }
     }
+    // Small squares of zeros, which are nearly all, are one.
+    if !named {
+        let [width, height] = [columns, rows.len()].map(|count| number(count as f64 * cell));
+        picture
+            .add(&format!("<rect class=\"ground\" x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\"/>"));
+    }
     let gap = if cell > 6.0 { 1.5 } else { 0.0 };
-    for (k, entry) in entries.iter().enumerate() {
+    let drawn = entries.iter().enumerate().filter(|(_, entry)| named || **entry != Entry::Zero);
+    for (k, entry) in drawn {
         let (row, column) = (k / columns, k % columns);
         let [x, y] = [left + column as f64 * cell, top + row as f64 * cell].map(|at| number(at + gap / 2.0));
         let side = number(cell - gap);
