@@ -910,7 +910,8 @@ pub(crate) mod engine {
     pub const COORDINATES: &[&str] = &["shaft"];
     /// The coordinates whose dead centres `dead_centres` tells of, in order.
     pub const DEAD_CENTRES: &[&str] = &["cylinder"];
-    /// The equations of the model, each after those that it reads, those of identical parts once.
+    /// The equations of the model, those of identical parts once. Each stands after those that it reads, but for equations of
+    /// motion in the names of their parts, which stand before these.
     pub const FORMULAS: &[::multibody::Equation] = &[
         ::multibody::Equation {
             section: "Coordinates that follow",

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use multibody_engine::mechanics;
 use multibody_engine::mechanics::freedoms;
-use multibody_engine::mechanics::written::{Page, Section};
+use multibody_engine::mechanics::written::{Line, Page, Section, Subject};
 use multibody_engine::symbolic::write::formula::{Equation, Formula};
 use multibody_engine::symbolic::write::{latex, mathml, text};
 
@@ -138,4 +138,50 @@ fn a_folded_line_says_for_which_parts_it_holds() {
             "rods[i].m rods[i].l² rods[i].phi¨ + g rods[i].m rods[i].l sin(rods[i].phi) = -0.1 rods[i].phi˙    (for i = 0 to 3)"
         ]
     );
+}
+
+/// A letter that stands in an index alone is no letter for a number: the second component of a quaternion is called i.
+#[test]
+fn the_letter_of_a_number_is_no_index() {
+    let model = corpus::model(
+        "mod top {
+            port base: Frame;
+            body spinner { mass: 1.0, com: 0.1 * Z, inertia: diag(0.1, 0.1, 0.2) }
+            joint ball: Ball { parent: base, child: spinner }
+        }
+        pub mod tops {
+            world { gravity: -9.81 * Z }
+            part all: [top; 3] = |k| top { base: ground.at(0.3 * k * X) };
+            emit forward_dynamics;
+        }",
+    );
+    let structure = mechanics::analysis::analyse(&model).ok().unwrap();
+    let page = mechanics::page(&model, &structure).ok().unwrap();
+    let folded: Vec<_> = page.sections.iter().flat_map(|section| page.folded(section)).collect();
+    let letters: HashSet<String> = folded.iter().filter_map(|one| Some(one.index.clone()?.0)).collect();
+    assert_eq!(letters, HashSet::from(["n".to_owned()]));
+}
+
+/// `FORMULAS` says of itself that each equation stands after those that it reads, but for equations of motion in the names of
+/// their parts.
+#[test]
+fn equations_stand_after_those_that_they_read() {
+    let mut by_name = 0;
+    for (label, page) in pages() {
+        let lines: Vec<_> = page.sections.iter().flat_map(|section| page.folded(section)).map(|one| one.line).collect();
+        let left = |line: &Line| text::formula(&line.equation.left);
+        let told_at: HashMap<String, usize> = lines.iter().enumerate().map(|(at, line)| (left(line), at)).collect();
+        for (at, line) in lines.iter().enumerate() {
+            let mut late = false;
+            let mut look = |name: String| late |= told_at.get(&name).is_some_and(|&told| told > at);
+            each_name(&line.equation.right, &mut look);
+            if let Subject::Motion(_) = line.subject {
+                each_name(&line.equation.left, &mut look);
+                by_name += usize::from(late);
+            } else {
+                assert!(!late, "{label}: {}", text::equation(&line.equation));
+            }
+        }
+    }
+    assert!(by_name > 0);
 }

@@ -112,6 +112,75 @@ fn letters_of_terms_keep_off_names_of_users() {
     assert!(says.iter().any(|says| says.ends_with("M a + c_1 + g_1 = Q.")), "{says:?}");
 }
 
+/// Equations with what is said of each.
+fn said(text: &str) -> Vec<(String, String)> {
+    let model = corpus::model(text);
+    let structure = mechanics::analysis::analyse(&model).ok().unwrap();
+    let page = mechanics::page(&model, &structure).ok().unwrap();
+    let lines = page.sections.iter().flat_map(|section| &section.lines);
+    lines.map(|line| (text::equation(&line.equation), line.says.clone().unwrap_or_default())).collect()
+}
+
+const LEVER: &str = "pub mod lever {
+    PARAMS
+    formulation { constraints: Reduced }
+    body disc { mass: 1.0, com: 0.25 * X, inertia: diag(0.1, 0.1, 0.1) }
+    body lever { mass: 2.0, com: 0.35 * Y, inertia: diag(0.1, 0.1, 0.1) }
+    joint driver: Revolute { parent: ground, child: disc, axis: Z }
+    joint shaft: Revolute { parent: ground.at([1.0, 0.3, 0.2]), child: lever, axis: X }
+    constraint link: Rod { between: [disc.at(0.5 * X), lever.at(0.7 * Y)], length: 1.0 }
+    solve (shaft) from link { 0.2 * cos(shaft.angle) - (0.3 - 0.5 * sin(driver.angle)) * sin(shaft.angle) > 0.0 }
+    OUTPUTS
+    emit forward_dynamics;
+}";
+
+/// What a closed form is made of has the letter that its equation has in books, and says which equation that is.
+#[test]
+fn closed_forms_say_what_they_are_made_of() {
+    let lines = said(&LEVER.replace("PARAMS", "").replace("OUTPUTS", ""));
+    let (equation, says) = &lines[0];
+    assert!(equation.starts_with("Delta[shaft] = 0.435 cos(driver) - 0.200525"), "{equation}");
+    assert_eq!(says, "A^2 + B^2 - C^2, of A cos x + B sin x = C, where x is `shaft`");
+    let says = &lines.iter().find(|line| line.0.starts_with("cos(shaft) = ")).unwrap().1;
+    assert!(says.ends_with("; real where `Delta[shaft] >= 0`, with dead centres where it is zero"), "{says}");
+}
+
+/// Where a user's vector has the letter, what is said of a line has the other one too.
+#[test]
+fn letters_are_others_in_what_is_said_of_a_line() {
+    let params = "param Delta: Vec3 = [0.1, 0.2, 0.3]; param Delta_1 = 0.5; param A: [Scalar; 2] = [1.0, 2.0];";
+    let outputs = "output Q = [Delta_1 * A[0], A[1], 0.0] + Delta;";
+    let lines = said(&LEVER.replace("PARAMS", params).replace("OUTPUTS", outputs));
+    let (equation, says) = &lines[0];
+    assert!(equation.starts_with("Delta_2[shaft] = "), "{equation}");
+    assert_eq!(says, "A_1^2 + B^2 - C^2, of A_1 cos x + B sin x = C, where x is `shaft`");
+    let says = &lines.iter().find(|line| line.0.starts_with("cos(shaft) = ")).unwrap().1;
+    assert!(says.contains("real where `Delta_2[shaft] >= 0`"), "{says}");
+    // A vector that is put out is a vector of the user's.
+    assert!(lines.iter().any(|line| line.0.starts_with("Q_1[driver] = ")), "{lines:#?}");
+    assert!(lines.iter().any(|line| line.0.starts_with("Q[x] = ")), "{lines:#?}");
+}
+
+/// Of one root what stands under it, of several none alone, and nothing where another factor may vanish.
+#[test]
+fn dead_centres_of_several_roots_are_not_those_of_the_first() {
+    use multibody_engine::mechanics::written::domains::radicand;
+    use multibody_engine::symbolic::graph::{Graph, Scalar};
+    let mut g = Graph::default();
+    let symbols: Vec<Scalar> = (0..3).map(|_| g.symbol()).collect();
+    let [x, y, z] = symbols[..] else { unreachable!() };
+    let roots = [x, y].map(|s| g.sqrt(s));
+    assert_eq!(radicand(&mut g, roots[0]), Some(x));
+    let twice = g.add(roots[0], roots[0]);
+    assert_eq!(radicand(&mut g, -twice), Some(x));
+    let two = g.mul(roots[0], roots[1]);
+    assert_eq!(radicand(&mut g, two), None);
+    let scaled = g.mul(z, roots[0]);
+    assert_eq!(radicand(&mut g, scaled), None);
+    let square = g.mul(z, z);
+    assert_eq!(radicand(&mut g, z), Some(square));
+}
+
 /// What has no formula is said to be solved for: a system of four unknowns, and a loop that iterates.
 #[test]
 fn what_is_solved_in_numbers_is_said() {
@@ -173,6 +242,13 @@ fn names() {
         set.contains(&["m1".into(), "m_{\\mathrm{1}}".into(), "<msub><mi>m</mi><mn>1</mn></msub>".into()]),
         "{set:#?}"
     );
+    let delta = multibody_engine::symbolic::write::formula::Identifier {
+        text: "Delta".into(),
+        index: Some("shaft".into()),
+        ..page.symbols[0].0.clone()
+    };
+    assert_eq!(latex::name(&delta), "\\Delta_{\\mathrm{shaft}}");
+    assert_eq!(mathml::name(&delta), "<msub><mi>Δ</mi><mi>shaft</mi></msub>");
     assert!(
         set.contains(&["phi˙".into(), "\\dot{\\phi}".into(), "<mover><mi>φ</mi><mo>˙</mo></mover>".into()]),
         "{set:#?}"

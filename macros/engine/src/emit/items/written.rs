@@ -30,7 +30,8 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
         quote!(#krate::Equation { section: #section, text: #text, latex: #latex, says: #says })
     });
     quote! {
-        /// The equations of the model, each after those that it reads, those of identical parts once.
+        /// The equations of the model, those of identical parts once. Each stands after those that it reads, but for equations of
+        /// motion in the names of their parts, which stand before these.
         pub const FORMULAS: &[#krate::Equation] = &[#(#equations),*];
     }
 }

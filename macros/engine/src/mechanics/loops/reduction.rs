@@ -40,6 +40,8 @@ pub(in crate::mechanics) struct Reduction {
     pub dead_centres: Vec<(Coordinate, Scalar)>,
     /// Sentences for the report.
     pub notes: Vec<String>,
+    /// What closed forms are made of.
+    pub parts: Vec<Part>,
     /// Largest residual of all iterations.
     pub residuals: Vec<Scalar>,
     /// Unknowns that iterations have found, in the order of the guess.
@@ -48,6 +50,18 @@ pub(in crate::mechanics) struct Reduction {
     pub matrices: Vec<Vec<Scalar>>,
     /// In the order in which they are found.
     pub definitions: Vec<Definition>,
+}
+
+/// A coefficient or so of the equation that a closed form solves.
+#[derive(Clone)]
+pub(in crate::mechanics) struct Part {
+    /// What the graph calls it.
+    pub label: String,
+    pub coordinate: Coordinate,
+    /// What it is in the equation.
+    pub word: &'static str,
+    /// Whether the coordinate is found as an angle.
+    pub is_angle: bool,
 }
 
 /// What Newton's method does.
@@ -213,8 +227,11 @@ impl Equations<'_> {
             self.g.label(solved.inverse_slope, || format!("slope_{name}_inv"));
             let before = self.g.begin(Some(format!("Closed form of {name}.").into()));
             // As in the report: A cos x + B sin x = C, (r cos x, r sin x) = (u, v).
+            let is_angle = matches!(solved.value, SolvedValue::Angle { .. });
             for (word, part) in solved.parts {
-                self.g.label(part, || format!("{name}_{word}"));
+                let label = format!("{name}_{word}");
+                self.g.label(part, || label.clone());
+                reduction.parts.push(Part { label, coordinate: unknown, word, is_angle });
             }
             let position = match solved.value {
                 SolvedValue::Angle { cos, sin } => {

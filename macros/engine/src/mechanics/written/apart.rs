@@ -61,7 +61,8 @@ pub(super) fn by_element(
         let Formula::Name(name) = &line.equation.left else { continue };
         let parts = readers.get(name).into_iter().flatten();
         let [Some(part)] = &parts.collect::<Vec<_>>()[..] else { continue };
-        if part.ends_with(']') {
+        // What has an index has the coordinate there.
+        if part.ends_with(']') && name.index.is_none() {
             let text = vacant(&format!("{part}.{}", stem(&name.text, part)), taken);
             renamed.insert(name.clone(), Identifier { text, ..name.clone() });
         }

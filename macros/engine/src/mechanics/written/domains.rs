@@ -23,20 +23,31 @@ const MOST_SYMBOLS: usize = 60;
 /// What is longer and stands in the line itself is not repeated.
 const MOST_CHARACTERS: usize = 40;
 
-/// What stands under a root, or its square.
-pub(super) fn radicand(e: &mut Equations<'_>, root: Scalar) -> Scalar {
-    let root = e.put_in_stand_ins(&[root])[0];
-    let under = |g: &Graph, s: Scalar| match *g.node(s) {
+/// What must not be negative for a root to be real, and is zero in its dead centres alone: what stands under it, or its square.
+/// None where no one value says so much: of several roots each must be real, and a factor beside one may vanish too.
+pub fn radicand(g: &mut Graph, root: Scalar) -> Option<Scalar> {
+    let factors = match g.node(root) {
+        ScalarNode::Product(factors) => factors.to_vec(),
+        _ => vec![root],
+    };
+    let under = |&factor: &Scalar| match *g.node(factor) {
         ScalarNode::Sqrt(radicand) => Some(radicand),
         _ => None,
     };
     // A sign that is chosen at run time may stand before it.
-    let found = match e.g.node(root) {
-        ScalarNode::Product(factors) => factors.iter().find_map(|&factor| under(&e.g, factor)),
-        _ => under(&e.g, root),
-    };
-    found.unwrap_or_else(|| e.g.mul(root, root))
+    let is_sign =
+        |&factor: &Scalar| matches!(g.node(factor), ScalarNode::Literal(_) | ScalarNode::Call(Call::Select, _));
+    let roots: Vec<Scalar> = factors.iter().filter_map(under).collect();
+    let signs = factors.iter().filter(|&factor| is_sign(factor)).count();
+    match roots[..] {
+        [] => Some(g.mul(root, root)),
+        [radicand] if signs + 1 == factors.len() => Some(radicand),
+        _ => None,
+    }
 }
+
+/// What can be said of any root.
+pub(super) const BETWEEN: &str = "real between its dead centres, where the root vanishes";
 
 /// Whether conditions choose the value when it is evaluated.
 pub(super) fn is_chosen(g: &Graph, value: Scalar) -> bool {
@@ -48,7 +59,7 @@ pub(super) fn is_chosen(g: &Graph, value: Scalar) -> bool {
 /// `line` is the formula that takes it.
 pub(super) fn real(radicand: &Formula, line: &Formula, hidden: &[Identifier]) -> String {
     if radicand.length() > MOST_SYMBOLS || reads_any(radicand, hidden) {
-        return "real between its dead centres, where the root vanishes".to_owned();
+        return BETWEEN.to_owned();
     }
     let written = text::formula(radicand);
     // Where the line itself has it, a long one is not repeated.

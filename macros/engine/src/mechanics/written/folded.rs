@@ -44,14 +44,16 @@ fn holds(letter: &str, numbers: &[usize]) -> String {
 }
 
 impl Page {
-    /// The letter that stands for the number of an element.
+    /// The letter that stands for the number of an element: no word of any name, and of no index.
     fn letter(&self) -> Option<&'static str> {
-        let mut names: BTreeSet<String> = BTreeSet::new();
+        let mut words: BTreeSet<String> = BTreeSet::new();
         let mut copy = self.clone();
         copy.each_name(&mut |name| {
-            names.insert(name.text.clone());
+            for text in [Some(&name.text), name.index.as_ref()].into_iter().flatten() {
+                words.extend(text.split(|c: char| !c.is_alphanumeric() && c != '_').map(str::to_owned));
+            }
         });
-        LETTERS.into_iter().find(|letter| !names.contains(*letter))
+        LETTERS.into_iter().find(|letter| !words.contains(*letter))
     }
 
     /// The lines of a section with those that are alike once, each behind what it reads.

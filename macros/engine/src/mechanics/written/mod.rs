@@ -8,12 +8,13 @@
 //! functions compute and not how.
 
 mod apart;
-mod domains;
+pub mod domains;
 pub mod folded;
 mod letters;
 pub mod names;
 mod rows;
 mod sections;
+mod solved;
 
 use std::collections::{HashMap, HashSet};
 

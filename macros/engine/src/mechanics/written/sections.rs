@@ -17,10 +17,12 @@ use crate::mechanics::translate::forces::LoadCase;
 use crate::model::types::{Coordinate, JointId, Type};
 use crate::symbolic::graph::{Graph, Scalar, ScalarNode, SymbolId};
 use crate::symbolic::write::formula::{Class, Equation, Formula, Function, Identifier};
-use crate::symbolic::write::{self, Wanted};
+use crate::symbolic::write::{self, Wanted, Writing};
 
 use super::domains::Conditions;
-use super::names::{entry, identifier};
+use super::letters::{Letters, plain};
+use super::names::identifier;
+use super::solved::{Solved, solved};
 use super::{Line, Page, Section, Subject, apart, domains, rows};
 
 /// An equation of motion is written out where it is no longer than this many symbols.
@@ -48,13 +50,14 @@ impl Equations<'_> {
     pub(in crate::mechanics) fn page(&mut self) -> Result<Page, Vec<Complaint>> {
         let reduction = self.reduce()?;
         let mut writer = Sections::new(self);
-        let following = Following::new(self, &reduction);
+        writer.solved = solved(self.scene.model, &reduction, &writer.letters);
+        let following = Following::new(self, &reduction, &writer.letters);
         writer.drives(self, &reduction);
         writer.followers(self, &reduction, &following);
         writer.constraints(self);
         writer.motion(self, &following);
         writer.own(self, &reduction, &following);
-        writer.page.keep_letters_apart();
+        writer.page.without_raw_names();
         writer.page.tell_apart();
         Ok(writer.page)
     }
@@ -67,18 +70,33 @@ struct Sections {
     page: Page,
     identifiers: HashMap<SymbolId, Identifier>,
     taken: HashSet<String>,
+    letters: Letters,
+    /// Of closed forms what has no line yet.
+    solved: Solved,
     /// Equations and coordinates of the state whose slope is not zero.
     sloped: HashSet<(usize, usize)>,
 }
 
 impl Sections {
     fn new(e: &Equations<'_>) -> Sections {
-        let symbols: Vec<_> =
-            e.scene.symbols.table.iter().map(|&symbol| (identifier(e.scene.model, symbol), symbol)).collect();
-        let identifiers =
-            symbols.iter().enumerate().map(|(k, (identifier, _))| (SymbolId(k), identifier.clone())).collect();
-        let taken = symbols.iter().map(|(identifier, _)| identifier.text.clone()).collect();
-        Sections { page: Page { sections: Vec::new(), symbols }, identifiers, taken, sloped: HashSet::new() }
+        let model = e.scene.model;
+        let named = e.scene.symbols.table.iter().map(|&symbol| (plain(identifier(model, symbol)), symbol));
+        let mut symbols: Vec<_> = named.collect();
+        let outputs = model.outputs.iter().map(|output| {
+            let index = (output.value.ty != Type::Scalar).then(String::new);
+            plain(Identifier { index, ..named_by(path(model, &output.place)) })
+        });
+        let is_own = |name: &Identifier| matches!(name.class, Class::Defined | Class::Multiplier);
+        let of_users = symbols.iter().map(|(name, _)| name).filter(|name| !is_own(name)).cloned();
+        let of_users: Vec<Identifier> = of_users.chain(outputs).collect();
+        let mut taken = symbols.iter().map(|(name, _)| name).chain(&of_users).map(|name| name.text.clone()).collect();
+        let letters = Letters::new(&of_users, &mut taken);
+        for (name, _) in symbols.iter_mut().filter(|(name, _)| name.class == Class::Multiplier) {
+            name.text = letters.word("lambda").to_owned();
+        }
+        let identifiers = symbols.iter().enumerate().map(|(k, (name, _))| (SymbolId(k), name.clone())).collect();
+        let page = Page { sections: Vec::new(), symbols };
+        Sections { page, identifiers, taken, letters, solved: Solved::new(), sloped: HashSet::new() }
     }
 
     /// Writes values, with what they read before them.
@@ -95,6 +113,7 @@ impl Sections {
         wanted.extend(radicands.map(|value| Wanted { value, collect: Vec::new() }));
         let symbol = |id: SymbolId| self.identifiers.get(&id).cloned().or_fault("every symbol of a page has a name");
         let mut writing = write::write(&e.g, &wanted, &symbol, &self.taken);
+        let mut said = self.name_what_is_solved(&mut writing, drafts.len());
         let mut radicands = writing.formulas.split_off(drafts.len()).into_iter();
         let hidden: Vec<Identifier> = writing
             .definitions
@@ -112,8 +131,9 @@ impl Sections {
                 self.taken.insert(apart.name.text.clone());
                 // What has no value is a result of a linear system or of an iteration: its name says what it is.
                 let Some(right) = apart.value else { continue };
+                let says = said.remove(&apart.name);
                 let equation = Equation { left: Formula::Name(apart.name), right };
-                lines.push(Line { subject: Subject::Definition, equation, says: None });
+                lines.push(Line { subject: Subject::Definition, equation, says });
             }
             let radicand = draft.radicand.and_then(|_| radicands.next());
             under_roots.extend(radicand.map(|radicand| (draft.subject, radicand)));
@@ -127,12 +147,31 @@ impl Sections {
         let renamed = apart::by_element(&mut lines, &part, &mut self.taken);
         for (subject, mut radicand) in under_roots {
             apart::rename(&mut radicand, &renamed);
+            // What has a line has a name.
+            let apart =
+                lines.iter().find(|line| line.subject == Subject::Definition && line.equation.right == radicand);
+            radicand = apart.map_or(radicand, |line| line.equation.left.clone());
             for line in lines.iter_mut().filter(|line| line.subject == subject) {
                 let real = domains::real(&radicand, &line.equation.right, &hidden);
                 line.says = domains::joined(line.says.take(), Some(real));
             }
         }
         lines
+    }
+
+    /// Gives what closed forms are made of the names that it has in books, and says what it is.
+    fn name_what_is_solved(&mut self, writing: &mut Writing, drafts: usize) -> HashMap<Identifier, String> {
+        let mut renamed = apart::Renamed::new();
+        let mut said = HashMap::new();
+        for apart in writing.definitions.iter_mut().filter(|apart| apart.reader < drafts && apart.value.is_some()) {
+            if let Some((name, says)) = apart.label.as_ref().and_then(|label| self.solved.remove(label)) {
+                said.insert(name.clone(), says);
+                renamed.insert(std::mem::replace(&mut apart.name, name.clone()), name);
+            }
+        }
+        let apart = writing.definitions.iter_mut().filter_map(|apart| apart.value.as_mut());
+        writing.formulas.iter_mut().chain(apart).for_each(|formula| apart::rename(formula, &renamed));
+        said
     }
 
     fn section(&mut self, title: &'static str, says: Vec<String>, lines: Vec<Line>) {
@@ -192,7 +231,7 @@ impl Sections {
             for (k, &value) in flat.iter().enumerate() {
                 let index = (flat.len() > 1).then(|| component(&output.value.ty, k));
                 let text = path(model, &output.place);
-                let left = Formula::Name(Identifier { text, dots: 0, index, class: Class::Defined, typed: false });
+                let left = Formula::Name(Identifier { index, ..named_by(text) });
                 if !has_block(&e.g, value) {
                     drafts.push(Draft::new(Subject::Output(place + k), left, value));
                 }
@@ -224,15 +263,15 @@ impl Sections {
                     .iter()
                     .map(|&unknown| format!("`{}`", coordinate_name(e.scene.model, unknown)))
                     .collect();
-                says.push(format!(
-                    "Newton's method finds {}: with them `Phi` of their loops is zero, and the derivatives of `Phi` by them are the \
-                     matrix of the linear systems that give their rates and accelerations.",
-                    names.join(", ")
-                ));
+                let solved = self.letters.sentence(
+                    "with them `Phi` of their loops is zero, and the derivatives of `Phi` by them are the matrix of the linear \
+                     systems that give their rates and accelerations.",
+                );
+                says.push(format!("Newton's method finds {}: {solved}", names.join(", ")));
                 for &row in rows {
                     let residual = e.row(row);
                     let residual = e.put_in_stand_ins(&[residual])[0];
-                    let name = entry("Phi", row_name(e.scene.model, row.closing, row.index), Class::Defined);
+                    let name = self.letters.entry("Phi", row_name(e.scene.model, row.closing, row.index));
                     drafts.push(Draft::new(Subject::Closing(row), Formula::Name(name), residual));
                 }
             }
@@ -257,7 +296,7 @@ impl Sections {
         let says_of = "`S` are the slopes of what follows by the state's velocities, `gamma` what is left of its acceleration where those of \
                        the state are zero: x' = S q', x'' = S q'' + gamma.";
         if !reduction.definitions.is_empty() {
-            says.push(says_of.to_owned());
+            says.push(self.letters.sentence(says_of));
         }
         self.section("Coordinates that follow", says, lines);
     }
@@ -342,8 +381,13 @@ impl Sections {
         let root = reduction.dead_centres.iter().find(|centre| centre.0 == coordinate).map(|centre| centre.1);
         // Where conditions are evaluated at run time, the formula is none where they fail too.
         let root = root.filter(|_| !domains::is_chosen(&e.g, position));
-        let radicand = root.map(|root| domains::radicand(e, root));
+        let radicand = root.and_then(|root| {
+            let root = e.put_in_stand_ins(&[root])[0];
+            domains::radicand(&mut e.g, root)
+        });
         let says = conditions.get(&coordinate).map(|list| format!("the branch with {}", list.join(", ")));
+        let less = root.filter(|_| radicand.is_none()).map(|_| domains::BETWEEN.to_owned());
+        let says = domains::joined(says, less);
         if let ScalarNode::Angle(cos, sin) = *e.g.node(position) {
             let sin = if position.is_negative() { -sin } else { sin };
             let of = |function| Formula::Apply(function, vec![name.clone()]);
@@ -361,7 +405,7 @@ impl Sections {
         for &row in &structure.rows {
             let residual = e.row(row);
             let residual = e.put_in_stand_ins(&[residual])[0];
-            let name = entry("Phi", row_name(e.scene.model, row.closing, row.index), Class::Defined);
+            let name = self.letters.entry("Phi", row_name(e.scene.model, row.closing, row.index));
             drafts.push(Draft::new(Subject::Constraint(row), Formula::Name(name), residual));
         }
         for (k, &row) in structure.rows.iter().enumerate() {
@@ -380,7 +424,7 @@ impl Sections {
                     row_name(e.scene.model, row.closing, row.index),
                     coordinate_name(e.scene.model, coordinate)
                 );
-                let name = Formula::Name(entry("G", index, Class::Defined));
+                let name = Formula::Name(self.letters.entry("G", index));
                 drafts.push(Draft::new(Subject::Slope(k, j), name, slope));
             }
         }
@@ -394,7 +438,10 @@ impl Sections {
         let lines = rows::shared(lines, &closing, &part, &mut self.taken);
         let says = match lines.is_empty() {
             true => Vec::new(),
-            false => vec!["Each is zero where its loop is closed; `G` is their Jacobian by the velocities.".to_owned()],
+            false => vec![
+                self.letters
+                    .sentence("Each is zero where its loop is closed; `G` is their Jacobian by the velocities."),
+            ],
         };
         self.section("Constraints", says, lines);
     }
@@ -424,7 +471,7 @@ impl Sections {
         let mut drafts = Vec::new();
         for (i, name) in names.iter().enumerate() {
             for (j, other) in names.iter().enumerate().skip(i) {
-                let left = Formula::Name(entry("M", format!("{name}, {other}"), Class::Defined));
+                let left = Formula::Name(self.letters.entry("M", format!("{name}, {other}")));
                 drafts.push(Draft::new(Subject::Mass(i, j), left, matrix[i][j]));
             }
         }
@@ -432,7 +479,7 @@ impl Sections {
             [("c", Subject::Inertial, &velocity), ("g", Subject::Gravity, &gravity), ("Q", Subject::Force, &forces)];
         for (letter, subject, list) in parts {
             for (i, name) in names.iter().enumerate() {
-                let left = Formula::Name(entry(letter, name.clone(), Class::Defined));
+                let left = Formula::Name(self.letters.entry(letter, name.clone()));
                 drafts.push(Draft::new(subject(i), left, list[i]));
             }
         }
@@ -451,7 +498,7 @@ impl Sections {
             .into_iter()
             .flatten()
             .collect();
-        let before = self.taken.clone();
+        let before = (self.taken.clone(), self.solved.clone());
         let written = self.lines_with(e, full, false);
         let rows = if written
             .iter()
@@ -459,7 +506,7 @@ impl Sections {
         {
             written.chunks(2).enumerate().filter_map(|(i, pair)| pair_up(i, pair)).collect()
         } else {
-            self.taken = before;
+            (self.taken, self.solved) = before;
             self.by_name(e, &names, &held, &matrix, [&velocity, &gravity, &forces])
         };
         self.section("Equations of motion", Vec::new(), rows);
@@ -469,7 +516,7 @@ impl Sections {
             "`M` is the mass matrix, symmetric; `c` are the terms of velocities, `g` those of gravity, `Q` those of forces: \
              M a + c + g = Q{held}."
         );
-        self.section("Mass matrix and forces", vec![says], lines);
+        self.section("Mass matrix and forces", vec![self.letters.sentence(&says)], lines);
     }
 
     /// Efforts of the multipliers on the state.
@@ -494,7 +541,7 @@ impl Sections {
         [velocity, gravity, forces]: [&[Scalar]; 3],
     ) -> Vec<Line> {
         let structure = &e.scene.structure;
-        let named = |letter: &str, index: String| Formula::Name(entry(letter, index, Class::Defined));
+        let named = |letter: &str, index: String| Formula::Name(self.letters.entry(letter, index));
         let part = |letter: &str, list: &[Scalar], i: usize| {
             (list[i] != Scalar::ZERO).then(|| (false, named(letter, names[i].clone())))
         };
@@ -534,6 +581,11 @@ fn sum(mut terms: Vec<(bool, Formula)>) -> Formula {
     }
 }
 
+/// The name of an output.
+fn named_by(text: String) -> Identifier {
+    Identifier { text, dots: 0, index: None, class: Class::Defined, typed: false }
+}
+
 /// Name of a component of an output.
 fn component(ty: &Type, k: usize) -> String {
     match ty {
@@ -570,7 +622,7 @@ struct Named {
 }
 
 impl Following {
-    fn new(e: &mut Equations<'_>, reduction: &Reduction) -> Following {
+    fn new(e: &mut Equations<'_>, reduction: &Reduction, letters: &Letters) -> Following {
         let structure = Rc::clone(&e.scene.structure);
         let places = e.state();
         let mut map = vec![vec![Scalar::ZERO; places.len()]; e.scene.symbols.freedoms];
@@ -596,7 +648,7 @@ impl Following {
             let subject = Subject::Follows(definition.coordinate, j);
             following.named.push(Named {
                 subject,
-                name: entry("S", index, Class::Defined),
+                name: letters.entry("S", index),
                 symbol: following.map[e.freedom(definition.coordinate)][j],
                 value,
             });
@@ -613,7 +665,7 @@ impl Following {
         for (definition, symbol) in reduction.definitions.iter().zip(symbols) {
             let value = e.put_in_stand_ins(&[definition.acceleration])[0];
             let value = e.g.substitute(&[value], &following.still)[0];
-            let name = entry("gamma", coordinate_name(e.scene.model, definition.coordinate), Class::Defined);
+            let name = letters.entry("gamma", coordinate_name(e.scene.model, definition.coordinate));
             following.named.push(Named { subject: Subject::Rest(definition.coordinate), name, symbol, value });
         }
         following.settle(e);

@@ -34,9 +34,10 @@ pub fn name(identifier: &Identifier) -> String {
 }
 
 /// Letters that have a name of their own.
-pub(super) const GREEK: [&str; 22] = [
+pub(super) const GREEK: [&str; 32] = [
     "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu", "xi",
-    "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi", "omega",
+    "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi", "omega", "Gamma", "Delta", "Theta", "Lambda", "Xi", "Sigma",
+    "Upsilon", "Phi", "Psi", "Omega",
 ];
 
 fn escaped(word: &str) -> String {

@@ -55,8 +55,10 @@ pub fn name(identifier: &Identifier) -> String {
 }
 
 fn greek(word: &str) -> Option<char> {
-    const LETTERS: [char; 22] =
-        ['α', 'β', 'γ', 'δ', 'ε', 'ζ', 'η', 'θ', 'ι', 'κ', 'λ', 'μ', 'ν', 'ξ', 'ρ', 'σ', 'τ', 'υ', 'φ', 'χ', 'ψ', 'ω'];
+    const LETTERS: [char; 32] = [
+        'α', 'β', 'γ', 'δ', 'ε', 'ζ', 'η', 'θ', 'ι', 'κ', 'λ', 'μ', 'ν', 'ξ', 'ρ', 'σ', 'τ', 'υ', 'φ', 'χ', 'ψ', 'ω',
+        'Γ', 'Δ', 'Θ', 'Λ', 'Ξ', 'Σ', 'Υ', 'Φ', 'Ψ', 'Ω',
+    ];
     latex::GREEK.iter().position(|known| *known == word).map(|k| LETTERS[k])
 }
 

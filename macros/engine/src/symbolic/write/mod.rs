@@ -56,6 +56,8 @@ pub struct Writing {
 /// A value with an equation of its own.
 pub struct Apart {
     pub name: Identifier,
+    /// What the graph calls it, if it does.
+    pub label: Option<String>,
     /// The first of the wanted values that reads it.
     pub reader: usize,
     /// None where it is no formula but solved for.
@@ -130,9 +132,11 @@ fn finish(
         .collect();
     let arranger = Arranger { atoms: &atoms, symbol, defined: &names };
     let formulas = values.iter().zip(&lists).map(|(p, by)| arranger.collected(p, by)).collect();
-    let definitions = apart.iter().zip(&names).zip(readers).filter_map(|((value, name), reader)| {
+    let labels = definitions.into_iter().map(|definition| definition.name);
+    let told = apart.iter().zip(&names).zip(labels).zip(readers);
+    let definitions = told.filter_map(|(((value, name), label), reader)| {
         let value = value.as_ref().map(|p| arranger.formula(p));
-        Some(Apart { name: name.clone(), reader: reader?, value })
+        Some(Apart { name: name.clone(), label, reader: reader?, value })
     });
     let definitions = definitions.collect();
     Writing { formulas, definitions }
