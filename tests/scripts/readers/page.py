@@ -128,7 +128,8 @@ class Page:
             return self.say(f"{what}: {got.shape} entries on the page and {want.shape} compiled")
         if got.size == 0:
             return None
-        error = numpy.abs(got - want) / scale
+        # What is undefined on both sides is said alike.
+        error = numpy.where(numpy.isnan(got) & numpy.isnan(want), 0, numpy.abs(got - want)) / scale
         self.worst = max(self.worst, (float(numpy.nanmax(error, initial=0)), what))
         if not numpy.all(error <= TOLERANCE):
             entry, state = numpy.argwhere(~(error <= TOLERANCE))[0]
@@ -200,4 +201,9 @@ def reduced(choice, list_):
     return first
 
 
-MODULES = [{"amax": greatest, "amin": least}, "numpy"]
+def chosen(conditions, values, default=numpy.nan):
+    """Of pieces; a condition that is itself made of pieces comes as numbers."""
+    return numpy.select([numpy.nan_to_num(condition).astype(bool) for condition in conditions], values, default=default)
+
+
+MODULES = [{"amax": greatest, "amin": least, "select": chosen}, "numpy"]
