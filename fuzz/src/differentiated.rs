@@ -51,10 +51,10 @@ pub struct Found {
 pub const TOLERANCE: f64 = 1e-9;
 
 /// Wide ones round least, narrow ones end well where values bend: the best of them counts.
-const STEPS: [f64; 3] = [2e-3, 3e-4, 4e-5];
+pub(crate) const STEPS: [f64; 3] = [2e-3, 3e-4, 4e-5];
 
 /// Weights of the differences at one, two and three steps.
-const WEIGHTS: [f64; 3] = [45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0];
+pub(crate) const WEIGHTS: [f64; 3] = [45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0];
 
 /// Looks at the models of the project.
 pub fn run(plan: &Plan) -> Found {
@@ -172,7 +172,7 @@ fn moved(of: &Written, at: &HashMap<Symbol, f64>, by: Variable, step: f64) -> Ha
     at
 }
 
-fn symbol(variable: Variable) -> Option<Symbol> {
+pub(crate) fn symbol(variable: Variable) -> Option<Symbol> {
     match variable {
         Variable::Time => None,
         Variable::Coordinate(Coordinate { joint, index: component }, Order::Rate) => {

@@ -3,7 +3,8 @@
 //! `mechanism` draws mechanisms as data and writes them in the language, `programs` compiles the text and interprets what
 //! comes of it, `plain` works the same data out in plain numbers, and `oracle` compares. A failure is made as small as it
 //! gets (`mechanism::shrink`) and printed as text. `jury` runs models for `cargo xtask mutants`,
-//! `written` puts equations for readers down as they are printed, `differentiated` compares `diff` with differences.
+//! `written` puts equations for readers down as they are printed, `differentiated` compares `diff` with differences, `manipulated` random
+//! expressions that take others apart with what they are made of.
 
 pub mod algebra;
 pub mod campaign;
@@ -12,6 +13,7 @@ pub mod differentiated;
 pub mod grammar;
 pub mod grammar_campaign;
 pub mod jury;
+pub mod manipulated;
 pub mod mechanism;
 pub mod oracle;
 pub mod plain;

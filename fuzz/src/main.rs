@@ -4,7 +4,7 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use multibody_fuzz::campaign::{Chains, Family, Loops, Plan, Tally, run};
-use multibody_fuzz::{differentiated, grammar_campaign, jury, written};
+use multibody_fuzz::{differentiated, grammar_campaign, jury, manipulated, written};
 
 fn number(arguments: &[String], name: &str, default: u64) -> u64 {
     let at = arguments.iter().position(|word| word == name);
@@ -88,6 +88,7 @@ fn main() -> ExitCode {
     let done = match arguments.first().map(String::as_str) {
         Some("grammar") => Some(grammar_campaign::run(plan, false).0),
         Some("broken") => Some(grammar_campaign::run(plan, true).0),
+        Some("manipulated") => Some(manipulated::run(plan)),
         Some("rustc") => match grammar_campaign::through_rustc(plan, "long") {
             Ok(tally) => Some(tally),
             Err(error) => {
@@ -104,7 +105,7 @@ fn main() -> ExitCode {
         Some("chains") => Box::new(Chains),
         Some("loops") => Box::new(Loops),
         _ => {
-            println!("chains|loops|grammar|broken|rustc [--models N] [--seed S] [--shown K] [--seconds T]");
+            println!("chains|loops|grammar|broken|manipulated|rustc [--models N] [--seed S] [--shown K] [--seconds T]");
             println!("jury {}", jury::USAGE);
             println!("written {}", written::USAGE);
             return ExitCode::FAILURE;

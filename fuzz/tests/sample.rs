@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use multibody_fuzz::campaign::{Chains, Family, Loops, Plan, run};
-use multibody_fuzz::{differentiated, grammar_campaign};
+use multibody_fuzz::{differentiated, grammar_campaign, manipulated};
 
 fn plan(models: usize, seed: u64) -> Plan {
     // On a slow machine fewer are looked at; none is judged less strictly.
@@ -39,6 +39,13 @@ fn derivatives_of_expressions() {
     let found = differentiated::run(&differentiated::Plan { models: 24, states: 4, seed: 5, most_freedoms: 4 });
     assert!(found.models == 24 && found.numbers > 1000, "{} models, {} numbers", found.models, found.numbers);
     assert!(found.wrong.is_empty(), "{:#?}", found.wrong);
+}
+
+#[test]
+fn expressions_that_take_others_apart() {
+    let tally = manipulated::run(plan(40, 1));
+    assert!(tally.models > 5 && tally.numbers > 50, "{} models, {} numbers", tally.models, tally.numbers);
+    assert_eq!(tally.failures(), 0, "{:#?}\n{}", tally.classes, tally.reports.join("\n"));
 }
 
 #[test]

@@ -27,6 +27,49 @@ pub fn call(random: &mut Random) -> Vec<String> {
     out.lines
 }
 
+/// A call of a model `m` whose outputs take others apart, and one that it asks, for [`crate::manipulated`]: of `m` an expression
+/// `of`, its derivatives, `put`, which has `value` in the place of a variable, `asked`, a question, and what is given there. The
+/// other model has what is asked for as its output.
+pub fn apart(random: &mut Random) -> Option<Vec<String>> {
+    let mut out = Lines::default();
+    let aid = out.aid(random);
+    let question = scalar(random, &aid.names, Level::Force, 2);
+    // Behind the last item.
+    let end = out.lines.pop()?;
+    out.push(format!("output asked = {question};"));
+    out.push(end);
+    let aid = Rc::new(aid);
+    let mut names = Names { aid: Some(Rc::clone(&aid)), ..Names::default() };
+    out.push("pub mod m {".into());
+    out.values(random, &mut names, false);
+    out.link(random, &mut names, "ground", 14);
+    let parent = names.bodies[0].clone();
+    out.link(random, &mut names, &parent, 12);
+    out.states(random, &mut names);
+    out.lets(random, &mut names);
+    let mut variables: Vec<String> = (0..6).filter_map(|_| manipulated::variable(random, &names)).collect();
+    variables.sort();
+    variables.dedup();
+    let of = scalar(random, &names, Level::Force, 3);
+    out.push(format!("output of = {of};"));
+    for (k, variable) in variables.iter().enumerate() {
+        out.push(format!("output d{k} = diff({of}, {variable});"));
+    }
+    let first = variables.first()?;
+    let value = scalar(random, &names, Level::Force, 1);
+    out.push(format!("output put = substitute({of}, {first} = {value});"));
+    out.push(format!("output value = {value};"));
+    let mut given = String::new();
+    for (k, name) in aid.given.iter().enumerate() {
+        let value = scalar(random, &names, Level::Force, 1);
+        out.push(format!("output g{k} = {value};"));
+        write!(given, ", {name} = {value}").ok()?;
+    }
+    out.push(format!("output asked = {}({question}{given});", aid.name));
+    out.push("}".into());
+    Some(out.lines)
+}
+
 #[derive(Default)]
 struct Lines {
     lines: Vec<String>,
