@@ -129,7 +129,7 @@ class Page:
         if got.size == 0:
             return None
         # What is undefined on both sides is said alike.
-        error = numpy.where(numpy.isnan(got) & numpy.isnan(want), 0, numpy.abs(got - want)) / scale
+        error = numpy.where(numpy.isnan(got) & numpy.isnan(want), 0, numpy.abs(got - want) / scale)
         self.worst = max(self.worst, (float(numpy.nanmax(error, initial=0)), what))
         if not numpy.all(error <= TOLERANCE):
             entry, state = numpy.argwhere(~(error <= TOLERANCE))[0]
