@@ -1,5 +1,7 @@
 """A page of equations: its names, its lines one after the other, and what they come to."""
 
+import re
+
 import numpy
 import sympy
 
@@ -15,6 +17,8 @@ class Page:
 
     def __init__(self, model):
         self.model, self.wrong, self.worst = model, [], (0.0, "nothing")
+        # Values of sides, by line, once for velocities as they are drawn and once for the motion.
+        self.sides = {}
         self.names = {form: {} for form in FORMS}
         self.legend()
         lines = [self.line(k, line) for k, line in enumerate(model["lines"])]
@@ -109,6 +113,7 @@ class Page:
         if len(results) > 1:
             self.agree(k, list(results))
         first = next(iter(results.values()))
+        self.sides.setdefault(k, []).append(first)
         return first
 
     def agree(self, k, expressions):
@@ -174,6 +179,7 @@ class Page:
                 if key[0] == subject:
                     want = numpy.array([state[name][key[1]] for state in states], dtype=numpy.longdouble)
                     self.check(f"{subject} {key[1]}", [found[key]], [want], numpy.maximum(1, numpy.abs(want)))
+        self.rests(found["values"], states)
         # Coordinates that follow, their rates and accelerations, as far as they have lines.
         for place, (number, _) in enumerate(states[0].get("followed", [])):
             got = found["values"].get(self.symbols[number])
@@ -184,6 +190,37 @@ class Page:
                 got = numpy.where(self.symbols[number] in found["sine"], got - turns, got)
                 name = self.model["symbols"][number]["text"]
                 self.check(name, [got], [want], numpy.maximum(1, numpy.abs(want)))
+
+
+    def rests(self, values, states):
+        """What is left of accelerations that nothing reads: with x' = S q' on the page, x'' is S q'' and the rest."""
+        numbers = {printed["text"]: number for number, printed in enumerate(self.model["symbols"])}
+        followed = {number: place for place, (number, _) in enumerate(states[0].get("followed", []))}
+        slopes = {self.defined[k] for k, line in enumerate(self.model["lines"]) if line["subject"] == "follows"}
+        rates = {line["left"]["text"]: line for line in self.model["lines"] if line["subject"] == "rate"}
+        for k, line in enumerate(self.model["lines"]):
+            name = re.fullmatch(r"[^[]*\[(.*)\]", line["left"]["text"])
+            if line["subject"] != "rest" or not name or name[1] + "˙" not in rates:
+                continue
+            rate = text.read(rates[name[1] + "˙"]["right"]["text"], self.names["text"])
+            # Where a drive moves the loop too, the rate is more than these.
+            velocities = [printed for printed in numbers if printed.endswith("˙") or ".omega[" in printed]
+            at = {self.symbols[numbers[v]]: after(v) for v in velocities if after(v) in numbers}
+            moving = list(rate.free_symbols - slopes)
+            place = followed.get(numbers.get(name[1] + "¨"))
+            if place is None or any(symbol not in at for symbol in moving):
+                continue
+            given = [values[self.symbols[numbers[at[symbol]]]] for symbol in moving]
+            others = sorted(rate.free_symbols & slopes, key=str)
+            function = sympy.lambdify([*moving, *others], rate, modules=MODULES)
+            got = function(*given, *(values[symbol] for symbol in others)) + values[self.defined[k]]
+            want = numpy.array([state["followed"][place][1] for state in states], dtype=numpy.longdouble)
+            self.check(line["left"]["text"], [got], [want], numpy.maximum(1, numpy.abs(want)))
+
+
+def after(printed):
+    """The name of the rate of a velocity, as text."""
+    return printed[:-1] + "¨" if printed.endswith("˙") else printed + "˙"
 
 
 def greatest(list_, axis=0):
