@@ -191,9 +191,13 @@ multibody! {
         solve (lone) from many[2] * lone + 1.0 == pull.x;
         solve (root) from root * (root + pull.x) == 4.0 + powi(shaft.angle, 2) { root > 0.0 }
         solve (other) from root * other * other - 3.0 == 0.2 * other { other < pull.y }
+        // Of second degree to the eye, and with a coefficient that is zero at some inputs: one solution is left.
+        solve (first) from (first + pull.x) * (first + pull.x) - first * first == 3.0 { first > -1e9 }
+        solve (flat) from max(pull.x, 0.0) * flat * flat + (many[0] - pull.z) * flat == 0.1 { abs(flat) < 2.0 }
         output found = [a, b, c];
         output alone = lone;
         output roots = [root, other];
+        output lines = [first, flat];
         force drive: Effort { joint: shaft, value: a - 0.1 * root }
         emit forward_dynamics;
     }

@@ -260,6 +260,14 @@ fn equations_of_ones_own() {
         let [root, other] = [found.roots[0], found.roots[1]];
         assert!(root > 0.0);
         close("root", &[root * (root + x)], &[4.0 + q * q]);
+        close("first", &[found.lines[0]], &[(3.0 - x * x) / (2.0 * x)]);
+        let (square, half, flat) = (x.max(0.0), 0.5 * (1.3 - z), found.lines[1]);
+        let far = if square == 0.0 { f64::INFINITY } else { -(half + (half * half + 0.1 * square).sqrt()) / square };
+        if far.abs() < 2.0 {
+            assert!(flat.is_nan());
+        } else {
+            close("flat", &[square * flat * flat + 2.0 * half * flat, flat.abs().min(2.0)], &[0.1, flat.abs()]);
+        }
         // Of the two values one is positive and never below; the other only where it lies below y.
         let below = (0.2 - (0.04 + 12.0 * root).sqrt()) / (2.0 * root);
         if below < y {

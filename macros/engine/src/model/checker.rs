@@ -269,6 +269,8 @@ pub(super) struct Checker<'a, 'd> {
     pub(super) scopes: IndexVec<ScopeId, Scope<'a>>,
     pub(super) named: IndexVec<NamedId, Named<'a>>,
     pub(super) systems: IndexVec<SystemId, System<'a>>,
+    /// Values that read unknowns of systems that are being solved.
+    pub(super) opened: Vec<NamedId>,
     pub(super) part_types: IndexVec<PartTypeId, PartType>,
     /// Module of each part type, and the params that its instances set, with the first instance's name.
     pub(super) part_modules: IndexVec<PartTypeId, (usize, Vec<String>, String)>,
@@ -323,6 +325,7 @@ impl<'a, 'd> Checker<'a, 'd> {
             scopes: IndexVec::new(),
             named: IndexVec::new(),
             systems: IndexVec::new(),
+            opened: Vec::new(),
             part_types: IndexVec::new(),
             part_modules: IndexVec::new(),
             instances: IndexVec::new(),
@@ -391,9 +394,11 @@ impl<'a, 'd> Checker<'a, 'd> {
         if let (Some(unit), Some(Meaning::Value(value))) = (&named.unit, &mut meaning) {
             value.expr.unit = Some(Rc::new(unit.clone().over(value.expr.unit.take())));
         }
-        // Inside its equations an unknown is another value than behind them.
-        let open = matches!(&meaning, Some(Meaning::Value(value)) if self.holds_unknown(&value.expr));
-        self.named[id].state = if open { Lazy::Waiting } else { Lazy::Done(meaning.clone()) };
+        // Inside its equations an unknown is another value than behind them: kept until these are solved.
+        if matches!(&meaning, Some(Meaning::Value(value)) if self.holds_unknown(&value.expr)) {
+            self.opened.push(id);
+        }
+        self.named[id].state = Lazy::Done(meaning.clone());
         meaning
     }
 

@@ -11,6 +11,7 @@
 //! Paden-Kahan 2 and 3 are pairs whose equation is a `Root`: a point on one axis against the other axis' normal plane,
 //! and the distance of two points.
 
+use crate::contracts::call::Call;
 use crate::symbolic::graph::{Graph, Scalar, ScalarNode, Vector, VectorNode};
 use crate::symbolic::substitute::Substitution;
 
@@ -139,11 +140,6 @@ impl Primitive {
         };
         Solved { symbol, value, equation, inverse_slope, how, root, parts: std::mem::take(parts) }
     }
-
-    /// The value alone. Nobody reads the equation, so its unknown needs no symbol.
-    fn alone(&self, g: &mut Graph, sign: Scalar) -> Value {
-        self.solve(g, Scalar::ZERO, sign, &mut Known::default(), String::new()).value
-    }
 }
 
 type Parts = Vec<(&'static str, Scalar)>;
@@ -236,14 +232,47 @@ fn travel(g: &mut Graph, x: Scalar, raw: [Scalar; 3], sign: Scalar, (known, part
     (Value::Length(value), equation, g.reciprocal(r), Some(root))
 }
 
-/// An x with a cos x + b sin x = c; minus one as `sign` gives the other one.
-pub fn circular(g: &mut Graph, [a, b, c]: [Scalar; 3], sign: Scalar) -> Value {
-    Primitive::Root { a, b, c }.alone(g, sign)
+/// An x with a cos x + b sin x = c, the other one if `second`. NaN where the equation holds no x.
+pub fn circular(g: &mut Graph, [a, b, c]: [Scalar; 3], second: bool) -> Value {
+    if (a, b) == (Scalar::ZERO, Scalar::ZERO) {
+        return Value::Length(g.call(Call::Nan, &[]));
+    }
+    // Nobody reads the equation that comes with the value, so its unknown needs no symbol.
+    let sign = if second { -Scalar::ONE } else { Scalar::ONE };
+    Primitive::Root { a, b, c }.solve(g, Scalar::ZERO, sign, &mut Known::default(), String::new()).value
 }
 
-/// An x with a x^2 + 2 b x + c = 0; minus one as `sign` gives the other one.
-pub fn quadratic(g: &mut Graph, [square, half, one]: [Scalar; 3], sign: Scalar) -> Value {
-    Primitive::Quadratic { square, half, one }.alone(g, sign)
+/// An x with a x^2 + 2 b x + c = 0, the other one if `second`.
+///
+/// Of two solutions the one nearer to zero is c / q, the other q / a with q = -(b +- r), where nothing cancels (Higham 2002,
+/// section 1.8). It stays where a becomes zero; the other one is NaN there, as both are where the equation holds no x.
+pub fn quadratic(g: &mut Graph, [a, b, c]: [Scalar; 3], second: bool) -> Scalar {
+    let nan = g.call(Call::Nan, &[]);
+    if a == Scalar::ZERO {
+        if second || b == Scalar::ZERO {
+            return nan;
+        }
+        let quotient = g.div(c, b);
+        let half = g.decimal(-0.5);
+        return g.mul(half, quotient);
+    }
+    let (square, product) = (g.mul(b, b), g.mul(a, c));
+    let rest = g.sub(square, product);
+    let root = g.sqrt(rest);
+    if b == Scalar::ZERO {
+        let x = g.div(root, a);
+        return if second { -x } else { x };
+    }
+    let below = g.call(Call::Less, &[b, Scalar::ZERO]);
+    let away = g.call(Call::Select, &[below, -root, root]);
+    let sum = g.add(b, away);
+    let q = -sum;
+    if !second {
+        return g.div(c, q);
+    }
+    let far = g.div(q, a);
+    let none = g.call(Call::Equal, &[a, Scalar::ZERO]);
+    g.call(Call::Select, &[none, nan, far])
 }
 
 /// The point (x, y, z) with given distances from three points: two solutions, on either side of their plane. Squares of

@@ -146,14 +146,12 @@ impl Equations<'_> {
 
     /// A solution of an equation in one unknown.
     pub(super) fn one_of_two(&mut self, form: TwoRoots, coefficients: [Scalar; 3], second: bool) -> Scalar {
-        let sign = if second { -Scalar::ONE } else { Scalar::ONE };
-        let found = match form {
-            TwoRoots::Quadratic => solve::quadratic(&mut self.g, coefficients, sign),
-            TwoRoots::Circular => solve::circular(&mut self.g, coefficients, sign),
-        };
-        match found {
-            solve::Value::Angle { cos, sin } => self.g.angle(cos, sin),
-            solve::Value::Length(x) => x,
+        match form {
+            TwoRoots::Quadratic => solve::quadratic(&mut self.g, coefficients, second),
+            TwoRoots::Circular => match solve::circular(&mut self.g, coefficients, second) {
+                solve::Value::Angle { cos, sin } => self.g.angle(cos, sin),
+                solve::Value::Length(x) => x,
+            },
         }
     }
 

@@ -4,8 +4,8 @@
 //! are taken apart by putting numbers in: what an equation is with all unknowns zero, and with one of them one, gives the
 //! right-hand side and a column of the matrix. Unknowns that share no equation are solved apart. One equation in one unknown
 //! that is of second degree, or linear in its cosine and sine, has two solutions, from which conditions choose: where none or
-//! both satisfy them there is none. Its coefficients are found by putting numbers in too, its solutions by the primitives that
-//! close loops.
+//! both satisfy them there is none. Its coefficients are found by putting numbers in too; its solutions stand in
+//! [`crate::solve`].
 
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -51,8 +51,12 @@ impl<'a> Checker<'a, '_> {
             Lazy::Waiting => system.state = Lazy::Working,
             _ => return Some(()),
         }
+        let known = self.opened.len();
         let found = self.solution(id);
         self.systems[id].state = Lazy::Done(found.map(Rc::from));
+        for named in self.opened.split_off(known) {
+            self.named[named].state = Lazy::Waiting;
+        }
         Some(())
     }
 
@@ -517,5 +521,6 @@ fn anew(expr: &Expr, f: &mut dyn FnMut(&Expr) -> Expr) -> Expr {
         // Of no other kind an equation is a polynomial, or a condition may be.
         _ => return expr.clone(),
     };
-    new_expr(node, expr.ty.clone(), expr.span)
+    // A unit that was declared for the whole holds whatever is put in.
+    Expr { unit: expr.unit.clone(), ..new_expr(node, expr.ty.clone(), expr.span) }
 }
