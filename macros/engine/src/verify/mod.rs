@@ -26,10 +26,9 @@ use crate::model::types::Model;
 use crate::optimize::program::{Compiled, Doubt, Function, Part, Unchecked};
 use crate::optimize::{self, Plain, Refusal};
 use crate::symbolic::graph::Scalar;
-use crate::symbolic::lower::Lowering;
 
 use laws::{Known, Laws, Outcome};
-use programs::{CLOSELY, Subject, Verdict};
+use programs::{CLOSELY, Lowered, Subject, Verdict};
 use states::{State, States};
 use tape::Tape;
 
@@ -86,7 +85,18 @@ pub struct Found {
 
 /// Compares all programs of a model with their derived equations.
 pub fn check(model: &Model, structure: &Structure, derivation: &Derivation, compiled: &Compiled) -> Found {
-    judge(model, structure, derivation, compiled, Plain::default())
+    check_with(model, structure, derivation, compiled, Plain::default())
+}
+
+/// The same of programs some of which stand as they were derived.
+pub fn check_with(
+    model: &Model,
+    structure: &Structure,
+    derivation: &Derivation,
+    compiled: &Compiled,
+    plain: Plain<'_>,
+) -> Found {
+    judge(model, structure, derivation, compiled, plain)
 }
 
 /// States that were drawn, by number and attempt; nothing where loops don't close.
@@ -189,18 +199,15 @@ fn judge(
     let tapes: Vec<Tape> =
         compiled.functions.iter().map(|function| Tape::new(&derivation.graph, of(derivation, function))).collect();
     let closing = compiled.functions.iter().zip(&tapes).find(|(function, _)| function.kind == FunctionKind::Guess);
-    let lowered: Vec<Option<Tape>> = compiled
-        .functions
-        .iter()
-        .map(|function| plain.functions.contains(&function.kind).then(|| lowered(derivation, of(derivation, function))))
-        .collect();
+    let forms: Vec<Lowered<'_>> =
+        compiled.functions.iter().map(|function| Lowered::new(&derivation.graph, of(derivation, function))).collect();
     let mut drawn = Drawn { states: &states, closing: closing.map(|pair| pair.1), list: HashMap::new() };
     let mut found = Found::default();
-    for ((function, tape), lowered) in compiled.functions.iter().zip(&tapes).zip(&lowered) {
+    for ((function, tape), lowered) in compiled.functions.iter().zip(&tapes).zip(&forms) {
         let residual = closing.is_some()
             && matches!(function.kind, FunctionKind::ForwardDynamics | FunctionKind::Guess | FunctionKind::Margins);
-        let (lowered, prelude) = (lowered.as_ref(), Some(&compiled.prelude));
-        let subject = Subject { tape, lowered, prelude, program: &function.program, residual };
+        let (plain, prelude) = (plain.functions.contains(&function.kind), Some(&compiled.prelude));
+        let subject = Subject { tape, lowered, plain, prelude, program: &function.program, residual };
         // A parameter of zero shows nothing of what it multiplies: where one state must do, parameters are not at their defaults.
         let numbers: &[usize] = match tape.nodes.len() {
             0..=2_000 => &[0, 1, 2],
@@ -260,9 +267,9 @@ fn check_checks(
     }
     let roots: Vec<Scalar> = derivation.checks.iter().flat_map(|test| test.values.iter().copied()).collect();
     let tape = Tape::new(&derivation.graph, &roots);
-    let lowered = plain.checks.then(|| lowered(derivation, &roots));
-    let program = &compiled.checks.program;
-    let subject = Subject { tape: &tape, lowered: lowered.as_ref(), prelude: None, program, residual: false };
+    let lowered = Lowered::new(&derivation.graph, &roots);
+    let (plain, program) = (plain.checks, &compiled.checks.program);
+    let subject = Subject { tape: &tape, lowered: &lowered, plain, prelude: None, program, residual: false };
     match drawn.compare_granted(&subject, &[0, 1]) {
         Verdict::Right => {}
         Verdict::Wrong(_) => found.wrong_checks = true,
@@ -274,9 +281,9 @@ fn check_checks(
 fn check_inertia(derivation: &Derivation, compiled: &Compiled, drawn: &mut Drawn<'_>, found: &mut Found) {
     let (Inertia::Own(roots), Inertia::Own(program)) = (&derivation.inertia, &compiled.inertia) else { return };
     let tape = Tape::new(&derivation.graph, roots);
-    let lowered = lowered(derivation, roots);
-    let subject =
-        Subject { tape: &tape, lowered: Some(&lowered), prelude: Some(&compiled.prelude), program, residual: false };
+    let lowered = Lowered::new(&derivation.graph, roots);
+    let (plain, prelude) = (true, Some(&compiled.prelude));
+    let subject = Subject { tape: &tape, lowered: &lowered, plain, prelude, program, residual: false };
     match drawn.compare(&subject, &[0, 1]) {
         Verdict::Right => {}
         Verdict::Wrong(_) => found.wrong_inertia = true,
@@ -288,11 +295,4 @@ fn check_inertia(derivation: &Derivation, compiled: &Compiled, drawn: &mut Drawn
 fn of<'d>(derivation: &'d Derivation, function: &Function) -> &'d [Scalar] {
     let derived = derivation.functions.iter().find(|derived| derived.kind == function.kind);
     &derived.or_fault("what is compiled was derived").candidates[function.candidate].1.list
-}
-
-/// The operations of equations that stand as they were derived, component by component.
-fn lowered(derivation: &Derivation, roots: &[Scalar]) -> Tape {
-    let mut lowering = Lowering::new(&derivation.graph);
-    let roots = lowering.run(roots);
-    Tape::new(&lowering.to, &roots)
 }

@@ -6,6 +6,7 @@
 //! the operations of the program under test, and the size of its coefficients, excuse nothing; what is written as derived
 //! may lose [`FORMS`] times as much.
 
+use std::cell::{LazyCell, OnceCell};
 use std::ops::Range;
 
 use super::arithmetic::Arithmetic;
@@ -15,7 +16,8 @@ use super::tape::Tape;
 use super::trace::Trace;
 use crate::optimize::program::{Doubt, Program};
 use crate::symbolic::doubled::Doubled;
-use crate::symbolic::graph::SymbolId;
+use crate::symbolic::graph::{Graph, Scalar, SymbolId};
+use crate::symbolic::lower::Lowering;
 
 /// As many times its own error, or rounding, a result may be off without being looked at closely.
 const PLAIN: f64 = 64.0;
@@ -30,8 +32,8 @@ const FORMS: f64 = 1e4;
 /// What may be missing of what is left where parameters open a loop.
 const OPEN: f64 = 0.1;
 
-/// What is zero up to the rounding of 31 digits beside the largest result, such as the square of a cosine of axes that the state
-/// has at right angles, has no digits: a program that is off by one rounding of the largest is neither right nor wrong there.
+/// A result that is zero up to the rounding of 31 digits beside its own terms, such as the square of a cosine of axes that the
+/// state has at right angles, has no digits in any form but that in which it was derived.
 const LOST: f64 = 1e-28;
 
 /// Results that keep fewer digits than this are not worth a comparison.
@@ -51,13 +53,46 @@ pub(super) enum Verdict {
     Unclear(Doubt),
 }
 
+/// The operations of equations that stand as they were derived, component by component; made if they are asked for.
+pub(super) struct Lowered<'a> {
+    graph: &'a Graph,
+    roots: &'a [Scalar],
+    tape: OnceCell<Tape>,
+}
+
+impl<'a> Lowered<'a> {
+    pub(super) fn new(graph: &'a Graph, roots: &'a [Scalar]) -> Lowered<'a> {
+        Lowered { graph, roots, tape: OnceCell::new() }
+    }
+
+    fn tape(&self) -> &Tape {
+        self.tape.get_or_init(|| {
+            let mut lowering = Lowering::new(self.graph);
+            let roots = lowering.run(self.roots);
+            Tape::new(&lowering.to, &roots)
+        })
+    }
+}
+
+/// By how much a result may be off.
+struct Margin<'a> {
+    /// As many times what is allowed else.
+    times: f64,
+    /// What a result without digits may be off, in units of the terms that it is the sum of.
+    lost: f64,
+    /// The sum of the sizes of these terms; zero where results have the digits that their operations leave them.
+    terms: &'a dyn Fn(usize) -> f64,
+}
+
 /// A function, its program and what is left out of the comparison.
 pub(super) struct Subject<'a> {
     pub tape: &'a Tape,
-    /// Of a program that is written as derived, its own operations: vectors component by component, and one form for equal
-    /// expressions, which may be worse than another. These must have the values of the equations; the program must
+    /// The operations of a program that is written as derived: vectors component by component, and one form for equal
+    /// expressions, which may be worse than another. How large the terms of a result are is known from these too.
+    pub lowered: &'a Lowered<'a>,
+    /// Whether the program is written as derived. Then these operations must have the values of the equations; the program must
     /// have the values of these, within the error that they make, and those of the equations within a multiple of theirs.
-    pub lowered: Option<&'a Tape>,
+    pub plain: bool,
     /// What computes the fields of the model, where the program reads them.
     pub prelude: Option<&'a Program>,
     pub program: &'a Program,
@@ -119,34 +154,61 @@ impl Subject<'_> {
         let reads = Reads { symbol: &look, fields: &fields, deficient: &deficient, rounds };
         let results = machine::run(self.program, &reads);
         let own = |tape| Trace::<f64>::rounds(tape, &symbol, rounds).roots();
+        let count = self.tape.roots.len();
+        let sizes = LazyCell::new(|| Trace::<f64>::rounds(self.lowered.tape(), &symbol, rounds));
+        let terms = |at: usize| {
+            let mut single = vec![0.0; count];
+            single[at] = 1.0;
+            sizes.slopes::<f64>(&single, 0).bound
+        };
+        let rounded = PLAIN * f64::EPSILON;
+        let derived = own(self.tape);
         // What a system of lesser rank leaves open depends on the order of pivots, which others may take otherwise.
-        match self.lowered.filter(|_| deficient.is_empty()) {
-            None => judge(&exact, &own(self.tape), &results, which, 1.0, closely),
-            Some(lowered) => {
-                let between: Trace<'_, Doubled> = Trace::rounds(lowered, &symbol, rounds);
-                let values: Vec<f64> = between.roots().iter().map(|x| x.high).collect();
-                let derived = own(self.tape);
-                let mut verdict = judge(&exact, &derived, &values, which.clone(), 1.0, closely);
-                if verdict == Verdict::Right {
-                    verdict = judge(&between, &own(lowered), &results, which.clone(), 1.0, closely);
-                }
-                if verdict == Verdict::Right {
-                    verdict = judge(&exact, &derived, &results, which, FORMS, closely);
-                }
-                verdict
-            }
+        if !self.plain || !deficient.is_empty() {
+            let margin = Margin { times: 1.0, lost: rounded, terms: &terms };
+            return judge(&exact, &derived, &results, which, &margin, closely);
+        }
+        let mut between: Trace<'_, Doubled> = Trace::rounds(self.lowered.tape(), &symbol, rounds);
+        // What one form of the equations leaves open, no other decides.
+        between.kink |= exact.kink;
+        between.unclear |= exact.unclear;
+        let values: Vec<f64> = between.roots().iter().map(|x| x.high).collect();
+        let form = Margin { times: 1.0, lost: LOST, terms: &terms };
+        let program = Margin { times: 1.0, lost: 0.0, terms: &|_| 0.0 };
+        let both = Margin { times: FORMS, lost: rounded, terms: &terms };
+        // What is unclear in one of them is no reason to leave out another.
+        judge(&exact, &derived, &values, which.clone(), &form, closely)
+            .and(judge(&between, &own(self.lowered.tape()), &results, which.clone(), &program, closely))
+            .and(judge(&exact, &derived, &results, which, &both, closely))
+    }
+}
+
+impl Margin<'_> {
+    /// Whether a result without digits is off by no more than its terms may be.
+    fn excuses(&self, at: usize, exact: f64, error: f64) -> bool {
+        let terms = if exact == 0.0 { 0.0 } else { (self.terms)(at) };
+        terms.is_finite() && exact.abs() <= LOST * terms && error <= self.lost * terms
+    }
+}
+
+impl Verdict {
+    /// What is wrong in one comparison is wrong.
+    fn and(self, other: Verdict) -> Verdict {
+        match (self, other) {
+            (Verdict::Wrong(_), _) | (Verdict::Unclear(_), Verdict::Right | Verdict::Unclear(_)) => self,
+            _ => other,
         }
     }
 }
 
 /// Results with these numbers against exact values, within the error that the operations of these make; `own` are their values in
-/// double precision. They may be off by so many `times` what is allowed else.
+/// double precision.
 fn judge(
     exact: &Trace<'_, Doubled>,
     own: &[f64],
     results: &[f64],
     which: Range<usize>,
-    times: f64,
+    margin: &Margin<'_>,
     closely: &mut usize,
 ) -> Verdict {
     let derived = exact.roots();
@@ -173,7 +235,7 @@ fn judge(
     if lost > POOR * largest {
         return Verdict::Unclear(Doubt::Rounding);
     }
-    let (mut suspects, mut open): (Vec<(f64, usize, f64)>, bool) = (Vec::new(), false);
+    let mut suspects: Vec<(f64, usize, f64)> = Vec::new();
     for at in which {
         let (exact, result) = (derived[at], results[at]);
         if !result.is_finite() {
@@ -183,31 +245,35 @@ fn judge(
         // Below what single numbers can hold there are no relative errors.
         let scale = scales[at].max(f64::MIN_POSITIVE / f64::EPSILON);
         let ratio = error.abs() / (f64::EPSILON * scale);
-        if ratio <= times * PLAIN {
-            continue;
-        }
-        let no_digits = exact.high != 0.0 && exact.high.abs() <= LOST * largest;
-        if no_digits && result.abs() <= PLAIN * f64::EPSILON * largest {
-            open = true;
-        } else {
+        if ratio > margin.times * PLAIN {
             suspects.push((ratio, at, error.signum() / scale));
         }
     }
     // Each for itself: of a sum large bounds would hide what is wrong beside them, and bounds that cancel would accuse.
     suspects.sort_by(|a, b| b.0.total_cmp(&a.0));
     let cost = exact.tape.nodes.len().max(1);
-    let count = (*closely / cost).max(1).min(suspects.len());
-    *closely = closely.saturating_sub(count * cost);
-    open |= count < suspects.len();
-    for &(ratio, at, weight) in &suspects[..count] {
+    let mut count = (*closely / cost).max(1);
+    let mut open = false;
+    for &(ratio, at, weight) in &suspects {
+        if count == 0 {
+            open = true;
+            break;
+        }
         let mut single = vec![0.0; derived.len()];
         single[at] = weight;
         let bound = exact.slopes::<f64>(&single, 0).bound;
+        let error = Doubled::of(results[at]).sub(derived[at]).high.abs();
         if !bound.is_finite() {
             open = true;
-        } else if ratio > times * WORST * bound {
-            return wrong(at);
+        } else if ratio > margin.times * WORST * bound {
+            if !margin.excuses(at, derived[at].high, error) {
+                return wrong(at);
+            }
+            // Others are no less looked at.
+            continue;
         }
+        count -= 1;
+        *closely = closely.saturating_sub(cost);
     }
     if open { Verdict::Unclear(Doubt::Rounding) } else { Verdict::Right }
 }
@@ -215,7 +281,6 @@ fn judge(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::symbolic::graph::Graph;
 
     /// What is accepted of sines of large angles that are off by these shares of a rounding of the angle.
     fn verdict(shares: &[f64], mut closely: usize) -> Verdict {
@@ -234,7 +299,8 @@ mod tests {
         let symbol = |_: SymbolId| Doubled::new(0.3);
         let exact: Trace<'_, Doubled> = Trace::new(&tape, &symbol);
         let own = Trace::<f64>::new(&tape, &symbol).roots();
-        judge(&exact, &own, &results, 0..results.len(), 1.0, &mut closely)
+        let margin = Margin { times: 1.0, lost: 0.0, terms: &|_| 0.0 };
+        judge(&exact, &own, &results, 0..results.len(), &margin, &mut closely)
     }
 
     /// More suspects than there is time for are no excuse for the worst of them.

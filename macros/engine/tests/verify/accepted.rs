@@ -126,7 +126,7 @@ fn a_thread_that_counts_no_turns() {
 /// is zero there, and rounding of the form in which it is computed.
 #[test]
 fn entries_that_are_zero_where_the_loop_is_closed() {
-    compiled(
+    let compiled = compiled(
         "mod m {
             param p = 0.58;
             body a { mass: 0.5, com: X, inertia: diag(0.1, 0.2, 0.25) }
@@ -137,4 +137,5 @@ fn entries_that_are_zero_where_the_loop_is_closed() {
             emit inverse_dynamics, derivatives;
         }",
     );
+    assert_eq!(compiled.unchecked, []);
 }

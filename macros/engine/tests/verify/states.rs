@@ -330,3 +330,45 @@ fn forms_that_lose_digits_are_refused() {
         assert_eq!(compiled.is_err(), refused, "{c:e}");
     }
 }
+
+/// Two results without digits at every state, one of them beside a great one: what is written as derived computes t (t + 2) as
+/// (t + 1)^2 - 1. They excuse no other, and are no worse than rounding of their own terms.
+#[test]
+fn results_without_digits_excuse_nothing() {
+    let mut case = arm("input u; output bad = u; output good = j; output great = u * 2.0; output plain = u + 0.7;");
+    let at = case.derivation.functions.iter().position(|f| f.kind == FunctionKind::Outputs).unwrap();
+    let g = &mut case.derivation.graph;
+    let [u, _, _, plain] = case.derivation.functions[at].candidates[0].1.list[..] else { panic!() };
+    let (tiny, great, one, two) = (g.decimal(1e-33), g.decimal(1e12), g.decimal(1.0), g.decimal(2.0));
+    let t = g.mul(tiny, u);
+    let shifted = g.add(t, one);
+    let square = g.mul(shifted, shifted);
+    let bad = g.sub(square, one);
+    g.forget();
+    let shifted = g.add(t, two);
+    let good = g.mul(t, shifted);
+    assert_ne!(bad, good);
+    let great = g.mul(great, u);
+    for candidate in &mut case.derivation.functions[at].candidates {
+        candidate.1.list = vec![bad, good, great, plain];
+    }
+    let compiled = verify::compile(&case.model, &case.structure, &case.derivation).unwrap();
+    assert_eq!(compiled.unchecked, []);
+    let functions = [FunctionKind::Outputs];
+    for plain in [optimize::Plain::default(), optimize::Plain { functions: &functions, checks: false }] {
+        let compiled = optimize::compile_with(&case.derivation, plain).unwrap();
+        let check = |compiled: &_| verify::check_with(&case.model, &case.structure, &case.derivation, compiled, plain);
+        let found = check(&compiled);
+        assert!(found.wrong.is_empty() && found.unchecked.is_empty(), "{plain:?}: {found:?}");
+        for (result, value) in
+            [(1, Expression::Literal(1e-12)), (1, Expression::Literal(1e-2)), (3, Expression::Literal(0.8))]
+        {
+            let mut broken = compiled.clone();
+            broken.functions[at].program.results[result] = value;
+            assert_eq!(check(&broken).wrong, functions, "{plain:?}: {result}");
+        }
+        let mut broken = compiled.clone();
+        assert!(replace(&mut broken.functions[at].program, 0.7, 0.700_000_1) > 0);
+        assert_eq!(check(&broken).wrong, functions, "{plain:?}");
+    }
+}
