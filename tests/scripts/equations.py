@@ -7,7 +7,8 @@
 Nothing of the engine is used: `readers` has a parser for each form, made from what the documentation of the printers says, and
 SymPy does the mathematics. A page is followed line by line: each gives the value of its left side, by the names that are
 printed, and what comes out must be what the functions give, to 1e-12 of its scale. All three forms must say the same.
-`--break` flips signs in what is read and demands that each flip that changes a value is found, in one form or in all three.
+What is undefined on both sides agrees, but each entry must be finite at one state at least. `--break` flips signs in what is read,
+in one form or in all three, and demands that each flip that changes a value of these forms is found.
 
 SymPy and NumPy come into an environment of their own, `target/equations`."""
 

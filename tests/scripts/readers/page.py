@@ -17,7 +17,7 @@ class Page:
 
     def __init__(self, model):
         self.model, self.wrong, self.worst = model, [], (0.0, "nothing")
-        # Values of sides, by line, once for velocities as they are drawn and once for the motion.
+        # Values of each form by line and side, once for velocities as they are drawn and once for the motion.
         self.sides = {}
         self.names = {form: {} for form in FORMS}
         self.legend()
@@ -83,21 +83,33 @@ class Page:
         values[UNDEFINED] = numpy.full(len(states), numpy.nan)
         found = {"cosine": {}, "sine": {}}
         for k, subject, at, sides in sorted(lines, key=lambda line: line[1] == "motion"):
-            left, right = sides["left"]["text"], self.value(k, sides["right"], values, len(states))
+            right = self.value(k, "right", sides["right"], values, len(states))
             if subject == "motion":
-                found[subject, *at] = self.value(k, sides["left"], values, len(states)), right
-            elif subject == "cosine":
-                found["cosine"][left.args[0]] = right
-            elif subject == "sine":
-                angle = left.args[0] if left.args else left
-                found["sine"][angle] = right
-                values[angle] = numpy.arctan2(right, found["cosine"][angle])
+                found[subject, *at] = self.value(k, "left", sides["left"], values, len(states)), right
+            elif subject in ("cosine", "sine"):
+                angle = self.angle(k, subject, sides["left"])
+                found[subject][angle] = k, sides["left"], right
+                if subject == "sine" and angle in found["cosine"]:
+                    values[angle] = numpy.arctan2(right, found["cosine"][angle][2])
             else:
                 values[self.defined[k]] = right
                 found[subject, *at] = right
+        # The angle has its direction from both; their length must be one.
+        for subject in ("cosine", "sine"):
+            for k, left, right in found[subject].values():
+                got = self.value(k, "left", left, values, len(states))
+                self.check(f"line {k}, {self.model['lines'][k]['left']['text']}", [got], [right], numpy.ones(len(states)))
         return found | {"values": values}
 
-    def value(self, k, forms, values, size):
+    def angle(self, k, subject, forms):
+        """The name whose cosine or sine stands on the left, which is no sum."""
+        left = forms["text"]
+        function = {"cosine": sympy.cos, "sine": sympy.sin}[subject]
+        if not isinstance(left, function) or not left.args[0].is_Symbol:
+            self.say(f"line {k}: the left side is not the {subject} of one name: {left}")
+        return left.args[0] if left.args else left
+
+    def value(self, k, side, forms, values, size):
         """Of one side: the forms must agree."""
         results = {}
         for form, expression in forms.items():
@@ -110,20 +122,20 @@ class Page:
                 function = sympy.lambdify(arguments, expression, modules=MODULES)
                 result = numpy.asarray(function(*(values[symbol] for symbol in arguments)), dtype=numpy.longdouble)
                 results[expression] = numpy.broadcast_to(result, size)
+        for form, expression in forms.items():
+            self.sides.setdefault((k, side, form), []).append(results[expression])
         if len(results) > 1:
-            self.agree(k, list(results))
-        first = next(iter(results.values()))
-        self.sides.setdefault(k, []).append(first)
-        return first
+            self.agree(k, list(results), list(results.values()))
+        return results[forms["text"]]
 
-    def agree(self, k, expressions):
-        """Expressions that SymPy has not made the same must have the same values, whatever their symbols stand for."""
+    def agree(self, k, expressions, here):
+        """Expressions that SymPy has not made the same must have the same values, whatever their symbols stand for, and here, at
+        the states: elsewhere they may have none."""
         symbols = sorted(set().union(*(expression.free_symbols for expression in expressions)), key=str)
         points = numpy.random.default_rng(1).uniform(0.1, 0.9, (len(symbols), 8)).astype(numpy.longdouble)
         functions = (sympy.lambdify(symbols, expression, modules=MODULES) for expression in expressions)
-        first, *others = (numpy.broadcast_to(numpy.asarray(function(*points), dtype=numpy.longdouble), 8) for function in functions)
-        near = numpy.all([numpy.isclose(first, other, rtol=TOLERANCE, atol=TOLERANCE, equal_nan=True) for other in others])
-        if not near:
+        there = (numpy.broadcast_to(numpy.asarray(function(*points), dtype=numpy.longdouble), 8) for function in functions)
+        if not all(is_same(first, other) for first, *others in (there, here) for other in others):
             self.say(f"line {k}: text, LaTeX and MathML differ: {self.model['lines'][k]}")
 
     def check(self, what, got, want, scale):
@@ -133,7 +145,9 @@ class Page:
             return self.say(f"{what}: {got.shape} entries on the page and {want.shape} compiled")
         if got.size == 0:
             return None
-        # What is undefined on both sides is said alike.
+        # What is undefined on both sides is said alike, but where it is so at all states nothing is compared.
+        for entry in numpy.argwhere(~numpy.any(numpy.isfinite(got) & numpy.isfinite(want), axis=-1)):
+            self.say(f"{what} {entry} is finite at none of {got.shape[-1]} states: {got[*entry, 0]} and {want[*entry, 0]} compiled")
         error = numpy.where(numpy.isnan(got) & numpy.isnan(want), 0, numpy.abs(got - want) / scale)
         self.worst = max(self.worst, (float(numpy.nanmax(error, initial=0)), what))
         if not numpy.all(error <= TOLERANCE):
@@ -191,7 +205,6 @@ class Page:
                 name = self.model["symbols"][number]["text"]
                 self.check(name, [got], [want], numpy.maximum(1, numpy.abs(want)))
 
-
     def rests(self, values, states):
         """What is left of accelerations that nothing reads: with x' = S q' on the page, x'' is S q'' and the rest."""
         numbers = {printed["text"]: number for number, printed in enumerate(self.model["symbols"])}
@@ -216,6 +229,10 @@ class Page:
             got = function(*given, *(values[symbol] for symbol in others)) + values[self.defined[k]]
             want = numpy.array([state["followed"][place][1] for state in states], dtype=numpy.longdouble)
             self.check(line["left"]["text"], [got], [want], numpy.maximum(1, numpy.abs(want)))
+
+
+def is_same(first, second):
+    return numpy.allclose(first, second, rtol=TOLERANCE, atol=TOLERANCE, equal_nan=True)
 
 
 def after(printed):
