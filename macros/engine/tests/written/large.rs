@@ -66,6 +66,21 @@ fn platforms_in_all_coordinates_have_pages_that_people_load() {
     }
 }
 
+/// What is missing is said to be zero only where nothing else is missing.
+#[test]
+fn lines_that_are_left_out_are_not_said_to_be_zero() {
+    let sparse = platforms().iter().map(page).find_map(|page| {
+        let section = page.sections.iter().find(|section| Shown::new(&page, section).is_sparse)?.clone();
+        Some((page, section))
+    });
+    let (page, mut section) = sparse.unwrap();
+    assert!(Shown::new(&page, &section).says().unwrap().contains("do not stand here are zero"));
+    while Shown::new(&page, &section).more == 0 {
+        section.lines.extend_from_within(..);
+    }
+    assert_eq!(Shown::new(&page, &section).says(), Some("Entries that are zero are left out."));
+}
+
 /// The whole page of the largest of them is HTML that Markdown leaves alone.
 #[test]
 fn the_page_of_a_platform_is_html() {

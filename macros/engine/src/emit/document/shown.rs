@@ -82,7 +82,12 @@ impl Shown {
 
     /// What a reader must know of what is left out.
     pub fn says(&self) -> Option<&'static str> {
-        self.is_sparse.then_some("Entries that do not stand here are zero.")
+        match (self.is_sparse, self.more) {
+            (false, _) => None,
+            (true, 0) => Some("Entries that do not stand here are zero."),
+            // Others are missing too.
+            (true, _) => Some("Entries that are zero are left out."),
+        }
     }
 
     /// What stands over the rest.
