@@ -156,7 +156,7 @@ class Reader:
         if token == r"\left|":
             return sympy.Abs(self.inside(r"\right|")[0])
         if token == r"\lnot":
-            return sympy.Not(self.atom())
+            return meaning.negation(self.atom())
         if token == r"\frac":
             return self.group() / self.group()
         if token == r"\sqrt":

@@ -93,7 +93,7 @@ class Reader:
 
     def atom(self):
         if self.take("¬"):
-            return sympy.Not(self.atom())
+            return meaning.negation(self.atom())
         element = self.next()
         if element.tag == "mi" and self.take(OF):
             return meaning.FUNCTIONS[element.text](*arguments(self.next(), self.names))

@@ -37,7 +37,12 @@ def number(digits):
 
 
 def cases(value, condition, otherwise):
-    return sympy.Piecewise((value, condition), (otherwise, True))
+    return sympy.Piecewise((value, condition), (otherwise, True), evaluate=False)
+
+
+def negation(condition):
+    """Kept as it is: with a value that is undefined `not a < b` holds, and `b <= a`, which SymPy makes of it, doesn't."""
+    return sympy.Not(condition, evaluate=False)
 
 
 def total(terms):

@@ -107,7 +107,7 @@ class Reader:
 
     def atom(self):
         if self.take("¬"):
-            return sympy.Not(self.atom())
+            return meaning.negation(self.atom())
         if self.take("("):
             value = self.relation()
             if self.take("if"):

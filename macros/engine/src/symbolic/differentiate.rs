@@ -235,7 +235,7 @@ impl Differentiator {
                 let first = g.call(Call::Less, &[b, a]);
                 self.choose(g, first, self.of(a), self.of(b))
             }
-            (Call::Select, &[mask, a, b]) => self.choose(g, mask, self.of(a), self.of(b)),
+            (Call::Select, &[mask, a, b]) => self.choose_defined(g, mask, [a, b]),
             (call, &[x]) => {
                 let slope = slope(g, s, call, x);
                 g.mul(slope, self.of(x))
@@ -244,6 +244,15 @@ impl Differentiator {
             (call, _) if call.is_mask() => Scalar::ZERO,
             _ => raise("a function has a derivative for its number of arguments"),
         }
+    }
+
+    /// What is no number has a slope that is none either, beside one that has a slope.
+    fn choose_defined(&self, g: &mut Graph, mask: Scalar, values: [Scalar; 2]) -> Scalar {
+        let slopes = values.map(|value| self.of(value));
+        let moves = slopes.iter().any(|&slope| slope != Scalar::ZERO);
+        let undefined = |g: &Graph, value: Scalar| matches!(g.node(value), ScalarNode::Call(Call::Nan, _));
+        let [a, b] = [0, 1].map(|k| if moves && undefined(g, values[k]) { values[k] } else { slopes[k] });
+        self.choose(g, mask, a, b)
     }
 
     fn choose(&self, g: &mut Graph, mask: Scalar, a: Scalar, b: Scalar) -> Scalar {
