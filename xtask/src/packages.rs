@@ -3,6 +3,8 @@
 
 use crate::{Stop, command, output, root};
 use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::{env, fs};
 
 /// In the order in which they would be published.
 const PACKAGES: [&str; 4] = ["multibody-engine", "multibody-macros", "multibody", "multibody-cli"];
@@ -43,6 +45,10 @@ pub(crate) fn run() -> Result<bool, Stop> {
     if !faults.is_empty() {
         return Ok(false);
     }
+    let sources = cargo_home().join("registry/src");
+    for copy in unpacked(&sources) {
+        fs::remove_dir_all(copy)?;
+    }
     let mut publish = cargo("package");
     publish.args(["--allow-dirty", "--quiet"]);
     for name in PACKAGES {
@@ -55,6 +61,25 @@ fn cargo(name: &str) -> std::process::Command {
     let mut cargo = command("cargo");
     cargo.arg(name).arg("--locked").current_dir(root());
     cargo
+}
+
+fn cargo_home() -> PathBuf {
+    let home = || Path::new(&env::var_os("HOME").unwrap_or_default()).join(".cargo");
+    env::var_os("CARGO_HOME").map_or_else(home, PathBuf::from)
+}
+
+/// Our packages as `cargo package` unpacked them before. It puts them into a registry of its own and unpacks what they
+/// need of each other below a name made from that registry's path alone, where a copy of the same version stays in
+/// force: a checkout in the same place would be held against sources of another day.
+fn unpacked(sources: &Path) -> Vec<PathBuf> {
+    let entries = |folder: &Path| fs::read_dir(folder).into_iter().flatten().flatten().collect::<Vec<_>>();
+    // Registries in folders have no host in front of the dash.
+    let local = entries(sources).into_iter().filter(|registry| registry.file_name().to_string_lossy().starts_with('-'));
+    local
+        .flat_map(|registry| entries(&registry.path()))
+        .filter(|copy| PACKAGES.iter().any(|name| copy.file_name().to_string_lossy().starts_with(&format!("{name}-"))))
+        .map(|copy| copy.path())
+        .collect()
 }
 
 /// Fields of a manifest that are empty.
@@ -90,6 +115,17 @@ mod tests {
         let files = "Cargo.toml\nREADME.md\nsrc/lib.rs\nsrc/LICENSE-MIT\ntests/data/arm.json\nsrc/tests/mod.rs\n";
         assert_eq!(missing(files).collect::<Vec<_>>(), ["LICENSE-MIT", "LICENSE-APACHE"]);
         assert_eq!(foreign(files).collect::<Vec<_>>(), ["tests/data/arm.json"]);
+    }
+
+    #[test]
+    fn copies_of_another_day() {
+        let sources = env::temp_dir().join(format!("multibody-packages-{}", std::process::id()));
+        let ours = sources.join("-22c3805da5a543b4/multibody-engine-0.1.0");
+        for folder in [&ours, &sources.join("-22c3805da5a543b4/syn-2.0.0"), &sources.join("host-1/multibody-0.1.0")] {
+            fs::create_dir_all(folder).unwrap();
+        }
+        assert_eq!(unpacked(&sources), [ours]);
+        fs::remove_dir_all(&sources).unwrap();
     }
 
     #[test]
