@@ -199,28 +199,21 @@ multibody! {
     }
 }
 
-/// Equations whose square vanishes. SymPy turns conditions about what is undefined around, so their page is not read back: what a
-/// macro writes is not looked at.
-macro_rules! vanishing {
-    ($name:ident) => {
-        multibody! {
-            pub mod $name {
-                input pull: Vec3;
-                body disc { mass: 1.0, inertia: diag(0.1, 0.1, 0.02) }
-                joint shaft: Revolute { parent: ground, child: disc, axis: Z }
-                // Of second degree to the eye.
-                solve (first) from (first + pull.x) * (first + pull.x) - first * first == 3.0 { first > -1e9 }
-                // A coefficient that is zero at some inputs: one solution is left.
-                solve (flat) from max(pull.x, 0.0) * flat * flat + (1.3 - pull.z) * flat == 0.1 { abs(flat) < 2.0 }
-                output lines = [first, flat];
-                output slope = diff(flat, pull.z);
-                emit forward_dynamics;
-            }
-        }
-    };
+multibody! {
+    /// Equations whose square vanishes.
+    pub mod vanishing_squares {
+        input pull: Vec3;
+        body disc { mass: 1.0, inertia: diag(0.1, 0.1, 0.02) }
+        joint shaft: Revolute { parent: ground, child: disc, axis: Z }
+        // Of second degree to the eye.
+        solve (first) from (first + pull.x) * (first + pull.x) - first * first == 3.0 { first > -1e9 }
+        // A coefficient that is zero at some inputs: one solution is left.
+        solve (flat) from max(pull.x, 0.0) * flat * flat + (1.3 - pull.z) * flat == 0.1 { abs(flat) < 2.0 }
+        output lines = [first, flat];
+        output slope = diff(flat, pull.z);
+        emit forward_dynamics;
+    }
 }
-
-vanishing! { vanishing_squares }
 
 multibody! {
     /// Unknown angles.

@@ -14,7 +14,7 @@ CAPITALS = "Gamma Delta Theta Lambda Xi Sigma Upsilon Phi Psi Omega"
 GREEK = {f"\\{word}" for word in GREEK.split() + CAPITALS.split()}
 WORDS = r"\mathrm", r"\mathtt"
 FUNCTIONS = {f"\\{word}" for word in meaning.FUNCTIONS} - {r"\sqrt", r"\abs", r"\atan2", r"\sign"}
-RELATIONS = {"<": sympy.Lt, r"\le": sympy.Le, "=": sympy.Eq, r"\land": sympy.And, r"\lor": sympy.Or}
+RELATIONS = {"<": sympy.Lt, r"\le": sympy.Le, "=": sympy.Eq, r"\land": meaning.BOTH, r"\lor": meaning.EITHER}
 
 
 def name(source):
@@ -156,7 +156,7 @@ class Reader:
         if token == r"\left|":
             return sympy.Abs(self.inside(r"\right|")[0])
         if token == r"\lnot":
-            return meaning.negation(self.atom())
+            return meaning.NEGATION(self.atom())
         if token == r"\frac":
             return self.group() / self.group()
         if token == r"\sqrt":

@@ -9,7 +9,7 @@ from . import meaning
 from .meaning import Unreadable
 
 TIMES, OF = "\N{INVISIBLE TIMES}", "\N{FUNCTION APPLICATION}"
-RELATIONS = {"<": sympy.Lt, "≤": sympy.Le, "=": sympy.Eq, "∧": sympy.And, "∨": sympy.Or}
+RELATIONS = {"<": sympy.Lt, "≤": sympy.Le, "=": sympy.Eq, "∧": meaning.BOTH, "∨": meaning.EITHER}
 
 
 def content(source):
@@ -93,7 +93,7 @@ class Reader:
 
     def atom(self):
         if self.take("¬"):
-            return meaning.negation(self.atom())
+            return meaning.NEGATION(self.atom())
         element = self.next()
         if element.tag == "mi" and self.take(OF):
             return meaning.FUNCTIONS[element.text](*arguments(self.next(), self.names))

@@ -36,13 +36,12 @@ def number(digits):
     return sympy.Rational(digits)
 
 
+# Conditions stay as they are printed: of `not a < b` SymPy makes `b <= a`, which says something else of what is undefined.
+CHOICE, NEGATION, BOTH, EITHER = (sympy.Function(name, real=True) for name in ("choice", "negation", "both", "either"))
+
+
 def cases(value, condition, otherwise):
-    return sympy.Piecewise((value, condition), (otherwise, True), evaluate=False)
-
-
-def negation(condition):
-    """Kept as it is: with a value that is undefined `not a < b` holds, and `b <= a`, which SymPy makes of it, doesn't."""
-    return sympy.Not(condition, evaluate=False)
+    return CHOICE(condition, value, otherwise)
 
 
 def total(terms):

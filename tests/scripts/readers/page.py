@@ -255,9 +255,19 @@ def reduced(choice, list_):
     return first
 
 
-def chosen(conditions, values, default=numpy.nan):
-    """Of pieces; a condition that is itself made of pieces comes as numbers."""
-    return numpy.select([numpy.nan_to_num(condition).astype(bool) for condition in conditions], values, default=default)
+def holds(condition):
+    """A condition that was chosen comes as numbers; what is undefined holds nowhere."""
+    return numpy.nan_to_num(condition).astype(bool)
 
 
-MODULES = [{"amax": greatest, "amin": least, "select": chosen}, "numpy"]
+def chosen(condition, value, otherwise):
+    return numpy.where(holds(condition), value, otherwise)
+
+
+CONDITIONS = {
+    "choice": chosen,
+    "negation": lambda condition: ~holds(condition),
+    "both": lambda a, b: holds(a) & holds(b),
+    "either": lambda a, b: holds(a) | holds(b),
+}
+MODULES = [{"amax": greatest, "amin": least, **CONDITIONS}, "numpy"]

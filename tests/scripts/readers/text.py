@@ -17,7 +17,7 @@ TOKEN = re.compile(
     rf"|(?P<name>{NAME}(?:\.{NAME})*[˙¨]?)"
     rf"|(?P<power>[{SUPERSCRIPTS}]+)|(?P<sign>\^\(|<=|==|[-+/()<,∧∨¬])|(?P<space> )"
 )
-RELATIONS = {"<": sympy.Lt, "<=": sympy.Le, "==": sympy.Eq, "∧": sympy.And, "∨": sympy.Or}
+RELATIONS = {"<": sympy.Lt, "<=": sympy.Le, "==": sympy.Eq, "∧": meaning.BOTH, "∨": meaning.EITHER}
 
 
 def name(source):
@@ -107,7 +107,7 @@ class Reader:
 
     def atom(self):
         if self.take("¬"):
-            return meaning.negation(self.atom())
+            return meaning.NEGATION(self.atom())
         if self.take("("):
             value = self.relation()
             if self.take("if"):

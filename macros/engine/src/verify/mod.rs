@@ -44,7 +44,7 @@ pub fn compile(model: &Model, structure: &Structure, derivation: &Derivation) ->
     let (mut functions, mut checks) = (Vec::new(), false);
     loop {
         let plain = Plain { functions: &functions, checks };
-        let found = judge(model, structure, derivation, &compiled, plain);
+        let found = check_with(model, structure, derivation, &compiled, plain);
         if let Some((a, b)) = found.broken {
             return Err(Refusal::Contradiction(a, b));
         }
@@ -86,17 +86,6 @@ pub struct Found {
 /// Compares all programs of a model with their derived equations.
 pub fn check(model: &Model, structure: &Structure, derivation: &Derivation, compiled: &Compiled) -> Found {
     check_with(model, structure, derivation, compiled, Plain::default())
-}
-
-/// The same of programs some of which stand as they were derived.
-pub fn check_with(
-    model: &Model,
-    structure: &Structure,
-    derivation: &Derivation,
-    compiled: &Compiled,
-    plain: Plain<'_>,
-) -> Found {
-    judge(model, structure, derivation, compiled, plain)
 }
 
 /// States that were drawn, by number and attempt; nothing where loops don't close.
@@ -187,8 +176,8 @@ impl Drawn<'_> {
     }
 }
 
-/// The same of programs that are optimised, or plain as derived.
-fn judge(
+/// The same of programs some of which stand as they were derived.
+pub fn check_with(
     model: &Model,
     structure: &Structure,
     derivation: &Derivation,

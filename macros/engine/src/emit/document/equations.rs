@@ -1,8 +1,8 @@
 //! Stage `emit`: equations in documentation.
 //!
 //! In: the page of a model that says `emit report`. Out: Markdown. The module's page has them as MathML, which browsers set
-//! without a script, in `<div>` blocks without empty lines, long sections folded and large ones as plain text from some line on; a function has the equations of what it gives
-//! as plain text, since editors that show documentation know no MathML.
+//! without a script, in `<div>` blocks without empty lines; long sections are folded, and large ones are plain text from some
+//! line on. A function has the equations of what it gives as plain text, since editors that show documentation know no MathML.
 
 use crate::contracts::function::FunctionKind;
 use crate::mechanics::written::{Line, Page, Subject};

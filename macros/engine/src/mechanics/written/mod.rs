@@ -10,6 +10,7 @@
 mod apart;
 pub mod domains;
 pub mod folded;
+mod following;
 mod letters;
 pub mod names;
 mod rows;

@@ -10,7 +10,7 @@ use crate::invariant::fault::OrFault;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::constraints::{coordinate_name, path, row_name};
-use crate::mechanics::loops::reduction::{Map, Reduction};
+use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::loops::structure::{Means, Role};
 use crate::mechanics::results::parts::Parts;
 use crate::mechanics::translate::forces::LoadCase;
@@ -20,6 +20,7 @@ use crate::symbolic::write::formula::{Class, Equation, Formula, Function, Identi
 use crate::symbolic::write::{self, Wanted, Writing};
 
 use super::domains::Conditions;
+use super::following::{Following, Named};
 use super::letters::{Letters, plain};
 use super::names::identifier;
 use super::solved::{Solved, solved};
@@ -601,134 +602,6 @@ fn component(ty: &Type, k: usize) -> String {
 /// Whether a value reads a result of a linear system or of an iteration: it has no formula.
 fn has_block(g: &Graph, value: Scalar) -> bool {
     g.reachable_scalars(&[value]).into_iter().any(|index| g.is_output(index))
-}
-
-/// How coordinates of the tree move with those of the state: slopes and rests of accelerations as symbols of their own, so that
-/// equations are written with their names.
-struct Following {
-    named: Vec<Named>,
-    /// Slopes by the state's velocities, row by row of the tree's coordinates.
-    map: Vec<Vec<Scalar>>,
-    /// Accelerations where those of the state are zero.
-    still: Map,
-}
-
-/// A symbol with what it stands for.
-struct Named {
-    subject: Subject,
-    name: Identifier,
-    symbol: Scalar,
-    value: Scalar,
-}
-
-impl Following {
-    fn new(e: &mut Equations<'_>, reduction: &Reduction, letters: &Letters) -> Following {
-        let structure = Rc::clone(&e.scene.structure);
-        let places = e.state();
-        let mut map = vec![vec![Scalar::ZERO; places.len()]; e.scene.symbols.freedoms];
-        places.iter().enumerate().for_each(|(j, &place)| map[place][j] = Scalar::ONE);
-        let mut following = Following { named: Vec::new(), map, still: Map::new() };
-        // All symbols first: a coupling stands before what it is coupled to.
-        let mut slopes = Vec::new();
-        for (k, definition) in reduction.definitions.iter().enumerate() {
-            let place = e.freedom(definition.coordinate);
-            for j in 0..places.len() {
-                following.map[place][j] = e.g.symbol();
-                slopes.push((k, j));
-            }
-        }
-        for (k, j) in slopes {
-            let definition = &reduction.definitions[k];
-            let seeds: Vec<(Scalar, Scalar)> =
-                e.scene.symbols.velocities.concat().into_iter().zip(following.map.iter().map(|row| row[j])).collect();
-            let slope = e.g.derivative(definition.rate, &seeds);
-            let value = e.put_in_stand_ins(&[slope])[0];
-            let model = e.scene.model;
-            let index = [definition.coordinate, structure.state[j]].map(|c| coordinate_name(model, c)).join(", ");
-            let subject = Subject::Follows(definition.coordinate, j);
-            following.named.push(Named {
-                subject,
-                name: letters.entry("S", index),
-                symbol: following.map[e.freedom(definition.coordinate)][j],
-                value,
-            });
-        }
-        let rest: Vec<(Scalar, Scalar)> =
-            structure.state.iter().map(|&c| (e.coordinate_symbols(c)[2], Scalar::ZERO)).collect();
-        following.still = e.map(&rest);
-        let symbols: Vec<Scalar> = reduction.definitions.iter().map(|_| e.g.symbol()).collect();
-        for (definition, &symbol) in reduction.definitions.iter().zip(&symbols) {
-            let acceleration = e.coordinate_symbols(definition.coordinate)[2];
-            let put_in = e.map(&[(acceleration, symbol)]);
-            following.still.extend(put_in);
-        }
-        for (definition, symbol) in reduction.definitions.iter().zip(symbols) {
-            let value = e.put_in_stand_ins(&[definition.acceleration])[0];
-            let value = e.g.substitute(&[value], &following.still)[0];
-            let name = letters.entry("gamma", coordinate_name(e.scene.model, definition.coordinate));
-            following.named.push(Named { subject: Subject::Rest(definition.coordinate), name, symbol, value });
-        }
-        following.settle(e);
-        following
-    }
-
-    /// Symbols of what is a number or a name already go again.
-    fn settle(&mut self, e: &mut Equations<'_>) {
-        let short = |g: &Graph, value: Scalar| matches!(g.node(value), ScalarNode::Literal(_) | ScalarNode::Symbol(_));
-        loop {
-            let Some(at) = self.named.iter().position(|named| short(&e.g, named.value)) else { return };
-            let Named { symbol, value, .. } = self.named.remove(at);
-            let put_in = e.map(&[(symbol, value)]);
-            for named in &mut self.named {
-                named.value = e.g.substitute(&[named.value], &put_in)[0];
-            }
-            for row in &mut self.map {
-                *row = e.g.substitute(row, &put_in);
-            }
-            let entries: Vec<_> = self.still.iter().map(|(&id, &value)| (id, value)).collect();
-            for (id, value) in entries {
-                let value = e.g.substitute(&[value], &put_in)[0];
-                self.still.insert(id, value);
-            }
-        }
-    }
-
-    /// Efforts of the tree on the state.
-    fn project(&self, e: &mut Equations<'_>, efforts: &[Scalar]) -> Vec<Scalar> {
-        let size = e.scene.structure.state.len();
-        let efforts = e.put_in_stand_ins(efforts);
-        let columns = (0..size).map(|j| {
-            let terms: Vec<Scalar> =
-                self.map.iter().zip(&efforts).map(|(row, &effort)| e.g.mul(row[j], effort)).collect();
-            e.g.sum(&terms)
-        });
-        columns.collect()
-    }
-
-    /// S^T M S.
-    fn mass_matrix(&self, e: &mut Equations<'_>) -> Vec<Vec<Scalar>> {
-        let entries = e.mass_matrix();
-        let entries = e.put_in_stand_ins(&entries);
-        let n = self.map.len();
-        let size = e.scene.structure.state.len();
-        let columns: Vec<Vec<Scalar>> = (0..size)
-            .map(|j| {
-                let column = entries.chunks(n.max(1)).map(|row| {
-                    let terms: Vec<Scalar> = row.iter().zip(&self.map).map(|(&m, s)| e.g.mul(m, s[j])).collect();
-                    e.g.sum(&terms)
-                });
-                column.collect()
-            })
-            .collect();
-        let mut matrix = vec![vec![Scalar::ZERO; size]; size];
-        for (j, column) in columns.iter().enumerate() {
-            let projected = self.project(e, column);
-            for (i, entry) in projected.into_iter().enumerate() {
-                matrix[i][j] = entry;
-            }
-        }
-        matrix
-    }
 }
 
 /// Left and right side of an equation of motion.
