@@ -57,7 +57,7 @@
 /// | `forward_dynamics` | composite rigid body, LDL^T, parallel hinges in the axes of their tip | 33 add, 65 mul, 2 div, 1 sqrt, 1 sincos | 40 add, 92 mul, 2 div, 1 sqrt, 1 sincos |
 /// | `inverse_dynamics` | recursive Newton-Euler | 30 add, 58 mul, 1 div, 1 sqrt, 1 sincos | 37 add, 84 mul, 1 div, 1 sqrt, 1 sincos |
 /// | `kinematics` | closed form | 5 add, 16 mul, 1 div, 1 sqrt, 1 sincos | 6 add, 19 mul, 1 div, 1 sqrt, 1 sincos |
-/// | `outputs` | world axes | 83 add, 118 mul, 8 div, 1 sqrt, 1 sincos | 101 add, 171 mul, 8 div, 1 sqrt, 1 sincos |
+/// | `outputs` | world axes | 72 add, 113 mul, 5 div, 1 sqrt, 1 sincos | 90 add, 166 mul, 5 div, 1 sqrt, 1 sincos |
 /// | `dead_centres` | closed forms | 1 add, 2 mul, 1 sqrt, 1 sincos | 1 add, 2 mul, 1 sqrt, 1 sincos |
 /// | `margins` | closed forms, determinants | 1 add, 5 mul, 1 sqrt, 1 sincos | 1 add, 5 mul, 1 sqrt, 1 sincos |
 ///
@@ -498,7 +498,7 @@ pub(crate) mod engine {
         ///
         /// Method: world axes.
         ///
-        /// Operations: 83 add, 118 mul, 8 div, 1 sqrt, 1 sincos; as derived, before optimisation: 101 add, 171 mul, 8 div, 1 sqrt, 1 sincos.
+        /// Operations: 72 add, 113 mul, 5 div, 1 sqrt, 1 sincos; as derived, before optimisation: 90 add, 166 mul, 5 div, 1 sqrt, 1 sincos.
         #[must_use]
         pub fn outputs(&self, _t: T, state: &State<T>, input: &Input<T>) -> Output<T> {
             let q = &state.q;
@@ -618,10 +618,8 @@ pub(crate) mod engine {
                         + u_big_end_yx_with_root_cylinder);
             let minus_u_big_end_yx = minus_dw_shaft_z
                 - T::lit(51.02040816326531) * u_big_end_yx_with_big_end_v;
-            let ([multiplier_1], _) = ::multibody::linear::solve(
-                [[T::lit(1.0)]],
-                [(T::lit(0.4) * minus_cylinder_accel_with_root_cylinder - input.gas)],
-            );
+            let minus_multiplier_1 = input.gas
+                - T::lit(0.4) * minus_cylinder_accel_with_root_cylinder;
             let f_big_end_with_sin_shaft = sin_shaft * big_end_u_times_7_14
                 - cos_shaft * minus_big_end_v_times_7_14;
             let ([multiplier_2], _) = ::multibody::linear::solve(
@@ -629,31 +627,30 @@ pub(crate) mod engine {
                 [
                     (T::lit(0.004285714285714286) * a_big_end_y_with_big_end_u
                         + T::lit(0.00124) * minus_u_big_end_yx
-                        + multiplier_1 * sin_shaft_times_0_04),
+                        - minus_multiplier_1 * sin_shaft_times_0_04),
                 ],
             );
             let f_big_end_with_cos_shaft = sin_shaft * minus_big_end_v_times_7_14
                 + cos_shaft * big_end_u_times_7_14;
-            let f_big_end_y = multiplier_1 * f_big_end_with_sin_shaft
-                - T::lit(0.08571428571428572) * a_big_end_y_with_big_end_u
-                - T::lit(0.015) * minus_u_big_end_yx
-                - multiplier_2 * f_big_end_with_cos_shaft;
-            let minus_f_big_end_x = T::lit(0.015) * w2_big_end_z
-                + multiplier_1 * f_big_end_with_cos_shaft
-                + multiplier_2 * f_big_end_with_sin_shaft
-                + T::lit(0.08571428571428572)
+            let minus_f_big_end_y = T::lit(0.08571428571428572)
+                * a_big_end_y_with_big_end_u + T::lit(0.015) * minus_u_big_end_yx
+                + minus_multiplier_1 * f_big_end_with_sin_shaft
+                + multiplier_2 * f_big_end_with_cos_shaft;
+            let f_big_end_x = minus_multiplier_1 * f_big_end_with_cos_shaft
+                - T::lit(0.015) * w2_big_end_z - multiplier_2 * f_big_end_with_sin_shaft
+                - T::lit(0.08571428571428572)
                     * (big_end_u * w2_shaft_z - minus_big_end_v_times_minus_dw_shaft_z);
             // Results.
-            let minus_f_big_end_passed_x = minus_f_big_end_x * big_end_u_times_7_14
-                - f_big_end_y * minus_big_end_v_times_7_14;
-            let f_big_end_passed_y = minus_f_big_end_x * minus_big_end_v_times_7_14
-                + f_big_end_y * big_end_u_times_7_14;
+            let f_big_end_passed_x = f_big_end_x * big_end_u_times_7_14
+                - minus_f_big_end_y * minus_big_end_v_times_7_14;
+            let minus_f_big_end_passed_y = f_big_end_x * minus_big_end_v_times_7_14
+                + minus_f_big_end_y * big_end_u_times_7_14;
             Output {
                 bearing: ::multibody::nalgebra::Vector3::from([
-                    -(cos_shaft * minus_f_big_end_passed_x
-                        + sin_shaft * f_big_end_passed_y),
-                    -(sin_shaft * minus_f_big_end_passed_x
-                        - cos_shaft * f_big_end_passed_y),
+                    (cos_shaft * f_big_end_passed_x
+                        + sin_shaft * minus_f_big_end_passed_y),
+                    (sin_shaft * f_big_end_passed_x
+                        - cos_shaft * minus_f_big_end_passed_y),
                     T::lit(0.0),
                 ]),
                 energy: T::lit(0.00032) * cylinder_gap_accel_with_root_cylinder
@@ -1056,9 +1053,9 @@ pub(crate) mod engine {
         },
         ::multibody::Cost {
             function: "outputs",
-            add: 83,
-            mul: 118,
-            div: 8,
+            add: 72,
+            mul: 113,
+            div: 5,
             sqrt: 1,
             sincos: 1,
             other: 0,
@@ -1113,9 +1110,9 @@ pub(crate) mod engine {
         },
         ::multibody::Cost {
             function: "outputs",
-            add: 101,
-            mul: 171,
-            div: 8,
+            add: 90,
+            mul: 166,
+            div: 5,
             sqrt: 1,
             sincos: 1,
             other: 0,

@@ -155,6 +155,19 @@ fn optimisation_costs_nothing() {
     }
 }
 
+/// An input for each joint costs no more than the efforts, gears a product each.
+#[test]
+fn motors_cost_what_efforts_cost() {
+    let efforts = flops(literals("puma560", "inverse_dynamics"));
+    let direct = literals("puma560_direct", "inverse_dynamics");
+    assert!(flops(direct) <= efforts + 6, "{} for {efforts}", Written(direct));
+    let geared =
+        rows().iter().find(|row| row.model == "puma560_geared" && row.function == "inverse_dynamics" && row.params);
+    let geared = &geared.expect("a row").after;
+    // Two systems of two, and a gear.
+    assert!(flops(geared) <= efforts + 2 * 6 + 1, "{} for {efforts}", Written(geared));
+}
+
 /// What the macro has emitted into this build is what the ledger counts.
 #[test]
 fn compiled_models_are_those_of_the_ledger() {

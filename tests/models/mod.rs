@@ -1,5 +1,6 @@
 //! Mechanisms as users write them, compiled once for all tests.
 
+pub mod actuated;
 pub mod arms;
 pub mod energy;
 pub mod extremes;

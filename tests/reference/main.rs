@@ -1,5 +1,6 @@
 //! Against truth from elsewhere: reference data of other programs, published solutions, plain arithmetic.
 
+mod actuated;
 mod closed_forms;
 mod derivatives;
 mod formulas;

@@ -66,6 +66,10 @@ pub fn all() -> Vec<Row> {
     for model in calls("models/arms.rs").into_iter().flat_map(models) {
         rows.extend(count(&model, model.name.to_string().ends_with("_params")));
     }
+    for call in calls("models/actuated.rs") {
+        models(literal(call.clone())).iter().for_each(|model| rows.extend(count(model, false)));
+        models(call).iter().filter(|model| !model.params.is_empty()).for_each(|model| rows.extend(count(model, true)));
+    }
     for file in ["models/small.rs", "models/motion.rs"] {
         for call in calls(file) {
             models(literal(call.clone())).iter().for_each(|model| rows.extend(count(model, false)));

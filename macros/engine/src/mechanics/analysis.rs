@@ -6,7 +6,6 @@
 //! steps: linear couplings first, then `solve` items and the smallest possible systems for Newton's method, in an order
 //! in which each needs earlier ones only. (A linear step gives its unknown from coordinates that later steps may find.)
 
-pub(super) mod blocks;
 mod checks;
 mod closed;
 mod configurations;

@@ -8,8 +8,18 @@ use super::graph::{AnyNode, Graph, Scalar};
 impl Graph {
     /// Whether a scalar depends on any of these symbols.
     pub fn depends_on(&self, s: Scalar, symbols: &[Scalar]) -> bool {
-        let reachable = self.reachable(&[s]);
-        let is_one = |index: usize| symbols.iter().any(|symbol| symbol.index() == index && *symbol != Scalar::ZERO);
-        reachable.iter().any(|node| matches!(node, AnyNode::Scalar(index) if is_one(*index)))
+        self.read_by(&[s], symbols).contains(&true)
+    }
+
+    /// By symbol: whether any of these scalars depends on it.
+    pub fn read_by(&self, roots: &[Scalar], symbols: &[Scalar]) -> Vec<bool> {
+        let mut read = vec![false; symbols.len()];
+        for node in self.reachable(roots) {
+            let AnyNode::Scalar(index) = node else { continue };
+            for (read, symbol) in read.iter_mut().zip(symbols) {
+                *read |= symbol.index() == index && *symbol != Scalar::ZERO;
+            }
+        }
+        read
     }
 }

@@ -406,6 +406,11 @@ pub fn call_f64(call: Call, x: &[f64]) -> f64 {
 /// The unknowns of a linear system given by rows, then its rank: complete pivoting after rows and columns have been brought
 /// to one scale, as in the runtime. Unknowns beyond the rank are zero.
 pub fn solve_f64(matrix: &[f64], rhs: &[f64]) -> Vec<f64> {
+    solve_above(matrix, rhs, 16.0 * rhs.len() as f64 * f64::EPSILON)
+}
+
+/// The same with a threshold of the pivots, of which the greatest possible is one.
+pub(super) fn solve_above(matrix: &[f64], rhs: &[f64], threshold: f64) -> Vec<f64> {
     let n = rhs.len();
     let mut a: Vec<Vec<f64>> = (0..n).map(|i| matrix[i * n..(i + 1) * n].to_vec()).collect();
     let mut b = rhs.to_vec();
@@ -424,7 +429,7 @@ pub fn solve_f64(matrix: &[f64], rhs: &[f64]) -> Vec<f64> {
     while rank < n {
         let candidates = (rank..n).flat_map(|i| (rank..n).map(move |j| (i, j)));
         let pivot = candidates.max_by(|&(i, j), &(k, l)| a[i][j].abs().total_cmp(&a[k][l].abs()));
-        let Some((i, j)) = pivot.filter(|&(i, j)| a[i][j].abs() > 16.0 * n as f64 * f64::EPSILON) else { break };
+        let Some((i, j)) = pivot.filter(|&(i, j)| a[i][j].abs() > threshold) else { break };
         a.swap(rank, i);
         b.swap(rank, i);
         a.iter_mut().for_each(|row| row.swap(rank, j));

@@ -9,8 +9,9 @@
 
 use crate::invariant::fault::OrFault;
 
+use super::constants::Constants;
 use super::echelon::best_pivots;
-use super::graph::{AnyNode, Graph, RotationNode, Scalar, ScalarNode, SymbolId, Vector, VectorNode};
+use super::graph::{Graph, Scalar, ScalarNode, SymbolId};
 use super::number::Number;
 use super::pivoted::{guarded, solve_pivoted};
 
@@ -43,7 +44,7 @@ pub fn solve_inputs(g: &mut Graph, known: &Known, matrix: &[Vec<Scalar>], side: 
     if matrix.len() != n || matrix.iter().any(|row| row.len() != n) {
         return Found { unknowns: vec![Scalar::ZERO; n], rank: Scalar::ZERO, constant: 0 };
     }
-    let constants = Constants::of(g, known, matrix);
+    let constants = Constants::of(g, known.parameter, &matrix.concat());
     let (scales, scaled) = scale_columns(g, known, &constants, matrix);
     let (constant, mut rest, rank) = reduce(g, known, &constants, &scaled, side);
     let eliminated = constant.len();
@@ -161,74 +162,6 @@ fn gather(g: &mut Graph, constants: &Constants, s: Scalar, factor: Scalar, list:
             gather(g, constants, late, factor, list);
         }
         _ => list.push((s, factor)),
-    }
-}
-
-/// Which expressions are constants, found once for all that the system's entries are made of.
-struct Constants(Vec<bool>);
-
-impl Constants {
-    fn of(g: &Graph, known: &Known, matrix: &[Vec<Scalar>]) -> Constants {
-        let mut scalars = vec![false; g.scalars.len()];
-        let mut vectors = vec![false; g.vectors.len()];
-        let mut rotations = vec![false; g.rotations.len()];
-        for node in g.reachable(&matrix.concat()) {
-            match node {
-                AnyNode::Scalar(at) => {
-                    let scalar = |s: &Scalar| scalars[s.index()];
-                    let vector = |v: &Vector| vectors[v.index()];
-                    scalars[at] = match &g.scalars[at] {
-                        ScalarNode::Symbol(id) => (known.parameter)(*id),
-                        ScalarNode::Component(v, _) => vector(v),
-                        ScalarNode::Dot(a, b) => vector(a) && vector(b),
-                        other => operands(other).is_some_and(|list| list.iter().all(scalar)),
-                    };
-                }
-                AnyNode::Vector(at) => {
-                    let scalar = |s: &Scalar| scalars[s.index()];
-                    let vector = |v: &Vector| vectors[v.index()];
-                    vectors[at] = match &g.vectors[at] {
-                        VectorNode::Triple(list) => list.iter().all(scalar),
-                        VectorNode::Sum(list) => list.iter().all(vector),
-                        VectorNode::Scale(s, v) => scalar(s) && vector(v),
-                        VectorNode::Cross(a, b) => vector(a) && vector(b),
-                        VectorNode::Rotate(r, v) => rotations[r.index()] && vector(v),
-                    };
-                }
-                AnyNode::Rotation(at) => {
-                    let scalar = |s: &Scalar| scalars[s.index()];
-                    rotations[at] = match &g.rotations[at] {
-                        RotationNode::Identity => true,
-                        RotationNode::Axis(_, angle) => scalar(angle),
-                        RotationNode::Matrix(rows) => rows.iter().flatten().all(scalar),
-                        RotationNode::Quaternion(list) => list.iter().all(scalar),
-                        RotationNode::Product(a, b) => rotations[a.index()] && rotations[b.index()],
-                    };
-                }
-            }
-        }
-        Constants(scalars)
-    }
-
-    /// Nodes that were made since are sums and products of those, and few.
-    fn holds(&self, g: &Graph, s: Scalar) -> bool {
-        match self.0.get(s.index()) {
-            Some(true) => true,
-            Some(false) => matches!(g.node(s), ScalarNode::Literal(_)),
-            None => operands(g.node(s)).is_some_and(|list| list.iter().all(|&s| self.holds(g, s))),
-        }
-    }
-}
-
-/// Scalars that a formula reads; nothing for symbols, vectors and blocks.
-fn operands(node: &ScalarNode) -> Option<&[Scalar]> {
-    match node {
-        ScalarNode::Literal(_) => Some(&[]),
-        ScalarNode::Sum(list) | ScalarNode::Product(list) | ScalarNode::Call(_, list) => Some(list),
-        ScalarNode::Reciprocal(x) | ScalarNode::Sqrt(x) | ScalarNode::Sin(x) | ScalarNode::Cos(x) => {
-            Some(std::slice::from_ref(x))
-        }
-        _ => None,
     }
 }
 
@@ -416,34 +349,4 @@ fn eliminate(
         x[pivot] = g.sum(&terms);
     }
     Some((x, rank))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Constants, Known};
-    use crate::symbolic::graph::{Graph, Scalar};
-
-    #[test]
-    fn vectors_are_constant_where_all_of_them_is() {
-        let mut g = Graph::new();
-        let [p, x] = [(); 2].map(|()| g.symbol());
-        let parameter = g.symbol_id(p).unwrap();
-        let known = Known { parameter: &|id| id == parameter, nonzero: &|_, _| true };
-        let fixed = g.vector([p, Scalar::ONE, p]);
-        let about = |g: &mut Graph, angle| g.axis_rotation(2, angle);
-        let (swing, turn) = (about(&mut g, x), about(&mut g, p));
-        let (swung, turned) = (g.rotate(swing, fixed), g.rotate(turn, fixed));
-        let mut rows = [[p; 3]; 3];
-        rows[1][2] = x;
-        let matrix = g.matrix_rotation(rows);
-        let vectors = [g.scale(x, turned), g.scale(p, swung), g.cross(turned, swung), g.rotate(matrix, turned)];
-        let mut moving = vectors.map(|v| g.component(v, 0)).to_vec();
-        moving.push(g.dot(turned, swung));
-        let vectors = [g.scale(p, turned), g.cross(turned, fixed)];
-        let mut constant = vectors.map(|v| g.component(v, 0)).to_vec();
-        constant.push(g.dot(turned, fixed));
-        let constants = Constants::of(&g, &known, &[moving.clone(), constant.clone()]);
-        let holds = |list: &[Scalar]| list.iter().map(|&s| constants.holds(&g, s)).collect::<Vec<_>>();
-        assert_eq!((holds(&moving), holds(&constant)), (vec![false; 5], vec![true; 3]));
-    }
 }

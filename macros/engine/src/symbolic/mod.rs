@@ -4,6 +4,7 @@
 
 pub mod adjoint;
 pub mod check;
+mod constants;
 mod cost;
 pub mod count;
 pub mod dependence;
@@ -26,8 +27,10 @@ pub(crate) mod rotations;
 mod scalar;
 pub mod signs;
 pub mod sized;
+pub mod structured;
 pub mod substitute;
 mod transplant;
+pub mod triangular_form;
 mod trigonometry;
 mod vector;
 pub mod walk;

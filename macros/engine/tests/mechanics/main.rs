@@ -1,6 +1,7 @@
 //! From the checked model to numbers: derived functions are interpreted on the graph and compared with plain f64
 //! computations, with finite differences and with laws of mechanics.
 
+mod actuation;
 mod alike;
 mod analysis;
 mod balance;

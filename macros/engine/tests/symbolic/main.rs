@@ -11,5 +11,6 @@ mod literals;
 #[path = "../common/rng.rs"]
 mod rng;
 mod signs;
+mod structured;
 mod substitution;
 mod vectors;

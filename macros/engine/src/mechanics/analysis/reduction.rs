@@ -11,8 +11,8 @@ use crate::mechanics::loops::constraints::{coordinate_name, is_uncounted, row_co
 use crate::mechanics::loops::structure::{Means, Row, Step};
 use crate::model::site::Sited;
 use crate::model::types::{BodyRef, ConstraintId, Coordinate, JointId, LoopClosure, Model, SolveHow};
+use crate::symbolic::triangular_form::{components, matching};
 
-use super::blocks::{components, matching};
 use super::checks::thing;
 use super::configurations::Configuration;
 use super::linear::Elimination;

@@ -80,7 +80,12 @@ fn recipe(kind: FunctionKind, solves_inputs: bool) -> Recipe {
             (const { &[Chosen(|d, _| d.forward_dynamics())] }, const { &[Chosen(|d, _| d.constrained_dynamics())] })
         }
         F::InverseDynamics if solves_inputs => (
-            const { &[InAxes(NEWTON_EULER, |e| e.actuate(&Reduction::default()))] },
+            const {
+                &[
+                    InAxes(NEWTON_EULER, |e| e.actuate(&Reduction::default())),
+                    Lumped(|e| e.actuate(&Reduction::default())),
+                ]
+            },
             const { &[Reduced(NEWTON_EULER, |e, r| e.actuate(r)), Chosen(|d, _| d.strut_inputs())] },
         ),
         F::InverseDynamics => (

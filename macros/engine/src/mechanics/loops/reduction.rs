@@ -8,7 +8,7 @@
 //! dE/dx x' + E'|x = 0, and once more, dE/dx x'' + E''|(x'' = 0) = 0: both need no second solution, only derivatives of
 //! the equation. Several unknowns of one iteration obey the same with the matrix dE/dx, by pivoted solves.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use crate::contracts::symbol::Symbol;
 use crate::invariant::fault::OrFault;
@@ -20,6 +20,7 @@ use crate::model::types::{ConstraintId, Coordinate, Expr, JointId, LoopClosure, 
 use crate::solve::Value as SolvedValue;
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::{BlockKind, Graph, Scalar, SymbolId};
+use crate::symbolic::structured::solve_structured;
 
 use super::constraints::coordinate_name;
 use super::structure::{Means, Role, Step};
@@ -397,6 +398,17 @@ impl Equations<'_> {
             self.g.block_outputs(BlockKind::Solve { size, symmetric: false, groups: [].into() }, &operands);
         outputs.truncate(size);
         outputs
+    }
+
+    /// A square system, solved by the structure of its matrix, and its rank.
+    pub(in crate::mechanics) fn solve_structured(
+        &mut self,
+        matrix: &[Vec<Scalar>],
+        side: &[Scalar],
+    ) -> (Vec<Scalar>, Scalar) {
+        let parameters: HashSet<SymbolId> =
+            self.scene.symbols.params.iter().flatten().filter_map(|&p| self.g.symbol_id(p)).collect();
+        solve_structured(&mut self.g, &|id| parameters.contains(&id), matrix, side)
     }
 
     /// Puts all definitions into results.

@@ -2,9 +2,9 @@
 //!
 //! In: efforts beside all declared forces, on the state and on driven coordinates; the inputs to solve for. Out: these
 //! inputs. The efforts are linear in the inputs and in the multipliers of the loops, e = e0 + A u, and all of them must
-//! vanish: A u = -e0. The system is solved
-//! with pivots in the runtime, which reports its rank: a rank below the number of inputs means that they cannot produce
-//! every motion at this configuration.
+//! vanish: A u = -e0. The system is solved by the structure of A ([`crate::symbolic::structured`]): a motor on each joint
+//! costs a sign, gear ratios that are parameters a product each. What is left is solved with pivots in the runtime. A rank
+//! below the number of inputs and multipliers means that they cannot produce every motion at this configuration.
 
 use crate::contracts::results::{Results, Slot};
 use crate::mechanics::analysis::Complaint;
@@ -14,7 +14,8 @@ use crate::mechanics::loops::structure::Role;
 use crate::mechanics::translate::forces::LoadCase;
 use crate::mechanics::translate::names;
 use crate::model::site::Sited;
-use crate::symbolic::graph::{BlockKind, Scalar};
+use crate::symbolic::graph::Scalar;
+use crate::symbolic::triangular_form::matching;
 
 impl Equations<'_> {
     /// The inputs that are asked for, then the rank of their system.
@@ -44,71 +45,50 @@ impl Equations<'_> {
             );
         }
         let matrix = self.slopes_by(&efforts, &inputs);
-        if matrix.iter().any(|&entry| self.g.depends_on(entry, &inputs)) {
+        if self.g.read_by(&matrix.concat(), &inputs).contains(&true) {
             return refuse(
                 "the equations are not linear in the inputs to solve for".to_owned(),
                 "let the forces depend on these inputs linearly",
             );
         }
-        let holds: Vec<Vec<bool>> =
-            matrix.chunks(size.max(1)).map(|row| row.iter().map(|&entry| entry != Scalar::ZERO).collect()).collect();
-        if structural_rank(&holds) < size {
+        if structural_rank(&matrix) < size {
             return refuse(
                 "these inputs cannot produce every motion: their forces don't reach all equations".to_owned(),
                 "solve for inputs that act on every coordinate of the state and on every driven one",
             );
         }
-        let mut outputs = self.solve_linear(&efforts, &inputs, matrix);
-        outputs.drain(wanted..size);
+        let off: Vec<(Scalar, Scalar)> = inputs.iter().map(|&input| (input, Scalar::ZERO)).collect();
+        let off = self.map(&off);
+        let rest: Vec<Scalar> = self.g.substitute(&efforts, &off).into_iter().map(|effort| -effort).collect();
+        let (mut outputs, rank) = self.solve_structured(&matrix, &rest);
+        outputs.truncate(wanted);
         for (&input, &output) in inputs.iter().zip(&outputs) {
             if let Some(&symbol) = self.g.symbol_id(input).and_then(|id| self.scene.symbols.table.get(id.0)) {
                 self.g.label(output, || names::symbol(self.scene.model, symbol));
             }
         }
-        let rank = outputs.split_off(wanted);
-        Ok(rank.into_iter().fold(Results::default().with(Slot::Inputs, outputs), |results, rank| {
-            results.with_scalar(Slot::Rank, rank)
-        }))
+        Ok(Results::default().with(Slot::Inputs, outputs).with_scalar(Slot::Rank, rank))
     }
 
     /// Derivatives, row by row.
-    fn slopes_by(&mut self, efforts: &[Scalar], inputs: &[Scalar]) -> Vec<Scalar> {
-        let mut matrix = Vec::with_capacity(efforts.len() * inputs.len());
-        for &effort in efforts {
-            for &input in inputs {
-                matrix.push(self.g.derivative(effort, &[(input, Scalar::ONE)]));
-            }
-        }
-        matrix
-    }
-
-    /// Inputs for which linear efforts vanish, then the rank of their system.
-    fn solve_linear(&mut self, efforts: &[Scalar], inputs: &[Scalar], matrix: Vec<Scalar>) -> Vec<Scalar> {
-        let size = inputs.len();
-        let off: Vec<(Scalar, Scalar)> = inputs.iter().map(|&input| (input, Scalar::ZERO)).collect();
-        let off = self.map(&off);
-        let rest = self.g.substitute(efforts, &off);
-        let operands: Vec<Scalar> = matrix.into_iter().chain(rest.into_iter().map(|e| -e)).collect();
-        self.g.block_outputs(BlockKind::Solve { size, symmetric: false, groups: [].into() }, &operands)
+    fn slopes_by(&mut self, efforts: &[Scalar], inputs: &[Scalar]) -> Vec<Vec<Scalar>> {
+        let mut row = |&effort: &Scalar| {
+            let read = self.g.read_by(&[effort], inputs);
+            let slope = |(&input, is_read): (&Scalar, bool)| match is_read {
+                true => self.g.derivative(effort, &[(input, Scalar::ONE)]),
+                false => Scalar::ZERO,
+            };
+            inputs.iter().zip(read).map(slope).collect()
+        };
+        efforts.iter().map(&mut row).collect()
     }
 }
 
-/// Most entries of a pattern that lie in different rows and columns (augmenting paths).
-fn structural_rank(holds: &[Vec<bool>]) -> usize {
-    let columns = holds.first().map_or(0, Vec::len);
-    let mut taken: Vec<Option<usize>> = vec![None; columns];
-    (0..holds.len()).filter(|&row| place(row, holds, &mut taken, &mut vec![false; columns])).count()
-}
-
-fn place(row: usize, holds: &[Vec<bool>], taken: &mut [Option<usize>], seen: &mut [bool]) -> bool {
-    for column in 0..taken.len() {
-        if !holds[row][column] || std::mem::replace(&mut seen[column], true) {
-            continue;
-        }
-        if taken[column].is_none_or(|other| place(other, holds, taken, seen)) {
-            taken[column] = Some(row);
-            return true;
-        }
-    }
-    false
+/// Most entries that are not zero whatever they hold, in different rows and columns.
+fn structural_rank(matrix: &[Vec<Scalar>]) -> usize {
+    let row = |row: &Vec<Scalar>| {
+        (0..row.len()).filter(|&column| row[column] != Scalar::ZERO).map(|column| (column, 1.0)).collect()
+    };
+    let pattern: Vec<Vec<(usize, f64)>> = matrix.iter().map(row).collect();
+    matching(&pattern, matrix.len()).iter().flatten().count()
 }

@@ -4,17 +4,17 @@
 //! equations of motion M a = f - G^T lambda hold for dependent coordinates too: with e the efforts that the motion takes
 //! beside all declared forces, G_d^T lambda = -e_d, as many equations as multipliers. Linear couplings of coordinates are
 //! seen through (they act on coordinates, so that no link is loaded by them), those of places of frames are not. The rest falls into the smallest systems that can be
-//! solved one after the other, each by a pivoted solve.
+//! solved one after the other, each by its structure ([`crate::symbolic::structured`]).
 
 use std::rc::Rc;
 
-use crate::mechanics::analysis::blocks::{components, matching};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Map;
 use crate::mechanics::loops::structure::{Means, Row};
 use crate::mechanics::translate::forces::LoadCase;
 use crate::model::types::{ConstraintId, Coordinate, LoopClosure};
 use crate::symbolic::graph::Scalar;
+use crate::symbolic::triangular_form::{components, matching};
 
 /// Multipliers of the equations by which dependent coordinates are found.
 #[derive(Clone, Default)]
@@ -124,7 +124,7 @@ impl Equations<'_> {
         let size = balances.len();
         let mut multipliers = vec![Scalar::ZERO; size];
         for (members, rows) in systems(balances) {
-            let mut matrix = Vec::with_capacity(members.len() * rows.len());
+            let mut matrix = Vec::with_capacity(members.len());
             let mut rest = Vec::with_capacity(members.len());
             for &member in &members {
                 let Balance { slopes, needed } = &balances[member];
@@ -133,9 +133,9 @@ impl Equations<'_> {
                     terms.push(-self.g.mul(slope, known));
                 }
                 rest.push(self.g.sum(&terms));
-                matrix.extend(rows.iter().map(|&row| slopes[row]));
+                matrix.push(rows.iter().map(|&row| slopes[row]).collect());
             }
-            for (row, multiplier) in rows.into_iter().zip(self.solve_block(members.len(), &matrix, &rest)) {
+            for (row, multiplier) in rows.into_iter().zip(self.solve_structured(&matrix, &rest).0) {
                 self.g.name(multiplier, || format!("multiplier_{}", row + 1));
                 multipliers[row] = multiplier;
             }

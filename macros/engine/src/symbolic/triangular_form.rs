@@ -1,11 +1,11 @@
-//! Stage `mechanics`: the smallest systems of equations that can be solved one after the other.
+//! Stage `symbolic`: the smallest systems of equations that can be solved one after the other.
 //!
 //! In: which unknowns each equation depends on. Out: equations matched with unknowns, in groups that need each other and in
 //! an order in which each group needs earlier ones only (block triangular form: Dulmage and Mendelsohn 1958, Tarjan 1972).
 
 /// Matches equations with unknowns: by equation the unknown, or nothing where there is none left (augmenting paths).
 /// `weights` are (unknown, size of the entry): greater entries are tried first.
-pub(in super::super) fn matching(weights: &[Vec<(usize, f64)>], unknowns: usize) -> Vec<Option<usize>> {
+pub fn matching(weights: &[Vec<(usize, f64)>], unknowns: usize) -> Vec<Option<usize>> {
     let mut sorted = weights.to_vec();
     for row in &mut sorted {
         row.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
@@ -43,7 +43,7 @@ fn augment(rows: &[Vec<(usize, f64)>], row: usize, by_unknown: &mut [Option<usiz
 }
 
 /// Strongly connected components of a graph, what is needed first. `needs` lists, by node, the nodes that it needs.
-pub(in super::super) fn components(needs: &[Vec<usize>]) -> Vec<Vec<usize>> {
+pub fn components(needs: &[Vec<usize>]) -> Vec<Vec<usize>> {
     let count = needs.len();
     let (mut index, mut low) = (vec![usize::MAX; count], vec![0; count]);
     let (mut open, mut is_open) = (Vec::new(), vec![false; count]);
