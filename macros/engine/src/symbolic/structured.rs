@@ -250,6 +250,11 @@ impl System<'_> {
                 (0..size).map(|k| if k == at { Scalar::ONE } else { Scalar::ZERO }).collect()
             };
             let inverse: Vec<Vec<Scalar>> = (0..size).map(|at| solve(g, &unit(at))).collect();
+            for (&row, entries) in rows.iter().zip(&inverse) {
+                for (&column, &entry) in columns.iter().zip(entries) {
+                    g.label(entry, || format!("inverse_{}_{}", column + 1, row + 1));
+                }
+            }
             let unknown = |k: usize| {
                 let terms: Vec<Scalar> =
                     inverse.iter().zip(&sides).map(|(column, &side)| g.mul(column[k], side)).collect();
