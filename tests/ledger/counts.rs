@@ -141,8 +141,9 @@ fn bars_are_met() {
 #[test]
 fn one_sincos_per_coordinate() {
     for row in rows().iter().filter(|row| !row.function.contains("outputs")) {
-        // A quaternion needs none at all.
-        assert!(row.after.sincos as usize <= row.dof, "{} {}", row.model, row.function);
+        // A quaternion needs none at all. What Newton's method finds has one in a round, and one at its solution.
+        let rounds = if row.model.ends_with("_newton") { 2 } else { 1 };
+        assert!(row.after.sincos as usize <= rounds * row.dof, "{} {}", row.model, row.function);
     }
 }
 

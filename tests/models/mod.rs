@@ -7,6 +7,7 @@ pub mod extremes;
 pub mod formulas;
 pub mod hundred_rods;
 pub mod impulses;
+pub mod iterated;
 pub mod laws;
 pub mod linearised;
 pub mod linkages;

@@ -92,6 +92,12 @@ pub fn all() -> Vec<Row> {
         counted.iter_mut().for_each(|row| row.model = format!("stewart, {}", row.model));
         rows.extend(counted);
     }
+    // What Newton's method closes, beside the same with multipliers.
+    for model in calls("models/iterated.rs").into_iter().flat_map(|call| models(literal(call))) {
+        let mut counted = count(&model, false);
+        counted.iter_mut().for_each(|row| row.model = format!("iterated, {}", row.model));
+        rows.extend(counted);
+    }
     rows
 }
 

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use crate::contracts::call::Call;
 use crate::contracts::symbol::Symbol;
-use crate::invariant::fault::OrFault;
+use crate::invariant::fault::{OrFault, raise};
 use crate::symbolic::fingerprint::Print;
 use crate::symbolic::graph::{BlockKind, SymbolId};
 use crate::symbolic::number::Number;
@@ -131,7 +131,7 @@ impl<'a> Scheduler<'a> {
         let Block { kind, operands } = &dag.blocks[block];
         match kind {
             BlockKind::Iterate { unknowns, .. } => operands.split_at(unknowns.len()),
-            BlockKind::Solve { .. } => (operands, &[]),
+            BlockKind::Solve { .. } | BlockKind::Eliminate { .. } => (operands, &[]),
         }
     }
 
@@ -171,6 +171,7 @@ impl<'a> Scheduler<'a> {
                 });
                 results
             }
+            BlockKind::Eliminate { .. } => raise("eliminations are written out when vectors become scalars"),
             BlockKind::Iterate { unknowns, count } => self.iterate(block, unknowns, *count),
         }
     }
@@ -452,7 +453,7 @@ impl Loop {
             let outputs = order.iter().copied().filter(is_output).collect();
             let body = match &block.kind {
                 BlockKind::Iterate { unknowns, .. } => Loop::of(dag, order, unknowns, block, &loops),
-                BlockKind::Solve { .. } => Loop::default(),
+                BlockKind::Solve { .. } | BlockKind::Eliminate { .. } => Loop::default(),
             };
             loops.push(Loop { outputs, ..body });
         }

@@ -15,7 +15,8 @@ impl Cost {
     /// Of a block without what its operands cost.
     pub fn of_block(kind: &BlockKind) -> Cost {
         match kind {
-            BlockKind::Iterate { .. } => Cost::default(),
+            // Written out, it is counted operation by operation.
+            BlockKind::Iterate { .. } | BlockKind::Eliminate { .. } => Cost::default(),
             &BlockKind::Solve { size, symmetric, .. } => {
                 let n = size as u32;
                 let steps = (0..n).map(|k| if symmetric { symmetric_step(n, n - 1 - k) } else { step(n, n - 1 - k) });

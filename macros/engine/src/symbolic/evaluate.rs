@@ -132,7 +132,8 @@ impl<'g, F: Field> Evaluator<'g, F> {
     fn block(&mut self, id: BlockId) -> Vec<F::Value> {
         let block = self.graph.block(id);
         match &block.kind {
-            &BlockKind::Solve { size, symmetric, .. } => {
+            &(BlockKind::Solve { size, .. } | BlockKind::Eliminate { size }) => {
+                let symmetric = matches!(block.kind, BlockKind::Solve { symmetric: true, .. });
                 let values: Vec<F::Value> = block.operands.iter().map(|&s| self.scalar(s)).collect();
                 let (matrix, rhs) = values.split_at(size * size);
                 self.field.solve(symmetric, matrix, rhs)

@@ -5,10 +5,15 @@
 //! is applied factor by factor, which costs less than its matrix unless many vectors pass through it; zeros vanish on
 //! the way since the constructors see them.
 
+use std::collections::HashMap;
+
 use crate::invariant::fault::OrFault;
 use crate::invariant::injection::{Break, broken};
 
-use super::graph::{AnyNode, Graph, Name, PlaceMap, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode};
+use super::elimination::Elimination;
+use super::graph::{
+    AnyNode, BlockId, BlockKind, Graph, Name, PlaceMap, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode,
+};
 
 /// Copies expressions of one graph into another, as scalars.
 pub struct Lowering<'g> {
@@ -17,13 +22,24 @@ pub struct Lowering<'g> {
     scalars: PlaceMap<Scalar>,
     vectors: PlaceMap<[Scalar; 3]>,
     matrices: PlaceMap<[[Scalar; 3]; 3]>,
+    blocks: HashMap<BlockId, Vec<Scalar>>,
+    /// By their matrices.
+    eliminations: HashMap<Box<[Scalar]>, Elimination>,
 }
 
 impl<'g> Lowering<'g> {
     /// `to` must have the symbols of `from`, made in the same order.
     pub fn new(from: &'g Graph) -> Self {
         let to = from.empty_copy();
-        Lowering { from, to, scalars: PlaceMap::default(), vectors: PlaceMap::default(), matrices: PlaceMap::default() }
+        Lowering {
+            from,
+            to,
+            scalars: PlaceMap::default(),
+            vectors: PlaceMap::default(),
+            matrices: PlaceMap::default(),
+            blocks: HashMap::new(),
+            eliminations: HashMap::new(),
+        }
     }
 
     /// Lowers these scalars, operands before users, so that no recursion is deep.
@@ -95,8 +111,17 @@ impl<'g> Lowering<'g> {
             }
             ScalarNode::Output(id, k) => {
                 let block = from.block(*id);
+                if let Some(outputs) = self.blocks.get(id) {
+                    return outputs[*k];
+                }
                 let operands: Vec<Scalar> = block.operands.iter().map(|&s| self.scalar(s)).collect();
-                self.to.block_outputs(block.kind.clone(), &operands)[*k]
+                let outputs = match block.kind {
+                    BlockKind::Eliminate { size } => self.eliminate(size, &operands),
+                    _ => self.to.block_outputs(block.kind.clone(), &operands),
+                };
+                let output = outputs[*k];
+                self.blocks.insert(*id, outputs);
+                output
             }
             ScalarNode::Component(v, axis) => self.vector(*v)[*axis],
             ScalarNode::Dot(a, b) => {
@@ -104,6 +129,13 @@ impl<'g> Lowering<'g> {
                 self.dot(&a, &b)
             }
         }
+    }
+
+    fn eliminate(&mut self, size: usize, operands: &[Scalar]) -> Vec<Scalar> {
+        let (matrix, side) = operands.split_at(size * size);
+        let to = &mut self.to;
+        let elimination = self.eliminations.entry(matrix.into()).or_insert_with(|| Elimination::of(to, size, matrix));
+        elimination.solve(to, side)
     }
 
     fn dot(&mut self, a: &[Scalar; 3], b: &[Scalar; 3]) -> Scalar {

@@ -12,6 +12,7 @@ pub mod differentiate;
 pub mod doubled;
 mod echelon;
 mod elementary;
+pub mod elimination;
 pub mod evaluate;
 pub mod fingerprint;
 pub mod graph;

@@ -393,6 +393,7 @@ impl Graph {
     pub fn block_outputs(&mut self, kind: BlockKind, operands: &[Scalar]) -> Vec<Scalar> {
         let count = match &kind {
             BlockKind::Solve { size, .. } => size + 1,
+            BlockKind::Eliminate { size } => *size,
             BlockKind::Iterate { unknowns, .. } => unknowns.len() + 1,
         };
         let tag = match &kind {
@@ -401,6 +402,7 @@ impl Graph {
                     tag.wrapping_mul(0x0001_0000_01B3) ^ (group as u64 + 1)
                 })
             }
+            BlockKind::Eliminate { .. } => 0xB10D,
             BlockKind::Iterate { count, .. } => 0xB10C_0000_u64 + *count as u64,
         };
         // Of all operands once: a block of n unknowns has n^2 of them and n outputs.
@@ -409,7 +411,11 @@ impl Graph {
         let print = |k: usize| Print::opaque(tag ^ ((k as u64 + 1) << 40), &[whole]);
         // Nothing on the right is answered by nothing, whatever the rank.
         let nothing = match kind {
-            BlockKind::Solve { size, .. } if operands[size * size..].iter().all(|&b| b == Scalar::ZERO) => size,
+            BlockKind::Solve { size, .. } | BlockKind::Eliminate { size }
+                if operands[size * size..].iter().all(|&b| b == Scalar::ZERO) =>
+            {
+                size
+            }
             _ => 0,
         };
         let known: Option<Vec<Scalar>> = (0..count).map(|k| self.find(print(k))).collect();

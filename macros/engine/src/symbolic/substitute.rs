@@ -13,7 +13,7 @@ use std::collections::HashMap;
 use crate::invariant::fault::{OrFault, raise};
 
 use super::graph::{
-    AnyNode, Block, Graph, PlaceMap, Rotation, RotationNode, Scalar, ScalarNode, SymbolId, Vector, VectorNode,
+    AnyNode, Block, BlockId, Graph, PlaceMap, Rotation, RotationNode, Scalar, ScalarNode, SymbolId, Vector, VectorNode,
 };
 
 use super::walk::Marks;
@@ -39,6 +39,7 @@ pub(super) struct Images {
     pub(super) scalars: PlaceMap<Scalar>,
     vectors: PlaceMap<Vector>,
     rotations: PlaceMap<Rotation>,
+    blocks: HashMap<BlockId, Vec<Scalar>>,
 }
 
 /// One replacement of symbols, shared by all that is asked for.
@@ -117,8 +118,9 @@ impl Images {
                 if other.is_some() && matches!(node, ScalarNode::Symbol(_)) {
                     raise("symbols of another graph have their images");
                 }
+                // Its outputs are made in one go: a block of n unknowns reads n^2 scalars.
                 let block = match node {
-                    ScalarNode::Output(id, _) => Some(from.block(id).clone()),
+                    ScalarNode::Output(id, _) if !self.blocks.contains_key(&id) => Some(from.block(id).clone()),
                     _ => None,
                 };
                 let made = self.scalar(g, s, node, block);
@@ -172,7 +174,7 @@ impl Images {
         list.iter().map(|&s| self.of(s)).collect()
     }
 
-    fn scalar(&self, g: &mut Graph, s: Scalar, node: ScalarNode, block: Option<Block>) -> Scalar {
+    fn scalar(&mut self, g: &mut Graph, s: Scalar, node: ScalarNode, block: Option<Block>) -> Scalar {
         match node {
             ScalarNode::Literal(number) => g.number(number),
             ScalarNode::Symbol(_) => s,
@@ -184,10 +186,12 @@ impl Images {
             ScalarNode::Cos(x) => g.cos(self.of(x)),
             ScalarNode::Call(call, list) => g.call(call, &self.all(&list)),
             ScalarNode::Angle(cos, sin) => g.angle(self.of(cos), self.of(sin)),
-            ScalarNode::Output(_, k) => {
-                let block = block.or_fault("an output is one of its block");
-                let outputs = g.block_outputs(block.kind, &self.all(&block.operands));
-                outputs[k]
+            ScalarNode::Output(id, k) => {
+                if let Some(block) = block {
+                    let outputs = g.block_outputs(block.kind, &self.all(&block.operands));
+                    self.blocks.insert(id, outputs);
+                }
+                self.blocks.get(&id).or_fault("an output is one of its block")[k]
             }
             ScalarNode::Component(v, axis) => g.component(self.of_vector(v), axis),
             ScalarNode::Dot(a, b) => g.dot(self.of_vector(a), self.of_vector(b)),

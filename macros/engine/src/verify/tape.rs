@@ -334,15 +334,22 @@ impl Writer<'_> {
         let block = self.graph.block(id);
         match &block.kind {
             BlockKind::Solve { size, symmetric, groups } => {
-                let operands = block.operands.iter().map(|&s| self.scalar(s)).collect();
-                let work = Work::Solve { size: *size, symmetric: *symmetric, groups: groups.clone() };
-                self.tape.blocks.push(Block { work, operands });
-                let number = self.tape.blocks.len() - 1;
-                self.push(Op::Solve(number), &[]);
-                number
+                self.system(Work::Solve { size: *size, symmetric: *symmetric, groups: groups.clone() }, &block.operands)
+            }
+            // By complete pivoting, whatever it is compared with does.
+            BlockKind::Eliminate { size } => {
+                self.system(Work::Solve { size: *size, symmetric: false, groups: [].into() }, &block.operands)
             }
             BlockKind::Iterate { unknowns, count } => self.iterate(unknowns, *count, &block.operands),
         }
+    }
+
+    fn system(&mut self, work: Work, operands: &[Scalar]) -> usize {
+        let operands = operands.iter().map(|&s| self.scalar(s)).collect();
+        self.tape.blocks.push(Block { work, operands });
+        let number = self.tape.blocks.len() - 1;
+        self.push(Op::Solve(number), &[]);
+        number
     }
 
     /// What depends on the unknowns is written anew, for this iteration alone.

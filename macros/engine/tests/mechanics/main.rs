@@ -11,6 +11,9 @@ mod expressions;
 mod forces;
 mod formulations;
 mod groups;
+#[path = "../common/interpreter.rs"]
+mod interpreter;
+mod iterated;
 mod jacobians;
 mod joints;
 mod kinks;

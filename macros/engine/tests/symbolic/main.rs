@@ -3,6 +3,7 @@
 mod adjoints;
 mod blocks;
 mod differentiation;
+mod elimination;
 #[path = "../common/expressions.rs"]
 mod expressions;
 mod identity;

@@ -23,7 +23,7 @@ use crate::symbolic::graph::{BlockKind, Graph, Scalar, SymbolId};
 use crate::symbolic::structured::solve_structured;
 
 use super::constraints::coordinate_name;
-use super::structure::{Means, Role, Step};
+use super::structure::{Means, Role, Row, Step};
 
 /// Expressions by the symbol that they replace.
 pub(in crate::mechanics) type Map = HashMap<SymbolId, Scalar>;
@@ -97,7 +97,9 @@ impl Equations<'_> {
                 let coupled = self.map(&pairs);
                 reduction.coupled.extend(coupled);
             }
-            self.define(&definitions, &mut reduction, &mut rates);
+            // What one iteration finds does not read each other; what a closed form finds may read what it has found before.
+            let at_once = if matches!(step.means, Means::Newton { .. }) { definitions.len() } else { 1 };
+            self.define(&definitions, at_once, &mut reduction, &mut rates);
             reduction.definitions.extend(definitions);
         }
         self.close(&mut reduction, &rates);
@@ -127,33 +129,39 @@ impl Equations<'_> {
         }
     }
 
-    /// Adds the definitions of one step to the maps: first all positions, which rates are written with, then all rates, which
-    /// accelerations are written with.
-    fn define(&mut self, definitions: &[Definition], reduction: &mut Reduction, rates: &mut Map) {
+    /// Adds the definitions of one step to the maps, several at once: first all positions, which rates are written with, then all
+    /// rates, which accelerations are written with.
+    fn define(&mut self, definitions: &[Definition], at_once: usize, reduction: &mut Reduction, rates: &mut Map) {
         let orders: [fn(&Definition) -> Scalar; 3] = [|d| d.position, |d| d.rate, |d| d.acceleration];
         for (order, value) in orders.into_iter().enumerate() {
-            for definition in definitions {
-                let symbol = self.coordinate_symbols(definition.coordinate)[order];
-                let value = self.g.substitute(&[value(definition)], &reduction.map)[0];
-                let named = [
-                    None,
-                    Some(("rate", "Velocities of what follows.")),
-                    Some(("accel", "Accelerations of what follows.")),
-                ];
-                if let Some((what, heading)) = named[order] {
-                    let name = names::of_freedom(self.scene.model, definition.coordinate, what);
-                    self.g.under(heading, |g| g.label(value, || name));
+            for definitions in definitions.chunks(at_once.max(1)) {
+                let values: Vec<Scalar> = definitions.iter().map(value).collect();
+                let values = self.g.substitute(&values, &reduction.map);
+                for (definition, value) in definitions.iter().zip(values) {
+                    let symbol = self.coordinate_symbols(definition.coordinate)[order];
+                    let named = [
+                        None,
+                        Some(("rate", "Velocities of what follows.")),
+                        Some(("accel", "Accelerations of what follows.")),
+                    ];
+                    if let Some((what, heading)) = named[order] {
+                        let name = names::of_freedom(self.scene.model, definition.coordinate, what);
+                        self.g.under(heading, |g| g.label(value, || name));
+                    }
+                    reduction.map.extend(self.g.symbol_id(symbol).map(|id| (id, value)));
                 }
-                reduction.map.extend(self.g.symbol_id(symbol).map(|id| (id, value)));
             }
         }
-        for definition in definitions {
-            let symbol = self.coordinate_symbols(definition.coordinate)[1];
-            let projected = self.g.substitute(&[definition.rate], rates)[0];
-            let name = names::of_freedom(self.scene.model, definition.coordinate, "rate");
-            self.g.under("Velocities of what follows.", |g| g.label(projected, || name));
-            rates.extend(self.g.symbol_id(symbol).map(|id| (id, projected)));
-            reduction.rates.push((self.freedom(definition.coordinate), projected));
+        for definitions in definitions.chunks(at_once.max(1)) {
+            let values: Vec<Scalar> = definitions.iter().map(|definition| definition.rate).collect();
+            let values = self.g.substitute(&values, rates);
+            for (definition, projected) in definitions.iter().zip(values) {
+                let symbol = self.coordinate_symbols(definition.coordinate)[1];
+                let name = names::of_freedom(self.scene.model, definition.coordinate, "rate");
+                self.g.under("Velocities of what follows.", |g| g.label(projected, || name));
+                rates.extend(self.g.symbol_id(symbol).map(|id| (id, projected)));
+                reduction.rates.push((self.freedom(definition.coordinate), projected));
+            }
         }
     }
 
@@ -286,7 +294,7 @@ impl Equations<'_> {
 
     /// Newton's method on the equations of a step, from the guess, a fixed number of times.
     fn iterate(&mut self, step: &Step, newton: Newton, reduction: &mut Reduction) -> Vec<Definition> {
-        let Means::Newton { rows, guess } = &step.means else { return Vec::new() };
+        let Means::Newton { rows, .. } = &step.means else { return Vec::new() };
         let size = step.unknowns.len();
         let symbols: Vec<[Scalar; 3]> = step.unknowns.iter().map(|&u| self.coordinate_symbols(u)).collect();
         let equations: Vec<Scalar> = rows.iter().map(|row| self.row(*row)).collect();
@@ -301,18 +309,19 @@ impl Equations<'_> {
                 matrix.push(self.g.derivative(equation, &[(symbol[0], Scalar::ONE)]));
             }
         }
-        let (outputs, residual) = self.solve_by(newton, *guess, &symbols, [&equations, &matrix], &reduction.map);
+        let (outputs, residual) = self.solve_by(newton, step, &symbols, [&equations, &matrix], &reduction.map);
         reduction.residuals.push(residual);
         reduction.matrices.push(matrix.clone());
         reduction.guesses.extend(&outputs);
         // Rates: J x' = -E', with everything on the tree.
+        let matrix = self.weighed(rows, &matrix);
         let unknowns: Vec<(Scalar, Scalar)> = symbols.iter().map(|s| (s[1], s[2])).collect();
         let derivatives: Vec<(Scalar, Scalar)> =
             equations.iter().map(|&equation| self.implicit_rates(equation, &unknowns)).collect();
         let first: Vec<Scalar> = derivatives.iter().map(|d| -d.0).collect();
         let second: Vec<Scalar> = derivatives.iter().map(|d| -d.1).collect();
-        let rates = self.solve_rates(size, &matrix, &first);
-        let accelerations = self.solve_rates(size, &matrix, &second);
+        let [first, second] = [first, second].map(|side| self.weighed(rows, &side));
+        let [rates, accelerations] = self.solve_rates(size, &matrix, [&first, &second]);
         let mut definitions = Vec::with_capacity(size);
         for (k, &coordinate) in step.unknowns.iter().enumerate() {
             let symbol = Symbol::Position { joint: coordinate.joint, component: coordinate.index };
@@ -328,12 +337,13 @@ impl Equations<'_> {
     fn solve_by(
         &mut self,
         newton: Newton,
-        guess: usize,
+        step: &Step,
         symbols: &[[Scalar; 3]],
         [equations, matrix]: [&[Scalar]; 2],
         known: &Map,
     ) -> (Vec<Scalar>, Scalar) {
-        let size = symbols.len();
+        let Means::Newton { rows, guess } = &step.means else { return (Vec::new(), Scalar::ZERO) };
+        let (size, guess) = (symbols.len(), *guess);
         // Inside the loop the unknowns are symbols of its own; known coordinates are put in, so that the loop reads values.
         let inner: Vec<Scalar> = (0..size).map(|k| self.scene.symbols.unknown(guess + k)).collect();
         let mut map = known.clone();
@@ -341,7 +351,8 @@ impl Equations<'_> {
         map.extend(self.map(&own));
         let values = self.g.substitute(equations, &map);
         let entries = self.g.substitute(matrix, &map);
-        let step_by = self.solve_block(size, &entries, &values);
+        let [entries, sides] = [&entries, &values].map(|list| self.weighed(rows, list));
+        let step_by = self.eliminate(size, &entries, &sides);
         let next: Vec<Scalar> = inner.iter().zip(&step_by).map(|(&x, &d)| self.g.sub(x, d)).collect();
         let g = &mut self.g;
         let residual = values.iter().fold(Scalar::ZERO, |worst, &value| {
@@ -366,20 +377,55 @@ impl Equations<'_> {
         }
     }
 
-    /// Rates from a right-hand side that is linear in them. Solved directly the same matrix is factored anew for rates,
-    /// accelerations, the transposed map and every column of it; a small one is inverted once, column by column.
-    fn solve_rates(&mut self, size: usize, matrix: &[Scalar], rhs: &[Scalar]) -> Vec<Scalar> {
-        if size > 3 + self.scene.structure.freedoms() {
-            return self.solve_block(size, matrix, rhs);
+    /// Rates and accelerations from right-hand sides that are linear in what is known of them. Where few velocities are known,
+    /// the velocity map is solved for column by column: rates, the transposed map and the mass matrix are products with it. Else
+    /// the matrix is inverted, column by column.
+    fn solve_rates(&mut self, size: usize, matrix: &[Scalar], [first, second]: [&[Scalar]; 2]) -> [Vec<Scalar>; 2] {
+        let read: HashSet<usize> = self.g.reachable_scalars(first).into_iter().collect();
+        let velocities: Vec<Scalar> = self.scene.symbols.velocities.concat();
+        let known: Vec<Scalar> = velocities.into_iter().filter(|v| read.contains(&v.index())).collect();
+        if known.len() >= size {
+            let unit = |at: usize| (0..size).map(|k| if k == at { Scalar::ONE } else { Scalar::ZERO }).collect();
+            let units: Vec<Vec<Scalar>> = (0..size).map(unit).collect();
+            let columns: Vec<Vec<Scalar>> = units.iter().map(|unit| self.eliminate(size, matrix, unit)).collect();
+            return [first, second].map(|side| combined(&mut self.g, &columns, side, size));
         }
-        let unit = |at: usize| (0..size).map(|k| if k == at { Scalar::ONE } else { Scalar::ZERO }).collect();
-        let units: Vec<Vec<Scalar>> = (0..size).map(unit).collect();
-        let columns: Vec<Vec<Scalar>> = units.iter().map(|unit| self.solve_block(size, matrix, unit)).collect();
-        let row = |g: &mut Graph, row: usize| {
-            let terms: Vec<Scalar> = columns.iter().zip(rhs).map(|(column, &r)| g.mul(column[row], r)).collect();
-            g.sum(&terms)
+        let mut columns = Vec::with_capacity(known.len() + 1);
+        for &velocity in &known {
+            let mut along = Differentiator::new(&[(velocity, Scalar::ONE)]);
+            let side: Vec<Scalar> = first.iter().map(|&rate| along.scalar(&mut self.g, rate)).collect();
+            columns.push(self.eliminate(size, matrix, &side));
+        }
+        // What changes by time alone.
+        let still: Vec<(Scalar, Scalar)> = known.iter().map(|&velocity| (velocity, Scalar::ZERO)).collect();
+        let still = self.map(&still);
+        let rest = self.g.substitute(first, &still);
+        columns.push(self.eliminate(size, matrix, &rest));
+        let factors: Vec<Scalar> = known.into_iter().chain([Scalar::ONE]).collect();
+        [combined(&mut self.g, &columns, &factors, size), self.eliminate(size, matrix, second)]
+    }
+
+    /// Equations, or rows of a matrix, in units in which they are about one where they are far apart: lengths of small
+    /// mechanisms beside cosines. By powers of two, which rounding does not see.
+    fn weighed(&mut self, rows: &[Row], entries: &[Scalar]) -> Vec<Scalar> {
+        let scale = |row: &Row| self.scene.structure.scale(*row).log2().round();
+        let exponents: Vec<f64> = rows.iter().map(scale).collect();
+        let (least, most) = exponents.iter().fold((f64::MAX, f64::MIN), |(a, b), &e| (a.min(e), b.max(e)));
+        if most - least <= ONE_SCALE {
+            return entries.to_vec();
+        }
+        let width = entries.len() / rows.len().max(1);
+        let weight = |g: &mut Graph, at: usize, entry: Scalar| {
+            let weight = g.decimal((-exponents[at / width]).exp2());
+            g.mul(weight, entry)
         };
-        (0..size).map(|k| row(&mut self.g, k)).collect()
+        entries.iter().enumerate().map(|(at, &entry)| weight(&mut self.g, at, entry)).collect()
+    }
+
+    /// The solution of a square system that is regular but in singular poses.
+    pub(in crate::mechanics) fn eliminate(&mut self, size: usize, matrix: &[Scalar], side: &[Scalar]) -> Vec<Scalar> {
+        let operands: Vec<Scalar> = matrix.iter().chain(side).copied().collect();
+        self.g.block_outputs(BlockKind::Eliminate { size }, &operands)
     }
 
     /// Unknowns of the steps behind this one, at zero.
@@ -389,15 +435,6 @@ impl Equations<'_> {
         let pairs: Vec<(Scalar, Scalar)> =
             unknowns.map(|unknown| (self.coordinate_symbols(unknown)[0], Scalar::ZERO)).collect();
         self.map(&pairs)
-    }
-
-    /// A pivoted solve; its rank is left aside.
-    pub(in crate::mechanics) fn solve_block(&mut self, size: usize, matrix: &[Scalar], rhs: &[Scalar]) -> Vec<Scalar> {
-        let operands: Vec<Scalar> = matrix.iter().chain(rhs).copied().collect();
-        let mut outputs =
-            self.g.block_outputs(BlockKind::Solve { size, symmetric: false, groups: [].into() }, &operands);
-        outputs.truncate(size);
-        outputs
     }
 
     /// A square system, solved by the structure of its matrix, and its rank.
@@ -452,6 +489,19 @@ impl Equations<'_> {
         list
     }
 }
+
+/// The sum of columns times factors.
+fn combined(g: &mut Graph, columns: &[Vec<Scalar>], factors: &[Scalar], size: usize) -> Vec<Scalar> {
+    let row = |row: usize| {
+        let terms: Vec<Scalar> =
+            columns.iter().zip(factors).map(|(column, &factor)| g.mul(column[row], factor)).collect();
+        g.sum(&terms)
+    };
+    (0..size).map(row).collect()
+}
+
+/// Powers of two between the scales of equations that count as one.
+const ONE_SCALE: f64 = 4.0;
 
 /// Rounds of Newton's method: from a guess of the last step, quadratic convergence needs three; a few more serve coarse
 /// guesses. The residual tells whether they were enough.

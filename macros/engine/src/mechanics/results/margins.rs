@@ -71,7 +71,7 @@ impl Equations<'_> {
         matrix.extend((0..size).map(|k| self.g.decimal(one(2 * k + 1))));
         matrix.push(Scalar::ZERO);
         rhs.push(Scalar::ONE);
-        let found = self.solve_block(size + 1, &matrix, &rhs);
+        let found = self.eliminate(size + 1, &matrix, &rhs);
         let g = found.last().copied().or_fault("a margin is one expression");
         let square = self.g.mul(g, g);
         let sum = self.g.add(Scalar::ONE, square);

@@ -142,7 +142,7 @@ impl<'g> Composer<'g> {
             ScalarNode::Output(id, k) => {
                 let block = graph.block(*id);
                 let what = match block.kind {
-                    BlockKind::Solve { .. } => "solution",
+                    BlockKind::Solve { .. } | BlockKind::Eliminate { .. } => "solution",
                     BlockKind::Iterate { .. } => "found",
                 };
                 let name =
