@@ -134,3 +134,55 @@ fn what_hangs_together_loosely_is_cheap() {
     // The pivoted solve of the runtime takes 25,000.
     assert!(one < 2_000 && 3 * (two - one) < one, "{one} {two}");
 }
+
+/// Columns at right angles whatever the angles are: their unknowns are projections, and nothing competes for a pivot. With as many
+/// rows as columns, and with one more, where a third unknown is left that another equation couples to a fourth.
+#[test]
+fn orthogonal_columns_need_no_pivots() {
+    for size in [3, 4] {
+        let mut g = Graph::new();
+        let [a, b, l] = [g.symbol(), g.symbol(), g.symbol()];
+        let (sines, cosines) = ([a, b].map(|x| g.sin(x)), [a, b].map(|x| g.cos(x)));
+        // The tip of a leg l (sin b, -sin a cos b, cos a cos b), and what its joints do to it.
+        let tip = [sines[1], -g.mul(sines[0], cosines[1]), g.mul(cosines[0], cosines[1])];
+        let first = [Scalar::ZERO, -tip[2], tip[1]].map(|x| g.mul(l, x));
+        let second = [cosines[1], g.mul(sines[0], sines[1]), -g.mul(cosines[0], sines[1])].map(|x| g.mul(l, x));
+        let others: Vec<Scalar> = (0..16).map(|_| g.symbol()).collect();
+        let mut matrix = vec![Scalar::ZERO; size * size];
+        for row in 0..3 {
+            matrix[row * size] = first[row];
+            matrix[row * size + 1] = second[row];
+            matrix[row * size + 2] = if size == 3 { tip[row] } else { others[row] };
+        }
+        if size == 4 {
+            (0..3).for_each(|row| matrix[row * 4 + 3] = others[3 + row]);
+            (matrix[14], matrix[15]) = (others[6], others[7]);
+        }
+        let side: Vec<Scalar> = others[8..8 + size].to_vec();
+        let operands: Vec<Scalar> = matrix.iter().chain(&side).copied().collect();
+        let roots = g.block_outputs(BlockKind::Eliminate { size }, &operands);
+        let mut lowering = Lowering::new(&g);
+        let lowered = lowering.run(&roots);
+        let cost = lowering.to.cost(&lowered);
+        // Guards of the pivots, and the last two rows of the second, which do compete.
+        assert!(cost.compare + cost.other <= [2, 16][size - 3], "{cost:?}");
+        let mut rng = Rng::new(8);
+        for round in 0..50 {
+            let mut values: Vec<f64> = (0..19).map(|_| rng.real(-1.0, 1.0)).collect();
+            values[2] += 2.0;
+            // The leg along its first axis: a column of zeros, and its unknown is zero.
+            let singular = size == 3 && round == 0;
+            if singular {
+                values[1] = std::f64::consts::FRAC_PI_2;
+            }
+            let symbols = |id: SymbolId| values[id.0];
+            let numbers = |g: &Graph, list: &[Scalar]| Evaluator::new(g, Real { symbols: &symbols }).run(list);
+            let got = numbers(&lowering.to, &lowered);
+            let want = solve_f64(&numbers(&g, &matrix), &numbers(&g, &side));
+            let scale = want.iter().fold(1.0_f64, |scale, x| scale.max(x.abs()));
+            for (x, y) in got.iter().zip(&want) {
+                assert!(singular && x.is_finite() || (x - y).abs() <= 1e-12 * scale * scale, "{got:?} {want:?}");
+            }
+        }
+    }
+}

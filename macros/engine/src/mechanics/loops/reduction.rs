@@ -405,13 +405,11 @@ impl Equations<'_> {
         [combined(&mut self.g, &columns, &factors, size), self.eliminate(size, matrix, second)]
     }
 
-    /// Equations, or rows of a matrix, in units in which they are about one where they are far apart: lengths of small
-    /// mechanisms beside cosines. By powers of two, which rounding does not see.
+    /// Equations, or rows of a matrix, in units in which their slopes are about one, where they are not: lengths of a small
+    /// mechanism. By powers of two, which rounding does not see.
     fn weighed(&mut self, rows: &[Row], entries: &[Scalar]) -> Vec<Scalar> {
-        let scale = |row: &Row| self.scene.structure.scale(*row).log2().round();
-        let exponents: Vec<f64> = rows.iter().map(scale).collect();
-        let (least, most) = exponents.iter().fold((f64::MAX, f64::MIN), |(a, b), &e| (a.min(e), b.max(e)));
-        if most - least <= ONE_SCALE {
+        let exponents: Vec<f64> = rows.iter().map(|row| self.scene.structure.scale(*row).log2().round()).collect();
+        if exponents.iter().all(|exponent| exponent.abs() <= ABOUT_ONE) {
             return entries.to_vec();
         }
         let width = entries.len() / rows.len().max(1);
@@ -500,8 +498,8 @@ fn combined(g: &mut Graph, columns: &[Vec<Scalar>], factors: &[Scalar], size: us
     (0..size).map(row).collect()
 }
 
-/// Powers of two between the scales of equations that count as one.
-const ONE_SCALE: f64 = 4.0;
+/// Slopes between 2 to minus this and to plus this are about one.
+const ABOUT_ONE: f64 = 4.0;
 
 /// Rounds of Newton's method: from a guess of the last step, quadratic convergence needs three; a few more serve coarse
 /// guesses. The residual tells whether they were enough.
