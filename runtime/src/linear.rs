@@ -146,17 +146,39 @@ pub fn solve_symmetric<T: Real, const N: usize>(a: [[T; N]; N], b: [T; N]) -> ([
 /// ```
 #[inline]
 pub fn solve_symmetric_in_groups<T: Real, const N: usize>(
+    a: [[T; N]; N],
+    b: [T; N],
+    groups: &[usize; N],
+) -> ([T; N], T) {
+    let mut diagonal = [T::lit(0.0); N];
+    for k in 0..N {
+        diagonal[k] = a[k][k];
+    }
+    solve_symmetric_measured(a, b, diagonal, groups)
+}
+
+/// The same where a pivot is not measured by the diagonal entry that it came from, but by `measures`, each in the unit of its
+/// entry: what the entry was made of, where `a` is what an elimination has left. What has cancelled there is rounding, and a
+/// pivot below the threshold of it counts as none.
+///
+/// ```
+/// use multibody::linear::solve_symmetric_measured;
+///
+/// // The second entry is what is left of 1e9.
+/// let a = [[1.0, 0.0], [0.0, 1e-7]];
+/// let (x, rank) = solve_symmetric_measured(a, [1.0_f64, 1.0], [1.0, 1e9], &[0, 1]);
+/// assert_eq!((x, rank), ([1.0, 0.0], 1.0));
+/// ```
+#[inline]
+pub fn solve_symmetric_measured<T: Real, const N: usize>(
     mut a: [[T; N]; N],
     mut b: [T; N],
+    measures: [T; N],
     groups: &[usize; N],
 ) -> ([T; N], T) {
     let (zero, one) = (T::lit(0.0), T::lit(1.0));
     let threshold = threshold::<T>(N);
-    let mut scale = [one; N];
-    for k in 0..N {
-        scale[k] = a[k][k];
-    }
-    let mut scale = inverses_in_groups(&scale, groups, threshold * threshold);
+    let mut scale = inverses_in_groups(&measures, groups, threshold * threshold);
     let mut origin = [zero; N];
     let mut rank = zero;
 

@@ -9,6 +9,7 @@ pub mod hundred_rods;
 pub mod impulses;
 pub mod iterated;
 pub mod laws;
+pub mod limbs;
 pub mod linearised;
 pub mod linkages;
 pub mod loops;

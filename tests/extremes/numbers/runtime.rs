@@ -3,7 +3,7 @@
 use super::drawn::{Drawn, Numbers, all};
 use multibody::linear::{
     ComplexFactors, Factors, Solve, Square, least_norm, least_norm_in_groups, solve, solve_symmetric,
-    solve_symmetric_in_groups,
+    solve_symmetric_in_groups, solve_symmetric_measured,
 };
 use multibody::nalgebra::{Quaternion, SMatrix, SVector, UnitQuaternion, Vector3};
 use multibody::simba::simd::{WideF32x8, WideF64x4};
@@ -23,6 +23,7 @@ fn linear<T: Drawn>(n: &Numbers) {
         black_box(solve(matrix, right));
         black_box(solve_symmetric(matrix, right));
         black_box(solve_symmetric_in_groups(matrix, right, &groups(n)));
+        black_box(solve_symmetric_measured(matrix, right, row(), &groups(n)));
         black_box(Factors::new(&matrix).solve(&right));
         black_box(ComplexFactors::new(&matrix, &other).solve(&(right, row())));
         let made: [[T; N]; N] = Square::from_fn(|i, j| matrix.get(j, i));

@@ -5,12 +5,14 @@
 //! [`world`] in those of one link or the world, [`point_kinematics`] for single points. Dynamics: [`newton_euler`],
 //! [`lumped`] (the same over links that turn together), [`composite`], [`articulated`], [`momentum`],
 //! [`energy`]; [`regroup`], [`shared_axes`] and
-//! [`floating_bases`] say how a tree is written so that they cost less; [`saddle`] solves systems with constraints.
+//! [`floating_bases`] say how a tree is written so that they cost less; [`saddle`] solves systems with constraints, in an
+//! order that [`elimination`] finds.
 
 pub mod articulated;
 pub mod articulated_inertia;
 pub mod columns;
 pub mod composite;
+pub mod elimination;
 pub mod energy;
 pub mod floating_bases;
 pub mod inertia;

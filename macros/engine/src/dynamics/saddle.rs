@@ -1,26 +1,65 @@
 //! Stage `dynamics`: linear systems of the equations of motion.
 //!
-//! In: the mass matrix M, the Jacobian G of the equations that keep multipliers. Out: solutions of M x + G^T l = f,
-//! G x = c, by the Schur complement G M^-1 G^T on the sparse factors of M. The complement is solved with pivots; its rank
-//! comes with the result.
+//! In: the mass matrix M, the Jacobian G of the equations that keep multipliers, an [`Order`]. Out: solutions of
+//! M x + G^T l = f, G x = c, by factors L D L^T of the whole system, with the zeros that it has. Rows that no pivot was found
+//! for are solved with pivots at run time, as the Schur complement that is left of them; its rank comes with the result.
+//!
+//! An order that is fixed can lose digits where one with a search does not: where an absorbed row has a small pivot, others are
+//! left with what is small beside what was added and taken. So of every diagonal entry that rows have changed its *noise* is kept:
+//! how much it was made of, in which each part counts as often as its pivot has lost (`noise / pivot`, one where nothing cancels).
+//! Entries beside the diagonal have less. What is left to cores is measured by that. The losses add up to near nothing as a rule,
+//! and to as much as a limb is heavier than what it carries; where they take more than half of all digits, absorbed rows count for
+//! no rank. That is so where an assumption which let them be absorbed does not hold.
 
+use crate::contracts::call::Call;
+use crate::invariant::fault::OrFault;
 use crate::invariant::injection::{Break, broken};
 use crate::symbolic::graph::{BlockKind, Graph, Scalar};
 use crate::symbolic::linear_algebra::Factors;
 
-/// A system that is factorised once for several right-hand sides.
-pub(crate) struct Saddle {
+use super::elimination::{Order, Pattern, Pivot};
+
+/// A loss whose square is more than this many times one over the rounding unit is too great: 1e9 in double precision, 5e4 in
+/// single.
+const LOST: i64 = 256;
+
+/// What is to be solved.
+pub(crate) struct Posed {
+    matrix: Vec<Vec<Scalar>>,
     jacobian: Vec<Vec<Scalar>>,
     /// Rows of one unit, see [`BlockKind::Solve`].
     groups: Box<[usize]>,
-    /// Of M, with the equations of `added` in it.
-    factors: Factors,
+    /// Rows that stand in the matrix too.
     added: Vec<usize>,
-    /// Rows of G, eliminated in, and the same divided by the pivots.
-    pushed: Vec<Vec<Scalar>>,
-    scaled: Vec<Vec<Scalar>>,
-    /// G M^-1 G^T, row by row.
+}
+
+/// A system that is factorised once for several right-hand sides. Unknowns are counted through: coordinates, then rows.
+pub(crate) struct Saddle {
+    jacobian: Vec<Vec<Scalar>>,
+    added: Vec<usize>,
+    pivots: Vec<Eliminated>,
+    cores: Vec<Core>,
+    /// How much rank rows that are pivots have: their number, or zero where the loss is too great.
+    absorbed: Scalar,
+}
+
+/// One pivot.
+struct Eliminated {
+    place: usize,
+    inverse: Scalar,
+    /// How much of it others lose that are eliminated later.
+    factors: Vec<(usize, Scalar)>,
+}
+
+/// Rows that are solved with pivots.
+struct Core {
+    /// Their places.
+    places: Vec<usize>,
+    groups: Box<[usize]>,
+    /// G M^-1 G^T with what went before taken out, row by row.
     complement: Vec<Scalar>,
+    /// What its pivots are measured by; empty where that is the diagonal.
+    measures: Vec<Scalar>,
     /// Columns of its inverse.
     inverse: Option<Vec<Vec<Scalar>>>,
 }
@@ -32,119 +71,284 @@ pub(crate) struct Solution {
     pub rank: Option<Scalar>,
 }
 
-impl Saddle {
-    /// Eliminates rows of M in this order. Rows of G with equal numbers in `groups` have one unit.
+impl Posed {
+    /// Rows of G with equal numbers in `groups` have one unit. Where the mass matrix is singular by structure, as that of a
+    /// free rod that has no inertia about its own line, equations that hold the idle coordinate are added to it: with
+    /// G x = c the systems M x + G^T l = f and (M + g g^T) x + G^T l = f + g c have the same solution, multipliers included.
     pub(crate) fn new(
         g: &mut Graph,
-        matrix: Vec<Vec<Scalar>>,
+        mut matrix: Vec<Vec<Scalar>>,
         (jacobian, groups): (Vec<Vec<Scalar>>, Box<[usize]>),
-        order: &[usize],
-    ) -> Saddle {
-        let (factors, added) = augmented(g, matrix, &jacobian, order);
-        let pushed: Vec<Vec<Scalar>> = jacobian.iter().map(|row| factors.forward(g, row)).collect();
-        let scaled: Vec<Vec<Scalar>> = pushed.iter().map(|row| factors.scale(g, row)).collect();
-        let size = jacobian.len();
-        let mut complement = vec![Scalar::ZERO; size * size];
-        for i in 0..size {
-            for j in i..size {
-                let entry = dot(g, &pushed[i], &scaled[j]);
-                complement[i * size + j] = entry;
-                complement[j * size + i] = entry;
+        coordinates: &[usize],
+    ) -> Posed {
+        let mut added: Vec<usize> = Vec::new();
+        while let Some(idle) = Factors::new(g, &matrix, coordinates).singular() {
+            // The shortest of the equations fills in least.
+            let length = |row: usize| jacobian[row].iter().filter(|&&entry| entry != Scalar::ZERO).count();
+            let holding =
+                (0..jacobian.len()).filter(|row| !added.contains(row) && jacobian[*row][idle] != Scalar::ZERO);
+            let Some(row) = holding.min_by_key(|&row| length(row)) else { break };
+            added.push(row);
+            let line = &jacobian[row];
+            for i in 0..line.len() {
+                for j in 0..line.len() {
+                    let both = g.mul(line[i], line[j]);
+                    matrix[i][j] = g.add(matrix[i][j], both);
+                }
             }
         }
-        Saddle { jacobian, groups, factors, added, pushed, scaled, complement, inverse: None }
+        Posed { matrix, jacobian, groups, added }
     }
 
-    /// Inverts the complement: for more right-hand sides than it has rows.
-    pub(crate) fn invert(&mut self, g: &mut Graph) {
-        let size = self.jacobian.len();
-        if size == 0 {
-            return;
+    /// Where entries are.
+    pub(crate) fn pattern(&self) -> Pattern {
+        let filled = |rows: &[Vec<Scalar>]| -> Vec<Vec<bool>> {
+            rows.iter().map(|row| row.iter().map(|&entry| entry != Scalar::ZERO).collect()).collect()
+        };
+        Pattern { masses: filled(&self.matrix), rows: filled(&self.jacobian) }
+    }
+}
+
+impl Saddle {
+    /// In an order, or in a plain one where a pivot of that is zero whatever the pose: then some coordinates have no inertia that
+    /// the order takes to have some.
+    pub(crate) fn new(g: &mut Graph, posed: &Posed, order: &Order, coordinates: &[usize]) -> Saddle {
+        Saddle::factorised(g, posed, order)
+            .or_else(|| Saddle::factorised(g, posed, &Order::plain(&posed.pattern(), coordinates)))
+            .or_fault("a plain order eliminates no row")
+    }
+
+    /// Nothing where rows are eliminated and a pivot is zero.
+    fn factorised(g: &mut Graph, posed: &Posed, order: &Order) -> Option<Saddle> {
+        let Posed { matrix, jacobian, groups, added } = posed;
+        let mut work = Work::new(matrix, jacobian, groups);
+        let heading = "Factorisation of masses and loops.";
+        let pivots: Vec<Eliminated> =
+            g.under(heading, |g| order.pivots.iter().map(|&pivot| work.eliminate(g, pivot)).collect());
+        if work.rows_gone > 0 && pivots.iter().any(|pivot| pivot.inverse == Scalar::ZERO) {
+            return None;
         }
-        let unit = |at: usize| (0..size).map(move |k| if k == at { Scalar::ONE } else { Scalar::ZERO });
-        let columns = (0..size).map(|at| {
-            let operands: Vec<Scalar> = self.complement.iter().copied().chain(unit(at)).collect();
-            let kind = BlockKind::Solve { size, symmetric: true, groups: self.groups.clone() };
-            let mut column = g.block_outputs(kind, &operands);
-            column.truncate(size);
-            column
-        });
-        self.inverse = Some(columns.collect());
+        let cores = order.cores.iter().map(|rows| work.core(g, rows, groups)).collect();
+        let absorbed = work.absorbed(g);
+        Some(Saddle { jacobian: jacobian.clone(), added: added.clone(), pivots, cores, absorbed })
+    }
+
+    /// Inverts the cores: for more right-hand sides than these have rows.
+    pub(crate) fn invert(&mut self, g: &mut Graph) {
+        for core in &mut self.cores {
+            let size = core.places.len();
+            let unit = |at: usize| (0..size).map(move |k| if k == at { Scalar::ONE } else { Scalar::ZERO });
+            let columns = (0..size).map(|at| core.solve(g, unit(at).collect()).0);
+            core.inverse = Some(columns.collect());
+        }
     }
 
     /// For f and c.
     pub(crate) fn solve(&self, g: &mut Graph, rhs: &[Scalar], held: &[Scalar]) -> Solution {
-        if self.jacobian.is_empty() {
-            return Solution { unknowns: self.factors.solve(g, rhs), multipliers: Vec::new(), rank: None };
-        }
-        let mut rhs = rhs.to_vec();
+        let mut side = rhs.to_vec();
         for &row in &self.added {
-            for (entry, &slope) in rhs.iter_mut().zip(&self.jacobian[row]) {
+            for (entry, &slope) in side.iter_mut().zip(&self.jacobian[row]) {
                 let moved = g.mul(slope, held[row]);
                 *entry = g.add(*entry, moved);
             }
         }
-        let forward = self.factors.forward(g, &rhs);
-        let mut driven = Vec::with_capacity(held.len());
-        for (row, &held) in self.scaled.iter().zip(held) {
-            let free = dot(g, row, &forward);
-            let held = if broken(Break::HeldSign) { -held } else { held };
-            driven.push(g.sub(free, held));
+        side.extend(held.iter().map(|&held| if broken(Break::HeldSign) { -held } else { held }));
+        for pivot in &self.pivots {
+            g.label(side[pivot.place], || format!("side_{}", name(pivot.place, rhs.len())));
+            for &(place, factor) in &pivot.factors {
+                let taken = g.mul(factor, side[pivot.place]);
+                side[place] = g.sub(side[place], taken);
+            }
         }
-        let (multipliers, rank) = self.multipliers(g, driven);
-        let rest: Vec<Scalar> = (0..rhs.len())
-            .map(|k| {
-                let mut terms = vec![forward[k]];
-                terms.extend(self.pushed.iter().zip(&multipliers).map(|(row, &l)| -g.mul(row[k], l)));
-                g.sum(&terms)
-            })
-            .collect();
-        Solution { unknowns: self.factors.backward(g, &rest), multipliers, rank }
+        let mut rank = Some(self.absorbed);
+        let mut solved = side.clone();
+        for core in &self.cores {
+            let driven: Vec<Scalar> = core.places.iter().map(|&place| -side[place]).collect();
+            let (multipliers, own) = core.solve(g, driven);
+            rank = rank.zip(own).map(|(rank, own)| g.add(rank, own));
+            core.places.iter().zip(multipliers).for_each(|(&place, multiplier)| solved[place] = multiplier);
+        }
+        for pivot in self.pivots.iter().rev() {
+            let mut terms = vec![g.mul(side[pivot.place], pivot.inverse)];
+            terms.extend(pivot.factors.iter().map(|&(place, factor)| -g.mul(factor, solved[place])));
+            solved[pivot.place] = g.sum(&terms);
+        }
+        let multipliers = solved.split_off(rhs.len());
+        Solution { unknowns: solved, multipliers, rank: rank.filter(|_| !held.is_empty()) }
     }
+}
 
-    fn multipliers(&self, g: &mut Graph, driven: Vec<Scalar>) -> (Vec<Scalar>, Option<Scalar>) {
-        let size = self.jacobian.len();
+impl Core {
+    /// Unknowns of one right side, and the rank, which nobody asks for once the inverse is there.
+    fn solve(&self, g: &mut Graph, driven: Vec<Scalar>) -> (Vec<Scalar>, Option<Scalar>) {
+        let size = self.places.len();
         if let Some(inverse) = &self.inverse {
             let row = |k: usize| inverse.iter().map(|column| column[k]).collect::<Vec<_>>();
             return ((0..size).map(|k| dot(g, &row(k), &driven)).collect(), None);
         }
-        let operands: Vec<Scalar> = self.complement.iter().copied().chain(driven).collect();
+        let operands = self.complement.iter().copied().chain(driven).chain(self.measures.iter().copied());
+        let operands: Vec<Scalar> = operands.collect();
         let kind = BlockKind::Solve { size, symmetric: true, groups: self.groups.clone() };
-        let mut multipliers = g.block_outputs(kind, &operands);
-        let rank = multipliers.pop();
-        (multipliers, rank)
+        let mut unknowns = g.block_outputs(kind, &operands);
+        let rank = unknowns.pop();
+        (unknowns, rank)
+    }
+}
+
+/// A system while it is eliminated.
+struct Work {
+    coordinates: usize,
+    entries: Vec<Vec<Scalar>>,
+    gone: Vec<bool>,
+    /// By place the noise of its diagonal entry; of a coordinate once a row has changed it.
+    noise: Vec<Option<Scalar>>,
+    /// Of pivots that have lost something how much, each at least one; and how many rows are pivots.
+    losses: Vec<Scalar>,
+    rows_gone: usize,
+    /// By row those of its unit.
+    groups: Vec<Vec<usize>>,
+}
+
+impl Work {
+    fn new(matrix: &[Vec<Scalar>], jacobian: &[Vec<Scalar>], groups: &[usize]) -> Work {
+        let n = matrix.len();
+        let size = n + jacobian.len();
+        let mut entries = vec![vec![Scalar::ZERO; size]; size];
+        for (i, row) in matrix.iter().enumerate() {
+            entries[i][..n].copy_from_slice(row);
+        }
+        for (k, row) in jacobian.iter().enumerate() {
+            for (j, &entry) in row.iter().enumerate() {
+                entries[n + k][j] = entry;
+                entries[j][n + k] = entry;
+            }
+        }
+        let group = |row: usize| groups.get(row).copied().unwrap_or(row);
+        let alike = |row: usize| (0..jacobian.len()).filter(move |&other| group(other) == group(row)).collect();
+        let groups = (0..jacobian.len()).map(alike).collect();
+        let noise = (0..size).map(|place| (place >= n).then_some(Scalar::ZERO)).collect();
+        Work { coordinates: n, entries, gone: vec![false; size], noise, losses: Vec::new(), rows_gone: 0, groups }
+    }
+
+    fn eliminate(&mut self, g: &mut Graph, pivot: Pivot) -> Eliminated {
+        let n = self.coordinates;
+        let place = match pivot {
+            Pivot::Coordinate(k) => k,
+            Pivot::Row(k) => n + k,
+        };
+        self.gone[place] = true;
+        let line = self.entries[place].clone();
+        let own = name(place, n);
+        // Of a coordinate without any inertia, which no equation holds either, nothing is known.
+        let idle = line[place] == Scalar::ZERO;
+        let inverse = if idle { Scalar::ZERO } else { g.reciprocal(line[place]) };
+        let loss = self.loss_of(g, place, line[place], inverse);
+        g.name(line[place], || format!("pivot_{own}"));
+        g.name(inverse, || format!("inverse_{own}"));
+        let near: Vec<usize> = (0..line.len()).filter(|&k| !self.gone[k] && line[k] != Scalar::ZERO).collect();
+        let mut factors = Vec::with_capacity(near.len());
+        for &i in &near {
+            g.label(line[i], || format!("entry_{own}_{}", name(i, n)));
+            let factor = g.mul(line[i], inverse);
+            g.name(factor, || format!("l_{own}_{}", name(i, n)));
+            factors.push((i, factor));
+        }
+        for (at, &(i, factor)) in factors.iter().enumerate() {
+            for &j in &near[at..] {
+                let update = g.mul(factor, line[j]);
+                if i == j {
+                    self.disturb(g, i, update, (place < n, loss));
+                }
+                self.entries[i][j] = g.sub(self.entries[i][j], update);
+                self.entries[j][i] = self.entries[i][j];
+            }
+        }
+        Eliminated { place, inverse, factors }
+    }
+
+    /// How much a pivot has lost, if it has.
+    fn loss_of(&mut self, g: &mut Graph, place: usize, pivot: Scalar, inverse: Scalar) -> Option<Scalar> {
+        let is_row = place >= self.coordinates;
+        self.rows_gone += usize::from(is_row);
+        let [pivot, inverse] = [pivot, inverse].map(|s| if is_row { -s } else { s });
+        let noise = self.noise[place].filter(|&noise| noise != pivot)?;
+        let loss = g.mul(noise, inverse);
+        self.losses.push(loss);
+        Some(loss)
+    }
+
+    /// An update of a diagonal entry, by a pivot of a coordinate or a row: coordinates give to rows, and rows to coordinates. What
+    /// is taken was there, and adds noise only where the pivot had lost some.
+    fn disturb(&mut self, g: &mut Graph, place: usize, update: Scalar, (by_coordinate, loss): (bool, Option<Scalar>)) {
+        let gives = by_coordinate != (place < self.coordinates);
+        if self.noise[place].is_none() && by_coordinate || !gives && loss.is_none() {
+            return;
+        }
+        let size = if by_coordinate { update } else { -update };
+        let part = loss.map_or(size, |loss| g.mul(size, loss));
+        let before = self.noise[place].unwrap_or(self.entries[place][place]);
+        self.noise[place] = Some(g.add(before, part));
+    }
+
+    /// One where nothing is lost. A sum, so that what is no number stays none.
+    fn loss(&self, g: &mut Graph) -> Option<Scalar> {
+        let surplus = g.integer(self.losses.len() as i64 - 1);
+        let sum = g.sum(&self.losses);
+        let loss = g.sub(sum, surplus);
+        g.name(loss, || "loss".to_owned());
+        (!self.losses.is_empty()).then_some(loss)
+    }
+
+    /// The rank of rows that are pivots.
+    fn absorbed(&self, g: &mut Graph) -> Scalar {
+        let count = g.integer(self.rows_gone as i64);
+        let Some(loss) = self.loss(g) else { return count };
+        let (most, unit) = (g.integer(LOST), g.call(Call::Epsilon, &[]));
+        let square = g.product(&[unit, loss, loss]);
+        // What is no number is too great.
+        let sound = g.call(Call::LessEqual, &[square, most]);
+        g.call(Call::Select, &[sound, count, Scalar::ZERO])
+    }
+
+    /// What is left of some rows.
+    fn core(&self, g: &mut Graph, rows: &[usize], groups: &[usize]) -> Core {
+        let places: Vec<usize> = rows.iter().map(|&row| self.coordinates + row).collect();
+        let entries = places.iter().flat_map(|&i| places.iter().map(move |&j| -self.entries[i][j]));
+        let complement: Vec<Scalar> = entries.collect();
+        let mut measures: Vec<Scalar> = rows.iter().map(|&row| self.measure(g, row, rows)).collect();
+        if measures.iter().zip(&places).all(|(&measure, &place)| measure == -self.entries[place][place]) {
+            measures.clear();
+        }
+        let own: Vec<usize> = rows.iter().map(|&row| groups.get(row).copied().unwrap_or(row)).collect();
+        let first: Box<[usize]> = own.iter().filter_map(|group| own.iter().position(|other| other == group)).collect();
+        let alone = first.iter().enumerate().all(|(k, &group)| k == group);
+        Core { places, groups: if alone { Box::default() } else { first }, complement, measures, inverse: None }
+    }
+
+    /// What a row's pivot is measured by. Of rows of one unit the solution compares those of one core; what is small beside one
+    /// of another core, or beside one that is gone, by the square of the threshold is none either.
+    fn measure(&self, g: &mut Graph, row: usize, core: &[usize]) -> Scalar {
+        let noise = |row: usize| self.noise[self.coordinates + row].unwrap_or(Scalar::ZERO);
+        let others = self.groups[row].iter().filter(|other| !core.contains(other));
+        let Some(most) = others.map(|&other| noise(other)).reduce(|a, b| g.call(Call::Max, &[a, b])) else {
+            return noise(row);
+        };
+        // The threshold of a solution of this size, see the runtime's `linear`.
+        let (units, unit) = (g.integer(16 * core.len() as i64), g.call(Call::Epsilon, &[]));
+        let least = g.product(&[units, unit, most]);
+        g.call(Call::Max, &[noise(row), least])
+    }
+}
+
+/// A word for an unknown.
+fn name(place: usize, coordinates: usize) -> String {
+    match place.checked_sub(coordinates) {
+        Some(row) => format!("row_{}", row + 1),
+        None => format!("{}", place + 1),
     }
 }
 
 fn dot(g: &mut Graph, a: &[Scalar], b: &[Scalar]) -> Scalar {
     let terms: Vec<Scalar> = a.iter().zip(b).map(|(&x, &y)| g.mul(x, y)).collect();
     g.sum(&terms)
-}
-
-/// Factors of the mass matrix. Where it is singular by structure, as that of a free rod that has no inertia about its own
-/// line, equations that hold the idle coordinate are added to it: with G x = c the systems M x + G^T l = f and
-/// (M + g g^T) x + G^T l = f + g c have the same solution, multipliers included.
-fn augmented(
-    g: &mut Graph,
-    mut matrix: Vec<Vec<Scalar>>,
-    jacobian: &[Vec<Scalar>],
-    order: &[usize],
-) -> (Factors, Vec<usize>) {
-    let mut added: Vec<usize> = Vec::new();
-    loop {
-        let factors = Factors::new(g, &matrix, order);
-        let Some(idle) = factors.singular() else { return (factors, added) };
-        // The shortest of the equations fills in least.
-        let length = |row: usize| jacobian[row].iter().filter(|&&entry| entry != Scalar::ZERO).count();
-        let holding = (0..jacobian.len()).filter(|row| !added.contains(row) && jacobian[*row][idle] != Scalar::ZERO);
-        let Some(row) = holding.min_by_key(|&row| length(row)) else { return (factors, added) };
-        added.push(row);
-        let line = &jacobian[row];
-        for i in 0..line.len() {
-            for j in 0..line.len() {
-                let both = g.mul(line[i], line[j]);
-                matrix[i][j] = g.add(matrix[i][j], both);
-            }
-        }
-    }
 }

@@ -6,6 +6,7 @@
 //! steps: linear couplings first, then `solve` items and the smallest possible systems for Newton's method, in an order
 //! in which each needs earlier ones only. (A linear step gives its unknown from coordinates that later steps may find.)
 
+mod absorption;
 mod checks;
 mod closed;
 mod configurations;
@@ -38,6 +39,7 @@ use linear::Elimination;
 use problem::{Problem, Source};
 use ranked::Ranked;
 
+pub(super) use absorption::{Absorption, Poses};
 pub(super) use written::Writings;
 
 /// How far parameters are moved to see what holds at their defaults alone; relative to one and their size.

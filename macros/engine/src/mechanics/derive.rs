@@ -19,6 +19,7 @@ mod witnesses;
 
 pub use patterns::{Entry, Patterns, patterns};
 
+use std::cell::Cell;
 use std::rc::Rc;
 
 use crate::contracts::function::{Asked, FunctionKind};
@@ -285,6 +286,8 @@ impl<'m> Deriving<'m> {
             return Ok(());
         }
         let residual = self.model.emit.contains(&Request::Residual);
+        let solving = [Request::ForwardDynamics, Request::Impulse];
+        let solved = solving.iter().any(|request| self.model.emit.contains(request));
         let structure = Rc::clone(&self.structure);
         let writings = Writings::new(self.model, &structure);
         let mut least = None;
@@ -293,7 +296,11 @@ impl<'m> Deriving<'m> {
                 continue;
             }
             self.writing = writing;
+            let solution = Cell::new(0);
             let found = self.written(&[None], |e, reduction| {
+                if solved {
+                    solution.set(e.cost_of_solution(reduction));
+                }
                 if residual {
                     return e.residual(reduction);
                 }
@@ -303,7 +310,7 @@ impl<'m> Deriving<'m> {
                 Results::vector(all)
             })?;
             let Some((_, results)) = found.into_iter().next() else { continue };
-            let weight = self.weight(&results.list);
+            let weight = self.weight(&results.list).saturating_add(solution.get());
             if least.is_none_or(|(known, _)| weight < known) {
                 least = Some((weight, writing));
             }

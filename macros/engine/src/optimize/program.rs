@@ -58,6 +58,8 @@ pub enum Statement {
         /// Row by row.
         matrix: Vec<Expression>,
         rhs: Vec<Expression>,
+        /// What pivots of a symmetric system are measured by; empty where that is the diagonal.
+        measures: Vec<Expression>,
         results: Vec<Local>,
     },
     /// A counted loop. `unknowns` start at `start` and become `next` in every round; they are read inside and behind it.
@@ -90,7 +92,7 @@ impl Statement {
         match self {
             Statement::Let { value, .. } => Box::new(std::iter::once(value)),
             Statement::SinCos { angle, .. } => Box::new(std::iter::once(angle)),
-            Statement::Solve { matrix, rhs, .. } => Box::new(matrix.iter().chain(rhs)),
+            Statement::Solve { matrix, rhs, measures, .. } => Box::new(matrix.iter().chain(rhs).chain(measures)),
             Statement::Iterate { start, body, next, residual, .. } => {
                 let inside = body.iter().flat_map(Statement::expressions);
                 Box::new(start.iter().chain(inside).chain(next).chain(std::iter::once(&residual.1)))

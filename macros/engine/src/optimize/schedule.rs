@@ -150,8 +150,9 @@ impl<'a> Scheduler<'a> {
         match kind {
             BlockKind::Solve { size, symmetric, groups } => {
                 let (size, symmetric) = (*size, *symmetric);
-                let matrix: Vec<Expression> = operands.iter().map(|&id| self.signed(id).0).collect();
-                let (matrix, rhs) = matrix.split_at(size * size);
+                let operands: Vec<Expression> = operands.iter().map(|&id| self.signed(id).0).collect();
+                let (matrix, rest) = operands.split_at(size * size);
+                let (rhs, measures) = rest.split_at(size);
                 let named = |k| {
                     self.output(block, k).unwrap_or(if k == size {
                         "rank".to_owned()
@@ -167,6 +168,7 @@ impl<'a> Scheduler<'a> {
                     groups: groups.clone(),
                     matrix: matrix.to_vec(),
                     rhs: rhs.to_vec(),
+                    measures: measures.to_vec(),
                     results: results.clone(),
                 });
                 results

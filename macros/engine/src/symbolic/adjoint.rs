@@ -168,9 +168,11 @@ impl Adjoints {
     fn solve(&mut self, g: &mut Graph, id: BlockId, weights: Vec<Scalar>) {
         let block = g.block(id).clone();
         let size = weights.len();
-        let (matrix, rhs) = block.operands.split_at(size * size);
+        let (matrix, rest) = block.operands.split_at(size * size);
+        let (rhs, measures) = rest.split_at(size);
         let transposed = |at: usize| matrix[(at % size) * size + at / size];
-        let system: Vec<Scalar> = (0..size * size).map(transposed).chain(weights).collect();
+        let sides = weights.into_iter().chain(measures.iter().copied());
+        let system: Vec<Scalar> = (0..size * size).map(transposed).chain(sides).collect();
         let u = g.block_outputs(block.kind.clone(), &system);
         let x = g.block_outputs(block.kind.clone(), &block.operands);
         for row in 0..size {

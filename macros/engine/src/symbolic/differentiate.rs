@@ -176,13 +176,15 @@ impl Differentiator {
             return Scalar::ZERO;
         }
         let x = g.block_outputs(block.kind.clone(), &block.operands);
-        let (matrix, rhs) = block.operands.split_at(size * size);
+        let (matrix, rest) = block.operands.split_at(size * size);
+        let (rhs, measures) = rest.split_at(size);
         let mut system = matrix.to_vec();
         for (row, &b) in matrix.chunks(size).zip(rhs) {
             let mut terms = vec![self.of(b)];
             terms.extend(row.iter().zip(&x).map(|(&a, &x)| -g.mul(self.of(a), x)));
             system.push(g.sum(&terms));
         }
+        system.extend(measures);
         g.block_outputs(block.kind, &system)[k]
     }
 

@@ -135,8 +135,8 @@ impl<'g, F: Field> Evaluator<'g, F> {
             &(BlockKind::Solve { size, .. } | BlockKind::Eliminate { size }) => {
                 let symmetric = matches!(block.kind, BlockKind::Solve { symmetric: true, .. });
                 let values: Vec<F::Value> = block.operands.iter().map(|&s| self.scalar(s)).collect();
-                let (matrix, rhs) = values.split_at(size * size);
-                self.field.solve(symmetric, matrix, rhs)
+                let (matrix, rest) = values.split_at(size * size);
+                self.field.solve(symmetric, matrix, &rest[..size])
             }
             BlockKind::Iterate { unknowns, count } => {
                 let (start, body) = block.operands.split_at(unknowns.len());

@@ -133,7 +133,8 @@ pub struct Block {
 #[derive(Clone, Debug, PartialEq)]
 pub enum BlockKind {
     /// The solution of A x = b by a pivoted, branch-free factorisation in the runtime. Operands: A row by row (size^2),
-    /// b (size). Results: x (size), then the numerical rank as a scalar. Rows and columns beyond the rank are left out:
+    /// b (size), and of a symmetric system what its pivots are measured by (size), where that is not the diagonal.
+    /// Results: x (size), then the numerical rank as a scalar. Rows and columns beyond the rank are left out:
     /// then x is one solution with zeros there. Of a symmetric system `groups` tells by equal numbers which equations have
     /// one unit and are compared with each other, so that what rounding leaves of one is not taken for one; empty where
     /// each stands for itself.

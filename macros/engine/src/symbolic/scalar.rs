@@ -412,7 +412,7 @@ impl Graph {
         // Nothing on the right is answered by nothing, whatever the rank.
         let nothing = match kind {
             BlockKind::Solve { size, .. } | BlockKind::Eliminate { size }
-                if operands[size * size..].iter().all(|&b| b == Scalar::ZERO) =>
+                if operands[size * size..].iter().take(size).all(|&b| b == Scalar::ZERO) =>
             {
                 size
             }

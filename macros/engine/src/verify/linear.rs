@@ -118,12 +118,12 @@ pub(super) fn solve<T: Arithmetic>(matrix: &[T], rhs: &[T], order: Option<(&[usi
 /// Its equation, the factors below it, its inverse.
 type Pivot<T> = (usize, Vec<(usize, T)>, T);
 
-/// Diagonal pivoting of a symmetric matrix without negative eigenvalues, pivots measured by the diagonal entries that they
-/// came from.
+/// Diagonal pivoting of a symmetric matrix without negative eigenvalues, pivots measured by what is given, or by the
+/// diagonal entries that they came from.
 pub(super) fn solve_symmetric<T: Arithmetic>(
     matrix: &[T],
     rhs: &[T],
-    groups: &[usize],
+    (measures, groups): (&[T], &[usize]),
     order: Option<&[usize]>,
 ) -> LinearSolution<T> {
     let n = rhs.len();
@@ -131,7 +131,10 @@ pub(super) fn solve_symmetric<T: Arithmetic>(
         matrix.chunks(n.max(1)).enumerate().map(|(i, row)| row[..=i.min(n - 1)].to_vec()).collect();
     let mut b = rhs.to_vec();
     let least = threshold(n);
-    let diagonal: Vec<f64> = a.iter().enumerate().map(|(k, row)| row[k].high()).collect();
+    let diagonal: Vec<f64> = match measures {
+        [] => a.iter().enumerate().map(|(k, row)| row[k].high()).collect(),
+        measures => measures.iter().map(|measure| measure.high()).collect(),
+    };
     let group = |k: usize| groups.get(k).copied().unwrap_or(k);
     let scales: Vec<f64> = (0..n)
         .map(|k| {

@@ -57,11 +57,11 @@ impl Machine<'_> {
                 self.set(*sin, s);
                 self.set(*cos, c);
             }
-            Statement::Solve { size, symmetric, groups, matrix, rhs, results } => {
-                let (matrix, rhs) = (self.values(matrix), self.values(rhs));
+            Statement::Solve { size, symmetric, groups, matrix, rhs, measures, results } => {
+                let [matrix, rhs, measures] = [matrix, rhs, measures].map(|list| self.values(list));
                 let known = self.reads.deficient.iter().find(|pivots| is_same(&pivots.matrix, &matrix, *size));
                 let mut solved = match symmetric {
-                    true => solve_symmetric(&matrix, &rhs, groups, known.map(|pivots| &pivots.rows[..])),
+                    true => solve_symmetric(&matrix, &rhs, (&measures, groups), known.map(|pivots| &pivots.rows[..])),
                     false => solve(&matrix, &rhs, known.map(|pivots| (&pivots.rows[..], &pivots.columns[..]))),
                 };
                 solved.x.push(solved.rows.len() as f64);

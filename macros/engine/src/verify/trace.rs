@@ -164,9 +164,10 @@ impl<'t, T: Arithmetic> Trace<'t, T> {
         let tape = self.tape;
         let Work::Solve { size, symmetric, groups } = &tape.blocks[block].work else { return };
         let values = self.list(&tape.blocks[block].operands);
-        let (matrix, rhs) = values.split_at(size * size);
+        let (matrix, rest) = values.split_at(size * size);
+        let (rhs, measures) = rest.split_at(*size);
         let solved = match symmetric {
-            true => linear::solve_symmetric(matrix, rhs, groups, None),
+            true => linear::solve_symmetric(matrix, rhs, (measures, groups), None),
             false => linear::solve(matrix, rhs, None),
         };
         self.unclear |= solved.unclear;

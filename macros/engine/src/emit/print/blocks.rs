@@ -242,8 +242,9 @@ impl<'a> Blocks<'a> {
                 let (sin, cos, angle) = (self.name(*sin), self.name(*cos), self.names.expression(angle));
                 quote!(let (#sin, #cos) = Real::sin_cos(#angle);)
             }
-            Statement::Solve { size, symmetric, groups, matrix, rhs, results } => {
-                self.solve(*size, (*symmetric, groups), matrix, rhs, results)
+            Statement::Solve { size, symmetric, groups, matrix, rhs, measures, results } => {
+                let sides = [&rhs[..], &measures[..]];
+                self.solve(*size, (*symmetric, groups), matrix, sides, results)
             }
             Statement::Iterate { count, unknowns, start, next, residual, .. } => {
                 let locals: Vec<Local> = live.unknowns.iter().map(|&k| unknowns[k]).collect();
@@ -260,15 +261,19 @@ impl<'a> Blocks<'a> {
         size: usize,
         (symmetric, groups): (bool, &[usize]),
         matrix: &[Expression],
-        rhs: &[Expression],
+        [rhs, measures]: [&[Expression]; 2],
         results: &[Local],
     ) -> TokenStream {
         let krate = self.names.layout.krate();
-        let function = names::ident(match (symmetric, groups) {
-            (false, _) => "solve",
-            (true, []) => "solve_symmetric",
-            (true, _) => "solve_symmetric_in_groups",
-        });
+        let each: Vec<usize> = (0..size).collect();
+        let (function, groups) = match (symmetric, measures, groups) {
+            (false, ..) => ("solve", groups),
+            (true, [], []) => ("solve_symmetric", groups),
+            (true, [], _) => ("solve_symmetric_in_groups", groups),
+            (true, _, []) => ("solve_symmetric_measured", &each[..]),
+            (true, ..) => ("solve_symmetric_measured", groups),
+        };
+        let function = names::ident(function);
         let groups = groups_argument(groups);
         let list = |list: &[Expression]| {
             let list = list.iter().map(|e| leaf::element(self.names.expression(e)));
@@ -276,9 +281,10 @@ impl<'a> Blocks<'a> {
         };
         let rows = matrix.chunks(size.max(1)).map(list);
         let rhs = list(rhs);
+        let measures = (!measures.is_empty()).then(|| list(measures)).map(|list| quote!(, #list));
         let names: Vec<TokenStream> = results.iter().map(|&local| self.name(local)).collect();
         let (unknowns, rank) = names.split_at(size.min(names.len()));
-        quote!(let ([#(#unknowns),*], #(#rank)*) = #krate::linear::#function([#(#rows),*], #rhs #groups);)
+        quote!(let ([#(#unknowns),*], #(#rank)*) = #krate::linear::#function([#(#rows),*], #rhs #measures #groups);)
     }
 
     /// Expands to a counted loop; all unknowns change at once.

@@ -142,7 +142,7 @@ pub(super) fn configurations(problem: &Problem, equations: &[usize], columns: &[
         let closed = search.close(&mut point, &mut values);
         let at = problem.linearise(&point, equations, &mut values);
         let residual = dot(&at.residuals, &at.residuals);
-        let gap = problem.gap(&values, equations);
+        let gap = problem.gap_at(&point, equations, &mut values);
         let configuration = search.configuration(point, &at, closed);
         if !closed {
             if best.as_ref().is_none_or(|(least, _)| residual < *least) {
@@ -208,6 +208,12 @@ impl<'p> Search<'p> {
     pub(super) fn new(problem: &'p Problem, equations: &'p [usize], columns: &'p [usize]) -> Self {
         let alignments = problem.alignments_of(columns);
         Search { problem, equations, columns, alignments, held: &[], target: Vec::new() }
+    }
+
+    /// The same where joints that other equations hold may stand any way.
+    pub(super) fn alone(mut self) -> Self {
+        self.problem.alignments_at(&mut self.alignments, self.equations);
+        self
     }
 
     /// The same where some columns stay as they are.
@@ -283,7 +289,7 @@ impl Search<'_> {
     fn all_residuals(&self, point: &Point, values: &mut Values) -> Vec<f64> {
         let mut residuals = self.problem.residuals(point, self.equations, values);
         self.aim(&mut residuals);
-        residuals.extend(self.problem.misalignments(&self.alignments, values));
+        residuals.extend(self.problem.misalignments(point, &self.alignments, values));
         residuals
     }
 
@@ -294,7 +300,7 @@ impl Search<'_> {
     fn linearise(&self, point: &Point, values: &mut Values) -> Linearised {
         let mut at = self.problem.linearise(point, self.equations, values);
         self.aim(&mut at.residuals);
-        at.residuals.extend(self.problem.misalignments(&self.alignments, values));
+        at.residuals.extend(self.problem.misalignments(point, &self.alignments, values));
         at.rows.extend(self.problem.alignment_rows(point, &self.alignments, values));
         if !self.held.is_empty() {
             at.rows.iter_mut().for_each(|row| row.retain(|entry| !self.held[entry.0]));

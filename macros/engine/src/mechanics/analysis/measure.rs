@@ -8,7 +8,7 @@
 
 use std::ops::Range;
 
-use super::problem::{Problem, Random};
+use super::problem::{Point, Problem, Random};
 use super::tape::Values;
 
 /// Slopes up to this share of what they are made of are rounding: of the typed digits, and of the sums and products since.
@@ -147,7 +147,13 @@ impl Problem {
         }
     }
 
-    /// What is left of some equations, after an evaluation.
+    /// What is left of some equations at a point.
+    pub(super) fn gap_at(&self, point: &Point, equations: &[usize], values: &mut Values) -> Gap {
+        self.tape.run(values, &point.0);
+        self.gap(values, equations)
+    }
+
+    /// The same after an evaluation of everything.
     pub(super) fn gap(&self, values: &Values, equations: &[usize]) -> Gap {
         let mut gap = Gap::default();
         for equation in equations.iter().map(|&k| &self.equations[k]) {

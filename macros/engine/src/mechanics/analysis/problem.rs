@@ -69,6 +69,13 @@ struct Quaternion {
     column: usize,
 }
 
+/// Roll, pitch and yaw of one joint.
+struct Gimbal {
+    columns: [usize; 3],
+    /// Symbol of the pitch.
+    pitch: usize,
+}
+
 /// Cosine that is one where a joint is closed as it was meant.
 struct Alignment {
     closing: LoopClosure,
@@ -78,7 +85,7 @@ struct Alignment {
     columns: Vec<usize>,
 }
 
-/// A condition of a `solve` item: not zero where it holds.
+/// A condition of a `solve` item, or what is assumed: not zero where it holds.
 struct Condition {
     root: usize,
     columns: Vec<usize>,
@@ -90,8 +97,10 @@ pub(super) struct Problem {
     pub columns: Vec<Column>,
     alignments: Vec<Alignment>,
     conditions: Vec<Condition>,
+    assumptions: Vec<Condition>,
     movers: Vec<Mover>,
     quaternions: Vec<Quaternion>,
+    gimbals: Vec<Gimbal>,
     /// By joint the symbols of its position.
     positions: Vec<Vec<usize>>,
     /// Its symbol.
@@ -201,6 +210,11 @@ impl Problem {
         }
     }
 
+    /// Time at a point, if it has a say.
+    pub(super) fn time_at(&self, point: &Point) -> Option<f64> {
+        self.time.map(|symbol| point.0[symbol])
+    }
+
     /// A point at random around another; columns that are held stay.
     pub(super) fn shaken(&self, from: &Point, random: &mut Random, amplitude: f64, held: &[bool]) -> Point {
         let mut point = from.clone();
@@ -293,7 +307,7 @@ impl Problem {
 
     /// Scaled residuals of some equations.
     pub(super) fn residuals(&self, point: &Point, equations: &[usize], values: &mut Values) -> Vec<f64> {
-        self.tape.run(values, &point.0);
+        self.tape.run_for(values, &point.0, equations.iter().map(|&k| self.equations[k].root));
         let residual = |&k: &usize| {
             let equation = &self.equations[k];
             self.tape.value(values, equation.root) / equation.scale
@@ -311,10 +325,33 @@ impl Problem {
         Linearised { rows: rows.collect(), residuals }
     }
 
+    /// Entries of a row by angular velocities where there were rates of roll, pitch and yaw, if all three are among some columns.
+    /// Axes may be turned about that of the pitch, which changes no lengths: so the roll's entry stays.
+    pub(super) fn turn_rates(&self, point: &Point, columns: &[usize], row: &mut [f64]) {
+        for Gimbal { columns: own, pitch } in &self.gimbals {
+            if own.iter().all(|column| columns.contains(column)) {
+                let (sin, cos) = point.0[*pitch].sin_cos();
+                row[own[2]] = (row[own[2]] + sin * row[own[0]]) / cos;
+            }
+        }
+    }
+
+    /// Whether roll and yaw among some columns turn about nearly the same axis: such coordinates say nothing there.
+    pub(super) fn locks(&self, point: &Point, columns: &[usize]) -> bool {
+        let own = self.gimbals.iter().filter(|gimbal| columns.contains(&gimbal.columns[1]));
+        own.into_iter().any(|gimbal| point.0[gimbal.pitch].cos().abs() < 0.05)
+    }
+
     /// Numbers of the alignments that some columns have a say in.
     pub(super) fn alignments_of(&self, columns: &[usize]) -> Vec<usize> {
         let own = |&k: &usize| self.alignments[k].columns.iter().any(|column| columns.contains(column));
         (0..self.alignments.len()).filter(own).collect()
+    }
+
+    /// Of these the ones that belong to closings of some equations.
+    pub(super) fn alignments_at(&self, alignments: &mut Vec<usize>, equations: &[usize]) {
+        let of = |k: usize, closing| matches!(self.equations[k].source, Source::Row(row) if row.closing == closing);
+        alignments.retain(|&one| equations.iter().any(|&k| of(k, self.alignments[one].closing)));
     }
 
     /// Of these the ones that have one place to be.
@@ -338,11 +375,35 @@ impl Problem {
         own.all(|one| self.tape.value(values, one.root) != 0.0)
     }
 
-    /// How far cosines are from one, after an evaluation.
-    pub(super) fn misalignments(&self, list: &[usize], values: &Values) -> Vec<f64> {
+    /// Columns of which alone the user assumes something.
+    pub(super) fn assumed(&self) -> Vec<usize> {
+        let mut columns: Vec<usize> =
+            self.assumptions.iter().filter(|one| one.columns.len() == 1).map(|one| one.columns[0]).collect();
+        columns.sort_unstable();
+        columns.dedup();
+        columns
+    }
+
+    /// Whether what the user assumes of one column alone is so.
+    pub(super) fn is_assumed(&self, point: &Point, column: usize, values: &mut Values) -> bool {
+        let own = |one: &&Condition| one.columns == [column];
+        let roots: Vec<usize> = self.assumptions.iter().filter(own).map(|one| one.root).collect();
+        self.tape.run_for(values, &point.0, roots.iter().copied());
+        roots.iter().all(|&root| self.tape.value(values, root) != 0.0)
+    }
+
+    /// Whether an equation is no function in pieces.
+    pub(super) fn is_analytic(&self, equation: usize) -> bool {
+        self.tape.is_analytic(self.equations[equation].root)
+    }
+
+    /// How far cosines are from one, after an evaluation of equations at the same point.
+    pub(super) fn misalignments(&self, point: &Point, list: &[usize], values: &mut Values) -> Vec<f64> {
+        self.tape.run_also(values, &point.0, list.iter().map(|&k| self.alignments[k].root));
         list.iter().map(|&k| self.tape.value(values, self.alignments[k].root) - 1.0).collect()
     }
 
+    /// Their slopes, after that.
     pub(super) fn alignment_rows(&self, point: &Point, list: &[usize], values: &mut Values) -> Vec<Vec<(usize, f64)>> {
         list.iter().map(|&k| self.gradient(point, self.alignments[k].root, 1.0, values)).collect()
     }

@@ -138,43 +138,76 @@ impl Tape {
         self.needs[root].iter().filter_map(symbol).collect()
     }
 
+    /// Whether a root is the same function wherever it has a value, and not another one in pieces.
+    pub(super) fn is_analytic(&self, root: usize) -> bool {
+        self.needs[root].iter().all(|&index| match self.nodes[index].op {
+            Op::Call(Call::Min | Call::Max | Call::Select | Call::Nan) | Op::Unknown => false,
+            Op::Call(call) => !call.is_comparison(),
+            Op::Literal(_) | Op::Symbol(_) | Op::Sum | Op::Product | Op::Reciprocal | Op::Sin | Op::Cos => true,
+        })
+    }
+
     /// Evaluates all nodes.
     pub(super) fn run(&self, values: &mut Values, symbols: &[f64]) {
         let list = &mut values.values;
         list.clear();
-        list.reserve(self.nodes.len());
-        for node in &self.nodes {
-            let operands = &self.operands[node.first..node.last];
-            let value = match node.op {
-                Op::Literal(x) => x,
-                Op::Symbol(id) => symbols[id],
-                Op::Sum => {
-                    let mut sum = 0.0;
-                    for edge in operands {
-                        sum += edge.sign * list[edge.node];
-                    }
-                    sum
+        list.resize(self.nodes.len(), f64::NAN);
+        for index in 0..self.nodes.len() {
+            list[index] = self.evaluate(list, index, symbols);
+        }
+    }
+
+    /// Evaluates what some roots need.
+    pub(super) fn run_for(&self, values: &mut Values, symbols: &[f64], roots: impl Iterator<Item = usize>) {
+        values.values.clear();
+        values.values.resize(self.nodes.len(), f64::NAN);
+        self.run_also(values, symbols, roots);
+    }
+
+    /// Evaluates what some roots need beside what was evaluated at the same place.
+    pub(super) fn run_also(&self, values: &mut Values, symbols: &[f64], roots: impl Iterator<Item = usize>) {
+        let list = &mut values.values;
+        for root in roots {
+            for &index in &self.needs[root] {
+                // What another root has needed too is there.
+                if list[index].is_nan() {
+                    list[index] = self.evaluate(list, index, symbols);
                 }
-                Op::Product => {
-                    let mut product = 1.0;
-                    for edge in operands {
-                        product *= edge.sign * list[edge.node];
-                    }
-                    product
+            }
+        }
+    }
+
+    fn evaluate(&self, list: &[f64], index: usize, symbols: &[f64]) -> f64 {
+        let node = &self.nodes[index];
+        let operands = &self.operands[node.first..node.last];
+        match node.op {
+            Op::Literal(x) => x,
+            Op::Symbol(id) => symbols[id],
+            Op::Sum => {
+                let mut sum = 0.0;
+                for edge in operands {
+                    sum += edge.sign * list[edge.node];
                 }
-                Op::Reciprocal => 1.0 / operand(list, &operands[0]),
-                Op::Sin => operand(list, &operands[0]).sin(),
-                Op::Cos => operand(list, &operands[0]).cos(),
-                Op::Call(call) => {
-                    let mut x = [0.0; 3];
-                    for (slot, edge) in x.iter_mut().zip(operands) {
-                        *slot = edge.sign * list[edge.node];
-                    }
-                    call_f64(call, &x[..operands.len().min(3)])
+                sum
+            }
+            Op::Product => {
+                let mut product = 1.0;
+                for edge in operands {
+                    product *= edge.sign * list[edge.node];
                 }
-                Op::Unknown => f64::NAN,
-            };
-            list.push(value);
+                product
+            }
+            Op::Reciprocal => 1.0 / operand(list, &operands[0]),
+            Op::Sin => operand(list, &operands[0]).sin(),
+            Op::Cos => operand(list, &operands[0]).cos(),
+            Op::Call(call) => {
+                let mut x = [0.0; 3];
+                for (slot, edge) in x.iter_mut().zip(operands) {
+                    *slot = edge.sign * list[edge.node];
+                }
+                call_f64(call, &x[..operands.len().min(3)])
+            }
+            Op::Unknown => f64::NAN,
         }
     }
 

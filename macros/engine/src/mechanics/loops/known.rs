@@ -7,12 +7,14 @@
 
 use std::rc::Rc;
 
-use crate::mechanics::analysis::Complaint;
+use crate::dynamics::elimination::{Order, Pattern};
+use crate::mechanics::analysis::{Absorption, Complaint, Poses};
 use crate::mechanics::equations::{Caches, Equations};
 use crate::mechanics::scene::{Choices, Scene};
 use crate::symbolic::graph::Sharing;
 
 use super::branches::Branches;
+use super::constraints::ClosedIn;
 use super::reduction::{Newton, Reduction};
 
 /// A derivation just after its reduction, without its graph.
@@ -24,11 +26,24 @@ struct Reduced<'m> {
     reduction: Rc<Reduction>,
 }
 
+/// A system that takes fewer operations than this is eliminated as it stands: nothing is gained that pays for the search.
+const LEAST_COST: usize = 1_000;
+
 /// What goes from one derivation of a model to the next.
 #[derive(Default)]
 pub(in crate::mechanics) struct Decided<'m> {
     pub(in crate::mechanics) branches: Branches,
     reductions: Vec<Rc<Reduced<'m>>>,
+    orders: Vec<Known>,
+    poses: Poses,
+}
+
+/// In which order systems of one pattern are eliminated, loops closed in some axes, coordinates given in some order.
+struct Known {
+    axes: ClosedIn,
+    pattern: Pattern,
+    coordinates: Vec<usize>,
+    order: Rc<Order>,
 }
 
 impl Equations<'_> {
@@ -41,6 +56,32 @@ impl Equations<'_> {
         let reduction = self.known_reduction(newton)?;
         self.reduced = Some(Rc::clone(&reduction));
         Ok(reduction)
+    }
+
+    /// In which order masses and loops are eliminated: as the tree is, or as zeros suggest where that costs less.
+    pub(in crate::mechanics) fn order_of(&mut self, pattern: Pattern, coordinates: &[usize]) -> Rc<Order> {
+        let writing = self.scene.way.writing;
+        let known =
+            |known: &&Known| known.axes == writing.axes && known.pattern == pattern && known.coordinates == coordinates;
+        if let Some(known) = self.decided.orders.iter().find(known) {
+            return Rc::clone(&known.order);
+        }
+        let plain = Order::plain(&pattern, coordinates);
+        let (scene, poses) = (&self.scene, &mut self.decided.poses);
+        let absorption = (plain.cost(&pattern) > LEAST_COST)
+            .then(|| Absorption::new(scene.model, &scene.structure, writing, poses))
+            .flatten();
+        let sparse = absorption.map(|mut absorption| {
+            let mut absorbs = |row: usize, others: &[usize], at: &[usize]| absorption.absorbs(row, others, at);
+            Order::sparse(&pattern, coordinates, &mut absorbs)
+        });
+        let order = Rc::new(match sparse {
+            Some(sparse) if sparse.cost(&pattern) < plain.cost(&pattern) => sparse,
+            _ => plain,
+        });
+        let known = Known { axes: writing.axes, pattern, coordinates: coordinates.to_vec(), order: Rc::clone(&order) };
+        self.decided.orders.push(known);
+        order
     }
 
     fn known_reduction(&mut self, newton: Newton) -> Result<Rc<Reduction>, Vec<Complaint>> {

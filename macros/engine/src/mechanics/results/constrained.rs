@@ -10,7 +10,7 @@ use std::rc::Rc;
 
 use crate::contracts::call::Call;
 use crate::contracts::results::{Results, Slot};
-use crate::dynamics::saddle::{Saddle, Solution};
+use crate::dynamics::saddle::{Posed, Saddle, Solution};
 use crate::invariant::fault::OrFault;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::{Map, Reduction};
@@ -263,12 +263,25 @@ impl Equations<'_> {
     ) -> (Saddle, ConstrainedMotion) {
         let order = self.state_elimination();
         let groups = self.scene.structure.row_groups(self.scene.model);
-        let saddle = Saddle::new(&mut self.g, matrix, (jacobian, groups), &order);
+        let posed = Posed::new(&mut self.g, matrix, (jacobian, groups), &order);
+        let sparse = self.order_of(posed.pattern(), &order);
+        let saddle = Saddle::new(&mut self.g, &posed, &sparse, &order);
         let Solution { unknowns: accelerations, multipliers, rank } = saddle.solve(&mut self.g, rhs, held);
         for (k, &multiplier) in multipliers.iter().enumerate() {
             self.g.name(multiplier, || format!("multiplier_{}", k + 1));
         }
         (saddle, ConstrainedMotion { accelerations, multipliers, rank })
+    }
+
+    /// What the factors of the system and one solution take, roughly.
+    pub(in crate::mechanics) fn cost_of_solution(&mut self, reduction: &Reduction) -> u32 {
+        let matrix = self.reduced_mass_matrix(reduction);
+        let jacobian = self.rows(reduction).jacobian;
+        let coordinates = self.state_elimination();
+        let posed = Posed::new(&mut self.g, matrix, (jacobian, Box::default()), &coordinates);
+        let pattern = posed.pattern();
+        let cost = self.order_of(pattern.clone(), &coordinates).cost(&pattern);
+        u32::try_from(cost).unwrap_or(u32::MAX)
     }
 
     /// Elimination of the state's coordinates from the leaves inwards; by place in the state.

@@ -12,13 +12,13 @@ use crate::mechanics::loops::constraints::{Writing, closings, is_length};
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::loops::structure::Row;
 use crate::mechanics::translate::symbols::{Symbols, has_quaternion};
-use crate::model::types::{ConstraintKind, Coordinate, Handling, JointId, LoopClosure, Model, SolveHow};
+use crate::model::types::{ConstraintKind, Coordinate, Handling, Joint, JointId, LoopClosure, Model, SolveHow};
 use crate::symbolic::graph::Scalar;
 use crate::symbolic::lower::Lowering;
 
 use super::super::measure::Measure;
 use super::super::tape::Tape;
-use super::{Alignment, Column, Condition, Equation, Mover, Problem, Quaternion, Random, Source};
+use super::{Alignment, Column, Condition, Equation, Gimbal, Mover, Problem, Quaternion, Random, Source};
 
 /// An equation in symbols.
 struct Draft {
@@ -66,9 +66,11 @@ pub(super) fn formulate(model: &Model, off: f64, writing: Writing) -> Problem {
     let lengths = first..roots.0.len();
     let spans = roots.extend(e.spans());
     let conditions = roots.extend(e.conditions());
+    let assumptions = roots.extend(model.assumptions.iter().map(|condition| e.scalar(condition)).collect::<Vec<_>>());
     let driven: Vec<(usize, usize)> =
         e.driven().into_iter().map(|(symbol, value)| (symbol, roots.push(value))).collect();
     let (movers, quaternions, columns) = columns(model, &e);
+    let gimbals = gimbals(model, &columns, &movers);
     let positions = e.scene.symbols.positions.iter();
     let positions = positions.map(|list| list.iter().filter_map(|&s| Some(e.g.symbol_id(s)?.0)).collect()).collect();
     let mut lowering = Lowering::new(&e.g);
@@ -97,7 +99,8 @@ pub(super) fn formulate(model: &Model, off: f64, writing: Writing) -> Problem {
         Alignment { closing, recurs, root, columns: columns_of(root) }
     });
     let alignments = alignments.collect();
-    let conditions = conditions.map(|root| Condition { root, columns: columns_of(root) }).collect();
+    let condition = |root: usize| Condition { root, columns: columns_of(root) };
+    let (conditions, assumptions) = (conditions.map(condition).collect(), assumptions.map(condition).collect());
     let defaults = defaults(model, &e.scene.symbols, off);
     let mut problem = Problem {
         tape,
@@ -105,8 +108,10 @@ pub(super) fn formulate(model: &Model, off: f64, writing: Writing) -> Problem {
         columns,
         alignments,
         conditions,
+        assumptions,
         movers,
         quaternions,
+        gimbals,
         positions,
         time,
         parameters,
@@ -275,6 +280,19 @@ fn columns(model: &Model, e: &Equations<'_>) -> (Vec<Mover>, Vec<Quaternion>, Ve
         }
     }
     (movers, quaternions, columns)
+}
+
+/// Joints that turn by roll, pitch and yaw, their last three coordinates.
+fn gimbals(model: &Model, columns: &[Column], movers: &[Mover]) -> Vec<Gimbal> {
+    let triple = |(number, joint): (usize, &Joint)| {
+        let freedoms = joint.kind.freedoms();
+        let of =
+            |index| columns.iter().position(|column| column.coordinate == Coordinate { joint: JointId(number), index });
+        let first = of(freedoms.checked_sub(3)?).filter(|_| joint.kind.has_angles())?;
+        let is_pitch = |mover: &Mover| matches!(mover, Mover::Straight(column) if *column == first + 1);
+        Some(Gimbal { columns: [first, first + 1, first + 2], pitch: movers.iter().position(is_pitch)? })
+    };
+    model.joints.iter().enumerate().filter_map(triple).collect()
 }
 
 /// Columns that a number moves with, from its symbols.
