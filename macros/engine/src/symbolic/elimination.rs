@@ -11,8 +11,8 @@
 //!
 //! Columns with entries in few equations may be orthogonal to each other whatever the configuration is: the joint of a rod, or the
 //! joints of a leg, move its tip along vectors at right angles. Then nothing competes: unknowns are projections, and what is left
-//! of as many equations and one more is the one along their normal: as good as any pivot, since these directions are orthogonal. Equations
-//! are to be in units in which slopes are about one.
+//! of as many equations and one more is the one along their normal, as good as any pivot. Equations are to be in units in which
+//! slopes are about one.
 //!
 //! A pivot that is rounding beside the column as it was given counts as zero, and its unknown is zero then: a solution is finite
 //! where the matrix is singular. The rank is not told; who asks for it takes the pivoted solve of the runtime.
@@ -204,11 +204,9 @@ impl Work<'_> {
                 [a, b] => [[1, 2], [2, 0], [0, 1]].map(|[i, j]| self.minor(a, b, i, j)).to_vec(),
                 _ => raise("a normal is one to one or two vectors"),
             };
-            // Of known length, as far as that is a literal.
-            let literals: Vec<Scalar> =
-                squares.iter().copied().filter(|&square| self.g.literal(square).is_some()).collect();
-            let square = self.g.product(&literals);
-            let inverse = self.g.reciprocal(square);
+            // Of length one: it competes with other equations, and what is left of it is measured beside them.
+            let square = self.g.product(&squares);
+            let inverse = self.positive(square);
             let length = self.g.sqrt(inverse);
             let terms: Vec<(usize, Scalar)> =
                 rows.iter().copied().zip(normal).map(|(row, n)| (row, self.g.mul(length, n))).collect();
@@ -265,6 +263,7 @@ impl Work<'_> {
         let inverse = self.inverse(column, top);
         self.open_columns.retain(|&other| other != column);
         self.open_rows.retain(|&row| row != top);
+        let mut changed = Vec::new();
         for below in self.open_rows.clone() {
             // Where a row has one column left, the others are no candidates and have entries all the same.
             let factor = self.g.mul(self.rows[below][column], inverse);
@@ -276,11 +275,15 @@ impl Work<'_> {
                 if self.rows[top][other] != Scalar::ZERO {
                     let update = self.g.mul(factor, self.rows[top][other]);
                     self.rows[below][other] = self.g.sub(self.rows[below][other], update);
-                    self.changes[other] += 1;
+                    changed.push(other);
                 }
             }
             self.done.steps.push(Step::Subtract { factor, rows: [top, below] });
         }
+        // A pivot changes an entry once, however many there are.
+        changed.sort_unstable();
+        changed.dedup();
+        changed.into_iter().for_each(|other| self.changes[other] += 1);
         let entries = self.open_columns.iter().map(|&other| (other, self.rows[top][other]));
         let rest = entries.filter(|entry| entry.1 != Scalar::ZERO).collect();
         self.done.pivots.push(Pivot::Row { row: top, column, inverse, rest });

@@ -402,7 +402,7 @@ impl Graph {
                     tag.wrapping_mul(0x0001_0000_01B3) ^ (group as u64 + 1)
                 })
             }
-            BlockKind::Eliminate { .. } => 0xB10D,
+            BlockKind::Eliminate { .. } => 0xB10F,
             BlockKind::Iterate { count, .. } => 0xB10C_0000_u64 + *count as u64,
         };
         // Of all operands once: a block of n unknowns has n^2 of them and n outputs.

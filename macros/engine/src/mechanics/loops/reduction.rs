@@ -6,7 +6,7 @@
 //!
 //! A dependent coordinate x obeys E(x, known) = 0 with a known inverse slope 1 / (dE/dx). Differentiating by time,
 //! dE/dx x' + E'|x = 0, and once more, dE/dx x'' + E''|(x'' = 0) = 0: both need no second solution, only derivatives of
-//! the equation. Several unknowns of one iteration obey the same with the matrix dE/dx, by pivoted solves.
+//! the equation. Several unknowns of one iteration obey the same with the matrix dE/dx, by elimination.
 
 use std::collections::{HashMap, HashSet};
 
