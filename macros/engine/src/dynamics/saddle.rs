@@ -328,7 +328,7 @@ impl Work {
     /// What a row's pivot is measured by. Of rows of one unit the solution compares those of one core; what is small beside one
     /// of another core, or beside one that is gone, by the square of the threshold is none either.
     fn measure(&self, g: &mut Graph, row: usize, core: &[usize]) -> Scalar {
-        let noise = |row: usize| self.noise[self.coordinates + row].unwrap_or(Scalar::ZERO);
+        let noise = |row: usize| self.noise[self.coordinates + row].or_fault("a row has a noise from the start");
         let others = self.groups[row].iter().filter(|other| !core.contains(other));
         let Some(most) = others.map(|&other| noise(other)).reduce(|a, b| g.call(Call::Max, &[a, b])) else {
             return noise(row);

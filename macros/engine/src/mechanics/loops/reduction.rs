@@ -294,7 +294,7 @@ impl Equations<'_> {
 
     /// Newton's method on the equations of a step, from the guess, a fixed number of times.
     fn iterate(&mut self, step: &Step, newton: Newton, reduction: &mut Reduction) -> Vec<Definition> {
-        let Means::Newton { rows, .. } = &step.means else { return Vec::new() };
+        let Means::Newton { rows, guess } = &step.means else { return Vec::new() };
         let size = step.unknowns.len();
         let symbols: Vec<[Scalar; 3]> = step.unknowns.iter().map(|&u| self.coordinate_symbols(u)).collect();
         let equations: Vec<Scalar> = rows.iter().map(|row| self.row(*row)).collect();
@@ -309,7 +309,8 @@ impl Equations<'_> {
                 matrix.push(self.g.derivative(equation, &[(symbol[0], Scalar::ONE)]));
             }
         }
-        let (outputs, residual) = self.solve_by(newton, step, &symbols, [&equations, &matrix], &reduction.map);
+        let (outputs, residual) =
+            self.solve_by(newton, (rows, *guess), &symbols, [&equations, &matrix], &reduction.map);
         reduction.residuals.push(residual);
         reduction.matrices.push(matrix.clone());
         reduction.guesses.extend(&outputs);
@@ -337,13 +338,12 @@ impl Equations<'_> {
     fn solve_by(
         &mut self,
         newton: Newton,
-        step: &Step,
+        (rows, guess): (&[Row], usize),
         symbols: &[[Scalar; 3]],
         [equations, matrix]: [&[Scalar]; 2],
         known: &Map,
     ) -> (Vec<Scalar>, Scalar) {
-        let Means::Newton { rows, guess } = &step.means else { return (Vec::new(), Scalar::ZERO) };
-        let (size, guess) = (symbols.len(), *guess);
+        let size = symbols.len();
         // Inside the loop the unknowns are symbols of its own; known coordinates are put in, so that the loop reads values.
         let inner: Vec<Scalar> = (0..size).map(|k| self.scene.symbols.unknown(guess + k)).collect();
         let mut map = known.clone();
