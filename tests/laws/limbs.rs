@@ -303,6 +303,33 @@ fn a_length_that_is_a_parameter() {
     }
 }
 
+/// Bodies without inertia about a line are held by other equations as the crank turns; none of them lets go.
+#[test]
+fn thin_rods_turn() {
+    let model = thin::Model::default();
+    for k in 0..48 {
+        let angle = f64::from(k) * std::f64::consts::PI / 24.0;
+        let mut state = thin::State::<f64>::default();
+        let (sin, cos) = angle.sin_cos();
+        let lean = -(0.2 * sin).asin();
+        state.q.crank.orientation.yaw = angle;
+        state.q.rod.position = Vector3::new(0.2 * cos, 0.2 * sin, 0.0);
+        state.q.rod.orientation.yaw = lean;
+        state.q.piston.position.x = 0.2 * cos + lean.cos();
+        assert!(model.constraints(0.0, &state.q).amax() < 1e-15);
+        let found = model.forward_dynamics(0.0, &state, &());
+        assert_eq!(found.rank, thin::CONSTRAINTS as f64, "{angle}");
+        let (mass, jacobian) =
+            (dynamic(&model.mass_matrix(&state.q)), dynamic(&model.constraint_jacobian(0.0, &state.q)));
+        let a: SVector<f64, { thin::DOF }> = found.v.into();
+        let forces = -model.bias(0.0, &state, &());
+        let rates = -model.constraint_bias(0.0, &state);
+        let sides = [forces.as_slice(), rates.as_slice()];
+        let now = left(&mass, &jacobian, sides, [a.as_slice(), found.multipliers.as_slice()]);
+        assert!(now <= 1e-14, "{angle}: {now:e}");
+    }
+}
+
 /// Slides across each other by default, along each other with another parameter.
 #[test]
 fn a_parameter_that_is_zero_by_default() {

@@ -75,6 +75,8 @@ impl Posed {
     /// Rows of G with equal numbers in `groups` have one unit. Where the mass matrix is singular by structure, as that of a
     /// free rod that has no inertia about its own line, equations that hold the idle coordinate are added to it: with
     /// G x = c the systems M x + G^T l = f and (M + g g^T) x + G^T l = f + g c have the same solution, multipliers included.
+    /// One equation may let go of the coordinate in some pose, as those of a hinge do in turn while it turns: so all of its
+    /// unit are added that hold it.
     pub(crate) fn new(
         g: &mut Graph,
         mut matrix: Vec<Vec<Scalar>>,
@@ -87,15 +89,13 @@ impl Posed {
             let length = |row: usize| jacobian[row].iter().filter(|&&entry| entry != Scalar::ZERO).count();
             let holding =
                 (0..jacobian.len()).filter(|row| !added.contains(row) && jacobian[*row][idle] != Scalar::ZERO);
-            let Some(row) = holding.min_by_key(|&row| length(row)) else { break };
-            added.push(row);
-            let line = &jacobian[row];
-            for i in 0..line.len() {
-                for j in 0..line.len() {
-                    let both = g.mul(line[i], line[j]);
-                    matrix[i][j] = g.add(matrix[i][j], both);
-                }
+            let Some(shortest) = holding.clone().min_by_key(|&row| length(row)) else { break };
+            let unit = |row: usize| groups.get(row).copied().unwrap_or(row);
+            let alike: Vec<usize> = holding.filter(|&row| unit(row) == unit(shortest)).collect();
+            for &row in &alike {
+                add_square(g, &mut matrix, &jacobian[row]);
             }
+            added.extend(alike);
         }
         Posed { matrix, jacobian, groups, added }
     }
@@ -337,6 +337,16 @@ impl Work {
         let (units, unit) = (g.integer(16 * core.len() as i64), g.call(Call::Epsilon, &[]));
         let least = g.product(&[units, unit, most]);
         g.call(Call::Max, &[noise(row), least])
+    }
+}
+
+/// M + g g^T.
+fn add_square(g: &mut Graph, matrix: &mut [Vec<Scalar>], row: &[Scalar]) {
+    for i in 0..row.len() {
+        for j in 0..row.len() {
+            let both = g.mul(row[i], row[j]);
+            matrix[i][j] = g.add(matrix[i][j], both);
+        }
     }
 }
 

@@ -278,7 +278,8 @@ impl Equations<'_> {
         let matrix = self.reduced_mass_matrix(reduction);
         let jacobian = self.rows(reduction).jacobian;
         let coordinates = self.state_elimination();
-        let posed = Posed::new(&mut self.g, matrix, (jacobian, Box::default()), &coordinates);
+        let groups = self.scene.structure.row_groups(self.scene.model);
+        let posed = Posed::new(&mut self.g, matrix, (jacobian, groups), &coordinates);
         let pattern = posed.pattern();
         let cost = self.order_of(pattern.clone(), &coordinates).cost(&pattern);
         u32::try_from(cost).unwrap_or(u32::MAX)
