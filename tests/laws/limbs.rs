@@ -316,6 +316,7 @@ fn thin_rods_turn() {
         state.q.rod.position = Vector3::new(0.2 * cos, 0.2 * sin, 0.0);
         state.q.rod.orientation.yaw = lean;
         state.q.piston.position.x = 0.2 * cos + lean.cos();
+        state.v = SVector::<f64, { thin::DOF }>::from_fn(|k, _| f64::sin(1.0 + k as f64)).into();
         assert!(model.constraints(0.0, &state.q).amax() < 1e-15);
         let found = model.forward_dynamics(0.0, &state, &());
         assert_eq!(found.rank, thin::CONSTRAINTS as f64, "{angle}");

@@ -73,29 +73,22 @@ pub(crate) struct Solution {
 
 impl Posed {
     /// Rows of G with equal numbers in `groups` have one unit. Where the mass matrix is singular by structure, as that of a
-    /// free rod that has no inertia about its own line, equations that hold the idle coordinate are added to it: with
+    /// free rod that has no inertia about its own line, equations that hold an idle motion are added to it: with
     /// G x = c the systems M x + G^T l = f and (M + g g^T) x + G^T l = f + g c have the same solution, multipliers included.
-    /// One equation may let go of the coordinate in some pose, as those of a hinge do in turn while it turns: so all of its
-    /// unit are added that hold it.
+    /// All that hold one are: each may let go of it in some pose, as those of a hinge do in turn while it turns, or hold two
+    /// bodies in such a way that only others tell them apart. Then the sum is definite wherever the motion is determined.
     pub(crate) fn new(
         g: &mut Graph,
         mut matrix: Vec<Vec<Scalar>>,
         (jacobian, groups): (Vec<Vec<Scalar>>, Box<[usize]>),
         coordinates: &[usize],
     ) -> Posed {
-        let mut added: Vec<usize> = Vec::new();
-        while let Some(idle) = Factors::new(g, &matrix, coordinates).singular() {
-            // The shortest of the equations fills in least.
-            let length = |row: usize| jacobian[row].iter().filter(|&&entry| entry != Scalar::ZERO).count();
-            let holding =
-                (0..jacobian.len()).filter(|row| !added.contains(row) && jacobian[*row][idle] != Scalar::ZERO);
-            let Some(shortest) = holding.clone().min_by_key(|&row| length(row)) else { break };
-            let unit = |row: usize| groups.get(row).copied().unwrap_or(row);
-            let alike: Vec<usize> = holding.filter(|&row| unit(row) == unit(shortest)).collect();
-            for &row in &alike {
-                add_square(g, &mut matrix, &jacobian[row]);
-            }
-            added.extend(alike);
+        let idle = idle(g, &matrix, coordinates);
+        let added: Vec<usize> = (0..jacobian.len())
+            .filter(|&row| idle.iter().any(|motion| dot(g, &jacobian[row], motion) != Scalar::ZERO))
+            .collect();
+        for &row in &added {
+            add_square(g, &mut matrix, &jacobian[row]);
         }
         Posed { matrix, jacobian, groups, added }
     }
@@ -338,6 +331,25 @@ impl Work {
         let least = g.product(&[units, unit, most]);
         g.call(Call::Max, &[noise(row), least])
     }
+}
+
+/// Motions without any inertia, whatever the pose: each of one coordinate, and of others in such a way that M takes no effort.
+fn idle(g: &mut Graph, matrix: &[Vec<Scalar>], coordinates: &[usize]) -> Vec<Vec<Scalar>> {
+    let (mut moving, mut idle) = (coordinates.to_vec(), Vec::new());
+    let factors = loop {
+        let factors = Factors::new(g, matrix, &moving);
+        let Some(next) = factors.singular() else { break factors };
+        moving.retain(|&k| k != next);
+        idle.push(next);
+    };
+    let motion = |k: usize| {
+        let column: Vec<Scalar> = matrix.iter().map(|row| -row[k]).collect();
+        let mut motion = factors.solve(g, &column);
+        idle.iter().for_each(|&other| motion[other] = Scalar::ZERO);
+        motion[k] = Scalar::ONE;
+        motion
+    };
+    idle.iter().copied().map(motion).collect()
 }
 
 /// M + g g^T.
