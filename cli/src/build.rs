@@ -10,7 +10,7 @@ use multibody_engine::model::Soundness;
 use multibody_engine::model::types::Model;
 use multibody_engine::optimize::program::Compiled;
 use multibody_engine::optimize::{Excess, Refusal};
-use multibody_engine::{Trouble, compile, mechanics, model, syntax};
+use multibody_engine::{Trouble, advice_on, compile, mechanics, model, settled, syntax};
 
 use crate::Stop;
 use crate::arguments::Subject;
@@ -42,9 +42,26 @@ pub(crate) fn models(subject: &Subject) -> Result<Vec<Built>, Stop> {
     Ok(models.into_iter().map(|(model, (structure, compiled))| Built { model, structure, compiled }).collect())
 }
 
+/// The same with what other ways to close loops cost.
+pub(crate) fn advised_models(subject: &Subject) -> Result<Vec<Built>, Stop> {
+    let models = each(subject, "deriving", advised)?;
+    Ok(models.into_iter().map(|(_, built)| built).collect())
+}
+
+/// A model as `Auto` has it, with what the choice costs beside the other one.
+pub(crate) fn advised(model: &Model) -> Result<Built, Trouble> {
+    let (model, advice, (mut structure, compiled)) = settled(model, compile)?;
+    let advice = advice.map(Box::new).or(structure.advice.take());
+    structure.advice = match advice {
+        None => advice_on(&model)?.map(Box::new),
+        advice => advice,
+    };
+    Ok(Built { model: model.into_owned(), structure, compiled })
+}
+
 /// Equations of the same, by name.
 pub(crate) fn pages(subject: &Subject) -> Result<Vec<(String, Page)>, Stop> {
-    let models = each(subject, "writing", page)?;
+    let models = each(subject, "writing", |model| Ok(settled(model, page)?.2))?;
     Ok(models.into_iter().map(|(model, page)| (model.name.to_string(), page)).collect())
 }
 

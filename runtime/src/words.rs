@@ -112,7 +112,7 @@ pub mod item {
     pub struct Formulation {
         /// `Joint`, `Absolute(RollPitchYaw)` or `Absolute(Quaternion)`, for all bodies.
         pub coordinates: super::coordinates::Absolute,
-        /// What becomes of equations of loops: `Multipliers`, `Reduced` or `Stabilised`.
+        /// What becomes of equations of loops: `Multipliers`, `Reduced`, `Stabilised` or `Auto`.
         pub constraints: super::handling::Reduced,
         /// Coordinates that stay in the state.
         pub independent: List,
@@ -363,6 +363,9 @@ pub mod handling {
 
     /// They stay, with Baumgarte's terms: `a + rate * v + position * r = 0`.
     pub struct Stabilised;
+
+    /// `Reduced` or `Multipliers`, by the counts of both.
+    pub struct Auto;
 }
 
 /// What `emit` asks for.

@@ -1,14 +1,15 @@
-//! `check`: mistakes, else a line for each model.
+//! `check`: mistakes, else a line for each model, with what the choice for its loops costs.
 
 use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::emit;
 
 use crate::Stop;
 use crate::arguments::Subject;
 use crate::build::{self, Built};
 
 pub(crate) fn run(subject: &Subject) -> Result<String, Stop> {
-    let models = build::models(subject)?;
-    Ok(models.iter().map(|model| format!("{}\n", line(model))).collect())
+    let models = build::advised_models(subject)?;
+    Ok(models.iter().map(|model| format!("{}\n{}", line(model), advice(model))).collect())
 }
 
 /// `four_bar: 3 bodies, 1 coordinate, 0 equations with multipliers; forward_dynamics, energy`
@@ -26,4 +27,10 @@ fn line(built: &Built) -> String {
         counted(built.structure.rows.len(), "equation", "equations"),
         functions.join(", ")
     )
+}
+
+/// What there is to say of the ways to close loops.
+fn advice(built: &Built) -> String {
+    let facts = emit::facts(&built.model, &built.structure, &built.compiled);
+    facts.advice.iter().map(|item| format!("  {item}\n")).collect()
 }

@@ -1,7 +1,6 @@
 //! `compare`: a model in every choice of coordinates and constraints, with what each costs, and which to take.
 
 mod choice;
-mod effort;
 mod measure;
 mod page;
 mod parallel;
@@ -11,12 +10,13 @@ use std::time::{Duration, Instant};
 use multibody_engine::contracts::cost::Cost;
 use multibody_engine::contracts::function::{Asked, FunctionKind};
 use multibody_engine::diagnostics::Diagnostics;
+use multibody_engine::mechanics::loops::advice::{Closing, Figures as Closed};
+use multibody_engine::optimize::effort::Effort;
 use multibody_engine::syntax::{self, tree::Source};
 use multibody_engine::{compile, emit};
 use syn::Meta;
 
 use self::choice::{Choice, Constraints, Coordinates, choices, is_part, rewrite, written};
-use self::effort::Effort;
 use self::measure::{Code, Package, Times};
 use crate::Stop;
 use crate::arguments::{Extent, Subject};
@@ -47,6 +47,8 @@ struct Figures {
     /// Of the other functions that the model asks for.
     others: Vec<(String, u32)>,
     has_dead_centres: bool,
+    /// How loops are closed, with the same work.
+    closed: Closed,
     derived: Duration,
     /// What is compiled where times are asked for.
     code: Option<Code>,
@@ -114,9 +116,26 @@ pub(crate) fn run(subject: &Subject, extent: Extent) -> Result<String, Stop> {
         if let Some(package) = &mut package {
             timed(package, &model.title, &mut rows).map_err(Stop::Usage)?;
         }
-        texts.push(page::text(&model.title, model.written, &rows));
+        let own = settled(model.written, &rows);
+        texts.push(page::text(&model.title, model.written, own, &rows));
     }
     Ok(texts.join("\n"))
+}
+
+/// The written choice, with what `Auto` stands for.
+fn settled(written: Choice, rows: &[Row]) -> Choice {
+    if written.constraints != Constraints::Auto {
+        return written;
+    }
+    let closed = |constraints| {
+        let row = rows.iter().find(|row| row.choice == Choice { constraints, ..written });
+        row.and_then(|row| Some(row.result.as_ref().ok()?.closed))
+    };
+    let reduces = match (closed(Constraints::Reduced), closed(Constraints::Multipliers)) {
+        (Some(reduced), Some(held)) => reduced.reduces(&held),
+        (reduced, _) => reduced.is_some(),
+    };
+    Choice { constraints: if reduces { Constraints::Reduced } else { Constraints::Multipliers }, ..written }
 }
 
 /// Compiles and times what is there of one model. No derivation runs beside it.
@@ -214,17 +233,21 @@ fn figures(call: &Call, model: usize, choice: Choice, extent: Extent) -> Result<
         let effort = Effort::of(function);
         let work = effort.work();
         match function.kind {
-            FunctionKind::ForwardDynamics => forward = Some((function.after, work, effort.burden())),
+            FunctionKind::ForwardDynamics => {
+                let closed = Closed { closing: Closing::of(&structure), operations: effort.operations(), work };
+                forward = Some((function.after, closed, effort.burden()));
+            }
             kind => others.push((emit::function_name(kind).into_owned(), work)),
         }
     }
-    let (cost, work, burden) = forward.ok_or("it has no forward dynamics")?;
+    let (cost, closed, burden) = forward.ok_or("it has no forward dynamics")?;
+    let work = closed.work;
     let has_dead_centres = !structure.dead_centres.is_empty();
     let (state, multipliers) = (structure.state.len(), structure.rows.len());
     let functions: Vec<String> = others.iter().map(|(name, _)| name.clone()).chain([JUDGED.to_owned()]).collect();
     let code = extent.measure.then(|| Code::new(model, &structure, &compiled, &functions)).transpose()?;
     let times = Times::new();
-    Ok(Figures { state, multipliers, cost, work, burden, others, has_dead_centres, derived, code, times })
+    Ok(Figures { state, multipliers, cost, work, burden, others, has_dead_centres, closed, derived, code, times })
 }
 
 fn first(diagnostics: &Diagnostics) -> String {

@@ -18,6 +18,7 @@ mod space;
 mod svg;
 mod view;
 
+use multibody_engine::Trouble;
 use multibody_engine::emit::{self, Facts, Unused};
 use multibody_engine::invariant::fault::guard;
 use multibody_engine::mechanics::loops::structure::Structure;
@@ -25,7 +26,8 @@ use multibody_engine::mechanics::written::Page;
 use multibody_engine::mechanics::{self, Patterns};
 use multibody_engine::model::types::Model;
 use multibody_engine::optimize::program::Compiled;
-use multibody_engine::{Trouble, compile};
+
+use crate::build::{Built, advised};
 
 /// What a report is written from.
 struct Material<'a> {
@@ -55,14 +57,13 @@ pub(crate) struct Report {
 
 /// The report of a model.
 pub(crate) fn report(model: &Model, file: &str) -> Result<Report, Trouble> {
-    let (structure, compiled) = compile(model)?;
+    let Built { model, structure, compiled } = &advised(model)?;
     let derived =
-        guard("mechanics", || Ok((mechanics::page(model, &structure)?, mechanics::patterns(model, &structure)?)));
+        guard("mechanics", || Ok((mechanics::page(model, structure)?, mechanics::patterns(model, structure)?)));
     let (page, patterns) = derived.map_err(Trouble::Fault)?.map_err(Trouble::Complaints)?;
-    let facts =
-        guard("emit", || (emit::facts(model, &structure, &compiled), emit::unused(model, &structure, &compiled)));
+    let facts = guard("emit", || (emit::facts(model, structure, compiled), emit::unused(model, structure, compiled)));
     let (facts, unused) = facts.map_err(Trouble::Fault)?;
-    let material = Material { model, structure: &structure, compiled: &compiled, file, facts, unused, page, patterns };
+    let material = Material { model, structure, compiled, file, facts, unused, page, patterns };
     let document = guard("report", || contents::document(&material)).map_err(Trouble::Fault)?;
     Ok(Report { html: html::page(&document), markdown: markdown::page(&document) })
 }

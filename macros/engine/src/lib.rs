@@ -17,6 +17,7 @@
 //! mechanics: solve dynamics symbolic contracts model invariant
 //! optimize: mechanics symbolic contracts rust_keywords invariant
 //! verify: optimize mechanics symbolic contracts model invariant
+//! formulation: optimize mechanics contracts model
 //! emit: optimize mechanics contracts model symbolic::write rust_keywords invariant
 //! ```
 //!
@@ -28,6 +29,7 @@ pub mod contracts;
 pub mod diagnostics;
 pub mod dynamics;
 pub mod emit;
+pub mod formulation;
 pub mod invariant;
 pub mod mechanics;
 pub mod model;
@@ -38,6 +40,7 @@ pub mod symbolic;
 pub mod syntax;
 pub mod verify;
 
+use std::borrow::Cow;
 use std::collections::HashSet;
 
 use proc_macro2::{Span, TokenStream};
@@ -47,9 +50,10 @@ use crate::contracts::function::FunctionKind;
 use diagnostics::Diagnostics;
 use invariant::fault::{Fault, guard};
 use mechanics::analysis::Complaint;
+use mechanics::loops::advice::Advice;
 use mechanics::loops::structure::Structure;
 use model::Soundness;
-use model::types::Model;
+use model::types::{Handling, Model, Request};
 use optimize::program::Compiled;
 use optimize::{Excess, Refusal};
 use syntax::tree::Source;
@@ -138,6 +142,43 @@ fn expand_by(
 
 /// The stages behind the checked model.
 pub fn compile(model: &Model) -> Result<(Structure, Compiled), Trouble> {
+    let (model, advice, (structure, compiled)) = settled(model, compile_as_written)?;
+    let advice = match advice {
+        None if model.emit.contains(&Request::Report) => advice_on(&model)?,
+        advice => advice,
+    };
+    Ok((Structure { advice: advice.map(Box::new), ..structure }, compiled))
+}
+
+/// What the choice for a model's loops costs beside the other one.
+pub fn advice_on(model: &Model) -> Result<Option<Advice>, Trouble> {
+    guard("formulation", || formulation::compare(model)).map_err(Trouble::Fault)
+}
+
+/// The model as `constraints: Auto` has it, and what work makes of that. A choice that is refused as a whole is not taken.
+pub fn settled<T>(
+    model: &Model,
+    work: impl Fn(&Model) -> Result<T, Trouble>,
+) -> Result<(Cow<'_, Model>, Option<Advice>, T), Trouble> {
+    if !matches!(model.handling, Handling::Auto) {
+        return Ok((Cow::Borrowed(model), None, work(model)?));
+    }
+    let ([first, second], advice) = guard("formulation", || formulation::choose(model)).map_err(Trouble::Fault)?;
+    let with = |handling: Handling| Model { handling, ..model.clone() };
+    let first = with(first);
+    let trouble = match work(&first) {
+        Ok(done) => return Ok((Cow::Owned(first), advice, done)),
+        // An error of this compiler is told of, not avoided.
+        Err(trouble) if trouble.is_fault() => return Err(trouble),
+        Err(trouble) => trouble,
+    };
+    let second = with(second);
+    let Ok(done) = work(&second) else { return Err(trouble) };
+    let advice = advice.map(|advice| advice.turned(trouble.reason()));
+    Ok((Cow::Owned(second), advice, done))
+}
+
+fn compile_as_written(model: &Model) -> Result<(Structure, Compiled), Trouble> {
     let freedoms = guard("mechanics", || mechanics::freedoms(model)).map_err(Trouble::Fault)?;
     if freedoms > mechanics::MOST_FREEDOMS {
         return Err(Trouble::Refused(Refusal::TooLarge(Excess::Coordinates(freedoms))));
@@ -165,6 +206,23 @@ pub enum Trouble {
 }
 
 impl Trouble {
+    /// Whether this compiler is to blame.
+    fn is_fault(&self) -> bool {
+        match self {
+            Trouble::Complaints(_) | Trouble::Refused(Refusal::TooLarge(_) | Refusal::NotFinite) => false,
+            Trouble::Fault(_) | Trouble::Refused(_) => true,
+        }
+    }
+
+    /// The first thing that is said against a model.
+    fn reason(&self) -> String {
+        match self {
+            Trouble::Complaints(complaints) if !complaints.is_empty() => complaints[0].message.clone(),
+            Trouble::Refused(Refusal::NotFinite) => "its equations hold a number that is not finite".to_owned(),
+            _ => "its equations are too large".to_owned(),
+        }
+    }
+
     /// Adds what is to be said of it, at the user's tokens.
     pub fn report(self, model: &Model, diagnostics: &mut Diagnostics) {
         let span = model.name.span();

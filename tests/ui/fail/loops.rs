@@ -12,6 +12,22 @@ multibody! {
         solve (b) from closing { b > 0.0 }
         output angle = closing.angle;
     }
+    mod left_to_the_compiler {
+        body slider { mass: 1.0 }
+        joint rail: Prismatic { parent: ground, child: slider, axis: X }
+        constraint stop = slider.position.x - 1.0;
+        formulation { constraints: Auto, rate: 40.0 }
+    }
+    mod chosen {
+        body slider { mass: 1.0 }
+        joint rail: Prismatic { parent: ground, child: slider, axis: X }
+        formulation { constraints: Auto }
+    }
+    mod asking {
+        body cart { mass: 1.0 }
+        joint rail: Prismatic { parent: ground, child: cart, axis: X }
+        output ahead = chosen(rail, rail = 2.0);
+    }
     mod held_by_nothing {
         body link { mass: 1.0, inertia: rod(1.0, 1.0, X) }
         #[cut]

@@ -22,6 +22,8 @@ pub(super) enum Coordinates {
 pub(super) enum Constraints {
     Multipliers,
     Reduced,
+    /// One of these: it is written, and never a row of its own.
+    Auto,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -55,6 +57,15 @@ impl Constraints {
         match self {
             Constraints::Multipliers => "Multipliers",
             Constraints::Reduced => "Reduced",
+            Constraints::Auto => "Auto",
+        }
+    }
+
+    fn value(self) -> Expr {
+        match self {
+            Constraints::Multipliers => parse_quote!(Multipliers),
+            Constraints::Reduced => parse_quote!(Reduced),
+            Constraints::Auto => parse_quote!(Auto),
         }
     }
 }
@@ -96,9 +107,9 @@ pub(super) fn written(source: &Source, model: usize) -> Choice {
         Some(value) => all.iter().copied().find(|choice| choice.value().as_ref() == Some(value)),
         None => all.first().copied(),
     };
-    let reduced: Expr = parse_quote!(Reduced);
-    let constraints =
-        if said("constraints") == Some(&reduced) { Constraints::Reduced } else { Constraints::Multipliers };
+    let written = said("constraints");
+    let constraints = [Constraints::Reduced, Constraints::Auto].into_iter().find(|one| written == Some(&one.value()));
+    let constraints = constraints.unwrap_or(Constraints::Multipliers);
     Choice { coordinates: coordinates.unwrap_or(Coordinates::Declared), constraints }
 }
 
@@ -183,11 +194,5 @@ fn say(fields: &mut Fields, choice: Choice, span: Span) {
     if let Some(value) = choice.coordinates.value() {
         field("coordinates", value);
     }
-    field(
-        "constraints",
-        match choice.constraints {
-            Constraints::Multipliers => parse_quote!(Multipliers),
-            Constraints::Reduced => parse_quote!(Reduced),
-        },
-    );
+    field("constraints", choice.constraints.value());
 }

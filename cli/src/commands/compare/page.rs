@@ -13,10 +13,13 @@ const EQUAL: f64 = 1.05;
 /// Work says less of times: see `effort.rs`.
 const SIMILAR: f64 = 1.1;
 
-pub(super) fn text(name: &str, own: Choice, rows: &[Row]) -> String {
+/// What is written, with `Auto` and without it, and all rows.
+pub(super) fn text(name: &str, written: Choice, own: Choice, rows: &[Row]) -> String {
     let mut text = format!("{name}\n{}", table(rows, own));
     if rows.iter().any(|row| row.choice == own) {
-        text.push_str("  * as it is written\n");
+        text.push_str("  * as it is written");
+        let is_auto = written.constraints == Constraints::Auto;
+        text.push_str(if is_auto { ": what `constraints: Auto` stands for\n" } else { "\n" });
     }
     for row in rows {
         if let Err(reason) = &row.result {

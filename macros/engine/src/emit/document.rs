@@ -3,6 +3,7 @@
 //! In: the user's `///` text and units, operation counts. Out: lines of Markdown, which become `#[doc]` attributes. Every
 //! public item has some: a crate that denies `missing_docs` accepts it.
 
+mod advice;
 pub(super) mod alike;
 mod equations;
 pub(super) mod facts;

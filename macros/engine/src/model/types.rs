@@ -42,6 +42,7 @@ pub type Bodies = IndexVec<BodyId, Body>;
 pub type Joints = IndexVec<JointId, Joint>;
 
 /// A mechanism, ready for derivation.
+#[derive(Clone)]
 pub struct Model {
     pub name: Ident,
     pub vis: Visibility,
@@ -95,6 +96,7 @@ pub struct Coordinate {
 }
 
 /// What is held at zero besides the closing joints.
+#[derive(Clone)]
 pub struct Constraint {
     pub place: Place,
     pub kind: ConstraintKind,
@@ -104,6 +106,7 @@ pub struct Constraint {
     pub span: Span,
 }
 
+#[derive(Clone)]
 pub enum ConstraintKind {
     /// A scalar of positions, parameters and time.
     Value(Expr),
@@ -112,6 +115,7 @@ pub enum ConstraintKind {
 }
 
 /// What follows a prescribed course. Values depend on time and parameters at most.
+#[derive(Clone)]
 pub struct Drive {
     pub target: DriveTarget,
     pub value: Expr,
@@ -132,12 +136,14 @@ pub enum DriveTarget {
 }
 
 /// Coordinates found from others.
+#[derive(Clone)]
 pub struct Solve {
     pub unknowns: Vec<Coordinate>,
     pub how: SolveHow,
     pub span: Span,
 }
 
+#[derive(Clone)]
 pub enum SolveHow {
     /// One scalar for each unknown.
     Formulas(Vec<Expr>),
@@ -163,6 +169,8 @@ pub enum Handling {
     Stabilised { rate: Expr, position: Expr },
     /// Dependent coordinates are eliminated.
     Reduced,
+    /// One of these two, by the counts of both; nothing behind [`crate::formulation`] sees it.
+    Auto,
 }
 
 /// One scalar input that inverse dynamics finds.
@@ -174,6 +182,7 @@ pub struct SolveFor {
 }
 
 /// `emit kinematics { given: .., find: .. }`
+#[derive(Clone)]
 pub struct Kinematics {
     /// Coordinates whose positions, velocities and accelerations are given: whole joints.
     pub given: Vec<JointId>,
@@ -247,6 +256,7 @@ impl Type {
 }
 
 /// A field of `Params`: `Scalar`, `Vec3` or array of them.
+#[derive(Clone)]
 pub struct Param {
     pub place: Place,
     pub ty: Type,
@@ -256,6 +266,7 @@ pub struct Param {
 }
 
 /// A field of `Input`: `Scalar`, `Vec3` or array of them.
+#[derive(Clone)]
 pub struct Input {
     pub place: Place,
     pub ty: Type,
@@ -263,6 +274,7 @@ pub struct Input {
 }
 
 /// A differential equation of the user's own.
+#[derive(Clone)]
 pub struct State {
     pub place: Place,
     pub rate: Expr,
@@ -270,6 +282,7 @@ pub struct State {
     pub docs: Docs,
 }
 
+#[derive(Clone)]
 pub struct Body {
     pub place: Place,
     /// kg
@@ -307,6 +320,7 @@ pub enum FrameStep {
     Oriented(Box<[[Expr; 3]; 3]>),
 }
 
+#[derive(Clone)]
 pub struct Joint {
     pub place: Place,
     pub kind: &'static JointKind,
@@ -364,6 +378,7 @@ impl Directions {
     }
 }
 
+#[derive(Clone)]
 pub struct Force {
     pub place: Place,
     pub kind: ForceKind,
@@ -371,6 +386,7 @@ pub struct Force {
     pub span: Span,
 }
 
+#[derive(Clone)]
 pub enum ForceKind {
     /// One value per velocity coordinate of the joint (zero where the user addressed another one).
     Effort { joint: JointId, values: Vec<Expr> },
@@ -404,6 +420,7 @@ impl ForceKind {
     }
 }
 
+#[derive(Clone)]
 pub struct Output {
     pub place: Place,
     /// Its type is the output's type.

@@ -6,6 +6,7 @@ pub mod angles;
 pub mod balance;
 pub mod common;
 pub mod dag;
+pub mod effort;
 pub mod factor;
 pub mod fields;
 pub mod flatten;

@@ -4,6 +4,7 @@
 mod actuation;
 mod alike;
 mod analysis;
+mod auto;
 mod balance;
 mod closings;
 mod every_formulation;
@@ -26,5 +27,6 @@ mod random_loops;
 mod random_outputs;
 mod ranks;
 mod reactions;
+mod scaling;
 mod support;
 mod worked;

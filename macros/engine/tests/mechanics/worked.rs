@@ -249,6 +249,15 @@ fn formulas_of_models_that_have_none() {
           in `bars`"
         ]
     );
+    // Which of its coordinates follow is decided by counts, behind this.
+    let call = asking(SOLVED, "output y = bars(rocker, crank = 0.7);").replace("Reduced", "Auto");
+    assert_said(
+        &call,
+        &[
+            "bars | `bars` has `constraints: Auto`: which of its coordinates follow is not known here | write `Reduced` or \
+           `Multipliers` there",
+        ],
+    );
     // Below, itself, a part, a mistake elsewhere.
     let body = "body b { mass: 1.0 } joint j: Prismatic { parent: ground, child: b, axis: X }";
     assert_said(

@@ -16,7 +16,12 @@ const MOST: usize = 512;
 
 pub(in crate::emit) fn structure(model: &Model) -> Structure {
     let mut structure = Structure::open(model);
-    let reduced = matches!(model.handling, Handling::Reduced);
+    let reduced = match model.handling {
+        Handling::Reduced => true,
+        // Where closed forms are written they are cheap as a rule.
+        Handling::Auto => !model.solves.is_empty(),
+        Handling::Multipliers | Handling::Stabilised { .. } => false,
+    };
     let rows = closings(model)
         .into_iter()
         .flat_map(|closing| (0..row_count(model, closing)).map(move |index| Row { closing, index }));

@@ -12,7 +12,7 @@ use crate::emit::layout::{Layout, joints};
 use crate::emit::print::{literals, range};
 use crate::model::types::{Body, BodyRef, Coordinate, Docs, ExprNode, Force, ForceKind, Frame, JointId, Place, Type};
 
-use super::{formula, loops, unchecked, values};
+use super::{advice, formula, loops, unchecked, values};
 
 /// What is said of a model.
 pub struct Facts {
@@ -31,6 +31,8 @@ pub struct Facts {
     pub closings: Vec<ClosingFact>,
     /// How loops are closed, what is driven, left out and assumed.
     pub loops: Vec<String>,
+    /// What the ways to close loops cost, where that was asked for. It stands among `loops` too.
+    pub advice: Vec<String>,
     /// What stands in the model several times.
     pub repeated: Vec<String>,
     /// Names of the state's velocity coordinates.
@@ -116,6 +118,7 @@ impl Facts {
             constraints: model.constraints.iter().map(|constraint| layout.name(&constraint.place)).collect(),
             closings: loops::closings(layout),
             loops: loops::items(layout),
+            advice: advice::items(layout),
             repeated: layout.structure.groups.iter().map(|group| group.sentence()).collect(),
             coordinates: layout.coordinates(),
             equations: layout.structure.rows.iter().map(|row| layout.row(*row)).collect(),

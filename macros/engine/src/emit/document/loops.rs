@@ -16,7 +16,7 @@ use crate::optimize::program::Expression;
 
 use super::facts::{ClosingFact, Facts, carrier, text};
 use super::report::{cell, frame, row, section};
-use super::{alike, formula};
+use super::{advice, alike, formula};
 
 impl Layout<'_> {
     /// Names of the components of a velocity, in order: `legs[0].gimbal.first`.
@@ -88,6 +88,7 @@ pub(super) fn items(layout: &Layout<'_>) -> Vec<String> {
     let assumed = model.assumptions.iter();
     items.extend(assumed.map(|condition| format!("assumed: {}", quoted(&formula::text(layout, condition)))));
     items.extend(structure.notes.iter().chain(&model.skipped).cloned());
+    items.extend(advice::items(layout));
     alike::once(items.iter().map(|item| item.replace('\n', " ")).collect())
 }
 

@@ -1,6 +1,7 @@
 //! Room `loops`: which coordinates follow from others, and how: equations of what closes loops, their solutions, and what
 //! takes the place of dependent coordinates.
 
+pub mod advice;
 pub(super) mod branches;
 pub mod constraints;
 pub(super) mod drives;

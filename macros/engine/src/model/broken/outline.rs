@@ -342,8 +342,11 @@ fn meant_handling(collected: &Collected<'_>) -> Option<Handling> {
     let said = field(fields, "constraints")?;
     let Written::Path(path) = said else { return None };
     let name = path.path.get_ident()?.to_string();
-    let near = nearest(&name, ["Reduced", "Multipliers", "Stabilised"]);
-    (near.unwrap_or(&name) == "Reduced").then_some(Handling::Reduced)
+    match nearest(&name, ["Reduced", "Multipliers", "Stabilised", "Auto"]).unwrap_or(&name) {
+        "Reduced" => Some(Handling::Reduced),
+        "Auto" => Some(Handling::Auto),
+        _ => None,
+    }
 }
 
 fn type_of(target: DriveTarget) -> Type {

@@ -19,7 +19,7 @@ use crate::model::checker::{Checker, Context, FIRST_SCOPE};
 use crate::model::expand::root;
 use crate::model::is_part;
 use crate::model::typed::{Class, Typed, Uses, type_text};
-use crate::model::types::{ExprNode, Formula, Given, Type, Variable};
+use crate::model::types::{ExprNode, Formula, Given, Handling, Type, Variable};
 use crate::model::units::{Units, Wanted};
 
 use super::{source_text, span};
@@ -136,6 +136,12 @@ impl<'a> Checker<'a, '_> {
             self.report.silent();
             return None;
         };
+        if matches!(model.handling, Handling::Auto) {
+            let message =
+                format!("`{name}` has `constraints: Auto`: which of its coordinates follow is not known here");
+            self.report.help(name.span(), message, "write `Reduced` or `Multipliers` there");
+            return None;
+        }
         let context = root(FIRST_SCOPE);
         let value = self.asked_value(name, of, context);
         let mut complete = true;

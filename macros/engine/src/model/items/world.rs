@@ -21,7 +21,7 @@ const WORLD: Known<'static> = Known { required: &[], optional: &["gravity"] };
 const FORMULATION: Known<'static> =
     Known { required: &[], optional: &["coordinates", "constraints", "independent", "rate", "position"] };
 
-const HANDLINGS: [&str; 3] = ["Multipliers", "Reduced", "Stabilised"];
+const HANDLINGS: [&str; 4] = ["Multipliers", "Reduced", "Stabilised", "Auto"];
 
 impl<'a> Checker<'a, '_> {
     pub(in crate::model) fn world(&mut self, fields: &'a tree::Fields, scope: ScopeId) -> Option<Checked> {
@@ -58,7 +58,7 @@ impl<'a> Checker<'a, '_> {
             Expr::Path(path) => path.path.get_ident().map(ToString::to_string).unwrap_or_default(),
             _ => String::new(),
         };
-        if matches!(name.as_str(), "Multipliers" | "Reduced")
+        if matches!(name.as_str(), "Multipliers" | "Reduced" | "Auto")
             && let Some(stray) = fields.list.iter().find(|given| given.name == "rate" || given.name == "position")
         {
             self.stray_term(&stray.name);
@@ -66,6 +66,7 @@ impl<'a> Checker<'a, '_> {
         match name.as_str() {
             "Multipliers" => Some(Handling::Multipliers),
             "Reduced" => Some(Handling::Reduced),
+            "Auto" => Some(Handling::Auto),
             "Stabilised" => {
                 if let (Some((_, rate)), Some((_, position))) = (&rate, &position) {
                     return Some(Handling::Stabilised { rate: rate.clone(), position: position.clone() });

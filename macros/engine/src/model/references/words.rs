@@ -55,7 +55,7 @@ const TYPE: Room = &[
 
 const COORDINATES: Room = &[("Joint", &[]), ("Absolute", &[]), ("Quaternion", &[]), ("RollPitchYaw", &[])];
 
-const HANDLING: Room = &[("Multipliers", &[]), ("Reduced", &[]), ("Stabilised", &[])];
+const HANDLING: Room = &[("Multipliers", &[]), ("Reduced", &[]), ("Stabilised", &[]), ("Auto", &[])];
 
 /// What a declared name is.
 const NAME: Room = &[

@@ -1,11 +1,14 @@
-//! What an evaluation takes, by its operations. The compiler's count has one round of each iteration and weighs operations as
+//! Stage `optimize`: what an evaluation takes, by its operations.
+//!
+//! In: a compiled function. Out: its work. The count of [`Cost`] has one round of each iteration and weighs operations as
 //! it needs to choose between ways to one function. Formulations differ in whether they iterate at all, and in how much
 //! of their work is linear systems, so here every round counts, and systems are weighed apart.
 
-use multibody_engine::contracts::call::Call;
-use multibody_engine::contracts::cost::Cost;
-use multibody_engine::optimize::program::{Expression, Function, Statement};
-use multibody_engine::symbolic::graph::BlockKind;
+use crate::contracts::call::Call;
+use crate::contracts::cost::Cost;
+use crate::symbolic::graph::BlockKind;
+
+use super::program::{Expression, Function, Statement};
 
 // Weights are rounded from a fit to the times of compiled forward dynamics of 180 choices of the project's models (f64, level 3,
 // Intel Xeon, November 2026), by least squares of relative errors: 0.12 ns for an addition, since a processor does several
@@ -28,7 +31,7 @@ const PIVOTING: u32 = 40;
 
 /// Operations of one evaluation.
 #[derive(Default)]
-pub(super) struct Effort {
+pub struct Effort {
     /// Outside of linear systems.
     straight: Cost,
     /// Pivoted solutions of linear systems: size, whether they are symmetric, how many.
@@ -38,7 +41,8 @@ pub(super) struct Effort {
 }
 
 impl Effort {
-    pub(super) fn of(function: &Function) -> Effort {
+    /// Of a function as it is compiled.
+    pub fn of(function: &Function) -> Effort {
         let mut effort = Effort::default();
         effort.add(&function.program.statements, 1);
         // What was added are rounds beyond the first: the count has this one, with the work of systems.
@@ -75,8 +79,14 @@ impl Effort {
     }
 
     /// One number by which choices are compared: about eight to the nanosecond.
-    pub(super) fn work(&self) -> u32 {
+    pub fn work(&self) -> u32 {
         weighed(self.straight).saturating_add(self.in_systems())
+    }
+
+    /// By the counting rule, with all rounds of iterations.
+    pub fn operations(&self) -> Cost {
+        let systems = self.systems.iter().map(|&(size, symmetric, times)| repeated(of_system(size, symmetric), times));
+        systems.fold(self.straight, Cost::plus)
     }
 
     fn in_systems(&self) -> u32 {
@@ -86,7 +96,7 @@ impl Effort {
     }
 
     /// What the structure of the equations makes dear, where that is a quarter of the work or more.
-    pub(super) fn burden(&self) -> Option<String> {
+    pub fn burden(&self) -> Option<String> {
         let share = |part: u32| 100.0 * f64::from(part) / f64::from(self.work().max(1));
         let (systems, rounds) = (share(self.in_systems()), share(weighed(self.rounds)));
         let largest = self.systems.iter().map(|(size, ..)| *size).max().unwrap_or(0);

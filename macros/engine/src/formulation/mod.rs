@@ -1,0 +1,100 @@
+//! Stage `formulation`: what loops cost in one way and in another.
+//!
+//! In: a checked model. Out: what `constraints: Auto` stands for, and what is told of the choices. Forward dynamics decides: it is
+//! derived with dependent coordinates eliminated and with multipliers, and both programs are counted with all rounds of iterations
+//! and with weights that are fitted to times ([`crate::optimize::effort`]). A closed form is taken where it costs about as much as
+//! multipliers, since then loops cannot drift; Newton's method only where it costs less.
+
+use crate::contracts::cost::Cost;
+use crate::contracts::function::{Asked, FunctionKind};
+use crate::mechanics;
+use crate::mechanics::loops::advice::{Advice, Closing, Figures};
+use crate::model::types::{Handling, Model, Request};
+use crate::optimize::effort::Effort;
+use crate::optimize::{self, Refusal};
+
+/// What `Auto` stands for, the better choice first, and why; without loops there is nothing to choose.
+pub fn choose(model: &Model) -> ([Handling; 2], Option<Advice>) {
+    let (reduced, held) = (Handling::Reduced, Handling::Multipliers);
+    if !has_loops(model) {
+        return ([held, reduced], None);
+    }
+    let figures = [&reduced, &held].map(|handling| figures(model, handling));
+    let [of_reduced, of_held] = &figures;
+    let reduces = match (of_reduced, of_held) {
+        (Ok(reduced), Ok(held)) => reduced.reduces(held),
+        (found, _) => found.is_ok(),
+    };
+    let (is_chosen, is_forward) = (true, asks_forward(model));
+    let [reduced_figures, held_figures] = figures;
+    let (handlings, own, other) = match reduces {
+        true => ([reduced, held], reduced_figures, held_figures),
+        false => ([held, reduced], held_figures, reduced_figures),
+    };
+    (handlings, Some(Advice { is_chosen, is_forward, own: own.ok(), other: Some(other) }))
+}
+
+/// What the choice that was made costs, beside the other one; nothing of models without loops.
+pub fn compare(model: &Model) -> Option<Advice> {
+    if !has_loops(model) {
+        return None;
+    }
+    let other = match model.handling {
+        Handling::Reduced => Handling::Multipliers,
+        Handling::Multipliers | Handling::Stabilised { .. } | Handling::Auto => Handling::Reduced,
+    };
+    let own = figures(model, &model.handling).ok();
+    let other = Some(figures(model, &other));
+    Some(Advice { is_chosen: false, is_forward: asks_forward(model), own, other })
+}
+
+fn has_loops(model: &Model) -> bool {
+    !model.cuts.is_empty() || !model.constraints.is_empty()
+}
+
+fn asks_forward(model: &Model) -> bool {
+    model.emit.contains(&Request::ForwardDynamics)
+}
+
+/// What a model takes with its loops closed in one way, or why it is refused.
+fn figures(model: &Model, handling: &Handling) -> Result<Figures, String> {
+    let model = judged(model, handling);
+    let derived = mechanics::of(&model);
+    let (structure, derivation) = derived.map_err(|complaints| match complaints.into_iter().next() {
+        Some(complaint) => complaint.message,
+        None => "the model is not what was written".to_owned(),
+    })?;
+    let compiled = optimize::compile(&derivation).map_err(refused)?;
+    let counts = |kind: FunctionKind| matches!(kind.row().asked, Asked::By { .. } | Asked::Outputs);
+    let efforts = compiled.functions.iter().filter(|function| counts(function.kind)).map(Effort::of);
+    let (mut operations, mut work) = (Cost::default(), 0_u32);
+    for effort in efforts {
+        operations = operations.plus(effort.operations());
+        work = work.saturating_add(effort.work());
+    }
+    Ok(Figures { closing: Closing::of(&structure), operations, work })
+}
+
+/// The model with what is counted, and nothing else.
+fn judged(model: &Model, handling: &Handling) -> Model {
+    let mut judged = Model { handling: handling.clone(), ..model.clone() };
+    if asks_forward(model) {
+        judged.emit = vec![Request::ForwardDynamics];
+        judged.outputs.clear();
+        judged.kinematics.clear();
+        judged.solve_for.clear();
+    } else {
+        judged.emit.retain(|request| !matches!(request, Request::Report | Request::Equations));
+    }
+    judged.asked.retain(|asked| judged.emit.contains(&asked.0));
+    judged
+}
+
+fn refused(refusal: Refusal) -> String {
+    match refusal {
+        Refusal::TooLarge(_) => "its equations are too large",
+        Refusal::NotFinite => "its equations hold a number that is not finite",
+        _ => "it cannot be compiled",
+    }
+    .to_owned()
+}
