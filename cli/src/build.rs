@@ -53,7 +53,7 @@ pub(crate) fn advised(model: &Model) -> Result<Built, Trouble> {
     let (model, advice, (mut structure, compiled)) = settled(model, compile)?;
     let advice = advice.map(Box::new).or(structure.advice.take());
     structure.advice = match advice {
-        None => advice_on(&model)?.map(Box::new),
+        None => advice_on(&model, &structure, &compiled)?.map(Box::new),
         advice => advice,
     };
     Ok(Built { model: model.into_owned(), structure, compiled })

@@ -223,6 +223,10 @@ fn what_is_left_to_the_compiler() {
     assert!(found.contains(&"Joint* Multipliers 3 2 5".to_owned()), "{output}");
     assert!(found.contains(&"Joint Reduced 1 0 1".to_owned()), "{output}");
     assert!(output.contains("\n  * as it is written: what `constraints: Auto` stands for\n"), "{output}");
+    // What becomes of the equations, in each choice that has some: the two of a planar loop share no coordinate that takes one.
+    let left = "  coordinates Joint, constraints Multipliers: limbs absorb 0 of 2 equations, 2 are solved with pivots, in systems of 2 at most\n";
+    assert!(output.contains(left), "{output}");
+    assert_eq!(output.matches(": limbs absorb ").count(), 3, "{output}");
     let checked = quiet(&["check", "automatic.rs"]);
     let lines: Vec<&str> = checked.lines().collect();
     assert!(lines[0].starts_with("automatic: 3 bodies, 3 coordinates, 2 equations with multipliers; "), "{checked}");

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use multibody_engine::contracts::cost::Cost;
 use multibody_engine::contracts::function::{Asked, FunctionKind};
 use multibody_engine::diagnostics::Diagnostics;
-use multibody_engine::mechanics::loops::advice::{Closing, Figures as Closed};
+use multibody_engine::mechanics::loops::advice::{Closing, Figures as Closed, Pivoted};
 use multibody_engine::optimize::effort::Effort;
 use multibody_engine::syntax::{self, tree::Source};
 use multibody_engine::{compile, emit};
@@ -49,6 +49,8 @@ struct Figures {
     has_dead_centres: bool,
     /// How loops are closed, with the same work.
     closed: Closed,
+    /// Equations that limbs absorb, and the sizes of systems that are left.
+    pivoted: (usize, Vec<usize>),
     derived: Duration,
     /// What is compiled where times are asked for.
     code: Option<Code>,
@@ -235,19 +237,34 @@ fn figures(call: &Call, model: usize, choice: Choice, extent: Extent) -> Result<
         match function.kind {
             FunctionKind::ForwardDynamics => {
                 let closed = Closed { closing: Closing::of(&structure), operations: effort.operations(), work };
-                forward = Some((function.after, closed, effort.burden()));
+                let pivoted = structure.pivoted.get(function.candidate);
+                let sizes = |of: &Pivoted| (of.absorbed.len(), of.cores.iter().map(Vec::len).collect());
+                forward = Some((function.after, closed, effort.burden(), pivoted.map_or_else(Default::default, sizes)));
             }
             kind => others.push((emit::function_name(kind).into_owned(), work)),
         }
     }
-    let (cost, closed, burden) = forward.ok_or("it has no forward dynamics")?;
+    let (cost, closed, burden, pivoted) = forward.ok_or("it has no forward dynamics")?;
     let work = closed.work;
     let has_dead_centres = !structure.dead_centres.is_empty();
     let (state, multipliers) = (structure.state.len(), structure.rows.len());
     let functions: Vec<String> = others.iter().map(|(name, _)| name.clone()).chain([JUDGED.to_owned()]).collect();
     let code = extent.measure.then(|| Code::new(model, &structure, &compiled, &functions)).transpose()?;
     let times = Times::new();
-    Ok(Figures { state, multipliers, cost, work, burden, others, has_dead_centres, closed, derived, code, times })
+    Ok(Figures {
+        state,
+        multipliers,
+        cost,
+        work,
+        burden,
+        others,
+        has_dead_centres,
+        closed,
+        pivoted,
+        derived,
+        code,
+        times,
+    })
 }
 
 fn first(diagnostics: &Diagnostics) -> String {

@@ -144,15 +144,15 @@ fn expand_by(
 pub fn compile(model: &Model) -> Result<(Structure, Compiled), Trouble> {
     let (model, advice, (structure, compiled)) = settled(model, compile_as_written)?;
     let advice = match advice {
-        None if model.emit.contains(&Request::Report) => advice_on(&model)?,
+        None if model.emit.contains(&Request::Report) => advice_on(&model, &structure, &compiled)?,
         advice => advice,
     };
     Ok((Structure { advice: advice.map(Box::new), ..structure }, compiled))
 }
 
 /// What the choice for a model's loops costs beside the other one.
-pub fn advice_on(model: &Model) -> Result<Option<Advice>, Trouble> {
-    guard("formulation", || formulation::compare(model)).map_err(Trouble::Fault)
+pub fn advice_on(model: &Model, structure: &Structure, compiled: &Compiled) -> Result<Option<Advice>, Trouble> {
+    guard("formulation", || formulation::compare(model, structure, compiled)).map_err(Trouble::Fault)
 }
 
 /// The model as `constraints: Auto` has it, and what work makes of that. A choice that is refused as a whole is not taken.

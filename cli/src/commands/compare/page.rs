@@ -26,12 +26,25 @@ pub(super) fn text(name: &str, written: Choice, own: Choice, rows: &[Row]) -> St
             let _ = writeln!(text, "  {} is refused: {reason}", row.choice.words());
         }
     }
+    for row in rows {
+        if let Some(sizes) = row.result.as_ref().ok().and_then(|figures| left(&figures.pivoted)) {
+            let _ = writeln!(text, "  {}: {sizes}", row.choice.words());
+        }
+    }
     for row in untimed(rows) {
         let _ =
             writeln!(text, "  {} is not timed: accelerations near the default position are not finite", row.words());
     }
     text.push_str(&advice(rows, own));
     text
+}
+
+/// What becomes of equations with multipliers, where there are some.
+fn left((absorbed, cores): &(usize, Vec<usize>)) -> Option<String> {
+    let left: usize = cores.iter().sum();
+    let all = absorbed + left;
+    let largest = cores.iter().max().map_or_else(String::new, |size| format!(", in systems of {size} at most"));
+    (all > 0).then(|| format!("limbs absorb {absorbed} of {all} equations, {left} are solved with pivots{largest}"))
 }
 
 /// Choices without a time where others have one.

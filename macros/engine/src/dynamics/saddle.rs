@@ -126,6 +126,19 @@ impl Saddle {
         Some(Saddle { jacobian: jacobian.clone(), added: added.clone(), pivots, cores, absorbed })
     }
 
+    /// Rows that are pivots, and those of each core.
+    pub(crate) fn rows(&self) -> (Vec<usize>, Vec<Vec<usize>>) {
+        let coordinates = self.jacobian.first().map_or(0, Vec::len);
+        let row = |place: usize| place.checked_sub(coordinates);
+        let mut absorbed: Vec<usize> = match self.jacobian.is_empty() {
+            true => Vec::new(),
+            false => self.pivots.iter().filter_map(|pivot| row(pivot.place)).collect(),
+        };
+        absorbed.sort_unstable();
+        let cores = self.cores.iter().map(|core| core.places.iter().filter_map(|&place| row(place)).collect());
+        (absorbed, cores.collect())
+    }
+
     /// Inverts the cores: for more right-hand sides than these have rows.
     pub(crate) fn invert(&mut self, g: &mut Graph) {
         for core in &mut self.cores {

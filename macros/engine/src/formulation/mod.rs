@@ -5,12 +5,16 @@
 //! and with weights that are fitted to times ([`crate::optimize::effort`]). A closed form is taken where it costs about as much as
 //! multipliers, since then loops cannot drift; Newton's method only where it costs less.
 
+mod assumable;
+
 use crate::contracts::cost::Cost;
 use crate::contracts::function::{Asked, FunctionKind};
 use crate::mechanics;
 use crate::mechanics::loops::advice::{Advice, Closing, Figures};
+use crate::mechanics::loops::structure::Structure;
 use crate::model::types::{Handling, Model, Request};
 use crate::optimize::effort::Effort;
+use crate::optimize::program::Compiled;
 use crate::optimize::{self, Refusal};
 
 /// What `Auto` stands for, the better choice first, and why; without loops there is nothing to choose.
@@ -31,11 +35,12 @@ pub fn choose(model: &Model) -> ([Handling; 2], Option<Advice>) {
         true => ([reduced, held], reduced_figures, held_figures),
         false => ([held, reduced], held_figures, reduced_figures),
     };
-    (handlings, Some(Advice { is_chosen, is_forward, own: own.ok(), other: Some(other) }))
+    let advice = Advice { is_chosen, is_forward, own: own.ok(), other: Some(other), assumable: None };
+    (handlings, Some(advice))
 }
 
 /// What the choice that was made costs, beside the other one; nothing of models without loops.
-pub fn compare(model: &Model) -> Option<Advice> {
+pub fn compare(model: &Model, structure: &Structure, compiled: &Compiled) -> Option<Advice> {
     if !has_loops(model) {
         return None;
     }
@@ -43,9 +48,11 @@ pub fn compare(model: &Model) -> Option<Advice> {
         Handling::Reduced => Handling::Multipliers,
         Handling::Multipliers | Handling::Stabilised { .. } | Handling::Auto => Handling::Reduced,
     };
-    let own = figures(model, &model.handling).ok();
+    let is_forward = asks_forward(model);
+    let own = counted(structure, compiled, is_forward);
     let other = Some(figures(model, &other));
-    Some(Advice { is_chosen: false, is_forward: asks_forward(model), own, other })
+    let assumable = assumable::assumable(model, &own);
+    Some(Advice { is_chosen: false, is_forward, own: Some(own), other, assumable })
 }
 
 fn has_loops(model: &Model) -> bool {
@@ -60,19 +67,35 @@ fn asks_forward(model: &Model) -> bool {
 fn figures(model: &Model, handling: &Handling) -> Result<Figures, String> {
     let model = judged(model, handling);
     let derived = mechanics::of(&model);
-    let (structure, derivation) = derived.map_err(|complaints| match complaints.into_iter().next() {
+    let (structure, mut derivation) = derived.map_err(|complaints| match complaints.into_iter().next() {
         Some(complaint) => complaint.message,
         None => "the model is not what was written".to_owned(),
     })?;
+    // Nothing else is counted.
+    let is_forward = asks_forward(&model);
+    derivation.functions.retain(|function| counts(function.kind, is_forward));
     let compiled = optimize::compile(&derivation).map_err(refused)?;
-    let counts = |kind: FunctionKind| matches!(kind.row().asked, Asked::By { .. } | Asked::Outputs);
-    let efforts = compiled.functions.iter().filter(|function| counts(function.kind)).map(Effort::of);
+    Ok(counted(&structure, &compiled, is_forward))
+}
+
+fn counts(kind: FunctionKind, is_forward: bool) -> bool {
+    match kind.row().asked {
+        _ if is_forward => kind == FunctionKind::ForwardDynamics,
+        Asked::By { .. } | Asked::Outputs => true,
+        Asked::Equations | Asked::Guesses | Asked::Found => false,
+    }
+}
+
+/// Of forward dynamics alone, or of all that was asked for.
+fn counted(structure: &Structure, compiled: &Compiled, is_forward: bool) -> Figures {
+    let functions = compiled.functions.iter().filter(|function| counts(function.kind, is_forward));
+    let efforts = functions.map(Effort::of);
     let (mut operations, mut work) = (Cost::default(), 0_u32);
     for effort in efforts {
         operations = operations.plus(effort.operations());
         work = work.saturating_add(effort.work());
     }
-    Ok(Figures { closing: Closing::of(&structure), operations, work })
+    Figures { closing: Closing::of(structure), operations, work }
 }
 
 /// The model with what is counted, and nothing else.

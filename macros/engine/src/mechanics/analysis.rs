@@ -39,6 +39,7 @@ use linear::Elimination;
 use problem::{Problem, Source};
 use ranked::Ranked;
 
+pub use absorption::Hope;
 pub(super) use absorption::{Absorption, Poses};
 pub(super) use written::Writings;
 

@@ -29,7 +29,8 @@ use crate::invariant::fault::raise;
 use crate::model::types::{BodyRef, Coordinate, Joint, JointId, Model, Request};
 use crate::symbolic::graph::{Graph, Scalar};
 
-use super::analysis::{Complaint, Writings};
+use super::analysis::{Complaint, Hope, Writings};
+use super::loops::advice::Pivoted;
 use super::loops::constraints::Writing;
 use super::loops::known::Decided;
 use super::loops::structure::{Role, Structure};
@@ -95,7 +96,7 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
     deriving.check_impulses()?;
     deriving.check()?;
     deriving.choose_writing()?;
-    let mut functions = deriving.functions()?;
+    let (mut functions, pivoted) = deriving.functions()?;
     functions.extend(deriving.found()?);
     let checks = deriving.checks()?;
     let inertia = deriving.inertia()?;
@@ -113,7 +114,19 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
     let Deriving { graph, symbols, notes, dead_centres, .. } = deriving;
     let symbol_names = symbols.table.iter().map(|&symbol| names::symbol(model, symbol)).collect();
     let symbols = symbols.table.clone();
-    Ok(Derivation { graph, symbols, symbol_names, functions, notes, dead_centres, page, checks, inertia, witnesses })
+    Ok(Derivation {
+        graph,
+        symbols,
+        symbol_names,
+        functions,
+        notes,
+        dead_centres,
+        pivoted,
+        page,
+        checks,
+        inertia,
+        witnesses,
+    })
 }
 
 /// The equations of a model for readers, with loops closed as they are in the generated functions.
@@ -123,6 +136,29 @@ pub fn page(model: &Model, structure: &Structure) -> Result<Page, Vec<Complaint>
     deriving.check()?;
     deriving.choose_writing()?;
     deriving.page()
+}
+
+/// What would have to be assumed of coordinates for more equations with multipliers to be absorbed, each of which keeps so much
+/// of the volume that they span: a list for each way to write the equations, if there is something to assume.
+pub fn hopes(model: &Model, structure: &Structure, share: f64) -> Result<Vec<Vec<(Coordinate, Hope)>>, Vec<Complaint>> {
+    let mut deriving = Deriving::new(model, structure);
+    deriving.check()?;
+    let writings = Writings::new(model, structure);
+    let mut all: Vec<Vec<(Coordinate, Hope)>> = Vec::new();
+    let ways = if freedoms(model) > MOST_COMPOSITE { &[Writing::PLAIN][..] } else { &Writing::ALL[..] };
+    for &writing in ways.iter().filter(|&&writing| writings.will_do(writing)) {
+        deriving.writing = writing;
+        let mut found = Vec::new();
+        deriving.only("", |e| {
+            let reduction = e.reduce()?;
+            found = e.hopes(&reduction, share);
+            Ok(Results::default())
+        })?;
+        if !found.is_empty() && !all.contains(&found) {
+            all.push(found);
+        }
+    }
+    Ok(all)
 }
 
 /// What to derive, each once, in a fixed order.
@@ -158,6 +194,8 @@ struct Deriving<'m> {
     notes: Vec<String>,
     /// Unknowns whose closed forms have a root, and pitches.
     dead_centres: Vec<Coordinate>,
+    /// By candidate of the function that is derived what became of equations with multipliers.
+    pivoted: Vec<Pivoted>,
 }
 
 /// Results of one way, or what is wrong with the model.
@@ -177,6 +215,7 @@ impl<'m> Deriving<'m> {
             writing: Writing::PLAIN,
             notes: Vec::new(),
             dead_centres: Vec::new(),
+            pivoted: Vec::new(),
         }
     }
 
@@ -194,18 +233,22 @@ impl<'m> Deriving<'m> {
         Ok(page)
     }
 
-    /// What was asked for.
-    fn functions(&mut self) -> Result<Vec<Derived>, Vec<Complaint>> {
+    /// What was asked for, and what became of equations with multipliers in the candidates of forward dynamics.
+    fn functions(&mut self) -> Result<(Vec<Derived>, Vec<Pivoted>), Vec<Complaint>> {
         let model = self.model;
-        let mut functions = Vec::new();
+        let (mut functions, mut pivoted) = (Vec::new(), Vec::new());
         for kind in kinds(model, &self.structure) {
+            self.pivoted.clear();
             let candidates = self.candidates(kind)?;
             if candidates.is_empty() {
                 raise("there is a way to each function");
             }
+            if kind == FunctionKind::ForwardDynamics && self.pivoted.len() == candidates.len() {
+                pivoted = std::mem::take(&mut self.pivoted);
+            }
             functions.push(Derived { kind, candidates });
         }
-        Ok(functions)
+        Ok((functions, pivoted))
     }
 
     /// What was found to be needed.

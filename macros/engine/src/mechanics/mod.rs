@@ -17,7 +17,7 @@ pub mod translate;
 mod trees;
 pub mod written;
 
-pub use derive::{Entry, MOST_FREEDOMS, Patterns, derive, freedoms, page, patterns};
+pub use derive::{Entry, MOST_FREEDOMS, Patterns, derive, freedoms, hopes, page, patterns};
 pub use translate::reads::Reads;
 
 use std::rc::Rc;
@@ -29,6 +29,7 @@ use crate::model::types::{Coordinate, Model};
 use crate::symbolic::graph::{Graph, Scalar};
 
 use analysis::Complaint;
+use loops::advice::Pivoted;
 use loops::structure::Structure;
 use written::Page;
 
@@ -39,6 +40,7 @@ pub fn of(model: &Model) -> Result<(Structure, Derivation), Vec<Complaint>> {
     let mut derivation = derive(model, &structure)?;
     let mut structure = structure.with_notes(std::mem::take(&mut derivation.notes));
     structure.dead_centres.clone_from(&derivation.dead_centres);
+    structure.pivoted = std::mem::take(&mut derivation.pivoted);
     structure.page = derivation.page.take().map(Rc::new);
     Ok((structure, derivation))
 }
@@ -55,6 +57,8 @@ pub struct Derivation {
     pub notes: Vec<String>,
     /// Unknowns whose roots [`FunctionKind::DeadCentres`] gives, in this order.
     pub dead_centres: Vec<Coordinate>,
+    /// By candidate of forward dynamics what became of equations with multipliers.
+    pub pivoted: Vec<Pivoted>,
     /// The equations for readers, where the model asks for them.
     pub page: Option<Page>,
     /// For `Params::check`.

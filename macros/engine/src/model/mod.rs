@@ -7,6 +7,7 @@
 
 mod arborescence;
 mod assemble;
+pub mod assumed;
 mod broken;
 mod checker;
 pub(crate) mod checks;

@@ -2,6 +2,7 @@
 //! computations, with finite differences and with laws of mechanics.
 
 mod actuation;
+mod advice;
 mod alike;
 mod analysis;
 mod auto;

@@ -131,6 +131,7 @@ fn case(seed: u64) -> Case {
         functions,
         notes: Vec::new(),
         dead_centres: Vec::new(),
+        pivoted: Vec::new(),
         page: None,
         checks: Vec::new(),
         inertia: Default::default(),

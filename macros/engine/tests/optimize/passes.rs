@@ -145,6 +145,7 @@ fn derivation(
         functions,
         notes: Vec::new(),
         dead_centres: Vec::new(),
+        pivoted: Vec::new(),
         page: None,
         checks: Vec::new(),
         inertia: Default::default(),

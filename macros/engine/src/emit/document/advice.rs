@@ -1,15 +1,26 @@
 //! Stage `emit`: what the ways to close loops cost, in sentences.
 //!
-//! In: the structure with its advice. Out: a sentence for each thing that there is to say.
+//! In: the structure with its advice, the programs. Out: a sentence for each thing that there is to say.
 
-use crate::emit::layout::Layout;
-use crate::mechanics::loops::advice::{Advice, Closing, Figures};
+use crate::contracts::function::FunctionKind;
+use crate::emit::Context;
+use crate::mechanics::loops::advice::{Advice, Assumable, Closing, Figures, Pivoted};
+use crate::mechanics::loops::structure::Row;
 
-use super::cost;
+use super::loops::quoted;
+use super::{alike, cost};
 
-pub(super) fn items(layout: &Layout<'_>) -> Vec<String> {
-    let Some(advice) = &layout.structure.advice else { return Vec::new() };
-    choice(advice).into_iter().collect()
+/// As many names are told.
+const MOST_NAMES: usize = 18;
+
+pub(super) fn items(context: &Context<'_>) -> Vec<String> {
+    let Some(advice) = &context.layout.structure.advice else { return Vec::new() };
+    let mut items: Vec<String> = choice(advice).into_iter().collect();
+    items.extend(pivoted(context));
+    if let (Some((assumable, figures)), Some(own)) = (&advice.assumable, &advice.own) {
+        items.push(assumption(assumable, figures, own));
+    }
+    items
 }
 
 /// The choice beside the other one.
@@ -43,4 +54,73 @@ fn amount(figures: &Figures) -> String {
         Closing::Multipliers => "with multipliers",
     };
     format!("{} {how}, work {}", cost(&figures.operations), figures.work)
+}
+
+/// What becomes of equations with multipliers in forward dynamics.
+fn pivoted(context: &Context<'_>) -> Option<String> {
+    let function = context.function(FunctionKind::ForwardDynamics)?;
+    let Pivoted { absorbed, cores } = context.layout.structure.pivoted.get(function.candidate)?;
+    let left: usize = cores.iter().map(Vec::len).sum();
+    let all = absorbed.len() + left;
+    if all == 0 {
+        return None;
+    }
+    let name = |row: &Row| quoted(&context.layout.row(*row));
+    let [gone, left_over] = apart([absorbed.iter().map(name).collect(), cores.iter().flatten().map(name).collect()]);
+    let mut sentence = match absorbed.len() {
+        0 => format!("none of the {all} equations with multipliers is absorbed by coordinates of its limb"),
+        n => format!("of {all} equations with multipliers {n} are absorbed by coordinates of their limbs: {gone}"),
+    };
+    if left > 0 {
+        let sizes = listed_sizes(cores);
+        sentence += &format!("; {left} are left to pivoted solutions of {sizes}: {left_over}");
+    }
+    Some(sentence)
+}
+
+/// Names of two kinds, each once, where `legs[_]` is one that has the same name in all of both.
+fn apart(kinds: [Vec<String>; 2]) -> [String; 2] {
+    const MARKS: [&str; 2] = ["0 ", "1 "];
+    let marked =
+        kinds.iter().zip(MARKS).flat_map(|(names, mark)| names.iter().map(move |name| format!("{mark}{name}")));
+    let unique = alike::once(marked.collect());
+    MARKS.map(|mark| {
+        let names: Vec<&str> = unique.iter().filter_map(|name| name.strip_prefix(mark)).collect();
+        match names.len().checked_sub(MOST_NAMES) {
+            None | Some(0) => names.join(", "),
+            Some(more) => format!("{} and {more} more", names[..MOST_NAMES].join(", ")),
+        }
+    })
+}
+
+/// `2 systems with 3 unknowns and 1 with 4`
+fn listed_sizes(cores: &[Vec<Row>]) -> String {
+    let mut sizes: Vec<(usize, usize)> = Vec::new();
+    for core in cores {
+        match sizes.iter_mut().find(|known| known.0 == core.len()) {
+            Some(known) => known.1 += 1,
+            None => sizes.push((core.len(), 1)),
+        }
+    }
+    let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    let sizes =
+        sizes.iter().map(|&(size, count)| format!("{} with {}", counted(count, "system"), counted(size, "unknown")));
+    sizes.collect::<Vec<_>>().join(", ")
+}
+
+fn assumption(assumable: &[Assumable], with: &Figures, own: &Figures) -> String {
+    let line = |one: &Assumable| match &one.part {
+        Some(part) => format!("`assume {};` in `{part}`", one.condition),
+        None => format!("`assume {};`", one.condition),
+    };
+    let lines: Vec<String> = assumable.iter().map(line).collect();
+    let (holds, lets) = if lines.len() == 1 { ("it holds", "lets") } else { ("they hold", "let") };
+    format!(
+        "where {holds}, {} {lets} more equations be absorbed: {} in place of {}, work {} in place of {}",
+        lines.join(" and "),
+        cost(&with.operations),
+        cost(&own.operations),
+        with.work,
+        own.work
+    )
 }

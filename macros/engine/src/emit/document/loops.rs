@@ -70,7 +70,8 @@ fn is_zero(entry: &Expression) -> bool {
 }
 
 /// How loops are closed, what is driven, left out and assumed: sentences, each once for what is alike.
-pub(super) fn items(layout: &Layout<'_>) -> Vec<String> {
+pub(super) fn items(context: &Context<'_>) -> Vec<String> {
+    let layout = &context.layout;
     let (model, structure) = (layout.model, layout.structure);
     let mut items = Vec::new();
     items.extend(structure.steps.iter().map(|step| dependents(layout, step)));
@@ -88,7 +89,7 @@ pub(super) fn items(layout: &Layout<'_>) -> Vec<String> {
     let assumed = model.assumptions.iter();
     items.extend(assumed.map(|condition| format!("assumed: {}", quoted(&formula::text(layout, condition)))));
     items.extend(structure.notes.iter().chain(&model.skipped).cloned());
-    items.extend(advice::items(layout));
+    items.extend(advice::items(context));
     alike::once(items.iter().map(|item| item.replace('\n', " ")).collect())
 }
 
@@ -212,7 +213,7 @@ fn joint_name(layout: &Layout<'_>, joint: JointId) -> String {
     layout.name(&layout.model.joints[joint].place)
 }
 
-fn quoted(text: &str) -> String {
+pub(super) fn quoted(text: &str) -> String {
     format!("`{}`", document::code(text))
 }
 

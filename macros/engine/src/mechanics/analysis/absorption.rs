@@ -13,17 +13,20 @@
 //! Rows of several loops are taken apart: those that read a joint's coordinates are independent there, and the others in the
 //! rest.
 
+mod hope;
 mod limb;
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use crate::mechanics::loops::constraints::Writing;
 use crate::mechanics::loops::structure::{Role, Structure};
-use crate::model::types::{LoopClosure, Model};
+use crate::model::types::{Coordinate, LoopClosure, Model};
 
 use super::problem::{Point, Problem, Source};
 use super::tape::Values;
 use limb::{Along, Drawn, Limb, Loop};
+
+pub use hope::Hope;
 
 /// Poses in which loops are closed. They are the same in all axes in which the same coordinates are read.
 #[derive(Default)]
@@ -49,6 +52,10 @@ pub(in super::super) struct Absorption<'p> {
     /// What was found of equations and columns.
     known: HashMap<(Vec<usize>, Vec<usize>), bool>,
     values: Values,
+    /// Where more may be assumed than is: how much of a volume has to be left then.
+    hoping: Option<f64>,
+    /// What would have to be assumed, by column.
+    hopes: BTreeMap<usize, Hope>,
 }
 
 impl<'p> Absorption<'p> {
@@ -68,8 +75,19 @@ impl<'p> Absorption<'p> {
         let own = own.collect();
         let first = problem.at(&structure.closed.first()?.positions);
         let pinned = structure.pinned.clone();
-        let (known, values) = Default::default();
-        Some(Absorption { problem, pinned, equations, columns, own, first, poses, known, values })
+        let (known, values, hoping, hopes) = Default::default();
+        Some(Absorption { problem, pinned, equations, columns, own, first, poses, known, values, hoping, hopes })
+    }
+
+    /// The same where the user may assume more of single coordinates than is assumed, as long as so much of a volume is left.
+    pub(in super::super) fn hoping(self, share: f64) -> Self {
+        Absorption { hoping: Some(share), ..self }
+    }
+
+    /// What has to be assumed for all that was absorbed.
+    pub(in super::super) fn hopes(self) -> Vec<(Coordinate, Hope)> {
+        let Absorption { problem, hopes, .. } = self;
+        hopes.into_iter().map(|(column, hope)| (problem.columns[column].coordinate, hope)).collect()
     }
 
     /// Whether a row, with others that are, is independent in some coordinates of the state, in all poses.
@@ -139,15 +157,30 @@ impl<'p> Absorption<'p> {
         }
         let of_these = |&k: &usize| self.closing(k).is_some_and(|closing| closings.contains(&closing));
         let loops: Vec<usize> = (0..self.problem.equations.len()).filter(of_these).collect();
-        let Absorption { problem, pinned, first, poses, values, .. } = self;
+        let Absorption { problem, pinned, first, poses, values, own, hoping, hopes, .. } = self;
         let limb = Limb::new(problem, pinned, &loops, equations, columns);
         let key = Loop { closings, moving: limb.moving.clone() };
         let drawn = poses.random.entry(key.clone()).or_insert_with(|| Drawn::new(first));
         limb.is_constant(drawn, values).unwrap_or_else(|| {
             let assumed = problem.assumed().into_iter().filter(|column| limb.moving.contains(column));
-            assumed.into_iter().any(|column| {
+            let stays = assumed.into_iter().any(|column| {
                 let along = poses.along.entry((key.clone(), column)).or_insert_with(|| Along::new(column));
                 limb.stays(along, drawn, values)
+            });
+            let Some(share) = hoping.filter(|_| !stays) else { return stays };
+            let single = limb.moving.iter().copied().filter(|&column| own[column] && !problem.columns[column].turns);
+            let mut single: Vec<usize> = single.collect();
+            // The fewer columns there is something to assume of, the better.
+            single.sort_by_key(|column| !hopes.contains_key(column));
+            single.into_iter().any(|column| {
+                let along = poses.along.entry((key.clone(), column)).or_insert_with(|| Along::new(column));
+                let depends = limb.depends(along, drawn, values);
+                let Some(hope) = depends.then(|| limb.hope(column, first, share, values)).flatten() else {
+                    return false;
+                };
+                let hope = hopes.get(&column).map_or(hope, |known| known.and(hope));
+                hopes.insert(column, hope);
+                true
             })
         })
     }

@@ -392,6 +392,12 @@ impl Problem {
         roots.iter().all(|&root| self.tape.value(values, root) != 0.0)
     }
 
+    /// Of a column that is a number by itself.
+    pub(super) fn value_of(&self, point: &Point, column: usize) -> Option<f64> {
+        let own = |mover: &Mover| matches!(mover, Mover::Straight(number) if *number == column);
+        self.movers.iter().position(own).map(|symbol| point.0[symbol])
+    }
+
     /// Whether an equation is no function in pieces.
     pub(super) fn is_analytic(&self, equation: usize) -> bool {
         self.tape.is_analytic(self.equations[equation].root)

@@ -189,6 +189,7 @@ impl<'m> Deriving<'m> {
         });
         self.graph = equations.g;
         self.decided = equations.decided;
+        self.pivoted.extend(self.decided.pivoted.take());
         let results = results?;
         // What a way has left unreplaced has no place in the generated structs.
         if unfinished(&self.graph, &results.list) {

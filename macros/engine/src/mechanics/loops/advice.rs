@@ -16,6 +16,17 @@ pub struct Advice {
     pub own: Option<Figures>,
     /// Of the other choice, or why it is refused.
     pub other: Option<Result<Figures, String>>,
+    /// What the user could assume for more equations to be absorbed, with what the model takes then.
+    pub assumable: Option<(Vec<Assumable>, Figures)>,
+}
+
+/// An `assume` of one coordinate.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Assumable {
+    /// The part in which it stands; nothing for the model itself.
+    pub part: Option<String>,
+    /// `stroke > -0.7`
+    pub condition: String,
 }
 
 impl Advice {

@@ -8,11 +8,13 @@
 use std::rc::Rc;
 
 use crate::dynamics::elimination::{Order, Pattern};
-use crate::mechanics::analysis::{Absorption, Complaint, Poses};
+use crate::mechanics::analysis::{Absorption, Complaint, Hope, Poses};
 use crate::mechanics::equations::{Caches, Equations};
 use crate::mechanics::scene::{Choices, Scene};
+use crate::model::types::Coordinate;
 use crate::symbolic::graph::Sharing;
 
+use super::advice::Pivoted;
 use super::branches::Branches;
 use super::constraints::ClosedIn;
 use super::reduction::{Newton, Reduction};
@@ -36,6 +38,8 @@ pub(in crate::mechanics) struct Decided<'m> {
     reductions: Vec<Rc<Reduced<'m>>>,
     orders: Vec<Known>,
     poses: Poses,
+    /// What became of equations with multipliers in the system that was factorised last.
+    pub(in crate::mechanics) pivoted: Option<Pivoted>,
 }
 
 /// In which order systems of one pattern are eliminated, loops closed in some axes, coordinates given in some order.
@@ -82,6 +86,20 @@ impl Equations<'_> {
         let known = Known { axes: writing.axes, pattern, coordinates: coordinates.to_vec(), order: Rc::clone(&order) };
         self.decided.orders.push(known);
         order
+    }
+
+    /// What would have to be assumed of coordinates for more equations to be absorbed, each of which keeps so much of their volumes.
+    pub(in crate::mechanics) fn hopes(&mut self, reduction: &Reduction, share: f64) -> Vec<(Coordinate, Hope)> {
+        let (pattern, coordinates) = self.pattern_of_solution(reduction);
+        let known = self.order_of(pattern.clone(), &coordinates).cost(&pattern);
+        let (scene, poses) = (&self.scene, &mut self.decided.poses);
+        let absorption = (known > LEAST_COST)
+            .then(|| Absorption::new(scene.model, &scene.structure, scene.way.writing, poses))
+            .flatten();
+        let Some(mut absorption) = absorption.map(|absorption| absorption.hoping(share)) else { return Vec::new() };
+        let mut absorbs = |row: usize, others: &[usize], at: &[usize]| absorption.absorbs(row, others, at);
+        let order = Order::sparse(&pattern, &coordinates, &mut absorbs);
+        if order.cost(&pattern) < known { absorption.hopes() } else { Vec::new() }
     }
 
     fn known_reduction(&mut self, newton: Newton) -> Result<Rc<Reduction>, Vec<Complaint>> {

@@ -12,7 +12,7 @@ use crate::mechanics::translate::symbols::has_quaternion;
 use crate::mechanics::written::Page;
 use crate::model::types::{ConstraintId, Coordinate, ForceId, JointId, LoopClosure, Model};
 
-use super::advice::Advice;
+use super::advice::{Advice, Pivoted};
 use super::constraints::is_length;
 use super::groups::Group;
 
@@ -56,6 +56,8 @@ pub struct Structure {
     pub closed: Vec<Closed>,
     /// Sentences for the report: choices that were made for the user.
     pub notes: Vec<String>,
+    /// By candidate of forward dynamics what became of equations with multipliers; known once they are derived.
+    pub pivoted: Vec<Pivoted>,
     /// What the choice for loops costs beside the other one, where somebody wants to know.
     pub advice: Option<Box<Advice>>,
     /// The equations for readers, where the model asks for them; known once they are derived.

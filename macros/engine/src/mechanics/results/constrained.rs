@@ -10,9 +10,11 @@ use std::rc::Rc;
 
 use crate::contracts::call::Call;
 use crate::contracts::results::{Results, Slot};
+use crate::dynamics::elimination::Pattern;
 use crate::dynamics::saddle::{Posed, Saddle, Solution};
 use crate::invariant::fault::OrFault;
 use crate::mechanics::equations::Equations;
+use crate::mechanics::loops::advice::Pivoted;
 use crate::mechanics::loops::reduction::{Map, Reduction};
 use crate::mechanics::loops::structure::{Role, Row};
 use crate::mechanics::scene::Method;
@@ -266,6 +268,7 @@ impl Equations<'_> {
         let posed = Posed::new(&mut self.g, matrix, (jacobian, groups), &order);
         let sparse = self.order_of(posed.pattern(), &order);
         let saddle = Saddle::new(&mut self.g, &posed, &sparse, &order);
+        self.decided.pivoted = Some(self.pivoted(&saddle));
         let Solution { unknowns: accelerations, multipliers, rank } = saddle.solve(&mut self.g, rhs, held);
         for (k, &multiplier) in multipliers.iter().enumerate() {
             self.g.name(multiplier, || format!("multiplier_{}", k + 1));
@@ -273,14 +276,27 @@ impl Equations<'_> {
         (saddle, ConstrainedMotion { accelerations, multipliers, rank })
     }
 
-    /// What the factors of the system and one solution take, roughly.
-    pub(in crate::mechanics) fn cost_of_solution(&mut self, reduction: &Reduction) -> u32 {
+    /// What became of its equations.
+    fn pivoted(&self, saddle: &Saddle) -> Pivoted {
+        let rows = &self.scene.structure.rows;
+        let named = |places: &[usize]| places.iter().map(|&k| rows[k]).collect::<Vec<Row>>();
+        let (absorbed, cores) = saddle.rows();
+        Pivoted { absorbed: named(&absorbed), cores: cores.iter().map(|core| named(core)).collect() }
+    }
+
+    /// Where the system has entries, and its coordinates from the leaves inwards.
+    pub(in crate::mechanics) fn pattern_of_solution(&mut self, reduction: &Reduction) -> (Pattern, Vec<usize>) {
         let matrix = self.reduced_mass_matrix(reduction);
         let jacobian = self.rows(reduction).jacobian;
         let coordinates = self.state_elimination();
         let groups = self.scene.structure.row_groups(self.scene.model);
         let posed = Posed::new(&mut self.g, matrix, (jacobian, groups), &coordinates);
-        let pattern = posed.pattern();
+        (posed.pattern(), coordinates)
+    }
+
+    /// What the factors of the system and one solution take, roughly.
+    pub(in crate::mechanics) fn cost_of_solution(&mut self, reduction: &Reduction) -> u32 {
+        let (pattern, coordinates) = self.pattern_of_solution(reduction);
         let cost = self.order_of(pattern.clone(), &coordinates).cost(&pattern);
         u32::try_from(cost).unwrap_or(u32::MAX)
     }

@@ -101,6 +101,15 @@ impl Volume {
     pub(super) fn is_great(&self) -> bool {
         self.share > LEAST
     }
+
+    pub(super) fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// Whether there is more of it, and rows are well in it.
+    pub(super) fn is_beyond(&self, size: f64) -> bool {
+        self.size > size && self.share > 2.0 * LEAST
+    }
 }
 
 /// Equations in some columns.
@@ -287,14 +296,45 @@ impl<'a> Limb<'a> {
         Some(stops)
     }
 
-    /// Whether the volume depends on one column alone, and vanishes nowhere along it.
-    pub(super) fn stays(&self, along: &mut Along, drawn: &mut Drawn, values: &mut Values) -> bool {
+    /// What a column is at a pose, if it is a number by itself.
+    pub(super) fn value(&self, point: &Point, column: usize) -> Option<f64> {
+        self.problem.value_of(point, column)
+    }
+
+    pub(super) fn travels(&self, column: usize) -> bool {
+        self.problem.columns[column].travels
+    }
+
+    /// Half a turn, or so many sizes of the mechanism.
+    pub(super) fn reach(&self, column: usize, far: f64) -> f64 {
+        if self.problem.columns[column].travels { far } else { TURN }
+    }
+
+    /// Along one column, with the loops closed again.
+    pub(super) fn moved_along(&self, column: usize, way: f64, from: &Point, values: &mut Values) -> Option<Point> {
+        let (mut step, mut held) = (vec![0.0; self.problem.columns.len()], vec![false; self.problem.columns.len()]);
+        (step[column], held[column]) = (way, true);
+        let mut pose = from.clone();
+        self.problem.displace(&mut pose, &step);
+        self.close(&mut pose, &held, values).then_some(pose)
+    }
+
+    /// Whether the volume depends on one column alone.
+    pub(super) fn depends(&self, along: &mut Along, drawn: &mut Drawn, values: &mut Values) -> bool {
         for k in 0..LEAST_POSES {
             let Some([one, other]) = self.pair(along, drawn, k, values) else { return false };
             let volume = self.volume(one, values);
             if !self.volume(other, values).is_like(&volume) {
                 return false;
             }
+        }
+        true
+    }
+
+    /// Whether the volume depends on one column alone, and vanishes nowhere along it.
+    pub(super) fn stays(&self, along: &mut Along, drawn: &mut Drawn, values: &mut Values) -> bool {
+        if !self.depends(along, drawn, values) {
+            return false;
         }
         let Some(ways) = along.ways.get_or_init(|| self.ways(along.column, drawn, values)) else { return false };
         ways.iter().all(|way| {

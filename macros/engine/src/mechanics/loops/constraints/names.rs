@@ -45,14 +45,22 @@ pub(in crate::mechanics) fn rows_of_joint(model: &Model, id: JointId) -> Vec<Str
 
 /// A coordinate as the user addresses it.
 pub fn coordinate_name(model: &Model, coordinate: Coordinate) -> String {
-    let joint = &model.joints[coordinate.joint];
-    let kind = joint.kind;
-    let suffix = match kind.freedoms.get(coordinate.index) {
+    path(model, &model.joints[coordinate.joint].place) + &of_coordinate(model, coordinate)
+}
+
+/// The same inside the part in which the joint stands.
+pub fn local_name(model: &Model, coordinate: Coordinate) -> String {
+    format!("{}{}", model.joints[coordinate.joint].place.field, of_coordinate(model, coordinate))
+}
+
+/// `.first`, of joints of one coordinate nothing.
+fn of_coordinate(model: &Model, coordinate: Coordinate) -> String {
+    let kind = model.joints[coordinate.joint].kind;
+    match kind.freedoms.get(coordinate.index) {
         Some(_) if kind.freedoms() == 1 => String::new(),
         Some(freedom) => format!(".{}", freedom.name),
         None => format!(".turn_{}", AXES[coordinate.index - kind.freedoms.len()]),
-    };
-    path(model, &joint.place) + &suffix
+    }
 }
 
 /// A leaf as the user addresses it.
