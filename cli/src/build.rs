@@ -10,7 +10,7 @@ use multibody_engine::model::Soundness;
 use multibody_engine::model::types::Model;
 use multibody_engine::optimize::program::Compiled;
 use multibody_engine::optimize::{Excess, Refusal};
-use multibody_engine::{Trouble, advice_on, compile, mechanics, model, settled, syntax};
+use multibody_engine::{Trouble, compile, mechanics, model, settled, syntax};
 
 use crate::Stop;
 use crate::arguments::Subject;
@@ -50,12 +50,10 @@ pub(crate) fn advised_models(subject: &Subject) -> Result<Vec<Built>, Stop> {
 
 /// A model as `Auto` has it, with what the choice costs beside the other one.
 pub(crate) fn advised(model: &Model) -> Result<Built, Trouble> {
-    let (model, advice, (mut structure, compiled)) = settled(model, compile)?;
-    let advice = advice.map(Box::new).or(structure.advice.take());
-    structure.advice = match advice {
-        None => advice_on(&model, &structure, &compiled)?.map(Box::new),
-        advice => advice,
-    };
+    let (model, advice, (structure, compiled)) = settled(model, compile)?;
+    let is_told = structure.advice.as_ref().is_some_and(|_| advice.is_none());
+    let structure = Structure { advice: advice.map(Box::new).or(structure.advice), ..structure };
+    let structure = if is_told { structure } else { multibody_engine::advised(&model, structure, &compiled)? };
     Ok(Built { model: model.into_owned(), structure, compiled })
 }
 

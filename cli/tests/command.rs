@@ -235,6 +235,8 @@ fn what_is_left_to_the_compiler() {
         lines[1].starts_with(said) && lines[1].contains(" by Newton's method with all its rounds, work "),
         "{checked}"
     );
+    let said = "  none of the 2 equations with multipliers is absorbed by coordinates of its limb; 2 are left to pivoted solutions";
+    assert!(lines.len() == 3 && lines[2].starts_with(said), "{checked}");
     // The work of both, as it is compared.
     for constraints in ["Multipliers", "Reduced"] {
         let row = cells(&output).into_iter().find(|row| row[0].starts_with("Joint") && row[1] == constraints).unwrap();

@@ -143,16 +143,17 @@ fn expand_by(
 /// The stages behind the checked model.
 pub fn compile(model: &Model) -> Result<(Structure, Compiled), Trouble> {
     let (model, advice, (structure, compiled)) = settled(model, compile_as_written)?;
-    let advice = match advice {
-        None if model.emit.contains(&Request::Report) => advice_on(&model, &structure, &compiled)?,
-        advice => advice,
-    };
-    Ok((Structure { advice: advice.map(Box::new), ..structure }, compiled))
+    let structure = Structure { advice: advice.map(Box::new), ..structure };
+    Ok((
+        if model.emit.contains(&Request::Report) { advised(&model, structure, &compiled)? } else { structure },
+        compiled,
+    ))
 }
 
-/// What the choice for a model's loops costs beside the other one.
-pub fn advice_on(model: &Model, structure: &Structure, compiled: &Compiled) -> Result<Option<Advice>, Trouble> {
-    guard("formulation", || formulation::compare(model, structure, compiled)).map_err(Trouble::Fault)
+/// With all that there is to say of the choice for a model's loops.
+pub fn advised(model: &Model, structure: Structure, compiled: &Compiled) -> Result<Structure, Trouble> {
+    let advice = guard("formulation", || formulation::advice(model, &structure, compiled)).map_err(Trouble::Fault)?;
+    Ok(Structure { advice: advice.map(Box::new), ..structure })
 }
 
 /// The model as `constraints: Auto` has it, and what work makes of that. A choice that is refused as a whole is not taken.

@@ -39,19 +39,23 @@ pub fn choose(model: &Model) -> ([Handling; 2], Option<Advice>) {
     (handlings, Some(advice))
 }
 
-/// What the choice that was made costs, beside the other one; nothing of models without loops.
-pub fn compare(model: &Model, structure: &Structure, compiled: &Compiled) -> Option<Advice> {
+/// What the choice that was made costs, beside the other one, and what could be assumed for it; nothing of models without loops.
+pub fn advice(model: &Model, structure: &Structure, compiled: &Compiled) -> Option<Advice> {
     if !has_loops(model) {
         return None;
+    }
+    let is_forward = asks_forward(model);
+    let own = counted(structure, compiled, is_forward);
+    let assumable = assumable::assumable(model, &own);
+    // Where the choice was the compiler's, both are known.
+    if let Some(chosen) = &structure.advice {
+        return Some(Advice { assumable, ..(**chosen).clone() });
     }
     let other = match model.handling {
         Handling::Reduced => Handling::Multipliers,
         Handling::Multipliers | Handling::Stabilised { .. } | Handling::Auto => Handling::Reduced,
     };
-    let is_forward = asks_forward(model);
-    let own = counted(structure, compiled, is_forward);
     let other = Some(figures(model, &other));
-    let assumable = assumable::assumable(model, &own);
     Some(Advice { is_chosen: false, is_forward, own: Some(own), other, assumable })
 }
 

@@ -126,6 +126,18 @@ fn assumptions_do_what_is_told_of_them() {
     }
 }
 
+/// What was chosen is told together with what could be assumed for it.
+#[test]
+fn a_choice_of_the_compiler_has_advice_too() {
+    let (parts, items) = struts("Z", "");
+    let built = Built::new(&(parts, format!("{items} formulation {{ constraints: Auto }}")));
+    let advice = built.structure.advice.as_ref().unwrap();
+    assert!(advice.is_chosen && matches!(advice.other, Some(Ok(_))));
+    let (lines, promised) = built.assumable();
+    assert!(lines[0].1.starts_with("stroke > -0.") && promised != built.forward().after, "{lines:?}");
+    assert_eq!(advice.own.unwrap().operations, built.forward().after);
+}
+
 /// Angles have bounds on both sides, and joints outside of parts a line each.
 #[test]
 fn assumptions_of_angles() {
