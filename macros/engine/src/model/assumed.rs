@@ -101,9 +101,9 @@ mod tests {
     #[test]
     fn bounds_have_few_digits() {
         assert_eq!(tidied(-0.7437, 1.5), -0.7);
-        assert_eq!(tidied(0.123_456, 0.3), 0.13);
+        assert_eq!(tidied(0.123_456, 0.3), 0.124);
         assert_eq!(tidied(2.345, 0.0), 2.3);
-        assert_eq!(tidied(0.001_234, 0.002), 0.0013);
+        assert_eq!(tidied(0.001_234, 0.002), 0.001_24);
         assert_eq!(tidied(1234.0, 2000.0), 1240.0);
     }
 
