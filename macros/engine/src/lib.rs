@@ -17,7 +17,7 @@
 //! mechanics: solve dynamics symbolic contracts model invariant
 //! optimize: mechanics symbolic contracts rust_keywords invariant
 //! verify: optimize mechanics symbolic contracts model invariant
-//! formulation: optimize mechanics contracts model
+//! formulation: optimize mechanics contracts model invariant
 //! emit: optimize mechanics contracts model symbolic::write rust_keywords invariant
 //! ```
 //!

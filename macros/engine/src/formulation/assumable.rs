@@ -7,6 +7,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
+use crate::invariant::fault::guard;
 use crate::mechanics;
 use crate::mechanics::analysis::{Hope, analyse};
 use crate::mechanics::loops::advice::{Assumable, Closing, Figures};
@@ -53,7 +54,8 @@ pub(super) fn assumable(model: &Model, own: &Figures) -> Option<(Vec<Assumable>,
     let is_worth = |found: &Figures, than: &Figures| f64::from(found.work) < WORTH * f64::from(than.work);
     let mut best: Option<(Vec<Line>, Figures)> = None;
     for share in SHARES {
-        for hopes in mechanics::hopes(&judged, &structure, share).ok()?.into_iter().take(MOST_WAYS) {
+        let hopes = guard("mechanics", || mechanics::hopes(&judged, &structure, share)).ok()?.ok()?;
+        for hopes in hopes.into_iter().take(MOST_WAYS) {
             let lines = lines(model, &hopes);
             if lines.len() > MOST_LINES {
                 continue;

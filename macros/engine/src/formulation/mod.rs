@@ -9,6 +9,7 @@ mod assumable;
 
 use crate::contracts::cost::Cost;
 use crate::contracts::function::{Asked, FunctionKind};
+use crate::invariant::fault::{Fault, guard};
 use crate::mechanics;
 use crate::mechanics::loops::advice::{Advice, Closing, Figures};
 use crate::mechanics::loops::structure::Structure;
@@ -70,7 +71,11 @@ fn asks_forward(model: &Model) -> bool {
 /// What a model takes with its loops closed in one way, or why it is refused.
 fn figures(model: &Model, handling: &Handling) -> Result<Figures, String> {
     let model = judged(model, handling);
-    let derived = mechanics::of(&model);
+    // A choice that nobody has made stands in nobody's way.
+    let failed = |fault: Fault| {
+        format!("the stage `{}` has failed, which is an error of multibody: {}", fault.stage, fault.what)
+    };
+    let derived = guard("mechanics", || mechanics::of(&model)).map_err(failed)?;
     let (structure, mut derivation) = derived.map_err(|complaints| match complaints.into_iter().next() {
         Some(complaint) => complaint.message,
         None => "the model is not what was written".to_owned(),
@@ -78,7 +83,7 @@ fn figures(model: &Model, handling: &Handling) -> Result<Figures, String> {
     // Nothing else is counted.
     let is_forward = asks_forward(&model);
     derivation.functions.retain(|function| counts(function.kind, is_forward));
-    let compiled = optimize::compile(&derivation).map_err(refused)?;
+    let compiled = guard("optimize", || optimize::compile(&derivation)).map_err(failed)?.map_err(refused)?;
     Ok(counted(&structure, &compiled, is_forward))
 }
 
