@@ -11,7 +11,7 @@ mod models;
 mod random;
 mod states;
 
-use models::{biped, biped_reduced, delta, stewart, stewart_reduced};
+use models::{biped, biped_reduced, delta, delta_reduced, stewart, stewart_reduced};
 use random::Random;
 use states::{COUNT, Sample};
 use std::fmt::Write;
@@ -30,7 +30,7 @@ fn main() {
     if let Some(path) = std::env::args().nth(1).filter(|argument| argument != "--bench") {
         let mut text = String::new();
         write(&mut text, "stewart", stewarts.iter().map(|all| &all.4));
-        write(&mut text, "delta", deltas.iter().map(|all| &all.2));
+        write(&mut text, "delta", deltas.iter().map(|all| &all.4));
         write(&mut text, "biped", bipeds.iter().map(|all| &all.4));
         std::fs::write(path, text).expect("the states can be written");
     }
@@ -38,6 +38,7 @@ fn main() {
     let stewart = stewart::Model::default();
     let stewart_reduced = stewart_reduced::Model::default();
     let delta = delta::Model::default();
+    let delta_reduced = delta_reduced::Model::default();
     let biped = biped::Model::default();
     let biped_reduced = biped_reduced::Model::default();
     let angles: Vec<f64> = (0..EVALUATIONS).map(|_| std::f64::consts::PI * random.unit()).collect();
@@ -51,8 +52,12 @@ fn main() {
             black_box(stewart_reduced.forward_dynamics(0.0, black_box(state), input));
         }),
         Row::new("delta multipliers", |k| {
-            let (state, input, _) = &deltas[k % COUNT];
+            let (state, input, ..) = &deltas[k % COUNT];
             black_box(delta.forward_dynamics(0.0, black_box(state), input));
+        }),
+        Row::new("delta reduced", |k| {
+            let (_, _, state, input, _) = &deltas[k % COUNT];
+            black_box(delta_reduced.forward_dynamics(0.0, black_box(state), input));
         }),
         Row::new("biped multipliers", |k| {
             let (state, input, ..) = &bipeds[k % COUNT];

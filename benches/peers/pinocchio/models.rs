@@ -87,6 +87,40 @@ multibody! {
 }
 
 multibody! {
+    /// The same limb, its rods parallel.
+    mod limb {
+        port hip: Frame;
+        port pin: Frame;
+        /// [N m]
+        input torque;
+        body arm { mass: 0.3, com: 0.15 * X, inertia: diag(0.0001, 0.003, 0.003) }
+        body rod_a { mass: 0.1, com: 0.4 * X, inertia: diag(0.00001, 0.006, 0.006) }
+        body rod_b { mass: 0.1, com: 0.4 * X, inertia: diag(0.00001, 0.006, 0.006) }
+        joint shoulder: Revolute { parent: hip, child: arm, axis: Y }
+        joint elbow_a: Universal { parent: arm.at(0.3 * X + 0.05 * Y), child: rod_a, axes: [Y, Z] }
+        joint elbow_b: Universal { parent: arm.at(0.3 * X - 0.05 * Y), child: rod_b, axes: [Y, Z] }
+        #[cut]
+        joint wrist: Ball { parent: rod_a.at(0.8 * X), child: pin }
+        constraint parallel_first = elbow_b.first - elbow_a.first;
+        constraint parallel_second = elbow_b.second - elbow_a.second;
+        solve (shoulder, elbow_a) from wrist { cos(elbow_a.second) > 0.0, sin(elbow_a.first) > 0.0 }
+        force motor: Effort { joint: shoulder, value: torque }
+    }
+    /// The Delta robot in the plate's position: six rods hold the plate level, so the rods of a pair stay parallel.
+    pub mod delta_reduced {
+        world { gravity: -9.80665 * Z }
+        formulation { constraints: Reduced }
+        body plate { mass: 0.5, inertia: diag(0.001, 0.001, 0.002), coordinates: Absolute(RollPitchYaw) }
+        part limbs: [limb; 3] = |i| limb {
+            hip: ground.rotated(Z, i * 2.0 * PI / 3.0).at(0.2 * X),
+            pin: plate.rotated(Z, i * 2.0 * PI / 3.0).at(0.05 * X + 0.05 * Y),
+        };
+        drive plate.orientation = identity();
+        emit forward_dynamics;
+    }
+}
+
+multibody! {
     /// Three hinges at the hip, one at the knee; a crank on the shank turns the foot through a rod.
     mod leg {
         port hip: Frame;

@@ -1,6 +1,6 @@
 //! Random states of the mechanisms, their loops closed, and the same in Pinocchio's coordinates.
 
-use super::models::{biped, biped_reduced, delta, stewart, stewart_reduced};
+use super::models::{biped, biped_reduced, delta, delta_reduced, stewart, stewart_reduced};
 use super::random::Random;
 use multibody::nalgebra::{Rotation3, SVector, UnitQuaternion, Vector3};
 use multibody::{FreeRollPitchYaw, Pose, Projection, RollPitchYaw, Twist};
@@ -125,7 +125,9 @@ pub fn stewart(random: &mut Random) -> Stewart {
     (state, input, reduced, reduced_input, sample)
 }
 
-pub fn delta(random: &mut Random) -> (delta::State, delta::Input, Sample) {
+type Delta = (delta::State, delta::Input, delta_reduced::State, delta_reduced::Input, Sample);
+
+pub fn delta(random: &mut Random) -> Delta {
     let model = delta::Model::default();
     let mut state = delta::State::default();
     let position = Vector3::new(0.0, 0.0, -0.7) + vector(random, 0.1);
@@ -146,14 +148,20 @@ pub fn delta(random: &mut Random) -> (delta::State, delta::Input, Sample) {
     let state = Projection::default().project(&model, 0.0, &state).expect("arms reach").state;
     let torques: [f64; 3] = random.units();
     let mut input = delta::Input::default();
-    for (limb, torque) in input.limbs.iter_mut().zip(torques) {
-        limb.torque = torque;
+    let mut reduced_input = delta_reduced::Input::default();
+    for (i, torque) in torques.into_iter().enumerate() {
+        (input.limbs[i].torque, reduced_input.limbs[i].torque) = (torque, torque);
     }
     let a = model.forward_dynamics(0.0, &state, &input).v;
     let effort = efforts(21, torques.into_iter().enumerate().map(|(i, torque)| (6 + 5 * i, torque)));
     let base = Base::of_angles(&state.q.plate, &state.v.plate, &a.plate);
     let (q, v, a) = (flat::<21>(state.q), flat::<21>(state.v), flat::<21>(a));
-    (state, input, base.sample(&q[6..], &v[6..], effort, &a[6..]))
+    let mut reduced = delta_reduced::State::default();
+    (reduced.q.plate, reduced.v.plate) = (state.q.plate.position, state.v.plate.position);
+    let alone = delta_reduced::Model::default().forward_dynamics(0.0, &reduced, &reduced_input);
+    assert_same("Delta robot", &flat::<3>(alone), &a[..3]);
+    let sample = base.sample(&q[6..], &v[6..], effort, &a[6..]);
+    (state, input, reduced, reduced_input, sample)
 }
 
 type Biped = (biped::State, biped::Input, biped_reduced::State, biped_reduced::Input, Sample);
