@@ -10,10 +10,14 @@ use std::collections::HashMap;
 use crate::invariant::fault::OrFault;
 use crate::invariant::injection::{Break, broken};
 
-use super::elimination::Elimination;
 use super::graph::{
     AnyNode, BlockId, BlockKind, Graph, Name, PlaceMap, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode,
 };
+use super::sparse_factors::{SparseFactors, expressions};
+
+/// A system that would make a function larger than so many expressions is not written out, but solved by the runtime: one of
+/// about twenty unknowns in which each equation reads all.
+const MOST_WRITTEN: usize = 45_000;
 
 /// Copies expressions of one graph into another, as scalars.
 pub struct Lowering<'g> {
@@ -24,7 +28,7 @@ pub struct Lowering<'g> {
     matrices: PlaceMap<[[Scalar; 3]; 3]>,
     blocks: HashMap<BlockId, Vec<Scalar>>,
     /// By their matrices.
-    eliminations: HashMap<Box<[Scalar]>, Elimination>,
+    factors: HashMap<Box<[Scalar]>, SparseFactors>,
 }
 
 impl<'g> Lowering<'g> {
@@ -38,7 +42,7 @@ impl<'g> Lowering<'g> {
             vectors: PlaceMap::default(),
             matrices: PlaceMap::default(),
             blocks: HashMap::new(),
-            eliminations: HashMap::new(),
+            factors: HashMap::new(),
         }
     }
 
@@ -134,8 +138,16 @@ impl<'g> Lowering<'g> {
     fn eliminate(&mut self, size: usize, operands: &[Scalar]) -> Vec<Scalar> {
         let (matrix, side) = operands.split_at(size * size);
         let to = &mut self.to;
-        let elimination = self.eliminations.entry(matrix.into()).or_insert_with(|| Elimination::of(to, size, matrix));
-        elimination.solve(to, side)
+        if !self.factors.contains_key(matrix) {
+            if to.len() + expressions(size, matrix) > MOST_WRITTEN {
+                let kind = BlockKind::Solve { size, symmetric: false, groups: Box::default() };
+                let mut unknowns = to.block_outputs(kind, operands);
+                unknowns.truncate(size);
+                return unknowns;
+            }
+            self.factors.insert(matrix.into(), SparseFactors::of(to, size, matrix));
+        }
+        self.factors[matrix].solve(to, side)
     }
 
     fn dot(&mut self, a: &[Scalar; 3], b: &[Scalar; 3]) -> Scalar {

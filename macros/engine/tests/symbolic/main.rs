@@ -3,7 +3,6 @@
 mod adjoints;
 mod blocks;
 mod differentiation;
-mod elimination;
 #[path = "../common/expressions.rs"]
 mod expressions;
 mod identity;
@@ -12,6 +11,7 @@ mod literals;
 #[path = "../common/rng.rs"]
 mod rng;
 mod signs;
+mod sparse_factors;
 mod structured;
 mod substitution;
 mod vectors;

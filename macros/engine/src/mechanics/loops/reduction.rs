@@ -23,7 +23,7 @@ use crate::symbolic::graph::{BlockKind, Graph, Scalar, SymbolId};
 use crate::symbolic::structured::solve_structured;
 
 use super::constraints::coordinate_name;
-use super::structure::{Means, Role, Row, Step};
+use super::structure::{Means, Role, Step};
 
 /// Expressions by the symbol that they replace.
 pub(in crate::mechanics) type Map = HashMap<SymbolId, Scalar>;
@@ -309,19 +309,16 @@ impl Equations<'_> {
                 matrix.push(self.g.derivative(equation, &[(symbol[0], Scalar::ONE)]));
             }
         }
-        let (outputs, residual) =
-            self.solve_by(newton, (rows, *guess), &symbols, [&equations, &matrix], &reduction.map);
+        let (outputs, residual) = self.solve_by(newton, *guess, &symbols, [&equations, &matrix], &reduction.map);
         reduction.residuals.push(residual);
         reduction.matrices.push(matrix.clone());
         reduction.guesses.extend(&outputs);
         // Rates: J x' = -E', with everything on the tree.
-        let matrix = self.weighed(rows, &matrix);
         let unknowns: Vec<(Scalar, Scalar)> = symbols.iter().map(|s| (s[1], s[2])).collect();
         let derivatives: Vec<(Scalar, Scalar)> =
             equations.iter().map(|&equation| self.implicit_rates(equation, &unknowns)).collect();
         let first: Vec<Scalar> = derivatives.iter().map(|d| -d.0).collect();
         let second: Vec<Scalar> = derivatives.iter().map(|d| -d.1).collect();
-        let [first, second] = [first, second].map(|side| self.weighed(rows, &side));
         let [rates, accelerations] = self.solve_rates(size, &matrix, [&first, &second]);
         let mut definitions = Vec::with_capacity(size);
         for (k, &coordinate) in step.unknowns.iter().enumerate() {
@@ -338,7 +335,7 @@ impl Equations<'_> {
     fn solve_by(
         &mut self,
         newton: Newton,
-        (rows, guess): (&[Row], usize),
+        guess: usize,
         symbols: &[[Scalar; 3]],
         [equations, matrix]: [&[Scalar]; 2],
         known: &Map,
@@ -351,8 +348,7 @@ impl Equations<'_> {
         map.extend(self.map(&own));
         let values = self.g.substitute(equations, &map);
         let entries = self.g.substitute(matrix, &map);
-        let [entries, sides] = [&entries, &values].map(|list| self.weighed(rows, list));
-        let step_by = self.eliminate(size, &entries, &sides);
+        let step_by = self.eliminate(size, &entries, &values);
         let next: Vec<Scalar> = inner.iter().zip(&step_by).map(|(&x, &d)| self.g.sub(x, d)).collect();
         let g = &mut self.g;
         let residual = values.iter().fold(Scalar::ZERO, |worst, &value| {
@@ -403,21 +399,6 @@ impl Equations<'_> {
         columns.push(self.eliminate(size, matrix, &rest));
         let factors: Vec<Scalar> = known.into_iter().chain([Scalar::ONE]).collect();
         [combined(&mut self.g, &columns, &factors, size), self.eliminate(size, matrix, second)]
-    }
-
-    /// Equations, or rows of a matrix, in units in which their slopes are about one, where they are not: lengths of a small
-    /// mechanism. By powers of two, which rounding does not see.
-    fn weighed(&mut self, rows: &[Row], entries: &[Scalar]) -> Vec<Scalar> {
-        let exponents: Vec<f64> = rows.iter().map(|row| self.scene.structure.scale(*row).log2().round()).collect();
-        if exponents.iter().all(|exponent| exponent.abs() <= ABOUT_ONE) {
-            return entries.to_vec();
-        }
-        let width = entries.len() / rows.len().max(1);
-        let weight = |g: &mut Graph, at: usize, entry: Scalar| {
-            let weight = g.decimal((-exponents[at / width]).exp2());
-            g.mul(weight, entry)
-        };
-        entries.iter().enumerate().map(|(at, &entry)| weight(&mut self.g, at, entry)).collect()
     }
 
     /// The solution of a square system that is regular but in singular poses.
@@ -497,9 +478,6 @@ fn combined(g: &mut Graph, columns: &[Vec<Scalar>], factors: &[Scalar], size: us
     };
     (0..size).map(row).collect()
 }
-
-/// Slopes between 2 to minus this and to plus this are about one.
-const ABOUT_ONE: f64 = 4.0;
 
 /// Rounds of Newton's method: from a guess of the last step, quadratic convergence needs three; a few more serve coarse
 /// guesses. The residual tells whether they were enough.

@@ -1,9 +1,9 @@
-//! Stage `symbolic`: square linear systems, eliminated in an order that the pattern of their matrix gives.
+//! Stage `symbolic`: square linear systems, factorised in an order that the pattern of their matrix gives.
 //!
 //! In: a matrix. Out: its factors as expressions, and solutions with them for any number of right sides.
 //!
-//! The order of columns is found while compiling: next comes the column whose elimination takes the least work, a row that has
-//! one column left before all others (it says what its unknown is, whatever stands below it). The rows that still have an
+//! The order of columns is found while compiling ([`order`]): next comes the column whose elimination takes the least work, a row
+//! that has one column left before all others (it says what its unknown is, whatever stands below it). The rows that still have an
 //! entry in the column compete for its pivot, the largest entry wins, and rows change places by selects: partial pivoting, so
 //! a column without a pivot means that the matrix is singular, and not that the order was a bad one. Rows that have no entry
 //! there are left alone, so systems that hang together by few unknowns cost what these couple (Duff, Erisman and Reid,
@@ -11,18 +11,42 @@
 //!
 //! Columns with entries in few equations may be orthogonal to each other whatever the configuration is: the joint of a rod, or the
 //! joints of a leg, move its tip along vectors at right angles. Then nothing competes: unknowns are projections, and what is left
-//! of as many equations and one more is the one along their normal, as good as any pivot. Equations are to be in units in which
-//! slopes are about one.
+//! of as many equations and one more is the one along their normal, as good as any pivot.
 //!
-//! A pivot that is rounding beside the column as it was given counts as zero, and its unknown is zero then: a solution is finite
-//! where the matrix is singular. The rank is not told; who asks for it takes the pivoted solve of the runtime.
+//! # What counts as zero
+//!
+//! Neither may depend on units, which are those of parameters at run time: a row of lengths beside one of cosines, metres or
+//! micrometres. With s_i the greatest entry of row i as it was given, row i wins against row j in column k where
+//! |a_ik| / s_i > |a_jk| / s_j: implicit scaling (Higham 2002, Accuracy and Stability of Numerical Algorithms, section 9.3),
+//! written |a_jk| s_i < |a_ik| s_j.
+//!
+//! A pivot p is rounding where it is small beside what that entry itself was made of, its *noise* ([`rows`]): n = |a| as given,
+//! and n_ij + |l| n_kj once l times row k is taken from row i, since a_kj is known to n_kj roundings, whatever has cancelled in
+//! it. With |p| <= 16 eps n the pivot is lost: no digit of it is known. Rows and columns in other units multiply p and n alike, and
+//! no entry of another row or column matters; so a small pivot counts wherever its own digits are there.
+//!
+//! Where a pivot is lost its unknown is zero, and a solution is finite where the matrix is singular. The rank is not told; who asks
+//! for it takes the pivoted solve of the runtime. The row that was to give the pivot says something of other unknowns all the same,
+//! and which of the rows is superfluous then nobody knows: each of those that competed takes a share of it, all different, so that none is
+//! lost whatever depends on what. That is one select for each factor. A column of which one row alone has entries takes this
+//! row along; to leave it open would be one more row to compete for every pivot behind it.
+//!
+//! What is infinite or no number is measured by what is infinite or no number: zero times that stands in the place of the unknown, so
+//! it shows in the solution.
+
+mod order;
+mod rows;
 
 use crate::contracts::call::Call;
 use crate::invariant::fault::raise;
 
 use super::graph::{Graph, Scalar};
 
-/// Pivots below this many roundings for each step that has changed them are none.
+use rows::{Row, exchange, largest};
+
+pub use order::expressions;
+
+/// Pivots below this many roundings of what they are made of are none.
 const UNITS: i64 = 16;
 
 /// What is done to the rows, right sides included.
@@ -46,8 +70,16 @@ enum Pivot {
     Orthogonal { rows: Vec<(usize, Entries)>, columns: Vec<(usize, Vec<Scalar>, Scalar)> },
 }
 
+/// One over a pivot.
+struct Inverse {
+    /// Zero where the pivot is lost.
+    guarded: Scalar,
+    /// As it is, and the mask that tells where it is lost; nothing where it can't be.
+    plain: Option<(Scalar, Scalar)>,
+}
+
 /// A factorised matrix.
-pub struct Elimination {
+pub struct SparseFactors {
     steps: Vec<Step>,
     /// In the order of elimination.
     pivots: Vec<Pivot>,
@@ -57,33 +89,18 @@ pub struct Elimination {
 struct Work<'a> {
     g: &'a mut Graph,
     size: usize,
-    rows: Vec<Vec<Scalar>>,
+    rows: Vec<Row>,
     open_rows: Vec<usize>,
     open_columns: Vec<usize>,
-    /// By column how many steps have changed it.
-    changes: Vec<i64>,
-    /// By column its largest entry as it was given, once somebody asks.
-    scales: Vec<Option<Scalar>>,
-    given: &'a [Scalar],
-    done: Elimination,
+    done: SparseFactors,
 }
 
-impl Elimination {
+impl SparseFactors {
     /// Factorises a matrix, given row by row.
-    pub fn of(g: &mut Graph, size: usize, matrix: &[Scalar]) -> Elimination {
-        let rows = matrix.chunks(size.max(1)).map(<[Scalar]>::to_vec).collect();
-        let done = Elimination { steps: Vec::new(), pivots: Vec::with_capacity(size) };
-        let mut work = Work {
-            g,
-            size,
-            rows,
-            open_rows: (0..size).collect(),
-            open_columns: (0..size).collect(),
-            changes: vec![0; size],
-            scales: vec![None; size],
-            given: matrix,
-            done,
-        };
+    pub fn of(g: &mut Graph, size: usize, matrix: &[Scalar]) -> SparseFactors {
+        let rows = matrix.chunks(size.max(1)).map(|entries| Row::new(entries.to_vec())).collect();
+        let done = SparseFactors { steps: Vec::new(), pivots: Vec::with_capacity(size) };
+        let mut work = Work { g, size, rows, open_rows: (0..size).collect(), open_columns: (0..size).collect(), done };
         while let Some((rows, columns)) = work.orthogonal() {
             work.project(&rows, &columns);
         }
@@ -137,29 +154,15 @@ impl Elimination {
 impl Work<'_> {
     /// The next column, and the rows that compete for its pivot.
     fn next(&self) -> Option<(usize, Vec<usize>)> {
-        let filled = |row: usize, column: usize| self.rows[row][column] != Scalar::ZERO;
-        for &row in &self.open_rows {
-            let mut columns = self.open_columns.iter().copied().filter(|&column| filled(row, column));
-            if let (Some(column), None) = (columns.next(), columns.next()) {
-                return Some((column, vec![row]));
-            }
-        }
-        let candidates = self.open_columns.iter().map(|&column| {
-            let rows: Vec<usize> = self.open_rows.iter().copied().filter(|&row| filled(row, column)).collect();
-            let is_wide = |&other: &usize| rows.iter().any(|&row| filled(row, other));
-            let width = self.open_columns.iter().filter(|other| is_wide(other)).count();
-            (rows.len().saturating_sub(1) * width, rows.len(), column, rows)
-        });
-        candidates
-            .min_by_key(|(work, rows, column, _)| (*work, *rows, *column))
-            .map(|(.., column, rows)| (column, rows))
+        let filled = |row: usize, column: usize| self.rows[row].entries[column] != Scalar::ZERO;
+        order::next(&self.open_rows, &self.open_columns, &filled)
     }
 
     /// Columns that are orthogonal to each other and have entries in as many rows, or in one more, of up to three; these rows.
     fn orthogonal(&mut self) -> Option<(Vec<usize>, Vec<usize>)> {
         let columns = self.open_columns.clone();
         let reach = |work: &Self, column: usize| -> Vec<usize> {
-            work.open_rows.iter().copied().filter(|&row| work.rows[row][column] != Scalar::ZERO).collect()
+            work.open_rows.iter().copied().filter(|&row| work.rows[row].entries[column] != Scalar::ZERO).collect()
         };
         let reaches: Vec<Vec<usize>> = columns.iter().map(|&column| reach(self, column)).collect();
         for rows in reaches.iter().filter(|rows| (2..=3).contains(&rows.len())) {
@@ -186,14 +189,14 @@ impl Work<'_> {
 
     /// The product of two columns in these rows.
     fn gram(&mut self, rows: &[usize], a: usize, b: usize) -> Scalar {
-        let [a, b] = [a, b].map(|column| rows.iter().map(|&row| self.rows[row][column]).collect::<Vec<_>>());
+        let [a, b] = [a, b].map(|column| rows.iter().map(|&row| self.rows[row].entries[column]).collect::<Vec<_>>());
         dot(self.g, &a, &b)
     }
 
     /// Eliminates columns that are orthogonal in these rows.
     fn project(&mut self, rows: &[usize], columns: &[usize]) {
         let squares: Vec<Scalar> = columns.iter().map(|&column| self.gram(rows, column, column)).collect();
-        let entries = |column: usize| rows.iter().map(|&row| self.rows[row][column]).collect::<Vec<_>>();
+        let entries = |column: usize| rows.iter().map(|&row| self.rows[row].entries[column]).collect::<Vec<_>>();
         let vectors: Vec<Vec<Scalar>> = columns.iter().map(|&column| entries(column)).collect();
         let inverses: Vec<Scalar> = squares.iter().map(|&square| self.positive(square)).collect();
         self.open_rows.retain(|row| !rows.contains(row));
@@ -212,16 +215,16 @@ impl Work<'_> {
                 rows.iter().copied().zip(normal).map(|(row, n)| (row, self.g.mul(length, n))).collect();
             let mut combined = vec![Scalar::ZERO; self.size];
             for &column in &self.open_columns {
-                let list: Vec<Scalar> = terms.iter().map(|&(row, n)| self.g.mul(n, self.rows[row][column])).collect();
+                let list: Vec<Scalar> =
+                    terms.iter().map(|&(row, n)| self.g.mul(n, self.rows[row].entries[column])).collect();
                 combined[column] = self.g.sum(&list);
-                self.changes[column] += i64::from(combined[column] != Scalar::ZERO);
             }
             self.open_rows.push(self.rows.len());
-            self.rows.push(combined);
+            self.rows.push(Row::new(combined));
             self.done.steps.push(Step::Combine { terms });
         }
         let rest = |&row: &usize| {
-            let entries = self.open_columns.iter().map(|&other| (other, self.rows[row][other]));
+            let entries = self.open_columns.iter().map(|&other| (other, self.rows[row].entries[other]));
             (row, entries.filter(|entry| entry.1 != Scalar::ZERO).collect())
         };
         let rows = rows.iter().map(rest).collect();
@@ -240,125 +243,110 @@ impl Work<'_> {
         if self.g.literal(square).is_some() {
             return self.g.reciprocal(square);
         }
-        let lost = self.g.call(Call::LessEqual, &[square, Scalar::ZERO]);
-        let inverse = self.g.reciprocal(square);
-        self.g.call(Call::Select, &[lost, Scalar::ZERO, inverse])
+        self.guard(square, square).guarded
     }
 
     fn eliminate(&mut self, column: usize, rows: Vec<usize>) {
         // A column of zeros: its unknown is zero, and some row is left over.
-        let Some(mut top) = rows.first().copied().or(self.open_rows.last().copied()) else { return };
-        let sizes: Option<Vec<f64>> =
-            rows.iter().map(|&row| self.g.literal(self.rows[row][column]).map(|n| n.value().abs())).collect();
-        match sizes {
-            Some(sizes) => {
-                let best = (0..rows.len()).max_by(|&a, &b| sizes[a].total_cmp(&sizes[b]).then(b.cmp(&a)));
-                top = best.map_or(top, |best| rows[best]);
-            }
-            None => {
-                let others: Vec<usize> = rows.iter().copied().filter(|&row| row != top).collect();
-                others.into_iter().for_each(|row| top = self.compete(column, [top, row]));
-            }
-        }
+        let Some(top) = self.winner(column, &rows).or(self.open_rows.last().copied()) else { return };
         let inverse = self.inverse(column, top);
         self.open_columns.retain(|&other| other != column);
         self.open_rows.retain(|&row| row != top);
-        let mut changed = Vec::new();
+        let mut shares = 0;
         for below in self.open_rows.clone() {
-            // Where a row has one column left, the others are no candidates and have entries all the same.
-            let factor = self.g.mul(self.rows[below][column], inverse);
+            let entry = self.rows[below].entries[column];
+            if entry == Scalar::ZERO {
+                continue;
+            }
+            let factor = match inverse.plain.filter(|_| rows.contains(&below)) {
+                Some((mask, plain)) => {
+                    shares += 1;
+                    let share = self.g.decimal(100.0 / f64::from(37 + 100 * shares));
+                    let factor = self.g.mul(entry, plain);
+                    self.g.call(Call::Select, &[mask, -share, factor])
+                }
+                // Where a row has one column left, the others are no candidates and have entries all the same.
+                None => self.g.mul(entry, inverse.guarded),
+            };
             if factor == Scalar::ZERO {
                 continue;
             }
             self.g.label(factor, || format!("factor_{}_{}", below + 1, column + 1));
-            for &other in &self.open_columns {
-                if self.rows[top][other] != Scalar::ZERO {
-                    let update = self.g.mul(factor, self.rows[top][other]);
-                    self.rows[below][other] = self.g.sub(self.rows[below][other], update);
-                    changed.push(other);
-                }
-            }
+            let open = std::mem::take(&mut self.open_columns);
+            rows::subtract(self.g, &mut self.rows, factor, [top, below], &open);
+            self.open_columns = open;
             self.done.steps.push(Step::Subtract { factor, rows: [top, below] });
         }
-        // A pivot changes an entry once, however many there are.
-        changed.sort_unstable();
-        changed.dedup();
-        changed.into_iter().for_each(|other| self.changes[other] += 1);
-        let entries = self.open_columns.iter().map(|&other| (other, self.rows[top][other]));
+        let entries = self.open_columns.iter().map(|&other| (other, self.rows[top].entries[other]));
         let rest = entries.filter(|entry| entry.1 != Scalar::ZERO).collect();
-        self.done.pivots.push(Pivot::Row { row: top, column, inverse, rest });
+        self.done.pivots.push(Pivot::Row { row: top, column, inverse: inverse.guarded, rest });
+    }
+
+    /// The row that gives the pivot, of those that compete.
+    fn winner(&mut self, column: usize, rows: &[usize]) -> Option<usize> {
+        let (&first, others) = rows.split_first()?;
+        if let Some(best) = largest(self.g, &mut self.rows, column, rows) {
+            return Some(best);
+        }
+        Some(others.iter().fold(first, |top, &row| self.compete(column, [top, row])))
     }
 
     /// Brings the row with the larger entry to the first place; that row.
     fn compete(&mut self, column: usize, rows: [usize; 2]) -> usize {
-        let [above, below] = rows.map(|row| self.rows[row][column]);
+        let [above, below] = rows.map(|row| self.rows[row].entries[column]);
+        let scales = rows.map(|row| self.rows[row].scale(self.g));
         let ratio = self.g.div(below, above);
-        // Multiples of one value: the larger one is known.
-        if let Some(ratio) = self.g.literal(ratio) {
+        // Multiples of one value, in one unit: the larger one is known.
+        if let Some(ratio) = self.g.literal(ratio).filter(|_| scales[0] == scales[1]) {
             return rows[usize::from(ratio.value().abs() > 1.0)];
         }
-        let [above, below] = rows.map(|row| self.g.call(Call::Abs, &[self.rows[row][column]]));
+        let [mut above, mut below] = [above, below].map(|entry| self.g.call(Call::Abs, &[entry]));
+        if scales[0] != scales[1] {
+            (above, below) = (self.g.mul(above, scales[1]), self.g.mul(below, scales[0]));
+        }
         let mask = self.g.call(Call::Less, &[above, below]);
         self.g.label(mask, || format!("exchanged_{}_{}", rows[1] + 1, column + 1));
-        for &other in &self.open_columns {
-            let mut entries = rows.map(|row| self.rows[row][other]);
-            exchange(self.g, mask, &mut entries, [0, 1]);
-            [self.rows[rows[0]][other], self.rows[rows[1]][other]] = entries;
-        }
+        let open = std::mem::take(&mut self.open_columns);
+        rows::change_places(self.g, &mut self.rows, mask, rows, &open);
+        self.open_columns = open;
         self.done.steps.push(Step::Exchange { mask, rows });
         rows[0]
     }
 
-    /// One over a pivot; zero if that is none.
-    fn inverse(&mut self, column: usize, row: usize) -> Scalar {
-        let pivot = self.rows[row][column];
+    fn inverse(&mut self, column: usize, row: usize) -> Inverse {
+        let pivot = self.rows[row].entries[column];
         if pivot == Scalar::ZERO {
-            return Scalar::ZERO;
+            return Inverse { guarded: Scalar::ZERO, plain: None };
         }
-        if self.g.literal(pivot).is_some() {
-            return self.g.reciprocal(pivot);
+        if let Some(number) = self.g.literal(pivot) {
+            // Of the quotient by what has cancelled nothing is known.
+            let known = number.is_sharp();
+            let guarded = if known { self.g.reciprocal(pivot) } else { self.g.call(Call::Nan, &[]) };
+            return Inverse { guarded, plain: None };
         }
-        let size = self.g.call(Call::Abs, &[pivot]);
-        let least = if self.changes[column] > 0 { self.least(column) } else { Scalar::ZERO };
-        // What is no number is no zero: it shows in the solution.
-        let lost = self.g.call(Call::LessEqual, &[size, least]);
-        let inverse = self.g.reciprocal(pivot);
-        let inverse = self.g.call(Call::Select, &[lost, Scalar::ZERO, inverse]);
-        self.g.label(inverse, || format!("pivot_{}_inv", column + 1));
+        let noise = self.rows[row].noise(self.g, column);
+        let inverse = self.guard(pivot, noise);
+        self.g.label(inverse.guarded, || format!("pivot_{}_inv", column + 1));
         inverse
     }
 
-    /// What rounding leaves of a column.
-    fn least(&mut self, column: usize) -> Scalar {
-        let scale = match self.scales[column] {
-            Some(scale) => scale,
-            None => self.scale(column),
-        };
-        self.scales[column] = Some(scale);
-        let (count, unit) = (self.g.integer(UNITS * (1 + self.changes[column])), self.g.call(Call::Epsilon, &[]));
-        self.g.product(&[count, unit, scale])
-    }
-
-    fn scale(&mut self, column: usize) -> Scalar {
-        let entries: Vec<Scalar> = self.given.iter().skip(column).step_by(self.size).copied().collect();
-        let mut scale = Scalar::ZERO;
-        for entry in entries.into_iter().filter(|&entry| entry != Scalar::ZERO) {
-            let size = self.g.call(Call::Abs, &[entry]);
-            scale = if scale == Scalar::ZERO { size } else { self.g.call(Call::Max, &[scale, size]) };
-        }
-        self.g.label(scale, || format!("scale_{}", column + 1));
-        scale
+    /// One over what was made of so much.
+    fn guard(&mut self, pivot: Scalar, noise: Scalar) -> Inverse {
+        let (units, unit) = (self.g.integer(UNITS), self.g.call(Call::Epsilon, &[]));
+        let least = self.g.product(&[units, unit, noise]);
+        // Squares are of one sign.
+        let size = if pivot == noise { pivot } else { self.g.call(Call::Abs, &[pivot]) };
+        let mask = self.g.call(Call::LessEqual, &[size, least]);
+        // Zero, but the graph does not know that: its product with what is infinite is no number.
+        let zero = self.g.call(Call::Min, &[unit, Scalar::ZERO]);
+        let nothing = self.g.mul(least, zero);
+        let plain = self.g.reciprocal(pivot);
+        let guarded = self.g.call(Call::Select, &[mask, nothing, plain]);
+        Inverse { guarded, plain: Some((mask, plain)) }
     }
 }
 
 fn dot(g: &mut Graph, a: &[Scalar], b: &[Scalar]) -> Scalar {
     let terms: Vec<Scalar> = a.iter().zip(b).map(|(&a, &b)| g.mul(a, b)).collect();
     g.sum(&terms)
-}
-
-/// Two entries of a column change places where the mask says so.
-fn exchange(g: &mut Graph, mask: Scalar, column: &mut [Scalar], [above, below]: [usize; 2]) {
-    let (a, b) = (column[above], column[below]);
-    column[above] = g.call(Call::Select, &[mask, b, a]);
-    column[below] = g.call(Call::Select, &[mask, a, b]);
 }
