@@ -262,13 +262,13 @@ impl Projection {
         let iterations = if self.position { self.iterations } else { 0 };
         for _ in 0..iterations {
             let residual = negative(&system.constraints(t, &q));
-            let (d, now) = weighting.correction(system, t, &q, &residual);
+            let (d, now) = weighting.fixed_correction(system, t, &q, &residual);
             q = q.displace(&d);
             rank = now;
         }
         if self.velocity {
             let rate = negative(&system.constraint_rate(t, &state.join(q, v, x)));
-            let (d, now) = weighting.correction(system, t, &q, &rate);
+            let (d, now) = weighting.fixed_correction(system, t, &q, &rate);
             v = v.add(&d);
             rank = now;
         }

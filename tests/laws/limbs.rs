@@ -67,6 +67,9 @@ struct Shown {
     left: f64,
     /// Against the dense solution, by energy, times what both systems have left of their digits.
     off: f64,
+    /// Least displacements that are short of their rank, and against those that the runtime finds without squares.
+    short_moves: usize,
+    moved: f64,
 }
 
 macro_rules! look {
@@ -100,6 +103,25 @@ macro_rules! look {
             }
         } else {
             $shown.short += 1;
+        }
+        // Projections: the same with masses of one.
+        let (d, rank) = model.least_correction(0.0, q, &r);
+        let (want, _) = model.correction(0.0, q, &r, &SVector::<f64, N>::repeat(1.0).into());
+        let [d, want]: [SVector<f64, N>; 2] = [d.into(), want.into()];
+        let values = singular(&DMatrix::identity(N, N), &jacobian);
+        let [certain, possible] =
+            [THRESHOLDS[1], THRESHOLDS[0]].map(|bound| values.iter().filter(|&&value| value > bound).count());
+        assert!(
+            (certain as f64..=possible as f64).contains(&rank),
+            "{}: rank {rank} of a displacement for singular values {values:?}",
+            stringify!($model)
+        );
+        assert!(d.iter().all(|x| x.is_finite()), "{}", stringify!($model));
+        if rank == M as f64 {
+            let off = (d - want).norm() / want.norm() * values.last().expect("rows");
+            $shown.moved = worse($shown.moved, off);
+        } else {
+            $shown.short_moves += 1;
         }
         // What is reported short is finite, and obeys the equations that can be obeyed.
         assert!(d.iter().chain(&multipliers).all(|x| x.is_finite()), "{}", stringify!($model));
@@ -149,13 +171,16 @@ macro_rules! check {
             }
         }
         println!(
-            "{}: {} poses, {} short, left {:e}, off {:e}",
+            "{}: {} poses, {} short, left {:e}, off {:e}; moves {} short, off {:e}",
             stringify!($model),
             shown.poses,
             shown.short,
             shown.left,
-            shown.off
+            shown.off,
+            shown.short_moves,
+            shown.moved
         );
+        assert!(shown.moved <= $bound && shown.short_moves <= shown.short, "{}", stringify!($model));
         assert!(3 * shown.poses > poses(), "{}: {} poses close", stringify!($model), shown.poses);
         assert!(shown.left <= $bound && shown.off <= $bound, "{}", stringify!($model));
     }};

@@ -31,6 +31,15 @@ macro_rules! handed_on {
             ) -> (VelocityOf<S>, S::Scalar) {
                 self.system.correction(t, q, residual, weights)
             }
+            #[inline]
+            fn least_correction(
+                &self,
+                t: S::Scalar,
+                q: &PositionOf<S>,
+                residual: &S::Residual,
+            ) -> (VelocityOf<S>, S::Scalar) {
+                self.system.least_correction(t, q, residual)
+            }
         }
     };
     (@Impulsive $type:ty, [$($parameter:tt)*]) => {

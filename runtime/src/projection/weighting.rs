@@ -1,8 +1,8 @@
 //! What a projection holds dear: [`Weighting`], of coordinates alike ([`Plain`]), by numbers ([`Weights`]) or by the mass
 //! matrix ([`ByMass`]).
 
-use super::ones;
-use crate::{Constrained, Impulsive, PositionOf, Tangent, VelocityOf};
+use super::{all, ones};
+use crate::{Constrained, Impulsive, PositionOf, Real, Tangent, VelocityOf};
 
 /// Which of all displacements that satisfy the constraints counts as the least.
 pub trait Weighting<S: Constrained>: Copy {
@@ -14,6 +14,17 @@ pub trait Weighting<S: Constrained>: Copy {
         q: &PositionOf<S>,
         residual: &S::Residual,
     ) -> (VelocityOf<S>, S::Scalar);
+
+    /// The same by the same operations whatever the numbers.
+    fn fixed_correction(
+        &self,
+        system: &S,
+        t: S::Scalar,
+        q: &PositionOf<S>,
+        residual: &S::Residual,
+    ) -> (VelocityOf<S>, S::Scalar) {
+        self.correction(system, t, q, residual)
+    }
 }
 
 /// The least sum of squares, of metres and radians alike.
@@ -23,6 +34,24 @@ pub struct Plain;
 impl<S: Constrained> Weighting<S> for Plain {
     #[inline]
     fn correction(
+        &self,
+        system: &S,
+        t: S::Scalar,
+        q: &PositionOf<S>,
+        residual: &S::Residual,
+    ) -> (VelocityOf<S>, S::Scalar) {
+        let (d, rank) = system.least_correction(t, q, residual);
+        let equations = residual.fold(S::Scalar::lit(0.0), &mut |count, _| count + S::Scalar::lit(1.0));
+        let full = Real::le(equations, rank);
+        if all(full) {
+            return (d, rank);
+        }
+        let (other, least) = self.fixed_correction(system, t, q, residual);
+        (d.zip(&other, &mut |d, other| Real::select(full, d, other)), Real::select(full, rank, least))
+    }
+
+    #[inline]
+    fn fixed_correction(
         &self,
         system: &S,
         t: S::Scalar,

@@ -51,6 +51,8 @@ pub enum FunctionKind {
     Linearization,
     /// The jump of the velocities; with constraints the multipliers and the rank of their system.
     Impulse,
+    /// The least displacement that the constraint equations demand, DOF of it, then their rank.
+    Displacement,
     /// Momenta, by velocity coordinate.
     Momentum,
     /// Their rates.
@@ -88,6 +90,8 @@ pub struct Arguments {
     pub multipliers: bool,
     /// With the rates of the constraint equations, if there are any.
     pub impulse: bool,
+    /// Of the constraint equations.
+    pub rates: bool,
     pub momentum: bool,
 }
 
@@ -99,6 +103,7 @@ impl Arguments {
         accel: false,
         multipliers: false,
         impulse: false,
+        rates: false,
         momentum: false,
     };
     const TIMED: Arguments = Arguments { time: true, ..Arguments::POSITION };
@@ -227,7 +232,7 @@ pub struct FunctionRow {
 
 impl FunctionKind {
     /// All of them in the order in which they are derived; the first kinematics for all.
-    pub const ALL: [FunctionKind; 24] = [
+    pub const ALL: [FunctionKind; 25] = [
         FunctionKind::ForwardDynamics,
         FunctionKind::InverseDynamics,
         FunctionKind::MassMatrix,
@@ -252,6 +257,7 @@ impl FunctionKind {
         FunctionKind::DeadCentres,
         FunctionKind::Margins,
         FunctionKind::Granted,
+        FunctionKind::Displacement,
     ];
 
     pub fn row(self) -> FunctionRow {
@@ -431,6 +437,17 @@ impl FunctionKind {
                     } else {
                         "The jump `M^-1 * impulse` of the velocities under an impulse."
                     }
+                },
+            ),
+            FunctionKind::Displacement => row(
+                Asked::Found,
+                "least_displacement",
+                Arguments { rates: true, ..Arguments::POSITION },
+                |s| Shape::Vector(s.dof + 1),
+                |_| {
+                    "For projections: the displacement `d` with the least sum of squares for which `G * d = rates`, by the zeros of \
+                     `G`; then the rank of the equations. Where that is less than their number, `Constrained::correction` tells \
+                     more: squares of `G` are formed here."
                 },
             ),
             FunctionKind::Momentum => row(

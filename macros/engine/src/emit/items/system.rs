@@ -283,6 +283,19 @@ fn constrained(context: &Context<'_>) -> Option<TokenStream> {
             }
         }
     });
+    let least = context.function(FunctionKind::Displacement).map(|function| {
+        let time = functions::arguments(function).has_time();
+        let [t, unread] = ["t", "_t"].map(names::ident);
+        let (time, passed) = if time { (&t, Some(quote!(#t,))) } else { (&unread, None) };
+        let (columns, rank) = (layout.dof(), Literal::usize_unsuffixed(layout.dof()));
+        let columns = Literal::usize_unsuffixed(columns);
+        quote! {
+            fn least_correction(&self, #time: T, q: &Position<T>, residual: &#residual) -> (Velocity<T>, T) {
+                let found = self.least_displacement(#passed q, residual);
+                (found.fixed_rows::<#columns>(0).into_owned().into(), found[#rank])
+            }
+        }
+    });
     Some(quote! {
         impl<T: Real> #krate::Constrained for Model<T> {
             type Residual = #residual;
@@ -309,6 +322,8 @@ fn constrained(context: &Context<'_>) -> Option<TokenStream> {
                 let (change, rank) = #krate::linear::#least_norm(&jacobian, residual, &weights #groups);
                 (change.into(), rank)
             }
+
+            #least
         }
     })
 }

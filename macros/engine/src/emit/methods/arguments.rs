@@ -24,7 +24,7 @@ impl Arguments {
                 Root::Params | Root::Position | Root::Impulse | Root::Rates | Root::Momentum => {}
                 Root::Velocity | Root::States | Root::Guess => needed.state = true,
                 Root::Time if needed.time => {}
-                Root::Time if needed.impulse => needed.time = true,
+                Root::Time if needed.impulse || needed.rates => needed.time = true,
                 Root::Acceleration if needed.accel => {}
                 Root::Multipliers => needed.multipliers = true,
                 Root::Time | Root::Input | Root::Acceleration => {
@@ -79,11 +79,11 @@ impl Arguments {
         if self.impulse {
             let impulse = named(roots.contains(&Root::Impulse), "impulse");
             list.push(quote!(#impulse: &Velocity<T>));
-            if layout.rows() > 0 {
-                let rates = named(roots.contains(&Root::Rates), "rates");
-                let ty = vector_type(layout, layout.rows());
-                list.push(quote!(#rates: &#ty));
-            }
+        }
+        if (self.impulse || self.rates) && layout.rows() > 0 {
+            let rates = named(roots.contains(&Root::Rates), "rates");
+            let ty = vector_type(layout, layout.rows());
+            list.push(quote!(#rates: &#ty));
         }
         if self.momentum {
             let momentum = named(roots.contains(&Root::Momentum), "momentum");

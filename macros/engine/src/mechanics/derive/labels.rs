@@ -67,6 +67,7 @@ impl Deriving<'_> {
             FunctionKind::DeadCentres => (Vec::new(), "root"),
             FunctionKind::Margins => (Vec::new(), "margin"),
             FunctionKind::Granted => (Vec::new(), "gap"),
+            FunctionKind::Displacement => (of_state("step"), "rank"),
             FunctionKind::ForwardDerivatives | FunctionKind::InverseDerivatives | FunctionKind::Linearization => {
                 (Vec::new(), "derivative")
             }

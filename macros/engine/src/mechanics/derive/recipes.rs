@@ -128,6 +128,9 @@ fn recipe(kind: FunctionKind, solves_inputs: bool) -> Recipe {
             const { &[Defined("closed forms", dead_centres)] },
         ),
         F::Margins => (NONE, const { &[Plain("closed forms, determinants", margins)] }),
+        F::Displacement => {
+            (NONE, const { &[Written(WITHOUT_CHOICE, |e, r| Results::vector(e.least_displacement(r)))] })
+        }
         F::Granted => {
             const GRANTED: &[Way] = &[Plain("equations that were left out", granted)];
             (GRANTED, GRANTED)

@@ -119,6 +119,9 @@ pub enum Means {
     Newton { rows: Vec<Row>, guess: usize },
 }
 
+/// Equations by equations by coordinates: below that the runtime solves for a projection as fast without knowing any zeros.
+const LARGE: usize = 1_000;
+
 impl Structure {
     /// Every coordinate is the state, and nothing holds them together: what a model without loops and drives has.
     pub fn open(model: &Model) -> Structure {
@@ -178,6 +181,11 @@ impl Structure {
         let groups: Box<[usize]> = self.rows.iter().map(first).collect();
         let alone = groups.iter().enumerate().all(|(k, &group)| k == group);
         if alone { Box::default() } else { groups }
+    }
+
+    /// Whether equations are so many that projections gain by their zeros.
+    pub fn is_large(&self) -> bool {
+        self.rows.len() * self.rows.len() * self.state.len() >= LARGE
     }
 
     /// Number of coordinates in the state.

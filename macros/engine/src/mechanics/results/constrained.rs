@@ -255,6 +255,17 @@ impl Equations<'_> {
         self.solve_rows(matrix, &impulses, jacobian, &rates).1
     }
 
+    /// The least d with G d = r, as if all masses were one: d + G^T mu = 0. Then the rank.
+    pub(in crate::mechanics) fn least_displacement(&mut self, reduction: &Reduction) -> Vec<Scalar> {
+        let jacobian = self.rows(reduction).jacobian;
+        let size = self.scene.structure.state.len();
+        let unit = |i: usize| (0..size).map(|j| if i == j { Scalar::ONE } else { Scalar::ZERO }).collect();
+        let rates = self.scene.symbols.rates.clone();
+        let found = self.solve_rows((0..size).map(unit).collect(), &vec![Scalar::ZERO; size], jacobian, &rates).1;
+        let rank = found.rank.or_fault("equations have a rank");
+        found.accelerations.into_iter().chain([rank]).collect()
+    }
+
     /// M a + G^T lambda = rhs, G a = held.
     fn solve_rows(
         &mut self,

@@ -55,14 +55,18 @@ impl Symbols {
         self
     }
 
-    /// The same with the arguments of the jump of velocities, where the model asks for it. They stand behind all others,
-    /// whose numbers stay.
+    /// The same with the arguments of the jump of velocities, where the model asks for it, and of projections. They stand behind
+    /// all others, whose numbers stay.
     pub fn with_impulses(mut self, g: &mut Graph, model: &Model, structure: &Structure) -> Symbols {
         let jumps = model.emit.contains(&Request::Impulse);
-        if !jumps && !model.emit.contains(&Request::Momentum) {
+        let moves = jumps || model.emit.contains(&Request::Momentum);
+        let table = &mut self.table;
+        if !moves {
+            if model.emit.contains(&Request::ForwardDynamics) && structure.is_large() {
+                self.rates = several(g, table, structure.rows.len(), |row| Symbol::Rate { row });
+            }
             return self;
         }
-        let table = &mut self.table;
         let state = structure.state.iter();
         let impulses = state.map(|&Coordinate { joint, index: component }| {
             let symbol =

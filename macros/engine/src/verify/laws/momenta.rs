@@ -14,6 +14,7 @@ pub(super) const LAWS: &[Law] = &[
     Law { between: "the rates of momenta and momenta", judge: |at| at.momentum_rates() },
     Law { between: "the impulse and the mass matrix", judge: |at| at.jumps() },
     Law { between: "the impulse and the constraints", judge: |at| at.jumps_of_rows() },
+    Law { between: "the least displacement and the constraints", judge: |at| at.displacement_of_rows() },
 ];
 
 impl At<'_, '_> {
@@ -141,15 +142,28 @@ impl At<'_, '_> {
         judged(&sum, jump, m)
     }
 
+    /// The least displacement does what the constraints ask for, where no equation follows from others.
+    fn displacement_of_rows(&mut self) -> Judged {
+        self.moves_rows(FunctionKind::Displacement)
+    }
+
     /// A jump changes the rates of the constraints as it was asked to, where no equation follows from others.
     fn jumps_of_rows(&mut self) -> Judged {
-        let (jump, g) = (FunctionKind::Impulse, FunctionKind::ConstraintJacobian);
+        self.moves_rows(FunctionKind::Impulse)
+    }
+
+    fn moves_rows(&mut self, jump: FunctionKind) -> Judged {
+        let g = FunctionKind::ConstraintJacobian;
         let rows = self.laws.structure.rows.len();
         if rows == 0 || !self.has(jump) || !self.has(g) {
             return Some(None);
         }
         let (n, r, jumps) = (self.dof(), self.weights(rows), self.values(jump)?);
-        if self.rank(jump)? < rows as f64 {
+        let rank = match jump {
+            FunctionKind::Displacement => jumps.get(n).map_or(0.0, |rank| rank.high),
+            _ => self.rank(jump)?,
+        };
+        if rank < rows as f64 {
             return self.deficient();
         }
         let (mut sum, mut weights, mut back) = (Sum::default(), vec![0.0; rows * n], vec![0.0; jumps.len()]);
