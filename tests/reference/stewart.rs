@@ -1,7 +1,7 @@
 //! The Stewart-Gough manipulator against independent solutions (`data/stewart`): forces in the legs, their kinematics,
 //! accelerations and trajectories, in all coordinates that the same model may have.
 
-use multibody::nalgebra::{Matrix3, Rotation3, SVector, UnitQuaternion, Vector3};
+use multibody::nalgebra::{DMatrix, Matrix3, Rotation3, SVector, UnitQuaternion, Vector3};
 use multibody::{DormandPrince, FreeRollPitchYaw, RollPitchYaw, Universal};
 use multibody_tests::models::stewart::{absolute, heavy, heavy_hybrid, hybrid, joint_coordinates, level, reduced};
 use multibody_tests::support::compare::{mixed, worse};
@@ -368,6 +368,77 @@ fn forces_with_multipliers() {
         println!("{name} with multipliers: forces {most:e} N");
         assert!(most <= 1e-10, "{name}: forces {most:e} N");
     }
+}
+
+/// What inputs and multipliers do to the equations of motion, which are linear in them.
+macro_rules! reach {
+    ($model:ident, $state:expr) => {{
+        const N: usize = $model::DOF;
+        const M: usize = $model::CONSTRAINTS;
+        let (model, state) = ($model::Model::<f64>::default(), $state);
+        let left = |forces: [f64; 6]| {
+            let (input, none) = (thrusts!($model, forces), SVector::<f64, M>::zeros());
+            model.residual(0.0, &state, &input, &$model::Velocity::default(), &none)
+        };
+        let rest = left([0.0; 6]);
+        let jacobian = model.constraint_jacobian(0.0, &state.q);
+        DMatrix::from_fn(N, N, |i, j| match j.checked_sub(6) {
+            Some(row) => jacobian[(row, i)],
+            None => left(std::array::from_fn(|k| if k == j { 1.0 } else { 0.0 }))[i] - rest[i],
+        })
+    }};
+}
+
+macro_rules! reached {
+    ($model:ident, $state:expr) => {{
+        let model = $model::Model::<f64>::default();
+        let solved = model.inverse_dynamics(0.0, &$state, &Default::default(), &Default::default());
+        let values = reach!($model, $state).singular_values();
+        (solved.rank - $model::DOF as f64, values.min() / values.max())
+    }};
+}
+
+/// Where the legs cannot hold the platform their forces have no full rank, in any coordinates, and have one on either side.
+#[test]
+fn forces_at_singular_poses() {
+    let at = |start: [f64; 6], turn: f64| {
+        let mut q = start;
+        q[5] += turn;
+        Closed::new(q, [0.1, -0.2, 0.3, 0.2, -0.1, 0.15])
+    };
+    let mut met = 0;
+    for start in
+        [[-1.5, 0.0, 1.0, 0.0, 0.0, 0.0], [-1.4, 0.1, 1.1, 0.13, -0.21, 0.0], [-1.6, -0.2, 1.3, -0.3, 0.1, 0.0]]
+    {
+        let volume = |turn: f64| reach!(hybrid, hybrid_state!(hybrid, at(start, turn))).determinant();
+        let mut turn = -2.5;
+        while turn < 2.5 {
+            let (mut low, mut high) = (turn, turn + 0.1);
+            turn = high;
+            if volume(low) * volume(high) > 0.0 {
+                continue;
+            }
+            for _ in 0..80 {
+                let middle = 0.5 * (low + high);
+                if volume(low) * volume(middle) > 0.0 { low = middle } else { high = middle }
+            }
+            for off in [0.0, 1e-2, -1e-2] {
+                let closed = at(start, high + off);
+                let found = [
+                    reached!(hybrid, hybrid_state!(hybrid, closed)),
+                    reached!(absolute, absolute_state(&closed)),
+                    reached!(joint_coordinates, joint_state(&closed)),
+                ];
+                println!("{start:?} turned by {}: {found:?}", high + off);
+                for (missing, least) in found {
+                    assert_eq!(missing < 0.0, off == 0.0, "{found:?}");
+                    assert_eq!(least < 1e-12, off == 0.0, "{found:?}");
+                }
+            }
+            met += 1;
+        }
+    }
+    assert!(met >= 3, "{met}");
 }
 
 /// Errors of positions and velocities of the platform over a second, in steps of `dt`.

@@ -38,7 +38,7 @@ mod order;
 mod rows;
 
 use crate::contracts::call::Call;
-use crate::invariant::fault::raise;
+use crate::invariant::fault::{OrFault, raise};
 
 use super::graph::{Graph, Scalar};
 
@@ -83,12 +83,14 @@ pub struct SparseFactors {
     steps: Vec<Step>,
     /// In the order of elimination.
     pivots: Vec<Pivot>,
+    /// How many pivots there are whatever the entries are, less those that are lost where these masks say so.
+    most: usize,
+    lost: Vec<Scalar>,
 }
 
 /// What is left to eliminate.
 struct Work<'a> {
     g: &'a mut Graph,
-    size: usize,
     rows: Vec<Row>,
     open_rows: Vec<usize>,
     open_columns: Vec<usize>,
@@ -99,8 +101,8 @@ impl SparseFactors {
     /// Factorises a matrix, given row by row.
     pub fn of(g: &mut Graph, size: usize, matrix: &[Scalar]) -> SparseFactors {
         let rows = matrix.chunks(size.max(1)).map(|entries| Row::new(entries.to_vec())).collect();
-        let done = SparseFactors { steps: Vec::new(), pivots: Vec::with_capacity(size) };
-        let mut work = Work { g, size, rows, open_rows: (0..size).collect(), open_columns: (0..size).collect(), done };
+        let done = SparseFactors { steps: Vec::new(), pivots: Vec::with_capacity(size), most: 0, lost: Vec::new() };
+        let mut work = Work { g, rows, open_rows: (0..size).collect(), open_columns: (0..size).collect(), done };
         while let Some((rows, columns)) = work.orthogonal() {
             work.project(&rows, &columns);
         }
@@ -151,6 +153,63 @@ impl SparseFactors {
     }
 }
 
+impl SparseFactors {
+    /// The unknowns of the transposed matrix for a right side: what [`SparseFactors::solve`] does, the other way round.
+    pub fn solve_transposed(&self, g: &mut Graph, side: &[Scalar]) -> Vec<Scalar> {
+        let combined = self.steps.iter().filter(|step| matches!(step, Step::Combine { .. })).count();
+        let (mut given, mut unknowns) = (side.to_vec(), vec![Scalar::ZERO; side.len() + combined]);
+        let take = |g: &mut Graph, given: &mut [Scalar], entries: &Entries, part: Scalar| {
+            for &(column, entry) in entries {
+                let update = g.mul(entry, part);
+                given[column] = g.sub(given[column], update);
+            }
+        };
+        for pivot in &self.pivots {
+            match pivot {
+                Pivot::Row { row, column, inverse, rest } => {
+                    let part = g.mul(given[*column], *inverse);
+                    unknowns[*row] = g.add(unknowns[*row], part);
+                    take(g, &mut given, rest, part);
+                }
+                Pivot::Orthogonal { rows, columns } => {
+                    let along: Vec<Scalar> =
+                        columns.iter().map(|(column, _, inverse)| g.mul(given[*column], *inverse)).collect();
+                    for (k, (row, rest)) in rows.iter().enumerate() {
+                        let entries: Vec<Scalar> = columns.iter().map(|(_, entries, _)| entries[k]).collect();
+                        let part = dot(g, &entries, &along);
+                        unknowns[*row] = g.add(unknowns[*row], part);
+                        take(g, &mut given, rest, part);
+                    }
+                }
+            }
+        }
+        for step in self.steps.iter().rev() {
+            match *step {
+                Step::Exchange { mask, rows } => exchange(g, mask, &mut unknowns, rows),
+                Step::Subtract { factor, rows: [above, below] } => {
+                    let update = g.mul(factor, unknowns[below]);
+                    unknowns[above] = g.sub(unknowns[above], update);
+                }
+                Step::Combine { ref terms } => {
+                    let last = unknowns.pop().or_fault("a combined row has a place behind the others");
+                    for &(row, factor) in terms {
+                        let update = g.mul(factor, last);
+                        unknowns[row] = g.add(unknowns[row], update);
+                    }
+                }
+            }
+        }
+        unknowns
+    }
+
+    /// How many pivots are not lost: the size where the matrix is regular. Where it is not, one that is lost may take others along.
+    pub fn rank(&self, g: &mut Graph) -> Scalar {
+        let mut terms = vec![g.integer(self.most as i64)];
+        terms.extend(self.lost.iter().map(|&mask| -g.call(Call::Select, &[mask, Scalar::ONE, Scalar::ZERO])));
+        g.sum(&terms)
+    }
+}
+
 impl Work<'_> {
     /// The next column, and the rows that compete for its pivot.
     fn next(&self) -> Option<(usize, Vec<usize>)> {
@@ -198,7 +257,7 @@ impl Work<'_> {
         let squares: Vec<Scalar> = columns.iter().map(|&column| self.gram(rows, column, column)).collect();
         let entries = |column: usize| rows.iter().map(|&row| self.rows[row].entries[column]).collect::<Vec<_>>();
         let vectors: Vec<Vec<Scalar>> = columns.iter().map(|&column| entries(column)).collect();
-        let inverses: Vec<Scalar> = squares.iter().map(|&square| self.positive(square)).collect();
+        let inverses: Vec<Scalar> = squares.iter().map(|&square| self.pivot_of_square(square)).collect();
         self.open_rows.retain(|row| !rows.contains(row));
         self.open_columns.retain(|column| !columns.contains(column));
         if columns.len() < rows.len() {
@@ -213,14 +272,9 @@ impl Work<'_> {
             let length = self.g.sqrt(inverse);
             let terms: Vec<(usize, Scalar)> =
                 rows.iter().copied().zip(normal).map(|(row, n)| (row, self.g.mul(length, n))).collect();
-            let mut combined = vec![Scalar::ZERO; self.size];
-            for &column in &self.open_columns {
-                let list: Vec<Scalar> =
-                    terms.iter().map(|&(row, n)| self.g.mul(n, self.rows[row].entries[column])).collect();
-                combined[column] = self.g.sum(&list);
-            }
             self.open_rows.push(self.rows.len());
-            self.rows.push(Row::new(combined));
+            let combined = rows::combined(self.g, &self.rows, &terms, &self.open_columns);
+            self.rows.push(combined);
             self.done.steps.push(Step::Combine { terms });
         }
         let rest = |&row: &usize| {
@@ -238,6 +292,17 @@ impl Work<'_> {
         self.g.sub(plus, minus)
     }
 
+    /// One over a square that is a pivot.
+    fn pivot_of_square(&mut self, square: Scalar) -> Scalar {
+        self.done.most += 1;
+        if self.g.literal(square).is_some() {
+            return self.g.reciprocal(square);
+        }
+        let inverse = self.guard(square, square);
+        self.done.lost.extend(inverse.plain.map(|(mask, _)| mask));
+        inverse.guarded
+    }
+
     /// One over a square; zero if that is zero.
     fn positive(&mut self, square: Scalar) -> Scalar {
         if self.g.literal(square).is_some() {
@@ -250,6 +315,8 @@ impl Work<'_> {
         // A column of zeros: its unknown is zero, and some row is left over.
         let Some(top) = self.winner(column, &rows).or(self.open_rows.last().copied()) else { return };
         let inverse = self.inverse(column, top);
+        self.done.most += usize::from(inverse.guarded != Scalar::ZERO);
+        self.done.lost.extend(inverse.plain.map(|(mask, _)| mask));
         self.open_columns.retain(|&other| other != column);
         self.open_rows.retain(|&row| row != top);
         let mut shares = 0;

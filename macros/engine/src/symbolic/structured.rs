@@ -9,6 +9,8 @@
 //!   parts again.
 //! - A part of parameters alone is inverted in `Model::new`: one pivoted solve for each column. Its pivots depend on the matrix alone, so
 //!   products with these columns are what the pivoted solve of the right side gives, beyond the rank too.
+//! - A large part with many zeros, as that of inputs and multipliers of loops, is factorised with them
+//!   ([`super::sparse_factors`]), as it stands or transposed: whichever takes less.
 //! - Every other part is one pivoted solve in the runtime.
 //!
 //! Ranks add up exactly. Blocks of literals are regular, so taking one away with what stands left of it or below it lowers
@@ -25,6 +27,7 @@ use super::echelon::best_pivots;
 use super::evaluate::solve_above;
 use super::graph::{BlockKind, Graph, Scalar, SymbolId};
 use super::number::Number;
+use super::sparse_factors::{SparseFactors, expressions};
 use super::triangular_form::{components, matching};
 
 /// Pivots of literals, of rows and columns that are brought to one scale, count if they are greater. The threshold of the
@@ -36,6 +39,9 @@ const MOST_LITERALS: usize = 16;
 
 /// The largest part that is inverted in `Model::new`.
 const MOST_PARAMETERS: usize = 8;
+
+/// The largest part that is solved with pivots of the whole whatever its zeros are.
+const MOST_PIVOTED: usize = 8;
 
 /// Rows, and the columns in which their pivots stand.
 type Rows = Vec<usize>;
@@ -261,11 +267,36 @@ impl System<'_> {
                 g.sum(&terms)
             };
             (0..size).map(unknown).collect()
+        } else if let Some((unknowns, rank)) = sparse(g, &matrix, &sides) {
+            self.ranks.push(rank);
+            unknowns
         } else {
             solve(g, &sides)
         };
         for (column, unknown) in columns.into_iter().zip(unknowns) {
             self.unknowns[column] = Some(unknown);
         }
+    }
+}
+
+/// The solution of a part with its zeros, and its rank, where that takes less than pivots of the whole do.
+fn sparse(g: &mut Graph, matrix: &[Scalar], side: &[Scalar]) -> Option<(Vec<Scalar>, Scalar)> {
+    let size = side.len();
+    if size <= MOST_PIVOTED {
+        return None;
+    }
+    let transposed: Vec<Scalar> =
+        (0..size).flat_map(|column| (0..size).map(move |row| matrix[row * size + column])).collect();
+    let [plain, turned] = [matrix, &transposed].map(|matrix| expressions(size, matrix));
+    // Sums, products, comparisons and exchanges of the runtime.
+    if plain.min(turned) > 2 * size.pow(3) {
+        return None;
+    }
+    if plain < turned {
+        let factors = SparseFactors::of(g, size, matrix);
+        Some((factors.solve(g, side), factors.rank(g)))
+    } else {
+        let factors = SparseFactors::of(g, size, &transposed);
+        Some((factors.solve_transposed(g, side), factors.rank(g)))
     }
 }

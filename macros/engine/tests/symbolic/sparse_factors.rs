@@ -165,7 +165,7 @@ fn orthogonal_columns_need_no_pivots() {
         let lowered = lowering.run(&roots);
         let cost = lowering.to.cost(&lowered);
         // Guards of the pivots and of a normal's length, and the last two rows of the second, which do compete.
-        assert!(cost.compare + cost.other <= [2, 17][size - 3], "{cost:?}");
+        assert!(cost.compare + cost.other <= [2, 19][size - 3], "{cost:?}");
         let mut rng = Rng::new(8);
         for round in 0..50 {
             let mut values: Vec<f64> = (0..19).map(|_| rng.real(-1.0, 1.0)).collect();
@@ -416,4 +416,74 @@ fn derivatives_in_any_units() {
             assert!((x - want).abs() <= 1e-5 * size * size * (1.0 + want.abs()), "{k}: {x} {want}");
         }
     }
+}
+
+/// The factors of a matrix solve the transposed system too, and their pivots tell whether it is regular.
+#[test]
+fn transposed_systems_and_ranks() {
+    let mut rng = Rng::new(13);
+    let mut regular = 0;
+    for round in 0..600 {
+        let n = 2 + round % 8;
+        let entries = random(&mut rng, n, [0.4, 0.7, 1.0][round % 3]);
+        let mut g = Graph::new();
+        let side: Vec<Scalar> = (0..n).map(|_| g.symbol()).collect();
+        let matrix: Vec<Scalar> = entries
+            .iter()
+            .flatten()
+            .map(|entry| match *entry {
+                Entry::Zero => Scalar::ZERO,
+                Entry::Literal(x) => g.decimal(x),
+                Entry::Moving => g.symbol(),
+            })
+            .collect();
+        let factors = SparseFactors::of(&mut g, n, &matrix);
+        let mut roots = factors.solve_transposed(&mut g, &side);
+        roots.push(factors.rank(&mut g));
+        let values: Vec<f64> = (0..n + n * n).map(|_| 2.0 * rng.real(0.0, 1.0) - 1.0).collect();
+        let symbols = |id: SymbolId| values[id.0];
+        let mut numbers = |list: &[Scalar]| Evaluator::new(&g, Real { symbols: &symbols }).run(list);
+        let (got, matrix, side) = (numbers(&roots), numbers(&matrix), numbers(&side));
+        let transposed: Vec<f64> = (0..n * n).map(|at| matrix[at % n * n + at / n]).collect();
+        let want = solve_f64(&transposed, &side);
+        let size = want.iter().fold(1.0_f64, |size, x| size.max(x.abs()));
+        if want[n] == n as f64 && size < 1e4 {
+            regular += 1;
+            assert_eq!(got[n], n as f64, "{matrix:?}");
+            for (x, want) in got.iter().zip(&want[..n]) {
+                assert!((x - want).abs() <= 1e-11 * size * size, "{got:?} {want:?}");
+            }
+        }
+    }
+    assert!(regular > 300, "{regular}");
+}
+
+/// Rows and columns that depend on others at run time: no rank is full but where pivots of few digits have multiplied rounding.
+#[test]
+fn what_depends_on_others_has_no_full_rank() {
+    let mut rng = Rng::new(14);
+    let mut missed = 0;
+    for round in 0..400 {
+        let n = 3 + round % 8;
+        let dense = vec![vec![Entry::Moving; n]; n];
+        // Few digits, so that sums are exact.
+        let mut digits = |size: f64| (rng.real(-1.0, 1.0) * size).round() / size;
+        let mut rows: Vec<Vec<f64>> = (0..n).map(|_| (0..n).map(|_| digits(1_048_576.0)).collect()).collect();
+        let (a, b, c) = (round % n, (round + 1) % n, (round + 2) % n);
+        let shares = [digits(16.0), digits(16.0)];
+        if round % 2 == 0 {
+            rows[a] = (0..n).map(|k| shares[0] * rows[b][k] + shares[1] * rows[c][k]).collect();
+        } else {
+            rows.iter_mut().for_each(|row| row[a] = shares[0] * row[b] + shares[1] * row[c]);
+        }
+        let mut g = Graph::new();
+        let matrix: Vec<Scalar> = dense.iter().flatten().map(|_| g.symbol()).collect();
+        let rank = SparseFactors::of(&mut g, n, &matrix).rank(&mut g);
+        let values = rows.concat();
+        let symbols = |id: SymbolId| values[id.0];
+        let rank = Evaluator::new(&g, Real { symbols: &symbols }).run(&[rank])[0];
+        missed += usize::from(rank != (n - 1) as f64);
+    }
+    println!("{missed} of 400");
+    assert!(missed <= 4, "{missed}");
 }

@@ -48,6 +48,25 @@ impl Row {
     }
 }
 
+/// A sum of multiples of rows, in these columns.
+pub(super) fn combined(g: &mut Graph, rows: &[Row], terms: &[(usize, Scalar)], columns: &[usize]) -> Row {
+    let size = rows.first().map_or(0, |row| row.entries.len());
+    let mut combined = Row::new(vec![Scalar::ZERO; size]);
+    for &column in columns {
+        let parts: Vec<(usize, Scalar)> = terms
+            .iter()
+            .filter(|&&(row, _)| rows[row].entries[column] != Scalar::ZERO)
+            .map(|&(row, factor)| (row, g.mul(factor, rows[row].entries[column])))
+            .collect();
+        let sizes: Vec<Scalar> = parts.iter().map(|&(_, part)| g.call(Call::Abs, &[part])).collect();
+        let parts: Vec<Scalar> = parts.into_iter().map(|(_, part)| part).collect();
+        combined.entries[column] = g.sum(&parts);
+        combined.noise[column] = (parts.len() > 1).then(|| g.sum(&sizes));
+    }
+    combined.given = combined.entries.clone();
+    combined
+}
+
 /// The row with the largest entry of a column, beside its scale, where that is known while compiling. Literals without digits are
 /// the least.
 pub(super) fn largest(g: &mut Graph, rows: &mut [Row], column: usize, candidates: &[usize]) -> Option<usize> {
