@@ -86,6 +86,10 @@ impl<S: Constrained> Constrained for Bounded<'_, S> {
         self.count();
         self.system.correction(t, q, residual, weights)
     }
+    fn least_correction(&self, t: S::Scalar, q: &PositionOf<S>, residual: &S::Residual) -> (VelocityOf<S>, S::Scalar) {
+        self.count();
+        self.system.least_correction(t, q, residual)
+    }
 }
 
 impl<S: Differentiable> Differentiable for Bounded<'_, S> {

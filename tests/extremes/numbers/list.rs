@@ -36,6 +36,7 @@ const REACHED: &[(&str, &str)] = &[
     ("epsilon", "a constant"),
     ("none", "of a system whose loops can't be open"),
     ("granted", "of a model: at the start of every integration"),
+    ("least_displacement", "of a model with many equations: by `least_correction`"),
     ("ambiguity", "of a model with constraints: at the end of every step that is kept"),
     ("of_equation", "an opening: at the start of every integration"),
     ("open_lanes", "of an opening: by `check`"),

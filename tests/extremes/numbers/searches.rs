@@ -5,7 +5,7 @@ use super::drawn::{Drawn, Numbers, finite};
 use super::steps::method;
 use multibody::impact::{ImpactError, along, impact, impact_at_rate, impacts, impulse, impulse_at};
 use multibody::nalgebra::{SMatrix, SVector};
-use multibody::projection::{ByMass, Plain, Weights, rank};
+use multibody::projection::{ByMass, Plain, Weighting, Weights, rank};
 use multibody::*;
 use std::hint::black_box;
 
@@ -67,6 +67,8 @@ pub(super) fn closed<S: Constrained<Scalar: Drawn>>(system: &Bounded<S>, start: 
     black_box(system.constraints(n.scalar(), &q).len());
     black_box(system.constraint_rate(n.scalar(), state).len());
     black_box(system.correction(n.scalar(), &q, &n.vector(), &n.vector()).1);
+    black_box(system.least_correction(n.scalar(), &q, &n.vector()).1);
+    black_box(Plain.fixed_correction(system, n.scalar(), &q, &n.vector()).1);
     black_box(rank(system, n.scalar(), state));
     let halves = [(true, false), (false, true), (true, true)];
     let (position, velocity) = halves[(n.setting().abs() % 3.0) as usize];
