@@ -29,7 +29,8 @@ const TRAVELS: [f64; 4] = [0.2, 0.5, 1.0, 3.0];
 /// By how much of themselves parameters are off their defaults in every other one; those that are zero by as much of one.
 const PARAMETERS: [f64; 4] = [0.5, 0.1, 0.3, 0.03];
 
-/// Steps along one column, either way: half a turn, or two sizes of the mechanism, and some that grow beyond these.
+/// Steps along one column, either way: half a turn and the other half, since what is assumed may rule out one way alone; or two
+/// sizes of the mechanism, and some that grow beyond these.
 const STEPS: usize = 20;
 const TURN: f64 = std::f64::consts::PI;
 const FAR: f64 = 2.0;
@@ -268,7 +269,7 @@ impl<'a> Limb<'a> {
         let mut random = Random(0x57E9);
         let travels = self.problem.columns[column].travels;
         let mut length = way * if travels { FAR } else { TURN } / STEPS as f64;
-        let steps = STEPS + if travels { FARTHER } else { 0 };
+        let steps = STEPS + if travels { FARTHER } else { STEPS };
         let mut step = vec![0.0; self.problem.columns.len()];
         let mut stops = vec![Stop { at: 0.0, pose: first.clone() }];
         let mut part = 1.0;
@@ -289,7 +290,7 @@ impl<'a> Limb<'a> {
                 closes = self.shake(&mut pose, *tries.next()?, &held, &mut random, values);
             }
             stops.push(Stop { at, pose });
-            if stops.len() > STEPS {
+            if travels && stops.len() > STEPS {
                 length *= GROWTH;
             }
         }
