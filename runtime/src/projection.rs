@@ -372,8 +372,12 @@ impl<S: Constrained> Motion<S> {
         let mut rate = system.constraint_rate(t, state);
         let mut rank = S::Scalar::lit(0.0);
         let mut consistent = never::<S>();
-        for _ in 0..2 {
-            let (d, now) = weighting.correction(system, t, &q, &negative(&rate));
+        for again in [false, true] {
+            let (d, now) = if again {
+                weighting.fixed_correction(system, t, &q, &negative(&rate))
+            } else {
+                weighting.correction(system, t, &q, &negative(&rate))
+            };
             let at_rounding = at_rounding(system, t, &state.join(q, v, x), &d, &rate);
             v = v.zip(&d, &mut |v, d| Real::select(consistent, v, v + d));
             rate = system.constraint_rate(t, &state.join(q, v, x));

@@ -238,13 +238,15 @@ multibody! {
     /// A slider-crank of rods that have no inertia about their lines, and of a point: which equations hold them there changes
     /// while it turns.
     pub mod thin {
+        param mass = 1.0;
+        param radius = 0.2;
         param length = 1.0;
         world { gravity: -9.81 * Y }
-        body crank { mass: 1.0, com: 0.1 * X, inertia: rod(1.0, 0.2, X) }
-        body rod { mass: 1.0, com: 0.5 * length * X, inertia: rod(1.0, length, X) }
-        body piston { mass: 1.0 }
+        body crank { mass: mass, com: 0.5 * radius * X, inertia: rod(mass, radius, X) }
+        body rod { mass: mass, com: 0.5 * length * X, inertia: rod(mass, length, X) }
+        body piston { mass: mass }
         joint shaft: Revolute { parent: ground, child: crank, axis: Z }
-        joint pin: Revolute { parent: crank.at(0.2 * X), child: rod, axis: Z }
+        joint pin: Revolute { parent: crank.at(radius * X), child: rod, axis: Z }
         joint guide: Prismatic { parent: ground, child: piston, axis: X }
         joint wrist: Revolute { parent: rod.at(length * X), child: piston, axis: Z }
         formulation { coordinates: Absolute(RollPitchYaw), constraints: Multipliers }

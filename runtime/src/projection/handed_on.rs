@@ -37,7 +37,7 @@ macro_rules! handed_on {
                 t: S::Scalar,
                 q: &PositionOf<S>,
                 residual: &S::Residual,
-            ) -> (VelocityOf<S>, S::Scalar) {
+            ) -> Option<(VelocityOf<S>, S::Scalar)> {
                 self.system.least_correction(t, q, residual)
             }
         }

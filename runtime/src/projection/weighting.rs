@@ -15,7 +15,7 @@ pub trait Weighting<S: Constrained>: Copy {
         residual: &S::Residual,
     ) -> (VelocityOf<S>, S::Scalar);
 
-    /// The same by the same operations whatever the numbers.
+    /// The same by the same operations whatever the numbers, and without squares of the equations where there is a way.
     fn fixed_correction(
         &self,
         system: &S,
@@ -40,7 +40,9 @@ impl<S: Constrained> Weighting<S> for Plain {
         q: &PositionOf<S>,
         residual: &S::Residual,
     ) -> (VelocityOf<S>, S::Scalar) {
-        let (d, rank) = system.least_correction(t, q, residual);
+        let Some((d, rank)) = system.least_correction(t, q, residual) else {
+            return self.fixed_correction(system, t, q, residual);
+        };
         let equations = residual.fold(S::Scalar::lit(0.0), &mut |count, _| count + S::Scalar::lit(1.0));
         let full = Real::le(equations, rank);
         if all(full) {

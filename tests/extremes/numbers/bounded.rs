@@ -86,7 +86,12 @@ impl<S: Constrained> Constrained for Bounded<'_, S> {
         self.count();
         self.system.correction(t, q, residual, weights)
     }
-    fn least_correction(&self, t: S::Scalar, q: &PositionOf<S>, residual: &S::Residual) -> (VelocityOf<S>, S::Scalar) {
+    fn least_correction(
+        &self,
+        t: S::Scalar,
+        q: &PositionOf<S>,
+        residual: &S::Residual,
+    ) -> Option<(VelocityOf<S>, S::Scalar)> {
         self.count();
         self.system.least_correction(t, q, residual)
     }

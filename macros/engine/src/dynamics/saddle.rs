@@ -29,14 +29,14 @@ pub(crate) struct Posed {
     jacobian: Vec<Vec<Scalar>>,
     /// Rows of one unit, see [`BlockKind::Solve`].
     groups: Box<[usize]>,
-    /// Rows that stand in the matrix too.
-    added: Vec<usize>,
+    /// Rows that stand in the matrix too, with their weights.
+    added: Vec<(usize, Scalar)>,
 }
 
 /// A system that is factorised once for several right-hand sides. Unknowns are counted through: coordinates, then rows.
 pub(crate) struct Saddle {
     jacobian: Vec<Vec<Scalar>>,
-    added: Vec<usize>,
+    added: Vec<(usize, Scalar)>,
     pivots: Vec<Eliminated>,
     cores: Vec<Core>,
     /// How much rank rows that are pivots have: their number, or zero where the loss is too great.
@@ -74,9 +74,9 @@ pub(crate) struct Solution {
 impl Posed {
     /// Rows of G with equal numbers in `groups` have one unit. Where the mass matrix is singular by structure, as that of a
     /// free rod that has no inertia about its own line, equations that hold an idle motion are added to it: with
-    /// G x = c the systems M x + G^T l = f and (M + g g^T) x + G^T l = f + g c have the same solution, multipliers included.
+    /// G x = c the systems M x + G^T l = f and (M + w g g^T) x + G^T l = f + w g c have the same solution, multipliers included.
     /// All that hold one are: each may let go of it in some pose, as those of a hinge do in turn while it turns, or hold two
-    /// bodies in such a way that only others tell them apart. Then the sum is definite wherever the motion is determined.
+    /// bodies in such a way that only others tell them apart. Then the sum is definite wherever the motion is determined. A weight w is the least inertia of what the equation moves, in whatever units: a light rod keeps its digits.
     pub(crate) fn new(
         g: &mut Graph,
         mut matrix: Vec<Vec<Scalar>>,
@@ -87,8 +87,11 @@ impl Posed {
         let added: Vec<usize> = (0..jacobian.len())
             .filter(|&row| idle.iter().any(|motion| dot(g, &jacobian[row], motion) != Scalar::ZERO))
             .collect();
-        for &row in &added {
-            add_square(g, &mut matrix, &jacobian[row]);
+        let inertias: Vec<Scalar> = (0..matrix.len()).map(|k| matrix[k][k]).collect();
+        let weigh = |row: usize| (row, least_inertia(g, &inertias, &jacobian[row]));
+        let added: Vec<(usize, Scalar)> = added.into_iter().map(weigh).collect();
+        for &(row, weight) in &added {
+            add_square(g, &mut matrix, &jacobian[row], weight);
         }
         Posed { matrix, jacobian, groups, added }
     }
@@ -152,9 +155,10 @@ impl Saddle {
     /// For f and c.
     pub(crate) fn solve(&self, g: &mut Graph, rhs: &[Scalar], held: &[Scalar]) -> Solution {
         let mut side = rhs.to_vec();
-        for &row in &self.added {
+        for &(row, weight) in &self.added {
+            let held = g.mul(weight, held[row]);
             for (entry, &slope) in side.iter_mut().zip(&self.jacobian[row]) {
-                let moved = g.mul(slope, held[row]);
+                let moved = g.mul(slope, held);
                 *entry = g.add(*entry, moved);
             }
         }
@@ -365,11 +369,25 @@ fn idle(g: &mut Graph, matrix: &[Vec<Scalar>], coordinates: &[usize]) -> Vec<Vec
     idle.iter().copied().map(motion).collect()
 }
 
-/// M + g g^T.
-fn add_square(g: &mut Graph, matrix: &mut [Vec<Scalar>], row: &[Scalar]) {
+/// The least inertia of the coordinates that an equation reads; of all, if it reads only such as have none.
+fn least_inertia(g: &mut Graph, inertias: &[Scalar], row: &[Scalar]) -> Scalar {
+    let moving = |&(&inertia, _): &(&Scalar, &Scalar)| inertia != Scalar::ZERO;
+    let all: Vec<(&Scalar, &Scalar)> = inertias.iter().zip(row).filter(moving).collect();
+    let mut own: Vec<Scalar> = all.iter().filter(|(_, entry)| **entry != Scalar::ZERO).map(|(m, _)| **m).collect();
+    if own.is_empty() {
+        own = all.iter().map(|(m, _)| **m).collect();
+    }
+    own.sort_unstable_by_key(|m| m.index());
+    own.dedup();
+    own.into_iter().reduce(|a, b| g.call(Call::Min, &[a, b])).unwrap_or(Scalar::ONE)
+}
+
+/// M + w g g^T.
+fn add_square(g: &mut Graph, matrix: &mut [Vec<Scalar>], row: &[Scalar], weight: Scalar) {
+    let weighted: Vec<Scalar> = row.iter().map(|&entry| g.mul(weight, entry)).collect();
     for i in 0..row.len() {
         for j in 0..row.len() {
-            let both = g.mul(row[i], row[j]);
+            let both = g.mul(weighted[i], row[j]);
             matrix[i][j] = g.add(matrix[i][j], both);
         }
     }

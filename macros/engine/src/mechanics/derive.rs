@@ -258,7 +258,7 @@ impl<'m> Deriving<'m> {
             (FunctionKind::DeadCentres, !self.dead_centres.is_empty()),
             (FunctionKind::Margins, forward && self.may_reach_dead_centres()),
             (FunctionKind::Granted, forward && !self.structure.granted.is_empty()),
-            (FunctionKind::Displacement, forward && self.structure.is_large()),
+            (FunctionKind::Displacement, forward && self.structure.is_projected_by_zeros()),
         ];
         let wanted = kinds.into_iter().filter(|kind| kind.1);
         wanted.map(|(kind, _)| Ok(Derived { kind, candidates: self.candidates(kind)? })).collect()

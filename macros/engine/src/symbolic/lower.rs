@@ -13,7 +13,7 @@ use crate::invariant::injection::{Break, broken};
 use super::graph::{
     AnyNode, BlockId, BlockKind, Graph, Name, PlaceMap, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode,
 };
-use super::sparse_factors::{SparseFactors, expressions};
+use super::sparse_factors::{Purpose, SparseFactors, expressions};
 
 /// A system that would make a function larger than so many expressions is not written out, but solved by the runtime: one of
 /// about twenty unknowns in which each equation reads all.
@@ -145,7 +145,7 @@ impl<'g> Lowering<'g> {
                 unknowns.truncate(size);
                 return unknowns;
             }
-            self.factors.insert(matrix.into(), SparseFactors::of(to, size, matrix));
+            self.factors.insert(matrix.into(), SparseFactors::of(to, size, matrix, Purpose::Solutions));
         }
         self.factors[matrix].solve(to, side)
     }

@@ -83,9 +83,19 @@ pub struct SparseFactors {
     steps: Vec<Step>,
     /// In the order of elimination.
     pivots: Vec<Pivot>,
-    /// How many pivots there are whatever the entries are, less those that are lost where these masks say so.
-    most: usize,
-    lost: Vec<Scalar>,
+    /// How many pivots are literals, and of each of the others whether it is there.
+    literals: usize,
+    found: Vec<Scalar>,
+}
+
+/// What is to be known of a matrix.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// Solutions, in any units: a pivot counts wherever its own digits are there.
+    Solutions,
+    /// The rank too. There pivots are measured beside their rows as well, so entries that are rounding as they are given don't count,
+    /// and by the size of the matrix.
+    Rank,
 }
 
 /// What is left to eliminate.
@@ -94,15 +104,26 @@ struct Work<'a> {
     rows: Vec<Row>,
     open_rows: Vec<usize>,
     open_columns: Vec<usize>,
+    purpose: Purpose,
+    size: i64,
     done: SparseFactors,
 }
 
 impl SparseFactors {
     /// Factorises a matrix, given row by row.
-    pub fn of(g: &mut Graph, size: usize, matrix: &[Scalar]) -> SparseFactors {
+    pub fn of(g: &mut Graph, size: usize, matrix: &[Scalar], purpose: Purpose) -> SparseFactors {
         let rows = matrix.chunks(size.max(1)).map(|entries| Row::new(entries.to_vec())).collect();
-        let done = SparseFactors { steps: Vec::new(), pivots: Vec::with_capacity(size), most: 0, lost: Vec::new() };
-        let mut work = Work { g, rows, open_rows: (0..size).collect(), open_columns: (0..size).collect(), done };
+        let done =
+            SparseFactors { steps: Vec::new(), pivots: Vec::with_capacity(size), literals: 0, found: Vec::new() };
+        let mut work = Work {
+            g,
+            rows,
+            open_rows: (0..size).collect(),
+            open_columns: (0..size).collect(),
+            purpose,
+            size: size as i64,
+            done,
+        };
         while let Some((rows, columns)) = work.orthogonal() {
             work.project(&rows, &columns);
         }
@@ -202,10 +223,10 @@ impl SparseFactors {
         unknowns
     }
 
-    /// How many pivots are not lost: the size where the matrix is regular. Where it is not, one that is lost may take others along.
+    /// How many pivots are there: the size where the matrix is regular. Where it is not, one that is none may take others along.
     pub fn rank(&self, g: &mut Graph) -> Scalar {
-        let mut terms = vec![g.integer(self.most as i64)];
-        terms.extend(self.lost.iter().map(|&mask| -g.call(Call::Select, &[mask, Scalar::ONE, Scalar::ZERO])));
+        let mut terms = vec![g.integer(self.literals as i64)];
+        terms.extend(self.found.iter().map(|&mask| g.call(Call::Select, &[mask, Scalar::ONE, Scalar::ZERO])));
         g.sum(&terms)
     }
 }
@@ -257,7 +278,7 @@ impl Work<'_> {
         let squares: Vec<Scalar> = columns.iter().map(|&column| self.gram(rows, column, column)).collect();
         let entries = |column: usize| rows.iter().map(|&row| self.rows[row].entries[column]).collect::<Vec<_>>();
         let vectors: Vec<Vec<Scalar>> = columns.iter().map(|&column| entries(column)).collect();
-        let inverses: Vec<Scalar> = squares.iter().map(|&square| self.pivot_of_square(square)).collect();
+        let inverses: Vec<Scalar> = squares.iter().map(|&square| self.pivot_of_square(square, rows)).collect();
         self.open_rows.retain(|row| !rows.contains(row));
         self.open_columns.retain(|column| !columns.contains(column));
         if columns.len() < rows.len() {
@@ -273,7 +294,10 @@ impl Work<'_> {
             let terms: Vec<(usize, Scalar)> =
                 rows.iter().copied().zip(normal).map(|(row, n)| (row, self.g.mul(length, n))).collect();
             self.open_rows.push(self.rows.len());
-            let combined = rows::combined(self.g, &self.rows, &terms, &self.open_columns);
+            let mut combined = rows::combined(self.g, &mut self.rows, &terms, &self.open_columns);
+            if self.purpose == Purpose::Rank {
+                combined = combined.with_scale(rows::combined_scale(self.g, &mut self.rows, &terms));
+            }
             self.rows.push(combined);
             self.done.steps.push(Step::Combine { terms });
         }
@@ -293,14 +317,19 @@ impl Work<'_> {
     }
 
     /// One over a square that is a pivot.
-    fn pivot_of_square(&mut self, square: Scalar) -> Scalar {
-        self.done.most += 1;
+    fn pivot_of_square(&mut self, square: Scalar, rows: &[usize]) -> Scalar {
         if self.g.literal(square).is_some() {
+            self.done.literals += 1;
             return self.g.reciprocal(square);
         }
-        let inverse = self.guard(square, square);
-        self.done.lost.extend(inverse.plain.map(|(mask, _)| mask));
-        inverse.guarded
+        if self.purpose == Purpose::Rank {
+            let scales: Vec<Scalar> = rows.iter().map(|&row| self.rows[row].scale(self.g)).collect();
+            let scale = scales.into_iter().reduce(|a, b| self.g.call(Call::Max, &[a, b])).unwrap_or(Scalar::ZERO);
+            let least = self.rounding_of(scale);
+            let least = self.g.mul(least, least);
+            self.count(square, least);
+        }
+        self.positive(square)
     }
 
     /// One over a square; zero if that is zero.
@@ -308,15 +337,14 @@ impl Work<'_> {
         if self.g.literal(square).is_some() {
             return self.g.reciprocal(square);
         }
-        self.guard(square, square).guarded
+        let least = self.rounding_of(square);
+        self.guard(square, square, least).guarded
     }
 
     fn eliminate(&mut self, column: usize, rows: Vec<usize>) {
         // A column of zeros: its unknown is zero, and some row is left over.
         let Some(top) = self.winner(column, &rows).or(self.open_rows.last().copied()) else { return };
         let inverse = self.inverse(column, top);
-        self.done.most += usize::from(inverse.guarded != Scalar::ZERO);
-        self.done.lost.extend(inverse.plain.map(|(mask, _)| mask));
         self.open_columns.retain(|&other| other != column);
         self.open_rows.retain(|&row| row != top);
         let mut shares = 0;
@@ -388,23 +416,42 @@ impl Work<'_> {
         if let Some(number) = self.g.literal(pivot) {
             // Of the quotient by what has cancelled nothing is known.
             let known = number.is_sharp();
+            self.done.literals += usize::from(known);
             let guarded = if known { self.g.reciprocal(pivot) } else { self.g.call(Call::Nan, &[]) };
             return Inverse { guarded, plain: None };
         }
         let noise = self.rows[row].noise(self.g, column);
-        let inverse = self.guard(pivot, noise);
+        let least = self.rounding_of(noise);
+        let size = self.g.call(Call::Abs, &[pivot]);
+        let inverse = self.guard(pivot, size, least);
+        if self.purpose == Purpose::Rank {
+            let (count, scale) = (self.g.integer(self.size), self.rows[row].scale(self.g));
+            let noise = self.g.mul(count, noise);
+            let most = self.g.call(Call::Max, &[noise, scale]);
+            let least = self.rounding_of(most);
+            self.count(size, least);
+        }
         self.g.label(inverse.guarded, || format!("pivot_{}_inv", column + 1));
         inverse
     }
 
-    /// One over what was made of so much.
-    fn guard(&mut self, pivot: Scalar, noise: Scalar) -> Inverse {
+    /// The size up to which a pivot is rounding.
+    fn rounding_of(&mut self, noise: Scalar) -> Scalar {
         let (units, unit) = (self.g.integer(UNITS), self.g.call(Call::Epsilon, &[]));
-        let least = self.g.product(&[units, unit, noise]);
-        // Squares are of one sign.
-        let size = if pivot == noise { pivot } else { self.g.call(Call::Abs, &[pivot]) };
+        self.g.product(&[units, unit, noise])
+    }
+
+    /// A pivot has a share in the rank. What is no number has none.
+    fn count(&mut self, size: Scalar, least: Scalar) {
+        let found = self.g.call(Call::Less, &[least, size]);
+        self.done.found.push(found);
+    }
+
+    /// One over a pivot of a size, zero up to the least.
+    fn guard(&mut self, pivot: Scalar, size: Scalar, least: Scalar) -> Inverse {
         let mask = self.g.call(Call::LessEqual, &[size, least]);
         // Zero, but the graph does not know that: its product with what is infinite is no number.
+        let unit = self.g.call(Call::Epsilon, &[]);
         let zero = self.g.call(Call::Min, &[unit, Scalar::ZERO]);
         let nothing = self.g.mul(least, zero);
         let plain = self.g.reciprocal(pivot);

@@ -27,7 +27,7 @@ use super::echelon::best_pivots;
 use super::evaluate::solve_above;
 use super::graph::{BlockKind, Graph, Scalar, SymbolId};
 use super::number::Number;
-use super::sparse_factors::{SparseFactors, expressions};
+use super::sparse_factors::{Purpose, SparseFactors, expressions};
 use super::triangular_form::{components, matching};
 
 /// Pivots of literals, of rows and columns that are brought to one scale, count if they are greater. The threshold of the
@@ -293,10 +293,10 @@ fn sparse(g: &mut Graph, matrix: &[Scalar], side: &[Scalar]) -> Option<(Vec<Scal
         return None;
     }
     if plain < turned {
-        let factors = SparseFactors::of(g, size, matrix);
+        let factors = SparseFactors::of(g, size, matrix, Purpose::Rank);
         Some((factors.solve(g, side), factors.rank(g)))
     } else {
-        let factors = SparseFactors::of(g, size, &transposed);
+        let factors = SparseFactors::of(g, size, &transposed, Purpose::Rank);
         Some((factors.solve_transposed(g, side), factors.rank(g)))
     }
 }

@@ -4,7 +4,7 @@ use crate::rng::Rng;
 use multibody_engine::symbolic::evaluate::{Evaluator, Real, solve_f64};
 use multibody_engine::symbolic::graph::{BlockKind, Graph, Scalar, ScalarNode, SymbolId};
 use multibody_engine::symbolic::lower::Lowering;
-use multibody_engine::symbolic::sparse_factors::SparseFactors;
+use multibody_engine::symbolic::sparse_factors::{Purpose, SparseFactors};
 
 /// An entry: zero, a literal, or a symbol.
 #[derive(Clone, Copy, PartialEq)]
@@ -27,7 +27,7 @@ fn solved(entries: &[Vec<Entry>], value: &dyn Fn(usize) -> f64) -> (Vec<f64>, Ve
             Entry::Moving => g.symbol(),
         })
         .collect();
-    let factors = SparseFactors::of(&mut g, n, &matrix);
+    let factors = SparseFactors::of(&mut g, n, &matrix, Purpose::Solutions);
     let unknowns = factors.solve(&mut g, &side);
     let symbols = |id: SymbolId| value(id.0);
     let numbers = |list: &[Scalar]| Evaluator::new(&g, Real { symbols: &symbols }).run(list);
@@ -165,7 +165,7 @@ fn orthogonal_columns_need_no_pivots() {
         let lowered = lowering.run(&roots);
         let cost = lowering.to.cost(&lowered);
         // Guards of the pivots and of a normal's length, and the last two rows of the second, which do compete.
-        assert!(cost.compare + cost.other <= [2, 19][size - 3], "{cost:?}");
+        assert!(cost.compare + cost.other <= [2, 22][size - 3], "{cost:?}");
         let mut rng = Rng::new(8);
         for round in 0..50 {
             let mut values: Vec<f64> = (0..19).map(|_| rng.real(-1.0, 1.0)).collect();
@@ -317,11 +317,11 @@ fn literals_without_digits_are_no_pivots() {
     assert!(!g.literal(blurred).expect("a literal").is_sharp(), "it is to be blurred");
     let side = [g.symbol(), g.symbol()];
     let symbols = |id: SymbolId| [1.0, 2.0][id.0];
-    let factors = SparseFactors::of(&mut g, 2, &[blurred, one, half, one]);
+    let factors = SparseFactors::of(&mut g, 2, &[blurred, one, half, one], Purpose::Solutions);
     let unknowns = factors.solve(&mut g, &side);
     let got = Evaluator::new(&g, Real { symbols: &symbols }).run(&unknowns);
     assert!((got[0] - 2.0).abs() < 1e-15 && (got[1] - 1.0).abs() < 1e-15, "{got:?}");
-    let factors = SparseFactors::of(&mut g, 1, &[blurred]);
+    let factors = SparseFactors::of(&mut g, 1, &[blurred], Purpose::Solutions);
     let unknowns = factors.solve(&mut g, &side[..1]);
     let got = Evaluator::new(&g, Real { symbols: &symbols }).run(&unknowns);
     assert!(got[0].is_nan(), "{got:?}");
@@ -437,12 +437,12 @@ fn transposed_systems_and_ranks() {
                 Entry::Moving => g.symbol(),
             })
             .collect();
-        let factors = SparseFactors::of(&mut g, n, &matrix);
+        let factors = SparseFactors::of(&mut g, n, &matrix, Purpose::Rank);
         let mut roots = factors.solve_transposed(&mut g, &side);
         roots.push(factors.rank(&mut g));
         let values: Vec<f64> = (0..n + n * n).map(|_| 2.0 * rng.real(0.0, 1.0) - 1.0).collect();
         let symbols = |id: SymbolId| values[id.0];
-        let mut numbers = |list: &[Scalar]| Evaluator::new(&g, Real { symbols: &symbols }).run(list);
+        let numbers = |list: &[Scalar]| Evaluator::new(&g, Real { symbols: &symbols }).run(list);
         let (got, matrix, side) = (numbers(&roots), numbers(&matrix), numbers(&side));
         let transposed: Vec<f64> = (0..n * n).map(|at| matrix[at % n * n + at / n]).collect();
         let want = solve_f64(&transposed, &side);
@@ -458,32 +458,62 @@ fn transposed_systems_and_ranks() {
     assert!(regular > 300, "{regular}");
 }
 
-/// Rows and columns that depend on others at run time: no rank is full but where pivots of few digits have multiplied rounding.
+/// Rows and columns that depend on others at run time but for rounding: no rank is full as a rule, however many entries are zero.
 #[test]
 fn what_depends_on_others_has_no_full_rank() {
     let mut rng = Rng::new(14);
-    let mut missed = 0;
-    for round in 0..400 {
-        let n = 3 + round % 8;
-        let dense = vec![vec![Entry::Moving; n]; n];
-        // Few digits, so that sums are exact.
-        let mut digits = |size: f64| (rng.real(-1.0, 1.0) * size).round() / size;
-        let mut rows: Vec<Vec<f64>> = (0..n).map(|_| (0..n).map(|_| digits(1_048_576.0)).collect()).collect();
+    let (mut full_ranks, mut short) = (0, 0);
+    for round in 0..1200 {
+        let n = 3 + round % 12;
+        let full = [0.5, 1.0][round % 2];
+        let mut rows: Vec<Vec<f64>> = (0..n)
+            .map(|_| (0..n).map(|_| if rng.real(0.0, 1.0) < full { rng.real(-1.0, 1.0) } else { 0.0 }).collect())
+            .collect();
         let (a, b, c) = (round % n, (round + 1) % n, (round + 2) % n);
-        let shares = [digits(16.0), digits(16.0)];
-        if round % 2 == 0 {
+        let shares = [rng.real(-1.0, 1.0), rng.real(-1.0, 1.0)];
+        if round % 4 < 2 {
             rows[a] = (0..n).map(|k| shares[0] * rows[b][k] + shares[1] * rows[c][k]).collect();
         } else {
             rows.iter_mut().for_each(|row| row[a] = shares[0] * row[b] + shares[1] * row[c]);
         }
         let mut g = Graph::new();
-        let matrix: Vec<Scalar> = dense.iter().flatten().map(|_| g.symbol()).collect();
-        let rank = SparseFactors::of(&mut g, n, &matrix).rank(&mut g);
-        let values = rows.concat();
+        let mut values = Vec::new();
+        let matrix: Vec<Scalar> = rows
+            .iter()
+            .flatten()
+            .map(|&x| {
+                if x == 0.0 {
+                    return Scalar::ZERO;
+                }
+                values.push(x);
+                g.symbol()
+            })
+            .collect();
+        let rank = SparseFactors::of(&mut g, n, &matrix, Purpose::Rank).rank(&mut g);
         let symbols = |id: SymbolId| values[id.0];
         let rank = Evaluator::new(&g, Real { symbols: &symbols }).run(&[rank])[0];
-        missed += usize::from(rank != (n - 1) as f64);
+        full_ranks += usize::from(rank == n as f64);
+        short += usize::from(rank < (n - 1) as f64);
     }
-    println!("{missed} of 400");
-    assert!(missed <= 4, "{missed}");
+    println!("{full_ranks} full, {short} below one less, of 1200");
+    // Pivots of few digits multiply rounding in ways that no noise tells.
+    assert!(full_ranks <= 6 && short <= 120, "{full_ranks} {short}");
+}
+
+/// An entry that is rounding as it is given, a cosine of a right angle, says nothing of a rank, and NaN has none.
+#[test]
+fn entries_of_rounding_are_in_no_rank() {
+    for entry in [(std::f64::consts::FRAC_PI_2).cos(), 0.0, f64::NAN] {
+        let mut g = Graph::new();
+        let cosine = g.symbol();
+        let (zero, one) = (Scalar::ZERO, Scalar::ONE);
+        let matrix = [one, zero, zero, one, cosine, zero, zero, one, one];
+        for transposed in [false, true] {
+            let at = |k: usize| matrix[if transposed { k % 3 * 3 + k / 3 } else { k }];
+            let matrix: Vec<Scalar> = (0..9).map(at).collect();
+            let rank = SparseFactors::of(&mut g, 3, &matrix, Purpose::Rank).rank(&mut g);
+            let rank = Evaluator::new(&g, Real { symbols: &|_| entry }).run(&[rank])[0];
+            assert!(rank < 3.0, "{entry}: {rank}");
+        }
+    }
 }

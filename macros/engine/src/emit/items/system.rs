@@ -290,9 +290,9 @@ fn constrained(context: &Context<'_>) -> Option<TokenStream> {
         let (columns, rank) = (layout.dof(), Literal::usize_unsuffixed(layout.dof()));
         let columns = Literal::usize_unsuffixed(columns);
         quote! {
-            fn least_correction(&self, #time: T, q: &Position<T>, residual: &#residual) -> (Velocity<T>, T) {
+            fn least_correction(&self, #time: T, q: &Position<T>, residual: &#residual) -> ::core::option::Option<(Velocity<T>, T)> {
                 let found = self.least_displacement(#passed q, residual);
-                (found.fixed_rows::<#columns>(0).into_owned().into(), found[#rank])
+                ::core::option::Option::Some((found.fixed_rows::<#columns>(0).into_owned().into(), found[#rank]))
             }
         }
     });

@@ -183,9 +183,9 @@ impl Structure {
         if alone { Box::default() } else { groups }
     }
 
-    /// Whether equations are so many that projections gain by their zeros.
-    pub fn is_large(&self) -> bool {
-        self.rows.len() * self.rows.len() * self.state.len() >= LARGE
+    /// Whether equations are so many that projections gain by their zeros, and none follows from others everywhere.
+    pub fn is_projected_by_zeros(&self) -> bool {
+        !self.redundant && self.rows.len() * self.rows.len() * self.state.len() >= LARGE
     }
 
     /// Number of coordinates in the state.

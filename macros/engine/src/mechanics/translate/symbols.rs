@@ -62,7 +62,7 @@ impl Symbols {
         let moves = jumps || model.emit.contains(&Request::Momentum);
         let table = &mut self.table;
         if !moves {
-            if model.emit.contains(&Request::ForwardDynamics) && structure.is_large() {
+            if model.emit.contains(&Request::ForwardDynamics) && structure.is_projected_by_zeros() {
                 self.rates = several(g, table, structure.rows.len(), |row| Symbol::Rate { row });
             }
             return self;

@@ -17,6 +17,11 @@ pub(super) struct Row {
 }
 
 impl Row {
+    pub(super) fn with_scale(mut self, scale: Scalar) -> Row {
+        self.scale = Some(scale);
+        self
+    }
+
     pub(super) fn new(entries: Vec<Scalar>) -> Row {
         Row { noise: vec![None; entries.len()], given: entries.clone(), entries, scale: None }
     }
@@ -48,23 +53,40 @@ impl Row {
     }
 }
 
-/// A sum of multiples of rows, in these columns.
-pub(super) fn combined(g: &mut Graph, rows: &[Row], terms: &[(usize, Scalar)], columns: &[usize]) -> Row {
+/// A sum of multiples of rows, in these columns. Its scale is that of its entries.
+pub(super) fn combined(g: &mut Graph, rows: &mut [Row], terms: &[(usize, Scalar)], columns: &[usize]) -> Row {
     let size = rows.first().map_or(0, |row| row.entries.len());
     let mut combined = Row::new(vec![Scalar::ZERO; size]);
     for &column in columns {
-        let parts: Vec<(usize, Scalar)> = terms
-            .iter()
-            .filter(|&&(row, _)| rows[row].entries[column] != Scalar::ZERO)
-            .map(|&(row, factor)| (row, g.mul(factor, rows[row].entries[column])))
-            .collect();
-        let sizes: Vec<Scalar> = parts.iter().map(|&(_, part)| g.call(Call::Abs, &[part])).collect();
-        let parts: Vec<Scalar> = parts.into_iter().map(|(_, part)| part).collect();
-        combined.entries[column] = g.sum(&parts);
-        combined.noise[column] = (parts.len() > 1).then(|| g.sum(&sizes));
+        let parts: Vec<(usize, Scalar)> =
+            terms.iter().filter(|&&(row, _)| rows[row].entries[column] != Scalar::ZERO).copied().collect();
+        let products: Vec<Scalar> =
+            parts.iter().map(|&(row, factor)| g.mul(factor, rows[row].entries[column])).collect();
+        combined.entries[column] = g.sum(&products);
+        let noisy = parts.iter().any(|&(row, _)| rows[row].noise[column].is_some());
+        if parts.len() > 1 || noisy {
+            let sizes: Vec<Scalar> = parts
+                .iter()
+                .map(|&(row, factor)| {
+                    let (factor, noise) = (g.call(Call::Abs, &[factor]), rows[row].noise(g, column));
+                    g.mul(factor, noise)
+                })
+                .collect();
+            combined.noise[column] = Some(g.sum(&sizes));
+        }
     }
     combined.given = combined.entries.clone();
     combined
+}
+
+/// The scale of a sum of multiples of rows: that of its terms, whatever cancels.
+pub(super) fn combined_scale(g: &mut Graph, rows: &mut [Row], terms: &[(usize, Scalar)]) -> Scalar {
+    let mut scale = |&(row, factor): &(usize, Scalar)| {
+        let (factor, scale) = (g.call(Call::Abs, &[factor]), rows[row].scale(g));
+        g.mul(factor, scale)
+    };
+    let scales: Vec<Scalar> = terms.iter().map(&mut scale).collect();
+    g.sum(&scales)
 }
 
 /// The row with the largest entry of a column, beside its scale, where that is known while compiling. Literals without digits are
