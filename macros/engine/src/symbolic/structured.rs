@@ -13,7 +13,7 @@
 //!   ([`super::sparse_factors`]), as it stands or transposed: whichever takes less.
 //! - Every other part is one pivoted solve in the runtime.
 //!
-//! Ranks add up exactly. Blocks of literals are regular, so taking one away with what stands left of it or below it lowers
+//! Ranks add up exactly; of a part that is factorised it is known whether the rank is full. Blocks of literals are regular, so taking one away with what stands left of it or below it lowers
 //! the rank by its size; and rows of different parts share no column. Blocks of the core that need each other in one direction alone
 //! stay together, since the rank of a triangular matrix may be greater than the number of its pivots that are not zero.
 //!
