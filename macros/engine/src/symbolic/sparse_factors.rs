@@ -2,7 +2,7 @@
 //!
 //! In: a matrix. Out: its factors as expressions, and solutions with them for any number of right sides.
 //!
-//! The order of columns is found while compiling ([`order`]): next comes the column whose elimination takes the least work, a row
+//! The order of columns is found while compiling (`order`): next comes the column whose elimination takes the least work, a row
 //! that has one column left before all others (it says what its unknown is, whatever stands below it). The rows that still have an
 //! entry in the column compete for its pivot, the largest entry wins, and rows change places by selects: partial pivoting, so
 //! a column without a pivot means that the matrix is singular, and not that the order was a bad one. Rows that have no entry
@@ -20,7 +20,7 @@
 //! |a_ik| / s_i > |a_jk| / s_j: implicit scaling (Higham 2002, Accuracy and Stability of Numerical Algorithms, section 9.3),
 //! written |a_jk| s_i < |a_ik| s_j.
 //!
-//! A pivot p is rounding where it is small beside what that entry itself was made of, its *noise* ([`rows`]): n = |a| as given,
+//! A pivot p is rounding where it is small beside what that entry itself was made of, its *noise* (`rows`): n = |a| as given,
 //! and n_ij + |l| n_kj once l times row k is taken from row i, since a_kj is known to n_kj roundings, whatever has cancelled in
 //! it. With |p| <= 16 eps n the pivot is lost: no digit of it is known. Rows and columns in other units multiply p and n alike, so
 //! a small pivot counts wherever its own digits are there. What was given is taken for exact: where a whole row is rounding as it
