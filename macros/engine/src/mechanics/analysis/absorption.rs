@@ -6,8 +6,9 @@
 //! No number of poses shows that nothing vanishes between them. So only what doesn't depend on the pose counts: the volume that
 //! rows span in some coordinates. A body that moves freely takes any point along, however it is turned: the volume is one.
 //! An analytic function that is the same at random poses, and with random parameters, is constant. It need be so only where the
-//! loops in question are closed, whatever becomes of others. What depends on one coordinate alone is seen whole, and is looked at
-//! where the user assumes something of that coordinate: a strut can have the length zero unless `assume` says that it is longer.
+//! loops in question are closed, whatever becomes of others. What depends on one coordinate alone is seen whole, and so is a
+//! product of functions of two, each of one coordinate; it is looked at where the user assumes something of these: a strut can
+//! have the length zero, and a gimbal its axes in one line, unless `assume` says that it is longer and that they are not.
 //! Where what is assumed does not hold, the rank tells (`dynamics::saddle`).
 //!
 //! Rows of several loops are taken apart: those that read a joint's coordinates are independent there, and the others in the
@@ -32,7 +33,7 @@ pub use hope::Hope;
 #[derive(Default)]
 pub(in super::super) struct Poses {
     random: HashMap<Loop, Drawn>,
-    along: HashMap<(Loop, usize), Along>,
+    along: HashMap<(Loop, Vec<usize>), Along>,
 }
 
 /// Judges rows of one model in one writing.
@@ -49,8 +50,8 @@ pub(in super::super) struct Absorption<'p> {
     /// The closed configuration that is nearest to where coordinates stand by default.
     first: Point,
     poses: &'p mut Poses,
-    /// What was found of equations and columns.
-    known: HashMap<(Vec<usize>, Vec<usize>), bool>,
+    /// What was found of equations and columns, with nothing more assumed and with it.
+    known: HashMap<(Vec<usize>, Vec<usize>, bool), bool>,
     values: Values,
     /// Where more may be assumed than is: how much of a volume has to be left then.
     hoping: Option<f64>,
@@ -90,12 +91,35 @@ impl<'p> Absorption<'p> {
         hopes.into_iter().map(|(column, hope)| (problem.columns[column].coordinate, hope)).collect()
     }
 
-    /// Whether a row, with others that are, is independent in some coordinates of the state, in all poses.
+    /// Whether a row, with others that are, is independent in some coordinates of the state, in all poses. So it is where more
+    /// rows are: in axes that don't turn with a strut only the three components at its end together have a volume that says
+    /// something. What would have to be assumed is asked of all of them first, since that is how the limb stands, and not the axes.
     pub(in super::super) fn absorbs(&mut self, row: usize, others: &[usize], coordinates: &[usize]) -> bool {
         let columns: Vec<usize> = coordinates.iter().map(|&k| self.columns[k]).collect();
         let others: Vec<usize> = others.iter().map(|&k| self.equations[k]).collect();
-        let (equations, columns) = self.concerned(self.equations[row], &others, &columns);
-        self.independent(equations, columns)
+        let row = self.equations[row];
+        let rows = |equation: usize| matches!(self.problem.equations[equation].source, Source::Row(_));
+        let alike = |&other: &usize| other != row && rows(other) && self.closing(other) == self.closing(row);
+        let siblings: Vec<usize> = self.equations.iter().copied().filter(alike).collect();
+        let mut with: Vec<Vec<usize>> = vec![Vec::new()];
+        with.extend(siblings.iter().map(|&sibling| vec![sibling]));
+        with.extend((siblings.len() > 1).then_some(siblings));
+        let mut sets: Vec<(Vec<usize>, Vec<usize>)> = Vec::new();
+        for mut more in with {
+            more.extend(&others);
+            more.sort_unstable();
+            more.dedup();
+            let set = self.concerned(row, &more, &columns);
+            if !sets.contains(&set) {
+                sets.push(set);
+            }
+        }
+        let hoping = self.hoping.take();
+        let absorbed = sets.iter().any(|(equations, columns)| self.independent(equations.clone(), columns.clone()));
+        self.hoping = hoping;
+        absorbed
+            || hoping.is_some()
+                && sets.into_iter().rev().any(|(equations, columns)| self.independent(equations, columns))
     }
 
     /// Whether equations are independent in some columns, both in order.
@@ -106,7 +130,7 @@ impl<'p> Absorption<'p> {
         if equations.len() > columns.len() {
             return false;
         }
-        let key = (equations, columns);
+        let key = (equations, columns, self.hoping.is_some());
         if let Some(&known) = self.known.get(&key) {
             return known;
         }
@@ -163,8 +187,9 @@ impl<'p> Absorption<'p> {
         let drawn = poses.random.entry(key.clone()).or_insert_with(|| Drawn::new(first));
         limb.is_constant(drawn, values).unwrap_or_else(|| {
             let assumed = problem.assumed().into_iter().filter(|column| limb.moving.contains(column));
-            let stays = assumed.into_iter().any(|column| {
-                let along = poses.along.entry((key.clone(), column)).or_insert_with(|| Along::new(column));
+            let stays = sets(&assumed.collect::<Vec<_>>()).into_iter().any(|columns| {
+                let new = || Along::new(columns.clone());
+                let along = poses.along.entry((key.clone(), columns.clone())).or_insert_with(new);
                 limb.stays(along, drawn, values)
             });
             let Some(share) = hoping.filter(|_| !stays) else { return stays };
@@ -172,14 +197,18 @@ impl<'p> Absorption<'p> {
             let mut single: Vec<usize> = single.collect();
             // The fewer columns there is something to assume of, the better.
             single.sort_by_key(|column| !hopes.contains_key(column));
-            single.into_iter().any(|column| {
-                let along = poses.along.entry((key.clone(), column)).or_insert_with(|| Along::new(column));
+            let few = |set: &Vec<usize>| set.len() == 1 || set.iter().all(|column| limb.moves_with(*column));
+            sets(&single).into_iter().filter(few).any(|columns| {
+                let new = || Along::new(columns.clone());
+                let along = poses.along.entry((key.clone(), columns.clone())).or_insert_with(new);
                 let depends = limb.depends(along, drawn, values);
-                let Some(hope) = depends.then(|| limb.hope(column, first, share, values)).flatten() else {
+                let Some(found) = depends.then(|| limb.hopes(&columns, first, share, values)).flatten() else {
                     return false;
                 };
-                let hope = hopes.get(&column).map_or(hope, |known| known.and(hope));
-                hopes.insert(column, hope);
+                for (column, hope) in found {
+                    let hope = hopes.get(&column).map_or(hope, |known| known.and(hope));
+                    hopes.insert(column, hope);
+                }
                 true
             })
         })
@@ -215,4 +244,10 @@ impl<'p> Absorption<'p> {
         near.sort_unstable();
         (equations, near)
     }
+}
+
+/// Columns by themselves, then each with one of the others.
+fn sets(columns: &[usize]) -> Vec<Vec<usize>> {
+    let pair = |k: usize| columns[k + 1..].iter().map(move |&other| vec![columns[k], other]);
+    columns.iter().map(|&column| vec![column]).chain((0..columns.len()).flat_map(pair)).collect()
 }

@@ -1,7 +1,7 @@
 //! Stage `mechanics`: where a coordinate would have to be for equations to be absorbed.
 //!
-//! In: a volume that depends on one column alone. Out: how far that may go from where it stands by default until the volume is
-//! too small, or loops don't close.
+//! In: a volume that depends on one column alone, or is a product of functions of two. Out: how far each may go from where it
+//! stands by default until the volume is too small, or loops don't close.
 
 use crate::mechanics::analysis::problem::Point;
 use crate::mechanics::analysis::tape::Values;
@@ -37,24 +37,45 @@ impl Hope {
 }
 
 impl Limb<'_> {
-    /// Where the volume keeps a share of what it is at a pose; nothing where that asks for no bound, or leaves no way.
-    pub(super) fn hope(&self, column: usize, first: &Point, share: f64, values: &mut Values) -> Option<Hope> {
+    /// Where the volume, a product of functions of these columns, keeps a share of what it is at a pose; nothing where that asks
+    /// for no bound of one, or leaves it no way.
+    pub(super) fn hopes(
+        &self,
+        columns: &[usize],
+        first: &Point,
+        share: f64,
+        values: &mut Values,
+    ) -> Option<Vec<(usize, Hope)>> {
         let size = self.volume(first, values).size();
-        let at = self.value(first, column)?;
-        let [down, up] = [-1.0, 1.0].map(|way| self.bound(column, way, first, share * size, values));
-        let (least, most) = (down?, up?);
-        let hope = Hope { at, least, most, travels: self.travels(column) };
-        let room = |bound: Option<f64>| bound.is_none_or(|bound| (bound - at).abs() > 1e-3);
-        (hope.least.is_some() || hope.most.is_some()).then_some(hope).filter(|_| room(least) && room(most))
+        let own = share.powf(1.0 / columns.len() as f64);
+        let mut hopes = Vec::new();
+        for &column in columns {
+            let at = self.value(first, column)?;
+            let [down, up] = [-1.0, 1.0].map(|way| self.bound(columns, column, way, first, own * size, values));
+            let (least, most) = (down?, up?);
+            let hope = Hope { at, least, most, travels: self.travels(column) };
+            let room = |bound: Option<f64>| bound.is_none_or(|bound| (bound - at).abs() > 1e-3);
+            let bounded = least.is_some() || most.is_some();
+            hopes.push((column, Some(hope).filter(|_| bounded && room(least) && room(most))?));
+        }
+        Some(hopes)
     }
 
-    /// How far it may go one way: `Some(None)` without an end; nothing where it has none to go.
-    fn bound(&self, column: usize, way: f64, first: &Point, size: f64, values: &mut Values) -> Option<Option<f64>> {
+    /// How far one may go one way, others held: `Some(None)` without an end; nothing where it has none to go.
+    fn bound(
+        &self,
+        held: &[usize],
+        column: usize,
+        way: f64,
+        first: &Point,
+        size: f64,
+        values: &mut Values,
+    ) -> Option<Option<f64>> {
         let mut step = way * self.reach(column, FAR) / STEPS as f64;
         let mut pose = first.clone();
         let (mut steps, mut halves) = (0, 0);
         while steps < STEPS && halves < HALVES {
-            let next = self.moved_along(column, step, &pose, values);
+            let next = self.moved_along(held, column, step, &pose, values);
             match next.filter(|next| self.volume(next, values).is_beyond(size)) {
                 Some(next) => {
                     pose = next;

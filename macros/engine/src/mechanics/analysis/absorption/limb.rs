@@ -56,6 +56,13 @@ struct Stop {
     pose: Point,
 }
 
+/// Poses along one column, from a pose that it is measured by.
+struct Way {
+    column: usize,
+    from: Point,
+    stops: Vec<Stop>,
+}
+
 /// Closed poses at random, as many as were asked for.
 pub(super) struct Drawn {
     random: Random,
@@ -63,15 +70,17 @@ pub(super) struct Drawn {
     points: Vec<Point>,
 }
 
-/// Poses for one column, as far as they were asked for.
+/// Poses for one column, or for two, as far as they were asked for.
 pub(super) struct Along {
-    column: usize,
+    columns: Vec<usize>,
     random: Random,
     tried: usize,
-    /// Two in which it is the same, and parameters and time are.
+    /// Two in which these are the same, and parameters and time are.
     pairs: Vec<[Point; 2]>,
-    /// Ways along it, in steps, as far as the user lets it go; nothing where one does not come as far.
-    ways: OnceCell<Option<Vec<Vec<Stop>>>>,
+    /// Of two columns: two poses, and the same with the first column's values exchanged.
+    exchanged: OnceCell<Vec<[Point; 4]>>,
+    /// Ways along them, in steps, as far as the user lets them go; nothing where one does not come as far.
+    ways: OnceCell<Option<Vec<Way>>>,
 }
 
 impl Drawn {
@@ -82,8 +91,9 @@ impl Drawn {
 }
 
 impl Along {
-    pub(super) fn new(column: usize) -> Along {
-        Along { column, random: Random(0x51DE), tried: 0, pairs: Vec::new(), ways: OnceCell::new() }
+    pub(super) fn new(columns: Vec<usize>) -> Along {
+        let (random, exchanged, ways) = (Random(0x51DE), OnceCell::new(), OnceCell::new());
+        Along { columns, random, tried: 0, pairs: Vec::new(), exchanged, ways }
     }
 }
 
@@ -227,7 +237,7 @@ impl<'a> Limb<'a> {
         if volume.share.is_finite() { volume } else { Volume { size: f64::NAN, share: 0.0 } }
     }
 
-    /// Number k of the pairs of poses for a column, if there are as many.
+    /// Number k of the pairs of poses for columns, if there are as many.
     fn pair<'p>(
         &self,
         along: &'p mut Along,
@@ -235,8 +245,7 @@ impl<'a> Limb<'a> {
         k: usize,
         values: &mut Values,
     ) -> Option<&'p [Point; 2]> {
-        let mut held = vec![false; self.problem.columns.len()];
-        held[along.column] = true;
+        let held = self.holding(&along.columns);
         while along.pairs.len() <= k {
             let point = self.pose(drawn, along.tried, values)?;
             let mut other = point.clone();
@@ -249,26 +258,78 @@ impl<'a> Limb<'a> {
         along.pairs.get(k)
     }
 
-    /// Ways along a column from where things stand by default, and with parameters and time moved.
-    fn ways(&self, column: usize, drawn: &mut Drawn, values: &mut Values) -> Option<Vec<Vec<Stop>>> {
+    fn holding(&self, columns: &[usize]) -> Vec<bool> {
+        (0..self.problem.columns.len()).map(|column| columns.contains(&column)).collect()
+    }
+
+    /// Pairs of poses with the first of two columns exchanged: f(a, b) f(c, d) is f(c, b) f(a, d) where f is a product.
+    fn exchanged(&self, along: &Along, drawn: &mut Drawn, values: &mut Values) -> Vec<[Point; 4]> {
+        let &[first, _] = along.columns.as_slice() else { return Vec::new() };
+        let (held, mut random) = (self.holding(&along.columns), Random(0xE8C4));
+        let (mut all, mut k) = (Vec::new(), 0);
+        while let Some(one) = self.pose(drawn, k, values).cloned() {
+            let far = TRAVELS[k % TRAVELS.len()];
+            k += 1;
+            let mut other = one.clone();
+            if !self.shake(&mut other, far, &[], &mut random, values) {
+                continue;
+            }
+            let mut put = |to: &Point, from: &Point| {
+                let way = self.value(from, first)? - self.value(to, first)?;
+                let mut pose = to.clone();
+                let mut step = vec![0.0; self.problem.columns.len()];
+                step[first] = way;
+                self.problem.displace(&mut pose, &step);
+                self.shake(&mut pose, far, &held, &mut random, values).then_some(pose)
+            };
+            if let Some((here, there)) = put(&one, &other).zip(put(&other, &one)) {
+                all.push([one, other, here, there]);
+            }
+        }
+        all
+    }
+
+    /// Ways along columns from where things stand by default, and with parameters and time moved. Along two, each goes from
+    /// there, and the second from both ends of the first too.
+    fn ways(&self, columns: &[usize], drawn: &mut Drawn, values: &mut Values) -> Option<Vec<Way>> {
         while self.pose(drawn, drawn.points.len(), values).is_some() {}
         let all = std::iter::once(&drawn.points[0]).chain(self.moved(&drawn.points).take(LEAST_MOVED));
-        let starts: Vec<&Point> = all.filter(|point| self.problem.is_assumed(point, column, values)).collect();
+        let mut may = |point: &&Point| columns.iter().all(|&column| self.problem.is_assumed(point, column, values));
+        let starts: Vec<&Point> = all.filter(&mut may).collect();
         if starts.len() <= usize::from(self.moves()) {
             return None;
         }
-        let ways = starts.iter().flat_map(|&start| [(start, 1.0), (start, -1.0)]);
-        ways.map(|(start, way)| self.way(column, way, start, values)).collect()
+        let mut ways = Vec::new();
+        for from in starts {
+            let mut corners = vec![from.clone()];
+            for &column in columns {
+                for corner in std::mem::take(&mut corners) {
+                    for direction in [1.0, -1.0] {
+                        let stops = self.way(columns, column, direction, &corner, values)?;
+                        corners.extend(stops.last().map(|stop| stop.pose.clone()));
+                        ways.push(Way { column, from: from.clone(), stops });
+                    }
+                }
+                corners.push(from.clone());
+            }
+        }
+        Some(ways)
     }
 
-    /// From a pose along one column, to where the user lets it go no further, or far away; nothing where loops don't close before
-    /// that. What is assumed of other columns makes no difference, as these make none to the volume.
-    fn way(&self, column: usize, way: f64, first: &Point, values: &mut Values) -> Option<Vec<Stop>> {
-        let mut held = vec![false; self.problem.columns.len()];
-        held[column] = true;
+    /// From a pose along one column, others held, to where the user lets it go no further, or far away; nothing where loops don't
+    /// close before that. What is assumed of columns that are not held makes no difference, as these make none to the volume.
+    fn way(
+        &self,
+        held: &[usize],
+        column: usize,
+        direction: f64,
+        first: &Point,
+        values: &mut Values,
+    ) -> Option<Vec<Stop>> {
+        let held = self.holding(held);
         let mut random = Random(0x57E9);
         let travels = self.problem.columns[column].travels;
-        let mut length = way * if travels { FAR } else { TURN } / STEPS as f64;
+        let mut length = direction * if travels { FAR } else { TURN } / STEPS as f64;
         let steps = STEPS + if travels { FARTHER } else { STEPS };
         let mut step = vec![0.0; self.problem.columns.len()];
         let mut stops = vec![Stop { at: 0.0, pose: first.clone() }];
@@ -297,6 +358,11 @@ impl<'a> Limb<'a> {
         Some(stops)
     }
 
+    /// Whether a column is one of those that take the rows along.
+    pub(super) fn moves_with(&self, column: usize) -> bool {
+        self.columns.contains(&column)
+    }
+
     /// What a column is at a pose, if it is a number by itself.
     pub(super) fn value(&self, point: &Point, column: usize) -> Option<f64> {
         self.problem.value_of(point, column)
@@ -311,16 +377,23 @@ impl<'a> Limb<'a> {
         if self.problem.columns[column].travels { far } else { TURN }
     }
 
-    /// Along one column, with the loops closed again.
-    pub(super) fn moved_along(&self, column: usize, way: f64, from: &Point, values: &mut Values) -> Option<Point> {
-        let (mut step, mut held) = (vec![0.0; self.problem.columns.len()], vec![false; self.problem.columns.len()]);
-        (step[column], held[column]) = (way, true);
+    /// Along one column, others held, with the loops closed again.
+    pub(super) fn moved_along(
+        &self,
+        held: &[usize],
+        column: usize,
+        way: f64,
+        from: &Point,
+        values: &mut Values,
+    ) -> Option<Point> {
+        let mut step = vec![0.0; self.problem.columns.len()];
+        step[column] = way;
         let mut pose = from.clone();
         self.problem.displace(&mut pose, &step);
-        self.close(&mut pose, &held, values).then_some(pose)
+        self.close(&mut pose, &self.holding(held), values).then_some(pose)
     }
 
-    /// Whether the volume depends on one column alone.
+    /// Whether the volume depends on these columns alone, as a product of a function of each.
     pub(super) fn depends(&self, along: &mut Along, drawn: &mut Drawn, values: &mut Values) -> bool {
         for k in 0..LEAST_POSES {
             let Some([one, other]) = self.pair(along, drawn, k, values) else { return false };
@@ -329,58 +402,79 @@ impl<'a> Limb<'a> {
                 return false;
             }
         }
-        true
+        along.columns.len() == 1 || {
+            let exchanged = along.exchanged.get_or_init(|| self.exchanged(along, drawn, values));
+            let mut is_product = |poses: &[Point; 4]| {
+                let [one, other, here, there] = poses.each_ref().map(|pose| self.volume(pose, values).size);
+                (one * other - here * there).abs() <= SAME * one * other
+            };
+            exchanged.len() >= LEAST_POSES && exchanged.iter().all(&mut is_product)
+        }
     }
 
-    /// Whether the volume depends on one column alone, and vanishes nowhere along it.
+    /// Whether the volume depends on these columns alone, and vanishes nowhere along them.
     pub(super) fn stays(&self, along: &mut Along, drawn: &mut Drawn, values: &mut Values) -> bool {
         if !self.depends(along, drawn, values) {
             return false;
         }
-        let Some(ways) = along.ways.get_or_init(|| self.ways(along.column, drawn, values)) else { return false };
-        ways.iter().all(|way| {
-            let volumes: Vec<Volume> = way.iter().map(|stop| self.volume(&stop.pose, values)).collect();
-            let first = volumes[0].size;
-            let stops: Vec<(&Stop, Volume)> = way.iter().zip(volumes).collect();
+        let Some(ways) = along.ways.get_or_init(|| self.ways(&along.columns, drawn, values)) else { return false };
+        // What is left of it along each column from where it starts: together their product.
+        let mut least = vec![1.0_f64; along.columns.len()];
+        let all = ways.iter().all(|way| {
+            let first = self.volume(&way.from, values).size;
+            let volumes: Vec<Volume> = way.stops.iter().map(|stop| self.volume(&stop.pose, values)).collect();
+            let parts = volumes.iter().map(|volume| self.part(volume, first)).fold(1.0, f64::min);
+            let own = along.columns.iter().position(|&column| column == way.column);
+            own.into_iter().for_each(|k| least[k] = least[k].min(parts));
+            let stops: Vec<(&Stop, Volume)> = way.stops.iter().zip(volumes).collect();
             stops[0].1.is_great()
-                && stops
-                    .windows(2)
-                    .all(|two| self.stays_between(along.column, first, [&two[0], &two[1]], HALVES, values))
-        })
+                && stops.windows(2).all(|two| {
+                    let between = Between { held: &along.columns, column: way.column, first };
+                    self.stays_between(between, [&two[0], &two[1]], HALVES, values)
+                })
+        });
+        all && least.iter().product::<f64>() > LEAST
+    }
+
+    /// By how much each row is shorter than in another pose, on the average.
+    fn part(&self, volume: &Volume, first: f64) -> f64 {
+        (volume.size / first).powf(1.0 / self.equations.len() as f64)
     }
 
     /// Whether it vanishes nowhere between two poses, in parts of what it is in a third one: it may fall there as much again as it
     /// changes, and so may the part that each row has in it.
     fn stays_between(
         &self,
-        column: usize,
-        first: f64,
+        between: Between<'_>,
         [one, other]: [&(&Stop, Volume); 2],
         halves: usize,
         values: &mut Values,
     ) -> bool {
         let stays = |one: f64, other: f64| one.min(other) - (one - other).abs() > LEAST;
-        let part = |volume: &Volume| (volume.size / first).powf(1.0 / self.equations.len() as f64);
+        let part = |volume: &Volume| self.part(volume, between.first);
         if stays(one.1.share, other.1.share) && stays(part(&one.1), part(&other.1)) {
             return true;
         }
         if halves == 0 || !one.1.is_great() || !other.1.is_great() {
             return false;
         }
-        let mut held = vec![false; self.problem.columns.len()];
-        held[column] = true;
-        let mut step = vec![0.0; self.problem.columns.len()];
-        step[column] = 0.5 * (other.0.at - one.0.at);
-        let mut pose = one.0.pose.clone();
-        self.problem.displace(&mut pose, &step);
-        if !self.close(&mut pose, &held, values) {
+        let half = 0.5 * (other.0.at - one.0.at);
+        let Some(pose) = self.moved_along(between.held, between.column, half, &one.0.pose, values) else {
             return false;
-        }
+        };
         let volume = self.volume(&pose, values);
-        let middle = (&Stop { at: one.0.at + step[column], pose }, volume);
-        self.stays_between(column, first, [one, &middle], halves - 1, values)
-            && self.stays_between(column, first, [&middle, other], halves - 1, values)
+        let middle = (&Stop { at: one.0.at + half, pose }, volume);
+        self.stays_between(between, [one, &middle], halves - 1, values)
+            && self.stays_between(between, [&middle, other], halves - 1, values)
     }
+}
+
+/// The way that two poses stand on, and the volume that theirs are measured by.
+#[derive(Clone, Copy)]
+struct Between<'w> {
+    held: &'w [usize],
+    column: usize,
+    first: f64,
 }
 
 fn columns_of(problem: &Problem, equations: &[usize]) -> Vec<usize> {
