@@ -145,6 +145,7 @@ impl<S: Constrained + ?Sized> Constrained for &S {
 ///     position: SVector::from([0.1, 0.2]),
 ///     velocity: SVector::from([0.0; 2]),
 ///     acceleration: SVector::from([0.0; 2]),
+///     residual: 0.0,
 /// };
 /// assert_eq!(found.position[1], 0.2);
 /// ```
@@ -157,4 +158,7 @@ pub struct Kinematics<T, const N: usize> {
     pub velocity: SVector<T, N>,
     /// `[m/s^2]` or `[rad/s^2]`
     pub acceleration: SVector<T, N>,
+    /// `[m]` or `[1]`: the greatest of what Newton's method has left of the equations that it solves, after its last round. It
+    /// has converged where this is rounding; from far away it may not have. Zero where all is in closed form.
+    pub residual: T,
 }

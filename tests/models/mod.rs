@@ -16,6 +16,7 @@ pub mod loops;
 pub mod manipulations;
 pub mod mechanisms;
 pub mod motion;
+pub mod placed;
 pub mod random;
 pub mod required;
 pub mod rows;

@@ -36,7 +36,8 @@ macro_rules! found {
 fn m1_four_bar() {
     let crank = [1.0, 2.0, 0.0];
     let check = |name: &str, found: Kinematics<f64, 2>, angles: [f64; 2], rates: [f64; 2], accel: f64| {
-        let Kinematics { position, velocity, acceleration } = found;
+        let Kinematics { position, velocity, acceleration, residual } = found;
+        assert_eq!(residual, 0.0);
         assert_angles(name, &[crank[0] + position[0], position[1]], &angles);
         assert_close(name, &[crank[1] + velocity[0], velocity[1]], &rates);
         assert_close(name, &[acceleration[1]], &[accel]);

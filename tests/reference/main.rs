@@ -8,6 +8,7 @@ mod linearization;
 mod loops;
 mod manipulations;
 mod motion;
+mod placed;
 mod random_models;
 mod robots;
 mod simulate;

@@ -158,7 +158,7 @@ pub enum Shape {
     /// Velocities, multipliers, rank.
     Jump,
     Outputs,
-    /// Positions, rates, accelerations, so many each.
+    /// Positions, rates, accelerations, so many each, then the residual.
     Kinematics(usize),
     /// Of so many results: matrices by position, velocity, own states, inputs.
     Derivatives(usize),
@@ -196,7 +196,8 @@ impl Shape {
             Shape::Outputs => one(Form::Vector(sizes.outputs)),
             Shape::Kinematics(found) => [Slot::Positions, Slot::Rates, Slot::Accelerations]
                 .into_iter()
-                .fold(Parts::default(), |parts, slot| parts.with(slot, Form::Vector(found))),
+                .fold(Parts::default(), |parts, slot| parts.with(slot, Form::Vector(found)))
+                .with(Slot::Residual, Form::Scalar),
             Shape::Derivatives(results) => [
                 (Slot::ByPosition, sizes.dof),
                 (Slot::ByVelocity, sizes.dof),

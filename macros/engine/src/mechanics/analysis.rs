@@ -9,6 +9,7 @@
 mod absorption;
 mod checks;
 mod closed;
+mod closures;
 mod configurations;
 mod linear;
 mod measure;
@@ -87,7 +88,11 @@ pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
         }
     }
     analysis.check_quaternions(&structure);
-    if analysis.complaints.is_empty() { Ok(structure) } else { Err(analysis.complaints) }
+    if !analysis.complaints.is_empty() {
+        return Err(analysis.complaints);
+    }
+    structure.closures = closures::closures(model, &structure)?;
+    Ok(structure)
 }
 
 struct Analysis<'m> {

@@ -204,7 +204,9 @@ type Found = Result<Results<Scalar>, Vec<Complaint>>;
 impl<'m> Deriving<'m> {
     fn new(model: &'m Model, structure: &Structure) -> Self {
         let mut graph = Graph::new();
-        let symbols = Symbols::new(&mut graph, model).with_structure(&mut graph, model, structure);
+        let structures = structure.closures.iter().flatten().map(|other| &**other);
+        let guesses = structures.chain([structure]).map(Structure::guesses).max().unwrap_or(0);
+        let symbols = Symbols::new(&mut graph, model).with_structure(&mut graph, model, structure, guesses);
         let symbols = symbols.with_impulses(&mut graph, model, structure);
         Deriving {
             model,

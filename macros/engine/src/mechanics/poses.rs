@@ -40,7 +40,7 @@ pub fn still(model: &Model, structure: &Structure, frames: &[Frame], vectors: &[
     let held = !structure.rows.is_empty();
     let structure = &if held && !model.solves.is_empty() { structure.solved(model) } else { structure.clone() };
     let mut graph = Graph::new();
-    let symbols = Symbols::new(&mut graph, model).with_structure(&mut graph, model, structure);
+    let symbols = Symbols::new(&mut graph, model).with_structure(&mut graph, model, structure, structure.guesses());
     let scene = Scene { structure: structure.clone().into(), ..Scene::new(model, symbols.into()) };
     let mut equations = Equations::new(graph, scene);
     let closed = structure.closed.first();

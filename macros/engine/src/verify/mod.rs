@@ -193,8 +193,11 @@ pub fn check_with(
     let mut drawn = Drawn { states: &states, closing: closing.map(|pair| pair.1), list: HashMap::new() };
     let mut found = Found::default();
     for ((function, tape), lowered) in compiled.functions.iter().zip(&tapes).zip(&forms) {
-        let residual = closing.is_some()
-            && matches!(function.kind, FunctionKind::ForwardDynamics | FunctionKind::Guess | FunctionKind::Margins);
+        let residual = match function.kind {
+            FunctionKind::ForwardDynamics | FunctionKind::Guess | FunctionKind::Margins => closing.is_some(),
+            FunctionKind::Kinematics(number) => structure.closures.get(number).is_some_and(Option::is_some),
+            _ => false,
+        };
         let (plain, prelude) = (plain.functions.contains(&function.kind), Some(&compiled.prelude));
         let subject = Subject { tape, lowered, plain, prelude, program: &function.program, residual };
         // A parameter of zero shows nothing of what it multiplies: where one state must do, parameters are not at their defaults.

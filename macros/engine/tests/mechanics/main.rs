@@ -8,6 +8,7 @@ mod analysis;
 mod auto;
 mod balance;
 mod closings;
+mod closures;
 mod every_formulation;
 mod expressions;
 mod forces;

@@ -116,7 +116,12 @@ pub(in crate::emit) fn value(layout: &Layout<'_>, kind: FunctionKind, results: V
         Shape::Kinematics(_) => {
             let [position, velocity, acceleration] =
                 [Slot::Positions, Slot::Rates, Slot::Accelerations].map(|slot| vector(layout, results.of(slot)));
-            quote!(#krate::Kinematics { position: #position, velocity: #velocity, acceleration: #acceleration })
+            let residual = scalar(&results, Slot::Residual);
+            quote! {
+                #krate::Kinematics {
+                    position: #position, velocity: #velocity, acceleration: #acceleration, residual: #residual
+                }
+            }
         }
         Shape::Derivatives(rows) => {
             let matrix = |slot, group| {

@@ -84,12 +84,17 @@ impl<'m> Deriving<'m> {
     /// Values, rates and accelerations of coordinates from those that are given.
     pub(super) fn kinematics(&mut self, number: usize) -> Result<Vec<Candidate>, Vec<Complaint>> {
         let Some(wanted) = self.model.kinematics.get(number) else { return Ok(Vec::new()) };
-        let structure = self.structure.solved(self.model);
-        let before = std::mem::replace(&mut self.structure, Rc::new(structure));
-        let found = self.only("closed form", |e| {
+        let (name, structure) = match self.structure.closures.get(number).and_then(Clone::clone) {
+            Some(structure) => ("Newton's method from where the position stands", structure),
+            None => ("closed form", Rc::new(self.structure.solved(self.model))),
+        };
+        let begins = self.structure.closures.get(number).is_some_and(Option::is_some);
+        let before = std::mem::replace(&mut self.structure, structure);
+        let found = self.only(name, |e| {
             let reduction = e.reduce()?;
             e.verify(&reduction)?;
-            e.kinematics(wanted, &reduction)
+            let found = e.kinematics(wanted, &reduction)?;
+            Ok(if begins { e.begin_where_it_stands(found) } else { found })
         });
         self.structure = before;
         found

@@ -44,6 +44,9 @@ pub struct Structure {
     pub units: Vec<f64>,
     /// How dependent coordinates are found, in this order.
     pub steps: Vec<Step>,
+    /// By `kinematics` of the model: how what is to be found follows from what is given by Newton's method, where no `solve` item
+    /// gives it.
+    pub closures: Vec<Option<Rc<Structure>>>,
     /// What is there several times.
     pub groups: Vec<Group>,
     /// Unknowns whose closed forms have a root, and pitches; known once they are derived.

@@ -39,7 +39,11 @@ impl Equations<'_> {
             None => {
                 let slots = [Slot::Positions, Slot::Rates, Slot::Accelerations].into_iter();
                 let orders = (0..3).map(|order| found[order * symbols.len()..][..symbols.len()].to_vec());
-                Ok(slots.zip(orders).fold(Results::default(), |results, (slot, list)| results.with(slot, list)))
+                let results =
+                    slots.zip(orders).fold(Results::default(), |results, (slot, list)| results.with(slot, list));
+                let residual = self.worst_residual(reduction);
+                let residual = self.finish(reduction, &[residual])[0];
+                Ok(results.with_scalar(Slot::Residual, residual))
             }
             Some(at) => {
                 let coordinate = wanted.find.get(at % wanted.find.len().max(1));
@@ -51,6 +55,15 @@ impl Equations<'_> {
                 }])
             }
         }
+    }
+
+    /// Results of iterations that begin where the coordinates stand that they find.
+    pub(in crate::mechanics) fn begin_where_it_stands(&mut self, results: Results<Scalar>) -> Results<Scalar> {
+        let guessed = self.scene.structure.guessed().into_iter().enumerate();
+        let pairs: Vec<(Scalar, Scalar)> =
+            guessed.map(|(at, c)| (self.scene.symbols.guess(at), self.coordinate_symbols(c)[0])).collect();
+        let map = self.map(&pairs);
+        Results { list: self.g.substitute(&results.list, &map), ..results }
     }
 
     fn closing_name(&self, closing: LoopClosure) -> String {

@@ -42,12 +42,11 @@ const MARKS: usize = 126;
 const UNWANTED: usize = 6;
 
 impl Symbols {
-    /// The same with symbols for multipliers and iterations, if there are any.
-    pub fn with_structure(mut self, g: &mut Graph, model: &Model, structure: &Structure) -> Symbols {
+    /// The same with symbols for multipliers, and for so many unknowns of iterations.
+    pub fn with_structure(mut self, g: &mut Graph, model: &Model, structure: &Structure, guesses: usize) -> Symbols {
         self.mark(g, structure);
         let table = &mut self.table;
         self.multipliers = several(g, table, structure.rows.len(), |row| Symbol::Multiplier { row });
-        let guesses = structure.guesses();
         self.guesses = several(g, table, guesses, |index| Symbol::Guess { index });
         let solves = !structure.steps.is_empty() || !model.kinematics.is_empty();
         let unknowns = if solves { guesses + UNWANTED } else { 0 };

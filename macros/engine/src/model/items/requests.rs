@@ -15,7 +15,7 @@ use crate::model::expressions::source_text;
 use crate::model::topology::Topology;
 use crate::model::typed::MAX_SCALARS;
 use crate::model::types::Expr as Checked;
-use crate::model::types::{ExprNode, InputId, JointId, Joints, Kinematics, Request, SolveFor};
+use crate::model::types::{Coordinate, ExprNode, InputId, JointId, Joints, Kinematics, Request, SolveFor};
 use crate::syntax::tree;
 
 use super::fields::{Known, field};
@@ -221,7 +221,7 @@ impl<'a> Checker<'a, '_> {
         let given = field(options, "given").and_then(|expr| self.given(expr, context, joints));
         let find = field(options, "find").and_then(|expr| {
             let mut found = Vec::new();
-            for (coordinate, at) in self.several_coordinates(expr, context)? {
+            for (coordinate, at) in self.found(expr, context, joints)? {
                 if let Some((topology, list)) = joints
                     && topology.is_cut(coordinate.joint)
                 {
@@ -246,6 +246,36 @@ impl<'a> Checker<'a, '_> {
         Some(Kinematics { given, find, span })
     }
 
+    /// Coordinates, and all of bodies whose pose is named.
+    fn found(
+        &mut self,
+        expr: &'a Expr,
+        context: Context<'a>,
+        joints: Option<(&Topology, &Joints)>,
+    ) -> Option<Vec<(Coordinate, Span)>> {
+        let mut found = Vec::new();
+        for element in elements(expr) {
+            let Some(base) = posed(element) else {
+                found.extend(self.several_coordinates(element, context)?);
+                continue;
+            };
+            for meaning in self.several_meanings(base, context)? {
+                let Meaning::Frame(frame) = meaning else {
+                    self.report.help(
+                        element.span(),
+                        "expected a coordinate or the pose of a body",
+                        "`find` lists coordinates, and bodies with `.pose`",
+                    );
+                    return None;
+                };
+                let joint = self.free_carrier(&frame, base, joints)?;
+                let freedoms = self.joint_kind(joint)?.freedoms();
+                found.extend((0..freedoms).map(|index| (Coordinate { joint, index }, element.span())));
+            }
+        }
+        Some(found)
+    }
+
     /// Joints, and bodies on a Free joint.
     fn given(
         &mut self,
@@ -253,16 +283,9 @@ impl<'a> Checker<'a, '_> {
         context: Context<'a>,
         joints: Option<(&Topology, &Joints)>,
     ) -> Option<Vec<JointId>> {
-        let elements: Vec<&Expr> = match expr {
-            Expr::Array(array) => array.elems.iter().collect(),
-            other => vec![other],
-        };
         let mut given: Vec<JointId> = Vec::new();
-        for element in elements {
-            let base = match element {
-                Expr::Field(field) if matches!(&field.member, Member::Named(name) if name == "pose") => &*field.base,
-                other => other,
-            };
+        for element in elements(expr) {
+            let base = posed(element).unwrap_or(element);
             for meaning in self.several_meanings(base, context)? {
                 let joint = match meaning {
                     Meaning::Joint(joint) => joint,
@@ -291,6 +314,22 @@ impl<'a> Checker<'a, '_> {
             }
         }
         Some(given)
+    }
+}
+
+/// Of a list each, else the expression itself.
+fn elements(expr: &Expr) -> Vec<&Expr> {
+    match expr {
+        Expr::Array(array) => array.elems.iter().collect(),
+        other => vec![other],
+    }
+}
+
+/// The body of `body.pose`.
+fn posed(expr: &Expr) -> Option<&Expr> {
+    match expr {
+        Expr::Field(field) if matches!(&field.member, Member::Named(name) if name == "pose") => Some(&field.base),
+        _ => None,
     }
 }
 

@@ -1,0 +1,64 @@
+//! Stage `mechanics`: kinematics that no closed form gives.
+//!
+//! In: a model with its structure, and coordinates of which others are to be found. Out: the structure in which the given
+//! coordinates are independent and all others of their loops follow by Newton's method: the pose of a platform from the lengths of
+//! its legs. Such an iteration has no guess of its own. It begins where the coordinates stand that it finds, so these have to be in
+//! the state, as what is given has to be.
+
+use std::rc::Rc;
+
+use crate::mechanics::loops::constraints::coordinate_name;
+use crate::mechanics::loops::structure::{Role, Structure};
+use crate::model::site::Sited;
+use crate::model::types::{Coordinate, Handling, Kinematics, Model};
+
+use super::{Complaint, analyse};
+
+/// One for each `kinematics`; nothing where coordinates that follow anyway are asked for.
+pub(super) fn closures(model: &Model, structure: &Structure) -> Result<Vec<Option<Rc<Structure>>>, Vec<Complaint>> {
+    if model.kinematics.is_empty() {
+        return Ok(Vec::new());
+    }
+    let solved = structure.solved(model);
+    let follows = |coordinate: &Coordinate| solved.role(*coordinate) != Role::State;
+    let one = |wanted: &Kinematics| match wanted.find.iter().all(follows) {
+        true => Ok(None),
+        false => closure(model, structure, wanted).map(|found| Some(Rc::new(found))),
+    };
+    model.kinematics.iter().map(one).collect()
+}
+
+fn closure(model: &Model, structure: &Structure, wanted: &Kinematics) -> Result<Structure, Vec<Complaint>> {
+    let complain =
+        |message: String, help: &str| vec![Complaint { at: wanted.site(), message, help: Some(help.to_owned()) }];
+    let given = wanted.given.iter().flat_map(|&joint| {
+        let freedoms = model.joints[joint].kind.freedoms();
+        (0..freedoms).map(move |index| Coordinate { joint, index })
+    });
+    let given: Vec<Coordinate> = given.collect();
+    let outside = |list: &[Coordinate]| list.iter().copied().find(|&c| matches!(structure.role(c), Role::Dependent(_)));
+    if let Some(coordinate) = outside(&given) {
+        let name = coordinate_name(model, coordinate);
+        let help = "write `constraints: Multipliers`: what is given is read from the state, and what is to be found begins there";
+        return Err(complain(format!("`{name}` is given, and follows from other coordinates of the state"), help));
+    }
+    let independent: Vec<Coordinate> = given.iter().copied().filter(|&c| structure.role(c) == Role::State).collect();
+    let held = structure.independent.iter().filter(|row| structure.rows.contains(row)).count();
+    let freedoms = structure.freedoms().saturating_sub(held);
+    if independent.len() > freedoms {
+        let message = format!("{} coordinates are given, but {freedoms} are independent", independent.len());
+        return Err(complain(message, "give as many coordinates as the mechanism has freedoms"));
+    }
+    let other =
+        Model { handling: Handling::Reduced, independent, solves: Vec::new(), kinematics: Vec::new(), ..model.clone() };
+    let found = analyse(&other).map_err(|complaints| {
+        let why = complaints.into_iter().next().map_or_else(String::new, |complaint| complaint.message);
+        complain(format!("what is given does not lead to what is to be found: {why}"), "give other coordinates")
+    })?;
+    if let Some(coordinate) = outside(&found.guessed()) {
+        let name = coordinate_name(model, coordinate);
+        let help = "an iteration begins where coordinates of the state stand: write `constraints: Multipliers`";
+        return Err(complain(format!("`{name}` has to be found, and is not in the state"), help));
+    }
+    Ok(found)
+}
