@@ -169,6 +169,15 @@ fn motors_cost_what_efforts_cost() {
     assert!(flops(geared) <= efforts + 2 * 6 + 1, "{} for {efforts}", Written(geared));
 }
 
+/// Loops with multipliers cost what their zeros leave, where the user says that limbs keep away from their singular poses.
+#[test]
+fn limbs_that_stay_regular_absorb_their_equations() {
+    for (model, most) in [("assumed_hybrid", 3_600), ("assumed_joints", 3_700)] {
+        let cost = literals(&format!("stewart, {model}"), "forward_dynamics");
+        assert!(flops(cost) <= most, "{model}: {} above {most}", Written(cost));
+    }
+}
+
 /// What the macro has emitted into this build is what the ledger counts.
 #[test]
 fn compiled_models_are_those_of_the_ledger() {

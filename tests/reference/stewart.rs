@@ -3,7 +3,9 @@
 
 use multibody::nalgebra::{DMatrix, Matrix3, Rotation3, SVector, UnitQuaternion, Vector3};
 use multibody::{DormandPrince, FreeRollPitchYaw, RollPitchYaw, Universal};
-use multibody_tests::models::stewart::{absolute, heavy, heavy_hybrid, hybrid, joint_coordinates, level, reduced};
+use multibody_tests::models::stewart::{
+    absolute, assumed_hybrid, assumed_joints, heavy, heavy_hybrid, hybrid, joint_coordinates, level, reduced,
+};
 use multibody_tests::support::compare::{mixed, worse};
 use multibody_tests::support::data::{array, list, number, read};
 use serde_json::Value;
@@ -209,22 +211,25 @@ fn turning(q: [f64; 6], v: [f64; 6], a: [f64; 6]) -> (Rotation3<f64>, Vector3<f6
 }
 
 /// The first leg carries the platform.
-fn joint_state(closed: &Closed) -> joint_coordinates::State {
-    let mut state = joint_coordinates::State::default();
-    for i in 0..6 {
-        let (q, v) = (&mut state.q.legs[i], &mut state.v.legs[i]);
-        (q.gimbal, q.stroke) = (Closed::gimbal(&closed.legs, i), closed.legs[12 + i]);
-        (v.gimbal, v.stroke) = (Closed::gimbal(&closed.rates, i), closed.rates[12 + i]);
-    }
-    let (q, v) = (Closed::gimbal(&closed.legs, 0), Closed::gimbal(&closed.rates, 0));
-    let heading = Rotation3::from_axis_angle(&Vector3::z_axis(), HEADING[0]);
-    let first = heading * Rotation3::from_axis_angle(&Vector3::x_axis(), q.first);
-    let leg = first * Rotation3::from_axis_angle(&Vector3::y_axis(), q.second);
-    let spin = heading * Vector3::x() * v.first + first * Vector3::y() * v.second;
-    let (platform, w, _) = turning(closed.q, closed.v, [0.0; 6]);
-    state.q.legs[0].ball = UnitQuaternion::from_rotation_matrix(&(leg.inverse() * platform));
-    state.v.legs[0].ball = platform.inverse() * (w - spin);
-    state
+macro_rules! joint_state {
+    ($model:ident, $closed:expr) => {{
+        let closed: &Closed = $closed;
+        let mut state = $model::State::default();
+        for i in 0..6 {
+            let (q, v) = (&mut state.q.legs[i], &mut state.v.legs[i]);
+            (q.gimbal, q.stroke) = (Closed::gimbal(&closed.legs, i), closed.legs[12 + i]);
+            (v.gimbal, v.stroke) = (Closed::gimbal(&closed.rates, i), closed.rates[12 + i]);
+        }
+        let (q, v) = (Closed::gimbal(&closed.legs, 0), Closed::gimbal(&closed.rates, 0));
+        let heading = Rotation3::from_axis_angle(&Vector3::z_axis(), HEADING[0]);
+        let first = heading * Rotation3::from_axis_angle(&Vector3::x_axis(), q.first);
+        let leg = first * Rotation3::from_axis_angle(&Vector3::y_axis(), q.second);
+        let spin = heading * Vector3::x() * v.first + first * Vector3::y() * v.second;
+        let (platform, w, _) = turning(closed.q, closed.v, [0.0; 6]);
+        state.q.legs[0].ball = UnitQuaternion::from_rotation_matrix(&(leg.inverse() * platform));
+        state.v.legs[0].ball = platform.inverse() * (w - spin);
+        state
+    }};
 }
 
 macro_rules! thrusts {
@@ -331,7 +336,7 @@ fn accelerations_in_joint_coordinates() {
     assert_eq!((joint_coordinates::DOF, joint_coordinates::CONSTRAINTS), (21, 15));
     assert_eq!(joint_coordinates::COORDINATES[3], "legs[0].ball.x");
     five_states("tsai", |name, _, closed, forces, want| {
-        let state = joint_state(closed);
+        let state = joint_state!(joint_coordinates, closed);
         let gap = model.constraints(0.0, &state.q).amax();
         assert!(gap <= 1e-14, "{name} is open by {gap:e}");
         let output = model.outputs(0.0, &state, &thrusts!(joint_coordinates, forces));
@@ -342,6 +347,28 @@ fn accelerations_in_joint_coordinates() {
         let rates = model.forward_dynamics(0.0, &state, &thrusts!(joint_coordinates, forces));
         assert_eq!(rates.rank, 15.0);
         returned!(joint_coordinates, state, forces, rates.v);
+    });
+}
+
+/// Where legs are known to stay long and out of their first axes all equations are absorbed, and nothing else changes.
+#[test]
+fn accelerations_with_all_equations_absorbed() {
+    let model = assumed_hybrid::Model::new(&assumed_hybrid::Params::default());
+    five_states("tsai", |name, _, closed, forces, want| {
+        let rates =
+            model.forward_dynamics(0.0, &hybrid_state!(assumed_hybrid, closed), &thrusts!(assumed_hybrid, forces));
+        assert_accelerations(name, &six(&rates.v.platform), &want);
+        assert_eq!(rates.rank, 18.0);
+    });
+    let joints = joint_coordinates::Model::new(&joint_coordinates::Params::default());
+    let model = assumed_joints::Model::new(&assumed_joints::Params::default());
+    five_states("tsai", |name, _, closed, forces, _| {
+        let (state, plain) = (joint_state!(assumed_joints, closed), joint_state!(joint_coordinates, closed));
+        let want = joints.forward_dynamics(0.0, &plain, &thrusts!(joint_coordinates, forces));
+        let rates = model.forward_dynamics(0.0, &state, &thrusts!(assumed_joints, forces));
+        let [got, want]: [SVector<f64, { assumed_joints::DOF }>; 2] = [rates.v.into(), want.v.into()];
+        assert_accelerations(name, got.as_slice(), want.as_slice());
+        assert_eq!(rates.rank, 15.0);
     });
 }
 
@@ -427,7 +454,7 @@ fn forces_at_singular_poses() {
                 let found = [
                     reached!(hybrid, hybrid_state!(hybrid, closed)),
                     reached!(absolute, absolute_state(&closed)),
-                    reached!(joint_coordinates, joint_state(&closed)),
+                    reached!(joint_coordinates, joint_state!(joint_coordinates, &closed)),
                 ];
                 println!("{start:?} turned by {}: {found:?}", high + off);
                 for (missing, least) in found {
@@ -499,5 +526,12 @@ fn trajectories_in_joint_coordinates() {
         let r = rates(&RollPitchYaw { roll, pitch, yaw }, output.spin);
         [[p.x, p.y, p.z, roll, pitch, yaw], [v.x, v.y, v.z, r.roll, r.pitch, r.yaw]]
     };
-    trajectory!(joint_coordinates, "spring_damper", joint_state, 5e-4, 1e-11, platform);
+    trajectory!(
+        joint_coordinates,
+        "spring_damper",
+        |start: &Closed| joint_state!(joint_coordinates, start),
+        5e-4,
+        1e-11,
+        platform
+    );
 }
