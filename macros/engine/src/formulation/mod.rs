@@ -6,6 +6,7 @@
 //! multipliers, since then loops cannot drift; Newton's method only where it costs less.
 
 mod assumable;
+mod solvable;
 
 use crate::contracts::cost::Cost;
 use crate::contracts::function::{Asked, FunctionKind};
@@ -36,7 +37,8 @@ pub fn choose(model: &Model) -> ([Handling; 2], Option<Advice>) {
         true => ([reduced, held], reduced_figures, held_figures),
         false => ([held, reduced], held_figures, reduced_figures),
     };
-    let advice = Advice { is_chosen, is_forward, own: own.ok(), other: Some(other), assumable: None };
+    let (assumable, solvable) = Default::default();
+    let advice = Advice { is_chosen, is_forward, own: own.ok(), other: Some(other), assumable, solvable };
     (handlings, Some(advice))
 }
 
@@ -48,16 +50,17 @@ pub fn advice(model: &Model, structure: &Structure, compiled: &Compiled) -> Opti
     let is_forward = asks_forward(model);
     let own = counted(structure, compiled, is_forward);
     let assumable = assumable::assumable(model, &own);
+    let solvable = solvable::solvable(model, &own);
     // Where the choice was the compiler's, both are known.
     if let Some(chosen) = &structure.advice {
-        return Some(Advice { assumable, ..(**chosen).clone() });
+        return Some(Advice { assumable, solvable, ..(**chosen).clone() });
     }
     let other = match model.handling {
         Handling::Reduced => Handling::Multipliers,
         Handling::Multipliers | Handling::Stabilised { .. } | Handling::Auto => Handling::Reduced,
     };
     let other = Some(figures(model, &other));
-    Some(Advice { is_chosen: false, is_forward, own: Some(own), other, assumable })
+    Some(Advice { is_chosen: false, is_forward, own: Some(own), other, assumable, solvable })
 }
 
 fn has_loops(model: &Model) -> bool {

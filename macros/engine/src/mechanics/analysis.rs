@@ -18,6 +18,7 @@ mod problem;
 mod rank;
 mod ranked;
 mod reduction;
+mod relations;
 mod scales;
 pub mod singular;
 mod springs;
@@ -42,6 +43,7 @@ use ranked::Ranked;
 
 pub use absorption::Hope;
 pub(super) use absorption::{Absorption, Poses};
+pub use relations::{Relation, relations};
 pub(super) use written::Writings;
 
 /// How far parameters are moved to see what holds at their defaults alone; relative to one and their size.

@@ -105,20 +105,21 @@ fn assumptions_do_what_is_told_of_them() {
     for (axis, sign) in [("Z", "stroke > -0."), ("-Z", "stroke < 0.")] {
         let before = Built::new(&struts(axis, ""));
         let (lines, promised) = before.assumable();
-        let [(Some(part), condition)] = &lines[..] else { panic!("{lines:?}") };
-        // A strut ends at the length zero, which is one beyond where it stands by default, on the side of its own axis.
-        assert!(part == "leg" && condition.starts_with(sign), "{condition}");
-        let bound: f64 = condition.split(' ').next_back().unwrap().parse().unwrap();
-        assert!(bound.abs() > 0.5 && bound.abs() < 1.0, "{condition}");
-        let after = Built::new(&struts(axis, &format!("assume {condition};")));
+        let [(Some(part), gimbal), (Some(other), stroke)] = &lines[..] else { panic!("{lines:?}") };
+        // A strut ends at the length zero, which is one beyond where it stands by default, on the side of its own axis; its
+        // gimbal's axes stand in one line at a right angle.
+        assert!(part == "leg" && other == "leg" && stroke.starts_with(sign), "{stroke}");
+        assert!(gimbal.starts_with("cos(gimbal.second) > 0."), "{gimbal}");
+        let bound: f64 = stroke.split(' ').next_back().unwrap().parse().unwrap();
+        assert!(bound.abs() < 1.0, "{stroke}");
+        let after = Built::new(&struts(axis, &format!("assume {gimbal}; assume {stroke};")));
         assert_eq!(after.forward().after, promised);
         let ((few, left), (many, rest)) = (before.pivoted(), after.pivoted());
         assert!(many > few && rest.iter().sum::<usize>() < left.iter().sum(), "{few} {left:?}, {many} {rest:?}");
         let report = before.report();
-        assert!(
-            report.contains(&format!("`assume {condition};` in `leg` lets more equations be absorbed")),
-            "{report}"
-        );
+        let told =
+            format!("`assume {gimbal};` in `leg` and `assume {stroke};` in `leg` let more equations be absorbed");
+        assert!(report.contains(&told), "{report}");
         assert!(report.contains(&format!("of 9 equations with multipliers {few} are absorbed")), "{report}");
         assert!(report.contains("; 6 are left to pivoted solutions of 1 system with 6 unknowns: "), "{report}");
         // It is not told again.
@@ -134,7 +135,7 @@ fn a_choice_of_the_compiler_has_advice_too() {
     let advice = built.structure.advice.as_ref().unwrap();
     assert!(advice.is_chosen && matches!(advice.other, Some(Ok(_))));
     let (lines, promised) = built.assumable();
-    assert!(lines[0].1.starts_with("stroke > -0.") && promised != built.forward().after, "{lines:?}");
+    assert!(lines[1].1.starts_with("stroke > -0.") && promised != built.forward().after, "{lines:?}");
     assert_eq!(advice.own.unwrap().operations, built.forward().after);
 }
 
@@ -156,4 +157,82 @@ fn advice_is_asked_for() {
     let (parts, items) = struts("Z", "");
     let built = Built::new(&(parts, items.replace(", report", "")));
     assert!(built.structure.advice.is_none() && !built.report().contains("absorbed"));
+}
+
+/// A double wishbone with a tie rod, whose bounds stand where a step ends that is halved over and over again.
+#[test]
+fn bounds_are_looked_for_in_so_many_steps() {
+    let items = "world { gravity: -9.80665 * Z }
+        body lower { mass: 2.0, com: 0.2 * X, inertia: diag(0.02, 0.03, 0.04) }
+        body upper { mass: 1.5, com: 0.15 * X, inertia: diag(0.01, 0.02, 0.03) }
+        body upright { mass: 8.0, com: [0.05, 0.01, 0.12], inertia: diag(0.1, 0.12, 0.08) }
+        body tie { mass: 0.5, com: 0.2 * X, inertia: diag(0.001, 0.01, 0.01) }
+        joint low: Revolute { parent: ground, child: lower, axis: [0.05, 1.0, 0.03] }
+        joint up: Revolute { parent: ground.at([0.08, 0.02, 0.25]), child: upper, axis: [-0.04, 1.0, 0.06] }
+        joint pivot: Ball { parent: lower.at([0.42, 0.02, 0.01]), child: upright, coordinates: RollPitchYaw }
+        #[cut] joint head: Ball { parent: upper.at([0.31, -0.01, 0.0]), child: upright.at([-0.03, -0.01, 0.26]) }
+        joint rack: Universal { parent: ground.at([0.05, -0.12, 0.08]), child: tie, axes: [Y, Z] }
+        #[cut] joint steer: Ball { parent: tie.at(0.37 * X), child: upright.at([0.0, -0.13, 0.08]) }
+        formulation { constraints: Multipliers }
+        emit forward_dynamics, report;";
+    let before = Built::new(&(String::new(), items.to_owned()));
+    let (lines, promised) = before.assumable();
+    let written: String = lines.iter().map(|(_, condition)| format!("assume {condition}; ")).collect();
+    let after = Built::new(&(String::new(), format!("{written} {items}")));
+    assert_eq!(after.forward().after, promised);
+}
+
+/// What is assumed of two coordinates is proposed for both, and what holds of one already for the other.
+#[test]
+fn assumptions_of_two_coordinates() {
+    let before = Built::new(&struts("Z", "assume stroke > -0.7;"));
+    let (lines, promised) = before.assumable();
+    let [(Some(_), condition)] = &lines[..] else { panic!("{lines:?}") };
+    assert!(condition.starts_with("cos(gimbal.second) > 0."), "{condition}");
+    let after = Built::new(&struts("Z", &format!("assume stroke > -0.7; assume {condition};")));
+    assert_eq!(after.forward().after, promised);
+    assert_eq!(after.pivoted(), (9, Vec::new()));
+    let report = after.report();
+    assert!(report.contains("of 9 equations with multipliers 9 are absorbed"), "{report}");
+}
+
+/// Plates on parallelograms don't turn: a Delta robot in an oblique frame, with rods as bodies.
+#[test]
+fn what_stands_still_is_told() {
+    let limb = "mod limb { port hip: Frame; port left: Frame; port right: Frame;
+        body arm { mass: 0.3, com: 0.15 * X, inertia: diag(0.0001, 0.003, 0.003) }
+        body rod_a { mass: 0.1, com: 0.4 * X, inertia: diag(0.00001, 0.006, 0.006) }
+        body rod_b { mass: 0.1, com: 0.4 * X, inertia: diag(0.00001, 0.006, 0.006) }
+        joint shoulder: Revolute { parent: hip, child: arm, axis: Y }
+        joint elbow_a: Universal { parent: arm.at(0.3 * X + 0.05 * Y), child: rod_a, axes: [Y, Z] }
+        joint elbow_b: Universal { parent: arm.at(0.3 * X - 0.05 * Y), child: rod_b, axes: [Y, Z] }
+        #[cut] joint wrist_a: Ball { parent: rod_a.at(0.8 * X), child: left }
+        #[cut] joint wrist_b: Ball { parent: rod_b.at(0.8 * X), child: right } }";
+    let delta = |solve: &str| {
+        let items = format!(
+            "body base {{ mass: 3.0, inertia: diag(1.0, 1.1, 1.2) }}
+             joint mount: Fixed {{ parent: ground.rotated([1.0, 2.0, 2.0], 0.7), child: base }}
+             body plate {{ mass: 0.5, inertia: diag(0.001, 0.001, 0.002) }}
+             joint moves: Free {{ parent: base, child: plate, coordinates: RollPitchYaw }}
+             part limbs: [limb; 3] = |i| limb {{
+                 hip: base.rotated(Z, i * 2.0 * PI / 3.0).at(0.2 * X),
+                 left: plate.rotated(Z, i * 2.0 * PI / 3.0).at(0.05 * X + 0.05 * Y),
+                 right: plate.rotated(Z, i * 2.0 * PI / 3.0).at(0.05 * X - 0.05 * Y),
+             }};
+             formulation {{ constraints: Reduced }} {solve}
+             emit forward_dynamics, report;"
+        );
+        Built::new(&(limb.to_owned(), items))
+    };
+    let before = delta("");
+    let (lines, figures) = before.structure.advice.as_ref().unwrap().solvable.clone().expect("formulas");
+    let text = "solve (moves.roll, moves.pitch, moves.yaw) = (0.0, 0.0, 0.0);";
+    assert_eq!(lines.iter().map(|line| line.text.as_str()).collect::<Vec<_>>(), [text]);
+    let report = before.report();
+    assert!(report.contains(&format!("`{text}` leaves less to Newton's method: ")), "{report}");
+    let after = delta(text);
+    let advice = after.structure.advice.as_ref().unwrap();
+    assert_eq!(advice.own, Some(figures));
+    assert!(3 * figures.work < 2 * before.structure.advice.as_ref().unwrap().own.unwrap().work);
+    assert!(advice.solvable.is_none());
 }

@@ -4,7 +4,7 @@
 
 use crate::contracts::function::FunctionKind;
 use crate::emit::Context;
-use crate::mechanics::loops::advice::{Advice, Assumable, Closing, Figures, Pivoted};
+use crate::mechanics::loops::advice::{Advice, Assumable, Closing, Figures, Pivoted, Solvable};
 use crate::mechanics::loops::structure::Row;
 
 use super::loops::quoted;
@@ -19,6 +19,9 @@ pub(super) fn items(context: &Context<'_>) -> Vec<String> {
     items.extend(pivoted(context));
     if let (Some((assumable, figures)), Some(own)) = (&advice.assumable, &advice.own) {
         items.push(assumption(assumable, figures, own));
+    }
+    if let (Some((solvable, figures)), Some(own)) = (&advice.solvable, &advice.own) {
+        items.push(formulas(solvable, figures, own));
     }
     items
 }
@@ -109,18 +112,36 @@ fn listed_sizes(cores: &[Vec<Row>]) -> String {
 }
 
 fn assumption(assumable: &[Assumable], with: &Figures, own: &Figures) -> String {
-    let line = |one: &Assumable| match &one.part {
-        Some(part) => format!("`assume {};` in `{part}`", one.condition),
-        None => format!("`assume {};`", one.condition),
-    };
-    let lines: Vec<String> = assumable.iter().map(line).collect();
+    let lines: Vec<String> =
+        assumable.iter().map(|one| line(&format!("assume {};", one.condition), one.part.as_deref())).collect();
     let (holds, lets) = if lines.len() == 1 { ("it holds", "lets") } else { ("they hold", "let") };
+    format!("where {holds}, {} {lets} more equations be absorbed: {}", lines.join(" and "), change(with, own))
+}
+
+/// Formulas that leave Newton's method less to find.
+fn formulas(solvable: &[Solvable], with: &Figures, own: &Figures) -> String {
+    let lines: Vec<String> = solvable.iter().map(|one| line(&one.text, one.part.as_deref())).collect();
+    let leaves = if lines.len() == 1 { "leaves" } else { "leave" };
+    let how = match with.closing {
+        Closing::Newton => "less to Newton's method",
+        Closing::ClosedForm | Closing::Multipliers => "nothing to Newton's method",
+    };
     format!(
-        "where {holds}, {} {lets} more equations be absorbed: {} in place of {}, work {} in place of {}",
+        "on the branch where the mechanism stands by default, {} {leaves} {how}: {}",
         lines.join(" and "),
-        cost(&with.operations),
-        cost(&own.operations),
-        with.work,
-        own.work
+        change(with, own)
     )
+}
+
+/// As the user writes it, and where.
+fn line(text: &str, part: Option<&str>) -> String {
+    match part {
+        Some(part) => format!("`{text}` in `{part}`"),
+        None => format!("`{text}`"),
+    }
+}
+
+fn change(with: &Figures, own: &Figures) -> String {
+    let [now, before] = [with, own].map(|figures| cost(&figures.operations));
+    format!("{now} in place of {before}, work {} in place of {}", with.work, own.work)
 }

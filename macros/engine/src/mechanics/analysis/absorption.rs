@@ -197,8 +197,7 @@ impl<'p> Absorption<'p> {
             let mut single: Vec<usize> = single.collect();
             // The fewer columns there is something to assume of, the better.
             single.sort_by_key(|column| !hopes.contains_key(column));
-            let few = |set: &Vec<usize>| set.len() == 1 || set.iter().all(|column| limb.moves_with(*column));
-            sets(&single).into_iter().filter(few).any(|columns| {
+            sets(&single).into_iter().filter(|set| limb.may_hope_of(set)).any(|columns| {
                 let new = || Along::new(columns.clone());
                 let along = poses.along.entry((key.clone(), columns.clone())).or_insert_with(new);
                 let depends = limb.depends(along, drawn, values);

@@ -18,6 +18,8 @@ pub struct Advice {
     pub other: Option<Result<Figures, String>>,
     /// What the user could assume for more equations to be absorbed, with what the model takes then.
     pub assumable: Option<(Vec<Assumable>, Figures)>,
+    /// What the user could write formulas for, with what the model takes then.
+    pub solvable: Option<(Vec<Solvable>, Figures)>,
 }
 
 /// An `assume` of one coordinate.
@@ -27,6 +29,15 @@ pub struct Assumable {
     pub part: Option<String>,
     /// `stroke > -0.7`
     pub condition: String,
+}
+
+/// A `solve` item.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Solvable {
+    /// The part in which it stands; nothing for the model itself.
+    pub part: Option<String>,
+    /// `solve (plate.roll, plate.pitch) = (0.0, 0.0);`
+    pub text: String,
 }
 
 impl Advice {

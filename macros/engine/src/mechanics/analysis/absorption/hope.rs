@@ -76,16 +76,16 @@ impl Limb<'_> {
         let (mut steps, mut halves) = (0, 0);
         while steps < STEPS && halves < HALVES {
             let next = self.moved_along(held, column, step, &pose, values);
-            match next.filter(|next| self.volume(next, values).is_beyond(size)) {
-                Some(next) => {
-                    pose = next;
-                    steps += usize::from(halves == 0);
+            let next = next.filter(|next| self.volume(next, values).is_beyond(size));
+            // The way is measured out in whole steps, and then in ever smaller ones, each of which is taken or not.
+            match (&next, halves) {
+                (Some(_), 0) => steps += 1,
+                _ => {
+                    halves += 1;
+                    step *= 0.5;
                 }
-                None => halves += 1,
             }
-            if halves > 0 {
-                step *= 0.5;
-            }
+            pose = next.unwrap_or(pose);
         }
         if halves == 0 { Some(None) } else { self.value(&pose, column).map(Some) }
     }

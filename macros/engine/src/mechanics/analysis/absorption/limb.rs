@@ -40,6 +40,9 @@ const GROWTH: f64 = 1.25;
 /// What is left of a step in front of what is ruled out.
 const LAST: f64 = 0.05;
 
+/// Of longer limbs there are too many pairs to look at.
+const MOST_PAIRED: usize = 4;
+
 /// How often a step is halved where the volume falls fast.
 const HALVES: usize = 4;
 
@@ -278,7 +281,7 @@ impl<'a> Limb<'a> {
                 let way = self.value(from, first)? - self.value(to, first)?;
                 let mut pose = to.clone();
                 let mut step = vec![0.0; self.problem.columns.len()];
-                step[first] = way;
+                step[first] = way / self.problem.columns[first].unit;
                 self.problem.displace(&mut pose, &step);
                 self.shake(&mut pose, far, &held, &mut random, values).then_some(pose)
             };
@@ -358,9 +361,10 @@ impl<'a> Limb<'a> {
         Some(stops)
     }
 
-    /// Whether a column is one of those that take the rows along.
-    pub(super) fn moves_with(&self, column: usize) -> bool {
-        self.columns.contains(&column)
+    /// Whether something is hoped of two columns together: of those of a short limb.
+    pub(super) fn may_hope_of(&self, columns: &[usize]) -> bool {
+        columns.len() == 1
+            || self.columns.len() <= MOST_PAIRED && columns.iter().all(|column| self.columns.contains(column))
     }
 
     /// What a column is at a pose, if it is a number by itself.
