@@ -44,6 +44,37 @@ multibody! {
 
 multibody! {
     mod limb {
+        port hip: Frame; port left: Frame; port right: Frame;
+        input torque;
+        body arm { mass: 0.3, com: 0.15 * X, inertia: diag(0.0001, 0.003, 0.003) }
+        body rod_a { mass: 0.1, com: 0.4 * X, inertia: diag(0.00001, 0.006, 0.006) }
+        body rod_b { mass: 0.1, com: 0.4 * X, inertia: diag(0.00001, 0.006, 0.006) }
+        joint shoulder: Revolute { parent: hip, child: arm, axis: Y }
+        joint elbow_a: Universal { parent: arm.at(0.3 * X + 0.05 * Y), child: rod_a, axes: [Y, Z] }
+        joint elbow_b: Universal { parent: arm.at(0.3 * X - 0.05 * Y), child: rod_b, axes: [Y, Z] }
+        #[cut] joint wrist_a: Ball { parent: rod_a.at(0.8 * X), child: left }
+        #[cut] joint wrist_b: Ball { parent: rod_b.at(0.8 * X), child: right }
+        force motor: Effort { joint: shoulder, value: torque }
+        solve (shoulder, elbow_a) from wrist_a { sin(elbow_a.first) > 0.0, cos(elbow_a.second) > 0.0 }
+        solve (elbow_b) = (elbow_a.first, elbow_a.second);
+    }
+    /// Delta robot whose rods are bodies, in closed form: its plate stands on parallelograms.
+    pub mod delta_closed {
+        world { gravity: -9.80665 * Z }
+        body plate { mass: 0.5, inertia: diag(0.001, 0.001, 0.002), coordinates: Absolute(RollPitchYaw) }
+        part limbs: [limb; 3] = |i| limb {
+            hip: ground.rotated(Z, i * 2.0 * PI / 3.0).at(0.2 * X),
+            left: plate.rotated(Z, i * 2.0 * PI / 3.0).at(0.05 * X + 0.05 * Y),
+            right: plate.rotated(Z, i * 2.0 * PI / 3.0).at(0.05 * X - 0.05 * Y),
+        };
+        formulation { constraints: Reduced }
+        solve (plate.roll, plate.pitch, plate.yaw) = (0.0, 0.0, 0.0);
+        emit forward_dynamics, kinematics { given: plate, find: [limbs.shoulder, limbs.elbow_a] };
+    }
+}
+
+multibody! {
+    mod limb {
         port hip: Frame; port tip: Frame;
         input thrust;
         body cylinder { mass: 0.4, com: 0.3 * Z, inertia: diag(0.01, 0.01, 0.001) }

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use multibody::nalgebra::{Rotation3, SMatrix, SVector, Vector3};
+use multibody_tests::models::iterated::{delta_closed, delta_multipliers};
 use multibody_tests::models::placed::*;
 use multibody_tests::support::compare::mixed;
 use multibody_tests::support::random::Random;
@@ -142,6 +143,44 @@ fn a_delta_robot_by_spheres() {
     }
     println!("{worst:e}, {again} times again");
     assert!(worst < 1e-12, "{worst:e}");
+}
+
+/// The same in closed form, by what parallelograms do, moves as with an equation for each component of each wrist.
+#[test]
+fn a_delta_robot_in_closed_form() {
+    let (closed, kept) = (delta_closed::Model::<f64>::default(), delta_multipliers::Model::<f64>::default());
+    let (mut random, mut worst) = (Random::new(6), 0.0_f64);
+    for _ in 0..200 {
+        let place = SVector::<f64, 3>::new(0.2 * random.unit(), 0.2 * random.unit(), -0.75 + 0.1 * random.unit());
+        let moves = SVector::<f64, 3>::from(random.units());
+        let state = delta_closed::State { q: place.into(), v: moves.into() };
+        let torques: [f64; 3] = random.units();
+        let mut input = delta_closed::Input::default();
+        input.limbs.iter_mut().zip(torques).for_each(|(limb, torque)| limb.torque = torque);
+        let accel = closed.forward_dynamics(0.0, &state, &input);
+        let limbs = closed.kinematics(0.0, &state, &accel);
+        let mut all = delta_multipliers::State::<f64>::default();
+        all.q.plate.position = place;
+        let mut rates: SVector<f64, { delta_multipliers::DOF }> = all.v.into();
+        rates.fixed_rows_mut::<3>(0).copy_from(&moves);
+        all.v = rates.into();
+        for (i, (q, v)) in all.q.limbs.iter_mut().zip(&mut all.v.limbs).enumerate() {
+            let [shoulder, first, second] = [i, 3 + 2 * i, 4 + 2 * i];
+            (q.shoulder, v.shoulder) = (limbs.position[shoulder], limbs.velocity[shoulder]);
+            for (q, v) in [(&mut q.elbow_a, &mut v.elbow_a), (&mut q.elbow_b, &mut v.elbow_b)] {
+                (q.first, q.second) = (limbs.position[first], limbs.position[second]);
+                (v.first, v.second) = (limbs.velocity[first], limbs.velocity[second]);
+            }
+        }
+        assert!(kept.constraints(0.0, &all.q).amax() < 1e-14);
+        let mut input = delta_multipliers::Input::default();
+        input.limbs.iter_mut().zip(torques).for_each(|(limb, torque)| limb.torque = torque);
+        let want: SVector<f64, { delta_multipliers::DOF }> = kept.forward_dynamics(0.0, &all, &input).v.into();
+        let got: SVector<f64, 3> = accel.into();
+        worst = worst.max(mixed(got.as_slice(), &want.as_slice()[..3]));
+    }
+    println!("{worst:e}");
+    assert!(worst < 1e-10, "{worst:e}");
 }
 
 /// r cos(t) + sqrt(l^2 - r^2 sin(t)^2) = x, and back.
