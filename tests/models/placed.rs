@@ -66,6 +66,25 @@ multibody! {
 }
 
 multibody! {
+    /// A parallelogram by its user's formulas. Its mass matrix is a number that is written with the angle.
+    pub mod parallelogram {
+        param l = 1.0;
+        world { gravity: -9.8 * Y }
+        body a { mass: 1.0, com: 0.1 * X, inertia: rod(1.0, 0.3, X) }
+        body b { mass: 1.0, com: 0.1 * X, inertia: rod(1.0, 1.0, X) }
+        body c { mass: 1.0, com: 0.1 * X, inertia: rod(1.0, 1.0, X) }
+        joint p: Revolute { parent: ground, child: a, axis: Z }
+        joint q: Revolute { parent: a.at(l * X), child: b, axis: Z }
+        joint r: Revolute { parent: ground.at(0.7 * X + 0.1 * Y), child: c, axis: Z }
+        #[cut] joint pin: Revolute { parent: b.at(0.7 * X + 0.1 * Y), child: c.at(l * X), axis: Z }
+        solve (q) = (-p.angle);
+        solve (r) = (p.angle);
+        formulation { constraints: Reduced, independent: [p] }
+        emit forward_dynamics;
+    }
+}
+
+multibody! {
     /// A slider-crank whose crank follows from the slider, by the formula that the other way round needs none of.
     pub mod press {
         param r = 0.31;

@@ -16,6 +16,9 @@ use super::{figures, judged};
 /// What saves less is not worth a line.
 const WORTH: f64 = 0.95;
 
+/// Of more lines none is tried by itself, since each is derived.
+const MOST_LINES: usize = 6;
+
 /// A constant is one of these multiples of a half turn, or a decimal.
 const PARTS_OF_HALF_TURN: i32 = 12;
 
@@ -49,11 +52,8 @@ pub(super) fn solvable(model: &Model, own: &Figures) -> Option<(Vec<Solvable>, F
     let (mut kept, mut least): (Vec<&Line>, Figures) = (Vec::new(), *own);
     // All at once, or one by one where some formula is refused.
     let all: Vec<&Line> = lines.iter().collect();
-    let ways: Vec<Vec<&Line>> = if all.len() > 1 {
-        [vec![all.clone()], all.iter().map(|&line| vec![line]).collect()].concat()
-    } else {
-        vec![all]
-    };
+    let single = all.iter().map(|&line| vec![line]).filter(|_| (2..=MOST_LINES).contains(&all.len()));
+    let ways: Vec<Vec<&Line>> = std::iter::once(all.clone()).chain(single).collect();
     for more in ways {
         let tried = [kept.clone(), more].concat();
         if let Some(found) = takes(&tried).filter(|found| f64::from(found.work) < WORTH * f64::from(least.work)) {
@@ -120,9 +120,8 @@ fn line(
         if told.is_none() {
             let names: Vec<String> = unknowns.iter().map(|&unknown| name(unknown)).collect();
             let values = own.iter().map(|one| worded(model, one.1, part.is_some())).collect::<Option<Vec<String>>>()?;
-            let values = if values.len() == 1 { values.concat() } else { format!("({})", values.join(", ")) };
             let part = part.map(|part| model.part_types[part].name.to_string());
-            told = Some(Solvable { part, text: format!("solve ({}) = {values};", names.join(", ")) });
+            told = Some(Solvable { part, text: format!("solve ({}) = ({});", names.join(", "), values.join(", ")) });
         }
         solves.push(Solve { unknowns, how: SolveHow::Formulas(formulas), span });
     }

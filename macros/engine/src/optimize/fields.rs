@@ -39,11 +39,13 @@ impl StoredFields {
         let mut seen = vec![false; dag.nodes.len()];
         let mut stack: Vec<Id> = dag.roots.iter().rev().map(|root| root.1).collect();
         while let Some(id) = stack.pop() {
-            let print = dag.nodes[id].print.canonical();
-            if std::mem::replace(&mut seen[id], true) || self.fields.contains_key(&print) {
+            let node = &dag.nodes[id];
+            let print = node.print.canonical();
+            // What is written with the position is not read from a field, even where all of that cancels.
+            let is_stored = node.stage <= Stage::Parameter && self.fields.contains_key(&print);
+            if std::mem::replace(&mut seen[id], true) || is_stored {
                 continue;
             }
-            let node = &dag.nodes[id];
             if let (Kind::Symbol(symbol), Stage::Parameter) = (&node.kind, node.stage) {
                 self.fields.insert(print, (FieldId(self.prelude.roots.len()), node.print));
                 let adopted = self.prelude.adopt(dag, id, &mut HashMap::new());

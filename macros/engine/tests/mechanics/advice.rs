@@ -196,6 +196,29 @@ fn assumptions_of_two_coordinates() {
     assert!(report.contains("of 9 equations with multipliers 9 are absorbed"), "{report}");
 }
 
+/// A parallelogram of hinges: formulas of single angles, with the lengths as parameters where the loop closes for all of them.
+#[test]
+fn what_goes_along_is_told() {
+    let items = |solve: &str| {
+        let bars = "param l = 1.1; param w = 0.7;
+            body a { mass: 1.0, com: 0.1 * X, inertia: rod(1.0, 0.3, X) }
+            body b { mass: 1.0, com: 0.1 * X, inertia: rod(1.0, 1.0, X) }
+            body c { mass: 1.0, com: 0.1 * X, inertia: rod(1.0, 1.0, X) }
+            joint p: Revolute { parent: ground, child: a, axis: Z }
+            joint q: Revolute { parent: a.at(l * X), child: b, axis: Z }
+            joint r: Revolute { parent: ground.at(w * X + 0.1 * Y), child: c, axis: Z }
+            #[cut] joint pin: Revolute { parent: b.at(w * X + 0.1 * Y), child: c.at(l * X), axis: Z }
+            formulation { constraints: Reduced, independent: [p] }";
+        Built::new(&(String::new(), format!("{bars} {solve} emit forward_dynamics, report;")))
+    };
+    let before = items("");
+    let (lines, figures) = before.structure.advice.as_ref().unwrap().solvable.clone().expect("formulas");
+    let lines: Vec<String> = lines.into_iter().map(|line| line.text).collect();
+    assert_eq!(lines, ["solve (q) = (-p.angle);", "solve (r) = (p.angle);"]);
+    let after = items(&lines.concat());
+    assert_eq!(after.structure.advice.as_ref().unwrap().own, Some(figures));
+}
+
 /// Plates on parallelograms don't turn: a Delta robot in an oblique frame, with rods as bodies.
 #[test]
 fn what_stands_still_is_told() {

@@ -21,13 +21,16 @@ const FORMULATIONS: [&str; 4] = [
 const MOST: usize = 90;
 
 /// Why a formulation may be refused.
-const REASONS: [&str; 3] = [
+const REASONS: [&str; 5] = [
     // `emit kinematics` names coordinates that are no coordinates any more.
     "closes a loop and has no coordinates",
     // A measured angle as a factor, or with a parameter as its ratio.
     "known up to whole turns",
-    // Quaternions leave the state whole or not at all.
+    // Quaternions leave the state whole or not at all, and have no angles to write formulas for.
     "and it is a quaternion",
+    "a frame has no ",
+    // Kinematics by Newton's method begins where the state stands, and all of it is in the state with multipliers alone.
+    "is given, and follows from other coordinates of the state",
 ];
 
 #[test]

@@ -8,10 +8,11 @@
 use std::rc::Rc;
 
 use crate::mechanics::loops::constraints::coordinate_name;
-use crate::mechanics::loops::structure::{Role, Structure};
+use crate::mechanics::loops::structure::{Means, Role, Structure};
 use crate::model::site::Sited;
-use crate::model::types::{Coordinate, Handling, Kinematics, Model};
+use crate::model::types::{Coordinate, Handling, Kinematics, LoopClosure, Model, SolveHow};
 
+use super::problem::{Problem, Source};
 use super::{Complaint, analyse};
 
 /// One for each `kinematics`; nothing where coordinates that follow anyway are asked for.
@@ -22,10 +23,44 @@ pub(super) fn closures(model: &Model, structure: &Structure) -> Result<Vec<Optio
     let solved = structure.solved(model);
     let follows = |coordinate: &Coordinate| solved.role(*coordinate) != Role::State;
     let one = |wanted: &Kinematics| match wanted.find.iter().all(follows) {
-        true => Ok(None),
+        true if leads(model, &solved, wanted) => Ok(None),
+        // Whoever is refused here is told of the formulas that there are.
+        true => Ok(closure(model, structure, wanted).ok().map(Rc::new)),
         false => closure(model, structure, wanted).map(|found| Some(Rc::new(found))),
     };
     model.kinematics.iter().map(one).collect()
+}
+
+/// Whether formulas lead from what is given to what is to be found, as far as equations read coordinates.
+fn leads(model: &Model, solved: &Structure, wanted: &Kinematics) -> bool {
+    let problem = Problem::new(model);
+    let (mut open, mut seen) = (wanted.find.clone(), Vec::new());
+    while let Some(coordinate) = open.pop() {
+        if seen.contains(&coordinate) || wanted.given.contains(&coordinate.joint) {
+            continue;
+        }
+        seen.push(coordinate);
+        let step = match solved.role(coordinate) {
+            Role::State => return false,
+            Role::Driven(_) => continue,
+            Role::Dependent(step) => &solved.steps[step],
+        };
+        let reads = |source: Source| match (&step.means, source) {
+            (Means::Solve(item), Source::Formula(of, _)) => *item == of,
+            (Means::Solve(item), Source::Row(row)) => match &model.solves[*item].how {
+                SolveHow::From { closing, .. } => row.closing == *closing,
+                SolveHow::Formulas(_) => false,
+            },
+            (Means::Linear(id), Source::Row(row)) => row.closing == LoopClosure::Constraint(*id),
+            (Means::Newton { rows, .. }, Source::Row(row)) => rows.contains(&row),
+            (Means::Linear(_) | Means::Newton { .. }, Source::Formula(..)) => false,
+        };
+        let equations = problem.equations.iter().filter(|equation| reads(equation.source));
+        let columns = equations.flat_map(|equation| &equation.columns);
+        let others = columns.map(|&column| problem.columns[column].coordinate);
+        open.extend(others.filter(|other| !step.unknowns.contains(other)));
+    }
+    true
 }
 
 fn closure(model: &Model, structure: &Structure, wanted: &Kinematics) -> Result<Structure, Vec<Complaint>> {
@@ -39,21 +74,30 @@ fn closure(model: &Model, structure: &Structure, wanted: &Kinematics) -> Result<
     let outside = |list: &[Coordinate]| list.iter().copied().find(|&c| matches!(structure.role(c), Role::Dependent(_)));
     if let Some(coordinate) = outside(&given) {
         let name = coordinate_name(model, coordinate);
-        let help = "write `constraints: Multipliers`: what is given is read from the state, and what is to be found begins there";
+        let help = match structure.rows.is_empty() {
+            true => {
+                "write `constraints: Multipliers`: what is given is read from the state, and what is to be found begins there"
+            }
+            false => "give the coordinates that it follows from",
+        };
         return Err(complain(format!("`{name}` is given, and follows from other coordinates of the state"), help));
     }
     let independent: Vec<Coordinate> = given.iter().copied().filter(|&c| structure.role(c) == Role::State).collect();
     let held = structure.independent.iter().filter(|row| structure.rows.contains(row)).count();
     let freedoms = structure.freedoms().saturating_sub(held);
     if independent.len() > freedoms {
-        let message = format!("{} coordinates are given, but {freedoms} are independent", independent.len());
-        return Err(complain(message, "give as many coordinates as the mechanism has freedoms"));
+        let are = if freedoms == 1 { "is" } else { "are" };
+        let message = format!("{} coordinates are given, but {freedoms} {are} independent", independent.len());
+        return Err(complain(message, "give fewer: the others follow from them"));
     }
     let other =
         Model { handling: Handling::Reduced, independent, solves: Vec::new(), kinematics: Vec::new(), ..model.clone() };
     let found = analyse(&other).map_err(|complaints| {
-        let why = complaints.into_iter().next().map_or_else(String::new, |complaint| complaint.message);
-        complain(format!("what is given does not lead to what is to be found: {why}"), "give other coordinates")
+        let (why, help) = complaints.into_iter().next().map(|one| (one.message, one.help)).unwrap_or_default();
+        // What is said of `independent` is meant of what is given.
+        let help = help.filter(|help| !help.contains("`independent`"));
+        let help = help.as_deref().unwrap_or("give other coordinates");
+        complain(format!("what is given does not lead to what is to be found: {why}"), help)
     })?;
     if let Some(coordinate) = outside(&found.guessed()) {
         let name = coordinate_name(model, coordinate);

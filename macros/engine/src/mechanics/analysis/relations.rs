@@ -11,8 +11,10 @@ use super::configurations::Search;
 use super::problem::{Point, Problem, Random};
 use super::tape::Values;
 
-/// Poses, how far the state is moved for them, and how many have to close.
-const POSES: usize = 16;
+/// Poses, how far the state is moved for them, and how many have to close. In every other one parameters are moved too; where
+/// loops don't close with others than those that are declared, that pose says nothing.
+const POSES: usize = 24;
+const PARAMETERS: f64 = 0.05;
 const AMPLITUDES: [f64; 4] = [0.02, 0.05, 0.1, 0.2];
 const LEAST_POSES: usize = 6;
 
@@ -80,9 +82,14 @@ fn poses(problem: &Problem, structure: &Structure) -> Vec<Point> {
     let still: Vec<bool> = columns.iter().map(|&column| dependent[column] || role(column) != Role::State).collect();
     let equations: Vec<usize> = (0..problem.equations.len()).collect();
     let search = Search::new(problem, &equations, &columns).holding(&held);
+    let parameters = problem.parameters_of(&equations);
     let (mut random, mut values) = (Random(0x0E1A), Values::default());
     let moved = (0..POSES).filter_map(|k| {
-        let mut pose = problem.shaken(&first, &mut random, AMPLITUDES[k % AMPLITUDES.len()], &still);
+        let mut pose = problem.shaken(&first, &mut random, AMPLITUDES[k / 2 % AMPLITUDES.len()], &still);
+        for &(symbol, _) in parameters.iter().filter(|_| k % 2 == 1) {
+            let size = if pose.0[symbol] == 0.0 { 1.0 } else { pose.0[symbol] };
+            pose.0[symbol] += PARAMETERS * size * random.next();
+        }
         search.close(&mut pose, &mut values).then_some(pose)
     });
     moved.collect()

@@ -111,11 +111,12 @@ impl Equations<'_> {
         if reduction.coupled.is_empty() {
             return;
         }
+        let symbols: Vec<Scalar> = reduction.map.keys().filter_map(|&id| self.g.symbol_handle(id)).collect();
         // A coupling may lead to another: as many rounds as there are couplings.
         for _ in 0..=reduction.coupled.len() {
             let open: Vec<(SymbolId, Scalar)> = reduction.map.iter().map(|(&id, &value)| (id, value)).collect();
             let mut open: Vec<(SymbolId, Scalar)> =
-                open.into_iter().filter(|&(_, value)| Symbols::is_unfinished(&self.g, value)).collect();
+                open.into_iter().filter(|&(_, value)| self.g.depends_on(value, &symbols)).collect();
             open.sort_unstable_by_key(|entry| entry.0);
             let values: Vec<Scalar> = open.iter().map(|entry| entry.1).collect();
             let values = self.finish(reduction, &values);

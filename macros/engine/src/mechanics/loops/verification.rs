@@ -29,7 +29,16 @@ impl Equations<'_> {
     ) -> Result<Results<Scalar>, Vec<Complaint>> {
         let symbols: Vec<[Scalar; 3]> = wanted.find.iter().map(|&c| self.coordinate_symbols(c)).collect();
         let roots: Vec<Scalar> = (0..3).flat_map(|order| symbols.iter().map(move |s| s[order])).collect();
-        let found = self.finish(reduction, &roots);
+        let mut found = self.finish(reduction, &roots);
+        // Of loops that have a part in it.
+        let mut guesses = reduction.guesses.iter().copied();
+        let sizes = self.scene.structure.steps.iter().filter(|step| matches!(step.means, Means::Newton { .. }));
+        let own: Vec<Vec<Scalar>> = sizes.map(|step| guesses.by_ref().take(step.unknowns.len()).collect()).collect();
+        let residuals = reduction.residuals.iter().zip(own);
+        let read = residuals.filter(|(_, own)| found.iter().any(|&root| self.g.depends_on(root, own)));
+        let residuals: Vec<Scalar> = read.map(|(&residual, _)| residual).collect();
+        let residual = self.worst(&residuals);
+        found.extend(self.finish(reduction, &[residual]));
         let joints = self.scene.symbols.positions.iter().enumerate();
         let others: Vec<Scalar> = joints
             .filter(|(k, _)| !wanted.given.contains(&JointId(*k)))
@@ -41,9 +50,7 @@ impl Equations<'_> {
                 let orders = (0..3).map(|order| found[order * symbols.len()..][..symbols.len()].to_vec());
                 let results =
                     slots.zip(orders).fold(Results::default(), |results, (slot, list)| results.with(slot, list));
-                let residual = self.worst_residual(reduction);
-                let residual = self.finish(reduction, &[residual])[0];
-                Ok(results.with_scalar(Slot::Residual, residual))
+                Ok(results.with_scalar(Slot::Residual, found[roots.len()]))
             }
             Some(at) => {
                 let coordinate = wanted.find.get(at % wanted.find.len().max(1));

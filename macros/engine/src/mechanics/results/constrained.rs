@@ -364,8 +364,12 @@ impl Equations<'_> {
 
     /// The greatest residual of all iterations.
     pub(in crate::mechanics) fn worst_residual(&mut self, reduction: &Reduction) -> Scalar {
+        self.worst(&reduction.residuals)
+    }
+
+    pub(in crate::mechanics) fn worst(&mut self, residuals: &[Scalar]) -> Scalar {
         let g = &mut self.g;
-        let mut residuals = reduction.residuals.iter().copied();
+        let mut residuals = residuals.iter().copied();
         let first = residuals.next().unwrap_or(Scalar::ZERO);
         residuals.fold(first, |worst, r| g.call(Call::Max, &[worst, r]))
     }
