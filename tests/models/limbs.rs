@@ -56,6 +56,50 @@ multibody! {
         force actuator: Effort { joint: stroke, value: thrust }
     }
 
+    /// Struts that stay long, on gimbals whose axes stay apart.
+    mod upright_strut {
+        port base: Frame;
+        port tip: Frame;
+        /// [m]
+        param length = 0.9;
+        /// [m]
+        param least = 0.3;
+        param apart = 0.25;
+        body cylinder {
+            mass: 0.37, com: [0.013, -0.021, 0.47],
+            inertia: inertia(0.00629, 0.00703, 0.00222, 0.00037, -0.000185, 0.00037),
+        }
+        body piston { mass: 0.31, com: [0.003, 0.008, -0.52], inertia: diag(0.00592, 0.00555, 0.000888) }
+        joint gimbal: Universal { parent: base, child: cylinder, axes: [X, Y] }
+        joint stroke: Prismatic { parent: cylinder.at(length * Z), child: piston, axis: Z }
+        assume stroke > least - length;
+        assume cos(gimbal.second) > apart;
+        #[cut]
+        joint ball: Ball { parent: piston, child: tip }
+    }
+
+    /// A barrel that turns, tilts about an axis across, typed to sixteen digits, and is drawn out.
+    mod turret {
+        port base: Frame;
+        port tip: Frame;
+        body ring {
+            mass: 0.3, com: [0.013, -0.021, 0.047], inertia: inertia(0.017, 0.019, 0.006, 0.001, -0.0005, 0.001),
+        }
+        body barrel {
+            mass: 0.3, com: [0.213, -0.021, 0.047], inertia: inertia(0.006, 0.019, 0.017, 0.001, -0.0005, 0.001),
+        }
+        body tube { mass: 0.2, com: [0.213, 0.011, 0.027], inertia: inertia(0.003, 0.012, 0.011, 0.0, 0.0004, 0.001) }
+        joint turn: Revolute { parent: base, child: ring, axis: Z }
+        joint tilt: Revolute {
+            parent: ring.rotated(X, 0.3), child: barrel, axis: [0.0, 0.9553364891256061, -0.2955202066613395],
+        }
+        joint draw: Prismatic { parent: barrel.at(0.7 * X), child: tube, axis: X }
+        assume draw > -0.4;
+        assume tilt > -1.2 && tilt < 1.3;
+        #[cut]
+        joint ball: Ball { parent: tube, child: tip }
+    }
+
     pub mod struts {
         const FEET: [Vec3; 4] = [
             [-0.8137, 0.2154, 0.1], [0.7411, 0.4023, -0.0712], [0.0612, -0.9027, 0.0331], [0.61, 0.42, -0.8],
@@ -92,6 +136,44 @@ multibody! {
             coordinates: Absolute(RollPitchYaw),
         }
         part legs: [long_strut; 4] = |i| long_strut {
+            base: ground.at(FEET[i]).rotated(AXES[i], TURNS[i]),
+            tip: plate.at(PINS[i]),
+        };
+        formulation { constraints: Multipliers }
+        emit forward_dynamics, mass_matrix, bias, impulse;
+    }
+
+    /// The volume of a leg is that of two functions: the square of its length, and the cosine of the second angle.
+    pub mod upright_struts {
+        const FEET: [Vec3; 3] = [[-0.8137, 0.2154, -0.7], [0.7411, 0.4023, -0.8712], [0.0612, -0.9027, -0.7669]];
+        const PINS: [Vec3; 3] = [[-0.2113, 0.1404, -0.031], [0.2207, 0.1733, 0.0102], [0.0311, -0.2602, -0.0417]];
+        const AXES: [Vec3; 3] = [[1.0, 2.0, 0.3], [-0.4, 1.0, 0.2], [0.7, 0.1, 1.0]];
+        const TURNS: [Scalar; 3] = [0.31, -0.52, 0.23];
+        world { gravity: [0.21, -0.34, -9.7] }
+        body plate {
+            mass: 1.7, com: [0.02, -0.01, 0.03], inertia: inertia(0.031, 0.043, 0.059, 0.002, -0.003, 0.004),
+            coordinates: Absolute(Quaternion),
+        }
+        part legs: [upright_strut; 3] = |i| upright_strut {
+            base: ground.at(FEET[i]).rotated(AXES[i], TURNS[i]),
+            tip: plate.at(PINS[i]),
+        };
+        formulation { constraints: Multipliers }
+        emit forward_dynamics, mass_matrix, bias, impulse;
+    }
+
+    /// The same of barrels, whose rows lie across the axes of all joints.
+    pub mod turrets {
+        const FEET: [Vec3; 3] = [[-0.8137, 0.2154, -0.7], [0.7411, 0.4023, -0.8712], [0.0612, -0.9027, -0.7669]];
+        const PINS: [Vec3; 3] = [[-0.2113, 0.1404, -0.031], [0.2207, 0.1733, 0.0102], [0.0311, -0.2602, -0.0417]];
+        const AXES: [Vec3; 3] = [[0.1, -1.0, 0.05], [-0.2, -1.0, 0.1], [0.1, -1.0, -0.3]];
+        const TURNS: [Scalar; 3] = [1.1, 1.3, 0.9];
+        world { gravity: [0.21, -0.34, -9.7] }
+        body plate {
+            mass: 1.7, com: [0.02, -0.01, 0.03], inertia: inertia(0.031, 0.043, 0.059, 0.002, -0.003, 0.004),
+            coordinates: Absolute(RollPitchYaw),
+        }
+        part legs: [turret; 3] = |i| turret {
             base: ground.at(FEET[i]).rotated(AXES[i], TURNS[i]),
             tip: plate.at(PINS[i]),
         };

@@ -259,3 +259,32 @@ fn what_stands_still_is_told() {
     assert!(3 * figures.work < 2 * before.structure.advice.as_ref().unwrap().own.unwrap().work);
     assert!(advice.solvable.is_none());
 }
+
+/// What a screw carries doesn't come again after a turn: its length is zero ten turns away, where nothing is assumed.
+#[test]
+fn what_is_assumed_on_one_side_is_open_on_the_other() {
+    let jack = |assume: &str| {
+        let leg = format!(
+            "mod leg {{ port base: Frame; port tip: Frame;
+                body cylinder {{ mass: 0.1, com: 0.5 * Z, inertia: diag(0.00625, 0.00625, 0.001) }}
+                body piston {{ mass: 0.1, com: -0.5 * Z, inertia: diag(0.00625, 0.00625, 0.001) }}
+                joint gimbal: Universal {{ parent: base, child: cylinder, axes: [X, Y] }}
+                joint thread: Screw {{ parent: cylinder.at(Z), child: piston, axis: Z, pitch: 0.1 }}
+                #[cut] joint ball: Ball {{ parent: piston, child: tip }}
+                {assume} }}"
+        );
+        let plate = "const FEET: [Vec3; 3] = [[-0.2, 0.1, -1.0], [0.2, 0.15, -1.0], [0.03, -0.25, -1.0]];
+            const PINS: [Vec3; 3] = [[-0.2, 0.1, 0.0], [0.2, 0.15, 0.0], [0.03, -0.25, 0.0]];
+            body plate { mass: 1.5, inertia: diag(0.08, 0.08, 0.08), coordinates: Absolute(RollPitchYaw) }
+            part legs: [leg; 3] = |i| leg { base: ground.at(FEET[i]), tip: plate.at(PINS[i]) };
+            emit forward_dynamics, report;";
+        Built::new(&(leg, plate.to_owned())).pivoted().0
+    };
+    let plain = jack("");
+    assert_eq!(jack("assume thread < 6.0; assume cos(gimbal.second) > 0.3;"), plain);
+    assert!(jack("assume thread > -3.0; assume cos(gimbal.second) > 0.5;") > plain);
+    // So is what lies behind what is ruled out: there a strut has the length zero.
+    let plain = Built::new(&struts("Z", "")).pivoted();
+    assert_eq!(Built::new(&struts("Z", "assume stroke > -0.7 || stroke < -0.9;")).pivoted(), plain);
+    assert!(Built::new(&struts("Z", "assume stroke > -0.7;")).pivoted().0 > plain.0);
+}

@@ -64,6 +64,8 @@ struct Way {
     column: usize,
     from: Point,
     stops: Vec<Stop>,
+    /// Whether the user lets it go on.
+    goes_on: bool,
 }
 
 /// Closed poses at random, as many as were asked for.
@@ -308,9 +310,9 @@ impl<'a> Limb<'a> {
             for &column in columns {
                 for corner in std::mem::take(&mut corners) {
                     for direction in [1.0, -1.0] {
-                        let stops = self.way(columns, column, direction, &corner, values)?;
+                        let (stops, goes_on) = self.way(columns, column, direction, &corner, values)?;
                         corners.extend(stops.last().map(|stop| stop.pose.clone()));
-                        ways.push(Way { column, from: from.clone(), stops });
+                        ways.push(Way { column, from: from.clone(), stops, goes_on });
                     }
                 }
                 corners.push(from.clone());
@@ -319,8 +321,9 @@ impl<'a> Limb<'a> {
         Some(ways)
     }
 
-    /// From a pose along one column, others held, to where the user lets it go no further, or far away; nothing where loops don't
-    /// close before that. What is assumed of columns that are not held makes no difference, as these make none to the volume.
+    /// From a pose along one column, others held, to where the user lets it go no further, or far away, which is told; nothing where
+    /// loops don't close before that, or where a travel may be beyond what is ruled out too. What is assumed of columns that are
+    /// not held makes no difference, as these make none to the volume.
     fn way(
         &self,
         held: &[usize],
@@ -328,7 +331,7 @@ impl<'a> Limb<'a> {
         direction: f64,
         first: &Point,
         values: &mut Values,
-    ) -> Option<Vec<Stop>> {
+    ) -> Option<(Vec<Stop>, bool)> {
         let held = self.holding(held);
         let mut random = Random(0x57E9);
         let travels = self.problem.columns[column].travels;
@@ -358,7 +361,16 @@ impl<'a> Limb<'a> {
                 length *= GROWTH;
             }
         }
-        Some(stops)
+        let goes_on = part == 1.0;
+        let mut beyond = stops.last().map_or_else(|| first.clone(), |stop| stop.pose.clone());
+        step[column] = length;
+        for _ in 0..if goes_on || !travels { 0 } else { steps } {
+            self.problem.displace(&mut beyond, &step);
+            if self.problem.is_assumed(&beyond, column, values) {
+                return None;
+            }
+        }
+        Some((stops, goes_on))
     }
 
     /// Whether something is hoped of two columns together: of those of a short limb.
@@ -429,9 +441,17 @@ impl<'a> Limb<'a> {
             let volumes: Vec<Volume> = way.stops.iter().map(|stop| self.volume(&stop.pose, values)).collect();
             let parts = volumes.iter().map(|volume| self.part(volume, first)).fold(1.0, f64::min);
             let own = along.columns.iter().position(|&column| column == way.column);
-            own.into_iter().for_each(|k| least[k] = least[k].min(parts));
+            if let Some(k) = own {
+                least[k] = least[k].min(parts);
+            }
+            // Where nothing ends the way, all comes again after a whole turn, or what is left of the volume grows.
+            let ends_well = |last: &Volume| {
+                let before = &volumes[volumes.len().saturating_sub(2)];
+                last.is_like(&volumes[0]) || last.size >= before.size
+            };
+            let ends = !way.goes_on || volumes.last().is_none_or(ends_well);
             let stops: Vec<(&Stop, Volume)> = way.stops.iter().zip(volumes).collect();
-            stops[0].1.is_great()
+            ends && stops[0].1.is_great()
                 && stops.windows(2).all(|two| {
                     let between = Between { held: &along.columns, column: way.column, first };
                     self.stays_between(between, [&two[0], &two[1]], HALVES, values)
