@@ -492,6 +492,7 @@ pub(crate) mod engine {
                 acceleration: ::multibody::nalgebra::SVector::from([
                     (-slope_cylinder_inv * cylinder_gap_accel),
                 ]),
+                residual: T::lit(0.0),
             }
         }
         /// Outputs.
