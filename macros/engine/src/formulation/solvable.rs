@@ -9,7 +9,8 @@ use std::collections::BTreeMap;
 use crate::mechanics::analysis::{Relation, analyse, relations};
 use crate::mechanics::loops::advice::{Closing, Figures, Solvable};
 use crate::mechanics::loops::constraints::{coordinate_name, local_name};
-use crate::model::types::{Coordinate, Expr, ExprNode, InstanceId, Model, Order, PartTypeId, Solve, SolveHow, Type};
+use crate::model::formulated::Formula;
+use crate::model::types::{Coordinate, InstanceId, Model, PartTypeId};
 
 use super::{figures, judged};
 
@@ -30,7 +31,7 @@ const NEAR: f64 = 1e-8;
 type Key = (Option<PartTypeId>, String);
 
 struct Line {
-    solves: Vec<Solve>,
+    items: Vec<Vec<(Coordinate, Formula)>>,
     told: Solvable,
 }
 
@@ -44,8 +45,8 @@ pub(super) fn solvable(model: &Model, own: &Figures) -> Option<(Vec<Solvable>, F
     // A formula of a part reads that part alone.
     let found = relations(&judged, &structure, |unknown, other| instance(unknown) == instance(other));
     let takes = |lines: &[&Line]| -> Option<Figures> {
-        let mut other = model.clone();
-        other.solves.extend(lines.iter().flat_map(|line| line.solves.iter().cloned()));
+        let items: Vec<_> = lines.iter().flat_map(|line| line.items.iter().cloned()).collect();
+        let other = model.solving(&items);
         figures(&other, &model.handling).ok()
     };
     let lines = lines(&judged, &found);
@@ -103,7 +104,7 @@ fn line(
     let name = |coordinate: Coordinate| {
         if part.is_some() { local_name(model, coordinate) } else { coordinate_name(model, coordinate) }
     };
-    let mut solves = Vec::new();
+    let mut items = Vec::new();
     let mut told = None;
     for &id in &parts {
         let own: Vec<(Coordinate, Relation)> = found
@@ -114,18 +115,17 @@ fn line(
                 place.instance == id && place.field == field.as_str() && indices.contains(&coordinate.index)
             })
             .collect();
-        let span = model.joints[own.first()?.0.joint].span;
         let unknowns: Vec<Coordinate> = own.iter().map(|one| one.0).collect();
-        let formulas = own.iter().map(|one| formula(one.1, span)).collect::<Option<Vec<Expr>>>()?;
+        let formulas = own.iter().map(|one| Some((one.0, formula(one.1)?))).collect::<Option<Vec<_>>>()?;
         if told.is_none() {
             let names: Vec<String> = unknowns.iter().map(|&unknown| name(unknown)).collect();
             let values = own.iter().map(|one| worded(model, one.1, part.is_some())).collect::<Option<Vec<String>>>()?;
             let part = part.map(|part| model.part_types[part].name.to_string());
             told = Some(Solvable { part, text: format!("solve ({}) = ({});", names.join(", "), values.join(", ")) });
         }
-        solves.push(Solve { unknowns, how: SolveHow::Formulas(formulas), span });
+        items.push(formulas);
     }
-    Some(Line { solves, told: told? })
+    Some(Line { items, told: told? })
 }
 
 /// As it stands behind the equals sign.
@@ -149,14 +149,11 @@ fn worded(model: &Model, relation: Relation, is_in_part: bool) -> Option<String>
     })
 }
 
-fn formula(relation: Relation, span: proc_macro2::Span) -> Option<Expr> {
-    let scalar = |node: ExprNode| Expr::new(node, Type::Scalar, span);
-    let coordinate =
-        |Coordinate { joint, index }: Coordinate| scalar(ExprNode::Coordinate { joint, index, order: Order::Position });
+fn formula(relation: Relation) -> Option<Formula> {
     Some(match relation {
-        Relation::Constant(value) => scalar(ExprNode::Number(constant(value)?.0)),
-        Relation::Same(other) => coordinate(other),
-        Relation::Opposite(other) => scalar(ExprNode::Neg(coordinate(other))),
+        Relation::Constant(value) => Formula::Number(constant(value)?.0),
+        Relation::Same(other) => Formula::Same(other),
+        Relation::Opposite(other) => Formula::Opposite(other),
     })
 }
 

@@ -14,6 +14,7 @@ pub(crate) mod checks;
 mod docs;
 mod expand;
 mod expressions;
+pub mod formulated;
 mod items;
 pub mod joint_kinds;
 mod names;
