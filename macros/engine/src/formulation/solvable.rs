@@ -2,7 +2,7 @@
 //!
 //! In: a model whose loops go by Newton's method, and what it takes. Out: `solve` items of coordinates that stand still while the
 //! loops move, or go along with others (`mechanics::analysis::relations`): so are plates on parallelograms. What is told has been
-//! tried: such formulas are checked as any of the user's, exactly, the model is derived with them, and takes less.
+//! tried: such formulas are checked as any of the user's, with the declared parameters, the model is derived with them, and takes less.
 
 use std::collections::BTreeMap;
 
@@ -50,6 +50,9 @@ pub(super) fn solvable(model: &Model, own: &Figures) -> Option<(Vec<Solvable>, F
         figures(&other, &model.handling).ok()
     };
     let lines = lines(&judged, &found);
+    if lines.is_empty() {
+        return None;
+    }
     let (mut kept, mut least): (Vec<&Line>, Figures) = (Vec::new(), *own);
     // All at once, or one by one where some formula is refused.
     let all: Vec<&Line> = lines.iter().collect();
@@ -101,6 +104,9 @@ fn line(
             })
     };
     let indices: Vec<usize> = indices.into_iter().filter(everywhere).collect();
+    if indices.is_empty() {
+        return None;
+    }
     let name = |coordinate: Coordinate| {
         if part.is_some() { local_name(model, coordinate) } else { coordinate_name(model, coordinate) }
     };
@@ -133,7 +139,7 @@ fn worded(model: &Model, relation: Relation, is_in_part: bool) -> Option<String>
     let name = |coordinate: Coordinate| {
         let joint = &model.joints[coordinate.joint];
         let bare = if is_in_part { local_name(model, coordinate) } else { coordinate_name(model, coordinate) };
-        // A joint of one coordinate is a number by its coordinate's name alone.
+        // In an expression the name of such a joint is the joint, and no number.
         match joint.kind.freedoms.get(coordinate.index) {
             Some(freedom) if joint.kind.freedoms() == 1 => format!("{bare}.{}", freedom.name),
             _ => bare,

@@ -288,3 +288,21 @@ fn what_is_assumed_on_one_side_is_open_on_the_other() {
     assert_eq!(Built::new(&struts("Z", "assume stroke > -0.7 || stroke < -0.9;")).pivoted(), plain);
     assert!(Built::new(&struts("Z", "assume stroke > -0.7;")).pivoted().0 > plain.0);
 }
+
+/// A relation that holds in one part of a type and not in the others is no line of the part.
+#[test]
+fn what_differs_between_parts_is_not_told() {
+    let bars = "mod bars { port left: Frame; port right: Frame; param far = 1.0;
+        body a { mass: 1.0, com: 0.1 * X, inertia: rod(1.0, 0.3, X) }
+        body b { mass: 1.0, com: 0.1 * X, inertia: rod(1.0, 1.0, X) }
+        body c { mass: 1.0, com: 0.1 * X, inertia: rod(1.0, 1.0, X) }
+        joint p: Revolute { parent: left, child: a, axis: Z }
+        joint q: Revolute { parent: a.at(1.1 * X), child: b, axis: Z }
+        joint r: Revolute { parent: right, child: c, axis: Z }
+        #[cut] joint pin: Revolute { parent: b.at(0.7 * X), child: c.at(far * X), axis: Z } }";
+    let items = "part one: bars { left: ground, right: ground.at(0.7 * X), far: 1.1 };
+        part two: bars { left: ground.at(3.0 * X), right: ground.at(3.7 * X), far: 1.0 };
+        formulation { constraints: Reduced, independent: [one.p, two.p] } emit forward_dynamics, report;";
+    let built = Built::new(&(bars.to_owned(), items.to_owned()));
+    assert!(built.structure.advice.as_ref().unwrap().solvable.is_none());
+}

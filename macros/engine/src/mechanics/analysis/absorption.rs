@@ -93,7 +93,8 @@ impl<'p> Absorption<'p> {
 
     /// Whether a row, with others that are, is independent in some coordinates of the state, in all poses. So it is where more
     /// rows are: in axes that don't turn with a strut only the three components at its end together have a volume that says
-    /// something. What would have to be assumed is asked of all of them first, since that is how the limb stands, and not the axes.
+    /// something. Proposals are looked for in the largest set first: what it asks for follows from the limb's own pose, whereas a
+    /// single row would ask for angles at which it happens to stand well in fixed axes.
     pub(in super::super) fn absorbs(&mut self, row: usize, others: &[usize], coordinates: &[usize]) -> bool {
         let columns: Vec<usize> = coordinates.iter().map(|&k| self.columns[k]).collect();
         let others: Vec<usize> = others.iter().map(|&k| self.equations[k]).collect();

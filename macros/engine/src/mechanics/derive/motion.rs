@@ -84,11 +84,12 @@ impl<'m> Deriving<'m> {
     /// Values, rates and accelerations of coordinates from those that are given.
     pub(super) fn kinematics(&mut self, number: usize) -> Result<Vec<Candidate>, Vec<Complaint>> {
         let Some(wanted) = self.model.kinematics.get(number) else { return Ok(Vec::new()) };
-        let (name, structure) = match self.structure.closures.get(number).and_then(Clone::clone) {
+        let closure = self.structure.closures.get(number).and_then(Clone::clone);
+        let begins = closure.is_some();
+        let (name, structure) = match closure {
             Some(structure) => ("Newton's method from where the position stands", structure),
             None => ("closed form", Rc::new(self.structure.solved(self.model))),
         };
-        let begins = self.structure.closures.get(number).is_some_and(Option::is_some);
         let before = std::mem::replace(&mut self.structure, structure);
         let found = self.only(name, |e| {
             let reduction = e.reduce()?;
