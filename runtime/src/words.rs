@@ -116,6 +116,8 @@ pub mod item {
         pub constraints: super::handling::Reduced,
         /// Coordinates that stay in the state.
         pub independent: List,
+        /// Rounds of Newton's method where it closes loops: 6, or what is written here. Each doubles the digits of the guess.
+        pub rounds: Scalar,
         /// `[1/s]` of `Stabilised`: the factor of the residual's derivative.
         pub rate: Scalar,
         /// `[1/s^2]` of `Stabilised`: the factor of the residual.

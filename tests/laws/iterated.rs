@@ -53,6 +53,7 @@ both! {
             parent: ground.at([5.0 * size, size, 0.0]), child: rocker, axis: [0.0, 0.1, 1.0],
         }
         #[cut] joint pin: Revolute { parent: coupler.at(6.0 * size * X), child: rocker.at(4.0 * size * X), axis: [0.1, 1.0, 0.2] }
+        force twist: Effort { joint: shaft, value: 0.4 * sin(elbow.roll + 0.3) - 0.2 * (elbow.yaw - 0.1) * elbow.pitch }
         output rates = [
             shaft.rate, elbow.roll.rate, elbow.pitch.rate, elbow.yaw.rate, foot.travel.rate, foot.angle.rate,
         ];
@@ -424,4 +425,35 @@ fn what_is_infinite_has_no_velocities() {
             assert!(!closed.residual.is_finite() || rates.iter().any(|x| !x.is_finite()), "{params:?}: {rates:?}");
         }
     }
+}
+
+/// Three rounds from a hundredth off are six.
+#[test]
+fn rounds_from_near() {
+    use multibody_tests::models::iterated::*;
+    macro_rules! near {
+        ($($near:ident $newton:ident)*) => {
+            $({
+                let (near, all) = ($near::Model::<f64>::default(), $newton::Model::<f64>::default());
+                let start = $newton::State::<f64>::default();
+                let guess = SVector::from(all.close(0.0, &start).state.guess);
+                let mut random = Random::new(31);
+                for _ in 0..40 {
+                    let off = guess.map(|_| 1e-2 * random.unit());
+                    let rate = SVector::from(start.v).map(|_: f64| random.unit());
+                    let from = $newton::State { v: rate.into(), guess: (guess + off).into(), ..start };
+                    let want = SVector::from(all.forward_dynamics(0.0, &from, &Default::default()).v);
+                    let state = $near::State {
+                        q: SVector::from(from.q).into(),
+                        v: rate.into(),
+                        guess: (guess + off).into(),
+                    };
+                    let got = SVector::from(near.forward_dynamics(0.0, &state, &Default::default()).v);
+                    let error = (got - want).norm() / want.norm();
+                    assert!(error < 1e-9, "{}: {error:e}", stringify!($near));
+                }
+            })*
+        };
+    }
+    near! { rps_near rps_newton wishbone_near wishbone_newton sarrus_near sarrus_newton stephenson_near stephenson_newton }
 }

@@ -1,5 +1,7 @@
 //! Laws of closed loops: energy, derivatives of equations, and formulations of one mechanism that must agree.
 
+use std::f64::consts::TAU;
+
 use multibody::nalgebra::{DMatrix, SMatrix, SVector, UnitQuaternion, Vector3};
 use multibody::{DormandPrince, Projection, Twist, assemble};
 use multibody_tests::models::mechanisms::*;
@@ -269,6 +271,29 @@ fn newtons_guess_follows_the_motion() {
     let other = DormandPrince::integrate(&iterated, 0.0, &same, &Default::default(), 1e-3, 3000, |_, _| ()).unwrap();
     assert!((end.q.crank - 0.3).abs() > 6.0, "it should have gone round: {}", end.q.crank);
     assert_close("end", &[other.q.crank, other.v.crank], &[end.q.crank, end.v.crank], 1e-10);
+}
+
+/// Angles are found as points on a circle, and given back on the turn on which the guess has them.
+#[test]
+fn whole_turns_of_guesses_are_kept() {
+    let model = four_bar_newton::Model::new(&four_bar_newton::Params::default());
+    let mut state = four_bar_newton::State::default();
+    (state.q.crank, state.v.crank) = (0.3, 8.0);
+    state.guess = model.close(0.0, &state).state.guess;
+    let near = SVector::from(state.guess);
+    let want = model.forward_dynamics(0.0, &state, &Default::default());
+    let turns = [[0.0, 0.0], [1.0, 0.0], [-3.0, 2.0], [40.0, -41.0]];
+    for (turns, off) in turns.into_iter().flat_map(|turns| [0.0, 0.2, -0.3].map(|off| (turns, off))) {
+        let whole = SVector::from(turns) * TAU;
+        let mut turned = state;
+        turned.guess = (near + whole + SVector::from([off, -off])).into();
+        let closed = model.close(0.0, &turned);
+        assert!(closed.residual < 1e-13, "{turns:?}, {off}: {:e}", closed.residual);
+        let (found, wanted) = (SVector::from(closed.state.guess), near + whole);
+        assert!((found - wanted).norm() < 1e-12, "{turns:?}, {off}: {found} {wanted}");
+        let got = model.forward_dynamics(0.0, &turned, &Default::default());
+        assert_close("accelerations", &[got.a.crank], &[want.a.crank], 1e-11);
+    }
 }
 
 /// Couplings are eliminated in every formulation: what is left has the inertia of all that is geared together.

@@ -95,6 +95,17 @@ multibody! {
         formulation { constraints: Reduced }
         emit forward_dynamics;
     }
+    /// Platform on three limbs of hinge, slide and ball, by three rounds of Newton's method.
+    pub mod rps_near {
+        world { gravity: -9.80665 * Z }
+        body plate { mass: 2.0, inertia: diag(0.05, 0.05, 0.1), coordinates: Absolute(RollPitchYaw) }
+        part limbs: [limb; 3] = |i| limb {
+            hip: ground.rotated(Z, i * 2.0 * PI / 3.0).at(0.5 * X),
+            tip: plate.rotated(Z, i * 2.0 * PI / 3.0).at(0.3 * X),
+        };
+        formulation { constraints: Reduced, rounds: 3 }
+        emit forward_dynamics;
+    }
     /// Platform on three limbs of hinge, slide and ball, with multipliers.
     pub mod rps_multipliers {
         world { gravity: -9.80665 * Z }
@@ -125,6 +136,24 @@ multibody! {
         #[cut] joint steer: Ball { parent: tie.at(0.37 * X), child: upright.at([0.0, -0.13, 0.08]) }
         force spring: Effort { joint: low, value: load - 5.0 * low.rate }
         formulation { constraints: Reduced }
+        emit forward_dynamics;
+    }
+    /// Double wishbone with a tie rod, axes in general position, by three rounds of Newton's method.
+    pub mod wishbone_near {
+        world { gravity: -9.80665 * Z }
+        input load;
+        body lower { mass: 2.0, com: 0.2 * X, inertia: diag(0.02, 0.03, 0.04) }
+        body upper { mass: 1.5, com: 0.15 * X, inertia: diag(0.01, 0.02, 0.03) }
+        body upright { mass: 8.0, com: [0.05, 0.01, 0.12], inertia: diag(0.1, 0.12, 0.08) }
+        body tie { mass: 0.5, com: 0.2 * X, inertia: diag(0.001, 0.01, 0.01) }
+        joint low: Revolute { parent: ground, child: lower, axis: [0.05, 1.0, 0.03] }
+        joint up: Revolute { parent: ground.at([0.08, 0.02, 0.25]), child: upper, axis: [-0.04, 1.0, 0.06] }
+        joint pivot: Ball { parent: lower.at([0.42, 0.02, 0.01]), child: upright, coordinates: RollPitchYaw }
+        #[cut] joint head: Ball { parent: upper.at([0.31, -0.01, 0.0]), child: upright.at([-0.03, -0.01, 0.26]) }
+        joint rack: Universal { parent: ground.at([0.05, -0.12, 0.08]), child: tie, axes: [Y, Z] }
+        #[cut] joint steer: Ball { parent: tie.at(0.37 * X), child: upright.at([0.0, -0.13, 0.08]) }
+        force spring: Effort { joint: low, value: load - 5.0 * low.rate }
+        formulation { constraints: Reduced, rounds: 3 }
         emit forward_dynamics;
     }
     /// Double wishbone with a tie rod, axes in general position, with multipliers.
@@ -167,6 +196,25 @@ multibody! {
         formulation { constraints: Reduced }
         emit forward_dynamics;
     }
+    /// Sarrus linkage: a straight line from two planes of hinges, by three rounds of Newton's method.
+    pub mod sarrus_near {
+        world { gravity: -9.80665 * Z }
+        input push;
+        body a1 { mass: 0.4, com: [0.2, 0.0, 0.0], inertia: diag(0.001, 0.01, 0.01) }
+        body a2 { mass: 0.4, com: [0.2, 0.0, 0.0], inertia: diag(0.001, 0.01, 0.01) }
+        body b1 { mass: 0.4, com: [0.0, 0.2, 0.0], inertia: diag(0.01, 0.001, 0.01) }
+        body b2 { mass: 0.4, com: [0.0, 0.2, 0.0], inertia: diag(0.01, 0.001, 0.01) }
+        body plate { mass: 1.0, com: [0.1, 0.1, 0.0], inertia: diag(0.02, 0.02, 0.03) }
+        joint a: Revolute { parent: ground, child: a1, axis: Y }
+        joint ab: Revolute { parent: a1.at(0.4 * X), child: a2, axis: Y }
+        joint ac: Revolute { parent: a2.at(0.4 * X), child: plate, axis: Y }
+        joint b: Revolute { parent: ground.at([0.6, -0.5, 0.0]), child: b1, axis: X }
+        joint bb: Revolute { parent: b1.at(0.4 * Y), child: b2, axis: X }
+        #[cut] joint bc: Revolute { parent: b2.at(0.4 * Y), child: plate.at([0.1, -0.003, 0.0]), axis: X }
+        force motor: Effort { joint: a, value: push }
+        formulation { constraints: Reduced, rounds: 3 }
+        emit forward_dynamics;
+    }
     /// Sarrus linkage: a straight line from two planes of hinges, with multipliers.
     pub mod sarrus_multipliers {
         world { gravity: -9.80665 * Z }
@@ -207,6 +255,26 @@ multibody! {
         #[cut] joint two: Revolute { parent: coupler.at([0.35, 0.25, 0.0]), child: last.at(0.9 * X), axis: Z }
         force motor: Effort { joint: turning, value: torque }
         formulation { constraints: Reduced, independent: [turning] }
+        emit forward_dynamics;
+    }
+    /// Stephenson's six-bar, by three rounds of Newton's method.
+    pub mod stephenson_near {
+        world { gravity: -9.80665 * Y }
+        input torque;
+        body crank { mass: 0.3, com: 0.1 * X, inertia: rod(0.3, 0.2, X) }
+        body coupler { mass: 0.6, com: [0.3, 0.1, 0.0], inertia: diag(0.01, 0.01, 0.02) }
+        body rocker { mass: 0.5, com: 0.25 * X, inertia: rod(0.5, 0.5, X) }
+        body link { mass: 0.4, com: 0.2 * X, inertia: rod(0.4, 0.4, X) }
+        body last { mass: 0.4, com: 0.3 * X, inertia: diag(0.01, 0.01, 0.02) }
+        joint shaft: Revolute { parent: ground, child: link, axis: Z }
+        joint floating: Revolute { parent: link.at(0.45 * X), child: coupler, axis: Z }
+        joint pin: Revolute { parent: ground.at([0.8, 0.1, 0.0]), child: rocker, axis: Z }
+        #[cut] joint one: Revolute { parent: coupler.at(0.7 * X), child: rocker.at(0.5 * X), axis: Z }
+        joint turning: Revolute { parent: ground.at([0.3, -0.5, 0.0]), child: crank, axis: Z }
+        joint lever: Revolute { parent: crank.at(0.2 * X), child: last, axis: Z }
+        #[cut] joint two: Revolute { parent: coupler.at([0.35, 0.25, 0.0]), child: last.at(0.9 * X), axis: Z }
+        force motor: Effort { joint: turning, value: torque }
+        formulation { constraints: Reduced, rounds: 3, independent: [turning] }
         emit forward_dynamics;
     }
     /// Stephenson's six-bar, with multipliers.

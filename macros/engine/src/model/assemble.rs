@@ -19,7 +19,7 @@ use super::items::solves::SolveItem;
 use super::topology::Topology;
 use super::types::{
     Bodies, Body, Constraint, Coordinate, Drive, Expr, Force, Handling, Input, Joint, Joints, Kinematics, Model,
-    Output, Param, Request, Solve, State, Type,
+    Output, Param, ROUNDS, Request, Solve, State, Type,
 };
 use super::units::Units;
 
@@ -35,6 +35,7 @@ pub(super) struct Collected<'a> {
     pub(super) assumptions: Vec<Option<Expr>>,
     pub(super) gravity: Option<Expr>,
     pub(super) handling: Option<Handling>,
+    pub(super) rounds: Option<usize>,
     pub(super) independent: Option<(&'a tree::Fields, ScopeId)>,
     pub(super) requested: Requested<'a>,
     /// `drive` and `solve`, which need to know what hangs on what.
@@ -113,6 +114,7 @@ impl<'a> Checker<'a, '_> {
             solves: loops.solves,
             assumptions: all(collected.assumptions)?,
             handling: collected.handling.unwrap_or_default(),
+            rounds: collected.rounds.unwrap_or(ROUNDS),
             independent: loops.independent,
             skipped,
             small: loops.small,
@@ -148,6 +150,7 @@ impl<'a> Checker<'a, '_> {
             solves: Vec::new(),
             assumptions: Vec::new(),
             handling: Handling::default(),
+            rounds: ROUNDS,
             independent: Vec::new(),
             skipped: Vec::new(),
             small: Vec::new(),
@@ -253,6 +256,7 @@ impl<'a> Checker<'a, '_> {
                 self.only_once(&mut into.formulation, item.keyword, "formulation");
                 let handling = self.formulation(fields, scope);
                 into.handling = into.handling.take().or(handling);
+                into.rounds = into.rounds.or(self.rounds(fields, scope));
                 into.independent.get_or_insert((fields, scope));
             }
             ItemKind::Emit(requests) => self.emit(requests, scope, &mut into.requested),

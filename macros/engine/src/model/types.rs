@@ -69,6 +69,8 @@ pub struct Model {
     /// Conditions (`Bool`) that the user vouches for.
     pub assumptions: Vec<Expr>,
     pub handling: Handling,
+    /// Of Newton's method.
+    pub rounds: usize,
     /// Coordinates that `formulation { independent: [..] }` names.
     pub independent: Vec<Coordinate>,
     /// Said in the report: items that another choice of coordinates has made void, such as a `#[cut]` in the tree.
@@ -157,6 +159,10 @@ pub enum LoopClosure {
     Cut(JointId),
     Constraint(ConstraintId),
 }
+
+/// Rounds of Newton's method where the model names none: from the solution of the last step three take it to rounding; a few more
+/// serve coarse guesses. The residual tells whether they were enough.
+pub const ROUNDS: usize = 6;
 
 /// What becomes of constraint equations.
 #[derive(Clone, Default)]

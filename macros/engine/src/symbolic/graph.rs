@@ -275,6 +275,8 @@ pub struct Graph {
     pub(super) blocks: Vec<Block>,
     /// First symbols of the unit quaternions, four in a row each.
     pub(super) quaternions: Vec<SymbolId>,
+    /// First symbols of points on the unit circle, two in a row each.
+    pub(super) circles: Vec<SymbolId>,
     /// All nodes in the order of their making, operands before users.
     pub(super) order: Vec<AnyNode>,
     /// Places in that order: of scalars, vectors, rotations.
@@ -311,6 +313,7 @@ impl Graph {
             symbols: Vec::new(),
             blocks: Vec::new(),
             quaternions: Vec::new(),
+            circles: Vec::new(),
             order: Vec::new(),
             places: Default::default(),
             reads: Default::default(),

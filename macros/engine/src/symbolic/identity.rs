@@ -92,7 +92,7 @@ fn first_difference<T>(left: &[T], right: &[T], equal: impl Fn(&T, &T) -> bool) 
     found.or((left.len() != right.len()).then_some(pairs))
 }
 
-/// Values of symbols up to two in size, unit quaternions included.
+/// Values of symbols up to two in size, unit quaternions and points on circles included.
 fn real_point(g: &Graph, seed: u64) -> Vec<f64> {
     let mut values: Vec<f64> =
         (0..g.symbols.len() as u64).map(|id| mix(mix(seed) ^ id) as f64 / (1_u64 << 62) as f64 - 2.0).collect();
@@ -100,6 +100,9 @@ fn real_point(g: &Graph, seed: u64) -> Vec<f64> {
         let q = &mut values[first..first + 4];
         let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
         q.iter_mut().for_each(|x| *x /= norm);
+    }
+    for &SymbolId(first) in &g.circles {
+        (values[first], values[first + 1]) = (values[first].cos(), values[first].sin());
     }
     values
 }
@@ -119,6 +122,9 @@ impl Draw {
         let mut symbols: Vec<u64> = (0..g.symbols.len() as u64).map(|id| field::reduce(mix(seed ^ mix(id)))).collect();
         for &SymbolId(first) in &g.quaternions {
             project(&mut symbols[first..first + 4]);
+        }
+        for &SymbolId(first) in &g.circles {
+            project(&mut symbols[first..first + 2]);
         }
         Draw { seed, symbols, refused: Cell::new(false) }
     }
@@ -151,7 +157,7 @@ impl Draw {
     }
 }
 
-/// Stereographic projection of the last three onto the unit sphere of all four.
+/// Stereographic projection of all but the first onto the unit sphere, of which the first is the height.
 fn project(q: &mut [u64]) {
     let [w, t @ ..] = q else { return };
     let square = t.iter().fold(0, |sum, &t| field::add(sum, field::mul(t, t)));

@@ -256,6 +256,7 @@ impl Graph {
     pub fn empty_copy(&self) -> Graph {
         let mut copy = Graph::new();
         copy.quaternions.clone_from(&self.quaternions);
+        copy.circles.clone_from(&self.circles);
         copy.radicands.clone_from(&self.radicands);
         for &s in &self.symbols {
             let id = super::graph::SymbolId(copy.symbols.len());

@@ -65,6 +65,13 @@ impl Graph {
         [scalar, vector[0], vector[1], vector[2]].map(|print| self.symbol_with(print))
     }
 
+    /// Two new symbols that are cosine and sine of an angle.
+    pub fn unit_circle(&mut self) -> [Scalar; 2] {
+        let id = self.symbols.len();
+        self.circles.push(SymbolId(id));
+        circle(Print::draw(mix(0xC1_4C1E + id as u64))).map(|print| self.symbol_with(print))
+    }
+
     fn symbol_with(&mut self, print: Print) -> Scalar {
         let id = SymbolId(self.symbols.len());
         let s = self.insert_scalar(ScalarNode::Symbol(id), print);
@@ -409,6 +416,14 @@ impl Graph {
         let prints: Vec<Print> = operands.iter().map(|&s| self.print(s)).collect();
         let whole = Print::opaque(tag, &prints);
         let print = |k: usize| Print::opaque(tag ^ ((k as u64 + 1) << 40), &[whole]);
+        let mut own: Vec<Print> = (0..count).map(print).collect();
+        if let BlockKind::Iterate { unknowns, .. } = &kind {
+            // Cosines and sines stay on their circle.
+            for (k, _) in unknowns.iter().enumerate().filter(|(_, id)| self.circles.contains(id)) {
+                let [cos, sin] = circle(own[k]);
+                (own[k], own[k + 1]) = (cos, sin);
+            }
+        }
         // Nothing on the right is answered by nothing, whatever the rank.
         let nothing = match kind {
             BlockKind::Solve { size, .. } | BlockKind::Eliminate { size }
@@ -418,11 +433,12 @@ impl Graph {
             }
             _ => 0,
         };
-        let known: Option<Vec<Scalar>> = (0..count).map(|k| self.find(print(k))).collect();
+        let known: Option<Vec<Scalar>> = own.iter().map(|&print| self.find(print)).collect();
         let mut outputs = known.unwrap_or_else(|| {
             let id = BlockId(self.blocks.len());
             self.blocks.push(Block { kind, operands: operands.into() });
-            (0..count).map(|k| self.insert_scalar(ScalarNode::Output(id, k), print(k))).collect()
+            let outputs = own.into_iter().enumerate();
+            outputs.map(|(k, print)| self.insert_scalar(ScalarNode::Output(id, k), print)).collect()
         });
         outputs[..nothing].fill(Scalar::ZERO);
         outputs
@@ -462,4 +478,11 @@ impl Graph {
         }
         self.insert_scalar(ScalarNode::Dot(a, b), print)
     }
+}
+
+/// The point of the unit circle that a line of this slope from its far end meets.
+fn circle(slope: Print) -> [Print; 2] {
+    let square = slope * slope;
+    let scale = (Print::ONE + square).inverse();
+    [(Print::ONE - square) * scale, (slope + slope) * scale]
 }

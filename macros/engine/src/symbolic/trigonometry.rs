@@ -11,7 +11,7 @@ use crate::contracts::call::Call;
 
 use super::elementary::{literal_point, multiple, quarters, sin_cos};
 use super::fingerprint::{Point, Print, reconstruct};
-use super::graph::{Graph, Scalar, ScalarNode};
+use super::graph::{Graph, Scalar, ScalarNode, SymbolId};
 use super::number::Number;
 
 /// Whole multiples of a given point that are written out.
@@ -100,6 +100,28 @@ impl Graph {
             }
         }
         Some((cos, sin))
+    }
+
+    /// The angle of a point that is this one, or this one up to what is added.
+    pub fn angle_in(&self, angle: Scalar) -> Option<Scalar> {
+        let is_given = |s: Scalar| matches!(self.node(s), ScalarNode::Angle(..));
+        match self.node(angle) {
+            ScalarNode::Angle(..) => Some(angle),
+            ScalarNode::Sum(terms) => {
+                let given = terms.iter().copied().find(|&term| is_given(term));
+                given.map(|term| term.flip_if(angle.is_negative()))
+            }
+            _ => None,
+        }
+    }
+
+    /// Symbols of points on the circle whose angle these expressions read, and not its cosine and sine alone.
+    pub fn angles_read(&self, roots: &[Scalar]) -> Vec<SymbolId> {
+        let angle = |index: usize| match self.node(Scalar::new(index, false)) {
+            &ScalarNode::Angle(cos, sin) => [cos, sin].map(|part| self.symbol_id(part)).into_iter().flatten(),
+            _ => [None, None].into_iter().flatten(),
+        };
+        self.reachable_scalars(roots).into_iter().flat_map(angle).collect()
     }
 
     pub fn sin(&mut self, angle: Scalar) -> Scalar {

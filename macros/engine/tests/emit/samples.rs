@@ -80,6 +80,7 @@ pub fn empty(module: &str) -> Model {
         solves: Vec::new(),
         assumptions: Vec::new(),
         handling: Handling::default(),
+        rounds: 6,
         independent: Vec::new(),
         skipped: Vec::new(),
         small: Vec::new(),

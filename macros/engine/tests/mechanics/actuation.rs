@@ -106,7 +106,8 @@ fn back_and_forth(mechanism: &Mechanism, slopes: &[&[&str]], params: [f64; 4]) -
     let rows = plain.structure.rows.len();
     let states = plain.structure.freedoms();
     let mut missing = None;
-    for seed in 0..12 {
+    // Guesses are random too, and few of them lead to where loops close.
+    for seed in 0..if plain.structure.guesses() > 0 { 40 } else { 12 } {
         let mut point = plain.random(100 + seed);
         for (element, &value) in params.iter().enumerate() {
             point.set(Symbol::Param { param: ParamId(0), element }, value);
@@ -114,11 +115,13 @@ fn back_and_forth(mechanism: &Mechanism, slopes: &[&[&str]], params: [f64; 4]) -
         let mut random = Random(seed);
         let given: Vec<f64> = (0..inputs).map(|_| 3.0 * random.next()).collect();
         set_inputs(&mut point, &given);
-        let motion = plain.eval(FunctionKind::ForwardDynamics, &point)[..states].to_vec();
         // Where the loop does not close there is no motion.
-        if motion.iter().any(|x| x.is_nan()) {
+        let tried = plain.candidate(FunctionKind::ForwardDynamics, 0, &point);
+        let is_open = plain.structure.guesses() > 0 && tried.last().is_none_or(|&residual| residual > 1e-9);
+        if is_open || tried.iter().any(|x| x.is_nan()) {
             continue;
         }
+        let motion = plain.eval(FunctionKind::ForwardDynamics, &point)[..states].to_vec();
         set_accelerations(&plain, mechanism.joints, &mut point, &motion);
         // Inputs that are solved for don't count.
         set_inputs(&mut point, &vec![f64::NAN; inputs]);
@@ -277,7 +280,7 @@ fn motors_of_an_eliminated_loop() {
         &[&["0", "0"], &["1", "0"], &["0", "0"], &["0", "1"]],
         &[&["1", "0"], &["0", "1"]],
     ];
-    for formulation in [closed, "constraints: Reduced, independent: [j1, j3]"] {
+    for formulation in [closed, "constraints: Reduced, rounds: 12, independent: [j1, j3]"] {
         for slopes in patterns {
             assert_eq!(back_and_forth(&five_bars(formulation, &["j1", "j3"]), slopes, DEFAULT), 0.0, "{slopes:?}");
         }

@@ -5,8 +5,8 @@ use crate::rng::Rng;
 use multibody_engine::contracts::call::Call;
 use multibody_engine::dynamics::articulated_inertia::ArticulatedInertia;
 use multibody_engine::dynamics::inertia::Inertia;
-use multibody_engine::symbolic::evaluate::{Evaluator, Field};
-use multibody_engine::symbolic::graph::{Graph, Rotation, Scalar};
+use multibody_engine::symbolic::evaluate::{Evaluator, Field, Real};
+use multibody_engine::symbolic::graph::{BlockKind, Graph, Rotation, Scalar, SymbolId};
 use multibody_engine::symbolic::identity::{Draw, Modular, Verdict, close, identical};
 use multibody_engine::symbolic::lower::Lowering;
 use multibody_engine::symbolic::number::Number;
@@ -194,6 +194,40 @@ fn quaternions_lie_on_the_sphere() {
         let square = values.iter().fold(0, |sum, &x| field.add(sum, field.mul(x, x)));
         assert_eq!(square, 1);
     }
+}
+
+/// What iterations make of points on a circle is on it too.
+#[test]
+fn circles_stay_circles() {
+    let mut g = Graph::new();
+    let by = g.symbol();
+    let [cos, sin] = g.unit_circle();
+    let square = |g: &mut Graph, [c, s]: [Scalar; 2]| {
+        let squares = [g.mul(c, c), g.mul(s, s)];
+        g.sum(&squares)
+    };
+    assert_eq!(square(&mut g, [cos, sin]), Scalar::ONE);
+    let angle = g.angle(cos, sin);
+    assert_eq!([g.cos(angle), g.sin(angle)], [cos, sin]);
+    for seed in 0..4 {
+        let draw = Draw::new(&g, seed);
+        let field = Modular { draw: &draw };
+        let values = Evaluator::new(&g, field).run(&[cos, sin]);
+        assert_eq!(field.add(field.mul(values[0], values[0]), field.mul(values[1], values[1])), 1);
+    }
+    let (c, s) = (g.cos(by), g.sin(by));
+    let further = [g.mul(cos, c), -g.mul(sin, s), g.mul(sin, c), g.mul(cos, s)];
+    let next = [g.sum(&further[..2]), g.sum(&further[2..])];
+    let unknowns: Vec<SymbolId> = [cos, sin].iter().filter_map(|&x| g.symbol_id(x)).collect();
+    let kind = BlockKind::Iterate { unknowns: unknowns.into(), count: 3 };
+    let found = g.block_outputs(kind, &[Scalar::ONE, Scalar::ZERO, next[0], next[1], by]);
+    assert_eq!(square(&mut g, [found[0], found[1]]), Scalar::ONE);
+    assert_ne!(found[0], Scalar::ONE);
+    let turned = g.angle(found[0], found[1]);
+    let (threefold, by) = (g.cos(turned), 0.7_f64);
+    let value =
+        Evaluator::new(&g, Real { symbols: &|id: SymbolId| [by, f64::NAN, f64::NAN][id.0] }).run(&[threefold])[0];
+    assert!((value - (3.0 * by).cos()).abs() < 1e-15);
 }
 
 /// Turning about an axis by its short formulas, and by two products with the matrix.

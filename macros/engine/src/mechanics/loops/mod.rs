@@ -8,6 +8,7 @@ pub(super) mod drives;
 pub mod groups;
 pub(super) mod known;
 pub(super) mod loop_equations;
+pub(super) mod newton;
 pub(super) mod reduction;
 pub(super) mod rotors;
 pub mod structure;

@@ -11,7 +11,6 @@
 use std::collections::{HashMap, HashSet};
 
 use crate::contracts::symbol::Symbol;
-use crate::invariant::fault::OrFault;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::names;
@@ -19,7 +18,7 @@ use crate::mechanics::translate::symbols::Symbols;
 use crate::model::types::{ConstraintId, Coordinate, Expr, JointId, LoopClosure, SolveHow};
 use crate::solve::Value as SolvedValue;
 use crate::symbolic::differentiate::Differentiator;
-use crate::symbolic::graph::{BlockKind, Graph, Scalar, SymbolId};
+use crate::symbolic::graph::{BlockKind, Scalar, SymbolId};
 use crate::symbolic::structured::solve_structured;
 
 use super::constraints::coordinate_name;
@@ -34,7 +33,7 @@ pub(in crate::mechanics) struct Reduction {
     /// Positions, velocities and accelerations, in symbols of the state and time.
     pub(in crate::mechanics) map: Map,
     /// Positions that linear couplings give, in terms of other coordinates of the tree.
-    coupled: Map,
+    pub(super) coupled: Map,
     /// Rates of the dependents, in velocities of the state and of driven coordinates; positions are symbols of the tree.
     pub(in crate::mechanics) rates: Vec<(usize, Scalar)>,
     /// Roots that vanish in dead centres, with the unknowns they belong to.
@@ -293,128 +292,10 @@ impl Equations<'_> {
         (first, second)
     }
 
-    /// Newton's method on the equations of a step, from the guess, a fixed number of times.
-    fn iterate(&mut self, step: &Step, newton: Newton, reduction: &mut Reduction) -> Vec<Definition> {
-        let Means::Newton { rows, guess } = &step.means else { return Vec::new() };
-        let size = step.unknowns.len();
-        let symbols: Vec<[Scalar; 3]> = step.unknowns.iter().map(|&u| self.coordinate_symbols(u)).collect();
-        let equations: Vec<Scalar> = rows.iter().map(|row| self.row(*row)).collect();
-        // A coupled coordinate may depend on the unknowns: it moves with them.
-        let equations = self.g.substitute(&equations, &reduction.coupled);
-        // What later steps find stands in them in form alone, as a point turned there and back: any value will do.
-        let later = self.later_unknowns(step);
-        let equations = self.g.substitute(&equations, &later);
-        let mut matrix = Vec::with_capacity(size * size);
-        for &equation in &equations {
-            for symbol in &symbols {
-                matrix.push(self.g.derivative(equation, &[(symbol[0], Scalar::ONE)]));
-            }
-        }
-        let (outputs, residual) = self.solve_by(newton, *guess, &symbols, [&equations, &matrix], &reduction.map);
-        reduction.residuals.push(residual);
-        reduction.matrices.push(matrix.clone());
-        reduction.guesses.extend(&outputs);
-        // Rates: J x' = -E', with everything on the tree.
-        let unknowns: Vec<(Scalar, Scalar)> = symbols.iter().map(|s| (s[1], s[2])).collect();
-        let derivatives: Vec<(Scalar, Scalar)> =
-            equations.iter().map(|&equation| self.implicit_rates(equation, &unknowns)).collect();
-        let first: Vec<Scalar> = derivatives.iter().map(|d| -d.0).collect();
-        let second: Vec<Scalar> = derivatives.iter().map(|d| -d.1).collect();
-        let [rates, accelerations] = self.solve_rates(size, &matrix, [&first, &second]);
-        let mut definitions = Vec::with_capacity(size);
-        for (k, &coordinate) in step.unknowns.iter().enumerate() {
-            let symbol = Symbol::Position { joint: coordinate.joint, component: coordinate.index };
-            let name = names::symbol(self.scene.model, symbol);
-            let position = self.g.name(outputs[k], || name);
-            definitions.push(Definition { coordinate, position, rate: rates[k], acceleration: accelerations[k] });
-        }
-        definitions
-    }
-
-    /// Values of unknowns, of which the guess holds those from number `guess` on, and the greatest residual. The equations and
-    /// their derivatives by the unknowns, row by row, are given on the tree.
-    fn solve_by(
-        &mut self,
-        newton: Newton,
-        guess: usize,
-        symbols: &[[Scalar; 3]],
-        [equations, matrix]: [&[Scalar]; 2],
-        known: &Map,
-    ) -> (Vec<Scalar>, Scalar) {
-        let size = symbols.len();
-        // Inside the loop the unknowns are symbols of its own; known coordinates are put in, so that the loop reads values.
-        let inner: Vec<Scalar> = (0..size).map(|k| self.scene.symbols.unknown(guess + k)).collect();
-        let mut map = known.clone();
-        let own: Vec<(Scalar, Scalar)> = symbols.iter().zip(&inner).map(|(symbol, &own)| (symbol[0], own)).collect();
-        map.extend(self.map(&own));
-        let values = self.g.substitute(equations, &map);
-        let entries = self.g.substitute(matrix, &map);
-        let step_by = self.eliminate(size, &entries, &values);
-        let next: Vec<Scalar> = inner.iter().zip(&step_by).map(|(&x, &d)| self.g.sub(x, d)).collect();
-        let g = &mut self.g;
-        let residual = values.iter().fold(Scalar::ZERO, |worst, &value| {
-            let size = g.call(crate::contracts::call::Call::Abs, &[value]);
-            if worst == Scalar::ZERO { size } else { g.call(crate::contracts::call::Call::Max, &[worst, size]) }
-        });
-        let ids = inner.iter().filter_map(|&s| g.symbol_id(s));
-        let kind = BlockKind::Iterate { unknowns: ids.collect(), count: ITERATIONS };
-        let start: Vec<Scalar> = (0..size).map(|k| self.scene.symbols.guess(guess + k)).collect();
-        match newton {
-            Newton::AtGuess => {
-                let known: Vec<(Scalar, Scalar)> = inner.iter().copied().zip(start.iter().copied()).collect();
-                let known = self.map(&known);
-                (start, self.g.substitute(&[residual], &known)[0])
-            }
-            Newton::Iterated => {
-                let operands: Vec<Scalar> = start.into_iter().chain(next).chain([residual]).collect();
-                let mut outputs = self.g.block_outputs(kind, &operands);
-                let residual = outputs.pop().or_fault("an iteration has a residual");
-                (outputs, residual)
-            }
-        }
-    }
-
-    /// Rates and accelerations from right-hand sides that are linear in what is known of them. Where few velocities are known,
-    /// the velocity map is solved for column by column: rates, the transposed map and the mass matrix are products with it. Else
-    /// the matrix is inverted, column by column.
-    fn solve_rates(&mut self, size: usize, matrix: &[Scalar], [first, second]: [&[Scalar]; 2]) -> [Vec<Scalar>; 2] {
-        let read: HashSet<usize> = self.g.reachable_scalars(first).into_iter().collect();
-        let velocities: Vec<Scalar> = self.scene.symbols.velocities.concat();
-        let known: Vec<Scalar> = velocities.into_iter().filter(|v| read.contains(&v.index())).collect();
-        if known.len() >= size {
-            let unit = |at: usize| (0..size).map(|k| if k == at { Scalar::ONE } else { Scalar::ZERO }).collect();
-            let units: Vec<Vec<Scalar>> = (0..size).map(unit).collect();
-            let columns: Vec<Vec<Scalar>> = units.iter().map(|unit| self.eliminate(size, matrix, unit)).collect();
-            return [first, second].map(|side| combined(&mut self.g, &columns, side, size));
-        }
-        let mut columns = Vec::with_capacity(known.len() + 1);
-        for &velocity in &known {
-            let mut along = Differentiator::new(&[(velocity, Scalar::ONE)]);
-            let side: Vec<Scalar> = first.iter().map(|&rate| along.scalar(&mut self.g, rate)).collect();
-            columns.push(self.eliminate(size, matrix, &side));
-        }
-        // What changes by time alone.
-        let still: Vec<(Scalar, Scalar)> = known.iter().map(|&velocity| (velocity, Scalar::ZERO)).collect();
-        let still = self.map(&still);
-        let rest = self.g.substitute(first, &still);
-        columns.push(self.eliminate(size, matrix, &rest));
-        let factors: Vec<Scalar> = known.into_iter().chain([Scalar::ONE]).collect();
-        [combined(&mut self.g, &columns, &factors, size), self.eliminate(size, matrix, second)]
-    }
-
     /// The solution of a square system that is regular but in singular poses.
     pub(in crate::mechanics) fn eliminate(&mut self, size: usize, matrix: &[Scalar], side: &[Scalar]) -> Vec<Scalar> {
         let operands: Vec<Scalar> = matrix.iter().chain(side).copied().collect();
         self.g.block_outputs(BlockKind::Eliminate { size }, &operands)
-    }
-
-    /// Unknowns of the steps behind this one, at zero.
-    fn later_unknowns(&self, step: &Step) -> Map {
-        let behind = self.scene.structure.steps.iter().skip_while(|other| other.unknowns != step.unknowns).skip(1);
-        let unknowns = behind.flat_map(|other| other.unknowns.iter().copied());
-        let pairs: Vec<(Scalar, Scalar)> =
-            unknowns.map(|unknown| (self.coordinate_symbols(unknown)[0], Scalar::ZERO)).collect();
-        self.map(&pairs)
     }
 
     /// A square system, solved by the structure of its matrix, and its rank.
@@ -469,17 +350,3 @@ impl Equations<'_> {
         list
     }
 }
-
-/// The sum of columns times factors.
-fn combined(g: &mut Graph, columns: &[Vec<Scalar>], factors: &[Scalar], size: usize) -> Vec<Scalar> {
-    let row = |row: usize| {
-        let terms: Vec<Scalar> =
-            columns.iter().zip(factors).map(|(column, &factor)| g.mul(column[row], factor)).collect();
-        g.sum(&terms)
-    };
-    (0..size).map(row).collect()
-}
-
-/// Rounds of Newton's method: from a guess of the last step, quadratic convergence needs three; a few more serve coarse
-/// guesses. The residual tells whether they were enough.
-const ITERATIONS: usize = 6;

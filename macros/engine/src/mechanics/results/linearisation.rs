@@ -210,7 +210,9 @@ impl Equations<'_> {
         let plain = |node: &ScalarNode| matches!(node, ScalarNode::Literal(_) | ScalarNode::Symbol(_));
         let g = &mut self.g;
         moves(value, slope, plain(g.node(value)));
-        if let ScalarNode::Angle(..) = *g.node(value) {
+        if let Some(angle) = g.angle_in(value) {
+            // A sum with it may have been taken apart: then it moves alone.
+            moves(angle, slope, false);
             let (cos, sin) = (g.cos(value), g.sin(value));
             let (by_cos, by_sin) = (-g.mul(sin, slope), g.mul(cos, slope));
             moves(cos, by_cos, plain(g.node(cos)));

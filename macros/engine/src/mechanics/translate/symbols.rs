@@ -33,6 +33,8 @@ pub struct Symbols {
     pub rates: Vec<Scalar>,
     guesses: Vec<Scalar>,
     unknowns: Vec<Scalar>,
+    /// By unknown of an iteration: cosine and sine, where it is an angle that is iterated as such.
+    points: Vec<[Scalar; 2]>,
 }
 
 /// Bits for coordinates outside the state, which stand-ins share.
@@ -51,6 +53,11 @@ impl Symbols {
         let solves = !structure.steps.is_empty() || !model.kinematics.is_empty();
         let unknowns = if solves { guesses + UNWANTED } else { 0 };
         self.unknowns = several(g, table, unknowns, |index| Symbol::Unknown { index });
+        let point = |k: usize| {
+            table.extend([0, 1].map(|part| Symbol::Unknown { index: unknowns + 2 * k + part }));
+            g.unit_circle()
+        };
+        self.points = (0..guesses).map(point).collect();
         self
     }
 
@@ -122,6 +129,11 @@ impl Symbols {
         self.unknowns[index]
     }
 
+    /// The same as a point on the circle.
+    pub fn unknown_point(&self, index: usize) -> [Scalar; 2] {
+        self.points[index]
+    }
+
     /// A placeholder for a coordinate of what closes a loop.
     pub fn unwanted(&self, number: usize) -> Scalar {
         self.unknown(self.guesses.len() + number)
@@ -187,6 +199,7 @@ impl Symbols {
             rates: Vec::new(),
             guesses: Vec::new(),
             unknowns: Vec::new(),
+            points: Vec::new(),
         }
     }
 

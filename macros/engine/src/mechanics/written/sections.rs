@@ -394,7 +394,7 @@ impl Sections {
             let of = |function| Formula::Apply(function, vec![name.clone()]);
             drafts.push(Draft { says, radicand, ..Draft::new(Subject::Cosine(coordinate), of(Function::Cos), cos) });
             drafts.push(Draft::new(Subject::Sine(coordinate), of(Function::Sin), sin));
-        } else if !matches!(e.g.node(position), ScalarNode::Output(..)) {
+        } else if !has_block(&e.g, position) {
             drafts.push(Draft { says, radicand, ..Draft::new(Subject::Position(coordinate), name, position) });
         }
     }

@@ -1,6 +1,6 @@
 //! Stage `model`: what is said once per model: `world`, `formulation`.
 //!
-//! In: their items. Out: gravity, what becomes of constraints, the independent coordinates.
+//! In: their items. Out: gravity, what becomes of constraints, the independent coordinates, rounds of Newton's method.
 
 use proc_macro2::Span;
 use syn::Expr;
@@ -19,7 +19,10 @@ use super::fields::{Known, field};
 const WORLD: Known<'static> = Known { required: &[], optional: &["gravity"] };
 
 const FORMULATION: Known<'static> =
-    Known { required: &[], optional: &["coordinates", "constraints", "independent", "rate", "position"] };
+    Known { required: &[], optional: &["coordinates", "constraints", "independent", "rounds", "rate", "position"] };
+
+/// More rounds of Newton's method than any guess is worth.
+const MOST_ROUNDS: usize = 50;
 
 const HANDLINGS: [&str; 4] = ["Multipliers", "Reduced", "Stabilised", "Auto"];
 
@@ -87,6 +90,24 @@ impl<'a> Checker<'a, '_> {
                     other,
                     HANDLINGS,
                     Some(format!("there are `{}`", HANDLINGS.join("`, `"))),
+                );
+                None
+            }
+        }
+    }
+
+    /// `rounds: 4`
+    pub(in crate::model) fn rounds(&mut self, fields: &'a tree::Fields, scope: ScopeId) -> Option<usize> {
+        let expr = field(fields, "rounds")?;
+        let rounds = self.whole_number(expr, root(scope))?;
+        match usize::try_from(rounds) {
+            Ok(rounds) if (1..=MOST_ROUNDS).contains(&rounds) => Some(rounds),
+            _ => {
+                let message = format!("expected a number of rounds from 1 to {MOST_ROUNDS}, found {rounds}");
+                self.report.help(
+                    expr.span(),
+                    message,
+                    "Newton's method doubles its digits in every round: three serve a guess that is near, six one that is not",
                 );
                 None
             }

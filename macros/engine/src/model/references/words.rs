@@ -10,7 +10,7 @@ type Room = &'static [(&'static str, &'static [&'static str])];
 
 const ITEM: Room = &[
     ("World", &["gravity"]),
-    ("Formulation", &["coordinates", "constraints", "independent", "rate", "position"]),
+    ("Formulation", &["coordinates", "constraints", "independent", "rounds", "rate", "position"]),
     ("Body", &["mass", "com", "inertia", "coordinates"]),
 ];
 
