@@ -12,7 +12,48 @@ use std::f64::consts::PI;
 use std::hint::black_box;
 use std::time::Instant;
 
-use multibody::Constrained;
+use multibody::{Constrained, multibody};
+
+/// Crank-rockers side by side, as equations.
+mod rows {
+    use super::multibody;
+    multibody! {
+    mod bar {
+        port shaft: Frame; port pivot: Frame;
+        body crank { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
+        body coupler { mass: 3.5, com: 1.75 * X, inertia: rod(3.5, 3.5, X) }
+        body rocker { mass: 3.0, com: 1.5 * X, inertia: rod(3.0, 3.0, X) }
+        joint turn: Revolute { parent: shaft, child: crank, axis: Z }
+        joint knee: Revolute { parent: crank.at(X), child: coupler, axis: Z }
+        joint swing: Revolute { parent: pivot, child: rocker, axis: Z }
+        #[cut] joint pin: Revolute { parent: coupler.at(3.5 * X), child: rocker.at(3.0 * X), axis: Z }
+    }
+    pub mod ten {
+        world { gravity: -9.81 * Y }
+        part bars: [bar; 10] = |i| bar { shaft: ground.at(5.0 * i * X), pivot: ground.at((5.0 * i + 4.0) * X) };
+        formulation { constraints: Multipliers }
+        emit forward_dynamics;
+    }
+    pub mod twenty {
+        world { gravity: -9.81 * Y }
+        part bars: [bar; 20] = |i| bar { shaft: ground.at(5.0 * i * X), pivot: ground.at((5.0 * i + 4.0) * X) };
+        formulation { constraints: Multipliers }
+        emit forward_dynamics;
+    }
+    pub mod forty {
+        world { gravity: -9.81 * Y }
+        part bars: [bar; 40] = |i| bar { shaft: ground.at(5.0 * i * X), pivot: ground.at((5.0 * i + 4.0) * X) };
+        formulation { constraints: Multipliers }
+        emit forward_dynamics;
+    }
+    pub mod sixty {
+        world { gravity: -9.81 * Y }
+        part bars: [bar; 60] = |i| bar { shaft: ground.at(5.0 * i * X), pivot: ground.at((5.0 * i + 4.0) * X) };
+        formulation { constraints: Multipliers }
+        emit forward_dynamics;
+    }
+    }
+}
 
 /// Evaluations in a row, and how often it is each one's turn.
 const ROW: usize = 200;
@@ -82,6 +123,7 @@ fn main() {
         iterated::wishbone_newton iterated::wishbone_near iterated::wishbone_multipliers iterated::sarrus_newton iterated::sarrus_near iterated::sarrus_multipliers
         iterated::stephenson_newton iterated::stephenson_near iterated::stephenson_multipliers
     }
+    forward! { list, rows::ten rows::twenty rows::forty rows::sixty }
     projection! { list, stewart::hybrid stewart::assumed_hybrid stewart::joint_coordinates stewart::assumed_joints }
     time(&mut list, ROW, TURNS);
     let unit = list[0].least;

@@ -58,4 +58,9 @@ pub enum Symbol {
     Unknown {
         index: usize,
     },
+    /// Cosine or sine (0, 1) of an unknown that is iterated as a point on the circle.
+    UnknownPoint {
+        index: usize,
+        component: usize,
+    },
 }

@@ -242,6 +242,7 @@ impl<'a> Scheduler<'a> {
             Kind::Symbol(symbol) => match self.dag.symbols[symbol.0] {
                 // Outside its iteration an unknown is read only by values that don't change with it.
                 Symbol::Unknown { .. } => (Expression::Literal(1.0), 1),
+                Symbol::UnknownPoint { component, .. } => (Expression::Literal([1.0, 0.0][component]), 1),
                 symbol => (Expression::Symbol(symbol), 1),
             },
             Kind::Sum(terms) => self.sum(id, terms),

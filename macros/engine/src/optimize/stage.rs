@@ -28,9 +28,11 @@ impl Stage {
         match symbol {
             Symbol::Param { .. } => Stage::Parameter,
             Symbol::Time => Stage::Time,
-            Symbol::Position { .. } | Symbol::State { .. } | Symbol::Guess { .. } | Symbol::Unknown { .. } => {
-                Stage::Position
-            }
+            Symbol::Position { .. }
+            | Symbol::State { .. }
+            | Symbol::Guess { .. }
+            | Symbol::Unknown { .. }
+            | Symbol::UnknownPoint { .. } => Stage::Position,
             Symbol::Velocity { .. } => Stage::Velocity,
             Symbol::Input { .. } | Symbol::Multiplier { .. } | Symbol::Rate { .. } => Stage::Input,
             Symbol::Impulse { .. } | Symbol::Momentum { .. } => Stage::Input,

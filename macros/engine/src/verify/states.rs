@@ -71,7 +71,7 @@ fn address(symbol: Symbol) -> (usize, usize, usize) {
         Symbol::Momentum { joint, component } => (9, joint.0, component),
         Symbol::Rate { row } => (10, row, 0),
         Symbol::Guess { index } => (11, index, 0),
-        Symbol::Unknown { .. } => (usize::MAX, 0, 0),
+        Symbol::Unknown { .. } | Symbol::UnknownPoint { .. } => (usize::MAX, 0, 0),
     }
 }
 
@@ -160,6 +160,8 @@ impl<'m> States<'m> {
                 None => wide * random.next(),
             },
             Symbol::Guess { .. } => 0.0,
+            // Outside its iteration only what is the same anywhere on the circle reads it.
+            Symbol::UnknownPoint { component, .. } => [0.6, 0.8][component],
             _ => {
                 let x = random.next();
                 size * if positive { x.abs() } else { x }

@@ -89,6 +89,7 @@ impl Case {
         for &symbol in &self.derivation.symbols {
             let value = match symbol {
                 Symbol::Param { param, element } => self.model.params[param].default[element],
+                Symbol::UnknownPoint { component, .. } => [0.6, 0.8][component],
                 _ => random.next(),
             };
             values.insert(symbol, value);

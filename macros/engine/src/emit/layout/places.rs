@@ -44,7 +44,7 @@ impl Root {
             Symbol::Rate { .. } => Root::Rates,
             Symbol::Momentum { .. } => Root::Momentum,
             Symbol::Guess { .. } => Root::Guess,
-            Symbol::Unknown { .. } => return None,
+            Symbol::Unknown { .. } | Symbol::UnknownPoint { .. } => return None,
         })
     }
 
@@ -96,7 +96,7 @@ impl Layout<'_> {
     /// Expands to the path behind its variable: `.legs[2].force`.
     pub(in crate::emit) fn path_of(&self, symbol: Symbol) -> TokenStream {
         let place = match symbol {
-            Symbol::Time | Symbol::Unknown { .. } => return TokenStream::new(),
+            Symbol::Time | Symbol::Unknown { .. } | Symbol::UnknownPoint { .. } => return TokenStream::new(),
             Symbol::Multiplier { row: index } | Symbol::Rate { row: index } => {
                 let index = Literal::usize_unsuffixed(index);
                 return quote!([#index]);

@@ -464,6 +464,8 @@ impl Equations<'_> {
                 let length = self.scene.model.joints[joint].kind.is_slide(component);
                 if length { scale * random } else { std::f64::consts::PI * random }
             }
+            // Any point of its circle is as good.
+            Some(&Symbol::UnknownPoint { component, .. }) => [0.6, 0.8][component],
             _ => random,
         }
     }

@@ -192,7 +192,8 @@ fn variable(model: &Model, symbol: Symbol) -> Option<Variable> {
         | Symbol::Momentum { .. }
         | Symbol::Rate { .. }
         | Symbol::Guess { .. }
-        | Symbol::Unknown { .. } => None,
+        | Symbol::Unknown { .. }
+        | Symbol::UnknownPoint { .. } => None,
     }
 }
 

@@ -54,7 +54,7 @@ impl Symbols {
         let unknowns = if solves { guesses + UNWANTED } else { 0 };
         self.unknowns = several(g, table, unknowns, |index| Symbol::Unknown { index });
         let point = |k: usize| {
-            table.extend([0, 1].map(|part| Symbol::Unknown { index: unknowns + 2 * k + part }));
+            table.extend([0, 1].map(|component| Symbol::UnknownPoint { index: k, component }));
             g.unit_circle()
         };
         self.points = (0..guesses).map(point).collect();
