@@ -6,6 +6,8 @@
 //! multipliers, since then loops cannot drift; Newton's method only where it costs less.
 
 mod assumable;
+mod closable;
+mod sides;
 mod solvable;
 
 use crate::contracts::cost::Cost;

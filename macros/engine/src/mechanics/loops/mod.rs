@@ -10,5 +10,6 @@ pub(super) mod known;
 pub(super) mod loop_equations;
 pub(super) mod reduction;
 pub(super) mod rotors;
+pub mod solutions;
 pub mod structure;
 pub(super) mod verification;

@@ -1,0 +1,166 @@
+//! Stage `mechanics`: all solutions of a loop in numbers.
+//!
+//! In: a `solve` item without conditions, poses. Out: what its closed form gives for every combination of the roots' signs, at these
+//! poses and at random ones, parameters moved at every other. Which combination goes through the poses, and what tells it from the
+//! others, is read off these numbers; nothing is decided here. Coordinates that other loops give are taken as they stand.
+
+use crate::contracts::symbol::Symbol;
+use crate::mechanics::analysis::Pose;
+use crate::mechanics::equations::Equations;
+use crate::model::types::{Coordinate, ParamId, Solve, SolveHow};
+use crate::solve::{KinematicLoop, Plan};
+use crate::symbolic::evaluate::{Evaluator, Real};
+use crate::symbolic::graph::{Scalar, SymbolId};
+
+use super::branches::unit;
+use super::reduction::Reduction;
+
+/// Random configurations, and how many are kept where something is real.
+const DRAWS: u64 = 900;
+const MOST_SAMPLES: usize = 40;
+
+/// How far parameters are moved at every other one.
+const MOVED: f64 = 0.2;
+
+/// Solutions beyond so many are not told apart.
+const MOST_SOLUTIONS: usize = 32;
+
+/// Solutions of one loop at one configuration.
+#[derive(Clone, Debug)]
+pub struct Sample {
+    /// By joint the components of its position.
+    pub positions: Vec<Vec<f64>>,
+    /// Parameters with numbers and elements, where they are not as declared.
+    pub parameters: Vec<((usize, usize), f64)>,
+    /// By solution the unknowns; nothing where they are not real, or not as assumed.
+    pub solutions: Vec<Option<Vec<f64>>>,
+}
+
+impl Sample {
+    /// A coordinate of the tree, in one of the solutions; nothing of a part of a quaternion.
+    pub fn value(&self, unknowns: &[Coordinate], solution: usize, coordinate: Coordinate) -> Option<f64> {
+        match unknowns.iter().position(|&unknown| unknown == coordinate) {
+            Some(at) => self.solutions[solution].as_ref().map(|list| list[at]),
+            None => self.positions.get(coordinate.joint.0)?.get(coordinate.index).copied(),
+        }
+    }
+}
+
+/// Solutions of one loop.
+#[derive(Clone, Debug)]
+pub struct Solutions {
+    /// At the poses that were given, in their order.
+    pub near: Vec<Sample>,
+    /// At random configurations where at least one is real.
+    pub wide: Vec<Sample>,
+}
+
+impl Equations<'_> {
+    /// Of a `solve` item; nothing where no closed form is found. Plans that served for other loops are tried first.
+    pub(in crate::mechanics) fn solutions_at(
+        &mut self,
+        number: usize,
+        poses: &[Pose],
+        plans: &mut Vec<Plan>,
+    ) -> Option<Solutions> {
+        let model = self.scene.model;
+        let item = &model.solves[number];
+        let SolveHow::From { closing, .. } = &item.how else { return None };
+        let cycle = self.cycle(*closing, item);
+        let alike = plans.iter().find_map(|plan| plan.adapted(&self.g, &cycle));
+        let plan = alike.or_else(|| Plan::new(&self.g, &cycle).ok())?;
+        if let Some(found) = self.tabulated(item, &cycle, &plan, poses) {
+            plans.push(plan);
+            return Some(found);
+        }
+        // An equation may say nothing with the declared parameters: others are looked for.
+        let value = |draw: u64| move |e: &Self, id: SymbolId| e.sample(id, draw, 1.0);
+        let [first, second] = [value(0), value(1)];
+        let points: [&dyn Fn(SymbolId) -> f64; 2] = [&|id| first(self, id), &|id| second(self, id)];
+        let plan = Plan::at(&self.g, &cycle, &points).ok()?;
+        self.tabulated(item, &cycle, &plan, poses)
+    }
+
+    /// Nothing where no solution is real at the first pose.
+    fn tabulated(&mut self, item: &Solve, cycle: &KinematicLoop, plan: &Plan, poses: &[Pose]) -> Option<Solutions> {
+        let choices = self.solutions(cycle, plan).ok().filter(|choices| choices.len() <= MOST_SOLUTIONS)?;
+        let unknowns: Vec<Scalar> = item.unknowns.iter().map(|&u| self.coordinate_symbols(u)[0]).collect();
+        let model = self.scene.model;
+        let assumed: Vec<Scalar> = model.assumptions.iter().map(|condition| self.scalar(condition)).collect();
+        let asked = [&unknowns[..], &assumed].concat();
+        let mut roots = Vec::with_capacity(choices.len() * asked.len());
+        for (_, solved) in choices {
+            let map = self.solution_map(&solved, &Reduction::default());
+            roots.extend(self.g.substitute(&asked, &map));
+        }
+        let solutions = |value: &dyn Fn(SymbolId) -> f64| -> Vec<Option<Vec<f64>>> {
+            let values = Evaluator::new(&self.g, Real { symbols: &value }).run(&roots);
+            let each = values.chunks(asked.len()).map(|values| {
+                let (found, masks) = values.split_at(unknowns.len());
+                let is_real = found.iter().all(|x| x.is_finite()) && masks.iter().all(|&mask| mask != 0.0);
+                is_real.then(|| found.to_vec())
+            });
+            each.collect()
+        };
+        let near = poses.iter().map(|pose| Sample {
+            positions: pose.positions.clone(),
+            parameters: pose.parameters.clone(),
+            solutions: solutions(&|id| self.at_pose(pose, id)),
+        });
+        let near: Vec<Sample> = near.collect();
+        if near.first().is_none_or(|sample| sample.solutions.iter().all(Option::is_none)) {
+            return None;
+        }
+        let mut wide = Vec::new();
+        for draw in 0..DRAWS {
+            if wide.len() == MOST_SAMPLES {
+                break;
+            }
+            let value = |id: SymbolId| self.drawn(id, draw);
+            let solutions = solutions(&value);
+            if solutions.iter().any(Option::is_some) {
+                let (positions, parameters) = self.read_off(&value);
+                wide.push(Sample { positions, parameters, solutions });
+            }
+        }
+        Some(Solutions { near, wide })
+    }
+
+    /// At time zero.
+    fn at_pose(&self, pose: &Pose, id: SymbolId) -> f64 {
+        match self.scene.symbols.table.get(id.0) {
+            Some(&Symbol::Position { joint, component }) => pose.positions[joint.0][component],
+            Some(&Symbol::Param { param: ParamId(param), element }) => {
+                let moved = pose.parameters.iter().find(|moved| moved.0 == (param, element));
+                moved.map_or_else(|| self.scene.model.params[ParamId(param)].default[element], |moved| moved.1)
+            }
+            _ => 0.0,
+        }
+    }
+
+    fn drawn(&self, id: SymbolId, draw: u64) -> f64 {
+        // Lengths of any size: metres to millimetres.
+        let scale = 10_f64.powf(1.0 - 4.0 * unit(draw, 0));
+        let value = self.sample(id, draw, scale);
+        let is_parameter = matches!(self.scene.symbols.table.get(id.0), Some(Symbol::Param { .. }));
+        match is_parameter && draw % 2 == 1 {
+            true => value + MOVED * (2.0 * unit(draw, id.0 as u64 + 1) - 1.0) * if value == 0.0 { 1.0 } else { value },
+            false => value,
+        }
+    }
+
+    fn read_off(&self, value: &dyn Fn(SymbolId) -> f64) -> (Vec<Vec<f64>>, Vec<((usize, usize), f64)>) {
+        let of = |&symbol: &Scalar| self.g.symbol_id(symbol).map_or(0.0, value);
+        let positions = self.scene.symbols.positions.iter();
+        let positions = positions.map(|list| list.iter().map(of).collect()).collect();
+        let table = self.scene.symbols.table.iter().enumerate();
+        let parameters = table.filter_map(|(id, symbol)| match *symbol {
+            Symbol::Param { param, element } => {
+                let found = value(SymbolId(id));
+                (found != self.scene.model.params[param].default[element]).then_some(((param.0, element), found))
+            }
+            _ => None,
+        });
+        (positions, parameters.collect())
+    }
+}
