@@ -6,16 +6,17 @@
 
 use std::collections::BTreeMap;
 
+use crate::mechanics;
 use crate::mechanics::analysis::{Closable, Pose, closable};
 use crate::mechanics::loops::advice::Solvable;
-use crate::mechanics::loops::constraints::{closing_name, coordinate_name, local_name, parameter_name, place_of};
+use crate::mechanics::loops::constraints::{closing_name, coordinate_name, local_name, place_of};
 use crate::mechanics::loops::solutions::Solutions;
 use crate::mechanics::loops::structure::Structure;
-use crate::mechanics::{self};
-use crate::model::formulated::{ClosedForm, Origin};
-use crate::model::types::{Coordinate, InstanceId, Model, ParamId, PartTypeId};
+use crate::model::formulated::{Beyond, ClosedForm, Origin, Side};
+use crate::model::types::{ConstraintKind, Coordinate, Directions, InstanceId, LoopClosure, Model, PartTypeId};
 
 use super::sides::sides;
+use super::wording::Wording;
 
 /// As many closed forms are looked for, since each takes a search.
 const MOST_TRIED: usize = 40;
@@ -34,7 +35,7 @@ pub(super) fn lines(model: &Model, structure: &Structure) -> Vec<Line> {
     for form in forms {
         match local(model, &form) {
             Some((part, instance, text)) => of_parts.entry((part, text)).or_default().push((instance, form)),
-            None => lines.push(alone(model, form)),
+            None => lines.extend(alone(model, form)),
         }
     }
     for ((part, text), list) in of_parts {
@@ -44,7 +45,7 @@ pub(super) fn lines(model: &Model, structure: &Structure) -> Vec<Line> {
             let part = Some(model.part_types[part].name.to_string());
             lines.push(Line { forms: list.into_iter().map(|one| one.1).collect(), told: Solvable { part, text } });
         } else {
-            lines.extend(list.into_iter().map(|(_, form)| alone(model, form)));
+            lines.extend(list.into_iter().filter_map(|(_, form)| alone(model, form)));
         }
     }
     lines
@@ -56,6 +57,7 @@ fn forms(model: &Model, structure: &Structure, loops: &[Closable], poses: &[Pose
         unknowns: unknowns.to_vec(),
         closing: one.closing,
         sides: Vec::new(),
+        beyond: beyond(model, one.closing, unknowns),
     };
     let tried = loops.iter().flat_map(|one| one.unknowns.iter().map(move |unknowns| (one, unknowns)));
     let tried: Vec<(&Closable, &Vec<Coordinate>)> = tried.take(MOST_TRIED).collect();
@@ -68,50 +70,64 @@ fn forms(model: &Model, structure: &Structure, loops: &[Closable], poses: &[Pose
             known.closing == form.closing || known.unknowns.iter().any(|unknown| unknowns.contains(unknown))
         });
         let Some(solutions) = solutions.filter(|_: &Solutions| !is_taken) else { continue };
-        if let Some(sides) = sides(model, one, unknowns, poses, &solutions) {
-            forms.push(ClosedForm { sides, ..form });
+        if let Some(choice) = sides(model, one, unknowns, poses, &solutions) {
+            let beyond = form.beyond.zip(choice.offered).map(|(beyond, is_above)| Beyond { is_above, ..beyond });
+            forms.push(ClosedForm { sides: choice.sides, beyond, ..form });
         }
     }
     forms
 }
 
-fn alone(model: &Model, form: ClosedForm) -> Line {
+/// What could choose between the solutions of a hinge at the end of whose arm a rod begins.
+fn beyond(model: &Model, closing: LoopClosure, unknowns: &[Coordinate]) -> Option<Beyond> {
+    let (LoopClosure::Constraint(id), [unknown]) = (closing, unknowns) else { return None };
+    let ConstraintKind::Rod { between, .. } = &model.constraints[id].kind else { return None };
+    let joint = &model.joints[unknown.joint];
+    let Directions::Axis(axis) = &joint.directions else { return None };
+    if joint.kind.freedoms() != 1 || joint.kind.is_slide(0) {
+        return None;
+    }
+    let near = between.iter().position(|end| end.body == joint.child.body)?;
+    Some(Beyond {
+        hinge: joint.child.clone(),
+        axis: axis.clone(),
+        near: between[near].clone(),
+        far: between[1 - near].clone(),
+        is_above: true,
+    })
+}
+
+/// For the model itself, with all names in full. What has no text can't be told.
+fn alone(model: &Model, form: ClosedForm) -> Option<Line> {
     let name = |coordinate: Coordinate| coordinate_name(model, coordinate);
-    let parameter = |of: ParamId| parameter_name(model, of);
-    let text = text(model, &form, &closing_name(model, form.closing), name, parameter);
-    Line { forms: vec![form], told: Solvable { part: None, text } }
+    let text = text(Wording { model, part: None }, &form, &closing_name(model, form.closing), name)?;
+    Some(Line { forms: vec![form], told: Solvable { part: None, text } })
 }
 
 /// As it stands in the part that all names are of.
 fn local(model: &Model, form: &ClosedForm) -> Option<(PartTypeId, InstanceId, String)> {
     let place = place_of(model, form.closing);
     let part = model.instances[place.instance].part_type?;
-    let sides = form.sides.iter();
-    let coordinates = sides.clone().flat_map(|side| side.terms.iter().map(|term| term.0)).chain(form.unknowns.clone());
-    let joints = coordinates.map(|coordinate| model.joints[coordinate.joint].place.instance);
-    let parameters = sides.filter_map(|side| match side.from {
-        Origin::Parameter { of, .. } => Some(model.params[of].place.instance),
-        Origin::Number(_) => None,
-    });
-    if joints.chain(parameters).any(|instance| instance != place.instance) {
+    let sides = form.sides.iter().flat_map(|side| side.terms.iter().map(|term| term.0));
+    let mut coordinates = sides.chain(form.unknowns.iter().copied());
+    if coordinates.any(|coordinate| model.joints[coordinate.joint].place.instance != place.instance) {
         return None;
     }
     let name = |coordinate: Coordinate| local_name(model, coordinate);
-    let parameter = |of: ParamId| model.params[of].place.field.to_string();
-    Some((part, place.instance, text(model, form, &place.field.to_string(), name, parameter)))
+    let wording = Wording { model, part: Some(place.instance) };
+    Some((part, place.instance, text(wording, form, &place.field.to_string(), name)?))
 }
 
 /// `solve (gimbal, stroke) from ball { stroke > -1.0, cos(gimbal.second) > 0.0 }`
 fn text(
-    model: &Model,
+    wording: Wording<'_>,
     form: &ClosedForm,
     closing: &str,
     name: impl Fn(Coordinate) -> String,
-    parameter: impl Fn(ParamId) -> String,
-) -> String {
+) -> Option<String> {
     let mut unknowns: Vec<String> = Vec::new();
     for &unknown in &form.unknowns {
-        let freedoms = model.joints[unknown.joint].kind.freedoms();
+        let freedoms = wording.model.joints[unknown.joint].kind.freedoms();
         let is_own = |other: &&Coordinate| other.joint == unknown.joint;
         let own: Vec<&Coordinate> = form.unknowns.iter().filter(is_own).collect();
         // A joint stands for all that it has.
@@ -123,7 +139,17 @@ fn text(
             unknowns.push(joint.to_owned());
         }
     }
-    let sides: Vec<String> = form.sides.iter().map(|side| side.text(&name, &parameter)).collect();
-    let conditions = if sides.is_empty() { "{}".to_owned() } else { format!("{{ {} }}", sides.join(", ")) };
-    format!("solve ({}) from {closing} {conditions}", unknowns.join(", "))
+    let parameters = |side: &Side| match side.from {
+        Origin::Parameter { of, .. } => wording.parameter(of),
+        Origin::Number(_) => Some(String::new()),
+    };
+    let side = |side: &Side| parameters(side).map(|parameter| side.text(&name, &parameter));
+    let mut conditions: Vec<String> = form.sides.iter().map(side).collect::<Option<_>>()?;
+    if let Some(beyond) = &form.beyond {
+        let [hinge, near, far] = [&beyond.hinge, &beyond.near, &beyond.far].map(|frame| wording.frame(frame));
+        conditions.push(beyond.text(&[hinge?, wording.expression(&beyond.axis)?, near?, far?]));
+    }
+    let conditions =
+        if conditions.is_empty() { "{}".to_owned() } else { format!("{{ {} }}", conditions.join(", ")) };
+    Some(format!("solve ({}) from {closing} {conditions}", unknowns.join(", ")))
 }

@@ -37,6 +37,17 @@ const MOST_SIDES: usize = 4;
 /// Decimals that a middle may have to be one.
 const DECIMALS: f64 = 1e6;
 
+/// From such a margin on there is room enough.
+const ROOM: f64 = 0.3;
+
+/// What chooses a solution.
+#[derive(Default)]
+pub(super) struct Choice {
+    pub sides: Vec<Side>,
+    /// Whether the condition that was offered holds, where that alone tells solutions apart.
+    pub offered: Option<bool>,
+}
+
 /// A condition, and what is known of it.
 struct Candidate {
     side: Side,
@@ -56,20 +67,28 @@ pub(super) fn sides(
     unknowns: &[Coordinate],
     poses: &[Pose],
     solutions: &Solutions,
-) -> Option<Vec<Side>> {
+) -> Option<Choice> {
     let looked = Looked { model, loop_, unknowns, poses, solutions };
     let own = looked.own()?;
     let others = looked.others(own)?;
     if others.is_empty() {
-        return Some(Vec::new());
+        return Some(Choice::default());
     }
     let mut candidates = looked.candidates(own, &others);
+    // Of margins that are large the first is taken, which is the same one in identical parts.
+    let room = |one: &Candidate| one.margin.min(ROOM);
     let order = |a: &Candidate, b: &Candidate| {
         let terms = a.side.terms.len().cmp(&b.side.terms.len());
-        b.is_exact.cmp(&a.is_exact).then(terms).then(b.margin.total_cmp(&a.margin))
+        b.is_exact.cmp(&a.is_exact).then(terms).then(room(b).total_cmp(&room(a)))
     };
     candidates.sort_by(order);
-    let mut left: Vec<usize> = (0..others.len()).collect();
+    let chosen = chosen(&candidates, others.len());
+    chosen.map(|sides| Choice { sides, offered: None }).or_else(|| looked.offered(own, &others))
+}
+
+/// As few conditions as exclude all other solutions.
+fn chosen(candidates: &[Candidate], others: usize) -> Option<Vec<Side>> {
+    let mut left: Vec<usize> = (0..others).collect();
     let mut chosen: Vec<Side> = Vec::new();
     while !left.is_empty() && chosen.len() < MOST_SIDES {
         // What excludes most; of those that exclude as many the first.
@@ -79,6 +98,7 @@ pub(super) fn sides(
         left.retain(|&k| !best.excludes[k]);
         chosen.push(best.side.clone());
     }
+    chosen.sort_by(|a, b| a.terms.cmp(&b.terms));
     left.is_empty().then_some(chosen)
 }
 
@@ -141,6 +161,20 @@ impl Looked<'_> {
             if is_length { (a - b).abs() / (a.abs() + b.abs()).max(f64::MIN_POSITIVE) } else { wrapped(a - b, TAU).abs() }
         });
         apart.reduce(f64::max)
+    }
+
+    /// What the offered condition is for the own solution, if it is the opposite for all others wherever they are apart.
+    fn offered(&self, own: usize, others: &[usize]) -> Option<Choice> {
+        let first = self.solutions.near.first()?;
+        let &is_so = first.holds[own].first()?;
+        let margin = others.iter().filter_map(|&other| self.distance(first, own, other)).reduce(f64::min);
+        let decides = |sample: &Sample, other: usize| match self.distance(sample, own, other) {
+            Some(distance) if distance >= APART => sample.holds[own][0] == is_so && sample.holds[other][0] != is_so,
+            _ => true,
+        };
+        let is_clear = margin.is_some_and(|margin| margin >= 2.0 * MARGIN);
+        let is_decided = others.iter().all(|&other| self.samples().all(|sample| decides(sample, other)));
+        (is_clear && is_decided).then(|| Choice { sides: Vec::new(), offered: Some(is_so) })
     }
 
     fn candidates(&self, own: usize, others: &[usize]) -> Vec<Candidate> {

@@ -5,7 +5,8 @@
 use proc_macro2::Span;
 
 use super::types::{
-    Comparison, Coordinate, Expr, ExprNode, Function, LoopClosure, Model, Order, ParamId, Solve, SolveHow, Type,
+    Comparison, Coordinate, Expr, ExprNode, Frame, FrameQuantity, Function, LoopClosure, Model, Order, ParamId, Solve,
+    SolveHow, Type,
 };
 
 /// What a coordinate is.
@@ -17,11 +18,49 @@ pub enum Formula {
 }
 
 /// What is found from one closing, on the branch where all these conditions hold.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone)]
 pub struct ClosedForm {
     pub unknowns: Vec<Coordinate>,
     pub closing: LoopClosure,
     pub sides: Vec<Side>,
+    pub beyond: Option<Beyond>,
+}
+
+/// On which side of a hinge's arm something lies that a rod from the arm's end leads to: on the plane through the hinge's axis and that
+/// end the two solutions of the hinge's angle meet.
+#[derive(Clone)]
+pub struct Beyond {
+    /// Of the joint, on the body that it carries.
+    pub hinge: Frame,
+    /// Its direction there.
+    pub axis: Expr,
+    /// The rod's ends: on the arm, and the other one.
+    pub near: Frame,
+    pub far: Frame,
+    pub is_above: bool,
+}
+
+impl Beyond {
+    /// As it stands between the braces of a `solve`.
+    pub fn text(&self, [hinge, axis, near, far]: &[String; 4]) -> String {
+        let sign = if self.is_above { '>' } else { '<' };
+        let from = |end: &str| format!("{hinge}.express({end}.position - {hinge}.position)");
+        format!("dot({axis}, cross({}, {})) {sign} 0.0", from(near), from(far))
+    }
+
+    fn condition(&self, span: Span) -> Expr {
+        let vector = |node: ExprNode| Expr::new(node, Type::Vec3, span);
+        let scalar = |node: ExprNode| Expr::new(node, Type::Scalar, span);
+        let position = |frame: &Frame| vector(ExprNode::OfFrame(frame.clone(), FrameQuantity::Position));
+        let from = |end: &Frame| {
+            let way = vector(ExprNode::Sub(position(end), position(&self.hinge)));
+            vector(ExprNode::Express { frame: self.hinge.clone(), vector: way })
+        };
+        let normal = vector(ExprNode::Call(Function::Cross, vec![from(&self.near), from(&self.far)]));
+        let value = scalar(ExprNode::Call(Function::Dot, vec![self.axis.clone(), normal]));
+        let comparison = if self.is_above { Comparison::Greater } else { Comparison::Less };
+        Expr::new(ExprNode::Compare(comparison, value, scalar(ExprNode::Number(0.0))), Type::Bool, span)
+    }
 }
 
 /// A condition that tells solutions of a loop apart: of a sum of angles, or of a length.
@@ -52,8 +91,8 @@ pub enum Origin {
 }
 
 impl Side {
-    /// As it stands between the braces of a `solve`.
-    pub fn text(&self, name: impl Fn(Coordinate) -> String, parameter: impl Fn(ParamId) -> String) -> String {
+    /// As it stands between the braces of a `solve`; the parameter is named where it counts from one.
+    pub fn text(&self, name: impl Fn(Coordinate) -> String, parameter: &str) -> String {
         let mut sum = String::new();
         for &(coordinate, is_subtracted) in &self.terms {
             match (sum.is_empty(), is_subtracted) {
@@ -66,7 +105,7 @@ impl Side {
         let sign = if self.is_above { '>' } else { '<' };
         let from = match self.from {
             Origin::Number(value) => format!("{value:?}"),
-            Origin::Parameter { of, is_negative } => format!("{}{}", if is_negative { "-" } else { "" }, parameter(of)),
+            Origin::Parameter { is_negative, .. } => format!("{}{parameter}", if is_negative { "-" } else { "" }),
         };
         let word = match self.measure {
             Measure::Travel => return format!("{sum} {sign} {from}"),
@@ -123,7 +162,8 @@ impl Model {
         for form in forms {
             let Some(first) = form.unknowns.first() else { continue };
             let span = model.joints[first.joint].span;
-            let branches = form.sides.iter().map(|side| side.condition(span)).collect();
+            let beyond = form.beyond.iter().map(|beyond| beyond.condition(span));
+            let branches = form.sides.iter().map(|side| side.condition(span)).chain(beyond).collect();
             let how = SolveHow::From { closing: form.closing, branches };
             model.solves.push(Solve { unknowns: form.unknowns.clone(), how, span });
         }

@@ -16,7 +16,7 @@ const STANDS: f64 = 1e-9;
 #[derive(Clone, Debug)]
 pub struct Closable {
     pub closing: LoopClosure,
-    /// As many as its equations; the best first.
+    /// Lists of as many as its equations, of those that Newton's method finds.
     pub unknowns: Vec<Vec<Coordinate>>,
     /// Coordinates of its loop, unknowns among them: those that are angles, and those that are lengths.
     pub angles: Vec<Coordinate>,
@@ -94,12 +94,7 @@ fn of_closing(model: &Model, structure: &Structure, problem: &Problem, closing: 
     let others = super::closings(model).into_iter().filter(|&other| other != closing);
     let shared: Vec<usize> = others.flat_map(of).collect();
     let own: Vec<Coordinate> = columns.iter().filter(|column| !shared.contains(column)).map(coordinate).collect();
-    offer(own.iter().copied().filter(|one| found.contains(one)).collect());
-    let is_free = |one: &Coordinate| {
-        let is_given = structure.role(*one) == Role::State && model.independent.contains(one);
-        found.contains(one) || (structure.role(*one) == Role::State && !is_given)
-    };
-    offer(own.into_iter().filter(is_free).collect());
+    offer(own.into_iter().filter(|one| found.contains(one)).collect());
     // A quaternion has no formulas.
     let turns = |one: &Coordinate| problem.columns.iter().any(|column| column.turns && column.coordinate == *one);
     unknowns.retain(|list| !list.iter().any(turns));

@@ -44,7 +44,7 @@ use crate::model::types::{ConstraintId, ConstraintKind, JointId, LoopClosure, Mo
 use crate::symbolic::graph::Scalar;
 
 pub use names::{
-    closing_name, coordinate_name, local_name, parameter_name, place_of, row_name, unfit,
+    body_name, closing_name, coordinate_name, local_name, parameter_name, place_of, row_name, unfit,
 };
 pub(in crate::mechanics) use names::{path, row_called, rows_of_joint};
 pub use wrenches::Held;

@@ -1,13 +1,13 @@
 //! Stage `mechanics`: all solutions of a loop in numbers.
 //!
-//! In: a `solve` item without conditions, poses. Out: what its closed form gives for every combination of the roots' signs, at these
-//! poses and at random ones, parameters moved at every other. Which combination goes through the poses, and what tells it from the
-//! others, is read off these numbers; nothing is decided here. Coordinates that other loops give are taken as they stand.
+//! In: a `solve` item, poses. Out: what its closed form gives for every combination of the roots' signs, at these poses and at random
+//! ones, parameters moved at every other, and where its conditions hold. Which combination goes through the poses, and what tells it
+//! from the others, is read off these numbers; nothing is decided here. Coordinates that other loops give are taken as they stand.
 
 use crate::contracts::symbol::Symbol;
 use crate::mechanics::analysis::Pose;
 use crate::mechanics::equations::Equations;
-use crate::model::types::{Coordinate, ParamId, Solve, SolveHow};
+use crate::model::types::{Coordinate, Expr, ParamId, Solve, SolveHow};
 use crate::solve::{KinematicLoop, Plan};
 use crate::symbolic::evaluate::{Evaluator, Real};
 use crate::symbolic::graph::{Scalar, SymbolId};
@@ -34,6 +34,8 @@ pub struct Sample {
     pub parameters: Vec<((usize, usize), f64)>,
     /// By solution the unknowns; nothing where they are not real, or not as assumed.
     pub solutions: Vec<Option<Vec<f64>>>,
+    /// By solution whether each of the item's conditions holds.
+    pub holds: Vec<Vec<bool>>,
 }
 
 impl Sample {
@@ -65,11 +67,11 @@ impl Equations<'_> {
     ) -> Option<Solutions> {
         let model = self.scene.model;
         let item = &model.solves[number];
-        let SolveHow::From { closing, .. } = &item.how else { return None };
+        let SolveHow::From { closing, branches } = &item.how else { return None };
         let cycle = self.cycle(*closing, item);
         let alike = plans.iter().find_map(|plan| plan.adapted(&self.g, &cycle));
         let plan = alike.or_else(|| Plan::new(&self.g, &cycle).ok())?;
-        if let Some(found) = self.tabulated(item, &cycle, &plan, poses) {
+        if let Some(found) = self.tabulated(item, branches, &cycle, &plan, poses) {
             plans.push(plan);
             return Some(found);
         }
@@ -78,51 +80,55 @@ impl Equations<'_> {
         let [first, second] = [value(0), value(1)];
         let points: [&dyn Fn(SymbolId) -> f64; 2] = [&|id| first(self, id), &|id| second(self, id)];
         let plan = Plan::at(&self.g, &cycle, &points).ok()?;
-        self.tabulated(item, &cycle, &plan, poses)
+        self.tabulated(item, branches, &cycle, &plan, poses)
     }
 
     /// Nothing where no solution is real at the first pose.
-    fn tabulated(&mut self, item: &Solve, cycle: &KinematicLoop, plan: &Plan, poses: &[Pose]) -> Option<Solutions> {
+    fn tabulated(
+        &mut self,
+        item: &Solve,
+        conditions: &[Expr],
+        cycle: &KinematicLoop,
+        plan: &Plan,
+        poses: &[Pose],
+    ) -> Option<Solutions> {
         let choices = self.solutions(cycle, plan).ok().filter(|choices| choices.len() <= MOST_SOLUTIONS)?;
         let unknowns: Vec<Scalar> = item.unknowns.iter().map(|&u| self.coordinate_symbols(u)[0]).collect();
         let model = self.scene.model;
         let assumed: Vec<Scalar> = model.assumptions.iter().map(|condition| self.scalar(condition)).collect();
-        let asked = [&unknowns[..], &assumed].concat();
+        let conditions: Vec<Scalar> = conditions.iter().map(|condition| self.scalar(condition)).collect();
+        let asked = [&unknowns[..], &conditions, &assumed].concat();
+        let count = conditions.len();
         let mut roots = Vec::with_capacity(choices.len() * asked.len());
         for (_, solved) in choices {
             let map = self.solution_map(&solved, &Reduction::default());
             roots.extend(self.g.substitute(&asked, &map));
         }
-        let solutions = |value: &dyn Fn(SymbolId) -> f64| -> Vec<Option<Vec<f64>>> {
+        let sample = |value: &dyn Fn(SymbolId) -> f64, positions, parameters| -> Sample {
             let values = Evaluator::new(&self.g, Real { symbols: &value }).run(&roots);
-            let each = values.chunks(asked.len()).map(|values| {
+            let (mut solutions, mut holds) = (Vec::new(), Vec::new());
+            for values in values.chunks(asked.len()) {
                 let (found, masks) = values.split_at(unknowns.len());
-                let is_real = found.iter().all(|x| x.is_finite()) && masks.iter().all(|&mask| mask != 0.0);
-                is_real.then(|| found.to_vec())
-            });
-            each.collect()
+                let (own, assumed) = masks.split_at(count);
+                let is_real = found.iter().all(|x| x.is_finite()) && assumed.iter().all(|&mask| mask != 0.0);
+                solutions.push(is_real.then(|| found.to_vec()));
+                holds.push(own.iter().map(|&mask| mask != 0.0).collect());
+            }
+            Sample { positions, parameters, solutions, holds }
         };
-        let near = poses.iter().map(|pose| Sample {
-            positions: pose.positions.clone(),
-            parameters: pose.parameters.clone(),
-            solutions: solutions(&|id| self.at_pose(pose, id)),
-        });
-        let near: Vec<Sample> = near.collect();
-        if near.first().is_none_or(|sample| sample.solutions.iter().all(Option::is_none)) {
+        let is_real = |sample: &Sample| sample.solutions.iter().any(Option::is_some);
+        let at_pose =
+            |pose: &Pose| sample(&|id| self.at_pose(pose, id), pose.positions.clone(), pose.parameters.clone());
+        let near: Vec<Sample> = poses.iter().map(at_pose).collect();
+        if !near.first().is_some_and(is_real) {
             return None;
         }
-        let mut wide = Vec::new();
-        for draw in 0..DRAWS {
-            if wide.len() == MOST_SAMPLES {
-                break;
-            }
+        let draws = (0..DRAWS).map(|draw| {
             let value = |id: SymbolId| self.drawn(id, draw);
-            let solutions = solutions(&value);
-            if solutions.iter().any(Option::is_some) {
-                let (positions, parameters) = self.read_off(&value);
-                wide.push(Sample { positions, parameters, solutions });
-            }
-        }
+            let (positions, parameters) = self.read_off(&value);
+            sample(&value, positions, parameters)
+        });
+        let wide = draws.filter(is_real).take(MOST_SAMPLES).collect();
         Some(Solutions { near, wide })
     }
 

@@ -6,7 +6,7 @@
 
 use crate::model::joint_kinds::Hold;
 use crate::model::types::Constraint;
-use crate::model::types::{Coordinate, Directions, Expr, ExprNode, Joint, JointId, LoopClosure, Model, ParamId, Place};
+use crate::model::types::{BodyId, Coordinate, Directions, Expr, ExprNode, Joint, JointId, LoopClosure, Model, ParamId, Place};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -59,6 +59,11 @@ pub fn place_of(model: &Model, closing: LoopClosure) -> &Place {
         LoopClosure::Cut(id) => &model.joints[id].place,
         LoopClosure::Constraint(id) => &model.constraints[id].place,
     }
+}
+
+/// A body as the user addresses it.
+pub fn body_name(model: &Model, body: BodyId) -> String {
+    path(model, &model.bodies[body].place)
 }
 
 /// A parameter as the user addresses it.
