@@ -6,8 +6,9 @@
 
 use std::collections::BTreeMap;
 
+use crate::invariant::fault::guard;
 use crate::mechanics;
-use crate::mechanics::analysis::{Closable, Pose, closable};
+use crate::mechanics::analysis::{Closable, Pose, analyse, closable};
 use crate::mechanics::loops::advice::Solvable;
 use crate::mechanics::loops::constraints::{closing_name, coordinate_name, local_name, place_of};
 use crate::mechanics::loops::solutions::Solutions;
@@ -27,8 +28,9 @@ pub(super) struct Line {
     pub told: Solvable,
 }
 
-pub(super) fn lines(model: &Model, structure: &Structure) -> Vec<Line> {
-    let Some((loops, poses)) = closable(model, structure) else { return Vec::new() };
+/// With the poses at which they have to agree with Newton's method.
+pub(super) fn lines(model: &Model, structure: &Structure) -> (Vec<Line>, Vec<Pose>) {
+    let Some((loops, poses)) = closable(model, structure) else { return Default::default() };
     let forms = forms(model, structure, &loops, &poses);
     let mut of_parts: BTreeMap<(PartTypeId, String), Vec<(InstanceId, ClosedForm)>> = BTreeMap::new();
     let mut lines: Vec<Line> = Vec::new();
@@ -48,7 +50,13 @@ pub(super) fn lines(model: &Model, structure: &Structure) -> Vec<Line> {
             lines.extend(list.into_iter().filter_map(|(_, form)| alone(model, form)));
         }
     }
-    lines
+    (lines, poses)
+}
+
+/// Whether loops that are closed so stand as Newton's method has them at some poses.
+pub(super) fn agrees(model: &Model, poses: &[Pose]) -> bool {
+    let agrees = |structure: &Structure| mechanics::agrees(model, structure, poses).ok();
+    analyse(model).ok().and_then(|structure| agrees(&structure)).unwrap_or(false)
 }
 
 /// One for each loop that has one.
@@ -63,7 +71,9 @@ fn forms(model: &Model, structure: &Structure, loops: &[Closable], poses: &[Pose
     let tried: Vec<(&Closable, &Vec<Coordinate>)> = tried.take(MOST_TRIED).collect();
     let all: Vec<ClosedForm> = tried.iter().map(|(one, unknowns)| bare(one, unknowns)).collect();
     let with = model.closing(&all);
-    let Ok(found) = mechanics::solutions(&with, structure, model.solves.len(), poses) else { return Vec::new() };
+    // What nobody has written stands in nobody's way.
+    let found = guard("mechanics", || mechanics::solutions(&with, structure, model.solves.len(), poses));
+    let Ok(Ok(found)) = found else { return Vec::new() };
     let mut forms: Vec<ClosedForm> = Vec::new();
     for (((one, unknowns), form), solutions) in tried.into_iter().zip(all).zip(found) {
         let is_taken = forms.iter().any(|known| {

@@ -34,8 +34,8 @@ const MARGIN_NEAR: f64 = 0.01;
 const MOST_TERMS: usize = 5;
 const MOST_SIDES: usize = 4;
 
-/// Decimals that a middle may have to be one.
-const DECIMALS: f64 = 1e6;
+/// Decimals of a middle that is a number: few, or those that are certain.
+const DECIMALS: [f64; 2] = [1e6, 1e12];
 
 /// From such a margin on there is room enough.
 const ROOM: f64 = 0.3;
@@ -69,8 +69,17 @@ pub(super) fn sides(
     solutions: &Solutions,
 ) -> Option<Choice> {
     let looked = Looked { model, loop_, unknowns, poses, solutions };
+    if std::env::var("DBG").is_ok() {
+        eprintln!("poses {} wide {} own {:?}", poses.len(), solutions.wide.len(), looked.own());
+        eprintln!("pose {:?} sample {:?}", poses[0].positions, solutions.near[0]);
+        for s in solutions.wide.iter().take(3) { eprintln!("{s:?}"); }
+    }
     let own = looked.own()?;
     let others = looked.others(own)?;
+    if std::env::var("DBG").is_ok() {
+        eprintln!("others {others:?}");
+        for c in looked.candidates(own, &others) { eprintln!("{:?} {:?} {}", c.side, c.excludes, c.margin); }
+    }
     if others.is_empty() {
         return Some(Choice::default());
     }
@@ -287,9 +296,10 @@ impl Looked<'_> {
             middles.iter().all(|(sample, middle)| (middle - value(sample)).abs() <= STEADY * size(sample))
         };
         let nearest = middles.iter().min_by(|a, b| size(a.0).total_cmp(&size(b.0)))?.1;
-        let decimal = (nearest * DECIMALS).round() / DECIMALS + 0.0;
-        let from = if is_all(&|_| decimal) {
-            Some(Origin::Number(decimal))
+        let rounded = DECIMALS.map(|decimals| (nearest * decimals).round() / decimals + 0.0);
+        let number = rounded.into_iter().find(|&number| is_all(&|_| number));
+        let from = if let Some(number) = number {
+            Some(Origin::Number(number))
         } else {
             let parameters = (0..self.model.params.len()).map(ParamId);
             let scalars = parameters.filter(|&of| self.model.params[of].ty == Type::Scalar);

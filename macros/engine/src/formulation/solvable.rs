@@ -1,11 +1,13 @@
-//! Stage `formulation`: which coordinates the user could write a formula for, where Newton's method finds them.
+//! Stage `formulation`: which `solve` items the user could write, where Newton's method closes loops.
 //!
-//! In: a model whose loops go by Newton's method, and what it takes. Out: `solve` items of coordinates that stand still while the
-//! loops move, or go along with others (`mechanics::analysis::relations`): so are plates on parallelograms. What is told has been
-//! tried: such formulas are checked as any of the user's, with the declared parameters, the model is derived with them, and takes less.
+//! In: a model whose loops go by Newton's method, and what it takes. Out: formulas of coordinates that stand still while the
+//! loops move, or go along with others (`mechanics::analysis::relations`): so are plates on parallelograms; then closed forms of what
+//! is left ([`closable`]). What is told has been tried: such items are checked as any of the user's, with the declared parameters, the
+//! model is derived with them, and takes less.
 
 use std::collections::BTreeMap;
 
+use crate::invariant::fault::guard;
 use crate::mechanics::analysis::{Relation, analyse, relations};
 use crate::mechanics::loops::advice::{Closing, Figures, Solvable};
 use crate::mechanics::loops::constraints::{coordinate_name, local_name};
@@ -52,10 +54,12 @@ pub(super) fn solvable(model: &Model, own: &Figures) -> Option<(Vec<Solvable>, F
 fn closed_forms(model: &Model, own: &Figures) -> Option<(Vec<Solvable>, Figures)> {
     let judged = judged(model, &model.handling);
     let structure = analyse(&judged).ok()?;
-    let lines = closable::lines(&judged, &structure);
+    let (lines, poses) = closable::lines(&judged, &structure);
     let takes = |lines: &[&closable::Line]| -> Option<Figures> {
         let forms: Vec<_> = lines.iter().flat_map(|line| line.forms.iter().cloned()).collect();
-        figures(&model.closing(&forms), &model.handling).ok()
+        // A closed form has to be that of the branch on which Newton's method starts, whatever its conditions have chosen.
+        let is_so = guard("mechanics", || closable::agrees(&judged.closing(&forms), &poses)).unwrap_or(false);
+        if is_so { figures(&model.closing(&forms), &model.handling).ok() } else { None }
     };
     let (kept, least) = kept(&lines, own, takes)?;
     Some((kept.into_iter().map(|line| line.told.clone()).collect(), least))

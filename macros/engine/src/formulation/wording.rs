@@ -47,37 +47,43 @@ impl Wording<'_> {
         }
     }
 
-    /// With brackets wherever something is not one word.
     pub(super) fn expression(self, expr: &Expr) -> Option<String> {
-        let pair = |a: &Expr, sign: &str, b: &Expr| {
-            Some(format!("{} {sign} {}", self.operand(a)?, self.operand(b)?))
-        };
-        Some(match &*expr.node {
-            ExprNode::Number(value) => format!("{value:?}"),
-            ExprNode::Pi => "PI".to_owned(),
-            ExprNode::Param(of) => self.parameter(*of)?,
-            ExprNode::Vec3(list) => match axis(list) {
-                Some(name) => name.to_owned(),
-                None => {
-                    let list: Option<Vec<String>> = list.iter().map(|one| self.expression(one)).collect();
-                    format!("[{}]", list?.join(", "))
-                }
-            },
-            ExprNode::Neg(a) => format!("-{}", self.operand(a)?),
-            ExprNode::Add(a, b) => pair(a, "+", b)?,
-            ExprNode::Sub(a, b) => pair(a, "-", b)?,
-            ExprNode::Mul(a, b) => pair(a, "*", b)?,
-            ExprNode::Div(a, b) => pair(a, "/", b)?,
-            _ => return None,
-        })
+        self.bound(expr, Level::Sum)
     }
 
-    fn operand(self, expr: &Expr) -> Option<String> {
-        let text = self.expression(expr)?;
-        let is_word = matches!(&*expr.node, ExprNode::Pi | ExprNode::Param(_) | ExprNode::Vec3(_))
-            || matches!(&*expr.node, ExprNode::Number(value) if *value >= 0.0);
-        Some(if is_word { text } else { format!("({text})") })
+    /// In brackets where it binds less tightly than what it stands in.
+    fn bound(self, expr: &Expr, least: Level) -> Option<String> {
+        let pair = |a: &Expr, sign: &str, b: &Expr, own: Level, right: Level| {
+            Some((format!("{} {sign} {}", self.bound(a, own)?, self.bound(b, right)?), own))
+        };
+        let (text, own) = match &*expr.node {
+            ExprNode::Number(value) => (format!("{value:?}"), if *value < 0.0 { Level::Product } else { Level::Word }),
+            ExprNode::Pi => ("PI".to_owned(), Level::Word),
+            ExprNode::Param(of) => (self.parameter(*of)?, Level::Word),
+            ExprNode::Vec3(list) => match axis(list) {
+                Some(name) => (name.to_owned(), Level::Word),
+                None => {
+                    let list: Option<Vec<String>> = list.iter().map(|one| self.expression(one)).collect();
+                    (format!("[{}]", list?.join(", ")), Level::Word)
+                }
+            },
+            ExprNode::Neg(a) => (format!("-{}", self.bound(a, Level::Word)?), Level::Product),
+            ExprNode::Add(a, b) => pair(a, "+", b, Level::Sum, Level::Product)?,
+            ExprNode::Sub(a, b) => pair(a, "-", b, Level::Sum, Level::Product)?,
+            ExprNode::Mul(a, b) => pair(a, "*", b, Level::Product, Level::Word)?,
+            ExprNode::Div(a, b) => pair(a, "/", b, Level::Product, Level::Word)?,
+            _ => return None,
+        };
+        Some(if own < least { format!("({text})") } else { text })
     }
+}
+
+/// How tightly text binds, loosest first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Level {
+    Sum,
+    Product,
+    Word,
 }
 
 /// A coordinate axis.

@@ -179,6 +179,18 @@ pub fn solutions(
     Ok(found)
 }
 
+/// Whether coordinates that follow stand at some poses where these have them.
+pub fn agrees(model: &Model, structure: &Structure, poses: &[Pose]) -> Result<bool, Vec<Complaint>> {
+    let mut deriving = Deriving::new(model, structure);
+    let mut agrees = false;
+    deriving.only("", |e| {
+        let reduction = e.reduce()?;
+        agrees = e.agrees(&reduction, poses);
+        Ok(Results::default())
+    })?;
+    Ok(agrees)
+}
+
 /// What to derive, each once, in a fixed order.
 fn kinds(model: &Model, structure: &Structure) -> Vec<FunctionKind> {
     let wanted = |kind: FunctionKind| match (kind, kind.row().asked) {

@@ -18,7 +18,7 @@ pub struct Closable {
     pub closing: LoopClosure,
     /// Lists of as many as its equations, of those that Newton's method finds.
     pub unknowns: Vec<Vec<Coordinate>>,
-    /// Coordinates of its loop, unknowns among them: those that are angles, and those that are lengths.
+    /// Coordinates of its loop, unknowns among them: angles that are the same after a turn, and what is not, travels and threads.
     pub angles: Vec<Coordinate>,
     pub lengths: Vec<Coordinate>,
     /// Whether parameters have a say in its equations.
@@ -105,7 +105,10 @@ fn of_closing(model: &Model, structure: &Structure, problem: &Problem, closing: 
         .iter()
         .copied()
         .filter(|&column| !problem.columns[column].turns)
-        .partition(|&column| problem.columns[column].travels);
+        .partition(|&column| {
+            let joint = problem.columns[column].coordinate.joint;
+            problem.columns[column].travels || model.joints[joint].kind.has_pitch
+        });
     let is_adjustable = problem
         .equations
         .iter()

@@ -4,6 +4,8 @@
 //! ones, parameters moved at every other, and where its conditions hold. Which combination goes through the poses, and what tells it
 //! from the others, is read off these numbers; nothing is decided here. Coordinates that other loops give are taken as they stand.
 
+use std::rc::Rc;
+
 use crate::contracts::symbol::Symbol;
 use crate::mechanics::analysis::Pose;
 use crate::mechanics::equations::Equations;
@@ -57,7 +59,29 @@ pub struct Solutions {
     pub wide: Vec<Sample>,
 }
 
+/// Coordinates that follow from others do so at poses if they come out as they stand there.
+const AGREES: f64 = 1e-6;
+
 impl Equations<'_> {
+    /// Whether all that follows stands at some poses where these have it, with no turn more or less. Newton's method starts there.
+    pub(in crate::mechanics) fn agrees(&mut self, reduction: &Reduction, poses: &[Pose]) -> bool {
+        let structure = Rc::clone(&self.scene.structure);
+        let guessed = structure.guessed();
+        let follows: Vec<Coordinate> = structure.steps.iter().flat_map(|step| step.unknowns.iter().copied()).collect();
+        let symbols: Vec<Scalar> = follows.iter().map(|&coordinate| self.coordinate_symbols(coordinate)[0]).collect();
+        let roots = self.finish(reduction, &symbols);
+        poses.iter().all(|pose| {
+            let at = |coordinate: Coordinate| pose.positions[coordinate.joint.0][coordinate.index];
+            let value = |id: SymbolId| match self.scene.symbols.table.get(id.0) {
+                Some(&Symbol::Guess { index }) => at(guessed[index]),
+                _ => self.at_pose(pose, id),
+            };
+            let values = Evaluator::new(&self.g, Real { symbols: &value }).run(&roots);
+            let is_so = |(&coordinate, x): (&Coordinate, f64)| (x - at(coordinate)).abs() <= AGREES * (1.0 + x.abs());
+            follows.iter().zip(values).all(is_so)
+        })
+    }
+
     /// Of a `solve` item; nothing where no closed form is found. Plans that served for other loops are tried first.
     pub(in crate::mechanics) fn solutions_at(
         &mut self,
