@@ -14,7 +14,9 @@ use crate::mechanics::loops::constraints::{closing_name, coordinate_name, local_
 use crate::mechanics::loops::solutions::Solutions;
 use crate::mechanics::loops::structure::Structure;
 use crate::model::formulated::{Beyond, ClosedForm, Origin, Side};
-use crate::model::types::{ConstraintKind, Coordinate, Directions, InstanceId, LoopClosure, Model, PartTypeId};
+use crate::model::types::{
+    BodyRef, ConstraintKind, Coordinate, Directions, InstanceId, LoopClosure, Model, PartTypeId,
+};
 
 use super::sides::sides;
 use super::wording::Wording;
@@ -88,22 +90,39 @@ fn forms(model: &Model, structure: &Structure, loops: &[Closable], poses: &[Pose
     forms
 }
 
-/// What could choose between the solutions of a hinge at the end of whose arm a rod begins.
+/// What could choose between the solutions of a hinge from whose arm something of one length leads to a point.
 fn beyond(model: &Model, closing: LoopClosure, unknowns: &[Coordinate]) -> Option<Beyond> {
-    let (LoopClosure::Constraint(id), [unknown]) = (closing, unknowns) else { return None };
-    let ConstraintKind::Rod { between, .. } = &model.constraints[id].kind else { return None };
-    let joint = &model.joints[unknown.joint];
-    let Directions::Axis(axis) = &joint.directions else { return None };
-    if joint.kind.freedoms() != 1 || joint.kind.is_slide(0) {
-        return None;
-    }
-    let near = between.iter().position(|end| end.body == joint.child.body)?;
-    Some(Beyond {
-        hinge: joint.child.clone(),
-        axis: axis.clone(),
-        near: between[near].clone(),
-        far: between[1 - near].clone(),
-        is_above: true,
+    let carrier = |body: BodyRef| {
+        unknowns.iter().map(|unknown| unknown.joint).find(|&joint| model.joints[joint].child.body == body)
+    };
+    let ends = match closing {
+        LoopClosure::Constraint(id) => match &model.constraints[id].kind {
+            ConstraintKind::Rod { between, .. } => [&between[0], &between[1]],
+            ConstraintKind::Value(_) => return None,
+        },
+        LoopClosure::Cut(id) => [&model.joints[id].parent, &model.joints[id].child],
+    };
+    [[0, 1], [1, 0]].into_iter().find_map(|[near, far]| {
+        let hinge = &model.joints[carrier(ends[near].body)?];
+        let Directions::Axis(axis) = &hinge.directions else { return None };
+        if hinge.kind.freedoms() != 1 || hinge.kind.is_slide(0) || hinge.kind.has_pitch {
+            return None;
+        }
+        let far = match closing {
+            LoopClosure::Constraint(_) => ends[far],
+            // A link between two points.
+            LoopClosure::Cut(_) => {
+                let end = &model.joints[carrier(ends[far].body)?];
+                Some(&end.parent).filter(|_| end.kind.freedoms() > 1)?
+            }
+        };
+        Some(Beyond {
+            hinge: hinge.child.clone(),
+            axis: axis.clone(),
+            near: ends[near].clone(),
+            far: far.clone(),
+            is_above: true,
+        })
     })
 }
 
@@ -129,12 +148,7 @@ fn local(model: &Model, form: &ClosedForm) -> Option<(PartTypeId, InstanceId, St
 }
 
 /// `solve (gimbal, stroke) from ball { stroke > -1.0, cos(gimbal.second) > 0.0 }`
-fn text(
-    wording: Wording<'_>,
-    form: &ClosedForm,
-    closing: &str,
-    name: impl Fn(Coordinate) -> String,
-) -> Option<String> {
+fn text(wording: Wording<'_>, form: &ClosedForm, closing: &str, name: impl Fn(Coordinate) -> String) -> Option<String> {
     let mut unknowns: Vec<String> = Vec::new();
     for &unknown in &form.unknowns {
         let freedoms = wording.model.joints[unknown.joint].kind.freedoms();
@@ -159,7 +173,6 @@ fn text(
         let [hinge, near, far] = [&beyond.hinge, &beyond.near, &beyond.far].map(|frame| wording.frame(frame));
         conditions.push(beyond.text(&[hinge?, wording.expression(&beyond.axis)?, near?, far?]));
     }
-    let conditions =
-        if conditions.is_empty() { "{}".to_owned() } else { format!("{{ {} }}", conditions.join(", ")) };
+    let conditions = if conditions.is_empty() { "{}".to_owned() } else { format!("{{ {} }}", conditions.join(", ")) };
     Some(format!("solve ({}) from {closing} {conditions}", unknowns.join(", ")))
 }

@@ -44,8 +44,15 @@ const ROOM: f64 = 0.3;
 #[derive(Default)]
 pub(super) struct Choice {
     pub sides: Vec<Side>,
-    /// Whether the condition that was offered holds, where that alone tells solutions apart.
+    /// Whether the condition that was offered holds, where nothing else tells some solutions apart.
     pub offered: Option<bool>,
+}
+
+/// The condition that was offered.
+struct Offered {
+    is_so: bool,
+    /// By number of another solution.
+    excludes: Vec<bool>,
 }
 
 /// A condition, and what is known of it.
@@ -69,17 +76,8 @@ pub(super) fn sides(
     solutions: &Solutions,
 ) -> Option<Choice> {
     let looked = Looked { model, loop_, unknowns, poses, solutions };
-    if std::env::var("DBG").is_ok() {
-        eprintln!("poses {} wide {} own {:?}", poses.len(), solutions.wide.len(), looked.own());
-        eprintln!("pose {:?} sample {:?}", poses[0].positions, solutions.near[0]);
-        for s in solutions.wide.iter().take(3) { eprintln!("{s:?}"); }
-    }
     let own = looked.own()?;
     let others = looked.others(own)?;
-    if std::env::var("DBG").is_ok() {
-        eprintln!("others {others:?}");
-        for c in looked.candidates(own, &others) { eprintln!("{:?} {:?} {}", c.side, c.excludes, c.margin); }
-    }
     if others.is_empty() {
         return Some(Choice::default());
     }
@@ -91,24 +89,28 @@ pub(super) fn sides(
         b.is_exact.cmp(&a.is_exact).then(terms).then(room(b).total_cmp(&room(a)))
     };
     candidates.sort_by(order);
-    let chosen = chosen(&candidates, others.len());
-    chosen.map(|sides| Choice { sides, offered: None }).or_else(|| looked.offered(own, &others))
+    chosen(&candidates, &looked.offered(own, &others), others.len())
 }
 
-/// As few conditions as exclude all other solutions.
-fn chosen(candidates: &[Candidate], others: usize) -> Option<Vec<Side>> {
+/// As few conditions as exclude all other solutions; what was offered where nothing else excludes some of them.
+fn chosen(candidates: &[Candidate], offered: &Offered, others: usize) -> Option<Choice> {
     let mut left: Vec<usize> = (0..others).collect();
-    let mut chosen: Vec<Side> = Vec::new();
-    while !left.is_empty() && chosen.len() < MOST_SIDES {
+    let mut choice = Choice::default();
+    let is_excluded = |k: &usize| candidates.iter().any(|candidate| candidate.excludes[*k]);
+    if !left.iter().all(is_excluded) {
+        choice.offered = Some(offered.is_so);
+        left.retain(|&k| !offered.excludes[k]);
+    }
+    while !left.is_empty() && choice.sides.len() < MOST_SIDES {
         // What excludes most; of those that exclude as many the first.
         let count = |candidate: &Candidate| left.iter().filter(|&&k| candidate.excludes[k]).count();
         let most = candidates.iter().map(count).max().filter(|&most| most > 0)?;
         let best = candidates.iter().find(|candidate| count(candidate) == most)?;
         left.retain(|&k| !best.excludes[k]);
-        chosen.push(best.side.clone());
+        choice.sides.push(best.side.clone());
     }
-    chosen.sort_by(|a, b| a.terms.cmp(&b.terms));
-    left.is_empty().then_some(chosen)
+    choice.sides.sort_by(|a, b| a.terms.cmp(&b.terms));
+    left.is_empty().then_some(choice)
 }
 
 struct Looked<'a> {
@@ -156,7 +158,8 @@ impl Looked<'_> {
     /// Those from which the own one is to be told apart; nothing where one of them meets it at the default pose.
     fn others(&self, own: usize) -> Option<Vec<usize>> {
         let is_real = |&k: &usize| self.samples().any(|sample| sample.solutions[k].is_some());
-        let all: Vec<usize> = (0..self.count()).filter(|&k| k != own && !self.is_same(own, k)).filter(is_real).collect();
+        let all: Vec<usize> =
+            (0..self.count()).filter(|&k| k != own && !self.is_same(own, k)).filter(is_real).collect();
         let first = self.solutions.near.first()?;
         let meets = |&k: &usize| self.distance(first, own, k).is_some_and(|distance| distance < APART);
         (!all.iter().any(meets)).then_some(all)
@@ -167,23 +170,27 @@ impl Looked<'_> {
         let (a, b) = (sample.solutions[one].as_ref()?, sample.solutions[other].as_ref()?);
         let apart = self.unknowns.iter().zip(a.iter().zip(b)).map(|(unknown, (a, b))| {
             let is_length = self.loop_.lengths.contains(unknown);
-            if is_length { (a - b).abs() / (a.abs() + b.abs()).max(f64::MIN_POSITIVE) } else { wrapped(a - b, TAU).abs() }
+            if is_length {
+                (a - b).abs() / (a.abs() + b.abs()).max(f64::MIN_POSITIVE)
+            } else {
+                wrapped(a - b, TAU).abs()
+            }
         });
         apart.reduce(f64::max)
     }
 
-    /// What the offered condition is for the own solution, if it is the opposite for all others wherever they are apart.
-    fn offered(&self, own: usize, others: &[usize]) -> Option<Choice> {
-        let first = self.solutions.near.first()?;
-        let &is_so = first.holds[own].first()?;
-        let margin = others.iter().filter_map(|&other| self.distance(first, own, other)).reduce(f64::min);
-        let decides = |sample: &Sample, other: usize| match self.distance(sample, own, other) {
-            Some(distance) if distance >= APART => sample.holds[own][0] == is_so && sample.holds[other][0] != is_so,
-            _ => true,
+    /// What the offered condition is for the own solution, and for which others it is the opposite wherever they are apart.
+    fn offered(&self, own: usize, others: &[usize]) -> Offered {
+        let first = self.solutions.near.first().and_then(|sample| Some((sample, *sample.holds[own].first()?)));
+        let Some((first, is_so)) = first else { return Offered { is_so: false, excludes: vec![false; others.len()] } };
+        let is_own = |sample: &Sample| sample.solutions[own].is_none() || sample.holds[own][0] == is_so;
+        let is_clear = |other: usize| self.distance(first, own, other).is_none_or(|apart| apart >= 2.0 * MARGIN);
+        let is_other = |sample: &Sample, other: usize| {
+            let meets = self.distance(sample, own, other).is_some_and(|apart| apart < APART);
+            sample.solutions[other].is_none() || meets || (is_own(sample) && sample.holds[other][0] != is_so)
         };
-        let is_clear = margin.is_some_and(|margin| margin >= 2.0 * MARGIN);
-        let is_decided = others.iter().all(|&other| self.samples().all(|sample| decides(sample, other)));
-        (is_clear && is_decided).then(|| Choice { sides: Vec::new(), offered: Some(is_so) })
+        let excluded = |&other: &usize| is_clear(other) && self.samples().all(|sample| is_other(sample, other));
+        Offered { is_so, excludes: others.iter().map(excluded).collect() }
     }
 
     fn candidates(&self, own: usize, others: &[usize]) -> Vec<Candidate> {
@@ -198,7 +205,9 @@ impl Looked<'_> {
                 add(self.between(own, other, &terms), true);
             }
             if !self.loop_.is_adjustable && terms.len() <= 2 {
-                [Measure::Sine, Measure::Cosine].into_iter().for_each(|measure| add(self.plain(own, &terms, measure), false));
+                [Measure::Sine, Measure::Cosine]
+                    .into_iter()
+                    .for_each(|measure| add(self.plain(own, &terms, measure), false));
             }
         }
         for &length in self.unknowns.iter().filter(|&unknown| self.loop_.lengths.contains(unknown)) {
@@ -378,4 +387,3 @@ fn tidy_angle(x: f64) -> f64 {
     let parts = (x / part).round();
     if (parts * part - x).abs() < STEADY { parts * part + 0.0 } else { (x * 1e13).round() / 1e13 }
 }
-

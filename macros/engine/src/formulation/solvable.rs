@@ -81,7 +81,11 @@ fn formulas(model: &Model, own: &Figures) -> Option<(Vec<Solvable>, Model, Figur
 }
 
 /// The lines that are worth it: all at once, or one by one where some line is refused.
-fn kept<'a, L>(lines: &'a [L], own: &Figures, takes: impl Fn(&[&L]) -> Option<Figures>) -> Option<(Vec<&'a L>, Figures)> {
+fn kept<'a, L>(
+    lines: &'a [L],
+    own: &Figures,
+    takes: impl Fn(&[&L]) -> Option<Figures>,
+) -> Option<(Vec<&'a L>, Figures)> {
     let (mut kept, mut least): (Vec<&L>, Figures) = (Vec::new(), *own);
     let all: Vec<&L> = lines.iter().collect();
     let single = all.iter().map(|&line| vec![line]).filter(|_| (2..=MOST_LINES).contains(&all.len()));

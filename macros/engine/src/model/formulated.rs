@@ -87,7 +87,10 @@ pub enum Measure {
 pub enum Origin {
     Number(f64),
     /// A scalar parameter, or what is minus that.
-    Parameter { of: ParamId, is_negative: bool },
+    Parameter {
+        of: ParamId,
+        is_negative: bool,
+    },
 }
 
 impl Side {

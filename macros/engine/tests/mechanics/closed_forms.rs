@@ -52,9 +52,9 @@ impl Mechanism<'_> {
         };
         let advice = structure.advice.clone().expect("advice");
         let report = emit::report(&model, &structure, &compiled);
-        let lines = advice.solvable.map(|(lines, figures)| {
-            (lines.into_iter().map(|line| (line.part, line.text)).collect(), figures)
-        });
+        let lines = advice
+            .solvable
+            .map(|(lines, figures)| (lines.into_iter().map(|line| (line.part, line.text)).collect(), figures));
         (lines, advice.own.expect("figures"), report)
     }
 
@@ -86,6 +86,13 @@ impl Mechanism<'_> {
         for size in [0.0, 0.01, 0.03, 0.06, 0.1] {
             for _ in 0..3 {
                 let mut values = Values::new();
+                // Parameters too, at most states.
+                for &symbol in &newton.derivation.symbols {
+                    if let Symbol::Param { param, element } = symbol {
+                        let value = newton.model.params[param].default[element];
+                        values.insert(symbol, value + 0.3 * size * random.next() * value);
+                    }
+                }
                 for &coordinate in &newton.structure.state {
                     values.insert(position(coordinate), size * random.next());
                     values.insert(velocity(coordinate), random.next());
@@ -102,7 +109,7 @@ impl Mechanism<'_> {
                 for (index, coordinate) in closed.structure.guessed().into_iter().enumerate() {
                     values.insert(Symbol::Guess { index }, position_of[&coordinate]);
                 }
-                let (got, want) = [&by_form, &by_newton].map(|one| one.eval(FunctionKind::ForwardDynamics, &values)).into();
+                let [got, want] = [&by_form, &by_newton].map(|one| one.eval(FunctionKind::ForwardDynamics, &values));
                 close(&got, &want, 1e-7);
                 let full = with_rates(&kept, &by_multipliers, &values, &position_of);
                 let all = by_multipliers.eval(FunctionKind::ForwardDynamics, &full);
@@ -140,7 +147,9 @@ impl Programs<'_> {
 
     fn eval(&self, kind: FunctionKind, values: &Values) -> Vec<f64> {
         let value = |symbol: Symbol| match symbol {
-            Symbol::Param { param, element } => self.case.model.params[param].default[element],
+            Symbol::Param { param, element } => {
+                values.get(&symbol).copied().unwrap_or(self.case.model.params[param].default[element])
+            }
             symbol => values.get(&symbol).copied().unwrap_or(0.0),
         };
         let fields = run(&self.compiled.prelude, &value, &|_| f64::NAN);
@@ -180,34 +189,245 @@ fn with_rates(kept: &Case, programs: &Programs<'_>, values: &Values, follows: &H
     full
 }
 
-/// A four-bar in an oblique frame with parameters: `crank` and where the rocker stands decide how it is assembled.
-fn four_bar(foot: &str) -> String {
-    format!(
-        "world {{ gravity: [1.0, -9.0, 2.0] }} param crank_length = 0.3; param reach = 0.9;
-         body base {{ mass: 1.0, inertia: diag(1.0, 1.1, 1.2) }}
-         joint mount: Fixed {{ parent: ground.rotated([1.0, 2.0, 2.0], 0.7), child: base }}
-         body a {{ mass: 1.0, com: 0.1 * X, inertia: rod(1.0, 0.3, X) }}
-         body b {{ mass: 1.3, com: [0.3, 0.1, 0.0], inertia: diag(0.1, 0.2, 0.3) }}
-         body c {{ mass: 0.7, com: 0.2 * X, inertia: rod(0.7, 1.0, X) }}
-         joint crank: Revolute {{ parent: base, child: a, axis: -Z }}
-         joint coupler: Revolute {{ parent: a.at(crank_length * X), child: b, axis: Z }}
-         joint rocker: Revolute {{ parent: base.at({foot}), child: c, axis: Z }}
-         #[cut] joint pin: Revolute {{ parent: b.at(reach * X), child: c.at(0.8 * X), axis: Z }}"
-    )
-}
+/// What stands in an oblique frame.
+const BASE: &str = "world { gravity: [1.0, -9.0, 2.0] }
+    body base { mass: 1.0, inertia: diag(1.0, 1.1, 1.2) }
+    joint mount: Fixed { parent: ground.rotated([1.0, 2.0, 2.0], 0.7), child: base }
+    body a { mass: 1.0, com: 0.1 * X, inertia: rod(1.0, 0.3, X) }
+    body b { mass: 1.3, com: [0.3, 0.1, 0.0], inertia: diag(0.1, 0.2, 0.3) }
+    body c { mass: 0.7, com: 0.2 * X, inertia: rod(0.7, 1.0, X) }";
 
-/// Both ways to assemble it, with an axis that points backwards.
+/// Both ways to assemble it, with an axis that points backwards: the coupler's own zero is turned towards one or the other.
 #[test]
 fn four_bars_of_both_kinds() {
-    for (foot, sign) in [("1.0 * X + 0.1 * Y", '>'), ("1.0 * X - 0.1 * Y", '<')] {
-        let body = four_bar(foot);
+    for (turn, hand, wanted) in [
+        ("-0.8", "-0.8", "sin(crank - coupler + rocker - 0.7707963267949) < 0.0"),
+        ("0.8", "0.8", "sin(crank - coupler + rocker + 0.7707963267949) > 0.0"),
+    ] {
+        let body = format!(
+            "{BASE} param l = 0.3; param reach = 0.9;
+             joint crank: Revolute {{ parent: base, child: a, axis: -Z }}
+             joint coupler: Revolute {{ parent: a.at(l * X).rotated(Z, {turn}), child: b, axis: Z }}
+             joint rocker: Revolute {{ parent: base.at(1.0 * X + 0.1 * Y), child: c, axis: Z }}
+             #[cut] joint pin: Revolute {{ parent: b.at(reach * X), child: c.at({hand} * Y), axis: Z }}"
+        );
         let bars = Mechanism { parts: "", body: &body, independent: ", independent: [crank]" };
-        let line = format!("solve (coupler, rocker) from pin {{ sin(crank - coupler + rocker) {} 0.0 }}", turned(sign));
+        let line = format!("solve (coupler, rocker) from pin {{ {wanted} }}");
         bars.check(&[(None, &line)], Closing::ClosedForm);
     }
 }
 
-/// The sum that is written counts the other way about than the angle between coupler and rocker.
-fn turned(sign: char) -> char {
-    if sign == '>' { '<' } else { '>' }
+#[test]
+fn sliders_on_both_sides() {
+    for way in ["l", "-l"] {
+        let body = format!(
+            "{BASE} param l = 0.7; param off = 0.02;
+             joint crank: Revolute {{ parent: base, child: a, axis: -Z }}
+             joint coupler: Revolute {{ parent: a.at(0.2 * X), child: b, axis: Z }}
+             joint slide: Prismatic {{ parent: base.at(off * Y), child: c, axis: X }}
+             #[cut] joint pin: Revolute {{ parent: b.at({way} * X), child: c, axis: Z }}"
+        );
+        let slider = Mechanism { parts: "", body: &body, independent: ", independent: [crank]" };
+        let line = "solve (coupler, slide) from pin { cos(crank - coupler) > 0.0 }";
+        slider.check(&[(None, line)], Closing::ClosedForm);
+    }
+}
+
+/// Two solutions meet where the points of the arm stand in line, at an angle that no parameter changes.
+#[test]
+fn arms_with_offsets() {
+    for (side, sign) in [("0.1", '<'), ("-0.5", '<')] {
+        let body = format!(
+            "{BASE} param off = 0.6;
+             joint shoulder: Revolute {{ parent: base, child: a, axis: Z }}
+             joint elbow: Revolute {{ parent: a.at([0.4, 0.05, 0.02]), child: b, axis: Z }}
+             joint slide: Prismatic {{ parent: base.at([off, {side}, 0.0]), child: c, axis: Y }}
+             #[cut] joint pin: Revolute {{ parent: b.at([0.5, 0.03, -0.02]), child: c, axis: Z }}"
+        );
+        let arm = Mechanism { parts: "", body: &body, independent: ", independent: [slide]" };
+        let line = format!("solve (shoulder, elbow) from pin {{ sin(elbow - 0.0644268394256) {sign} 0.0 }}");
+        arm.check(&[(None, &line)], Closing::ClosedForm);
+    }
+}
+
+/// One loop behind the other: Watt's and Stephenson's six-bars.
+#[test]
+fn six_bars() {
+    let first = "body d { mass: 1.0, com: 0.1 * X, inertia: rod(1.0, 1.0, X) }
+        body e { mass: 1.0, com: 0.1 * X, inertia: rod(1.0, 1.0, X) }
+        joint crank: Revolute { parent: base, child: a, axis: Z }
+        joint coupler: Revolute { parent: a.at(0.3 * X), child: b, axis: Z }
+        joint rocker: Revolute { parent: base.at(1.0 * X + 0.1 * Y), child: c, axis: Z }
+        #[cut] joint pin: Revolute { parent: b.at(0.9 * X), child: c.at(0.8 * X), axis: Z }
+        joint second: Revolute { parent: b.at(0.4 * X + 0.1 * Y), child: d, axis: Z }";
+    let bar = "solve (coupler, rocker) from pin { sin(crank + coupler - rocker) > 0.0 }";
+    for (third, sum) in [
+        ("c.at(0.5 * X + 0.2 * Y)", "crank + coupler - rocker + second - third"),
+        ("base.at(0.5 * X + 0.9 * Y)", "crank + coupler + second - third"),
+    ] {
+        let body = format!(
+            "{BASE} {first} joint third: Revolute {{ parent: {third}, child: e, axis: Z }}
+             #[cut] joint last: Revolute {{ parent: d.at(0.7 * X), child: e.at(0.6 * X), axis: Z }}"
+        );
+        let bars = Mechanism { parts: "", body: &body, independent: ", independent: [crank]" };
+        let line = format!("solve (second, third) from last {{ sin({sum}) > 0.0 }}");
+        bars.check(&[(None, bar), (None, &line)], Closing::ClosedForm);
+    }
+}
+
+const PLATE: &str = "world { gravity: [1.0, -2.0, -9.0] }
+    const FEET: [Vec3; 3] = [[-0.2, 0.1, -1.0], [0.2, 0.15, -1.2], [0.03, -0.25, -1.1]];
+    const PINS: [Vec3; 3] = [[-0.25, 0.12, 0.0], [0.2, 0.1, 0.0], [0.03, -0.25, 0.0]];
+    body plate { mass: 1.5, inertia: diag(0.08, 0.08, 0.08), coordinates: Absolute(RollPitchYaw) }
+    part legs: [leg; 3] = |i| leg { base: ground.at(FEET[i]).rotated(X, 0.2), tip: plate.at(PINS[i]) };";
+
+/// One line for all legs, in the names of their part: slides along either way of their axis, and screws, whose turns count.
+#[test]
+fn legs_have_one_line() {
+    for (joint, wanted) in [
+        ("joint stroke: Prismatic { parent: cylinder.at(0.9 * Z), child: piston, axis: Z }", "stroke > -0.9"),
+        ("joint stroke: Prismatic { parent: cylinder.at(0.9 * Z), child: piston, axis: -Z }", "stroke < 0.9"),
+        ("joint stroke: Screw { parent: cylinder.at(0.9 * Z), child: piston, axis: Z, pitch: -0.1 }", "stroke < 9.0"),
+    ] {
+        let parts = format!(
+            "mod leg {{ port base: Frame; port tip: Frame;
+                body cylinder {{ mass: 0.1, com: 0.5 * Z, inertia: diag(0.00625, 0.00625, 0.001) }}
+                body piston {{ mass: 0.1, com: -0.5 * Z, inertia: diag(0.00625, 0.00625, 0.001) }}
+                joint gimbal: Universal {{ parent: base, child: cylinder, axes: [X, Y] }}
+                {joint}
+                #[cut] joint ball: Ball {{ parent: piston, child: tip }} PART }}"
+        );
+        let platform = Mechanism { parts: &parts, body: PLATE, independent: ", independent: [plate]" };
+        let line = format!("solve (gimbal, stroke) from ball {{ cos(gimbal.second) > 0.0, {wanted} }}");
+        platform.check(&[(Some("leg"), &line)], Closing::ClosedForm);
+    }
+}
+
+/// Parts that are assembled in different ways have lines of their own, in the model.
+#[test]
+fn what_differs_between_parts_has_full_names() {
+    let parts = "mod bars { port left: Frame; port right: Frame; param l = 0.4;
+        body a { mass: 1.0, com: 0.1 * X, inertia: rod(1.0, 0.3, X) }
+        body b { mass: 1.0, com: 0.1 * X, inertia: rod(1.0, 1.0, X) }
+        body c { mass: 1.0, com: 0.1 * X, inertia: rod(1.0, 1.0, X) }
+        joint p: Revolute { parent: left, child: a, axis: Z }
+        joint q: Revolute { parent: a.at(l * X), child: b, axis: Z }
+        joint r: Revolute { parent: right, child: c, axis: Z }
+        #[cut] joint pin: Revolute { parent: b.at(0.9 * X), child: c.at(0.8 * X), axis: Z } PART }";
+    let body = format!(
+        "{BASE} joint x: Revolute {{ parent: base, child: a, axis: X }} joint y: Revolute {{ parent: base, child: b, axis: X }}
+         joint z: Revolute {{ parent: base, child: c, axis: X }}
+         part one: bars {{ left: base, right: base.at(X) }};
+         part two: bars {{ left: base.at(3.0 * X), right: base.at(2.0 * X) }};"
+    );
+    let both = Mechanism { parts, body: &body, independent: ", independent: [one.p, two.p]" };
+    let one = "solve (one.q, one.r) from one.pin { sin(one.p + one.q - one.r) < 0.0 }";
+    let two = "solve (two.q, two.r) from two.pin { sin(two.p + two.q - two.r) > 0.0 }";
+    both.check(&[(None, one), (None, two)], Closing::ClosedForm);
+}
+
+/// A rod holds a hinge: no angle tells the solutions apart, but on which side of the arm its far end lies.
+#[test]
+fn a_rod_has_a_side() {
+    for (length, sign) in [("0.95", '>'), ("0.7", '<')] {
+        let body = format!(
+            "{BASE} param l = {length}; param arm = 0.25;
+             joint driver: Revolute {{ parent: base, child: a, axis: Z }}
+             joint idle: Revolute {{ parent: base, child: c, axis: X }}
+             joint shaft: Revolute {{ parent: base.at([0.8, 0.1, 0.2]), child: b.at(0.1 * Y), axis: Y }}
+             constraint link: Rod {{ between: [a.at(0.3 * Y), b.at(arm * X + 0.1 * Z)], length: l }}"
+        );
+        let rods = Mechanism { parts: "", body: &body, independent: ", independent: [driver, idle]" };
+        let from = |end: &str| format!("b.at(0.1 * Y).express({end}.position - b.at(0.1 * Y).position)");
+        let [near, far] = ["b.at(arm * X + 0.1 * Z)", "a.at(0.3 * Y)"].map(from);
+        let line = format!("solve (shaft) from link {{ dot(Y, cross({near}, {far})) {sign} 0.0 }}");
+        rods.check(&[(None, &line)], Closing::ClosedForm);
+    }
+}
+
+/// A Delta robot on rods: its plate doesn't turn, and then one rod of each pair gives its arm.
+#[test]
+fn a_delta_on_rods() {
+    let parts = "mod limb { port hip: Frame; port left: Frame; port right: Frame;
+        body arm { mass: 0.3, com: 0.15 * X, inertia: diag(0.0001, 0.003, 0.003) }
+        joint shoulder: Revolute { parent: hip, child: arm, axis: Y }
+        constraint rod_a: Rod { between: [arm.at(0.3 * X + 0.05 * Y), left], length: 0.8 }
+        constraint rod_b: Rod { between: [arm.at(0.3 * X - 0.05 * Y), right], length: 0.8 } PART }";
+    let body = "world { gravity: [1.0, -2.0, -9.0] }
+        body base { mass: 3.0, inertia: diag(1.0, 1.1, 1.2) }
+        joint mount: Fixed { parent: ground.rotated([1.0, 2.0, 2.0], 0.7), child: base }
+        body plate { mass: 0.5, inertia: diag(0.001, 0.001, 0.002) }
+        joint moves: Free { parent: base.at(-0.6 * Z), child: plate, coordinates: RollPitchYaw }
+        part limbs: [limb; 3] = |i| limb {
+            hip: base.rotated(Z, i * 2.0 * PI / 3.0).at(0.2 * X),
+            left: plate.rotated(Z, i * 2.0 * PI / 3.0).at(0.05 * X + 0.05 * Y),
+            right: plate.rotated(Z, i * 2.0 * PI / 3.0).at(0.05 * X - 0.05 * Y),
+        };";
+    let delta = Mechanism { parts, body, independent: ", independent: [moves.x, moves.y, moves.z]" };
+    let side = |i: usize| {
+        let arm = format!("limbs[{i}].arm");
+        let from = |end: &str| format!("{arm}.express({end}.position - {arm}.position)");
+        let far = format!("plate.rotated(Z, {i}.0 * 2.0 * PI / 3.0).at(0.05 * X + 0.05 * Y)");
+        let [near, far] = [format!("{arm}.at(0.3 * X + 0.05 * Y)"), far].map(|end| from(&end));
+        format!("solve (limbs[{i}].shoulder) from limbs[{i}].rod_a {{ dot(Y, cross({near}, {far})) > 0.0 }}")
+    };
+    let flat = "solve (moves.roll, moves.pitch, moves.yaw) = (0.0, 0.0, 0.0);".to_owned();
+    let lines: Vec<String> = [flat].into_iter().chain((0..3).map(side)).collect();
+    let lines: Vec<(Option<&str>, &str)> = lines.iter().map(|line| (None, line.as_str())).collect();
+    delta.check(&lines, Closing::ClosedForm);
+}
+
+/// A link between two points in space, whose ends turn as they like: the arm's side and the link's gimbal.
+#[test]
+fn a_link_in_space() {
+    let body = format!(
+        "{BASE} param tilt = 0.0;
+         joint crank: Revolute {{ parent: base.rotated(X, tilt), child: a, axis: [0.1, 0.2, 1.0] }}
+         joint elbow: Universal {{ parent: a.at(0.2 * X), child: b, axes: [Z, Y] }}
+         joint rocker: Revolute {{ parent: base.at([0.6, 0.2, 0.1]), child: c, axis: [0.3, 1.0, 0.1] }}
+         #[cut] joint pin: Ball {{ parent: b.at(0.7 * X), child: c.at(0.4 * Z) }}"
+    );
+    let link = Mechanism { parts: "", body: &body, independent: ", independent: [crank]" };
+    let from = |end: &str| format!("c.express({end}.position - c.position)");
+    let side = format!("dot([0.3, 1.0, 0.1], cross({}, {}))", from("c.at(0.4 * Z)"), from("a.at(0.2 * X)"));
+    let line = format!("solve (elbow, rocker) from pin {{ cos(elbow.second) > 0.0, {side} < 0.0 }}");
+    link.check(&[(None, &line)], Closing::ClosedForm);
+}
+
+/// A dead centre says nothing of a branch, nor does a default position in which loops don't close.
+#[test]
+fn nothing_is_proposed_without_a_branch() {
+    let bars = |foot: &str| {
+        let body = format!(
+            "{BASE} joint crank: Revolute {{ parent: base, child: a, axis: Z }}
+             joint coupler: Revolute {{ parent: a.at(0.3 * X), child: b, axis: Z }}
+             joint rocker: Revolute {{ parent: base.at({foot}), child: c, axis: Z }}
+             #[cut] joint pin: Revolute {{ parent: b.at(0.9 * X), child: c.at(0.4 * X), axis: Z }}"
+        );
+        let bars = Mechanism { parts: "", body: &body, independent: ", independent: [crank]" };
+        let (told, own, _) = bars.told("Reduced", &[]);
+        assert_eq!(own.closing, Closing::Newton);
+        told.map(|told| told.0)
+    };
+    assert_eq!(bars("[0.3 + 1.3 * 0.6, 1.3 * 0.8, 0.0]"), None);
+    assert_eq!(bars("[1.65, 0.0, 0.0]"), None);
+    assert!(bars("[0.3 + 1.2 * 0.6, 1.2 * 0.8, 0.0]").is_some());
+}
+
+/// The choice stays what it was, and says what it would be.
+#[test]
+fn what_auto_would_take() {
+    let body = format!(
+        "{BASE} joint crank: Revolute {{ parent: base, child: a, axis: Z }}
+         joint coupler: Revolute {{ parent: a.at(0.3 * X), child: b, axis: Z }}
+         joint rocker: Revolute {{ parent: base.at(1.0 * X + 0.1 * Y), child: c, axis: Z }}
+         #[cut] joint pin: Revolute {{ parent: b.at(0.9 * X), child: c.at(0.8 * X), axis: Z }}"
+    );
+    let bars = Mechanism { parts: "", body: &body, independent: "" };
+    let (told, own, report) = bars.told("Auto", &[]);
+    let (lines, promised) = told.expect("a proposal");
+    assert_eq!((own.closing, promised.closing), (Closing::Multipliers, Closing::ClosedForm));
+    assert!(report.contains("`constraints: Auto` would be `Reduced` with that"), "{report}");
+    let (again, found, _) = bars.told("Auto", &lines);
+    assert_eq!((again, found), (None, promised));
 }

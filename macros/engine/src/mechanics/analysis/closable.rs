@@ -101,11 +101,8 @@ fn of_closing(model: &Model, structure: &Structure, problem: &Problem, closing: 
     if unknowns.is_empty() {
         return None;
     }
-    let (lengths, angles): (Vec<usize>, Vec<usize>) = columns
-        .iter()
-        .copied()
-        .filter(|&column| !problem.columns[column].turns)
-        .partition(|&column| {
+    let (lengths, angles): (Vec<usize>, Vec<usize>) =
+        columns.iter().copied().filter(|&column| !problem.columns[column].turns).partition(|&column| {
             let joint = problem.columns[column].coordinate.joint;
             problem.columns[column].travels || model.joints[joint].kind.has_pitch
         });

@@ -6,7 +6,9 @@
 
 use crate::model::joint_kinds::Hold;
 use crate::model::types::Constraint;
-use crate::model::types::{BodyId, Coordinate, Directions, Expr, ExprNode, Joint, JointId, LoopClosure, Model, ParamId, Place};
+use crate::model::types::{
+    BodyId, Coordinate, Directions, Expr, ExprNode, Joint, JointId, LoopClosure, Model, ParamId, Place,
+};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
