@@ -323,7 +323,7 @@ impl Looked<'_> {
         match from {
             Origin::Number(value) => value,
             Origin::Parameter { of, is_negative } => {
-                let moved = sample.parameters.iter().find(|moved| moved.0 == (of.0, 0));
+                let moved = sample.pose.parameters.iter().find(|moved| moved.0 == (of.0, 0));
                 let value = moved.map_or_else(|| self.model.params[of].default[0], |moved| moved.1);
                 if is_negative { -value } else { value }
             }

@@ -25,7 +25,7 @@ pub struct Closable {
     pub is_adjustable: bool,
 }
 
-/// A configuration in which all loops are closed, at time zero.
+/// A configuration with parameters.
 #[derive(Clone, Debug)]
 pub struct Pose {
     /// By joint the components of its position; nothing for joints that close loops.
@@ -34,7 +34,7 @@ pub struct Pose {
     pub parameters: Vec<((usize, usize), f64)>,
 }
 
-/// Closings, and poses of which the first is the default one; nothing where no pose has the state where it stands by default.
+/// Closings, and closed poses at time zero of which the first is the default one; nothing where no pose has the state where it stands by default.
 pub fn closable(model: &Model, structure: &Structure) -> Option<(Vec<Closable>, Vec<Pose>)> {
     let problem = Problem::new(model);
     let first = structure.closed.first().map(|closed| problem.at(&closed.positions))?;

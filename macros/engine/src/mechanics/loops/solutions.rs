@@ -27,13 +27,10 @@ const MOVED: f64 = 0.2;
 /// Solutions beyond so many are not told apart.
 const MOST_SOLUTIONS: usize = 32;
 
-/// Solutions of one loop at one configuration.
+/// Solutions of one loop at one configuration, closed or not.
 #[derive(Clone, Debug)]
 pub struct Sample {
-    /// By joint the components of its position.
-    pub positions: Vec<Vec<f64>>,
-    /// Parameters with numbers and elements, where they are not as declared.
-    pub parameters: Vec<((usize, usize), f64)>,
+    pub pose: Pose,
     /// By solution the unknowns; nothing where they are not real, or not as assumed.
     pub solutions: Vec<Option<Vec<f64>>>,
     /// By solution whether each of the item's conditions holds.
@@ -45,7 +42,7 @@ impl Sample {
     pub fn value(&self, unknowns: &[Coordinate], solution: usize, coordinate: Coordinate) -> Option<f64> {
         match unknowns.iter().position(|&unknown| unknown == coordinate) {
             Some(at) => self.solutions[solution].as_ref().map(|list| list[at]),
-            None => self.positions.get(coordinate.joint.0)?.get(coordinate.index).copied(),
+            None => self.pose.positions.get(coordinate.joint.0)?.get(coordinate.index).copied(),
         }
     }
 }
@@ -128,7 +125,7 @@ impl Equations<'_> {
             let map = self.solution_map(&solved, &Reduction::default());
             roots.extend(self.g.substitute(&asked, &map));
         }
-        let sample = |value: &dyn Fn(SymbolId) -> f64, positions, parameters| -> Sample {
+        let sample = |value: &dyn Fn(SymbolId) -> f64, pose: Pose| -> Sample {
             let values = Evaluator::new(&self.g, Real { symbols: &value }).run(&roots);
             let (mut solutions, mut holds) = (Vec::new(), Vec::new());
             for values in values.chunks(asked.len()) {
@@ -138,19 +135,17 @@ impl Equations<'_> {
                 solutions.push(is_real.then(|| found.to_vec()));
                 holds.push(own.iter().map(|&mask| mask != 0.0).collect());
             }
-            Sample { positions, parameters, solutions, holds }
+            Sample { pose, solutions, holds }
         };
         let is_real = |sample: &Sample| sample.solutions.iter().any(Option::is_some);
-        let at_pose =
-            |pose: &Pose| sample(&|id| self.at_pose(pose, id), pose.positions.clone(), pose.parameters.clone());
+        let at_pose = |pose: &Pose| sample(&|id| self.at_pose(pose, id), pose.clone());
         let near: Vec<Sample> = poses.iter().map(at_pose).collect();
         if !near.first().is_some_and(is_real) {
             return None;
         }
         let draws = (0..DRAWS).map(|draw| {
             let value = |id: SymbolId| self.drawn(id, draw);
-            let (positions, parameters) = self.read_off(&value);
-            sample(&value, positions, parameters)
+            sample(&value, self.read_off(&value))
         });
         let wide = draws.filter(is_real).take(MOST_SAMPLES).collect();
         Some(Solutions { near, wide })
@@ -179,7 +174,7 @@ impl Equations<'_> {
         }
     }
 
-    fn read_off(&self, value: &dyn Fn(SymbolId) -> f64) -> (Vec<Vec<f64>>, Vec<((usize, usize), f64)>) {
+    fn read_off(&self, value: &dyn Fn(SymbolId) -> f64) -> Pose {
         let of = |&symbol: &Scalar| self.g.symbol_id(symbol).map_or(0.0, value);
         let positions = self.scene.symbols.positions.iter();
         let positions = positions.map(|list| list.iter().map(of).collect()).collect();
@@ -191,6 +186,6 @@ impl Equations<'_> {
             }
             _ => None,
         });
-        (positions, parameters.collect())
+        Pose { positions, parameters: parameters.collect() }
     }
 }
