@@ -129,7 +129,7 @@ fn close(got: &[f64], want: &[f64], tolerance: f64) {
     let size = want.iter().fold(1.0_f64, |size, x| size.max(x.abs()));
     assert_eq!(got.len(), want.len());
     for (a, b) in got.iter().zip(want) {
-        assert!((a - b).abs() <= tolerance * size, "{got:?} {want:?}");
+        assert!((a - b).abs() <= tolerance * size, "{got:?} is not {want:?}");
     }
 }
 
@@ -238,6 +238,20 @@ fn sliders_on_both_sides() {
         let line = "solve (coupler, slide) from pin { cos(crank - coupler) > 0.0 }";
         slider.check(&[(None, line)], Closing::ClosedForm);
     }
+}
+
+/// The comparison sees the other branch.
+#[test]
+#[should_panic(expected = "is not")]
+fn a_mirrored_slider_is_seen() {
+    let body = format!(
+        "{BASE} joint crank: Revolute {{ parent: base, child: a, axis: -Z }}
+         joint coupler: Revolute {{ parent: a.at(0.2 * X), child: b, axis: Z }}
+         joint slide: Prismatic {{ parent: base.at(0.02 * Y), child: c, axis: X }}
+         #[cut] joint pin: Revolute {{ parent: b.at(0.7 * X), child: c, axis: Z }}"
+    );
+    let slider = Mechanism { parts: "", body: &body, independent: ", independent: [crank]" };
+    slider.compare(&[(None, "solve (coupler, slide) from pin { cos(crank - coupler) < 0.0 }".to_owned())]);
 }
 
 /// Two solutions meet where the points of the arm stand in line, at an angle that no parameter changes.
