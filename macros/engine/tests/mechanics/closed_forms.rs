@@ -313,6 +313,10 @@ fn legs_have_one_line() {
         ("joint stroke: Prismatic { parent: cylinder.at(0.9 * Z), child: piston, axis: Z }", "stroke > -0.9"),
         ("joint stroke: Prismatic { parent: cylinder.at(0.9 * Z), child: piston, axis: -Z }", "stroke < 0.9"),
         ("joint stroke: Screw { parent: cylinder.at(0.9 * Z), child: piston, axis: Z, pitch: -0.1 }", "stroke < 9.0"),
+        (
+            "param drop = 0.9; joint stroke: Prismatic { parent: cylinder.at(drop * Z), child: piston, axis: Z }",
+            "stroke > -drop",
+        ),
     ] {
         let parts = format!(
             "mod leg {{ port base: Frame; port tip: Frame;
@@ -366,6 +370,23 @@ fn a_rod_has_a_side() {
         let line = format!("solve (shaft) from link {{ dot(Y, cross({near}, {far})) {sign} 0.0 }}");
         rods.check(&[(None, &line)], Closing::ClosedForm);
     }
+}
+
+/// In a part that has both ends of the rod all names are its own, parameters among them.
+#[test]
+fn rods_of_parts_have_one_line() {
+    let parts = "mod lever { port base: Frame; param l = 0.3; param r = 0.8;
+        body arm { mass: 1.0, com: 0.1 * X, inertia: diag(0.1, 0.2, 0.3) }
+        body bar { mass: 1.0, com: 0.1 * X, inertia: diag(0.1, 0.2, 0.3) }
+        joint hinge: Revolute { parent: base, child: arm, axis: Y }
+        joint swing: Revolute { parent: base.at([0.7, 0.1, 0.2]), child: bar, axis: Z }
+        constraint link: Rod { between: [arm.at(l * X), bar.at((l + 0.1) * Y - 0.2 * Z)], length: r } PART }";
+    let body = format!("{FRAME} part all: [lever; 2] = |i| lever {{ base: base.at(2.0 * i * X) }};");
+    let levers = Mechanism { parts, body: &body, independent: ", independent: [all[0].hinge, all[1].hinge]" };
+    let from = |end: &str| format!("bar.express({end}.position - bar.position)");
+    let [near, far] = ["bar.at((l + 0.1) * Y - 0.2 * Z)", "arm.at(l * X)"].map(from);
+    let line = format!("solve (swing) from link {{ dot(Z, cross({near}, {far})) > 0.0 }}");
+    levers.check(&[(Some("lever"), &line)], Closing::ClosedForm);
 }
 
 /// A Delta robot on rods: its plate doesn't turn, and then one rod of each pair gives its arm.
