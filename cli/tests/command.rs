@@ -236,7 +236,10 @@ fn what_is_left_to_the_compiler() {
         "{checked}"
     );
     let said = "  none of the 2 equations with multipliers is absorbed by coordinates of its limb; 2 are left to pivoted solutions";
-    assert!(lines.len() == 3 && lines[2].starts_with(said), "{checked}");
+    assert!(lines.len() == 4 && lines[2].starts_with(said), "{checked}");
+    let said = "`solve (knee, pivot) from pin { sin(shaft + knee - pivot) > 0.0 }` leaves nothing to Newton's method: ";
+    assert!(lines[3].contains(said), "{checked}");
+    assert!(lines[3].ends_with("; `constraints: Auto` would be `Reduced` with that"), "{checked}");
     // The work of both, as it is compared.
     for constraints in ["Multipliers", "Reduced"] {
         let row = cells(&output).into_iter().find(|row| row[0].starts_with("Joint") && row[1] == constraints).unwrap();

@@ -6,7 +6,10 @@
 //! multipliers, since then loops cannot drift; Newton's method only where it costs less.
 
 mod assumable;
+mod closable;
+mod sides;
 mod solvable;
+mod wording;
 
 use crate::contracts::cost::Cost;
 use crate::contracts::function::{Asked, FunctionKind};
@@ -50,11 +53,18 @@ pub fn advice(model: &Model, structure: &Structure, compiled: &Compiled) -> Opti
     let is_forward = asks_forward(model);
     let own = counted(structure, compiled, is_forward);
     let assumable = assumable::assumable(model, &own);
-    let solvable = solvable::solvable(model, &own);
-    // Where the choice was the compiler's, both are known.
+    // Where the choice was the compiler's, both are known, and closed forms may speak for the one that was not taken.
     if let Some(chosen) = &structure.advice {
+        let other = chosen.other.as_ref().and_then(|other| other.as_ref().ok());
+        let newton = other.filter(|other| own.closing == Closing::Multipliers && other.closing == Closing::Newton);
+        let reduced = || Model { handling: Handling::Reduced, ..model.clone() };
+        let solvable = match newton {
+            Some(other) => solvable::solvable(&reduced(), other),
+            None => solvable::solvable(model, &own),
+        };
         return Some(Advice { assumable, solvable, ..(**chosen).clone() });
     }
+    let solvable = solvable::solvable(model, &own);
     let other = match model.handling {
         Handling::Reduced => Handling::Multipliers,
         Handling::Multipliers | Handling::Stabilised { .. } | Handling::Auto => Handling::Reduced,

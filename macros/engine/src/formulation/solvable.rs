@@ -1,18 +1,20 @@
-//! Stage `formulation`: which coordinates the user could write a formula for, where Newton's method finds them.
+//! Stage `formulation`: which `solve` items the user could write, where Newton's method closes loops.
 //!
-//! In: a model whose loops go by Newton's method, and what it takes. Out: `solve` items of coordinates that stand still while the
-//! loops move, or go along with others (`mechanics::analysis::relations`): so are plates on parallelograms. What is told has been
-//! tried: such formulas are checked as any of the user's, with the declared parameters, the model is derived with them, and takes less.
+//! In: a model whose loops go by Newton's method, and what it takes. Out: formulas of coordinates that stand still while the
+//! loops move, or go along with others (`mechanics::analysis::relations`): so are plates on parallelograms; then closed forms of what
+//! is left ([`closable`]). What is told has been tried: such items are checked as any of the user's, with the declared parameters, the
+//! model is derived with them, and takes less.
 
 use std::collections::BTreeMap;
 
+use crate::invariant::fault::guard;
 use crate::mechanics::analysis::{Relation, analyse, relations};
 use crate::mechanics::loops::advice::{Closing, Figures, Solvable};
 use crate::mechanics::loops::constraints::{coordinate_name, local_name};
 use crate::model::formulated::Formula;
 use crate::model::types::{Coordinate, InstanceId, Model, PartTypeId};
 
-use super::{figures, judged};
+use super::{closable, figures, judged};
 
 /// What saves less is not worth a line.
 const WORTH: f64 = 0.95;
@@ -39,25 +41,55 @@ pub(super) fn solvable(model: &Model, own: &Figures) -> Option<(Vec<Solvable>, F
     if own.closing != Closing::Newton {
         return None;
     }
+    let (mut told, with, mut least) = formulas(model, own)?;
+    let forms = closed_forms(&with, &least);
+    if let Some((lines, figures)) = forms {
+        told.extend(lines);
+        least = figures;
+    }
+    (!told.is_empty()).then_some((told, least))
+}
+
+/// Closed forms of loops that are left, with what the model takes then.
+fn closed_forms(model: &Model, own: &Figures) -> Option<(Vec<Solvable>, Figures)> {
+    let judged = judged(model, &model.handling);
+    let structure = analyse(&judged).ok()?;
+    let (lines, poses) = closable::lines(&judged, &structure);
+    let takes = |lines: &[&closable::Line]| -> Option<Figures> {
+        let forms: Vec<_> = lines.iter().flat_map(|line| line.forms.iter().cloned()).collect();
+        // A closed form has to be that of the branch on which Newton's method starts, whatever its conditions have chosen.
+        let is_so = guard("mechanics", || closable::agrees(&judged.closing(&forms), &poses)).unwrap_or(false);
+        if is_so { figures(&model.closing(&forms), &model.handling).ok() } else { None }
+    };
+    let (kept, least) = kept(&lines, own, takes)?;
+    Some((kept.into_iter().map(|line| line.told.clone()).collect(), least))
+}
+
+/// Formulas of coordinates with the model that has them, and what that takes; no formula where none is worth a line.
+fn formulas(model: &Model, own: &Figures) -> Option<(Vec<Solvable>, Model, Figures)> {
     let judged = judged(model, &model.handling);
     let structure = analyse(&judged).ok()?;
     let instance = |coordinate: Coordinate| judged.joints[coordinate.joint].place.instance;
     // A formula of a part reads that part alone.
     let found = relations(&judged, &structure, |unknown, other| instance(unknown) == instance(other));
-    let takes = |lines: &[&Line]| -> Option<Figures> {
-        let items: Vec<_> = lines.iter().flat_map(|line| line.items.iter().cloned()).collect();
-        let other = model.solving(&items);
-        figures(&other, &model.handling).ok()
-    };
+    let items = |lines: &[&Line]| -> Vec<_> { lines.iter().flat_map(|line| line.items.iter().cloned()).collect() };
+    let takes = |lines: &[&Line]| figures(&model.solving(&items(lines)), &model.handling).ok();
     let lines = lines(&judged, &found);
-    if lines.is_empty() {
-        return None;
-    }
-    let (mut kept, mut least): (Vec<&Line>, Figures) = (Vec::new(), *own);
-    // All at once, or one by one where some formula is refused.
-    let all: Vec<&Line> = lines.iter().collect();
+    let Some((kept, least)) = kept(&lines, own, takes) else { return Some((Vec::new(), model.clone(), *own)) };
+    let told = kept.iter().map(|line| line.told.clone()).collect();
+    Some((told, model.solving(&items(&kept)), least))
+}
+
+/// The lines that are worth it: all at once, or one by one where some line is refused.
+fn kept<'a, L>(
+    lines: &'a [L],
+    own: &Figures,
+    takes: impl Fn(&[&L]) -> Option<Figures>,
+) -> Option<(Vec<&'a L>, Figures)> {
+    let (mut kept, mut least): (Vec<&L>, Figures) = (Vec::new(), *own);
+    let all: Vec<&L> = lines.iter().collect();
     let single = all.iter().map(|&line| vec![line]).filter(|_| (2..=MOST_LINES).contains(&all.len()));
-    let ways: Vec<Vec<&Line>> = std::iter::once(all.clone()).chain(single).collect();
+    let ways: Vec<Vec<&L>> = std::iter::once(all.clone()).filter(|all| !all.is_empty()).chain(single).collect();
     for more in ways {
         let tried = [kept.clone(), more].concat();
         if let Some(found) = takes(&tried).filter(|found| f64::from(found.work) < WORTH * f64::from(least.work)) {
@@ -67,7 +99,7 @@ pub(super) fn solvable(model: &Model, own: &Figures) -> Option<(Vec<Solvable>, F
             }
         }
     }
-    (!kept.is_empty()).then(|| (kept.into_iter().map(|line| line.told.clone()).collect(), least))
+    (!kept.is_empty()).then_some((kept, least))
 }
 
 /// What holds in every part of a type, joint by joint.

@@ -8,6 +8,7 @@
 
 mod absorption;
 mod checks;
+mod closable;
 mod closed;
 mod closures;
 mod configurations;
@@ -43,6 +44,7 @@ use ranked::Ranked;
 
 pub use absorption::Hope;
 pub(super) use absorption::{Absorption, Poses};
+pub use closable::{Closable, Pose, closable};
 pub use relations::{Relation, relations};
 pub(super) use written::Writings;
 

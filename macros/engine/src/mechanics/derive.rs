@@ -29,10 +29,11 @@ use crate::invariant::fault::raise;
 use crate::model::types::{BodyRef, Coordinate, Joint, JointId, Model, Request};
 use crate::symbolic::graph::{Graph, Scalar};
 
-use super::analysis::{Complaint, Hope, Writings};
+use super::analysis::{Complaint, Hope, Pose, Writings};
 use super::loops::advice::Pivoted;
 use super::loops::constraints::Writing;
 use super::loops::known::Decided;
+use super::loops::solutions::Solutions;
 use super::loops::structure::{Role, Structure};
 use super::results::{euler_singularities, first_order};
 use super::scene::Method;
@@ -159,6 +160,35 @@ pub fn hopes(model: &Model, structure: &Structure, share: f64) -> Result<Vec<Vec
         }
     }
     Ok(all)
+}
+
+/// Solutions of `solve` items without conditions, from one of them on, at some poses; nothing of those without a closed form. What else
+/// the items have to do with each other is of no account.
+pub fn solutions(
+    model: &Model,
+    structure: &Structure,
+    from: usize,
+    poses: &[Pose],
+) -> Result<Vec<Option<Solutions>>, Vec<Complaint>> {
+    let mut deriving = Deriving::new(model, structure);
+    let (mut found, mut plans) = (Vec::new(), Vec::new());
+    deriving.only("", |e| {
+        found = (from..model.solves.len()).map(|number| e.solutions_at(number, poses, &mut plans)).collect();
+        Ok(Results::default())
+    })?;
+    Ok(found)
+}
+
+/// Whether coordinates that follow stand at some poses where these have them.
+pub fn agrees(model: &Model, structure: &Structure, poses: &[Pose]) -> Result<bool, Vec<Complaint>> {
+    let mut deriving = Deriving::new(model, structure);
+    let mut agrees = false;
+    deriving.only("", |e| {
+        let reduction = e.reduce()?;
+        agrees = e.agrees(&reduction, poses);
+        Ok(Results::default())
+    })?;
+    Ok(agrees)
 }
 
 /// What to derive, each once, in a fixed order.

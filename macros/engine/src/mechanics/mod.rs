@@ -17,7 +17,7 @@ pub mod translate;
 mod trees;
 pub mod written;
 
-pub use derive::{Entry, MOST_FREEDOMS, Patterns, derive, freedoms, hopes, page, patterns};
+pub use derive::{Entry, MOST_FREEDOMS, Patterns, agrees, derive, freedoms, hopes, page, patterns, solutions};
 pub use translate::reads::Reads;
 
 use std::rc::Rc;

@@ -1,8 +1,13 @@
-//! Stage `model`: formulas of coordinates that are tried for the user to see what they bring.
+//! Stage `model`: formulas and closed forms of coordinates that are tried for the user to see what they bring.
 //!
-//! In: coordinates with what they are. Out: the model with them, as `solve` items of the user's.
+//! In: coordinates with what they are, or with what closes their loop. Out: the model with them, as `solve` items of the user's.
 
-use super::types::{Coordinate, Expr, ExprNode, Model, Order, Solve, SolveHow, Type};
+use proc_macro2::Span;
+
+use super::types::{
+    Comparison, Coordinate, Expr, ExprNode, Frame, FrameQuantity, Function, LoopClosure, Model, Order, ParamId, Solve,
+    SolveHow, Type,
+};
 
 /// What a coordinate is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,7 +17,162 @@ pub enum Formula {
     Opposite(Coordinate),
 }
 
+/// What is found from one closing, on the branch where all these conditions hold.
+#[derive(Clone)]
+pub struct ClosedForm {
+    pub unknowns: Vec<Coordinate>,
+    pub closing: LoopClosure,
+    pub sides: Vec<Side>,
+    pub beyond: Option<Beyond>,
+}
+
+/// On which side of a hinge's arm something lies that a rod from the arm's end leads to: on the plane through the hinge's axis and that
+/// end the two solutions of the hinge's angle meet.
+#[derive(Clone)]
+pub struct Beyond {
+    /// Of the joint, on the body that it carries.
+    pub hinge: Frame,
+    /// Its direction there.
+    pub axis: Expr,
+    /// The rod's ends: on the arm, and the other one.
+    pub near: Frame,
+    pub far: Frame,
+    pub is_above: bool,
+}
+
+impl Beyond {
+    /// As it stands between the braces of a `solve`.
+    pub fn text(&self, [hinge, axis, near, far]: &[String; 4]) -> String {
+        let sign = if self.is_above { '>' } else { '<' };
+        let from = |end: &str| format!("{hinge}.express({end}.position - {hinge}.position)");
+        format!("dot({axis}, cross({}, {})) {sign} 0.0", from(near), from(far))
+    }
+
+    fn condition(&self, span: Span) -> Expr {
+        let vector = |node: ExprNode| Expr::new(node, Type::Vec3, span);
+        let scalar = |node: ExprNode| Expr::new(node, Type::Scalar, span);
+        let position = |frame: &Frame| vector(ExprNode::OfFrame(frame.clone(), FrameQuantity::Position));
+        let from = |end: &Frame| {
+            let way = vector(ExprNode::Sub(position(end), position(&self.hinge)));
+            vector(ExprNode::Express { frame: self.hinge.clone(), vector: way })
+        };
+        let normal = vector(ExprNode::Call(Function::Cross, vec![from(&self.near), from(&self.far)]));
+        let value = scalar(ExprNode::Call(Function::Dot, vec![self.axis.clone(), normal]));
+        let comparison = if self.is_above { Comparison::Greater } else { Comparison::Less };
+        Expr::new(ExprNode::Compare(comparison, value, scalar(ExprNode::Number(0.0))), Type::Bool, span)
+    }
+}
+
+/// A condition that tells solutions of a loop apart: of a sum of angles, or of a length.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Side {
+    pub measure: Measure,
+    /// Those that are subtracted are marked; the first is not.
+    pub terms: Vec<(Coordinate, bool)>,
+    /// Where the sum counts from.
+    pub from: Origin,
+    pub is_above: bool,
+}
+
+/// What has the sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    Sine,
+    Cosine,
+    Travel,
+}
+
+/// Where something counts from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Origin {
+    Number(f64),
+    /// A scalar parameter, or what is minus that.
+    Parameter {
+        of: ParamId,
+        is_negative: bool,
+    },
+}
+
+impl Side {
+    /// As it stands between the braces of a `solve`; the parameter is named where it counts from one.
+    pub fn text(&self, name: impl Fn(Coordinate) -> String, parameter: &str) -> String {
+        let mut sum = String::new();
+        for &(coordinate, is_subtracted) in &self.terms {
+            match (sum.is_empty(), is_subtracted) {
+                (true, _) => {}
+                (false, true) => sum += " - ",
+                (false, false) => sum += " + ",
+            }
+            sum += &name(coordinate);
+        }
+        let sign = if self.is_above { '>' } else { '<' };
+        let from = match self.from {
+            Origin::Number(value) => format!("{value:?}"),
+            Origin::Parameter { is_negative, .. } => format!("{}{parameter}", if is_negative { "-" } else { "" }),
+        };
+        let word = match self.measure {
+            Measure::Travel => return format!("{sum} {sign} {from}"),
+            Measure::Sine => "sin",
+            Measure::Cosine => "cos",
+        };
+        let shifted = match self.from {
+            Origin::Number(0.0) => sum,
+            Origin::Number(value) if value < 0.0 => format!("{sum} + {:?}", -value),
+            Origin::Number(_) | Origin::Parameter { .. } => format!("{sum} - {from}"),
+        };
+        format!("{word}({shifted}) {sign} 0.0")
+    }
+
+    fn condition(&self, span: Span) -> Expr {
+        let scalar = |node: ExprNode| Expr::new(node, Type::Scalar, span);
+        let position = |Coordinate { joint, index }: Coordinate| {
+            scalar(ExprNode::Coordinate { joint, index, order: Order::Position })
+        };
+        let sum = self.terms.iter().fold(None, |sum: Option<Expr>, &(coordinate, is_subtracted)| {
+            let value = position(coordinate);
+            Some(match (sum, is_subtracted) {
+                (None, _) => value,
+                (Some(sum), true) => scalar(ExprNode::Sub(sum, value)),
+                (Some(sum), false) => scalar(ExprNode::Add(sum, value)),
+            })
+        });
+        let sum = sum.unwrap_or_else(|| scalar(ExprNode::Number(0.0)));
+        let from = match self.from {
+            Origin::Number(value) => scalar(ExprNode::Number(value)),
+            Origin::Parameter { of, is_negative: false } => scalar(ExprNode::Param(of)),
+            Origin::Parameter { of, is_negative: true } => scalar(ExprNode::Neg(scalar(ExprNode::Param(of)))),
+        };
+        let (value, bound) = match self.measure {
+            Measure::Travel => (sum, from),
+            Measure::Sine | Measure::Cosine => {
+                let function = if self.measure == Measure::Sine { Function::Sin } else { Function::Cos };
+                let angle = match self.from {
+                    Origin::Number(0.0) => sum,
+                    _ => scalar(ExprNode::Sub(sum, from)),
+                };
+                (scalar(ExprNode::Call(function, vec![angle])), scalar(ExprNode::Number(0.0)))
+            }
+        };
+        let comparison = if self.is_above { Comparison::Greater } else { Comparison::Less };
+        Expr::new(ExprNode::Compare(comparison, value, bound), Type::Bool, span)
+    }
+}
+
 impl Model {
+    /// The same with loops closed by closed forms.
+    pub fn closing(&self, forms: &[ClosedForm]) -> Model {
+        let mut model = self.clone();
+        for form in forms {
+            let Some(first) = form.unknowns.first() else { continue };
+            let span = model.joints[first.joint].span;
+            let beyond = form.beyond.iter().map(|beyond| beyond.condition(span));
+            let branches = form.sides.iter().map(|side| side.condition(span)).chain(beyond).collect();
+            let how = SolveHow::From { closing: form.closing, branches };
+            model.solves.push(Solve { unknowns: form.unknowns.clone(), how, span });
+        }
+        model
+    }
+
     /// The same with formulas for coordinates.
     pub fn solving(&self, items: &[Vec<(Coordinate, Formula)>]) -> Model {
         let mut model = self.clone();

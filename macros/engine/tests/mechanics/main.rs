@@ -7,6 +7,7 @@ mod alike;
 mod analysis;
 mod auto;
 mod balance;
+mod closed_forms;
 mod closings;
 mod closures;
 mod every_formulation;

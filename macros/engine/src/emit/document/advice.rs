@@ -21,7 +21,13 @@ pub(super) fn items(context: &Context<'_>) -> Vec<String> {
         items.push(assumption(assumable, figures, own));
     }
     if let (Some((solvable, figures)), Some(own)) = (&advice.solvable, &advice.own) {
-        items.push(formulas(solvable, figures, own));
+        items.push(match &advice.other {
+            Some(Ok(other)) if own.closing == Closing::Multipliers => {
+                let choice = if figures.reduces(own) { "be `Reduced`" } else { "still be `Multipliers`" };
+                format!("{}; `constraints: Auto` would {choice} with that", formulas(solvable, figures, other))
+            }
+            _ => formulas(solvable, figures, own),
+        });
     }
     items
 }

@@ -72,7 +72,7 @@ pub fn relations(
 }
 
 /// Closed configurations near the default one, with the state moved.
-fn poses(problem: &Problem, structure: &Structure) -> Vec<Point> {
+pub(super) fn poses(problem: &Problem, structure: &Structure) -> Vec<Point> {
     let Some(first) = structure.closed.first().map(|closed| problem.at(&closed.positions)) else { return Vec::new() };
     let role = |column: usize| structure.role(problem.columns[column].coordinate);
     let columns: Vec<usize> = (0..problem.columns.len()).collect();

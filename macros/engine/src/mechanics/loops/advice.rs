@@ -18,7 +18,8 @@ pub struct Advice {
     pub other: Option<Result<Figures, String>>,
     /// What the user could assume for more equations to be absorbed, with what the model takes then.
     pub assumable: Option<(Vec<Assumable>, Figures)>,
-    /// What the user could write formulas for, with what the model takes then.
+    /// What the user could write formulas for or have closed, with what the model takes then; where multipliers were chosen for want of
+    /// such items, with what eliminating takes then.
     pub solvable: Option<(Vec<Solvable>, Figures)>,
 }
 

@@ -233,7 +233,7 @@ impl Equations<'_> {
     }
 
     /// A solution's values beside those of the steps before it.
-    fn solution_map(&mut self, solved: &[Solved], reduction: &Reduction) -> Map {
+    pub(super) fn solution_map(&mut self, solved: &[Solved], reduction: &Reduction) -> Map {
         let mut map = reduction.map.clone();
         for one in solved {
             let value = self.value_of(one);
@@ -287,7 +287,7 @@ impl Equations<'_> {
     }
 
     /// What a plan leads to, for every choice of signs.
-    fn solutions(&mut self, cycle: &KinematicLoop, plan: &Plan) -> Result<Vec<Choice>, Failure> {
+    pub(super) fn solutions(&mut self, cycle: &KinematicLoop, plan: &Plan) -> Result<Vec<Choice>, Failure> {
         let first = plan.solve(&mut self.g, cycle, &[])?;
         let count = first.signs.min(MOST_SIGNS);
         let mut solutions = vec![(vec![true; count], first.solved)];
@@ -456,7 +456,7 @@ impl Equations<'_> {
     }
 
     /// A random value of a symbol; parameters have their defaults.
-    fn sample(&self, id: SymbolId, draw: u64, scale: f64) -> f64 {
+    pub(super) fn sample(&self, id: SymbolId, draw: u64, scale: f64) -> f64 {
         let random = 2.0 * unit(draw, id.0 as u64 + 1) - 1.0;
         match self.scene.symbols.table.get(id.0) {
             Some(&Symbol::Param { param, element }) => self.scene.model.params[param].default[element],
@@ -476,7 +476,7 @@ fn same(a: &[Vec<f64>], b: &[Vec<f64>], count: usize) -> bool {
 }
 
 /// Random, between 0 and 1.
-fn unit(draw: u64, key: u64) -> f64 {
+pub(super) fn unit(draw: u64, key: u64) -> f64 {
     (mix(mix(draw ^ 0x5A17) ^ key) >> 11) as f64 / (1_u64 << 53) as f64
 }
 

@@ -43,7 +43,7 @@ use crate::model::joint_kinds::Hold;
 use crate::model::types::{ConstraintId, ConstraintKind, JointId, LoopClosure, Model};
 use crate::symbolic::graph::Scalar;
 
-pub use names::{coordinate_name, local_name, row_name, unfit};
+pub use names::{body_name, closing_name, coordinate_name, local_name, parameter_name, place_of, row_name, unfit};
 pub(in crate::mechanics) use names::{path, row_called, rows_of_joint};
 pub use wrenches::Held;
 

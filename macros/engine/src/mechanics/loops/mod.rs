@@ -11,5 +11,6 @@ pub(super) mod loop_equations;
 pub(super) mod newton;
 pub(super) mod reduction;
 pub(super) mod rotors;
+pub mod solutions;
 pub mod structure;
 pub(super) mod verification;

@@ -11,10 +11,10 @@ use crate::invariant::fault::raise;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::model::site::Sited;
-use crate::model::types::{Expr, JointId, Kinematics, LoopClosure, Solve, SolveHow};
+use crate::model::types::{Expr, JointId, Kinematics, Solve, SolveHow};
 use crate::symbolic::graph::Scalar;
 
-use super::constraints::coordinate_name;
+use super::constraints::{closing_name, coordinate_name};
 use super::reduction::Reduction;
 use super::structure::Means;
 
@@ -71,14 +71,6 @@ impl Equations<'_> {
             guessed.map(|(at, c)| (self.scene.symbols.guess(at), self.coordinate_symbols(c)[0])).collect();
         let map = self.map(&pairs);
         Results { list: self.g.substitute(&results.list, &map), ..results }
-    }
-
-    fn closing_name(&self, closing: LoopClosure) -> String {
-        let place = match closing {
-            LoopClosure::Cut(id) => &self.scene.model.joints[id].place,
-            LoopClosure::Constraint(id) => &self.scene.model.constraints[id].place,
-        };
-        super::constraints::path(self.scene.model, place)
     }
 
     /// The conditions that have chosen solutions hold for those that were made: where one holds nowhere, another solution was
@@ -159,7 +151,7 @@ impl Equations<'_> {
             }
             let samples = self.samples(&roots, &reduction.map);
             let worst = samples.into_iter().flatten().fold(0.0_f64, |worst, gap| worst.max(gap.abs()));
-            let name = self.closing_name(closing);
+            let name = closing_name(model, closing);
             if worst > if written(last) { TOLERANCE } else { 1e-8 } {
                 complaints.push(Complaint {
                     at: item.site(),

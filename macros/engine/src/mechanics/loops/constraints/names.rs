@@ -6,7 +6,9 @@
 
 use crate::model::joint_kinds::Hold;
 use crate::model::types::Constraint;
-use crate::model::types::{Coordinate, Directions, Expr, ExprNode, Joint, JointId, LoopClosure, Model, Place};
+use crate::model::types::{
+    BodyId, Coordinate, Directions, Expr, ExprNode, Joint, JointId, LoopClosure, Model, ParamId, Place,
+};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -46,6 +48,29 @@ pub(in crate::mechanics) fn rows_of_joint(model: &Model, id: JointId) -> Vec<Str
 /// A coordinate as the user addresses it.
 pub fn coordinate_name(model: &Model, coordinate: Coordinate) -> String {
     path(model, &model.joints[coordinate.joint].place) + &of_coordinate(model, coordinate)
+}
+
+/// What closes a loop, as the user addresses it.
+pub fn closing_name(model: &Model, closing: LoopClosure) -> String {
+    path(model, place_of(model, closing))
+}
+
+/// Where what closes a loop stands.
+pub fn place_of(model: &Model, closing: LoopClosure) -> &Place {
+    match closing {
+        LoopClosure::Cut(id) => &model.joints[id].place,
+        LoopClosure::Constraint(id) => &model.constraints[id].place,
+    }
+}
+
+/// A body as the user addresses it.
+pub fn body_name(model: &Model, body: BodyId) -> String {
+    path(model, &model.bodies[body].place)
+}
+
+/// A parameter as the user addresses it.
+pub fn parameter_name(model: &Model, parameter: ParamId) -> String {
+    path(model, &model.params[parameter].place)
 }
 
 /// The same inside the part in which the joint stands.
