@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use crate::mechanics::loops::constraints::{coordinate_name, is_uncounted, row_count};
 use crate::mechanics::loops::structure::{Means, Row, Step};
 use crate::model::site::Sited;
-use crate::model::types::{BodyRef, ConstraintId, Coordinate, JointId, LoopClosure, Model, SolveHow};
+use crate::model::types::{BodyRef, Closing, ConstraintId, Coordinate, JointId, LoopClosure, Model, SolveHow};
 use crate::symbolic::triangular_form::{components, matching};
 
 use super::checks::thing;
@@ -134,11 +134,22 @@ impl ReductionSearch<'_> {
                     };
                     self.kept.iter().copied().filter(own).collect()
                 }
-                SolveHow::From { closing, .. } => {
-                    let own = |&k: &usize| self.row(k).is_some_and(|row| row.closing == *closing);
-                    if !(0..self.group.equations.len()).any(|k| own(&k)) {
+                SolveHow::From { closings, .. } => {
+                    let of = |k: usize, closing: &Closing| self.row(k).is_some_and(|row| row.closing == closing.what);
+                    let is_here = |closing: &&Closing| (0..self.group.equations.len()).any(|k| of(k, closing));
+                    if !closings.iter().any(|closing| is_here(&closing)) {
                         continue;
                     }
+                    if let Some(other) = closings.iter().find(|closing| !is_here(closing)) {
+                        let (_, what) = thing(self.model, other.what);
+                        complaints.push(Complaint {
+                            at: other.site(),
+                            message: format!("{what} closes another loop, which has no unknown in common with the first"),
+                            help: Some("write a `solve` for each of these loops".to_owned()),
+                        });
+                        return Err(complaints);
+                    }
+                    let own = |&k: &usize| closings.iter().any(|closing| of(k, closing));
                     self.kept.iter().copied().filter(own).collect()
                 }
             };
