@@ -102,7 +102,7 @@ pub struct Solution {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Failure {
     /// Symbols of the wanted unknowns that no equation has alone.
-    NotFound { remaining: Vec<Scalar>, solved: usize },
+    NotFound { remaining: Vec<Scalar>, solved: usize, cycles: usize },
     /// The coordinates of a ball were asked for.
     Ball,
 }
@@ -110,9 +110,10 @@ pub enum Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Failure::NotFound { remaining, solved } => write!(
+            Failure::NotFound { remaining, solved, cycles } => write!(
                 f,
-                "no two joints of this loop leave an equation in one unknown alone: {} found, {} remain",
+                "no two joints of {} leave an equation in one unknown alone: {} found, {} remain",
+                if *cycles > 1 { "these loops" } else { "this loop" },
                 solved,
                 remaining.len()
             ),
@@ -174,6 +175,7 @@ impl Plan {
                     let found = orientation.solve(g, &mut system, sign).ok_or_else(|| Failure::NotFound {
                         remaining: orientation.unknowns.map(|number| system.unknowns[number].symbol).to_vec(),
                         solved: solved.len(),
+                        cycles: cycles.len(),
                     })?;
                     orientations.push((found, choices, orientation.describe()));
                     choices += 1;
@@ -184,7 +186,8 @@ impl Plan {
                         let rest = system.rest(cycle, number);
                         let opened = system.opened(g, cycle, number, &rest);
                         let Some(primitive) = opened.derive(g, candidate.source) else {
-                            return Err(Failure::NotFound { remaining: vec![symbol], solved: solved.len() });
+                            let (remaining, solved, cycles) = (vec![symbol], solved.len(), cycles.len());
+                            return Err(Failure::NotFound { remaining, solved, cycles });
                         };
                         let how = candidate.describe();
                         let mut one = primitive.solve(g, symbol, sign, &mut system.known, how);

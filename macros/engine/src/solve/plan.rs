@@ -76,7 +76,7 @@ pub(super) fn plan(g: &mut Graph, system: &System, points: &[Point<'_>]) -> Resu
         (Some((_, bench)), _) => Ok(bench.steps()),
         (None, Some(bench)) => {
             let remaining = bench.open_unknowns(true).map(|k| system.unknowns[k].symbol).collect();
-            Err(Failure::NotFound { remaining, solved: bench.solved().count() })
+            Err(Failure::NotFound { remaining, solved: bench.solved().count(), cycles: system.cycles.len() })
         }
         (None, None) => Ok(Vec::new()),
     }

@@ -53,8 +53,8 @@ fn line(item: &Item) -> String {
         ItemKind::Solve { unknowns, how: Solution::Formulas(formulas) } => {
             format!("solve {} {}", list(unknowns), list(formulas))
         }
-        ItemKind::Solve { unknowns, how: Solution::From { joint, branches } } => {
-            format!("solve {} from {} {}", list(unknowns), text(joint), list(branches))
+        ItemKind::Solve { unknowns, how: Solution::From { closings, branches } } => {
+            format!("solve {} from {} {}", list(unknowns), list(closings), list(branches))
         }
         ItemKind::System { unknowns, equations, branches } => {
             format!("system {} {} {}", list(unknowns), list(equations), list(branches))

@@ -144,8 +144,8 @@ impl ReductionSearch<'_> {
                         let (_, what) = thing(self.model, other.what);
                         complaints.push(Complaint {
                             at: other.site(),
-                            message: format!("{what} closes another loop, which has no unknown in common with the first"),
-                            help: Some("write a `solve` for each of these loops".to_owned()),
+                            message: format!("{what} has no coordinate in common with the others"),
+                            help: Some("write a `solve` of its own for it".to_owned()),
                         });
                         return Err(complaints);
                     }
@@ -187,7 +187,8 @@ impl ReductionSearch<'_> {
                 } else {
                     "name as many coordinates as the loop gives equations"
                 };
-                complain(format!("`solve` names {want} unknowns, but the loop gives {have} equations for them"), help);
+                let loops = if solve.closings().count() > 1 { "loops give" } else { "loop gives" };
+                complain(format!("`solve` names {want} unknowns, but the {loops} {have} equations for them"), help);
                 continue;
             }
             items.push(Item { number, rows, unknowns });
@@ -218,9 +219,10 @@ impl ReductionSearch<'_> {
 
     fn undetermined(&self, item: &Item) -> Complaint {
         let solve = &self.model.solves[item.number];
+        let loops = if solve.closings().count() > 1 { "loops do" } else { "loop does" };
         Complaint {
             at: solve.site(),
-            message: format!("the loop does not determine {}", self.names(&item.unknowns)),
+            message: format!("the {loops} not determine {}", self.names(&item.unknowns)),
             help: Some("name coordinates that follow from the loop when the others are known".to_owned()),
         }
     }

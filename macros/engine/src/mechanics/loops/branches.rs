@@ -497,7 +497,7 @@ fn complaint(item: &Solve, message: String, help: &str) -> Vec<Complaint> {
 fn not_found(item: &Solve, failure: &Failure) -> Vec<Complaint> {
     complaint(
         item,
-        format!("no closed form was found for this loop: {failure}"),
+        format!("no closed form was found for {}: {failure}", if item.closings().count() > 1 { "these loops" } else { "this loop" }),
         "leave the `solve` item out to have the loop solved by Newton's method, or write the solution yourself: \
          `solve (a, b) = (.., ..);`",
     )

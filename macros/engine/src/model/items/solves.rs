@@ -9,7 +9,6 @@ use syn::spanned::Spanned;
 
 use crate::model::checker::{Checker, Context, Meaning};
 use crate::model::expressions::source_text;
-use crate::model::joint_kinds::JointKind;
 use crate::model::topology::Topology;
 use crate::model::typed::Allowed;
 use crate::model::types::{Closing, Coordinate, Joints, LoopClosure, Solve, SolveHow, Type};
@@ -38,10 +37,20 @@ impl<'a> Checker<'a, '_> {
             .collect();
         let lists: Option<Vec<Vec<Coordinate>>> = found.into_iter().collect();
         let how = match how {
-            Solution::Formulas(formulas) => self.formulas(formulas, unknowns, lists.as_deref(), context),
+            Solution::Formulas(formulas) => self.formulas(formulas, lists.as_deref(), context),
             Solution::From { closings, branches } => self.by_closings(closings, branches, context),
         };
         let (lists, how) = (lists?, how?);
+        for (expr, list) in unknowns.iter().zip(&lists) {
+            if self.has_quaternion(list, &how) {
+                self.report.help(
+                    expr.span(),
+                    format!("`{}` has a quaternion, for which there are no formulas", source_text(expr)),
+                    "write `coordinates: RollPitchYaw` on it",
+                );
+                return None;
+            }
+        }
         let (topology, list) = joints?;
         if let Some(why) = self.void(unknowns, &lists, &how, (topology, list))? {
             // Its conditions may speak of coordinates that aren't there.
@@ -62,11 +71,19 @@ impl<'a> Checker<'a, '_> {
         Some(SolveItem::Item(Solve { unknowns: all, how, span: keyword }))
     }
 
+    /// Whether coordinates have no formulas: where they are written, those of a joint with a quaternion; of closed forms, those
+    /// that turn it.
+    fn has_quaternion(&self, coordinates: &[Coordinate], how: &SolveHow) -> bool {
+        coordinates.iter().any(|coordinate| {
+            let kind = self.joints[coordinate.joint].kind.filter(|kind| kind.has_quaternion());
+            kind.is_some_and(|kind| matches!(how, SolveHow::Formulas(_)) || kind.turning().contains(&coordinate.index))
+        })
+    }
+
     /// One scalar for each coordinate.
     fn formulas(
         &mut self,
         formulas: &[Expr],
-        unknowns: &[Expr],
         lists: Option<&[Vec<Coordinate>]>,
         context: Context<'a>,
     ) -> Option<SolveHow> {
@@ -75,20 +92,6 @@ impl<'a> Checker<'a, '_> {
             .map(|expr| self.scalar(expr, context, Allowed::Positions).map(|value| value.expr))
             .collect();
         let lists = lists?;
-        for (expr, list) in unknowns.iter().zip(lists) {
-            let quaternion = list.iter().any(|coordinate| {
-                let kind = self.joints[coordinate.joint].kind;
-                kind.is_some_and(JointKind::has_quaternion)
-            });
-            if quaternion {
-                self.report.help(
-                    expr.span(),
-                    format!("`{}` has a quaternion, for which there are no formulas", source_text(expr)),
-                    "write `coordinates: RollPitchYaw` on it",
-                );
-                return None;
-            }
-        }
         let count: usize = lists.iter().map(Vec::len).sum();
         if values.len() != count {
             let plural = |n: usize| if n == 1 { "" } else { "s" };
