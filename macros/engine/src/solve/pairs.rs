@@ -235,9 +235,7 @@ pub(super) fn pairs(groups: &[Taken]) -> impl Iterator<Item = (&Taken, &Taken, M
     let both = firsts.flat_map(move |first| {
         let seconds = groups.iter().filter(|group| !group.far.is_empty());
         // Two empty ones: the directions of one frame, which need no pair.
-        let apart = move |second: &&Taken| {
-            second.run.from >= first.run.to && !(empty(first.run) && empty(second.run))
-        };
+        let apart = move |second: &&Taken| second.run.from >= first.run.to && !(empty(first.run) && empty(second.run));
         seconds.filter(apart).map(move |second| (first, second))
     });
     both.flat_map(|(first, second)| {

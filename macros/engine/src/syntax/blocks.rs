@@ -177,7 +177,8 @@ pub(super) fn solve(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Optio
     }
     cursor.bump();
     // No operand of an equation: loops that are solved together.
-    let several = cursor.at_group(0, Delimiter::Parenthesis) && cursor.punct(1).is_none_or(|punct| punct.as_char() == ';');
+    let several =
+        cursor.at_group(0, Delimiter::Parenthesis) && cursor.punct(1).is_none_or(|punct| punct.as_char() == ';');
     let closings = match several {
         true => parenthesised("what closes the loops", &form(Keyword::Solve), cursor, diagnostics)?,
         false => vec![expression(cursor, diagnostics).ok()?],

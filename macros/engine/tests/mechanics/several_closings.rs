@@ -16,7 +16,8 @@ const ARMS: &str = "world { gravity: -9.80665 * Z }
     force spring: Effort { joint: low, value: load - 5.0 * low.rate }";
 const UPPER: &str = "body upper { mass: 1.5, com: 0.15 * X, inertia: diag(0.01, 0.02, 0.03) }
     joint up: Revolute { parent: ground.at([0.08, 0.02, 0.25]), child: upper, axis: [-0.04, 1.0, 0.06] }";
-const HEAD: &str = "#[cut] joint head: Ball { parent: upper.at([0.31, -0.01, 0.0]), child: upright.at([-0.03, -0.01, 0.26]) }";
+const HEAD: &str =
+    "#[cut] joint head: Ball { parent: upper.at([0.31, -0.01, 0.0]), child: upright.at([-0.03, -0.01, 0.26]) }";
 const HEAD_BACK: &str =
     "#[cut] joint head: Ball { parent: upright.at([-0.03, -0.01, 0.26]), child: upper.at([0.31, -0.01, 0.0]) }";
 const PIVOT: &str =
@@ -182,7 +183,10 @@ impl Mechanism {
             }
             compared += 1;
         }
-        println!("{}, {branch}: {compared} poses, {iterated} by Newton's method too, {unreal} unreal, {poor} poor", self.name);
+        println!(
+            "{}, {branch}: {compared} poses, {iterated} by Newton's method too, {unreal} unreal, {poor} poor",
+            self.name
+        );
         assert!(compared > 40 && 10 * iterated > 9 * compared, "{compared} poses, {iterated} by Newton's method");
     }
 }
@@ -209,7 +213,8 @@ fn a_universal_joint_and_a_hinge_through_its_centre() {
     let joints = "body knuckle { mass: 0.2, inertia: diag(0.001, 0.002, 0.0015) }
         joint tilt: Universal { parent: lower.at([0.42, 0.02, 0.01]), child: knuckle, axes: [X, Y] }
         joint spin: Revolute { parent: knuckle.at(0.03 * Z), child: upright.at(0.03 * Z), axis: Z }";
-    let branches = ["up < 0.75, cos(tilt.second) > 0.0, cos(spin) > 0.0", "up < 0.75, cos(tilt.second) < 0.0, cos(spin) < 0.0"];
+    let branches =
+        ["up < 0.75, cos(tilt.second) > 0.0, cos(spin) > 0.0", "up < 0.75, cos(tilt.second) < 0.0, cos(spin) < 0.0"];
     let mut mechanism = turning("universal", joints, "(up, tilt, spin) from (head, steer)", &branches);
     mechanism.coordinates.extend(["tilt.first", "tilt.second", "spin"]);
     mechanism.bodies.push("knuckle");
@@ -280,7 +285,14 @@ fn loops_without_a_closed_form() {
         solve (up, pivot) from (head, steer) { up < 0.75 }";
     let text = refusal(&[ARMS, UPPER, PIVOT, HEAD, rod]);
     assert!(text.contains("the loops do not determine"), "{text}");
-    let text = refusal(&[ARMS, UPPER, PIVOT, HEAD, ROD, "solve (up, pivot.roll, pivot.pitch) from (head, steer) { up < 0.75 }"]);
+    let text = refusal(&[
+        ARMS,
+        UPPER,
+        PIVOT,
+        HEAD,
+        ROD,
+        "solve (up, pivot.roll, pivot.pitch) from (head, steer) { up < 0.75 }",
+    ]);
     assert!(text.contains("`solve` names 3 unknowns, but the loops give 4 equations for them"), "{text}");
     // Another mechanism stands beside it.
     let bar = "body one { mass: 1.0 } body two { mass: 1.0 } body three { mass: 1.0 }

@@ -144,7 +144,8 @@ impl Equations<'_> {
             own.iter().all(|group| is_in(group, closings.next())) && closings.next().is_none()
         };
         let solves = self.scene.model.solves.iter().enumerate();
-        let known = solves.filter(|(_, solve)| alike(solve)).filter_map(|(number, _)| self.decided.branches.0.get(&number));
+        let known =
+            solves.filter(|(_, solve)| alike(solve)).filter_map(|(number, _)| self.decided.branches.0.get(&number));
         known.into_iter().find_map(|branch| branch.plan.adapted(&self.g, cycles))
     }
 
@@ -497,7 +498,10 @@ fn complaint(item: &Solve, message: String, help: &str) -> Vec<Complaint> {
 fn not_found(item: &Solve, failure: &Failure) -> Vec<Complaint> {
     complaint(
         item,
-        format!("no closed form was found for {}: {failure}", if item.closings().count() > 1 { "these loops" } else { "this loop" }),
+        format!(
+            "no closed form was found for {}: {failure}",
+            if item.closings().count() > 1 { "these loops" } else { "this loop" }
+        ),
         "leave the `solve` item out to have the loop solved by Newton's method, or write the solution yourself: \
          `solve (a, b) = (.., ..);`",
     )

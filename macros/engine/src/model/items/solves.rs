@@ -161,7 +161,11 @@ impl<'a> Checker<'a, '_> {
                 return Some(Some(format!("{subject}: with these coordinates the joint `{name}` lies in the tree")));
             }
             let message = format!("the joint `{}` closes no loop", joint.place.field);
-            self.report.help(closing.span, message, "name a joint that closes the loop; `#[cut]` on a joint makes it one");
+            self.report.help(
+                closing.span,
+                message,
+                "name a joint that closes the loop; `#[cut]` on a joint makes it one",
+            );
             return None;
         }
         for (expr, list) in unknowns.iter().zip(lists) {
