@@ -221,7 +221,7 @@ impl Orientation {
         });
         let closing = Link::Known { rotation, offset: Vector::ZERO };
         system.cycles.push(Cycle { links: turning.chain([closing]).collect(), winding: None });
-        let parts = vec![("along", kappa), ("across", n), ("gap", discriminant)];
+        let parts = vec![("product", kappa), ("area", n), ("gap", discriminant)];
         let Spherical { unknowns, links, .. } = spherical;
         Some(Found { unknowns, root, parts, links, back: self.back, conditions, x, slope: -rho, square, rows })
     }

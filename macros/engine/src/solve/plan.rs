@@ -261,6 +261,19 @@ impl Bench {
     fn orientations(&self, points: &[Point<'_>]) -> Vec<Next> {
         let mut scratch = self.g.clone();
         let mut list: Vec<(usize, [usize; 3], Next)> = Vec::new();
+        // What is known already would be found from itself.
+        let oriented: Vec<[usize; 3]> = self
+            .done
+            .iter()
+            .filter_map(|done| match done {
+                Done::Coordinate { .. } => None,
+                Done::Orientation(orientation, _) => {
+                    let mut unknowns = orientation.unknowns;
+                    unknowns.sort_unstable();
+                    Some(unknowns)
+                }
+            })
+            .collect();
         for orientation in Orientation::candidates(&mut scratch, &self.system) {
             let Some(leading) = orientation.leading(&mut scratch, &self.system) else { continue };
             let told = |point: &Point<'_>| leading.iter().all(|&s| is_told(&scratch, &[s], *point));
@@ -269,6 +282,9 @@ impl Bench {
             }
             let mut unknowns = orientation.unknowns;
             unknowns.sort_unstable();
+            if oriented.contains(&unknowns) {
+                continue;
+            }
             list.push((effort(&scratch, &leading), unknowns, Next::Orientation(orientation)));
         }
         list.sort_by_key(|(effort, ..)| *effort);
