@@ -199,19 +199,22 @@ impl Plan {
                 }
             }
         }
-        for (found, choice, how) in orientations {
+        for (found, sign, how) in orientations {
             let symbols = found.unknowns.map(|number| system.unknowns[number].symbol);
-            let mut told = Some((Root { value: found.root, sign: choice }, found.parts.clone(), how));
             let balances = found.balances(g, &system);
-            for one in &mut solved {
-                let Some(k) = symbols.iter().position(|&symbol| symbol == one.symbol) else { continue };
-                (one.balances, one.together) = (balances[k].clone(), symbols.to_vec());
-                // The first of the three tells of the orientation.
-                if let Some((root, parts, how)) = told.take() {
-                    one.roots.insert(0, root);
-                    one.parts.splice(0..0, parts);
-                    one.how = format!("{how}; {}", one.how);
-                }
+            let mut three: Vec<&mut Solved> = solved.iter_mut().filter(|one| symbols.contains(&one.symbol)).collect();
+            for (&symbol, balances) in symbols.iter().zip(balances) {
+                let Some(one) = three.iter_mut().find(|one| one.symbol == symbol) else { continue };
+                (one.balances, one.together) = (balances, symbols.to_vec());
+            }
+            // The first tells where they come from. Its root goes with one that takes none, so that each is told apart.
+            if let Some(first) = three.first_mut() {
+                first.parts.splice(0..0, found.parts);
+                first.how = format!("{how}; {}", first.how);
+            }
+            let free = three.iter().rposition(|one| one.roots.is_empty());
+            if let Some(one) = free.or(three.len().checked_sub(1)).and_then(|k| three.get_mut(k)) {
+                one.roots.push(Root { value: found.root, sign });
             }
         }
         Ok(Solution { solved, signs: choices })

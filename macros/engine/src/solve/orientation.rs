@@ -15,6 +15,7 @@
 
 use crate::dynamics::tree::Motion;
 use crate::invariant::fault::OrFault;
+use crate::invariant::injection::{Break, broken};
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
 use super::Balance;
@@ -291,6 +292,7 @@ impl Found {
             let dual = g.scale(scale, dual);
             let along = g.dot(dual, d);
             let share = g.mul(along, slope);
+            let share = if broken(Break::OrientationShare) { -share } else { share };
             let (across, back) = (g.cross(dual, d), g.scale(share, lever));
             let across = g.sub_vectors(across, back);
             let shares = g.scale(inverse, across);

@@ -35,7 +35,6 @@ fn orientation(word: &str) -> Option<(&'static str, &'static str)> {
     Some(match word {
         "product" => ("kappa", "e^2 k - (c . e) (d . u), of an orientation R with R e = d and u . R c = k"),
         "area" => ("N", "(d x u)^2, of an orientation R with R e = d and u . R c = k"),
-        "gap" => ("Delta_R", "((e x c)^2 (d x u)^2 - kappa^2) / e^2, of an orientation R with R e = d and u . R c = k"),
         _ => return None,
     })
 }
