@@ -1,4 +1,4 @@
-//! Mechanisms whose loops have no closed form: Newton's method closes them, beside the same with multipliers.
+//! Mechanisms whose loops Newton's method closes, beside the same with multipliers, and in closed form where there is one.
 
 use multibody::multibody;
 
@@ -172,6 +172,28 @@ multibody! {
         #[cut] joint steer: Ball { parent: tie.at(0.37 * X), child: upright.at([0.0, -0.13, 0.08]) }
         force spring: Effort { joint: low, value: load - 5.0 * low.rate }
         formulation { constraints: Multipliers }
+        emit forward_dynamics;
+    }
+    /// Double wishbone with a tie rod, axes in general position, in closed form: both loops together.
+    pub mod wishbone_closed {
+        world { gravity: -9.80665 * Z }
+        input load;
+        body lower { mass: 2.0, com: 0.2 * X, inertia: diag(0.02, 0.03, 0.04) }
+        body upper { mass: 1.5, com: 0.15 * X, inertia: diag(0.01, 0.02, 0.03) }
+        body upright { mass: 8.0, com: [0.05, 0.01, 0.12], inertia: diag(0.1, 0.12, 0.08) }
+        body tie { mass: 0.5, com: 0.2 * X, inertia: diag(0.001, 0.01, 0.01) }
+        joint low: Revolute { parent: ground, child: lower, axis: [0.05, 1.0, 0.03] }
+        joint up: Revolute { parent: ground.at([0.08, 0.02, 0.25]), child: upper, axis: [-0.04, 1.0, 0.06] }
+        joint pivot: Ball { parent: lower.at([0.42, 0.02, 0.01]), child: upright, coordinates: RollPitchYaw }
+        #[cut] joint head: Ball { parent: upper.at([0.31, -0.01, 0.0]), child: upright.at([-0.03, -0.01, 0.26]) }
+        joint rack: Universal { parent: ground.at([0.05, -0.12, 0.08]), child: tie, axes: [Y, Z] }
+        #[cut] joint steer: Ball { parent: tie.at(0.37 * X), child: upright.at([0.0, -0.13, 0.08]) }
+        force spring: Effort { joint: low, value: load - 5.0 * low.rate }
+        formulation { constraints: Reduced }
+        assume (cos(low) > 0.9);
+        solve (up, pivot, rack) from (head, steer) {
+            up < 0.75, cos(pivot.pitch) > 0.0, cos(pivot.yaw) > 0.0, cos(rack.second) > 0.0
+        }
         emit forward_dynamics;
     }
 }

@@ -33,6 +33,14 @@ multibody! {
         #[cut]
         joint a: Revolute { parent: ground, child: link, axis: Z }
     }
+    mod closed_twice {
+        body crank { mass: 1.0, inertia: rod(1.0, 1.0, X) }
+        body rocker { mass: 1.0, inertia: rod(1.0, 1.0, X) }
+        joint a: Revolute { parent: ground, child: crank, axis: Z }
+        joint b: Revolute { parent: crank.at(X), child: rocker, axis: Z }
+        joint closing: PinSlot { parent: ground.at(X), child: rocker.at(X), axis: Z, slide: X }
+        solve (b) from (closing, closing, a) { b > 0.0 }
+    }
 }
 
 fn main() {

@@ -33,6 +33,8 @@ pub enum Break {
     ResultSlots,
     /// Closed forms take the other root of the one that the conditions choose.
     ClosedFormSign,
+    /// Rates of three turns that are found together: what lies along the known vector has the wrong sign.
+    OrientationShare,
     /// The last equation of a closing is lost.
     LostRow,
     /// A parameter is one in expressions.
@@ -50,7 +52,7 @@ pub enum Break {
 }
 
 impl Break {
-    pub const ALL: [Break; 21] = [
+    pub const ALL: [Break; 22] = [
         Break::LeverSign,
         Break::CentrifugalSign,
         Break::HandedSign,
@@ -65,6 +67,7 @@ impl Break {
         Break::FieldOfParameters,
         Break::ResultSlots,
         Break::ClosedFormSign,
+        Break::OrientationShare,
         Break::LostRow,
         Break::LostParameter,
         Break::FrameTurn,

@@ -5,8 +5,8 @@
 use proc_macro2::Span;
 
 use super::types::{
-    Comparison, Coordinate, Expr, ExprNode, Frame, FrameQuantity, Function, LoopClosure, Model, Order, ParamId, Solve,
-    SolveHow, Type,
+    Closing, Comparison, Coordinate, Expr, ExprNode, Frame, FrameQuantity, Function, LoopClosure, Model, Order,
+    ParamId, Solve, SolveHow, Type,
 };
 
 /// What a coordinate is.
@@ -167,7 +167,8 @@ impl Model {
             let span = model.joints[first.joint].span;
             let beyond = form.beyond.iter().map(|beyond| beyond.condition(span));
             let branches = form.sides.iter().map(|side| side.condition(span)).chain(beyond).collect();
-            let how = SolveHow::From { closing: form.closing, branches };
+            let closings = vec![Closing { what: form.closing, span }];
+            let how = SolveHow::From { closings, branches };
             model.solves.push(Solve { unknowns: form.unknowns.clone(), how, span });
         }
         model

@@ -5,7 +5,7 @@
 use proc_macro2::Span;
 
 use super::types::{
-    Constraint, Drive, Expr, Force, Formula, Given, Joint, Kinematics, Model, Request, Solve, SolveFor,
+    Closing, Constraint, Drive, Expr, Force, Formula, Given, Joint, Kinematics, Model, Request, Solve, SolveFor,
 };
 
 /// Where something of the model is written.
@@ -39,7 +39,7 @@ impl Sited for Formula {
     }
 }
 
-sited!(Constraint, Drive, Expr, Force, Given, Joint, Kinematics, Solve, SolveFor);
+sited!(Closing, Constraint, Drive, Expr, Force, Given, Joint, Kinematics, Solve, SolveFor);
 
 /// Its name.
 impl Sited for Model {

@@ -149,8 +149,26 @@ pub struct Solve {
 pub enum SolveHow {
     /// One scalar for each unknown.
     Formulas(Vec<Expr>),
-    /// Found by the macro from what closes the loop; the conditions (`Bool`) choose one branch.
-    From { closing: LoopClosure, branches: Vec<Expr> },
+    /// Found by the macro from what closes the loops; the conditions (`Bool`) choose one branch.
+    From { closings: Vec<Closing>, branches: Vec<Expr> },
+}
+
+/// What closes a loop, where a `solve` names it.
+#[derive(Clone, Copy, Debug)]
+pub struct Closing {
+    pub what: LoopClosure,
+    pub span: Span,
+}
+
+impl Solve {
+    /// What closes the loops that its unknowns are found from.
+    pub fn closings(&self) -> impl Iterator<Item = LoopClosure> {
+        let closings: &[Closing] = match &self.how {
+            SolveHow::From { closings, .. } => closings,
+            SolveHow::Formulas(_) => &[],
+        };
+        closings.iter().map(|closing| closing.what)
+    }
 }
 
 /// What gives constraint equations.

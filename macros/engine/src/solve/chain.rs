@@ -46,6 +46,11 @@ impl Link {
         }
     }
 
+    /// Whether it is the unknown with this number.
+    pub(super) fn is_open(&self, number: usize) -> bool {
+        matches!(self, Link::Free { unknown, .. } if *unknown == number)
+    }
+
     /// A vector on the other side, or nothing if that depends on an unknown.
     pub(super) fn carry(self, g: &mut Graph, way: Side, kind: Kind, v: Vector) -> Option<Vector> {
         match self {

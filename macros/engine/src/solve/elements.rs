@@ -72,6 +72,11 @@ impl JointGroup {
         matches!((self.turning, self.shift), (Turning::Free, Shift::Any))
     }
 
+    /// The point about which the group turns freely, and does nothing else.
+    pub(super) fn centre(&self) -> Option<Seen> {
+        matches!((self.turning, self.shift), (Turning::Free, Shift::Nothing)).then_some(self.reference)
+    }
+
     /// Adds a link on the right.
     pub(super) fn append(&mut self, g: &mut Graph, link: Link) {
         match link {

@@ -9,7 +9,7 @@ use crate::dynamics::tree::Motion;
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
 use super::chain::{Kind, Link, Side};
-use super::elements::Features;
+use super::elements::{Features, Seen};
 
 /// one + cos * cos(x) + sin * sin(x) + travel * x + square * x^2
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,7 +63,7 @@ pub(super) struct View {
 impl View {
     /// On one side of the group.
     pub(super) fn new(features: &Features, side: Side) -> View {
-        let pick = |seen: super::elements::Seen| if side == Side::Left { seen.left } else { seen.right };
+        let pick = |seen: Seen| if side == Side::Left { seen.left } else { seen.right };
         let flat = |&(p, d): &super::elements::Flat| Some((pick(p), pick(d)));
         View {
             point: features.point.map(pick),
@@ -111,6 +111,14 @@ impl View {
     pub(super) fn directions(&self) -> &[Option<Vector>] {
         &self.directions
     }
+}
+
+/// far . R near + rest, with an orientation R between them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Product {
+    pub(super) far: Vector,
+    pub(super) near: Vector,
+    pub(super) rest: Scalar,
 }
 
 /// Something measured, by the numbers of the features on the far and on the near side.
@@ -173,6 +181,34 @@ impl Measure {
             Measure::FarLine(_) | Measure::NearLine(_) => "distance of a point from a line",
             Measure::ParallelLines(..) => "distance of two parallel lines",
         }
+    }
+
+    /// Its value across an orientation about a point, where that is one product.
+    pub(super) fn product(self, g: &mut Graph, far: &View, centre: Seen, near: &View) -> Option<Product> {
+        let product = match self {
+            Measure::Directions(i, j) => {
+                Product { far: far.directions[i]?, near: near.directions[j]?, rest: Scalar::ZERO }
+            }
+            Measure::Points => {
+                let (v, w) = (g.sub_vectors(far.point?, centre.left), g.sub_vectors(near.point?, centre.right));
+                let half = g.decimal(0.5);
+                let squares = [v, w].map(|v| g.dot(v, v));
+                let sum = g.sum(&squares);
+                Product { far: -v, near: w, rest: g.mul(half, sum) }
+            }
+            Measure::FarPlane(i) => {
+                let (p, n) = far.planes[i]?;
+                let (p, w) = (g.sub_vectors(p, centre.left), g.sub_vectors(near.point?, centre.right));
+                Product { far: n, near: w, rest: -g.dot(n, p) }
+            }
+            Measure::NearPlane(j) => {
+                let (p, n) = near.planes[j]?;
+                let (v, p) = (g.sub_vectors(far.point?, centre.left), g.sub_vectors(p, centre.right));
+                Product { far: -v, near: n, rest: g.dot(n, p) }
+            }
+            _ => return None,
+        };
+        (product.far != Vector::ZERO && product.near != Vector::ZERO).then_some(product)
     }
 
     /// Its value across a motion, or across none.

@@ -1,30 +1,31 @@
 //! Stage `solve`: closed-form solutions of loops by the characteristic pair of joints.
 //!
-//! In: a cycle of known and unknown motions that composes to the identity. Out: for every wanted unknown its value in
+//! In: cycles of known and unknown motions that compose to the identity. Out: for every wanted unknown its value in
 //! terms of what is known and of unknowns solved before it, with an equation and its slope, from which rates and
 //! accelerations follow by implicit differentiation.
 //!
 //! The procedure is one for all loops (Woernle 1988; Hiller and Woernle 1987; Modelica's joint assemblies): `pairs`
 //! takes two groups of neighbouring joints out of the cycle and measures between them what they leave free. Where one
-//! unknown remains, `primitives` solves it; then it counts as known, and the rest follows triangularly.
+//! unknown remains, `primitives` solves it; then it counts as known, and the rest follows triangularly. Several cycles that
+//! hold unknowns in common are one system: any of them may give the next unknown. Where three turns about one point are
+//! left that no equation has alone, `orientation` finds them together.
 
 mod chain;
 mod elements;
 mod measures;
+mod orientation;
 mod pairs;
 mod plan;
 mod primitives;
+mod system;
 
 use std::fmt;
 
 use crate::dynamics::tree::Motion;
-use crate::invariant::fault::OrFault;
 use crate::symbolic::graph::{Graph, Rotation, Scalar, SymbolId, Vector};
 
-use chain::Link;
-use pairs::{Opened, Winding};
 use plan::Step;
-use primitives::Known;
+use system::System;
 
 pub use primitives::{circular, quadratic, three_spheres};
 
@@ -56,19 +57,35 @@ pub enum Value {
     Length(Scalar),
 }
 
+/// An equation that moves an unknown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Balance {
+    /// Vanishes at the solution; in terms of knowns, of unknowns solved before and of those that are found with it.
+    pub equation: Scalar,
+    /// How far the unknown follows one unit of it: one over the derivative by the unknown, where it is found alone.
+    pub inverse_slope: Scalar,
+}
+
+/// Where this vanishes two solutions meet: a dead centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Root {
+    pub value: Scalar,
+    /// The number of its sign.
+    pub sign: usize,
+}
+
 /// One unknown with its solution.
 #[derive(Clone, Debug)]
 pub struct Solved {
     pub symbol: Scalar,
     pub value: Value,
-    /// Vanishes at the solution; in terms of knowns, of unknowns solved before and of this one.
-    pub equation: Scalar,
-    /// One over the derivative of the equation by the symbol.
-    pub inverse_slope: Scalar,
+    /// Its rate is minus the sum of the equations' rates, each times its inverse slope, with what is found together at rest.
+    pub balances: Vec<Balance>,
+    /// Symbols of all unknowns that these equations give together, this one among them.
+    pub together: Vec<Scalar>,
     /// Where the equation comes from and how it was solved.
     pub how: String,
-    /// Where this vanishes two solutions meet: a dead centre.
-    pub root: Option<Scalar>,
+    pub roots: Vec<Root>,
     /// What it was found from, with a word for each.
     pub parts: Vec<(&'static str, Scalar)>,
 }
@@ -85,7 +102,7 @@ pub struct Solution {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Failure {
     /// Symbols of the wanted unknowns that no equation has alone.
-    NotFound { remaining: Vec<Scalar>, solved: usize },
+    NotFound { remaining: Vec<Scalar>, solved: usize, cycles: usize },
     /// The coordinates of a ball were asked for.
     Ball,
 }
@@ -93,23 +110,16 @@ pub enum Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Failure::NotFound { remaining, solved } => write!(
+            Failure::NotFound { remaining, solved, cycles } => write!(
                 f,
-                "no two joints of this loop leave an equation in one unknown alone: {} found, {} remain",
+                "no two joints of {} leave an equation in one unknown alone: {} found, {} remain",
+                if *cycles > 1 { "these loops" } else { "this loop" },
                 solved,
                 remaining.len()
             ),
             Failure::Ball => write!(f, "the orientation of a ball joint is not solved for in closed form"),
         }
     }
-}
-
-/// An unknown as the procedure sees it.
-#[derive(Clone, Copy)]
-struct Unknown {
-    motion: Motion,
-    symbol: Scalar,
-    wanted: bool,
 }
 
 /// Which unknown is found when, and from which equation: what has been decided about a loop, whatever graph it is then
@@ -119,10 +129,10 @@ pub struct Plan {
     steps: Vec<Step>,
 }
 
-/// Solves for the wanted unknowns. `signs` are taken in order wherever there are two solutions, `true` for the positive
-/// root; those that are missing are positive.
-pub fn solve(g: &mut Graph, cycle: &KinematicLoop, signs: &[bool]) -> Result<Solution, Failure> {
-    Plan::new(g, cycle)?.solve(g, cycle, &of_signs(signs))
+/// Solves for the wanted unknowns of cycles that hold them together. `signs` are taken in order wherever there are two solutions,
+/// `true` for the positive root; those that are missing are positive.
+pub fn solve(g: &mut Graph, cycles: &[KinematicLoop], signs: &[bool]) -> Result<Solution, Failure> {
+    Plan::new(g, cycles)?.solve(g, cycles, &of_signs(signs))
 }
 
 /// Constant signs, as a solution takes them.
@@ -131,105 +141,82 @@ pub fn of_signs(signs: &[bool]) -> Vec<Scalar> {
 }
 
 impl Plan {
-    /// Decides how a cycle is solved. It depends on the cycle alone, not on what else the graph holds.
-    pub fn new(g: &Graph, cycle: &KinematicLoop) -> Result<Plan, Failure> {
-        Plan::at(g, cycle, &[])
+    /// Decides how cycles are solved. It depends on the cycles alone, not on what else the graph holds.
+    pub fn new(g: &Graph, cycles: &[KinematicLoop]) -> Result<Plan, Failure> {
+        Plan::at(g, cycles, &[])
     }
 
     /// The same from equations alone that tell their unknown at one of these points at least, given as values of symbols.
-    pub fn at(g: &Graph, cycle: &KinematicLoop, points: &[&dyn Fn(SymbolId) -> f64]) -> Result<Plan, Failure> {
-        let (links, unknowns) = opened(cycle);
-        if unknowns.iter().any(|u| u.wanted && matches!(u.motion, Motion::Ball(_))) {
+    pub fn at(g: &Graph, cycles: &[KinematicLoop], points: &[&dyn Fn(SymbolId) -> f64]) -> Result<Plan, Failure> {
+        let system = System::new(cycles);
+        if system.unknowns.iter().any(|u| u.wanted && matches!(u.motion, Motion::Ball(_))) {
             return Err(Failure::Ball);
         }
-        let steps = plan::plan(&mut g.clone(), &links, &unknowns, cycle.winding, points)?;
+        let steps = plan::plan(&mut g.clone(), &system, points)?;
         Ok(Plan { steps })
     }
 
-    /// The same plan for a cycle like the one that was planned, if every step of it finds an equation of the same form
+    /// The same plan for cycles like those that were planned, if every step of it finds an equation of the same form
     /// there. That costs a small part of the search.
-    pub fn adapted(&self, g: &Graph, cycle: &KinematicLoop) -> Option<Plan> {
-        let (links, unknowns) = opened(cycle);
-        let steps = plan::adapt(&mut g.clone(), &links, &unknowns, cycle.winding, &self.steps)?;
+    pub fn adapted(&self, g: &Graph, cycles: &[KinematicLoop]) -> Option<Plan> {
+        let steps = plan::adapt(&mut g.clone(), &System::new(cycles), &self.steps)?;
         Some(Plan { steps })
     }
 
-    /// Solves the cycle that was planned. `signs` are one or minus one, or what is so at run time; roots beyond them are positive.
-    pub fn solve(&self, g: &mut Graph, cycle: &KinematicLoop, signs: &[Scalar]) -> Result<Solution, Failure> {
-        let (mut links, unknowns) = opened(cycle);
-        let (mut known, mut solved, mut choices) = (Known::default(), Vec::with_capacity(self.steps.len()), 0);
-        for &Step { unknown: number, candidate, needed } in &self.steps {
-            let unknown = &unknowns[number];
-            if needed {
-                let rest = open(&links, number);
-                let winding = winding_of(g, cycle.winding, &unknowns, &links, number);
-                let opened = Opened { motion: unknown.motion, rest: &rest, winding };
-                let Some(primitive) = opened.derive(g, candidate.source) else {
-                    return Err(Failure::NotFound { remaining: vec![unknown.symbol], solved: solved.len() });
-                };
-                let sign = signs.get(choices).copied().unwrap_or(Scalar::ONE);
-                choices += primitive.signs();
-                solved.push(primitive.solve(g, unknown.symbol, sign, &mut known, candidate.describe()));
+    /// Solves the cycles that were planned. `signs` are one or minus one, or what is so at run time; roots beyond them are positive.
+    pub fn solve(&self, g: &mut Graph, cycles: &[KinematicLoop], signs: &[Scalar]) -> Result<Solution, Failure> {
+        let mut system = System::new(cycles);
+        let (mut solved, mut choices): (Vec<Solved>, usize) = (Vec::with_capacity(self.steps.len()), 0);
+        let mut orientations = Vec::new();
+        for step in &self.steps {
+            let sign = signs.get(choices).copied().unwrap_or(Scalar::ONE);
+            match step {
+                Step::Orientation(orientation) => {
+                    let found = orientation.solve(g, &mut system, sign).ok_or_else(|| Failure::NotFound {
+                        remaining: orientation.unknowns.map(|number| system.unknowns[number].symbol).to_vec(),
+                        solved: solved.len(),
+                        cycles: cycles.len(),
+                    })?;
+                    orientations.push((found, choices, orientation.describe()));
+                    choices += 1;
+                }
+                &Step::Coordinate { cycle, unknown: number, candidate, needed } => {
+                    if needed {
+                        let symbol = system.unknowns[number].symbol;
+                        let rest = system.rest(cycle, number);
+                        let opened = system.opened(g, cycle, number, &rest);
+                        let Some(primitive) = opened.derive(g, candidate.source) else {
+                            let (remaining, solved, cycles) = (vec![symbol], solved.len(), cycles.len());
+                            return Err(Failure::NotFound { remaining, solved, cycles });
+                        };
+                        let how = candidate.describe();
+                        let mut one = primitive.solve(g, symbol, sign, &mut system.known, how);
+                        one.roots.iter_mut().for_each(|root| root.sign = choices);
+                        choices += primitive.signs();
+                        solved.push(one);
+                    }
+                    system.settle(g, number);
+                }
             }
-            settle(g, &mut links, unknown, number);
+        }
+        for (found, sign, how) in orientations {
+            let symbols = found.unknowns.map(|number| system.unknowns[number].symbol);
+            let balances = found.balances(g, &system);
+            let mut three: Vec<&mut Solved> = solved.iter_mut().filter(|one| symbols.contains(&one.symbol)).collect();
+            for (&symbol, balances) in symbols.iter().zip(balances) {
+                let Some(one) = three.iter_mut().find(|one| one.symbol == symbol) else { continue };
+                (one.balances, one.together) = (balances, symbols.to_vec());
+            }
+            // The first tells where they come from. Its root goes with one that takes none, so that each is told apart.
+            if let Some(first) = three.first_mut() {
+                first.parts.splice(0..0, found.parts);
+                first.how = format!("{how}; {}", first.how);
+            }
+            let free = three.iter().rposition(|one| one.roots.is_empty());
+            if let Some(one) = free.or(three.len().checked_sub(1)).and_then(|k| three.get_mut(k)) {
+                one.roots.push(Root { value: found.root, sign });
+            }
         }
         Ok(Solution { solved, signs: choices })
-    }
-}
-
-/// A cycle as the procedure sees it.
-fn opened(cycle: &KinematicLoop) -> (Vec<Link>, Vec<Unknown>) {
-    let mut unknowns = Vec::new();
-    let links = cycle.segments.iter().map(|&segment| link(segment, &mut unknowns)).collect();
-    (links, unknowns)
-}
-
-/// A solved unknown is known from here on.
-fn settle(g: &mut Graph, links: &mut [Link], unknown: &Unknown, number: usize) {
-    for link in links {
-        if matches!(link, Link::Free { unknown, .. } if *unknown == number) {
-            *link = Link::moved(g, unknown.motion, unknown.symbol);
-        }
-    }
-}
-
-/// What the sum of angles says about one unknown: its slope and the rest; the rest may hold no other open unknown.
-fn winding_of(
-    g: &mut Graph,
-    winding: Option<Scalar>,
-    unknowns: &[Unknown],
-    links: &[Link],
-    number: usize,
-) -> Option<Winding> {
-    let (sum, symbol) = (winding?, unknowns[number].symbol);
-    if !g.depends_on(sum, &[symbol]) {
-        return None;
-    }
-    let open = |k: usize| links.iter().any(|link| matches!(link, Link::Free { unknown, .. } if *unknown == k));
-    let others = unknowns.iter().enumerate().filter(|&(k, _)| k != number && open(k)).map(|(_, other)| other.symbol);
-    let others: Vec<Scalar> = others.collect();
-    if g.depends_on(sum, &others) {
-        return Some(Winding::Open);
-    }
-    let slope = g.derivative(sum, &[(symbol, Scalar::ONE)]);
-    // With the unknown at zero, and not by a difference in which it would stand and cancel.
-    let still = g.symbol_id(symbol).map(|id| (id, Scalar::ZERO)).into_iter().collect();
-    Some(Winding::Known { slope, rest: g.substitute(&[sum], &still)[0] })
-}
-
-/// The cycle without one unknown, from its right side round to its left.
-fn open(links: &[Link], number: usize) -> Vec<Link> {
-    let at = links.iter().position(|link| matches!(link, Link::Free { unknown, .. } if *unknown == number));
-    let at = at.or_fault("an open unknown stands in its cycle");
-    links[at + 1..].iter().chain(&links[..at]).copied().collect()
-}
-
-fn link(segment: Segment, unknowns: &mut Vec<Unknown>) -> Link {
-    match segment {
-        Segment::Fixed { rotation, offset } => Link::Known { rotation, offset },
-        Segment::Unknown { motion, symbol, wanted } => {
-            unknowns.push(Unknown { motion, symbol, wanted });
-            Link::Free { motion, unknown: unknowns.len() - 1 }
-        }
     }
 }

@@ -60,6 +60,8 @@ pub(super) struct Opened<'c> {
     pub(super) motion: Motion,
     pub(super) rest: &'c [Link],
     pub(super) winding: Option<Winding>,
+    /// Whether one turn more is another solution.
+    pub(super) counted: bool,
 }
 
 /// The sum of the cycle's angles, where it holds the unknown.
@@ -72,28 +74,23 @@ pub(super) enum Winding {
 }
 
 /// A group taken out, as seen from the unknown.
-struct Taken {
-    run: Run,
-    features: Features,
+pub(super) struct Taken {
+    pub(super) run: Run,
+    pub(super) features: Features,
     /// On the right of the motion, going back to it from the group's left side.
-    near: View,
+    pub(super) near: View,
     /// On the left of the motion, going on to it from the group's right side.
-    far: View,
+    pub(super) far: View,
 }
 
 impl Opened<'_> {
-    /// Whether one turn more is another solution.
-    fn counts_turns(&self) -> bool {
-        self.winding.is_some() || matches!(self.motion, Motion::Screw(..))
-    }
-
     /// All equations in this unknown alone.
     pub(super) fn candidates(&self, g: &mut Graph) -> Vec<Candidate> {
-        let groups: Vec<Taken> = self.runs(g).into_iter().map(|run| self.take(g, run)).collect();
+        let groups = self.groups(g);
         let mut list = Vec::new();
         let mut add = |source: Source, primitive: Option<Primitive>| {
             // Where turns count, nothing serves that gives an angle up to whole turns: it would be off by some of them.
-            let primitive = primitive.filter(|primitive| !(primitive.is_angle() && self.counts_turns()));
+            let primitive = primitive.filter(|primitive| !(primitive.is_angle() && self.counted));
             list.extend(primitive.map(|primitive| Candidate { primitive, source }));
         };
         add(Source::Winding, self.by_winding());
@@ -104,20 +101,16 @@ impl Opened<'_> {
             add(Source::Point(group.run), self.point(g, group));
             add(Source::Along(group.run), self.along(g, group));
         }
-        for first in groups.iter().filter(|group| !group.near.is_empty()) {
-            for second in groups.iter().filter(|group| !group.far.is_empty()) {
-                let empty = |run: Run| run.from == run.to;
-                // Two empty ones: the directions of one frame, seen above.
-                if second.run.from < first.run.to || (empty(first.run) && empty(second.run)) {
-                    continue;
-                }
-                for measure in Measure::all(&second.features, &first.features) {
-                    let primitive = self.between(g, first, second, measure);
-                    add(Source::Pair(first.run, second.run, measure), primitive);
-                }
-            }
+        for (first, second, measure) in pairs(&groups) {
+            let primitive = self.between(g, first, second, measure);
+            add(Source::Pair(first.run, second.run, measure), primitive);
         }
         list
+    }
+
+    /// All groups that can be taken out.
+    pub(super) fn groups(&self, g: &mut Graph) -> Vec<Taken> {
+        self.runs(g).into_iter().map(|run| self.take(g, run)).collect()
     }
 
     /// One of these equations, derived alone.
@@ -172,7 +165,7 @@ impl Opened<'_> {
         }
     }
 
-    fn take(&self, g: &mut Graph, run: Run) -> Taken {
+    pub(super) fn take(&self, g: &mut Graph, run: Run) -> Taken {
         let mut group = JointGroup::new();
         for &link in &self.rest[run.from..run.to] {
             group.append(g, link);
@@ -214,6 +207,12 @@ impl Opened<'_> {
         if across.is_constant() {
             return None;
         }
+        let along = self.along_rest(g, first, second, measure)?;
+        classify(g, across, along)
+    }
+
+    /// What is measured between two groups along the rest of the cycle.
+    pub(super) fn along_rest(&self, g: &mut Graph, first: &Taken, second: &Taken, measure: Measure) -> Option<Scalar> {
         let (left, right) = (View::new(&second.features, Side::Left), View::new(&first.features, Side::Right));
         let links = &self.rest[first.run.to..second.run.from];
         let mut at = |place: usize| {
@@ -225,8 +224,24 @@ impl Opened<'_> {
         let ball = |run: Run| matches!(self.rest[run.from..run.to], [Link::Free { motion: Motion::Ball(_), .. }]);
         let places = if ball(first.run) { [links.len(), 0] } else { [0, links.len()] };
         let along = at(places[0]).or_else(|| at(places[1]))?;
-        classify(g, across, along.one)
+        Some(along.one)
     }
+}
+
+/// Two groups at a time with what can be measured between them. The first one is met first when going right.
+pub(super) fn pairs(groups: &[Taken]) -> impl Iterator<Item = (&Taken, &Taken, Measure)> {
+    let empty = |run: Run| run.from == run.to;
+    let firsts = groups.iter().filter(|group| !group.near.is_empty());
+    let both = firsts.flat_map(move |first| {
+        let seconds = groups.iter().filter(|group| !group.far.is_empty());
+        // Two empty ones: the directions of one frame, which need no pair.
+        let apart = move |second: &&Taken| second.run.from >= first.run.to && !(empty(first.run) && empty(second.run));
+        seconds.filter(apart).map(move |second| (first, second))
+    });
+    both.flat_map(|(first, second)| {
+        let measures = Measure::all(&second.features, &first.features);
+        measures.into_iter().map(move |measure| (first, second, measure))
+    })
 }
 
 fn turn(g: &mut Graph, axis: usize, w: Vector, v: Vector) -> Option<Primitive> {
@@ -288,19 +303,4 @@ fn common_factor(g: &mut Graph, a: Scalar, b: Scalar) -> Option<Scalar> {
     };
     let factor = g.number(factor.is_sharp().then_some(factor)?);
     Some(g.reciprocal(factor))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Opened, Winding};
-    use crate::dynamics::tree::Motion;
-    use crate::symbolic::graph::Scalar;
-
-    #[test]
-    fn turns_count_of_a_screw_and_beside_one() {
-        let counts = |motion, winding| Opened { motion, rest: &[], winding }.counts_turns();
-        assert!(counts(Motion::Screw(2, Scalar::ONE), None));
-        assert!(counts(Motion::Revolute(2), Some(Winding::Open)));
-        assert!(!counts(Motion::Revolute(2), None));
-    }
 }

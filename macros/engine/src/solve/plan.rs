@@ -1,8 +1,9 @@
 //! Stage `solve`: which unknown is found when, and from which equation.
 //!
-//! In: the links of a cycle. Out: [`Step`]s. An equation without a choice of sign goes before one with it, then the one
-//! whose solution costs less. All this happens in small graphs of its own: a graph keeps the form in which a value was
-//! derived first, and most equations are derived only to be left aside.
+//! In: cycles with unknowns in common. Out: [`Step`]s. An equation without a choice of sign goes before one with it, then the one
+//! whose solution costs less; an orientation is sought where no unknown stands in an equation alone. All this happens in small
+//! graphs of its own: a graph keeps the form in which a value was derived first, and most equations are derived only to be left
+//! aside.
 
 use std::collections::{HashMap, HashSet};
 
@@ -15,17 +16,25 @@ use crate::symbolic::lower::Lowering;
 use crate::symbolic::sized::WithSizes;
 
 use super::chain::Link;
-use super::pairs::{Candidate, Opened};
+use super::orientation::{Found, Orientation};
+use super::pairs::Candidate;
 use super::primitives::{Known, Primitive};
-use super::{Failure, Solved, Unknown, Value, open, settle, winding_of};
+use super::system::{Cycle, System, Unknown};
+use super::{Failure, Solved, Value};
 
-/// One unknown, and the equation that it is found from.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Step {
-    pub(super) unknown: usize,
-    pub(super) candidate: Candidate,
-    /// Something wanted depends on it.
-    pub(super) needed: bool,
+/// What is found next.
+#[derive(Clone, Debug)]
+pub(super) enum Step {
+    /// One unknown from an equation of one cycle.
+    Coordinate {
+        cycle: usize,
+        unknown: usize,
+        candidate: Candidate,
+        /// Something wanted depends on it.
+        needed: bool,
+    },
+    /// What three unknowns turn by together: a new cycle, from which they follow.
+    Orientation(Orientation),
 }
 
 /// Most candidates for one unknown whose solutions are made to be counted.
@@ -33,15 +42,26 @@ const SHORTLIST: usize = 4;
 /// Most orders of the unknowns that are compared.
 const ORDERS: usize = 8;
 
-/// Links and unknowns in a graph that holds nothing else, and what has been solved of them.
+/// Cycles in a graph that holds nothing else, and what has been solved of them.
 #[derive(Clone)]
 struct Bench {
     g: Graph,
-    links: Vec<Link>,
-    unknowns: Vec<Unknown>,
-    winding: Option<Scalar>,
-    known: Known,
-    solved: Vec<(usize, Candidate, Primitive, Solved)>,
+    system: System,
+    done: Vec<Done>,
+}
+
+/// A step, with what it led to.
+#[derive(Clone)]
+enum Done {
+    Coordinate { cycle: usize, unknown: usize, candidate: Candidate, primitive: Primitive, solved: Solved },
+    Orientation(Orientation, Found),
+}
+
+/// What may come next.
+#[derive(Clone, Copy)]
+enum Next {
+    Coordinate { cycle: usize, unknown: usize, candidate: Candidate },
+    Orientation(Orientation),
 }
 
 /// Values of all symbols: a place where the equations have to tell the unknowns.
@@ -49,48 +69,50 @@ pub(super) type Point<'p> = &'p dyn Fn(SymbolId) -> f64;
 
 /// The order in which all wanted unknowns are found. Equations that say nothing at any of the points, if there are some,
 /// are left aside: a coefficient may be zero in value only, that of a parameter or of an inexact literal.
-pub(super) fn plan(
-    g: &mut Graph,
-    links: &[Link],
-    unknowns: &[Unknown],
-    winding: Option<Scalar>,
-    points: &[Point<'_>],
-) -> Result<Vec<Step>, Failure> {
+pub(super) fn plan(g: &mut Graph, system: &System, points: &[Point<'_>]) -> Result<Vec<Step>, Failure> {
     let mut search = Search { points, orders: 0, best: None, furthest: None };
-    search.extend(Bench::new(g, links, unknowns, winding));
+    search.extend(Bench::new(g, system));
     match (search.best, search.furthest) {
         (Some((_, bench)), _) => Ok(bench.steps()),
         (None, Some(bench)) => {
-            let remaining = bench.open_unknowns(true).map(|k| unknowns[k].symbol).collect();
-            Err(Failure::NotFound { remaining, solved: bench.solved.len() })
+            let remaining = bench.open_unknowns(true).map(|k| system.unknowns[k].symbol).collect();
+            Err(Failure::NotFound { remaining, solved: bench.solved().count(), cycles: system.cycles.len() })
         }
         (None, None) => Ok(Vec::new()),
     }
 }
 
-/// The same order and the same equations for other links; nothing where an equation has another form, or where other
+/// The same order and the same equations for other cycles; nothing where an equation has another form, or where other
 /// unknowns are needed.
-pub(super) fn adapt(
-    g: &mut Graph,
-    links: &[Link],
-    unknowns: &[Unknown],
-    winding: Option<Scalar>,
-    steps: &[Step],
-) -> Option<Vec<Step>> {
-    let mut bench = Bench::new(g, links, unknowns, winding);
+pub(super) fn adapt(g: &mut Graph, system: &System, steps: &[Step]) -> Option<Vec<Step>> {
+    let mut bench = Bench::new(g, system);
     for step in steps {
-        let unknown = bench.unknowns.get(step.unknown)?;
-        let same = bench.open_unknowns(unknown.wanted).any(|k| k == step.unknown);
-        bench.take(step.unknown, &step.candidate).filter(|()| same)?;
-        let (_, candidate, primitive, _) = bench.solved.last_mut()?;
-        if primitive.describe() != candidate.primitive.describe() {
-            return None;
+        match step {
+            &Step::Coordinate { cycle, unknown: number, candidate, .. } => {
+                let unknown = bench.system.unknowns.get(number)?;
+                let same = bench.open_unknowns(unknown.wanted).any(|k| k == number)
+                    && bench.system.cycles_with(number).any(|other| other == cycle);
+                if !same {
+                    return None;
+                }
+                bench.take(Next::Coordinate { cycle, unknown: number, candidate })?;
+                let Some(Done::Coordinate { candidate, primitive, .. }) = bench.done.last_mut() else { return None };
+                if primitive.describe() != candidate.primitive.describe() {
+                    return None;
+                }
+                candidate.primitive = *primitive;
+            }
+            Step::Orientation(orientation) => {
+                let mut scratch = bench.g.clone();
+                let own = orientation.ordered(&mut scratch, &bench.system)?;
+                bench.take(Next::Orientation(own))?;
+            }
         }
-        candidate.primitive = *primitive;
     }
-    let adapted = bench.steps();
     let complete = bench.open_unknowns(true).next().is_none();
-    let same = adapted.iter().zip(steps).all(|(a, b)| a.needed == b.needed);
+    let adapted = bench.steps();
+    let needed = |step: &Step| !matches!(step, Step::Coordinate { needed: false, .. });
+    let same = adapted.iter().zip(steps).all(|(a, b)| needed(a) == needed(b));
     (complete && same).then_some(adapted)
 }
 
@@ -115,22 +137,25 @@ impl Search<'_> {
             return;
         }
         let options = match bench.options(true, self.points) {
-            list if list.is_empty() => bench.options(false, self.points),
+            list if list.is_empty() => match bench.options(false, self.points) {
+                list if list.is_empty() => bench.orientations(self.points),
+                list => list,
+            },
             list => list,
         };
         if options.is_empty() {
             self.orders += 1;
-            if self.furthest.as_ref().is_none_or(|other| other.solved.len() < bench.solved.len()) {
+            if self.furthest.as_ref().is_none_or(|other| other.solved().count() < bench.solved().count()) {
                 self.furthest = Some(bench);
             }
             return;
         }
-        for (unknown, candidate) in options {
+        for option in options {
             if self.orders >= ORDERS {
                 return;
             }
             let mut next = bench.clone();
-            if next.take(unknown, &candidate).is_some() {
+            if next.take(option).is_some() {
                 self.extend(next);
             }
         }
@@ -138,106 +163,174 @@ impl Search<'_> {
 }
 
 impl Bench {
-    fn new(g: &mut Graph, links: &[Link], unknowns: &[Unknown], winding: Option<Scalar>) -> Bench {
+    fn new(g: &mut Graph, system: &System) -> Bench {
         let mut scalars = Vec::new();
-        let offsets: Vec<[Scalar; 3]> = links
+        let offsets: Vec<Vec<[Scalar; 3]>> = system
+            .cycles
             .iter()
-            .map(|link| match *link {
-                Link::Known { rotation, offset } => {
-                    gather(g, rotation, &mut scalars);
-                    g.components(offset)
-                }
-                Link::Free { motion: Motion::Screw(_, pitch), .. } => {
-                    scalars.push(pitch);
-                    [Scalar::ZERO; 3]
-                }
-                Link::Free { .. } => [Scalar::ZERO; 3],
+            .map(|cycle| {
+                let components = cycle.links.iter().map(|link| match *link {
+                    Link::Known { rotation, offset } => {
+                        gather(g, rotation, &mut scalars);
+                        g.components(offset)
+                    }
+                    Link::Free { motion: Motion::Screw(_, pitch), .. } => {
+                        scalars.push(pitch);
+                        [Scalar::ZERO; 3]
+                    }
+                    Link::Free { .. } => [Scalar::ZERO; 3],
+                });
+                components.collect()
             })
             .collect();
-        scalars.extend(offsets.iter().flatten());
-        scalars.extend(unknowns.iter().map(|u| u.symbol));
-        scalars.extend(winding);
+        scalars.extend(offsets.iter().flatten().flatten());
+        scalars.extend(system.unknowns.iter().map(|u| u.symbol));
+        scalars.extend(system.cycles.iter().filter_map(|cycle| cycle.winding));
         let mut lowering = Lowering::new(g);
         let lowered = lowering.run(&scalars);
         let mut copy = Copy { from: g, to: lowering.to, map: HashMap::new() };
         let pairs = scalars.iter().zip(&lowered).map(|(s, l)| (s.index(), if s.is_negative() { -*l } else { *l }));
         copy.map = pairs.collect();
-        let links = links
-            .iter()
-            .zip(offsets)
-            .map(|(link, offset)| match *link {
+        let cycles = system.cycles.iter().zip(offsets).map(|(cycle, offsets)| {
+            let links = cycle.links.iter().zip(offsets).map(|(link, offset)| match *link {
                 Link::Known { rotation, .. } => {
                     Link::Known { rotation: copy.rotation(rotation), offset: copy.vector(offset) }
                 }
                 Link::Free { motion, unknown } => Link::Free { motion: copy.motion(motion), unknown },
-            })
-            .collect();
-        let unknowns = unknowns
+            });
+            let links = links.collect();
+            Cycle { links, winding: cycle.winding.map(|sum| copy.scalar(sum)) }
+        });
+        let cycles = cycles.collect();
+        let unknowns = system
+            .unknowns
             .iter()
             .map(|u| Unknown { motion: copy.motion(u.motion), symbol: copy.scalar(u.symbol), wanted: u.wanted })
-            .collect::<Vec<_>>();
-        let winding = winding.map(|sum| copy.scalar(sum));
-        Bench { g: copy.to, links, unknowns, winding, known: Known::default(), solved: Vec::new() }
+            .collect();
+        Bench { g: copy.to, system: System { cycles, unknowns, known: Known::default() }, done: Vec::new() }
+    }
+
+    /// Unknowns that are solved, by number.
+    fn solved(&self) -> impl Iterator<Item = usize> {
+        self.done.iter().filter_map(|done| match done {
+            Done::Coordinate { unknown, .. } => Some(*unknown),
+            Done::Orientation(..) => None,
+        })
     }
 
     /// Numbers of what isn't solved.
     fn open_unknowns(&self, wanted: bool) -> impl Iterator<Item = usize> {
+        let unknowns = &self.system.unknowns;
         let open = move |k: &usize| {
-            let is_open = !self.solved.iter().any(|(number, ..)| number == k);
-            is_open && self.unknowns[*k].wanted == wanted && !matches!(self.unknowns[*k].motion, Motion::Ball(_))
+            let is_open = !self.solved().any(|number| number == *k);
+            is_open && unknowns[*k].wanted == wanted && !matches!(unknowns[*k].motion, Motion::Ball(_))
         };
-        (0..self.unknowns.len()).filter(open)
+        (0..unknowns.len()).filter(open)
     }
 
     /// The best equation in each of the unknowns that are still open, as far as they need the fewest signs.
-    fn options(&self, wanted: bool, points: &[Point<'_>]) -> Vec<(usize, Candidate)> {
+    fn options(&self, wanted: bool, points: &[Point<'_>]) -> Vec<Next> {
         let mut scratch = self.g.clone();
-        let mut list: Vec<(usize, usize, usize, Candidate)> = Vec::new();
-        for number in self.open_unknowns(wanted) {
-            let unknown = &self.unknowns[number];
-            let rest = open(&self.links, number);
-            let winding = winding_of(&mut scratch, self.winding, &self.unknowns, &self.links, number);
-            let mut candidates = Opened { motion: unknown.motion, rest: &rest, winding }.candidates(&mut scratch);
-            candidates.retain(|candidate| points.is_empty() || tells(&scratch, &candidate.primitive, points));
-            list.extend(
-                candidates
-                    .into_iter()
-                    .map(|candidate| (candidate.primitive.signs(), effort(&scratch, &candidate), number, candidate)),
-            );
+        // Signs, a first estimate of the work, the unknown.
+        let mut list: Vec<(usize, usize, usize, Next)> = Vec::new();
+        for unknown in self.open_unknowns(wanted) {
+            for cycle in self.system.cycles_with(unknown) {
+                let rest = self.system.rest(cycle, unknown);
+                let mut candidates = self.system.opened(&mut scratch, cycle, unknown, &rest).candidates(&mut scratch);
+                candidates.retain(|candidate| points.is_empty() || tells(&scratch, &candidate.primitive, points));
+                list.extend(candidates.into_iter().map(|candidate| {
+                    let effort = effort(&scratch, &candidate.primitive.coefficients());
+                    (candidate.primitive.signs(), effort, unknown, Next::Coordinate { cycle, unknown, candidate })
+                }));
+            }
         }
         let least = list.iter().map(|(rank, ..)| *rank).min().unwrap_or(0);
         list.retain(|(rank, ..)| *rank == least);
         list.sort_by_key(|(_, effort, ..)| *effort);
-        let mut options: Vec<(u32, usize, Candidate)> = Vec::new();
+        let mut options: Vec<(u32, Next)> = Vec::new();
         for number in self.open_unknowns(wanted) {
             let mine = list.iter().filter(|(_, _, k, _)| *k == number).take(SHORTLIST);
-            let priced = mine.map(|(.., candidate)| (self.price(number, candidate), number, *candidate));
-            options.extend(priced.min_by_key(|(price, ..)| *price));
+            let priced = mine.map(|&(.., next)| (self.price(next), next));
+            options.extend(priced.min_by_key(|(price, _)| *price));
         }
-        options.sort_by_key(|(price, ..)| *price);
-        options.into_iter().map(|(_, number, candidate)| (number, candidate)).collect()
+        options.sort_by_key(|(price, _)| *price);
+        options.into_iter().map(|(_, next)| next).collect()
+    }
+
+    /// The best orientation of each three unknowns that are still open.
+    fn orientations(&self, points: &[Point<'_>]) -> Vec<Next> {
+        let mut scratch = self.g.clone();
+        let mut list: Vec<(usize, [usize; 3], Next)> = Vec::new();
+        // What is known already would be found from itself.
+        let oriented: Vec<[usize; 3]> = self
+            .done
+            .iter()
+            .filter_map(|done| match done {
+                Done::Coordinate { .. } => None,
+                Done::Orientation(orientation, _) => {
+                    let mut unknowns = orientation.unknowns;
+                    unknowns.sort_unstable();
+                    Some(unknowns)
+                }
+            })
+            .collect();
+        for orientation in Orientation::candidates(&mut scratch, &self.system) {
+            let Some(leading) = orientation.leading(&mut scratch, &self.system) else { continue };
+            let told = |point: &Point<'_>| leading.iter().all(|&s| is_told(&scratch, &[s], *point));
+            if !points.is_empty() && !points.iter().any(told) {
+                continue;
+            }
+            let mut unknowns = orientation.unknowns;
+            unknowns.sort_unstable();
+            if oriented.contains(&unknowns) {
+                continue;
+            }
+            list.push((effort(&scratch, &leading), unknowns, Next::Orientation(orientation)));
+        }
+        list.sort_by_key(|(effort, ..)| *effort);
+        let mut triples: Vec<[usize; 3]> = list.iter().map(|(_, unknowns, _)| *unknowns).collect();
+        triples.sort_unstable();
+        triples.dedup();
+        let best = triples.into_iter().filter_map(|triple| {
+            let mine = list.iter().filter(|(_, unknowns, _)| *unknowns == triple).take(SHORTLIST);
+            mine.map(|&(.., next)| (self.price(next), next)).min_by_key(|(price, _)| *price)
+        });
+        let mut options: Vec<(u32, Next)> = best.collect();
+        options.sort_by_key(|(price, _)| *price);
+        options.into_iter().map(|(_, next)| next).collect()
     }
 
     /// What the solution costs in this place.
-    fn price(&self, number: usize, candidate: &Candidate) -> u32 {
-        let mut next = self.clone();
-        if next.take(number, candidate).is_none() {
+    fn price(&self, next: Next) -> u32 {
+        let mut bench = self.clone();
+        if bench.take(next).is_none() {
             return u32::MAX;
         }
-        let roots = next.solved.last().map_or_else(Vec::new, |(.., solved)| results(solved));
-        price(&next.g, &roots)
+        let roots = match bench.done.last() {
+            Some(Done::Coordinate { solved, .. }) => results(solved),
+            Some(Done::Orientation(_, found)) => found.rows.concat(),
+            None => Vec::new(),
+        };
+        price(&bench.g, &roots)
     }
 
-    /// Solves for one unknown. The equation is derived anew, in this graph.
-    fn take(&mut self, number: usize, candidate: &Candidate) -> Option<()> {
-        let rest = open(&self.links, number);
-        let unknown = self.unknowns[number];
-        let winding = winding_of(&mut self.g, self.winding, &self.unknowns, &self.links, number);
-        let opened = Opened { motion: unknown.motion, rest: &rest, winding };
-        let primitive = opened.derive(&mut self.g, candidate.source)?;
-        let solved = primitive.solve(&mut self.g, unknown.symbol, Scalar::ONE, &mut self.known, String::new());
-        settle(&mut self.g, &mut self.links, &unknown, number);
-        self.solved.push((number, *candidate, primitive, solved));
+    /// Takes one step. The equation is derived anew, in this graph.
+    fn take(&mut self, next: Next) -> Option<()> {
+        let (g, system) = (&mut self.g, &mut self.system);
+        match next {
+            Next::Coordinate { cycle, unknown, candidate } => {
+                let rest = system.rest(cycle, unknown);
+                let symbol = system.unknowns[unknown].symbol;
+                let primitive = system.opened(g, cycle, unknown, &rest).derive(g, candidate.source)?;
+                let solved = primitive.solve(g, symbol, Scalar::ONE, &mut system.known, String::new());
+                system.settle(g, unknown);
+                self.done.push(Done::Coordinate { cycle, unknown, candidate, primitive, solved });
+            }
+            Next::Orientation(orientation) => {
+                let found = orientation.solve(g, system, Scalar::ONE)?;
+                self.done.push(Done::Orientation(orientation, found));
+            }
+        }
         Some(())
     }
 
@@ -245,10 +338,15 @@ impl Bench {
     fn total(&mut self) -> (usize, u32) {
         let needed = self.needed();
         let (mut map, mut roots, mut signs) = (HashMap::new(), Vec::new(), 0);
-        for ((_, _, primitive, solved), needed) in self.solved.iter().zip(needed) {
-            if !needed {
-                continue;
-            }
+        for (done, needed) in self.done.iter().zip(needed) {
+            let (primitive, solved) = match done {
+                Done::Coordinate { primitive, solved, .. } if needed => (primitive, solved),
+                Done::Coordinate { .. } => continue,
+                Done::Orientation(..) => {
+                    signs += 1;
+                    continue;
+                }
+            };
             signs += primitive.signs();
             let list = self.g.substitute(&results(solved), &map);
             let value = match list[..] {
@@ -262,13 +360,20 @@ impl Bench {
     }
 
     /// What is wanted, or something wanted depends on.
-    fn needed(&self) -> Vec<bool> {
+    fn needed(&mut self) -> Vec<bool> {
         let mut reached = HashSet::new();
-        let mut needed: Vec<bool> = Vec::with_capacity(self.solved.len());
-        for (number, _, primitive, solved) in self.solved.iter().rev() {
-            let is_needed = self.unknowns[*number].wanted || reached.contains(&solved.symbol.index());
+        let mut needed: Vec<bool> = Vec::with_capacity(self.done.len());
+        for done in self.done.iter().rev() {
+            let (is_needed, read) = match done {
+                Done::Coordinate { unknown, primitive, solved, .. } => {
+                    let is_read = reached.contains(&solved.symbol.index());
+                    (self.system.unknowns[*unknown].wanted || is_read, primitive.coefficients())
+                }
+                // The three are wanted.
+                Done::Orientation(_, found) => (true, found.coefficients(&mut self.g)),
+            };
             if is_needed {
-                reached.extend(self.g.reachable_scalars(&primitive.coefficients()));
+                reached.extend(self.g.reachable_scalars(&read));
             }
             needed.push(is_needed);
         }
@@ -276,22 +381,26 @@ impl Bench {
         needed
     }
 
-    fn steps(&self) -> Vec<Step> {
-        let step = |((unknown, candidate, ..), needed): (&(usize, Candidate, Primitive, Solved), bool)| Step {
-            unknown: *unknown,
-            candidate: *candidate,
-            needed,
-        };
-        self.solved.iter().zip(self.needed()).map(step).collect()
+    fn steps(mut self) -> Vec<Step> {
+        let needed = self.needed();
+        let steps = self.done.into_iter().zip(needed).map(|(done, needed)| match done {
+            Done::Coordinate { cycle, unknown, candidate, .. } => {
+                Step::Coordinate { cycle, unknown, candidate, needed }
+            }
+            Done::Orientation(orientation, _) => Step::Orientation(orientation),
+        });
+        steps.collect()
     }
 }
 
-/// Value and inverse slope.
+/// Value and inverse slopes.
 fn results(solved: &Solved) -> Vec<Scalar> {
-    match solved.value {
-        Value::Angle { cos, sin } => vec![cos, sin, solved.inverse_slope],
-        Value::Length(x) => vec![x, solved.inverse_slope],
-    }
+    let mut list = match solved.value {
+        Value::Angle { cos, sin } => vec![cos, sin],
+        Value::Length(x) => vec![x],
+    };
+    list.extend(solved.balances.iter().map(|balance| balance.inverse_slope));
+    list
 }
 
 /// Weighed operations.
@@ -307,20 +416,23 @@ fn price(g: &Graph, roots: &[Scalar]) -> u32 {
 /// Whether an equation holds its unknown at one of the points, beyond rounding.
 fn tells(g: &Graph, primitive: &Primitive, points: &[Point<'_>]) -> bool {
     let leading = primitive.leading();
-    points.iter().any(|symbols| {
-        let values = Evaluator::new(g, WithSizes { symbols }).run(&leading);
-        values.iter().any(|value| !value.is_rounding())
-    })
+    points.iter().any(|point| is_told(g, &leading, *point))
+}
+
+/// Whether one of these is more than rounding.
+fn is_told(g: &Graph, leading: &[Scalar], symbols: Point<'_>) -> bool {
+    let values = Evaluator::new(g, WithSizes { symbols }).run(leading);
+    values.iter().any(|value| !value.is_rounding())
 }
 
 /// A first estimate of the work that a solution takes.
-fn effort(g: &Graph, candidate: &Candidate) -> usize {
+fn effort(g: &Graph, coefficients: &[Scalar]) -> usize {
     let weight = |s: Scalar| match g.literal(s) {
         Some(n) if n.is_zero() => 0,
         Some(_) => 1,
         None => 4 + g.reachable_scalars(&[s]).len(),
     };
-    candidate.primitive.coefficients().into_iter().map(weight).sum()
+    coefficients.iter().copied().map(weight).sum()
 }
 
 /// Scalars that a rotation is made of.

@@ -15,7 +15,7 @@ use crate::contracts::call::Call;
 use crate::symbolic::graph::{Graph, Scalar, ScalarNode, Vector, VectorNode};
 use crate::symbolic::substitute::Substitution;
 
-use super::{Solved, Value};
+use super::{Balance, Root, Solved, Value};
 
 /// One equation in one unknown x.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,7 +45,7 @@ impl Known {
 
     /// With the simpler values put in. A component of a sum of vectors is looked at term by term, since the known
     /// expression may be one of them.
-    fn simplest<const N: usize>(&self, g: &mut Graph, list: [Scalar; N]) -> [Scalar; N] {
+    pub(super) fn simplest<const N: usize>(&self, g: &mut Graph, list: [Scalar; N]) -> [Scalar; N] {
         let mut simple = Substitution::of_nodes(&self.0);
         list.map(|s| {
             let sum = match *g.node(s) {
@@ -138,7 +138,9 @@ impl Primitive {
             }
             Primitive::Quadratic { square, half, one } => travel(g, symbol, [square, half, one], sign, (known, parts)),
         };
-        Solved { symbol, value, equation, inverse_slope, how, root, parts: std::mem::take(parts) }
+        let balances = vec![Balance { equation, inverse_slope }];
+        let roots = root.into_iter().map(|value| Root { value, sign: 0 }).collect();
+        Solved { symbol, value, balances, together: vec![symbol], how, roots, parts: std::mem::take(parts) }
     }
 }
 

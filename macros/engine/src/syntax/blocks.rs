@@ -159,7 +159,7 @@ fn part_fields(kind: &Ident, form: String, cursor: &mut Cursor, diagnostics: &mu
     fields
 }
 
-/// `(unknowns) = (formulas);` or `(unknowns) from joint { branches }`
+/// `(unknowns) = (formulas);`, `(unknowns) from joint { branches }` or `(unknowns) from (joint, joint) { branches }`
 pub(super) fn solve(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Option<ItemKind> {
     const FORMULAS: &str = "write `solve (a, b) = (formula, formula);`";
     const EQUATIONS: &str = "write `solve (x) from a * x == b;`";
@@ -176,8 +176,14 @@ pub(super) fn solve(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Optio
         return None;
     }
     cursor.bump();
-    let joint = Box::new(expression(cursor, diagnostics).ok()?);
-    let equations = equations(&joint);
+    // No operand of an equation: loops that are solved together.
+    let several =
+        cursor.at_group(0, Delimiter::Parenthesis) && cursor.punct(1).is_none_or(|punct| punct.as_char() == ';');
+    let closings = match several {
+        true => parenthesised("what closes the loops", &form(Keyword::Solve), cursor, diagnostics)?,
+        false => vec![expression(cursor, diagnostics).ok()?],
+    };
+    let equations = if let ([one], false) = (&closings[..], several) { equations(one) } else { None };
     if let Some(equations) = &equations
         && !cursor.at_group(0, Delimiter::Brace)
     {
@@ -199,7 +205,7 @@ pub(super) fn solve(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Optio
     };
     Some(match equations {
         Some(equations) => ItemKind::System { unknowns, equations, branches },
-        None => ItemKind::Solve { unknowns, how: Solution::From { joint, branches } },
+        None => ItemKind::Solve { unknowns, how: Solution::From { closings, branches } },
     })
 }
 

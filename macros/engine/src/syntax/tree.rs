@@ -146,7 +146,7 @@ pub enum ItemKind {
         /// What it follows.
         value: Expr,
     },
-    /// `solve (unknowns) = (formulas);` or `solve (unknowns) from joint { branches }`
+    /// `solve (unknowns) = (formulas);`, `solve (unknowns) from joint { branches }` or `from (joint, joint) { branches }`
     Solve {
         /// Between the parentheses.
         unknowns: Vec<Expr>,
@@ -229,8 +229,8 @@ pub enum Solution {
     Formulas(Vec<Expr>),
     /// Found by the macro.
     From {
-        /// The joint that closes the loop.
-        joint: Box<Expr>,
+        /// What closes the loop, or the loops.
+        closings: Vec<Expr>,
         /// Conditions that choose one branch.
         branches: Vec<Expr>,
     },

@@ -1,7 +1,7 @@
 //! Models that use every stage that is broken, with all that they may emit, and with forward dynamics alone.
 
 /// Name and text.
-pub(crate) const MODELS: [(&str, &str); 10] = [
+pub(crate) const MODELS: [(&str, &str); 11] = [
     (
         "double_pendulum",
         "mod double_pendulum {
@@ -157,6 +157,26 @@ pub(crate) const MODELS: [(&str, &str); 10] = [
             joint hinge: Revolute { parent: nut.at(0.1 * X), child: arm, axis: [0.6, 0.0, 0.8] }
             force spring: SpringDamper { joint: hinge, stiffness: k, damping: 0.4 }
             emit inverse_dynamics;
+        }",
+    ),
+    (
+        "wishbone",
+        "mod wishbone {
+            world { gravity: -9.81 * Z }
+            body lower { mass: 2.0, com: 0.2 * X, inertia: diag(0.02, 0.03, 0.04) }
+            body upper { mass: 1.5, com: 0.15 * X, inertia: diag(0.01, 0.02, 0.03) }
+            body upright { mass: 8.0, com: [0.05, 0.01, 0.12], inertia: diag(0.1, 0.12, 0.08) }
+            joint low: Revolute { parent: ground, child: lower, axis: [0.05, 1.0, 0.03] }
+            joint up: Revolute { parent: ground.at([0.08, 0.02, 0.25]), child: upper, axis: [-0.04, 1.0, 0.06] }
+            joint pivot: Ball { parent: lower.at([0.42, 0.02, 0.01]), child: upright, coordinates: RollPitchYaw }
+            #[cut]
+            joint head: Ball { parent: upper.at([0.31, -0.01, 0.0]), child: upright.at([-0.03, -0.01, 0.26]) }
+            constraint tie: Rod {
+                between: [ground.at([0.05, -0.12, 0.08]), upright.at([0.0, -0.13, 0.08])], length: 0.37 }
+            assume (cos(low) > 0.9);
+            solve (up, pivot) from (head, tie) { up < 0.75, cos(pivot.pitch) > 0.0, cos(pivot.yaw) > 0.0 }
+            formulation { constraints: Reduced }
+            emit forward_dynamics;
         }",
     ),
 ];

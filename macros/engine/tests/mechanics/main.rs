@@ -31,5 +31,6 @@ mod random_outputs;
 mod ranks;
 mod reactions;
 mod scaling;
+mod several_closings;
 mod support;
 mod worked;

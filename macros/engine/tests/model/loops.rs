@@ -43,7 +43,8 @@ fn stewart_in_hybrid_coordinates() {
     let solve = &m.solves[2];
     let of = |name: &str, index| (format!("legs[2].{name}"), index);
     assert_eq!(unknowns(&w, solve), [of("gimbal", 0), of("gimbal", 1), of("stroke", 0)]);
-    let SolveHow::From { closing: LoopClosure::Cut(ball), branches } = &solve.how else { panic!("from a joint") };
+    let SolveHow::From { closings, branches } = &solve.how else { panic!("from a joint") };
+    let [Closing { what: LoopClosure::Cut(ball), .. }] = &closings[..] else { panic!("from a joint") };
     assert_eq!(w.joint(*ball), "legs[2].ball");
     assert_eq!(w.list(branches), "[(q(legs[2].stroke, 0) Greater -1), (Cos[q(legs[2].gimbal, 1)] Greater 0)]");
     assert_eq!(m.solve_for.len(), 6);
@@ -244,7 +245,7 @@ fn drives_and_constraints() {
     );
     assert_eq!(w.expr(&m.drives[3].value), "(Rotation[<[0, 0, 1]>, t] o RollPitchYaw[0, 0, t])");
     assert_eq!(w.expr(&m.drives[4].value), "Pose[<[t, 0, 0]>, Identity]");
-    assert!(matches!(m.solves[0].how, SolveHow::From { closing: LoopClosure::Constraint(ConstraintId(0)), .. }));
+    assert_eq!(m.solves[0].closings().collect::<Vec<_>>(), [LoopClosure::Constraint(ConstraintId(0))]);
     assert_eq!(w.list(&m.assumptions), "[(Position(c).z Greater 0)]");
     assert_eq!(m.independent, [coordinate("turn", 0), coordinate("c", 0)]);
     let Handling::Stabilised { rate, position } = &m.handling else { panic!("stabilised") };

@@ -335,6 +335,9 @@ fn three_spheres_meet() {
 fn no_closed_form_is_an_error() {
     let mut rng = Rng::new(1);
     let failure = spatial(&mut rng, "RRRRRr").solve(&[]).unwrap_err();
-    assert!(matches!(&failure, Failure::NotFound { remaining, solved: 0 } if remaining.len() == 5), "{failure}");
+    assert!(
+        matches!(&failure, Failure::NotFound { remaining, solved: 0, cycles: 1 } if remaining.len() == 5),
+        "{failure}"
+    );
     assert!(failure.to_string().contains("5 remain"), "{failure}");
 }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use multibody_engine::contracts::cost::Cost;
 use multibody_engine::dynamics::tree::Motion;
-use multibody_engine::solve::{Failure, Segment, Solution, Solved, Value, solve};
+use multibody_engine::solve::{Balance, Failure, Segment, Solution, Solved, Value, solve};
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
 use multibody_engine::symbolic::graph::{Graph, Rotation, Scalar, ScalarNode};
 use multibody_engine::symbolic::lower::Lowering;
@@ -188,7 +188,7 @@ impl Cycle {
 
     pub(crate) fn solve(&mut self, signs: &[bool]) -> Result<Solution, Failure> {
         let cycle = multibody_engine::solve::KinematicLoop { segments: self.segments.clone(), winding: None };
-        solve(&mut self.g, &cycle, signs)
+        solve(&mut self.g, &[cycle], signs)
     }
 
     /// Puts the solved values in; `None` where there is no real solution.
@@ -297,7 +297,7 @@ impl Cycle {
             self.values[..truth.len()].copy_from_slice(&truth);
             let solution = self.solve(&choice)?;
             let Some(()) = self.put(&solution) else { continue };
-            let roots: Vec<Scalar> = solution.solved.iter().filter_map(|s| s.root).collect();
+            let roots: Vec<Scalar> = solution.solved.iter().flat_map(|s| &s.roots).map(|root| root.value).collect();
             if self.numbers(&roots).iter().any(|r| r.abs() < 0.2) {
                 return Ok(Outcome::Poor);
             }
@@ -333,8 +333,9 @@ impl Cycle {
     /// Equations vanish, slopes are right, and rates agree with finite differences.
     fn check_slopes(&mut self, solution: &Solution) -> Option<Outcome> {
         for solved in &solution.solved {
-            let slope = self.g.derivative(solved.equation, &[(solved.symbol, Scalar::ONE)]);
-            let [e, slope, inverse] = self.numbers(&[solved.equation, slope, solved.inverse_slope])[..] else {
+            let [Balance { equation, inverse_slope }] = solved.balances[..] else { panic!("one equation each") };
+            let slope = self.g.derivative(equation, &[(solved.symbol, Scalar::ONE)]);
+            let [e, slope, inverse] = self.numbers(&[equation, slope, inverse_slope])[..] else {
                 return None;
             };
             if slope.abs() < 0.1 {
@@ -392,7 +393,8 @@ impl Cycle {
             second.extend([(symbol, v), (v, a)]);
         }
         let mut result = Vec::new();
-        for Solved { symbol, equation, inverse_slope, .. } in &solution.solved {
+        for Solved { symbol, balances, .. } in &solution.solved {
+            let [Balance { equation, inverse_slope }] = &balances[..] else { panic!("one equation each") };
             let rest = self.g.derivative(*equation, &first);
             let rate = -self.g.mul(rest, *inverse_slope);
             let v = self.known(0.0);
@@ -420,8 +422,8 @@ impl Cycle {
         let mut roots = Vec::new();
         for solved in &solution.solved {
             let list = match solved.value {
-                Value::Angle { cos, sin } => vec![cos, sin, solved.inverse_slope],
-                Value::Length(x) => vec![x, solved.inverse_slope],
+                Value::Angle { cos, sin } => vec![cos, sin, solved.balances[0].inverse_slope],
+                Value::Length(x) => vec![x, solved.balances[0].inverse_slope],
             };
             let list = self.g.substitute(&list, &map);
             let value = match list[..] {

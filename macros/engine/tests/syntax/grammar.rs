@@ -53,8 +53,8 @@ fn line(item: &Item) -> String {
         ItemKind::Solve { unknowns, how: Solution::Formulas(formulas) } => {
             format!("solve {} {}", list(unknowns), list(formulas))
         }
-        ItemKind::Solve { unknowns, how: Solution::From { joint, branches } } => {
-            format!("solve {} from {} {}", list(unknowns), text(joint), list(branches))
+        ItemKind::Solve { unknowns, how: Solution::From { closings, branches } } => {
+            format!("solve {} from {} {}", list(unknowns), list(closings), list(branches))
         }
         ItemKind::System { unknowns, equations, branches } => {
             format!("system {} {} {}", list(unknowns), list(equations), list(branches))
@@ -177,6 +177,8 @@ fn optional_things() {
     assert_eq!(lines("part p: [leg; n + 1] = leg { base: ground };"), ["part p leg n+1  {base=ground}"]);
     assert_eq!(lines("part p: [leg; 2] = |_| leg {};"), ["part p leg 2  {}"]);
     assert_eq!(lines("solve (a) from j {}"), ["solve a from j"]);
+    assert_eq!(lines("solve (a, b) from (j, k) { a > 0 }"), ["solve a|b from j|k a>0"]);
+    assert_eq!(lines("solve (a) from (j) {}"), ["solve a from j"]);
     assert_eq!(lines(""), [""; 0]);
 }
 

@@ -195,10 +195,11 @@ fn dependents(layout: &Layout<'_>, step: &Step) -> String {
             format!("{unknowns}: linear in the others, by {}", closing(LoopClosure::Constraint(*constraint)))
         }
         Means::Solve(number) => match &model.solves[*number].how {
-            SolveHow::From { closing: from, branches } => {
+            SolveHow::From { closings, branches } => {
                 let branches = branches.iter().map(|branch| quoted(&formula::text(layout, branch)));
                 let branches = listed(branches).map_or_else(String::new, |branches| format!(", where {branches}"));
-                format!("{unknowns}: in closed form from {}{branches}", closing(*from))
+                let closings = listed(closings.iter().map(|one| closing(one.what))).unwrap_or_default();
+                format!("{unknowns}: in closed form from {closings}{branches}")
             }
             SolveHow::Formulas(_) => format!("{unknowns}: by the declared formulas"),
         },

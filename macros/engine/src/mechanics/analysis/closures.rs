@@ -10,7 +10,7 @@ use std::rc::Rc;
 use crate::mechanics::loops::constraints::coordinate_name;
 use crate::mechanics::loops::structure::{Means, Role, Structure};
 use crate::model::site::Sited;
-use crate::model::types::{Coordinate, Handling, Kinematics, LoopClosure, Model, SolveHow};
+use crate::model::types::{Coordinate, Handling, Kinematics, LoopClosure, Model};
 
 use super::problem::{Problem, Source};
 use super::{Complaint, analyse};
@@ -47,10 +47,9 @@ fn leads(model: &Model, solved: &Structure, wanted: &Kinematics) -> bool {
         };
         let reads = |source: Source| match (&step.means, source) {
             (Means::Solve(item), Source::Formula(of, _)) => *item == of,
-            (Means::Solve(item), Source::Row(row)) => match &model.solves[*item].how {
-                SolveHow::From { closing, .. } => row.closing == *closing,
-                SolveHow::Formulas(_) => false,
-            },
+            (Means::Solve(item), Source::Row(row)) => {
+                model.solves[*item].closings().any(|closing| row.closing == closing)
+            }
             (Means::Linear(id), Source::Row(row)) => row.closing == LoopClosure::Constraint(*id),
             (Means::Newton { rows, .. }, Source::Row(row)) => rows.contains(&row),
             (Means::Linear(_) | Means::Newton { .. }, Source::Formula(..)) => false,

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use crate::mechanics::loops::constraints::{coordinate_name, is_uncounted, row_count};
 use crate::mechanics::loops::structure::{Means, Row, Step};
 use crate::model::site::Sited;
-use crate::model::types::{BodyRef, ConstraintId, Coordinate, JointId, LoopClosure, Model, SolveHow};
+use crate::model::types::{BodyRef, Closing, ConstraintId, Coordinate, JointId, LoopClosure, Model, SolveHow};
 use crate::symbolic::triangular_form::{components, matching};
 
 use super::checks::thing;
@@ -134,11 +134,22 @@ impl ReductionSearch<'_> {
                     };
                     self.kept.iter().copied().filter(own).collect()
                 }
-                SolveHow::From { closing, .. } => {
-                    let own = |&k: &usize| self.row(k).is_some_and(|row| row.closing == *closing);
-                    if !(0..self.group.equations.len()).any(|k| own(&k)) {
+                SolveHow::From { closings, .. } => {
+                    let of = |k: usize, closing: &Closing| self.row(k).is_some_and(|row| row.closing == closing.what);
+                    let is_here = |closing: &&Closing| (0..self.group.equations.len()).any(|k| of(k, closing));
+                    if !closings.iter().any(|closing| is_here(&closing)) {
                         continue;
                     }
+                    if let Some(other) = closings.iter().find(|closing| !is_here(closing)) {
+                        let (_, what) = thing(self.model, other.what);
+                        complaints.push(Complaint {
+                            at: other.site(),
+                            message: format!("{what} has no coordinate in common with the others"),
+                            help: Some("write a `solve` of its own for it".to_owned()),
+                        });
+                        return Err(complaints);
+                    }
+                    let own = |&k: &usize| closings.iter().any(|closing| of(k, closing));
                     self.kept.iter().copied().filter(own).collect()
                 }
             };
@@ -176,7 +187,8 @@ impl ReductionSearch<'_> {
                 } else {
                     "name as many coordinates as the loop gives equations"
                 };
-                complain(format!("`solve` names {want} unknowns, but the loop gives {have} equations for them"), help);
+                let loops = if solve.closings().count() > 1 { "loops give" } else { "loop gives" };
+                complain(format!("`solve` names {want} unknowns, but the {loops} {have} equations for them"), help);
                 continue;
             }
             items.push(Item { number, rows, unknowns });
@@ -207,9 +219,10 @@ impl ReductionSearch<'_> {
 
     fn undetermined(&self, item: &Item) -> Complaint {
         let solve = &self.model.solves[item.number];
+        let loops = if solve.closings().count() > 1 { "loops do" } else { "loop does" };
         Complaint {
             at: solve.site(),
-            message: format!("the loop does not determine {}", self.names(&item.unknowns)),
+            message: format!("the {loops} not determine {}", self.names(&item.unknowns)),
             help: Some("name coordinates that follow from the loop when the others are known".to_owned()),
         }
     }

@@ -1,6 +1,6 @@
 //! Stage `mechanics`: which solution of a loop is meant.
 //!
-//! In: a `solve` item with its cycle. Out: its closed form on the branch that the user's conditions choose. Every
+//! In: a `solve` item with its cycles. Out: its closed form on the branch that the user's conditions choose. Every
 //! combination of the roots' signs is evaluated at random configurations that have real solutions and satisfy the user's
 //! assumptions, with parameters at their defaults; the one for which all conditions hold at all of them is taken.
 //!
@@ -29,6 +29,7 @@ use crate::symbolic::lower::Lowering;
 use crate::symbolic::signs::is_proven;
 
 use super::constraints::coordinate_name;
+use super::groups::Group;
 use super::reduction::{Map, Reduction};
 
 /// Configurations with real solutions at which conditions are tried, and random ones among which these are sought; more
@@ -99,24 +100,24 @@ impl Equations<'_> {
     ) -> Result<Vec<(Coordinate, Solved)>, Vec<Complaint>> {
         let model = self.scene.model;
         let item = &model.solves[number];
-        let SolveHow::From { closing, branches } = &item.how else { return Ok(Vec::new()) };
-        let cycle = self.cycle(*closing, item);
+        let SolveHow::From { branches, .. } = &item.how else { return Ok(Vec::new()) };
+        let cycles = self.cycles(item);
         if let Some(branch) = self.decided.branches.0.get(&number).cloned() {
-            return self.on_branch(item, &cycle, &branch, branches, reduction);
+            return self.on_branch(item, &cycles, &branch, branches, reduction);
         }
         let conditions: Vec<Scalar> = branches.iter().map(|condition| self.scalar(condition)).collect();
-        let plan = match self.plan_alike(*closing, &cycle) {
+        let plan = match self.plan_alike(item, &cycles) {
             Some(plan) => plan,
-            None => Plan::new(&self.g, &cycle).map_err(|failure| not_found(item, &failure))?,
+            None => Plan::new(&self.g, &cycles).map_err(|failure| not_found(item, &failure))?,
         };
-        let mut branch = self.choose(item, &cycle, plan, &conditions, reduction)?;
+        let mut branch = self.choose(item, &cycles, plan, &conditions, reduction)?;
         if branch.is_none() {
             // An equation may say nothing with the declared parameters: others are looked for.
             let value = |draw: u64| move |e: &Self, id: SymbolId| e.sample(id, draw, 1.0);
             let [first, second] = [value(0), value(1)];
             let points: [&dyn Fn(SymbolId) -> f64; 2] = [&|id| first(self, id), &|id| second(self, id)];
-            let plan = Plan::at(&self.g, &cycle, &points).map_err(|failure| not_found(item, &failure))?;
-            branch = self.choose(item, &cycle, plan, &conditions, reduction)?;
+            let plan = Plan::at(&self.g, &cycles, &points).map_err(|failure| not_found(item, &failure))?;
+            branch = self.choose(item, &cycles, plan, &conditions, reduction)?;
         }
         let branch = branch.ok_or_else(|| {
             complaint(
@@ -125,26 +126,34 @@ impl Equations<'_> {
                 "check the lengths, the defaults of parameters, and what is assumed",
             )
         })?;
-        let found = self.on_branch(item, &cycle, &branch, branches, reduction);
+        let found = self.on_branch(item, &cycles, &branch, branches, reduction);
         self.decided.branches.0.insert(number, branch);
         found
     }
 
     /// The plan of a loop that is identical up to parameters, if it turns out to serve here.
-    fn plan_alike(&self, closing: LoopClosure, cycle: &KinematicLoop) -> Option<Plan> {
-        let group = self.scene.structure.groups.iter().find(|group| group.closings.contains(&closing))?;
-        let known = self.scene.model.solves.iter().enumerate().filter_map(|(number, solve)| match &solve.how {
-            SolveHow::From { closing, .. } if group.closings.contains(closing) => self.decided.branches.0.get(&number),
-            _ => None,
-        });
-        known.into_iter().find_map(|branch| branch.plan.adapted(&self.g, cycle))
+    fn plan_alike(&self, item: &Solve, cycles: &[KinematicLoop]) -> Option<Plan> {
+        let is_in = |group: &Group, closing: Option<LoopClosure>| closing.is_some_and(|c| group.closings.contains(&c));
+        let groups = &self.scene.structure.groups;
+        // What each closing of the item is a member of, in order: an item whose closings are members of the same ones is alike.
+        let own: Option<Vec<&Group>> =
+            item.closings().map(|closing| groups.iter().find(|group| is_in(group, Some(closing)))).collect();
+        let own = own?;
+        let alike = |solve: &Solve| {
+            let mut closings = solve.closings();
+            own.iter().all(|group| is_in(group, closings.next())) && closings.next().is_none()
+        };
+        let solves = self.scene.model.solves.iter().enumerate();
+        let known =
+            solves.filter(|(_, solve)| alike(solve)).filter_map(|(number, _)| self.decided.branches.0.get(&number));
+        known.into_iter().find_map(|branch| branch.plan.adapted(&self.g, cycles))
     }
 
     /// The solution with the signs of a branch.
     fn on_branch(
         &mut self,
         item: &Solve,
-        cycle: &KinematicLoop,
+        cycles: &[KinematicLoop],
         branch: &Branch,
         conditions: &[Expr],
         reduction: &Reduction,
@@ -155,19 +164,19 @@ impl Equations<'_> {
         if !branch.is_fixed() {
             let conditions: Vec<Scalar> = conditions.iter().map(|condition| self.scalar(condition)).collect();
             for stage in &branch.stages {
-                let chosen = self.stage_signs(cycle, branch, stage, &signs, &conditions, reduction);
+                let chosen = self.stage_signs(cycles, branch, stage, &signs, &conditions, reduction);
                 signs.splice(stage.roots.clone(), chosen.map_err(complain)?);
             }
         }
         if broken(Break::ClosedFormSign) {
             signs.iter_mut().for_each(|sign| *sign = -*sign);
         }
-        let mut solution = branch.plan.solve(&mut self.g, cycle, &signs).map_err(complain)?;
+        let mut solution = branch.plan.solve(&mut self.g, cycles, &signs).map_err(complain)?;
         // Roots that come out negative tell that another branch than the declared one was taken.
-        let roots = solution.solved.iter_mut().filter_map(|solved| solved.root.as_mut());
-        for ((root, &sign), &declared) in roots.zip(&signs).zip(&declared) {
-            let kept = self.g.mul(sign, declared);
-            *root = self.g.mul(kept, *root);
+        for root in solution.solved.iter_mut().flat_map(|solved| &mut solved.roots) {
+            let at = |signs: &[Scalar]| signs.get(root.sign).copied().unwrap_or(Scalar::ONE);
+            let kept = self.g.mul(at(&signs), at(&declared));
+            root.value = self.g.mul(kept, root.value);
         }
         if !branch.guards.is_empty() {
             let conditions: Vec<Scalar> = conditions.iter().map(|condition| self.scalar(condition)).collect();
@@ -178,7 +187,9 @@ impl Equations<'_> {
                     solve::Value::Angle { cos, sin } => solve::Value::Angle { cos: self.g.add(cos, guard), sin },
                     solve::Value::Length(x) => solve::Value::Length(self.g.add(x, guard)),
                 };
-                first.inverse_slope = self.g.add(first.inverse_slope, guard);
+                for balance in &mut first.balances {
+                    balance.inverse_slope = self.g.add(balance.inverse_slope, guard);
+                }
             }
         }
         let solved = self.without_unwanted(item, solution.solved);
@@ -188,7 +199,7 @@ impl Equations<'_> {
     /// The signs of a stage's roots: of the first combination for which its conditions hold.
     fn stage_signs(
         &mut self,
-        cycle: &KinematicLoop,
+        cycles: &[KinematicLoop],
         branch: &Branch,
         stage: &Stage,
         before: &[Scalar],
@@ -201,7 +212,7 @@ impl Equations<'_> {
             let own: Vec<bool> = declared.map(|(k, &sign)| sign != (choice >> k & 1 == 1)).collect();
             let mut signs = before.to_vec();
             signs.splice(roots.clone(), of_signs(&own));
-            let solution = branch.plan.solve(&mut self.g, cycle, &signs)?;
+            let solution = branch.plan.solve(&mut self.g, cycles, &signs)?;
             tried.push((self.put(&solution.solved, &stage.conditions, conditions, reduction), own));
         }
         let chosen = (0..roots.len()).map(|k| {
@@ -263,9 +274,11 @@ impl Equations<'_> {
                     },
                     solve::Value::Length(x) => solve::Value::Length(put(self, &[x])[0]),
                 };
-                one.equation = put(self, &[one.equation])[0];
-                one.inverse_slope = put(self, &[one.inverse_slope])[0];
-                one.root = one.root.map(|root| put(self, &[root])[0]);
+                for balance in &mut one.balances {
+                    balance.equation = put(self, &[balance.equation])[0];
+                    balance.inverse_slope = put(self, &[balance.inverse_slope])[0];
+                }
+                one.roots.iter_mut().for_each(|root| root.value = put(self, &[root.value])[0]);
             }
             if self.unknown_of(item, &one).is_some() {
                 wanted.push(one);
@@ -287,13 +300,13 @@ impl Equations<'_> {
     }
 
     /// What a plan leads to, for every choice of signs.
-    pub(super) fn solutions(&mut self, cycle: &KinematicLoop, plan: &Plan) -> Result<Vec<Choice>, Failure> {
-        let first = plan.solve(&mut self.g, cycle, &[])?;
+    pub(super) fn solutions(&mut self, cycles: &[KinematicLoop], plan: &Plan) -> Result<Vec<Choice>, Failure> {
+        let first = plan.solve(&mut self.g, cycles, &[])?;
         let count = first.signs.min(MOST_SIGNS);
         let mut solutions = vec![(vec![true; count], first.solved)];
         for choice in 1..1_usize << count {
             let signs: Vec<bool> = (0..count).map(|k| choice >> k & 1 == 0).collect();
-            if let Ok(other) = plan.solve(&mut self.g, cycle, &of_signs(&signs)) {
+            if let Ok(other) = plan.solve(&mut self.g, cycles, &of_signs(&signs)) {
                 solutions.push((signs, other.solved));
             }
         }
@@ -305,12 +318,12 @@ impl Equations<'_> {
     fn choose(
         &mut self,
         item: &Solve,
-        cycle: &KinematicLoop,
+        cycles: &[KinematicLoop],
         plan: Plan,
         conditions: &[Scalar],
         reduction: &Reduction,
     ) -> Result<Option<Branch>, Vec<Complaint>> {
-        let solutions = self.solutions(cycle, &plan).map_err(|failure| not_found(item, &failure))?;
+        let solutions = self.solutions(cycles, &plan).map_err(|failure| not_found(item, &failure))?;
         if solutions.len() == 1 && conditions.is_empty() {
             let signs = solutions.into_iter().next().map_or_else(Vec::new, |one| one.0);
             return Ok(Some(Branch { plan, signs, stages: Vec::new(), guards: Vec::new() }));
@@ -487,7 +500,10 @@ fn complaint(item: &Solve, message: String, help: &str) -> Vec<Complaint> {
 fn not_found(item: &Solve, failure: &Failure) -> Vec<Complaint> {
     complaint(
         item,
-        format!("no closed form was found for this loop: {failure}"),
+        format!(
+            "no closed form was found for {}: {failure}",
+            if item.closings().count() > 1 { "these loops" } else { "this loop" }
+        ),
         "leave the `solve` item out to have the loop solved by Newton's method, or write the solution yourself: \
          `solve (a, b) = (.., ..);`",
     )

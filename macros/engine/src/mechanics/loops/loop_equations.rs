@@ -1,6 +1,6 @@
 //! Stage `mechanics`: loops as cycles for the stage `solve`.
 //!
-//! In: a `solve` item. Out: its loop as a [`KinematicLoop`], walked once around: from the last link that carries both ends out to
+//! In: a `solve` item. Out: each of its loops as a [`KinematicLoop`], walked once around: from the last link that carries both ends out to
 //! the closing's parent frame, through the closing, and back from its child frame. Motions that are known stay as they
 //! are, unknown ones keep the symbols of their coordinates as placeholders. A motion that is walked against its sense is
 //! the same motion about the opposite axis: turned by half a turn before and after.
@@ -8,32 +8,39 @@
 use crate::dynamics::tree::{Link, Motion};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::build::FixedFrame;
+use crate::mechanics::translate::symbols::UNWANTED;
 use crate::model::types::{ConstraintKind, Joint, JointId, LoopClosure, Solve};
 use crate::solve::{KinematicLoop, Segment};
 use crate::symbolic::graph::{Rotation, Scalar, Vector};
 use crate::symbolic::rotations;
 
 impl Equations<'_> {
-    /// Once around the loop of a closing.
-    pub(super) fn cycle(&mut self, closing: LoopClosure, item: &Solve) -> KinematicLoop {
-        let segments = self.segments(closing, item);
-        let winding = match closing {
-            LoopClosure::Cut(id) => self.cycle_winding(id),
-            LoopClosure::Constraint(_) => None,
-        };
-        KinematicLoop { segments, winding }
+    /// Once around the loop of each closing.
+    pub(super) fn cycles(&mut self, item: &Solve) -> Vec<KinematicLoop> {
+        let closings = item.closings().enumerate();
+        closings
+            .map(|(number, closing)| {
+                // The first of the closing's own coordinates.
+                let own = number * UNWANTED;
+                let segments = self.segments(closing, own, item);
+                let winding = match closing {
+                    LoopClosure::Cut(id) => self.cycle_winding(id, own),
+                    LoopClosure::Constraint(_) => None,
+                };
+                KinematicLoop { segments, winding }
+            })
+            .collect()
     }
 
     /// The sum of all angles of a loop that counts turns. That of a screw which closes it stands there as its coordinate.
-    fn cycle_winding(&mut self, id: JointId) -> Option<Scalar> {
+    fn cycle_winding(&mut self, id: JointId, own: usize) -> Option<Scalar> {
         let sum = self.counted_turns(id)?;
         let screw = self.scene.model.joints[id].kind.has_pitch;
-        // The first of the closing's own coordinates, see `closing_motions`.
-        let own = if screw { self.scene.symbols.unwanted(0) } else { Scalar::ZERO };
+        let own = if screw { self.scene.symbols.unwanted(own) } else { Scalar::ZERO };
         Some(self.g.sub(sum, own))
     }
 
-    fn segments(&mut self, closing: LoopClosure, item: &Solve) -> Vec<Segment> {
+    fn segments(&mut self, closing: LoopClosure, own: usize, item: &Solve) -> Vec<Segment> {
         let model = self.scene.model;
         let mut cycle = Vec::new();
         match closing {
@@ -42,7 +49,7 @@ impl Equations<'_> {
                 let (from, to) = (self.place(&joint.parent), self.place(&joint.child));
                 let common = self.common(from.link, to.link);
                 self.outwards_to(&from, common, item, &mut cycle);
-                self.closing_motions(joint, &mut cycle);
+                self.closing_motions(joint, own, &mut cycle);
                 self.back_from(&to, common, item, &mut cycle);
             }
             LoopClosure::Constraint(id) => {
@@ -53,10 +60,10 @@ impl Equations<'_> {
                 let length = self.scalar(length);
                 let common = self.common(from.link, to.link);
                 self.outwards_to(&from, common, item, &mut cycle);
-                cycle.push(self.unwanted(Motion::Ball([Scalar::ZERO; 4]), 0));
+                cycle.push(self.unwanted(Motion::Ball([Scalar::ZERO; 4]), own));
                 let offset = self.g.along(0, length);
                 cycle.push(Segment::Fixed { rotation: Rotation::IDENTITY, offset });
-                cycle.push(self.unwanted(Motion::Ball([Scalar::ZERO; 4]), 3));
+                cycle.push(self.unwanted(Motion::Ball([Scalar::ZERO; 4]), own + 3));
                 self.back_from(&to, common, item, &mut cycle);
             }
         }
@@ -121,12 +128,12 @@ impl Equations<'_> {
     }
 
     /// The motions of what closes the loop, from its parent frame to its child frame.
-    fn closing_motions(&mut self, joint: &Joint, cycle: &mut Vec<Segment>) {
+    fn closing_motions(&mut self, joint: &Joint, own: usize, cycle: &mut Vec<Segment>) {
         let kind = joint.kind;
         if kind.turns_freely() {
             // What is free closes nothing.
             if !kind.is_free() {
-                cycle.push(self.unwanted(Motion::Ball([Scalar::ZERO; 4]), 0));
+                cycle.push(self.unwanted(Motion::Ball([Scalar::ZERO; 4]), own));
             }
             return;
         }
@@ -135,7 +142,7 @@ impl Equations<'_> {
             let (axis, motion) = self.freedom_motion(joint, &axes, index);
             let place = |rotation| Segment::Fixed { rotation, offset: Vector::ZERO };
             cycle.push(place(axis.turn));
-            cycle.push(self.unwanted(motion, number));
+            cycle.push(self.unwanted(motion, own + number));
             cycle.push(place(axis.turn.transpose()));
         }
     }

@@ -6,7 +6,7 @@
 //!
 //! A dependent coordinate x obeys E(x, known) = 0 with a known inverse slope 1 / (dE/dx). Differentiating by time,
 //! dE/dx x' + E'|x = 0, and once more, dE/dx x'' + E''|(x'' = 0) = 0: both need no second solution, only derivatives of
-//! the equation. Several unknowns of one iteration obey the same with the matrix dE/dx, by elimination.
+//! the equation. Coordinates that a closed form finds together obey the same with the inverse of dE/dx that it gives. Several unknowns of one iteration obey the same with the matrix dE/dx, by elimination.
 
 use std::collections::{HashMap, HashSet};
 
@@ -16,7 +16,7 @@ use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::names;
 use crate::mechanics::translate::symbols::Symbols;
 use crate::model::types::{ConstraintId, Coordinate, Expr, JointId, LoopClosure, SolveHow};
-use crate::solve::Value as SolvedValue;
+use crate::solve::{Balance, Value as SolvedValue};
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::{BlockKind, Scalar, SymbolId};
 use crate::symbolic::structured::solve_structured;
@@ -211,7 +211,8 @@ impl Equations<'_> {
         let rest = self.g.substitute(&[residual], &off)[0];
         let inverse = self.g.reciprocal(slope);
         let position = -self.g.mul(inverse, rest);
-        Some(self.implicit(unknown, position, residual, inverse))
+        let balance = Balance { equation: residual, inverse_slope: inverse };
+        Some(self.implicit(unknown, position, &[balance], &[symbol]))
     }
 
     /// What the user's formulas give.
@@ -220,7 +221,8 @@ impl Equations<'_> {
             let position = self.scalar(formula);
             let symbol = self.coordinate_symbols(unknown)[0];
             let equation = self.g.sub(symbol, position);
-            self.implicit(unknown, position, equation, Scalar::ONE)
+            let balance = Balance { equation, inverse_slope: Scalar::ONE };
+            self.implicit(unknown, position, &[balance], &[symbol])
         });
         definitions.collect()
     }
@@ -233,7 +235,9 @@ impl Equations<'_> {
         for (unknown, solved) in found {
             let symbol = Symbol::Position { joint: unknown.joint, component: unknown.index };
             let name = names::symbol(model, symbol);
-            self.g.label(solved.inverse_slope, || format!("slope_{name}_inv"));
+            if let [balance] = solved.balances[..] {
+                self.g.label(balance.inverse_slope, || format!("slope_{name}_inv"));
+            }
             let before = self.g.begin(Some(format!("Closed form of {name}.").into()));
             // As in the report: A cos x + B sin x = C, (r cos x, r sin x) = (u, v).
             let is_angle = matches!(solved.value, SolvedValue::Angle { .. });
@@ -250,27 +254,45 @@ impl Equations<'_> {
                 }
                 SolvedValue::Length(x) => self.g.label(x, || name.clone()),
             };
-            if let Some(root) = solved.root {
-                self.g.label(root, || format!("root_{name}"));
-                reduction.dead_centres.push((unknown, root));
+            for root in &solved.roots {
+                self.g.label(root.value, || format!("root_{name}"));
+                reduction.dead_centres.push((unknown, root.value));
             }
             reduction.notes.push(format!("`{}`: {}", coordinate_name(model, unknown), solved.how));
             self.g.begin(before);
-            definitions.push(self.implicit(unknown, position, solved.equation, solved.inverse_slope));
+            definitions.push(self.implicit(unknown, position, &solved.balances, &solved.together));
         }
         Ok(definitions)
     }
 
-    /// Rate and acceleration from an equation with a known slope.
-    fn implicit(&mut self, coordinate: Coordinate, position: Scalar, equation: Scalar, inverse: Scalar) -> Definition {
-        let [_, velocity, acceleration] = self.coordinate_symbols(coordinate);
-        let (first, second) = self.implicit_rates(equation, &[(velocity, acceleration)]);
+    /// Rate and acceleration from equations with known slopes, which give some unknowns together.
+    fn implicit(
+        &mut self,
+        coordinate: Coordinate,
+        position: Scalar,
+        balances: &[Balance],
+        together: &[Scalar],
+    ) -> Definition {
+        let unknowns = self.rates_of(together);
         let name = names::of_freedom(self.scene.model, coordinate, "gap");
-        self.g.under("Velocities of what follows.", |g| g.label(first, || format!("{name}_rate")));
-        self.g.under("Accelerations of what follows.", |g| g.label(second, || format!("{name}_accel")));
-        let rate = -self.g.mul(inverse, first);
-        let acceleration = -self.g.mul(inverse, second);
+        let (mut rates, mut accelerations) = (Vec::new(), Vec::new());
+        for &Balance { equation, inverse_slope } in balances {
+            let (first, second) = self.implicit_rates(equation, &unknowns);
+            self.g.under("Velocities of what follows.", |g| g.label(first, || format!("{name}_rate")));
+            self.g.under("Accelerations of what follows.", |g| g.label(second, || format!("{name}_accel")));
+            rates.push(-self.g.mul(inverse_slope, first));
+            accelerations.push(-self.g.mul(inverse_slope, second));
+        }
+        let (rate, acceleration) = (self.g.sum(&rates), self.g.sum(&accelerations));
         Definition { coordinate, position, rate, acceleration }
+    }
+
+    /// Velocities and accelerations of coordinates, given by the symbols of their positions.
+    fn rates_of(&self, positions: &[Scalar]) -> Vec<(Scalar, Scalar)> {
+        let symbols = &self.scene.symbols;
+        let joints = symbols.positions.iter().zip(&symbols.velocities).zip(&symbols.accelerations);
+        let all = joints.flat_map(|((q, v), a)| q.iter().zip(v).zip(a));
+        all.filter(|((q, _), _)| positions.contains(q)).map(|((_, &v), &a)| (v, a)).collect()
     }
 
     /// First derivative by time of an equation with the unknowns at rest, and second one with their accelerations zero.

@@ -88,11 +88,11 @@ impl Equations<'_> {
     ) -> Option<Solutions> {
         let model = self.scene.model;
         let item = &model.solves[number];
-        let SolveHow::From { closing, branches } = &item.how else { return None };
-        let cycle = self.cycle(*closing, item);
-        let alike = plans.iter().find_map(|plan| plan.adapted(&self.g, &cycle));
-        let plan = alike.or_else(|| Plan::new(&self.g, &cycle).ok())?;
-        if let Some(found) = self.tabulated(item, branches, &cycle, &plan, poses) {
+        let SolveHow::From { branches, .. } = &item.how else { return None };
+        let cycles = self.cycles(item);
+        let alike = plans.iter().find_map(|plan| plan.adapted(&self.g, &cycles));
+        let plan = alike.or_else(|| Plan::new(&self.g, &cycles).ok())?;
+        if let Some(found) = self.tabulated(item, branches, &cycles, &plan, poses) {
             plans.push(plan);
             return Some(found);
         }
@@ -100,8 +100,8 @@ impl Equations<'_> {
         let value = |draw: u64| move |e: &Self, id: SymbolId| e.sample(id, draw, 1.0);
         let [first, second] = [value(0), value(1)];
         let points: [&dyn Fn(SymbolId) -> f64; 2] = [&|id| first(self, id), &|id| second(self, id)];
-        let plan = Plan::at(&self.g, &cycle, &points).ok()?;
-        self.tabulated(item, branches, &cycle, &plan, poses)
+        let plan = Plan::at(&self.g, &cycles, &points).ok()?;
+        self.tabulated(item, branches, &cycles, &plan, poses)
     }
 
     /// Nothing where no solution is real at the first pose.
@@ -109,11 +109,11 @@ impl Equations<'_> {
         &mut self,
         item: &Solve,
         conditions: &[Expr],
-        cycle: &KinematicLoop,
+        cycles: &[KinematicLoop],
         plan: &Plan,
         poses: &[Pose],
     ) -> Option<Solutions> {
-        let choices = self.solutions(cycle, plan).ok().filter(|choices| choices.len() <= MOST_SOLUTIONS)?;
+        let choices = self.solutions(cycles, plan).ok().filter(|choices| choices.len() <= MOST_SOLUTIONS)?;
         let unknowns: Vec<Scalar> = item.unknowns.iter().map(|&u| self.coordinate_symbols(u)[0]).collect();
         let model = self.scene.model;
         let assumed: Vec<Scalar> = model.assumptions.iter().map(|condition| self.scalar(condition)).collect();

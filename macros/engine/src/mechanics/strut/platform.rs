@@ -15,7 +15,7 @@ use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::loops::structure::{Means, Role};
 use crate::mechanics::translate::forces::LoadCase;
 use crate::model::joint_kinds::Hold;
-use crate::model::types::{Comparison, ExprNode, Joint, LoopClosure, SolveHow};
+use crate::model::types::{Comparison, ExprNode, Joint, LoopClosure};
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 use crate::symbolic::inputs::Known;
 use crate::symbolic::signs::is_positive;
@@ -63,9 +63,8 @@ impl Equations<'_> {
         let mut held = None;
         for step in &structure.steps {
             let Means::Solve(item) = step.means else { return None };
-            let SolveHow::From { closing: LoopClosure::Cut(ball), .. } = model.solves.get(item)?.how else {
-                return None;
-            };
+            let mut closings = model.solves.get(item)?.closings();
+            let (Some(LoopClosure::Cut(ball)), None) = (closings.next(), closings.next()) else { return None };
             // Here each line keeps its sense.
             if !self.decided.branches.is_fixed(item) {
                 return None;

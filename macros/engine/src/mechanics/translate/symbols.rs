@@ -41,7 +41,7 @@ pub struct Symbols {
 const MARKS: usize = 126;
 
 /// Unknowns that one closing brings into its loop, at most: two balls.
-const UNWANTED: usize = 6;
+pub(in crate::mechanics) const UNWANTED: usize = 6;
 
 impl Symbols {
     /// The same with symbols for multipliers, and for so many unknowns of iterations.
@@ -51,7 +51,8 @@ impl Symbols {
         self.multipliers = several(g, table, structure.rows.len(), |row| Symbol::Multiplier { row });
         self.guesses = several(g, table, guesses, |index| Symbol::Guess { index });
         let solves = !structure.steps.is_empty() || !model.kinematics.is_empty();
-        let unknowns = if solves { guesses + UNWANTED } else { 0 };
+        let closings = model.solves.iter().map(|solve| solve.closings().count()).max().unwrap_or(0).max(1);
+        let unknowns = if solves { guesses + closings * UNWANTED } else { 0 };
         self.unknowns = several(g, table, unknowns, |index| Symbol::Unknown { index });
         let point = |k: usize| {
             table.extend([0, 1].map(|component| Symbol::UnknownPoint { index: k, component }));
@@ -134,7 +135,7 @@ impl Symbols {
         self.points[index]
     }
 
-    /// A placeholder for a coordinate of what closes a loop.
+    /// A placeholder for a coordinate of what closes a loop: those of the next closing of an item stand [`UNWANTED`] further on.
     pub fn unwanted(&self, number: usize) -> Scalar {
         self.unknown(self.guesses.len() + number)
     }

@@ -12,8 +12,8 @@ use super::Page;
 
 /// Mass matrix, terms of the equations of motion, slopes and rests of what follows, constraints with Jacobian and multipliers,
 /// and what closed forms are made of.
-const LETTERS: [&str; 17] =
-    ["M", "c", "g", "Q", "S", "gamma", "Phi", "G", "lambda", "A", "B", "C", "D", "Delta", "r", "u", "v"];
+const LETTERS: [&str; 19] =
+    ["M", "c", "g", "Q", "S", "gamma", "Phi", "G", "lambda", "A", "B", "C", "D", "Delta", "r", "u", "v", "kappa", "N"];
 
 pub(super) struct Letters(HashMap<&'static str, String>);
 

@@ -17,12 +17,26 @@ pub(super) type Solved = HashMap<String, (Identifier, String)>;
 
 pub(super) fn solved(model: &Model, reduction: &Reduction, letters: &Letters) -> Solved {
     let named = reduction.parts.iter().filter_map(|part| {
-        let (letter, what) = meaning(part.word, part.is_angle)?;
         let coordinate = coordinate_name(model, part.coordinate);
-        let says = format!("{}, where x is `{coordinate}`", letters.sentence(what));
+        let (letter, says) = match orientation(part.word) {
+            Some((letter, what)) => (letter, format!("{}, which `{coordinate}` has a part in", letters.sentence(what))),
+            None => {
+                let (letter, what) = meaning(part.word, part.is_angle)?;
+                (letter, format!("{}, where x is `{coordinate}`", letters.sentence(what)))
+            }
+        };
         Some((part.label.clone(), (letters.entry(letter, coordinate), says)))
     });
     named.collect()
+}
+
+/// The letter of what an orientation is found from, see [`crate::solve`], and what it is.
+fn orientation(word: &str) -> Option<(&'static str, &'static str)> {
+    Some(match word {
+        "product" => ("kappa", "e^2 k - (c . e) (d . u), of an orientation R with R e = d and u . R c = k"),
+        "area" => ("N", "(d x u)^2, of an orientation R with R e = d and u . R c = k"),
+        _ => return None,
+    })
 }
 
 /// The letter of a part, and the equation that has it.

@@ -1,7 +1,7 @@
 //! Stage `model`: coordinates that are found from others.
 //!
-//! In: `solve (a, b) = (f, g);`, `solve (a, b) from closing { conditions }`. Out: the unknowns, and their formulas or what
-//! closes the loop. What another choice of coordinates has made void is said instead.
+//! In: `solve (a, b) = (f, g);`, `solve (a, b) from closing { conditions }`, `solve (a, b) from (closing, closing) { conditions }`.
+//! Out: the unknowns, and their formulas or what closes the loops. What another choice of coordinates has made void is said instead.
 
 use proc_macro2::Span;
 use syn::Expr;
@@ -9,10 +9,9 @@ use syn::spanned::Spanned;
 
 use crate::model::checker::{Checker, Context, Meaning};
 use crate::model::expressions::source_text;
-use crate::model::joint_kinds::JointKind;
 use crate::model::topology::Topology;
 use crate::model::typed::Allowed;
-use crate::model::types::{Coordinate, Joints, LoopClosure, Solve, SolveHow, Type};
+use crate::model::types::{Closing, Coordinate, Joints, LoopClosure, Solve, SolveHow, Type};
 use crate::syntax::tree::Solution;
 
 /// What a `solve` item gives.
@@ -37,17 +36,23 @@ impl<'a> Checker<'a, '_> {
             .map(|expr| Some(self.several_coordinates(expr, context)?.into_iter().map(|(c, _)| c).collect()))
             .collect();
         let lists: Option<Vec<Vec<Coordinate>>> = found.into_iter().collect();
-        let at = match how {
-            Solution::From { joint, .. } => joint.span(),
-            Solution::Formulas(_) => keyword,
-        };
         let how = match how {
-            Solution::Formulas(formulas) => self.formulas(formulas, unknowns, lists.as_deref(), context),
-            Solution::From { joint, branches } => self.by_closing(joint, branches, context),
+            Solution::Formulas(formulas) => self.formulas(formulas, lists.as_deref(), context),
+            Solution::From { closings, branches } => self.by_closings(closings, branches, context),
         };
         let (lists, how) = (lists?, how?);
+        for (expr, list) in unknowns.iter().zip(&lists) {
+            if self.has_quaternion(list, &how) {
+                self.report.help(
+                    expr.span(),
+                    format!("`{}` has a quaternion, for which there are no formulas", source_text(expr)),
+                    "write `coordinates: RollPitchYaw` on it",
+                );
+                return None;
+            }
+        }
         let (topology, list) = joints?;
-        if let Some(why) = self.void(unknowns, &lists, &how, at, (topology, list))? {
+        if let Some(why) = self.void(unknowns, &lists, &how, (topology, list))? {
             // Its conditions may speak of coordinates that aren't there.
             self.coordinate_uses.truncate(uses);
             return Some(SolveItem::Skipped(why));
@@ -66,11 +71,19 @@ impl<'a> Checker<'a, '_> {
         Some(SolveItem::Item(Solve { unknowns: all, how, span: keyword }))
     }
 
+    /// Whether coordinates have no formulas: where they are written, those of a joint with a quaternion; of closed forms, those
+    /// that turn it.
+    fn has_quaternion(&self, coordinates: &[Coordinate], how: &SolveHow) -> bool {
+        coordinates.iter().any(|coordinate| {
+            let kind = self.joints[coordinate.joint].kind.filter(|kind| kind.has_quaternion());
+            kind.is_some_and(|kind| matches!(how, SolveHow::Formulas(_)) || kind.turning().contains(&coordinate.index))
+        })
+    }
+
     /// One scalar for each coordinate.
     fn formulas(
         &mut self,
         formulas: &[Expr],
-        unknowns: &[Expr],
         lists: Option<&[Vec<Coordinate>]>,
         context: Context<'a>,
     ) -> Option<SolveHow> {
@@ -79,20 +92,6 @@ impl<'a> Checker<'a, '_> {
             .map(|expr| self.scalar(expr, context, Allowed::Positions).map(|value| value.expr))
             .collect();
         let lists = lists?;
-        for (expr, list) in unknowns.iter().zip(lists) {
-            let quaternion = list.iter().any(|coordinate| {
-                let kind = self.joints[coordinate.joint].kind;
-                kind.is_some_and(JointKind::has_quaternion)
-            });
-            if quaternion {
-                self.report.help(
-                    expr.span(),
-                    format!("`{}` has a quaternion, for which there are no formulas", source_text(expr)),
-                    "write `coordinates: RollPitchYaw` on it",
-                );
-                return None;
-            }
-        }
         let count: usize = lists.iter().map(Vec::len).sum();
         if values.len() != count {
             let plural = |n: usize| if n == 1 { "" } else { "s" };
@@ -110,26 +109,33 @@ impl<'a> Checker<'a, '_> {
         values.into_iter().collect::<Option<_>>().map(SolveHow::Formulas)
     }
 
-    fn by_closing(&mut self, joint: &Expr, branches: &[Expr], context: Context<'a>) -> Option<SolveHow> {
-        let closing = match self.meaning(joint, context) {
-            Some(Meaning::Joint(id)) => Some(LoopClosure::Cut(id)),
-            Some(Meaning::Constraint(id)) => Some(LoopClosure::Constraint(id)),
-            Some(_) => {
-                self.report.help(
-                    joint.span(),
-                    "expected what closes the loop",
-                    "write the name of a joint that closes a loop, or of a constraint",
-                );
-                None
+    fn by_closings(&mut self, named: &[Expr], branches: &[Expr], context: Context<'a>) -> Option<SolveHow> {
+        let mut closings: Vec<Closing> = Vec::new();
+        for expr in named {
+            let what = match self.meaning(expr, context) {
+                Some(Meaning::Joint(id)) => LoopClosure::Cut(id),
+                Some(Meaning::Constraint(id)) => LoopClosure::Constraint(id),
+                Some(_) => {
+                    self.report.help(
+                        expr.span(),
+                        "expected what closes the loop",
+                        "write the name of a joint that closes a loop, or of a constraint",
+                    );
+                    continue;
+                }
+                None => continue,
+            };
+            if closings.iter().any(|closing| closing.what == what) {
+                self.report.error(expr.span(), format!("`{}` is named twice", source_text(expr)));
             }
-            None => None,
-        };
+            closings.push(Closing { what, span: expr.span() });
+        }
         let branches: Vec<_> = branches
             .iter()
             .map(|expr| self.typed(expr, context, &Type::Bool, Allowed::Positions).map(|condition| condition.expr))
             .collect();
-        let branches = branches.into_iter().collect::<Option<_>>();
-        Some(SolveHow::From { closing: closing?, branches: branches? })
+        let branches = branches.into_iter().collect::<Option<_>>()?;
+        (closings.len() == named.len()).then_some(SolveHow::From { closings, branches })
     }
 
     /// Why the item means nothing with these coordinates; an error where nobody has changed them.
@@ -138,22 +144,28 @@ impl<'a> Checker<'a, '_> {
         unknowns: &[Expr],
         lists: &[Vec<Coordinate>],
         how: &SolveHow,
-        at: Span,
         (topology, joints): (&Topology, &Joints),
     ) -> Option<Option<String>> {
         let changed = self.coordinates.is_some();
         let names: Vec<String> = lists.iter().flatten().map(|coordinate| self.coordinate_name(*coordinate)).collect();
         let subject = format!("`solve` of {}", names.join(", "));
-        if let SolveHow::From { closing: LoopClosure::Cut(id), .. } = how
-            && !topology.is_cut(*id)
-        {
-            let joint = &joints[*id];
+        let closings: &[Closing] = if let SolveHow::From { closings, .. } = how { closings } else { &[] };
+        for closing in closings {
+            let LoopClosure::Cut(id) = closing.what else { continue };
+            if topology.is_cut(id) {
+                continue;
+            }
+            let joint = &joints[id];
             if changed {
                 let name = self.path_text(&joint.place);
                 return Some(Some(format!("{subject}: with these coordinates the joint `{name}` lies in the tree")));
             }
             let message = format!("the joint `{}` closes no loop", joint.place.field);
-            self.report.help(at, message, "name a joint that closes the loop; `#[cut]` on a joint makes it one");
+            self.report.help(
+                closing.span,
+                message,
+                "name a joint that closes the loop; `#[cut]` on a joint makes it one",
+            );
             return None;
         }
         for (expr, list) in unknowns.iter().zip(lists) {

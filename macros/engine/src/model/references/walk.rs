@@ -192,8 +192,8 @@ impl<'a> Walk<'a> {
                 self.all(unknowns);
                 match how {
                     Solution::Formulas(formulas) => self.all(formulas),
-                    Solution::From { joint, branches } => {
-                        self.expr(joint);
+                    Solution::From { closings, branches } => {
+                        self.all(closings);
                         self.all(branches);
                     }
                 }

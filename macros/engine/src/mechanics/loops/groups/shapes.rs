@@ -88,12 +88,12 @@ impl<'m> Shapes<'m> {
                 ConstraintKind::Value(_) => String::new(),
             }),
         };
-        let solved = model
-            .solves
-            .iter()
-            .filter(|solve| matches!(solve.how, SolveHow::From { closing, .. } if closing == one.closing));
-        let solved = solved.count();
-        format!("{} | {out} | {} | {back} | {solved}", one.on_ground, closed.unwrap_or_default())
+        let solved = model.solves.iter().filter_map(|solve| {
+            let at = solve.closings().position(|closing| closing == one.closing)?;
+            Some((at, solve.closings().count()))
+        });
+        let solved: Vec<(usize, usize)> = solved.collect();
+        format!("{} | {out} | {} | {back} | {solved:?}", one.on_ground, closed.unwrap_or_default())
     }
 
     /// Branches without loops on a body of a loop.
