@@ -435,8 +435,14 @@ fn rounds_from_near() {
         ($($near:ident $newton:ident)*) => {
             $({
                 let (near, all) = ($near::Model::<f64>::default(), $newton::Model::<f64>::default());
-                let start = $newton::State::<f64>::default();
-                let guess = SVector::from(all.close(0.0, &start).state.guess);
+                // Off the default, where platforms and planes may lie flat.
+                let mut start = $newton::State::<f64>::default();
+                start.q = SVector::from(start.q).map(|q: f64| q + 0.2).into();
+                for _ in 0..5 {
+                    start.guess = all.close(0.0, &start).state.guess;
+                }
+                assert!(all.close(0.0, &start).residual < 1e-14, stringify!($near));
+                let guess = SVector::from(start.guess);
                 let mut random = Random::new(31);
                 for _ in 0..40 {
                     let off = guess.map(|_| 1e-2 * random.unit());
@@ -450,10 +456,10 @@ fn rounds_from_near() {
                     };
                     let got = SVector::from(near.forward_dynamics(0.0, &state, &Default::default()).v);
                     let error = (got - want).norm() / want.norm();
-                    assert!(error < 1e-9, "{}: {error:e}", stringify!($near));
+                    assert!(error < 1e-11, "{}: {error:e}", stringify!($near));
                 }
             })*
         };
     }
-    near! { rps_near rps_newton wishbone_near wishbone_newton sarrus_near sarrus_newton stephenson_near stephenson_newton }
+    near! { wishbone_near wishbone_newton sarrus_near sarrus_newton stephenson_near stephenson_newton }
 }

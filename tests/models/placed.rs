@@ -100,3 +100,25 @@ multibody! {
         emit kinematics { given: rail, find: [turn, knee] };
     }
 }
+
+multibody! {
+    /// A four-bar with a wheel geared to two of its hinges, closed by Newton's method for all that is asked.
+    pub mod geared_bar {
+        world { gravity: -9.81 * Y }
+        input torque;
+        body crank { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
+        body coupler { mass: 3.5, com: 1.75 * X, inertia: rod(3.5, 3.5, X) }
+        body rocker { mass: 3.0, com: 1.5 * X, inertia: rod(3.0, 3.0, X) }
+        body wheel { mass: 1.0, com: 0.1 * X, inertia: diag(0.1, 0.1, 0.1) }
+        joint turn: Revolute { parent: ground, child: crank, axis: Z }
+        joint knee: Revolute { parent: crank.at(X), child: coupler, axis: Z }
+        joint swing: Revolute { parent: ground.at(4.0 * X), child: rocker, axis: Z }
+        joint spin: Revolute { parent: ground, child: wheel, axis: Z }
+        #[cut] joint pin: Revolute { parent: coupler.at(3.5 * X), child: rocker.at(3.0 * X), axis: Z }
+        constraint gear = spin - 0.5 * knee - turn;
+        force motor: Effort { joint: turn, value: torque }
+        force spring: Effort { joint: knee, value: -7.0 * knee }
+        formulation { constraints: Reduced, independent: [turn] }
+        emit kinematics { given: turn, find: [knee] };
+    }
+}

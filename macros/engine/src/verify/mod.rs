@@ -195,7 +195,10 @@ pub fn check_with(
     for ((function, tape), lowered) in compiled.functions.iter().zip(&tapes).zip(&forms) {
         let residual = match function.kind {
             FunctionKind::ForwardDynamics | FunctionKind::Guess | FunctionKind::Margins => closing.is_some(),
-            FunctionKind::Kinematics(number) => structure.closures.get(number).is_some_and(Option::is_some),
+            // By loops of its own, or by those of the model.
+            FunctionKind::Kinematics(number) => {
+                closing.is_some() || structure.closures.get(number).is_some_and(Option::is_some)
+            }
             _ => false,
         };
         let (plain, prelude) = (plain.functions.contains(&function.kind), Some(&compiled.prelude));

@@ -88,7 +88,10 @@ impl<'m> Deriving<'m> {
         let begins = closure.is_some();
         let (name, structure) = match closure {
             Some(structure) => ("Newton's method from where the position stands", structure),
-            None => ("closed form", Rc::new(self.structure.solved(self.model))),
+            None => {
+                let structure = self.structure.solved(self.model);
+                (if structure.guesses() > 0 { "Newton's method" } else { "closed form" }, Rc::new(structure))
+            }
         };
         let before = std::mem::replace(&mut self.structure, structure);
         let found = self.only(name, |e| {

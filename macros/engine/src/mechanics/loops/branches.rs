@@ -122,7 +122,7 @@ impl Equations<'_> {
         let branch = branch.ok_or_else(|| {
             complaint(
                 item,
-                "this loop has no real solution at any configuration that was tried".to_owned(),
+                format!("{} no real solution at any configuration that was tried", having(item)),
                 "check the lengths, the defaults of parameters, and what is assumed",
             )
         })?;
@@ -357,11 +357,11 @@ impl Equations<'_> {
             _ => {
                 let list = self.list(item, &samples);
                 let what = if conditions.is_empty() {
-                    format!("this loop has {} solutions", candidates.len())
+                    format!("{} {} solutions", having(item), candidates.len())
                 } else if fitting.is_empty() {
-                    "no solution of this loop satisfies the conditions everywhere".to_owned()
+                    format!("no solution of {} satisfies the conditions everywhere", these(item))
                 } else {
-                    format!("{} solutions of this loop satisfy the conditions", fitting.len())
+                    format!("{} solutions of {} satisfy the conditions", fitting.len(), these(item))
                 };
                 let help =
                     "choose one by conditions that hold on its branch alone, `solve .. from .. { sin(a) > 0.0 }`";
@@ -497,13 +497,19 @@ fn complaint(item: &Solve, message: String, help: &str) -> Vec<Complaint> {
     vec![Complaint { at: item.site(), message, help: Some(help.to_owned()) }]
 }
 
+/// The loops of an item, in a sentence.
+pub(super) fn these(item: &Solve) -> &'static str {
+    if item.closings().count() > 1 { "these loops" } else { "this loop" }
+}
+
+fn having(item: &Solve) -> &'static str {
+    if item.closings().count() > 1 { "these loops have" } else { "this loop has" }
+}
+
 fn not_found(item: &Solve, failure: &Failure) -> Vec<Complaint> {
     complaint(
         item,
-        format!(
-            "no closed form was found for {}: {failure}",
-            if item.closings().count() > 1 { "these loops" } else { "this loop" }
-        ),
+        format!("no closed form was found for {}: {failure}", these(item)),
         "leave the `solve` item out to have the loop solved by Newton's method, or write the solution yourself: \
          `solve (a, b) = (.., ..);`",
     )

@@ -6,7 +6,8 @@
 //!
 //! A dependent coordinate x obeys E(x, known) = 0 with a known inverse slope 1 / (dE/dx). Differentiating by time,
 //! dE/dx x' + E'|x = 0, and once more, dE/dx x'' + E''|(x'' = 0) = 0: both need no second solution, only derivatives of
-//! the equation. Coordinates that a closed form finds together obey the same with the inverse of dE/dx that it gives. Several unknowns of one iteration obey the same with the matrix dE/dx, by elimination.
+//! the equation. Coordinates that a closed form finds together obey the same with the inverse of dE/dx that it gives, several
+//! unknowns of one iteration with the matrix dE/dx, by elimination (`newton`).
 
 use std::collections::{HashMap, HashSet};
 

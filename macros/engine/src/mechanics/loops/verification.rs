@@ -14,6 +14,7 @@ use crate::model::site::Sited;
 use crate::model::types::{Expr, JointId, Kinematics, Solve, SolveHow};
 use crate::symbolic::graph::Scalar;
 
+use super::branches::these;
 use super::constraints::{closing_name, coordinate_name};
 use super::reduction::Reduction;
 use super::structure::Means;
@@ -108,7 +109,7 @@ impl Equations<'_> {
             if fails.iter().any(|&count| count > 0) {
                 complaints.push(Complaint {
                     at: item.site(),
-                    message: "no solution of this loop satisfies the conditions everywhere".to_owned(),
+                    message: format!("no solution of {} satisfies the conditions everywhere", these(item)),
                     help: Some(
                         "choose one by conditions that hold on its branch alone, `solve .. from .. { sin(a) > 0.0 }`"
                             .to_owned(),

@@ -15,6 +15,7 @@ use crate::contracts::results::{Results, Slot};
 use crate::dynamics::saddle::{Saddle, Solution};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Reduction;
+use crate::mechanics::loops::structure::Means;
 use crate::mechanics::translate::forces::LoadCase;
 use crate::mechanics::translate::time::Seeds;
 use crate::symbolic::differentiate::Differentiator;
@@ -174,10 +175,10 @@ impl Equations<'_> {
         let mut columns = Vec::new();
         for (at, &coordinate) in state.iter().enumerate() {
             let mut seeds = self.direction(coordinate);
-            for (dependent, symbol) in self.dependents(reduction) {
+            for (dependent, symbol, iterated) in self.dependents(reduction) {
                 let Some(&value) = self.g.symbol_id(symbol).and_then(|id| reduction.map.get(&id)) else { continue };
                 let slope = self.finish(reduction, &[map[dependent][at]])[0];
-                self.follow_dependent(value, slope, &mut seeds);
+                self.follow_dependent(value, slope, iterated, &mut seeds);
             }
             columns.push(seeds);
         }
@@ -188,19 +189,23 @@ impl Equations<'_> {
         Directions { columns, counts }
     }
 
-    /// Places of dependent coordinates in the tree, and their positions.
-    fn dependents(&self, reduction: &Reduction) -> Vec<(usize, Scalar)> {
+    /// Places of dependent coordinates in the tree, their positions, and whether Newton's method finds them.
+    fn dependents(&self, reduction: &Reduction) -> Vec<(usize, Scalar, bool)> {
         let steps = self.scene.structure.steps.iter();
-        let unknowns = steps.flat_map(|step| step.unknowns.iter().copied());
+        let unknowns = steps.flat_map(|step| {
+            let iterated = matches!(step.means, Means::Newton { .. });
+            step.unknowns.iter().map(move |&unknown| (unknown, iterated))
+        });
         let found = |freedom: &usize| reduction.rates.iter().any(|rate| rate.0 == *freedom);
         unknowns
-            .map(|unknown| (self.freedom(unknown), self.coordinate_symbols(unknown)[0]))
-            .filter(|(freedom, _)| found(freedom))
+            .map(|(unknown, iterated)| (self.freedom(unknown), self.coordinate_symbols(unknown)[0], iterated))
+            .filter(|(freedom, ..)| found(freedom))
             .collect()
     }
 
-    /// How a dependent position moves: an angle with its cosine and sine.
-    fn follow_dependent(&mut self, value: Scalar, slope: Scalar, seeds: &mut Seeds) {
+    /// How a dependent position moves: an angle with its cosine and sine. Newton's method gives the guess, which rests, and the
+    /// angle that has been turned since: a sum of both with something else may stand there taken apart, so that angle moves too.
+    fn follow_dependent(&mut self, value: Scalar, slope: Scalar, iterated: bool, seeds: &mut Seeds) {
         let mut moves = |node: Scalar, slope: Scalar, is_plain: bool| {
             if !is_plain && !seeds.iter().any(|seed| seed.0.index() == node.index()) {
                 let slope = if node == node.positive() { slope } else { -slope };
@@ -210,8 +215,8 @@ impl Equations<'_> {
         let plain = |node: &ScalarNode| matches!(node, ScalarNode::Literal(_) | ScalarNode::Symbol(_));
         let g = &mut self.g;
         moves(value, slope, plain(g.node(value)));
-        if let Some(angle) = g.angle_in(value) {
-            // A sum with it may have been taken apart: then it moves alone.
+        let angle = if iterated { g.angle_in(value) } else { Some(value) };
+        if let Some(angle) = angle.filter(|&angle| matches!(g.node(angle), ScalarNode::Angle(..))) {
             moves(angle, slope, false);
             let (cos, sin) = (g.cos(value), g.sin(value));
             let (by_cos, by_sin) = (-g.mul(sin, slope), g.mul(cos, slope));
