@@ -135,7 +135,7 @@ impl Symbols {
         self.points[index]
     }
 
-    /// A placeholder for a coordinate of what closes a loop: those of the next closing of an item stand [`UNWANTED`] further on.
+    /// A placeholder for a coordinate of what closes a loop: those of the next closing of an item stand `UNWANTED` further on.
     pub fn unwanted(&self, number: usize) -> Scalar {
         self.unknown(self.guesses.len() + number)
     }
