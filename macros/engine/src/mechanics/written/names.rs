@@ -34,9 +34,10 @@ pub(in crate::mechanics) fn identifier(model: &Model, symbol: Symbol) -> Identif
         Symbol::Momentum { joint, component } => of_coordinate("momentum", model, joint, component),
         Symbol::Rate { row } => entry("rate", format!("{}", row + 1), Class::Rate),
         Symbol::Guess { index } => entry("guess", format!("{}", index + 1), Class::Defined),
-        Symbol::Unknown { index } | Symbol::UnknownPoint { index, .. } => {
-            entry("unknown", format!("{}", index + 1), Class::Defined)
+        Symbol::UnknownPoint { index, component } => {
+            entry("unknown", format!("{}, {}", index + 1, ["cos", "sin"][component]), Class::Defined)
         }
+        Symbol::Unknown { index } => entry("unknown", format!("{}", index + 1), Class::Defined),
     }
 }
 
