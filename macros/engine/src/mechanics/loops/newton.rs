@@ -32,8 +32,9 @@ use super::structure::{Means, Step};
 struct Unknown {
     /// Its position on the tree.
     symbol: Scalar,
-    /// Its place inside the iteration, as a number or as a point on the circle.
+    /// What stands for it inside the iteration as a number.
     inner: Scalar,
+    /// The same as a point on the circle, if nothing reads the angle itself.
     point: Option<[Scalar; 2]>,
     /// The guess.
     start: Scalar,
