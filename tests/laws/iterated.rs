@@ -5,6 +5,7 @@
 
 use multibody::nalgebra::{DMatrix, DVector, SVector};
 use multibody::{Configuration, Constrained, Real, multibody};
+use multibody_tests::models::iterated::geared_knee;
 use multibody_tests::support::random::Random;
 use num_dual::Dual64;
 
@@ -462,29 +463,6 @@ fn rounds_from_near() {
         };
     }
     near! { wishbone_near wishbone_newton sarrus_near sarrus_newton stephenson_near stephenson_newton }
-}
-
-multibody! {
-    /// A four-bar with a wheel that turns as fast as crank and coupler together: one angle that follows in a sum with another.
-    pub(crate) mod geared_knee {
-        world { gravity: -9.81 * Y }
-        input torque;
-        body crank { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
-        body coupler { mass: 3.5, com: 1.75 * X, inertia: rod(3.5, 3.5, X) }
-        body rocker { mass: 3.0, com: 1.5 * X, inertia: rod(3.0, 3.0, X) }
-        body wheel { mass: 1.0, com: 0.1 * X, inertia: diag(0.1, 0.1, 0.1) }
-        joint turn: Revolute { parent: ground, child: crank, axis: Z }
-        joint knee: Revolute { parent: crank.at(X), child: coupler, axis: Z }
-        joint swing: Revolute { parent: ground.at(4.0 * X), child: rocker, axis: Z }
-        joint spin: Revolute { parent: ground, child: wheel, axis: Z }
-        #[cut] joint pin: Revolute { parent: coupler.at(3.5 * X), child: rocker.at(3.0 * X), axis: Z }
-        constraint gear = spin - knee - turn;
-        force motor: Effort { joint: turn, value: torque }
-        force spring: Effort { joint: knee, value: -7.0 * knee }
-        solve (knee, swing) from pin { sin(turn + knee - swing) < 0.0 }
-        formulation { constraints: Reduced, independent: [turn] }
-        emit forward_dynamics, inverse_dynamics, derivatives, linearize;
-    }
 }
 
 /// An angle that a coupling gives moves with those it is the sum of, against differences.

@@ -320,3 +320,27 @@ multibody! {
         emit forward_dynamics;
     }
 }
+
+multibody! {
+    /// A four-bar with a wheel that turns as fast as crank and coupler together: one angle that follows in a sum with another. The wheel's
+    /// axis lies along nothing.
+    pub mod geared_knee {
+        world { gravity: -9.81 * Y }
+        input torque;
+        body crank { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
+        body coupler { mass: 3.5, com: 1.75 * X, inertia: rod(3.5, 3.5, X) }
+        body rocker { mass: 3.0, com: 1.5 * X, inertia: rod(3.0, 3.0, X) }
+        body wheel { mass: 1.0, com: 0.1 * X, inertia: diag(0.1, 0.1, 0.1) }
+        joint turn: Revolute { parent: ground.rotated(X, 0.4).rotated(Y, 0.7), child: crank, axis: Z }
+        joint knee: Revolute { parent: crank.at(X), child: coupler, axis: Z }
+        joint swing: Revolute { parent: ground.rotated(X, 0.4).rotated(Y, 0.7).at(4.0 * X), child: rocker, axis: Z }
+        joint spin: Revolute { parent: ground, child: wheel, axis: [0.36, -0.48, 0.8] }
+        #[cut] joint pin: Revolute { parent: coupler.at(3.5 * X), child: rocker.at(3.0 * X), axis: Z }
+        constraint gear = spin - knee - turn;
+        force motor: Effort { joint: turn, value: torque }
+        force spring: Effort { joint: knee, value: -7.0 * knee }
+        solve (knee, swing) from pin { sin(turn + knee - swing) < 0.0 }
+        formulation { constraints: Reduced, independent: [turn] }
+        emit forward_dynamics, inverse_dynamics, derivatives, linearize;
+    }
+}

@@ -13,6 +13,7 @@ pub mod folded;
 mod following;
 mod letters;
 pub mod names;
+mod order;
 mod rows;
 mod sections;
 mod solved;

@@ -23,6 +23,7 @@ use super::domains::Conditions;
 use super::following::{Following, Named};
 use super::letters::{Letters, plain};
 use super::names::identifier;
+use super::order::in_reading_order;
 use super::solved::{Solved, solved};
 use super::{Line, Page, Section, Subject, apart, domains, rows};
 
@@ -50,6 +51,9 @@ impl Equations<'_> {
     /// All that is written.
     pub(in crate::mechanics) fn page(&mut self) -> Result<Page, Vec<Complaint>> {
         let reduction = self.reduce()?;
+        let definitions = in_reading_order(self, &reduction.definitions);
+        let mut reduction = (*reduction).clone();
+        reduction.definitions = definitions;
         let mut writer = Sections::new(self);
         writer.solved = solved(self.scene.model, &reduction, &writer.letters);
         let following = Following::new(self, &reduction, &writer.letters);
