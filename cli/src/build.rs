@@ -32,7 +32,7 @@ impl Built {
 
     /// The name of a function's method.
     pub(crate) fn function(&self, kind: FunctionKind) -> String {
-        function_name(kind).into_owned()
+        function_name(&self.model, kind).into_owned()
     }
 }
 

@@ -420,6 +420,9 @@ pub mod emit {
     /// `momentum`, `momentum_rate` and `velocity`.
     pub struct momentum;
 
+    /// Some of the outputs alone: `outputs { name: [output, ..] }` gives the method `outputs_name`.
+    pub struct outputs;
+
     /// The equations, in the documentation of the module.
     pub struct report;
 

@@ -5,5 +5,6 @@ mod iterated;
 mod limbs;
 mod loops;
 mod momentum;
+mod output_groups;
 mod power_balance;
 mod trees;

@@ -44,7 +44,7 @@ pub fn count(model: &Model, params: bool) -> Vec<Row> {
         let text = model.name.to_string();
         Row {
             model: text.strip_suffix("_params").unwrap_or(&text).to_owned(),
-            function: function_name(function.kind),
+            function: function_name(model, function.kind),
             params,
             method: function.method,
             before: function.before,

@@ -241,7 +241,7 @@ fn figures(call: &Call, model: usize, choice: Choice, extent: Extent) -> Result<
                 let sizes = |of: &Pivoted| (of.absorbed.len(), of.cores.iter().map(Vec::len).collect());
                 forward = Some((function.after, closed, effort.burden(), pivoted.map_or_else(Default::default, sizes)));
             }
-            kind => others.push((emit::function_name(kind).into_owned(), work)),
+            kind => others.push((emit::function_name(&model, kind).into_owned(), work)),
         }
     }
     let (cost, closed, burden, pivoted) = forward.ok_or("it has no forward dynamics")?;

@@ -219,7 +219,7 @@ fn matrices(material: &Material<'_>) -> Option<Section> {
 
 fn costs(material: &Material<'_>) -> Option<Section> {
     let compiled = material.compiled;
-    let name = |function: &Function| code(&emit::function_name(function.kind));
+    let name = |function: &Function| code(&emit::function_name(material.model, function.kind));
     let told: Vec<&Function> = material.facts.functions.iter().map(|&number| &compiled.functions[number]).collect();
     let heads = ["function"].into_iter().chain(KINDS).chain(["work"]).chain(KINDS).chain(["work", "of derived"]);
     let mut table = Table::new(heads, 1);

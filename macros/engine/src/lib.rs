@@ -240,7 +240,7 @@ impl Trouble {
                 diagnostics.error_help(span, fault_of(&format!("`{}`", model.name), &fault), REPORT);
             }
             Trouble::Refused(Refusal::TooLarge(excess)) => {
-                let (message, help) = too_large(&model.name.to_string(), excess);
+                let (message, help) = too_large(model, excess);
                 diagnostics.error_help(span, message, help);
             }
             Trouble::Refused(Refusal::NotFinite) => diagnostics.error_help(
@@ -252,7 +252,7 @@ impl Trouble {
                 span,
                 format!(
                     "`{}` of `{}` does not have the values of its equations",
-                    emit::function_name(kind),
+                    emit::function_name(model, kind),
                     model.name
                 ),
                 REPORT,
@@ -271,13 +271,13 @@ impl Trouble {
                 span,
                 format!(
                     "`{}` of `{}` does not give as many numbers as its type holds",
-                    emit::function_name(kind),
+                    emit::function_name(model, kind),
                     model.name
                 ),
                 REPORT,
             ),
             Trouble::Refused(Refusal::Contradiction(a, b)) => {
-                let [a, b] = [a, b].map(emit::function_name);
+                let [a, b] = [a, b].map(|kind| emit::function_name(model, kind));
                 let message = match a == b {
                     true => format!("`{a}` of `{}` contradicts itself", model.name),
                     false => format!("`{a}` and `{b}` of `{}` contradict each other", model.name),
@@ -294,22 +294,23 @@ fn fault_of(subject: &str, Fault { stage, place, what }: &Fault) -> String {
 }
 
 /// What is said of it, and what to do.
-fn too_large(model: &str, excess: Excess) -> (String, &'static str) {
+fn too_large(model: &Model, excess: Excess) -> (String, &'static str) {
+    let name = &model.name;
     match excess {
         Excess::Coordinates(found) => (
-            format!("`{model}` has {found} coordinates, more than {}", mechanics::MOST_FREEDOMS),
+            format!("`{name}` has {found} coordinates, more than {}", mechanics::MOST_FREEDOMS),
             "declare fewer bodies, or several models that act on each other by inputs and outputs",
         ),
         Excess::Operations(kind, found) => (
             format!(
-                "the function `{}` of `{model}` has {found} operations before optimisation, more than {}",
-                emit::function_name(kind),
+                "the function `{}` of `{name}` has {found} operations before optimisation, more than {}",
+                emit::function_name(model, kind),
                 optimize::MOST_OPERATIONS
             ),
             instead(kind),
         ),
         Excess::Expressions => (
-            format!("the equations of `{model}` have more than {} expressions", symbolic::graph::MOST_NODES),
+            format!("the equations of `{name}` have more than {} expressions", symbolic::graph::MOST_NODES),
             "ask for less in `emit`, or declare fewer bodies",
         ),
     }
@@ -328,7 +329,9 @@ fn instead(kind: FunctionKind) -> &'static str {
         FunctionKind::Linearization => {
             "leave `linearize` out of `emit`: it grows with the square of the coordinates; or declare fewer bodies"
         }
-        FunctionKind::Outputs => "declare fewer outputs, or simpler ones: accelerations and reactions are dear",
+        FunctionKind::Outputs | FunctionKind::OutputGroup(_) => {
+            "declare fewer outputs, or simpler ones: accelerations and reactions are dear"
+        }
         FunctionKind::Guess | FunctionKind::DeadCentres | FunctionKind::Kinematics(_) => {
             "solve the loops by `solve (..) from ..`, or hold them by multipliers, `constraints: Multipliers`"
         }

@@ -62,6 +62,8 @@ pub enum FunctionKind {
     /// Output after output, flattened: `Vec3` 3, `Rotation` 9 row by row, `Pose` x, y, z, w, i, j, k, `Twist` and
     /// `Wrench` 6, `Jacobian` 6 x DOF row by row, arrays element by element.
     Outputs,
+    /// The same of the model's group of outputs number k alone.
+    OutputGroup(usize),
 }
 
 /// What asks for a function.
@@ -127,6 +129,8 @@ pub struct Sizes {
     pub solved: Option<usize>,
     /// Coordinates that the kinematics in question finds.
     pub found: usize,
+    /// Scalars of the group of outputs in question.
+    pub grouped: usize,
     pub dead_centres: usize,
     pub margins: usize,
     pub granted: usize,
@@ -158,6 +162,8 @@ pub enum Shape {
     /// Velocities, multipliers, rank.
     Jump,
     Outputs,
+    /// Scalars of a group of outputs.
+    OutputGroup(usize),
     /// Positions, rates, accelerations, so many each, then the residual.
     Kinematics(usize),
     /// Of so many results: matrices by position, velocity, own states, inputs.
@@ -194,6 +200,7 @@ impl Shape {
             Shape::Margins(count) => residual(one(Form::Vector(2 * count))),
             Shape::Jump => multipliers(velocity()),
             Shape::Outputs => one(Form::Vector(sizes.outputs)),
+            Shape::OutputGroup(size) => one(Form::Vector(size)),
             Shape::Kinematics(found) => [Slot::Positions, Slot::Rates, Slot::Accelerations]
                 .into_iter()
                 .fold(Parts::default(), |parts, slot| parts.with(slot, Form::Vector(found)))
@@ -222,7 +229,7 @@ impl Shape {
 /// One generated function.
 pub struct FunctionRow {
     pub asked: Asked,
-    /// Of the method; kinematics behind the first have their number in it.
+    /// Of the method; kinematics behind the first have their number in it, groups of outputs their name behind it.
     pub name: &'static str,
     /// What its meaning demands.
     pub takes: Arguments,
@@ -232,8 +239,8 @@ pub struct FunctionRow {
 }
 
 impl FunctionKind {
-    /// All of them in the order in which they are derived; the first kinematics for all.
-    pub const ALL: [FunctionKind; 25] = [
+    /// All of them in the order in which they are derived; the first kinematics and the first group of outputs for all.
+    pub const ALL: [FunctionKind; 26] = [
         FunctionKind::ForwardDynamics,
         FunctionKind::InverseDynamics,
         FunctionKind::MassMatrix,
@@ -255,6 +262,7 @@ impl FunctionKind {
         FunctionKind::MomentumRate,
         FunctionKind::MomentumVelocity,
         FunctionKind::Outputs,
+        FunctionKind::OutputGroup(0),
         FunctionKind::DeadCentres,
         FunctionKind::Margins,
         FunctionKind::Granted,
@@ -474,6 +482,13 @@ impl FunctionKind {
                 Arguments { momentum: true, ..Arguments::POSITION },
                 |_| Shape::Velocity,
                 |_| "Velocities `M^-1 * momentum` that belong to momenta.",
+            ),
+            FunctionKind::OutputGroup(_) => row(
+                by(R::Outputs, "outputs { name: [output, ..] }", "Outputs"),
+                "outputs",
+                Arguments::ALL,
+                |s| Shape::OutputGroup(s.grouped),
+                |_| "Of the outputs {} alone.",
             ),
             FunctionKind::Outputs => row(Asked::Outputs, "outputs", Arguments::ALL, |_| Shape::Outputs, |_| "Outputs."),
             FunctionKind::DeadCentres => row(

@@ -176,6 +176,11 @@ pub(super) fn function(layout: &Layout<'_>, function: &Function) -> Vec<String> 
             let found: Vec<String> = found.iter().map(|c| format!("`{}`", code(&layout.coordinate(*c)))).collect();
             text.replace("{}", &found.join(", "))
         }
+        FunctionKind::OutputGroup(number) => {
+            let outputs = layout.model.output_groups[number].outputs();
+            let named = outputs.map(|place| format!("`{}`", layout.name(&layout.model.outputs[place].place)));
+            text.replace("{}", &named.collect::<Vec<_>>().join(", "))
+        }
         _ => text.to_string(),
     };
     let mut lines = vec![text, String::new()];

@@ -6,6 +6,7 @@
 //!
 //! A part's structs have the union of the fields of its instances, so that one type serves them all.
 
+pub(super) mod groups;
 pub(super) mod joints;
 pub(super) mod leaf;
 pub(super) mod places;

@@ -195,6 +195,7 @@ pub fn agrees(model: &Model, structure: &Structure, poses: &[Pose]) -> Result<bo
 fn kinds(model: &Model, structure: &Structure) -> Vec<FunctionKind> {
     let wanted = |kind: FunctionKind| match (kind, kind.row().asked) {
         (FunctionKind::Kinematics(_), _) => (0..model.kinematics.len()).map(FunctionKind::Kinematics).collect(),
+        (FunctionKind::OutputGroup(_), _) => (0..model.output_groups.len()).map(FunctionKind::OutputGroup).collect(),
         // Velocities from momenta are the jump under an impulse: with both, one function serves.
         (FunctionKind::MomentumVelocity, _) if model.emit.contains(&Request::Impulse) => Vec::new(),
         (_, Asked::By { request, .. }) => vec![kind; usize::from(model.emit.contains(&request))],

@@ -94,6 +94,7 @@ impl<'a> Checker<'a, '_> {
             self.check_mass_matrix(&bodies, &joints, &topology.tree, &held);
         }
         let (params, inputs) = (self.finish_params()?, self.finish_inputs()?);
+        let outputs = all(collected.outputs)?;
         let mut emit = collected.requested.list;
         if emit.is_empty() {
             emit.push(Request::ForwardDynamics);
@@ -120,8 +121,9 @@ impl<'a> Checker<'a, '_> {
             small: loops.small,
             solve_for: collected.requested.solve_for,
             kinematics: loops.kinematics,
+            output_groups: self.output_groups(&collected.requested.outputs, &outputs),
             forces: all(collected.forces)?.into(),
-            outputs: all(collected.outputs)?,
+            outputs,
             gravity: collected.gravity,
             emit,
             asked: collected.requested.asked,
@@ -156,6 +158,7 @@ impl<'a> Checker<'a, '_> {
             small: Vec::new(),
             solve_for: Vec::new(),
             kinematics: Vec::new(),
+            output_groups: Vec::new(),
             forces: IndexVec::new(),
             outputs: Vec::new(),
             gravity: None,

@@ -88,6 +88,8 @@ pub struct Model {
     pub solve_for: Vec<SolveFor>,
     /// Of `emit kinematics { .. }`.
     pub kinematics: Vec<Kinematics>,
+    /// Of `emit outputs { .. }`.
+    pub output_groups: Vec<OutputGroup>,
 }
 
 /// One velocity coordinate of a joint in the tree.
@@ -213,6 +215,45 @@ pub struct Kinematics {
     /// Scalars to find, coordinates of joints.
     pub find: Vec<Coordinate>,
     pub span: Span,
+}
+
+/// `name: [output, ..]` of `emit outputs { .. }`: outputs that a function of their own gives.
+#[derive(Clone)]
+pub struct OutputGroup {
+    pub name: Ident,
+    pub fields: Vec<GroupField>,
+}
+
+/// An output of a group, or the same one of all parts of an array.
+#[derive(Clone)]
+pub struct GroupField {
+    /// The path to it with `_` between.
+    pub name: Ident,
+    /// Places among the model's outputs; the last index of arrays goes fastest.
+    pub outputs: Vec<usize>,
+    /// Lengths of the arrays of parts on the path, from the model on.
+    pub counts: Vec<usize>,
+}
+
+impl OutputGroup {
+    /// Name of its struct: `OutputPose` of the group `pose`.
+    pub fn struct_name(&self) -> String {
+        OutputGroup::struct_name_of(&self.name)
+    }
+
+    pub fn struct_name_of(name: &Ident) -> String {
+        let words = name.to_string();
+        let words = words.trim_start_matches("r#").split('_').map(|word| {
+            let mut letters = word.chars();
+            letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect::<String>()
+        });
+        format!("Output{}", words.collect::<String>())
+    }
+
+    /// Places among the model's outputs.
+    pub fn outputs(&self) -> impl Iterator<Item = usize> {
+        self.fields.iter().flat_map(|field| field.outputs.iter().copied())
+    }
 }
 
 /// A module with ports, used by this model at least once.
@@ -473,6 +514,8 @@ pub enum Request {
     Impulse,
     /// Momenta, their rates, velocities from momenta.
     Momentum,
+    /// Outputs by groups.
+    Outputs,
     /// The equations, in the module's documentation.
     Report,
     /// The equations as constants.

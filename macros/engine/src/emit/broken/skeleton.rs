@@ -25,6 +25,7 @@ pub fn skeleton(checked: &Checked) -> TokenStream {
     let mut compiled = Compiled::default();
     let kinds = FunctionKind::ALL.into_iter().flat_map(|kind| match (kind, kind.row().asked) {
         (FunctionKind::Kinematics(_), _) => (0..model.kinematics.len()).map(FunctionKind::Kinematics).collect(),
+        (FunctionKind::OutputGroup(_), _) => (0..model.output_groups.len()).map(FunctionKind::OutputGroup).collect(),
         (_, Asked::Equations) if structure.rows.is_empty() => Vec::new(),
         (_, Asked::Guesses) if structure.guesses() == 0 => Vec::new(),
         (_, Asked::Found) => Vec::new(),

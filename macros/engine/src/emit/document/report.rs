@@ -68,7 +68,7 @@ pub(in crate::emit) fn lines(context: &Context<'_>) -> Vec<String> {
         let new = vec![String::new(), cost(&compiled.prelude_cost), String::new()];
         let functions = facts.functions.iter().map(|&number| {
             let f = &compiled.functions[number];
-            row(&functions::name(f.kind), vec![cell(f.method), cost(&f.after), cost(&f.before)])
+            row(&functions::name(layout.model, f.kind), vec![cell(f.method), cost(&f.after), cost(&f.before)])
         });
         std::iter::once(row("new", new)).chain(functions)
     });

@@ -4,6 +4,7 @@
 
 use crate::emit::Context;
 use crate::emit::methods::functions;
+use crate::model::types::Model;
 use crate::optimize::program::{Doubt, Part, Unchecked};
 
 use super::facts::Facts;
@@ -26,12 +27,12 @@ pub(super) fn lines(facts: &Facts) -> Vec<String> {
 
 /// What could not be checked, and why.
 pub(super) fn items(context: &Context<'_>) -> Vec<String> {
-    context.compiled.unchecked.iter().map(item).collect()
+    context.compiled.unchecked.iter().map(|unchecked| item(context.layout.model, unchecked)).collect()
 }
 
-fn item(unchecked: &Unchecked) -> String {
+fn item(model: &Model, unchecked: &Unchecked) -> String {
     let what = match unchecked.part {
-        Part::Function(kind) => format!("`{}`", functions::name(kind)),
+        Part::Function(kind) => format!("`{}`", functions::name(model, kind)),
         Part::Checks => "`Params::check`".to_string(),
         Part::Inertia => "`System::without_inertia`".to_string(),
         Part::Law(between) => between.to_string(),

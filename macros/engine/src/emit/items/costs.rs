@@ -23,7 +23,8 @@ pub(super) fn dof(context: &Context<'_>) -> TokenStream {
 pub(super) fn items(context: &Context<'_>) -> TokenStream {
     let krate = context.layout.krate();
     let compiled = context.compiled;
-    let functions = || compiled.functions.iter().map(|function| (functions::name(function.kind), function));
+    let functions =
+        || compiled.functions.iter().map(|function| (functions::name(context.layout.model, function.kind), function));
     let after = functions().map(|(name, function)| row(krate, name, &function.after));
     let costs = std::iter::once(row(krate, "new".into(), &compiled.prelude_cost)).chain(after);
     let derived = functions().map(|(name, function)| row(krate, name, &function.before));

@@ -21,6 +21,8 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
     };
     let methods =
         FunctionKind::ALL.into_iter().filter(|kind| is_missing(*kind)).filter_map(|kind| match kind.row().asked {
+            // Where none is declared none has a name.
+            Asked::By { .. } if matches!(kind, FunctionKind::OutputGroup(_)) => None,
             Asked::By { word, missing, .. } => {
                 Some(method(context, kind, &format!("Not derived: `emit {word}` in the model asks for it."), missing))
             }
@@ -42,7 +44,7 @@ fn method(context: &Context<'_>, kind: FunctionKind, docs: &str, of: &str) -> To
     let layout = &context.layout;
     let krate = layout.krate();
     let docs = document::attributes(&[docs.to_string()]);
-    let (name, of) = (names::ident(&functions::name(kind)), names::ident(of));
+    let (name, of) = (names::ident(&functions::name(layout.model, kind)), names::ident(of));
     let arguments = kind.row().takes.refused(layout);
     quote! {
         #docs

@@ -4,7 +4,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::emit::layout::{Layout, StructKind};
+use crate::emit::layout::{Layout, StructKind, groups};
 use crate::emit::{Context, document};
 use crate::model::types::PartTypeId;
 
@@ -22,6 +22,7 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
             });
         }
     }
+    tokens.extend(layout.model.output_groups.iter().map(|group| groups::declare(layout, group)));
     tokens
 }
 

@@ -28,7 +28,7 @@ pub(super) fn item(context: &Context<'_>) -> Option<TokenStream> {
     // Functions of the position alone take nothing else.
     let call = |function: &Function| {
         let arguments = functions::arguments(function);
-        let (name, passed) = (names::ident(&functions::name(function.kind)), arguments.pass());
+        let (name, passed) = (names::ident(&functions::name(layout.model, function.kind)), arguments.pass());
         match arguments.has_state() {
             true => quote!(self.#name(#passed)),
             false => quote!({ let #state = &#state.#q; self.#name(#passed) }),

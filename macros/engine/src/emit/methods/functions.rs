@@ -14,14 +14,19 @@ use crate::emit::print::blocks::{body, each_leaf_of};
 use crate::emit::print::expressions::Names;
 use crate::emit::{Context, document, names};
 use crate::model::site::Site;
+use crate::model::types::Model;
 use crate::optimize::program::{Expression, Function, Program};
 
 use super::results;
 use crate::contracts::function::Arguments;
 
 /// Name of the method.
-pub fn name(kind: FunctionKind) -> Cow<'static, str> {
+pub fn name(model: &Model, kind: FunctionKind) -> Cow<'static, str> {
     match kind {
+        FunctionKind::OutputGroup(number) => {
+            let group = model.output_groups.get(number).map(|group| names::plain(&group.name));
+            Cow::Owned([Some(kind.row().name.to_owned()), group].into_iter().flatten().collect::<Vec<_>>().join("_"))
+        }
         FunctionKind::Kinematics(number) if number > 0 => Cow::Owned(format!("{}_{}", kind.row().name, number + 1)),
         kind => Cow::Borrowed(kind.row().name),
     }
@@ -32,12 +37,13 @@ fn ident(context: &Context<'_>, kind: FunctionKind) -> Ident {
     let model = context.layout.model;
     let asked = match (kind, kind.row().asked) {
         (FunctionKind::Kinematics(number), _) => model.kinematics.get(number).map(|kinematics| kinematics.span),
+        (FunctionKind::OutputGroup(number), _) => model.output_groups.get(number).map(|group| group.name.span()),
         (_, Asked::By { request, .. }) => model.asked_at(request).map(Site::span),
         _ => None,
     };
     match asked {
-        Some(span) => names::at(span, &name(kind)),
-        None => names::ident(&name(kind)),
+        Some(span) => names::at(span, &name(model, kind)),
+        None => names::ident(&name(model, kind)),
     }
 }
 

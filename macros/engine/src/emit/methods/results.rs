@@ -9,9 +9,9 @@ use quote::quote;
 use crate::contracts::function::{FunctionKind, Shape, Sizes};
 use crate::contracts::results::{Parts, Results, Slot};
 use crate::contracts::symbol::Symbol;
-use crate::emit::layout::{Layout, StructKind, leaf};
+use crate::emit::layout::{Layout, StructKind, groups, leaf};
 use crate::emit::names;
-use crate::model::types::{InstanceId, SolveFor};
+use crate::model::types::{InstanceId, OutputGroup, SolveFor};
 
 impl Layout<'_> {
     /// Number of equations that keep a multiplier.
@@ -47,6 +47,12 @@ impl Layout<'_> {
             FunctionKind::Kinematics(number) => self.model.kinematics[number].find.len(),
             _ => 0,
         };
+        let grouped = match kind {
+            FunctionKind::OutputGroup(number) => {
+                self.model.output_groups.get(number).map_or(0, |group| groups::size(self, group))
+            }
+            _ => 0,
+        };
         Sizes {
             dof: self.dof(),
             rows: self.rows(),
@@ -56,6 +62,7 @@ impl Layout<'_> {
             guesses: self.structure.guesses(),
             solved: self.solves_inputs().then_some(self.model.solve_for.len()),
             found,
+            grouped,
             dead_centres: self.structure.dead_centres.len(),
             margins: self.structure.margins().len(),
             granted: self.structure.granted.len(),
@@ -66,6 +73,14 @@ impl Layout<'_> {
 /// What the method's value is built from.
 pub(in crate::emit) fn parts(layout: &Layout<'_>, kind: FunctionKind) -> Parts {
     layout.shape(kind).parts(&layout.sizes(kind))
+}
+
+/// The group of outputs that it gives.
+fn group<'m>(layout: &Layout<'m>, kind: FunctionKind) -> Option<&'m OutputGroup> {
+    match kind {
+        FunctionKind::OutputGroup(number) => layout.model.output_groups.get(number),
+        _ => None,
+    }
 }
 
 /// Expands to the method's return type.
@@ -81,6 +96,10 @@ pub(in crate::emit) fn ty(layout: &Layout<'_>, kind: FunctionKind) -> TokenStrea
         Shape::Solved(_) => quote!(Solved<T>),
         Shape::Jump => quote!(Jump<T>),
         Shape::Outputs => quote!(Output<T>),
+        Shape::OutputGroup(_) => {
+            let name = group(layout, kind).map(groups::name);
+            quote!(#name<T>)
+        }
         Shape::Kinematics(found) => {
             let count = Literal::usize_unsuffixed(found);
             quote!(#krate::Kinematics<T, #count>)
@@ -113,6 +132,10 @@ pub(in crate::emit) fn value(layout: &Layout<'_>, kind: FunctionKind, results: V
         Shape::Solved(_) => solved(layout, &results),
         Shape::Jump => jump(layout, &results),
         Shape::Outputs => filled(layout, StructKind::Output, results.of(Slot::Value)),
+        Shape::OutputGroup(_) => {
+            let value = group(layout, kind).map(|group| groups::value(layout, group, results.of(Slot::Value)));
+            quote!(#value)
+        }
         Shape::Kinematics(_) => {
             let [position, velocity, acceleration] =
                 [Slot::Positions, Slot::Rates, Slot::Accelerations].map(|slot| vector(layout, results.of(slot)));

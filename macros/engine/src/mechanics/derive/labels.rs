@@ -79,14 +79,20 @@ impl Deriving<'_> {
             FunctionKind::Momentum => (of_state("momentum"), "momentum"),
             FunctionKind::MomentumRate => (of_state("momentum_rate"), "momentum_rate"),
             FunctionKind::MomentumVelocity => (of_state("rate"), "rate"),
-            FunctionKind::Outputs => {
+            FunctionKind::Outputs | FunctionKind::OutputGroup(_) => {
                 let freedoms = self.structure.state.len();
                 let one = |output: &crate::model::types::Output| {
                     let name = names::path(model, &output.place);
                     let count = width(&output.value.ty, freedoms);
                     (0..count).map(|k| format!("{name}{}", component(&output.value.ty, k))).collect::<Vec<String>>()
                 };
-                (model.outputs.iter().flat_map(one).collect(), "output")
+                match kind {
+                    FunctionKind::OutputGroup(number) => {
+                        let places = model.output_groups[number].outputs();
+                        (places.map(|place| &model.outputs[place]).flat_map(one).collect(), "output")
+                    }
+                    _ => (model.outputs.iter().flat_map(one).collect(), "output"),
+                }
             }
         }
     }

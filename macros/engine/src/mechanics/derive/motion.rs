@@ -11,6 +11,7 @@ use crate::mechanics::results::constrained::ConstrainedMotion;
 use crate::mechanics::scene::{Choices, Method, Style};
 use crate::mechanics::strut::forward;
 use crate::mechanics::translate::dependencies::Dependencies;
+use crate::model::types::Output;
 use crate::symbolic::graph::Scalar;
 
 use super::{Candidate, Deriving, METHODS, MOST_COMPOSITE, MOST_STRUT_WAYS, articulates, floats, freedoms};
@@ -104,17 +105,17 @@ impl<'m> Deriving<'m> {
         found
     }
 
-    pub(super) fn outputs(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
+    pub(super) fn outputs(&mut self, wanted: &[&'m Output]) -> Result<Vec<Candidate>, Vec<Complaint>> {
         let model = self.model;
-        let needs = Dependencies::of(model.outputs.iter().map(|output| &output.value));
+        let needs = Dependencies::of(wanted.iter().map(|output| &output.value));
         let kept = needs.kept(model);
         let open = self.is_open();
         let mut all = |equations: &mut Equations<'m>| {
             if open {
-                return equations.output_scalars().map(Results::vector);
+                return equations.output_scalars(wanted).map(Results::vector);
             }
             let reduction = equations.reduce()?;
-            let results = equations.output_scalars()?;
+            let results = equations.output_scalars(wanted)?;
             Ok(Results::vector(match equations.solved() {
                 Some(solved) => equations.put_in_all(&reduction, &solved, &results),
                 None => equations.finish(&reduction, &results),

@@ -10,6 +10,7 @@ use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::{Newton, Reduction};
 use crate::mechanics::results::euler_singularities;
 use crate::mechanics::translate::forces::LoadCase;
+use crate::model::types::Output;
 use crate::symbolic::graph::Scalar;
 
 use super::{AXES, COMPOSITE, Candidates, Deriving, Found, NEWTON_EULER, Names};
@@ -155,7 +156,11 @@ fn recipe(kind: FunctionKind, solves_inputs: bool) -> Recipe {
             (const { &[Chosen(|d, _| d.momentum_rates())] }, const { &[Chosen(|d, _| d.reduced_momentum_rates())] })
         }
         F::Outputs => {
-            const SAME: &[Way] = &[Chosen(|d, _| d.outputs())];
+            const SAME: &[Way] = &[Chosen(|d, _| d.outputs(&d.model.outputs.iter().collect::<Vec<_>>()))];
+            (SAME, SAME)
+        }
+        F::OutputGroup(_) => {
+            const SAME: &[Way] = &[Chosen(output_group)];
             (SAME, SAME)
         }
     };
@@ -165,6 +170,18 @@ fn recipe(kind: FunctionKind, solves_inputs: bool) -> Recipe {
 fn kinematics(deriving: &mut Deriving<'_>, kind: FunctionKind) -> Candidates {
     match kind {
         FunctionKind::Kinematics(number) => deriving.kinematics(number),
+        _ => Ok(Vec::new()),
+    }
+}
+
+fn output_group(deriving: &mut Deriving<'_>, kind: FunctionKind) -> Candidates {
+    match kind {
+        FunctionKind::OutputGroup(number) => {
+            let model = deriving.model;
+            let wanted: Vec<&Output> =
+                model.output_groups[number].outputs().map(|place| &model.outputs[place]).collect();
+            deriving.outputs(&wanted)
+        }
         _ => Ok(Vec::new()),
     }
 }

@@ -11,11 +11,10 @@ use crate::symbolic::graph::Scalar;
 
 impl Equations<'_> {
     /// Output after output, before definitions are put in.
-    pub(in crate::mechanics) fn output_scalars(&mut self) -> Result<Vec<Scalar>, Vec<Complaint>> {
-        let model = self.scene.model;
+    pub(in crate::mechanics) fn output_scalars(&mut self, wanted: &[&Output]) -> Result<Vec<Scalar>, Vec<Complaint>> {
         let freedoms = self.scene.structure.freedoms();
         let mut scalars = Vec::new();
-        for output in &model.outputs {
+        for output in wanted {
             let value = self.value(&output.value);
             let before = scalars.len();
             value.flatten(&mut self.g, &mut scalars);

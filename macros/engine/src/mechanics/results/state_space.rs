@@ -27,7 +27,7 @@ impl Equations<'_> {
         accumulation: Accumulation,
     ) -> Result<Results<Scalar>, Vec<Complaint>> {
         // What accelerations in outputs stand for comes first: in an open tree they are nodes of forward dynamics.
-        let outputs = self.output_scalars()?;
+        let outputs = self.output_scalars(&self.scene.model.outputs.iter().collect::<Vec<_>>())?;
         let motion = self.motion_slopes(reduction, accumulation);
         let outputs = self.finish(reduction, &outputs);
         let slopes = self.output_slopes(reduction, &motion, &outputs);

@@ -72,11 +72,11 @@ impl<'a> Checker<'a, '_> {
         if emit.is_empty() {
             emit.push(Request::ForwardDynamics);
         }
+        let outputs = self.filled_outputs();
         let model = Model {
             params: self.filled_params().into(),
             inputs: self.filled_inputs().into(),
             states: self.filled_states(collected.states).into(),
-            outputs: self.filled_outputs(),
             bodies,
             joints,
             tree: topology.tree,
@@ -88,6 +88,8 @@ impl<'a> Checker<'a, '_> {
             independent: loops.independent,
             solve_for: collected.requested.solve_for,
             kinematics: loops.kinematics,
+            output_groups: self.output_groups(&collected.requested.outputs, &outputs),
+            outputs,
             emit,
             ..self.blank(module)
         };

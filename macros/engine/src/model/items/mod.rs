@@ -7,6 +7,7 @@ pub(super) mod forces;
 mod inertia;
 pub(super) mod joints;
 pub(super) mod loops;
+pub(super) mod output_groups;
 pub(super) mod parts;
 pub(super) mod requests;
 pub(super) mod solves;

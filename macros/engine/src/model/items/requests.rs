@@ -20,7 +20,7 @@ use crate::syntax::tree;
 
 use super::fields::{Known, field};
 
-const REQUESTS: [(&str, Request); 14] = [
+const REQUESTS: [(&str, Request); 15] = [
     ("forward_dynamics", Request::ForwardDynamics),
     ("inverse_dynamics", Request::InverseDynamics),
     ("mass_matrix", Request::MassMatrix),
@@ -33,6 +33,7 @@ const REQUESTS: [(&str, Request); 14] = [
     ("linearize", Request::Linearize),
     ("impulse", Request::Impulse),
     ("momentum", Request::Momentum),
+    ("outputs", Request::Outputs),
     ("report", Request::Report),
     ("equations", Request::Equations),
 ];
@@ -90,6 +91,8 @@ pub(in crate::model) struct Requested<'a> {
     pub(in crate::model) solve_for: Vec<SolveFor>,
     /// Read when it is known what hangs on what.
     pub(in crate::model) kinematics: Vec<(&'a tree::Request, ScopeId)>,
+    /// Groups of outputs, read when all outputs are known.
+    pub(in crate::model) outputs: Vec<&'a tree::Fields>,
     /// Where `constraints` is asked for.
     pub(in crate::model) constraints: Option<Span>,
 }
@@ -106,6 +109,14 @@ impl<'a> Checker<'a, '_> {
             if let Some((_, found)) = REQUESTS.iter().find(|(known, _)| *known == name) {
                 if *found == Request::Kinematics {
                     into.kinematics.push((request, scope));
+                } else if *found == Request::Outputs {
+                    let Some(options) = &request.options else {
+                        let instead =
+                            "outputs are always emitted; `outputs { name: [output, ..] }` gives some of them alone";
+                        self.report.help(span, "`outputs` needs no asking for", instead);
+                        continue;
+                    };
+                    into.outputs.push(options);
                 } else if into.list.contains(found) {
                     let message = format!("`{name}` is asked for twice");
                     self.report.error(span, message);
@@ -130,8 +141,6 @@ impl<'a> Checker<'a, '_> {
                     format!("`{name}` is not asked for by itself"),
                     format!("it comes with `{with}`"),
                 );
-            } else if name == "outputs" {
-                self.report.help(span, "`outputs` needs no asking for", "outputs are always emitted");
             } else {
                 let list: Vec<&str> = REQUESTS.iter().map(|(known, _)| *known).collect();
                 self.report.unknown(
@@ -318,7 +327,7 @@ impl<'a> Checker<'a, '_> {
 }
 
 /// Of a list each, else the expression itself.
-fn elements(expr: &Expr) -> Vec<&Expr> {
+pub(super) fn elements(expr: &Expr) -> Vec<&Expr> {
     match expr {
         Expr::Array(array) => array.elems.iter().collect(),
         other => vec![other],

@@ -206,7 +206,9 @@ impl<'a> Walk<'a> {
             ItemKind::Small(coordinates) => self.all(coordinates),
             ItemKind::Emit(requests) => {
                 for request in requests {
-                    self.word("emit", request.name.clone(), request.options.as_ref());
+                    // Groups of outputs have names of the user's.
+                    let fields = request.options.as_ref().filter(|_| request.name != "outputs");
+                    self.word("emit", request.name.clone(), fields);
                     let options = request.options.iter().flat_map(|options| &options.list);
                     options.for_each(|option| self.expr(&option.value));
                 }

@@ -38,6 +38,7 @@ const EMIT: Room = &[
     ("linearize", &[]),
     ("impulse", &[]),
     ("momentum", &[]),
+    ("outputs", &[]),
     ("report", &[]),
     ("equations", &[]),
 ];

@@ -2,11 +2,12 @@
 //!
 //! In: positions, velocities and Jacobians that a model shows. Out: whether each is the rate, or the slope, of the other.
 
+use std::ops::Range;
 use std::rc::Rc;
 
 use crate::contracts::function::FunctionKind;
 use crate::contracts::symbol::Symbol;
-use crate::model::types::{BodyRef, Expr, ExprNode, Frame, FrameQuantity, FrameStep, Model, Type};
+use crate::model::types::{BodyRef, Expr, ExprNode, Frame, FrameQuantity, FrameStep, Model, Output, Type};
 use crate::symbolic::doubled::Doubled;
 
 use super::{At, Judged, Law, Sum, judged};
@@ -14,6 +15,7 @@ use super::{At, Judged, Law, Sum, judged};
 pub(super) const LAWS: &[Law] = &[
     Law { between: "positions and velocities of outputs", judge: |at| at.speeds() },
     Law { between: "Jacobians and velocities of outputs", judge: |at| at.jacobians() },
+    Law { between: "outputs and their groups", judge: |at| at.groups() },
 ];
 
 /// Outputs of frames with the place of their first number.
@@ -41,6 +43,17 @@ impl<'m> Shown<'m> {
     }
 }
 
+/// By output where its numbers are among those of all.
+fn places(model: &Model, freedoms: usize) -> Vec<Range<usize>> {
+    let mut next = 0;
+    let place = |output: &Output| {
+        let first = next;
+        next += width(&output.value.ty, freedoms);
+        first..next
+    };
+    model.outputs.iter().map(place).collect()
+}
+
 /// Numbers of one output.
 fn width(ty: &Type, freedoms: usize) -> usize {
     match ty {
@@ -55,6 +68,36 @@ fn width(ty: &Type, freedoms: usize) -> usize {
 }
 
 impl At<'_, '_> {
+    /// A group has the numbers of its outputs.
+    fn groups(&mut self) -> Judged {
+        let (outputs, model) = (FunctionKind::Outputs, self.laws.model);
+        let places = places(model, self.dof());
+        for (number, group) in model.output_groups.iter().enumerate() {
+            let kind = FunctionKind::OutputGroup(number);
+            if !self.has(kind) || !self.has(outputs) {
+                continue;
+            }
+            let (own, all) = (self.values(kind)?, self.values(outputs)?);
+            let weights = self.weights(own.len());
+            let mut of_all = vec![0.0; all.len()];
+            let mut sum = Sum::default();
+            let taken = group.outputs().flat_map(|output| places[output].clone());
+            for ((place, &value), &weight) in taken.zip(&own).zip(&weights) {
+                sum.product(&[value, Doubled::new(weight)]);
+                sum.product(&[-all[place], Doubled::new(weight)]);
+                of_all[place] = -weight;
+            }
+            if sum.holds() != Some(true) {
+                sum.bound = self.bound(kind, &weights) + self.bound(outputs, &of_all);
+            }
+            match judged(&sum, kind, outputs) {
+                Some(None) => {}
+                other => return other,
+            }
+        }
+        Some(None)
+    }
+
     /// Slopes of a position times velocities are its velocity.
     fn speeds(&mut self) -> Judged {
         let outputs = FunctionKind::Outputs;
