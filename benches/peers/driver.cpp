@@ -3,7 +3,8 @@
 // `driver ROUNDS LIBRARY..` loads the libraries (see `subject.h`), demands that all results agree with those of the first one
 // that has the function, and prints a line of tab-separated words for each subject: robot, function, program, how far its
 // results are from the first one's, [ns] of a state the least, lower quartile, median and upper quartile over the rounds, then
-// its ratio to the first one's: of least times, and lower quartile, median and upper quartile of those in one round.
+// its ratio to the first one's (of programs for any processor to that of the first one for any): of least times, and lower
+// quartile, median and upper quartile of those in one round.
 //
 // A round measures each subject once, for about a millisecond, so what else the machine does meets all of them alike.
 
@@ -12,10 +13,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <dlfcn.h>
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -25,8 +28,8 @@ struct Row
 {
   const Subject * subject;
   double error;
-  // The first subject with the same robot and function.
-  std::size_t first;
+  // The first subject with the same robot and function, and the first one of these that was compiled for the same processors.
+  std::size_t first, unit;
   // States of a batch.
   std::size_t batch;
   // [ns] of a state, in each round
@@ -115,16 +118,19 @@ int main(int words, char ** arguments)
     std::size_t count = 0;
     const Subject * subjects = symbol<decltype(peers_subjects)>(library, arguments[k], "peers_subjects")(&count);
     for (std::size_t i = 0; i < count; ++i)
-      rows.push_back({subjects + i, 0, 0, 0, {}});
+      rows.push_back({subjects + i, 0, 0, 0, 0, {}});
   }
 
   std::map<std::string, std::pair<std::vector<double>, std::size_t>> numbers;
   std::map<std::pair<std::string, std::string>, std::size_t> firsts;
+  std::map<std::tuple<std::string, std::string, bool>, std::size_t> units;
   for (std::size_t k = 0; k < rows.size(); ++k)
   {
     Row & row = rows[k];
     const Subject & subject = *row.subject;
     row.first = firsts.emplace(std::make_pair(subject.robot, subject.function), k).first->second;
+    const bool any = std::strstr(subject.program, "any processor");
+    row.unit = units.emplace(std::make_tuple(subject.robot, subject.function, any), k).first->second;
     auto & [values, count] = numbers[subject.robot];
     if (values.empty())
     {
@@ -150,7 +156,7 @@ int main(int words, char ** arguments)
 
   for (const Row & row : rows)
   {
-    const std::vector<double> & unit = rows[row.first].times;
+    const std::vector<double> & unit = rows[row.unit].times;
     std::vector<double> ratios;
     for (int round = 0; round < rounds; ++round)
       ratios.push_back(row.times[round] / unit[round]);

@@ -86,7 +86,8 @@ static inline Quarter quarter(Four x)
   return {sine, cosine, (Whole)shifted};
 }
 
-// With an odd number of quarter turns the two change places, and the second bit is the sign.
+// With an odd number of quarter turns the two change places, and the second bit is the sign. A cosine is the sine of an angle
+// with one quarter turn more.
 static inline Lanes chosen(Four even, Four odd, Whole turns)
 {
   const Whole sign = (turns & 2) << 62;
@@ -102,7 +103,7 @@ static inline Lanes sin(Lanes x)
 static inline Lanes cos(Lanes x)
 {
   const Quarter q = quarter(x.all);
-  return chosen(q.cosine, q.sine, q.turns + 1);
+  return chosen(q.sine, q.cosine, q.turns + 1);
 }
 
 #define casadi_real Lanes

@@ -21,6 +21,8 @@ class Row:
         self.robot, self.function, self.program, *numbers = line.rstrip("\n").split("\t")
         self.error, self.least, _, self.median, _, self.ratio, self.low, self.middle, self.high = map(float, numbers)
 
+        self.any, self.ours = self.program.endswith("any processor"), self.program in ("ours", "ours, any processor")
+
     def key(self):
         return self.robot, self.function
 
@@ -34,6 +36,11 @@ def read(file):
     for line in file.read_text().splitlines():
         row = Row(line)
         groups.setdefault(row.key(), []).append(row)
+    for rows in groups.values():
+        # For this processor first; for any, where there are two to compare.
+        rows.sort(key=lambda row: row.any)
+        if sum(row.any for row in rows) == 1:
+            rows.pop()
     return groups
 
 
@@ -43,8 +50,8 @@ def table(groups, unit):
     for rows in groups.values():
         for k, row in enumerate(rows):
             first = k == 0
-            ratio = "1" if first else f"{row.ratio:.2f}"
-            spread = "" if first else f"{row.middle:.2f} ({row.low:.2f} to {row.high:.2f})"
+            ratio = "1" if row.ours else f"{row.ratio:.2f}"
+            spread = "" if row.ours else f"{row.middle:.2f} ({row.low:.2f} to {row.high:.2f})"
             error = "" if first else f"{row.error:.0e}"
             yield (
                 f"| {row.title() if first else ''} | {row.program} | {row.least:.1f} ns | {row.least / unit:.1f} | {ratio} "
@@ -53,17 +60,19 @@ def table(groups, unit):
 
 
 def picture(groups):
-    """A line of each program's ratio on a logarithmic scale: a dot for least times, a bar from quartile to quartile."""
+    """A line for each program's ratio on a logarithmic scale: a dot for least times, a bar from quartile to quartile."""
     shown = {key: rows for key, rows in groups.items() if len(rows) > 1}
     left, width, height, top = 330, 560, 15, 40
-    ratios = [row.ratio for rows in shown.values() for row in rows] + [
-        x for rows in shown.values() for row in rows[1:] for x in (row.low, row.high)]
+    ratios = [row.ratio for rows in shown.values() for row in rows] + [1.0] + [
+        x for rows in shown.values() for row in rows if not row.ours for x in (row.low, row.high)]
     low, high = math.log10(min(ratios) * 0.9), math.log10(max(ratios) * 1.1)
     at = lambda ratio: left + width * (math.log10(ratio) - low) / (high - low)
     lines, y = [], top
     for rows in shown.values():
         lines.append(f'<text x="8" y="{y + 11}" class="title">{rows[0].title()}</text>')
-        for row in rows[1:]:
+        for row in rows:
+            if row.ours:
+                continue
             colour, middle = COLOURS.get(row.program, OTHERS), y + height / 2
             lines.append(f'<line x1="{at(row.low):.1f}" x2="{at(row.high):.1f}" y1="{middle}" y2="{middle}" '
                          f'stroke="{colour}" stroke-width="4" stroke-opacity="0.45"/>')
