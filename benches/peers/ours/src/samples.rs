@@ -1,12 +1,12 @@
-//! Random states of the mechanisms, their loops closed, and the same in Pinocchio's coordinates.
+//! Random states of the mechanisms with loops, their loops closed, and the same in the common coordinates.
 
-use super::models::{biped, biped_reduced, delta, delta_reduced, stewart, stewart_reduced};
-use super::random::Random;
+use std::sync::LazyLock;
+
+use crate::export::COUNT;
+use crate::loops::{biped, biped_reduced, delta, delta_reduced, stewart, stewart_reduced};
+use crate::random::Random;
 use multibody::nalgebra::{Rotation3, SVector, UnitQuaternion, Vector3};
 use multibody::{FreeRollPitchYaw, Pose, Projection, RollPitchYaw, Twist};
-
-/// How many states each mechanism has.
-pub const COUNT: usize = 64;
 
 /// A state with its accelerations: positions of a floating base are a point and a quaternion, real part last, its
 /// velocities and accelerations are spatial vectors in its own axes, linear part first.
@@ -17,15 +17,22 @@ pub struct Sample {
     pub accel: Vec<f64>,
 }
 
+impl Sample {
+    /// In the order of `subject.h`.
+    pub fn numbers(&self) -> Vec<f64> {
+        [&self.q[..], &self.v, &self.accel, &self.effort].concat()
+    }
+}
+
 /// How a floating base moves: velocities and accelerations of its origin in ground axes, angular ones in its own.
-struct Base {
-    pose: Pose,
-    velocity: Twist,
-    accel: Twist,
+pub struct Base {
+    pub pose: Pose,
+    pub velocity: Twist,
+    pub accel: Twist,
 }
 
 impl Base {
-    fn of_angles(q: &FreeRollPitchYaw, v: &FreeRollPitchYaw, a: &FreeRollPitchYaw) -> Self {
+    pub fn of_angles(q: &FreeRollPitchYaw, v: &FreeRollPitchYaw, a: &FreeRollPitchYaw) -> Self {
         let RollPitchYaw { roll, pitch, yaw } = q.orientation;
         let ((sr, cr), (sp, cp)) = (roll.sin_cos(), pitch.sin_cos());
         // Columns of the matrix that takes rates to the angular velocity, and their derivatives.
@@ -45,8 +52,8 @@ impl Base {
         }
     }
 
-    /// Followed by the coordinates of joints, which are the same in both programs.
-    fn sample(&self, q: &[f64], v: &[f64], effort: Vec<f64>, accel: &[f64]) -> Sample {
+    /// Followed by the coordinates of joints, which are the same in all programs.
+    pub fn sample(&self, q: &[f64], v: &[f64], effort: Vec<f64>, accel: &[f64]) -> Sample {
         let Pose { position, orientation } = self.pose;
         let own = |x: &Vector3<f64>| orientation.inverse() * x;
         let velocity = own(&self.velocity.linear);
@@ -58,6 +65,12 @@ impl Base {
             accel: [linear.as_slice(), self.accel.angular.as_slice(), accel].concat(),
         }
     }
+}
+
+/// The states of a mechanism.
+fn draw<S>(one: fn(&mut Random) -> S) -> Vec<S> {
+    let mut random = Random::new(1);
+    (0..COUNT).map(|_| one(&mut random)).collect()
 }
 
 /// What a reduced model says differs from the accelerations of all coordinates by rounding.
@@ -88,9 +101,12 @@ const FEET: [[f64; 2]; 6] =
 const PINS: [[f64; 2]; 6] = [[0.17, 0.595], [-0.6, 0.15], [-0.6, -0.15], [0.17, -0.595], [0.43, -0.445], [0.43, 0.445]];
 const HEADING: [f64; 6] = [-0.75, -0.55, 0.55, 0.75, -2.85, 2.85];
 
-type Stewart = (stewart::State, stewart::Input, stewart_reduced::State, stewart_reduced::Input, Sample);
+/// A state, and what of it the reduced model takes.
+pub type Stewart = (stewart::State, stewart::Input, stewart_reduced::State, stewart_reduced::Input, Sample);
 
-pub fn stewart(random: &mut Random) -> Stewart {
+pub static STEWART: LazyLock<Vec<Stewart>> = LazyLock::new(|| draw(stewart));
+
+fn stewart(random: &mut Random) -> Stewart {
     let model = stewart::Model::default();
     let mut state = stewart::State::default();
     let orientation = vector(random, 0.25);
@@ -125,9 +141,11 @@ pub fn stewart(random: &mut Random) -> Stewart {
     (state, input, reduced, reduced_input, sample)
 }
 
-type Delta = (delta::State, delta::Input, delta_reduced::State, delta_reduced::Input, Sample);
+pub type Delta = (delta::State, delta::Input, delta_reduced::State, delta_reduced::Input, Sample);
 
-pub fn delta(random: &mut Random) -> Delta {
+pub static DELTA: LazyLock<Vec<Delta>> = LazyLock::new(|| draw(delta));
+
+fn delta(random: &mut Random) -> Delta {
     let model = delta::Model::default();
     let mut state = delta::State::default();
     let position = Vector3::new(0.0, 0.0, -0.7) + vector(random, 0.1);
@@ -164,9 +182,11 @@ pub fn delta(random: &mut Random) -> Delta {
     (state, input, reduced, reduced_input, sample)
 }
 
-type Biped = (biped::State, biped::Input, biped_reduced::State, biped_reduced::Input, Sample);
+pub type Biped = (biped::State, biped::Input, biped_reduced::State, biped_reduced::Input, Sample);
 
-pub fn biped(random: &mut Random) -> Biped {
+pub static BIPED: LazyLock<Vec<Biped>> = LazyLock::new(|| draw(biped));
+
+fn biped(random: &mut Random) -> Biped {
     let model = biped::Model::default();
     let mut state = biped::State::default();
     state.q.pelvis =

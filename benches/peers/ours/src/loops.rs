@@ -1,4 +1,4 @@
-//! The mechanisms that both programs compute; `models.hpp` builds the same trees.
+//! Mechanisms with closed loops; `loops.hpp` builds the same trees.
 
 use multibody::multibody;
 
@@ -49,7 +49,8 @@ multibody! {
         formulation { constraints: Reduced }
         body platform { mass: 1.5, inertia: diag(0.08, 0.08, 0.08), coordinates: Absolute(RollPitchYaw) }
         part legs: [leg; 6] = |i| leg { base: ground.at(FEET[i]).rotated(Z, HEADING[i]), tip: platform.at(PINS[i]) };
-        emit forward_dynamics;
+        emit forward_dynamics, inverse_dynamics { solve_for: legs.thrust };
+        emit kinematics { given: platform.pose, find: legs.stroke };
     }
 }
 
@@ -163,7 +164,8 @@ multibody! {
         }
         part legs: [leg; 2] = |i| leg { hip: pelvis.at([0.0, 0.1 - 0.2 * i, -0.05]) };
         emit forward_dynamics;
-    }    /// The biped without the coordinates that its linkages decide.
+    }
+    /// The biped without the coordinates that its linkages decide.
     pub mod biped_reduced {
         world { gravity: -9.80665 * Z }
         formulation { constraints: Reduced }

@@ -1,0 +1,145 @@
+//! Mechanisms with closed loops: in the coordinates that are independent, and in all of them with multipliers.
+
+use std::ffi::CStr;
+
+use crate::abi::{Subject, subject};
+use crate::export::{MULTIPLIERS, PROGRAM};
+use crate::loops::{biped, biped_reduced, delta, delta_reduced, stewart, stewart_reduced};
+use crate::samples::{BIPED, Base, Biped, DELTA, Delta, STEWART, Sample, Stewart};
+use multibody::nalgebra::SVector;
+use multibody::{FreeRollPitchYaw, Pose, RollPitchYaw, Twist};
+
+/// Numbers of a state.
+const LENGTHS: [usize; 3] = [25 + 3 * 24, 22 + 3 * 21, 21 + 3 * 20];
+
+/// States of the robot, one behind the other; none of an unknown one.
+pub fn states(robot: &CStr) -> Vec<f64> {
+    let numbers = |sample: &Sample| sample.numbers();
+    match robot.to_bytes() {
+        b"stewart" => STEWART.iter().flat_map(|all| numbers(&all.4)).collect(),
+        b"delta" => DELTA.iter().flat_map(|all| numbers(&all.4)).collect(),
+        b"biped" => BIPED.iter().flat_map(|all| numbers(&all.4)).collect(),
+        b"unit" => crate::unit::states(),
+        _ => Vec::new(),
+    }
+}
+
+/// The accelerations of all coordinates, of which those of the base are `base`'s.
+fn accelerations(base: &Base, sample: &Sample) -> Vec<f64> {
+    base.sample(&[], &[], Vec::new(), &sample.accel[6..]).accel
+}
+
+/// A mechanism with its loops kept as equations.
+macro_rules! multipliers {
+    ($name:literal, $module:ident, $samples:ident, $sample:ty, $length:expr) => {{
+        type Point = ($module::Model<f64>, &'static $sample);
+        subject!(
+            $name,
+            c"forward",
+            MULTIPLIERS,
+            $length,
+            1,
+            Point,
+            |x| ($module::Model::default(), $samples.iter().find(|all| all.4.numbers() == x).expect("one of ours")),
+            (|(model, all): &Point| model.forward_dynamics(0.0, &all.0, &all.1)),
+            // The states themselves hold what this gives.
+            (|(_, all): &Point, _, _| all.4.accel.clone()),
+        )
+    }};
+}
+
+/// A mechanism with its loops solved. Of the accelerations of coordinates that follow it says nothing.
+macro_rules! reduced {
+    ($name:literal, $module:ident, $samples:ident, $sample:ty, $length:expr, $results:expr) => {{
+        type Point = ($module::Model<f64>, &'static $sample);
+        subject!(
+            $name,
+            c"forward",
+            PROGRAM,
+            $length,
+            1,
+            Point,
+            |x| ($module::Model::default(), $samples.iter().find(|all| all.4.numbers() == x).expect("one of ours")),
+            (|(model, all): &Point| model.forward_dynamics(0.0, &all.2, &all.3)),
+            (|(_, all): &Point, _, accel: $module::Velocity<f64>| $results(*all, accel)),
+        )
+    }};
+}
+
+fn stewart_results(all: &Stewart, accel: stewart_reduced::Velocity<f64>) -> Vec<f64> {
+    let (q, v) = (&all.2.q.platform, &all.2.v.platform);
+    accelerations(&Base::of_angles(q, v, &accel.platform), &all.4)
+}
+
+fn delta_results(all: &Delta, accel: delta_reduced::Velocity<f64>) -> Vec<f64> {
+    let level = |position| FreeRollPitchYaw { position, orientation: RollPitchYaw::default() };
+    let base = Base::of_angles(&level(all.2.q.plate), &level(all.2.v.plate), &level(accel.plate));
+    accelerations(&base, &all.4)
+}
+
+fn biped_results(all: &Biped, accel: biped_reduced::Velocity<f64>) -> Vec<f64> {
+    let (pose, velocity): (Pose<f64>, Twist<f64>) = (all.2.q.pelvis, all.2.v.pelvis);
+    let mut results = accelerations(&Base { pose, velocity, accel: accel.pelvis }, &all.4);
+    // Of each leg's seven coordinates the first five are independent.
+    let accel: SVector<f64, 16> = accel.into();
+    for leg in 0..2 {
+        results[6 + 7 * leg..][..5].copy_from_slice(&accel.as_slice()[6 + 5 * leg..][..5]);
+    }
+    results
+}
+
+pub const SUBJECTS: &[Subject] = &[
+    reduced!(c"stewart", stewart_reduced, STEWART, Stewart, LENGTHS[0], stewart_results),
+    multipliers!(c"stewart", stewart, STEWART, Stewart, LENGTHS[0]),
+    reduced!(c"delta", delta_reduced, DELTA, Delta, LENGTHS[1], delta_results),
+    multipliers!(c"delta", delta, DELTA, Delta, LENGTHS[1]),
+    reduced!(c"biped", biped_reduced, BIPED, Biped, LENGTHS[2], biped_results),
+    multipliers!(c"biped", biped, BIPED, Biped, LENGTHS[2]),
+    {
+        type Point =
+            (stewart_reduced::Model<f64>, stewart_reduced::State<f64>, stewart_reduced::Velocity<f64>, [f64; 6]);
+        subject!(
+            c"stewart",
+            c"leg forces",
+            PROGRAM,
+            LENGTHS[0],
+            1,
+            Point,
+            |x| {
+                let all = STEWART.iter().find(|all| all.4.numbers() == x).expect("one of ours");
+                let model = stewart_reduced::Model::default();
+                (model, all.2, model.forward_dynamics(0.0, &all.2, &all.3), all.3.legs.map(|leg| leg.thrust))
+            },
+            (|(model, state, accel, _): &Point| {
+                model.inverse_dynamics(0.0, state, &stewart_reduced::Input::default(), accel).input
+            }),
+            // The forces that the accelerations came from.
+            (|(.., thrusts): &Point, _, input: stewart_reduced::Input<f64>| {
+                let found = input.legs.map(|leg| leg.thrust);
+                let error = found.iter().zip(thrusts).fold(0.0_f64, |error, (x, y)| error.max((x - y).abs()));
+                assert!(error <= 1e-10, "leg forces differ by {error:e}");
+                found.to_vec()
+            }),
+        )
+    },
+    {
+        type Point = (stewart_reduced::Model<f64>, stewart_reduced::State<f64>, stewart_reduced::Velocity<f64>);
+        subject!(
+            c"stewart",
+            c"strokes, their rates and accelerations",
+            PROGRAM,
+            LENGTHS[0],
+            1,
+            Point,
+            |x| {
+                let all = STEWART.iter().find(|all| all.4.numbers() == x).expect("one of ours");
+                let model = stewart_reduced::Model::default();
+                (model, all.2, model.forward_dynamics(0.0, &all.2, &all.3))
+            },
+            (|(model, state, accel): &Point| model.kinematics(0.0, state, accel)),
+            (|_, _, found: multibody::Kinematics<f64, 6>| {
+                [found.position, found.velocity, found.acceleration].iter().flat_map(|x| x.iter().copied()).collect()
+            }),
+        )
+    },
+];
