@@ -226,7 +226,7 @@ impl Translation {
                 together: together.clone(),
                 how: if is_first { self.describe() } else { "found together with the slide before it".to_owned() },
                 roots: if is_first { vec![Root { value: root, sign: 0 }] } else { Vec::new() },
-                parts: if is_first { vec![("side", area), ("gap", discriminant)] } else { Vec::new() },
+                parts: if is_first { vec![("normal", area), ("gap", discriminant)] } else { Vec::new() },
             }
         });
         let solved = solved.collect();
