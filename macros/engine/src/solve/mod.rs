@@ -28,7 +28,7 @@ use crate::symbolic::graph::{Graph, Rotation, Scalar, SymbolId, Vector};
 use plan::Step;
 use system::System;
 
-pub use primitives::{circular, quadratic, three_spheres};
+pub use primitives::{circular, quadratic};
 
 /// One element of a cycle: the next frame in the present one.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -306,10 +306,11 @@ impl Bench {
         let mut list: Vec<(usize, Vec<usize>, Next)> = Vec::new();
         for translation in Translation::candidates(&mut scratch, &self.system) {
             let Some(leading) = translation.leading(&mut scratch, &self.system) else { continue };
-            if !points.is_empty() && !points.iter().any(|point| is_told(&scratch, &[leading], *point)) {
+            let told = |point: &Point<'_>| leading.iter().all(|&s| is_told(&scratch, &[s], *point));
+            if !points.is_empty() && !points.iter().any(told) {
                 continue;
             }
-            let effort = effort(&scratch, &[leading]);
+            let effort = effort(&scratch, &leading);
             list.push((effort, translation.unknowns.list(), Next::Translation(translation)));
         }
         self.best(list)

@@ -65,6 +65,7 @@ impl<T: Copy> Few<T> {
 struct Axes {
     directions: [Vector; 3],
     duals: [Vector; 3],
+    volume: Scalar,
 }
 
 /// What a measure says of p.
@@ -131,9 +132,9 @@ impl Translation {
         format!("slides together from {what}")
     }
 
-    /// Whether the equations tell the travels: this must differ from zero.
-    pub(super) fn leading(&self, g: &mut Graph, system: &System) -> Option<Scalar> {
-        self.meeting(g, system).map(|(_, meeting)| meeting.area)
+    /// Whether the equations tell the travels: all of these must differ from zero.
+    pub(super) fn leading(&self, g: &mut Graph, system: &System) -> Option<[Scalar; 2]> {
+        self.meeting(g, system).map(|(conditions, meeting)| [conditions.axes.volume, meeting.area])
     }
 
     fn meeting(&self, g: &mut Graph, system: &System) -> Option<(Conditions, Meeting)> {
@@ -261,7 +262,7 @@ impl Axes {
             return None;
         }
         let inverse = g.reciprocal(volume);
-        Some(Axes { directions, duals: sides.map(|side| g.scale(inverse, side)) })
+        Some(Axes { directions, duals: sides.map(|side| g.scale(inverse, side)), volume })
     }
 
     /// What these axes see as a vector, as others see it of which lengths and angles are the same.
