@@ -259,9 +259,12 @@ fn rods_that_give_no_place() {
     let line = plate
         .replace("one.at(0.3 * X), plate], length: 0.8", "one.at(0.3 * X), plate], length: 0.7745966692414834")
         .replace("two.at(-0.3 * X), plate], length: 0.8", "one.at(0.1 * X), plate], length: 0.7211102550927979")
-        .replace("ground.at(0.4 * Y), plate.at(0.1 * Y)], length: 0.7", "one.at(-0.1 * X), plate], length: 0.7211102550927979");
+        .replace(
+            "ground.at(0.4 * Y), plate.at(0.1 * Y)], length: 0.7",
+            "one.at(-0.1 * X), plate], length: 0.7211102550927979",
+        );
     let text = format!("{line} {REDUCED} solve (x, y, z) from (first, second, third) {{ z < 0.0 }}");
-    assert_said(&text, "solve | the loops do not determine `x`, `y`, `z`");
+    assert_said(&text, "solve | `solve` names 3 unknowns, but the loops give 2 equations for them | ");
 }
 
 #[test]
