@@ -1,7 +1,7 @@
 //! Models that use every stage that is broken, with all that they may emit, and with forward dynamics alone.
 
 /// Name and text.
-pub(crate) const MODELS: [(&str, &str); 11] = [
+pub(crate) const MODELS: [(&str, &str); 12] = [
     (
         "double_pendulum",
         "mod double_pendulum {
