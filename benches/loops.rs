@@ -122,6 +122,7 @@ fn main() {
         stewart::absolute iterated::delta_closed iterated::delta_newton iterated::delta_multipliers iterated::rps_newton iterated::rps_near iterated::rps_multipliers
         iterated::wishbone_closed iterated::wishbone_newton iterated::wishbone_near iterated::wishbone_multipliers iterated::sarrus_newton iterated::sarrus_near iterated::sarrus_multipliers
         iterated::stephenson_newton iterated::stephenson_near iterated::stephenson_multipliers
+        iterated::delta_rods_closed iterated::delta_rods_newton iterated::delta_rods_multipliers
     }
     forward! { list, rows::ten rows::twenty rows::forty rows::sixty }
     projection! { list, stewart::hybrid stewart::assumed_hybrid stewart::joint_coordinates stewart::assumed_joints }

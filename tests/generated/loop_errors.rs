@@ -208,6 +208,65 @@ fn solutions() {
     assert_said(general, "solve | no closed form was found for this loop: ");
 }
 
+/// Mistakes in a plate on slides and rods, whose place is found from three of them.
+#[test]
+fn rods_that_give_no_place() {
+    let plate = "
+        body plate { mass: 2.5 } body along { mass: 0.2 } body across { mass: 0.3 }
+        body one { mass: 1.0, com: 0.1 * X, inertia: diag(0.01, 0.01, 0.01) }
+        body two { mass: 1.0, com: 0.1 * X, inertia: diag(0.01, 0.01, 0.01) }
+        joint x: Prismatic { parent: ground, child: along, axis: X }
+        joint y: Prismatic { parent: along, child: across, axis: Y }
+        joint z: Prismatic { parent: across, child: plate, axis: Z }
+        joint a: Revolute { parent: ground.at(0.2 * X), child: one, axis: Y }
+        joint b: Revolute { parent: ground.at(-0.2 * X), child: two, axis: Y }
+        constraint first: Rod { between: [one.at(0.3 * X), plate], length: 0.8 }
+        constraint second: Rod { between: [two.at(-0.3 * X), plate], length: 0.8 }
+        constraint third: Rod { between: [ground.at(0.4 * Y), plate.at(0.1 * Y)], length: 0.7 }";
+    let of = |text: &str| format!("{plate} {REDUCED} {text}");
+    for (text, expected) in [
+        (
+            "solve (x, y, z) from (first, second, third) {}",
+            "solve | these loops have 2 solutions | choose one by conditions that hold on its branch alone",
+        ),
+        (
+            "solve (x, y, z) from (first, second, third) { z < 0.0 }",
+            "solve | no solution of these loops satisfies the conditions everywhere | choose one by conditions",
+        ),
+        (
+            "solve (x, y, z) from (first, second) { z < 0.0 }",
+            "solve | `solve` names 3 unknowns, but the loops give 2 equations for them | name as many coordinates",
+        ),
+        (
+            "constraint fourth: Rod { between: [ground, plate.at(0.1 * X)], length: 0.6 }
+            solve (x, y, z) from (first, second, third, fourth) { z < 0.0 }",
+            "solve | `solve` names 3 unknowns, but the loops give 4 equations for them | name all coordinates",
+        ),
+        // Something else stands beside it: one mistake, one error.
+        (
+            "body four { mass: 1.0, com: 0.1 * X, inertia: diag(0.01, 0.01, 0.01) }
+            body five { mass: 1.0, com: 0.1 * X, inertia: diag(0.01, 0.01, 0.01) }
+            joint c: Revolute { parent: ground.at(2.0 * X), child: four, axis: Y }
+            joint d: Revolute { parent: ground.at(3.0 * X), child: five, axis: Y }
+            constraint beside: Rod { between: [four.at(0.3 * X), five.at(0.3 * X)], length: 1.01 }
+            solve (x, y, z) from (first, second, beside) { z < 0.0 }",
+            "beside | the constraint `beside` has no coordinate in common with the others | write a `solve` of its own",
+        ),
+    ] {
+        assert_said(&of(text), expected);
+    }
+    // Three balls on a line, from which the same two points have their distances, wherever the line is.
+    let line = plate
+        .replace("one.at(0.3 * X), plate], length: 0.8", "one.at(0.3 * X), plate], length: 0.7745966692414834")
+        .replace("two.at(-0.3 * X), plate], length: 0.8", "one.at(0.1 * X), plate], length: 0.7211102550927979")
+        .replace(
+            "ground.at(0.4 * Y), plate.at(0.1 * Y)], length: 0.7",
+            "one.at(-0.1 * X), plate], length: 0.7211102550927979",
+        );
+    let text = format!("{line} {REDUCED} solve (x, y, z) from (first, second, third) {{ z < 0.0 }}");
+    assert_said(&text, "solve | `solve` names 3 unknowns, but the loops give 2 equations for them | ");
+}
+
 #[test]
 fn formulas_with_one_wrong_sign() {
     let expected = "solve | the formulas of `second`, `third` do not close their loop";

@@ -344,3 +344,64 @@ multibody! {
         emit forward_dynamics, inverse_dynamics, derivatives, linearize;
     }
 }
+
+multibody! {
+    mod arm {
+        port hip: Frame; port tip: Frame;
+        input torque;
+        body upper { mass: 0.3, com: 0.15 * X, inertia: diag(0.0001, 0.003, 0.003) }
+        joint shoulder: Revolute { parent: hip, child: upper, axis: Y }
+        constraint rod: Rod { between: [upper.at(0.3 * X), tip], length: 0.8 }
+        force motor: Effort { joint: shoulder, value: torque }
+    }
+    /// Delta robot on rods, its plate on slides, by Newton's method.
+    pub mod delta_rods_newton {
+        world { gravity: -9.80665 * Z }
+        body plate { mass: 0.5, inertia: diag(0.001, 0.001, 0.002) }
+        body along { mass: 0.0 }
+        body across { mass: 0.0 }
+        joint x: Prismatic { parent: ground, child: along, axis: X }
+        joint y: Prismatic { parent: along, child: across, axis: Y }
+        joint z: Prismatic { parent: across, child: plate, axis: Z }
+        part arms: [arm; 3] = |i| arm {
+            hip: ground.rotated(Z, i * 2.0 * PI / 3.0).at(0.2 * X),
+            tip: plate.rotated(Z, i * 2.0 * PI / 3.0).at(0.05 * X),
+        };
+        formulation { constraints: Reduced, independent: [arms.shoulder] }
+        emit forward_dynamics;
+    }
+    /// Delta robot on rods, its plate on slides, with multipliers.
+    pub mod delta_rods_multipliers {
+        world { gravity: -9.80665 * Z }
+        body plate { mass: 0.5, inertia: diag(0.001, 0.001, 0.002) }
+        body along { mass: 0.0 }
+        body across { mass: 0.0 }
+        joint x: Prismatic { parent: ground, child: along, axis: X }
+        joint y: Prismatic { parent: along, child: across, axis: Y }
+        joint z: Prismatic { parent: across, child: plate, axis: Z }
+        part arms: [arm; 3] = |i| arm {
+            hip: ground.rotated(Z, i * 2.0 * PI / 3.0).at(0.2 * X),
+            tip: plate.rotated(Z, i * 2.0 * PI / 3.0).at(0.05 * X),
+        };
+        formulation { constraints: Multipliers }
+        emit forward_dynamics;
+    }
+    /// Delta robot on rods, its plate on slides, its forward kinematics in closed form: three spheres.
+    pub mod delta_rods_closed {
+        world { gravity: -9.80665 * Z }
+        body plate { mass: 0.5, inertia: diag(0.001, 0.001, 0.002) }
+        body along { mass: 0.0 }
+        body across { mass: 0.0 }
+        joint x: Prismatic { parent: ground, child: along, axis: X }
+        joint y: Prismatic { parent: along, child: across, axis: Y }
+        joint z: Prismatic { parent: across, child: plate, axis: Z }
+        part arms: [arm; 3] = |i| arm {
+            hip: ground.rotated(Z, i * 2.0 * PI / 3.0).at(0.2 * X),
+            tip: plate.rotated(Z, i * 2.0 * PI / 3.0).at(0.05 * X),
+        };
+        formulation { constraints: Reduced }
+        assume (cos(arms[0].shoulder) > 0.5 && cos(arms[1].shoulder) > 0.5 && cos(arms[2].shoulder) > 0.5);
+        solve (x, y, z) from (arms[0].rod, arms[1].rod, arms[2].rod) { z < 0.0 }
+        emit forward_dynamics, inverse_dynamics, kinematics { given: arms.shoulder, find: [x, y, z] };
+    }
+}

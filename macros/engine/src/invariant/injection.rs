@@ -35,6 +35,8 @@ pub enum Break {
     ClosedFormSign,
     /// Rates of three turns that are found together: what lies along the known vector has the wrong sign.
     OrientationShare,
+    /// Rates of slides that are found together: what the last measure tells has the wrong sign.
+    TranslationShare,
     /// The last equation of a closing is lost.
     LostRow,
     /// A parameter is one in expressions.
@@ -52,7 +54,7 @@ pub enum Break {
 }
 
 impl Break {
-    pub const ALL: [Break; 22] = [
+    pub const ALL: [Break; 23] = [
         Break::LeverSign,
         Break::CentrifugalSign,
         Break::HandedSign,
@@ -68,6 +70,7 @@ impl Break {
         Break::ResultSlots,
         Break::ClosedFormSign,
         Break::OrientationShare,
+        Break::TranslationShare,
         Break::LostRow,
         Break::LostParameter,
         Break::FrameTurn,

@@ -165,6 +165,10 @@ impl<'m> Analysis<'m> {
             let ranked = ranked::ranked(&mut found, &rows, &formulas, follows);
             looked.push(Looked { group, rows, found, ranked });
         }
+        if reduced {
+            let groups: Vec<&CoupledRows> = looked.iter().map(|one| &one.group).collect();
+            self.complaints.extend(reduction::apart(model, problem, &groups));
+        }
         let locked = checks::locked(problem, &looked, reduced);
         for (number, one) in looked.into_iter().enumerate() {
             let Looked { group, rows, found, ranked } = one;

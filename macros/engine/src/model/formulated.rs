@@ -17,13 +17,71 @@ pub enum Formula {
     Opposite(Coordinate),
 }
 
-/// What is found from one closing, on the branch where all these conditions hold.
+/// What is found from closings, on the branch where all these conditions hold.
 #[derive(Clone)]
 pub struct ClosedForm {
     pub unknowns: Vec<Coordinate>,
-    pub closing: LoopClosure,
+    pub closings: Vec<LoopClosure>,
     pub sides: Vec<Side>,
-    pub beyond: Option<Beyond>,
+    pub place: Option<Placed>,
+}
+
+/// Where something lies, as it is asked where no coordinate tells.
+#[derive(Clone)]
+pub enum Placed {
+    Beyond(Beyond),
+    Beside(Beside),
+}
+
+/// On which side of the plane of three points another one lies, from which rods lead to them: there two solutions meet.
+#[derive(Clone)]
+pub struct Beside {
+    /// The ends of each rod, the one on what is moved last.
+    pub rods: [[Frame; 2]; 3],
+    pub is_above: bool,
+}
+
+impl Placed {
+    /// The same condition or its opposite.
+    pub fn turned(self, is_above: bool) -> Placed {
+        match self {
+            Placed::Beyond(beyond) => Placed::Beyond(Beyond { is_above, ..beyond }),
+            Placed::Beside(beside) => Placed::Beside(Beside { is_above, ..beside }),
+        }
+    }
+
+    fn condition(&self, span: Span) -> Expr {
+        match self {
+            Placed::Beyond(beyond) => beyond.condition(span),
+            Placed::Beside(beside) => beside.condition(span),
+        }
+    }
+}
+
+impl Beside {
+    /// As it stands between the braces of a `solve`, by the texts of the ends.
+    pub fn text(&self, rods: &[[String; 2]; 3]) -> String {
+        let sign = if self.is_above { '>' } else { '<' };
+        let [a, b, c] = [0, 1, 2].map(|k| format!("{}.position - {}.position", rods[k][1], rods[k][0]));
+        format!("dot(cross({a}, {b}), {c}) {sign} 0.0")
+    }
+
+    fn condition(&self, span: Span) -> Expr {
+        let vector = |node: ExprNode| Expr::new(node, Type::Vec3, span);
+        let position = |frame: &Frame| vector(ExprNode::OfFrame(frame.clone(), FrameQuantity::Position));
+        let way = |rod: &[Frame; 2]| vector(ExprNode::Sub(position(&rod[1]), position(&rod[0])));
+        let [a, b, c] = [0, 1, 2].map(|k| way(&self.rods[k]));
+        let normal = vector(ExprNode::Call(Function::Cross, vec![a, b]));
+        signed(ExprNode::Call(Function::Dot, vec![normal, c]), self.is_above, span)
+    }
+}
+
+/// Above or below zero.
+fn signed(value: ExprNode, is_above: bool, span: Span) -> Expr {
+    let scalar = |node: ExprNode| Expr::new(node, Type::Scalar, span);
+    let comparison = if is_above { Comparison::Greater } else { Comparison::Less };
+    let (value, zero) = (scalar(value), scalar(ExprNode::Number(0.0)));
+    Expr::new(ExprNode::Compare(comparison, value, zero), Type::Bool, span)
 }
 
 /// On which side of a hinge's arm something lies that a rod from the arm's end leads to: on the plane through the hinge's axis and that
@@ -50,16 +108,13 @@ impl Beyond {
 
     fn condition(&self, span: Span) -> Expr {
         let vector = |node: ExprNode| Expr::new(node, Type::Vec3, span);
-        let scalar = |node: ExprNode| Expr::new(node, Type::Scalar, span);
         let position = |frame: &Frame| vector(ExprNode::OfFrame(frame.clone(), FrameQuantity::Position));
         let from = |end: &Frame| {
             let way = vector(ExprNode::Sub(position(end), position(&self.hinge)));
             vector(ExprNode::Express { frame: self.hinge.clone(), vector: way })
         };
         let normal = vector(ExprNode::Call(Function::Cross, vec![from(&self.near), from(&self.far)]));
-        let value = scalar(ExprNode::Call(Function::Dot, vec![self.axis.clone(), normal]));
-        let comparison = if self.is_above { Comparison::Greater } else { Comparison::Less };
-        Expr::new(ExprNode::Compare(comparison, value, scalar(ExprNode::Number(0.0))), Type::Bool, span)
+        signed(ExprNode::Call(Function::Dot, vec![self.axis.clone(), normal]), self.is_above, span)
     }
 }
 
@@ -165,9 +220,9 @@ impl Model {
         for form in forms {
             let Some(first) = form.unknowns.first() else { continue };
             let span = model.joints[first.joint].span;
-            let beyond = form.beyond.iter().map(|beyond| beyond.condition(span));
-            let branches = form.sides.iter().map(|side| side.condition(span)).chain(beyond).collect();
-            let closings = vec![Closing { what: form.closing, span }];
+            let place = form.place.iter().map(|place| place.condition(span));
+            let branches = form.sides.iter().map(|side| side.condition(span)).chain(place).collect();
+            let closings = form.closings.iter().map(|&what| Closing { what, span }).collect();
             let how = SolveHow::From { closings, branches };
             model.solves.push(Solve { unknowns: form.unknowns.clone(), how, span });
         }

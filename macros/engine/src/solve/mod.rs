@@ -8,7 +8,7 @@
 //! takes two groups of neighbouring joints out of the cycle and measures between them what they leave free. Where one
 //! unknown remains, `primitives` solves it; then it counts as known, and the rest follows triangularly. Several cycles that
 //! hold unknowns in common are one system: any of them may give the next unknown. Where three turns about one point are
-//! left that no equation has alone, `orientation` finds them together.
+//! left that no equation has alone, `orientation` finds them together, and `translation` slides that follow each other.
 
 mod chain;
 mod elements;
@@ -18,6 +18,7 @@ mod pairs;
 mod plan;
 mod primitives;
 mod system;
+mod translation;
 
 use std::fmt;
 
@@ -27,7 +28,7 @@ use crate::symbolic::graph::{Graph, Rotation, Scalar, SymbolId, Vector};
 use plan::Step;
 use system::System;
 
-pub use primitives::{circular, quadratic, three_spheres};
+pub use primitives::{circular, quadratic};
 
 /// One element of a cycle: the next frame in the present one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -179,6 +180,21 @@ impl Plan {
                     })?;
                     orientations.push((found, choices, orientation.describe()));
                     choices += 1;
+                }
+                Step::Translation(translation) => {
+                    let numbers = translation.unknowns.list();
+                    let found = translation.solve(g, &system, sign).ok_or_else(|| Failure::NotFound {
+                        remaining: numbers.iter().map(|&number| system.unknowns[number].symbol).collect(),
+                        solved: solved.len(),
+                        cycles: cycles.len(),
+                    })?;
+                    let own = found.solved.into_iter().map(|mut one| {
+                        one.roots.iter_mut().for_each(|root| root.sign = choices);
+                        one
+                    });
+                    solved.extend(own);
+                    choices += 1;
+                    numbers.into_iter().for_each(|number| system.settle(g, number));
                 }
                 &Step::Coordinate { cycle, unknown: number, candidate, needed } => {
                     if needed {

@@ -86,7 +86,7 @@ impl Orientation {
             let groups: Vec<(usize, Vec<Taken>)> = cycles
                 .filter_map(|cycle| {
                     let spherical = Spherical::new(g, &system.cycles[cycle], unknowns)?;
-                    Some((cycle, around(&spherical.rest).groups(g)))
+                    Some((cycle, Opened::around(&spherical.rest).groups(g)))
                 })
                 .collect();
             for (cycle, taken) in &groups {
@@ -122,7 +122,7 @@ impl Orientation {
 
     fn derive(&self, g: &mut Graph, system: &System) -> Option<(Spherical, Conditions)> {
         let spherical = Spherical::new(g, &system.cycles[self.vector.0], self.unknowns)?;
-        let rest = around(&spherical.rest);
+        let rest = Opened::around(&spherical.rest);
         let (e, d) = match self.vector.1 {
             Source::Direction(run, k) => {
                 let group = rest.take(g, run);
@@ -138,7 +138,7 @@ impl Orientation {
         };
         let (cycle, first, second, measure) = self.product;
         let other = Spherical::new(g, &system.cycles[cycle], self.unknowns)?;
-        let rest = around(&other.rest);
+        let rest = Opened::around(&other.rest);
         let (first, second) = (rest.take(g, first), rest.take(g, second));
         let product = measure.product(g, &second.far, other.centre, &first.near)?;
         let along = rest.along_rest(g, &first, &second, measure)?;
@@ -308,33 +308,12 @@ impl Found {
 
 impl Spherical {
     fn new(g: &mut Graph, cycle: &Cycle, unknowns: [usize; 3]) -> Option<Spherical> {
-        let links = &cycle.links;
-        let free: Vec<(usize, usize)> = links
-            .iter()
-            .enumerate()
-            .filter_map(|(at, link)| match link {
-                Link::Free { unknown, .. } => Some((at, *unknown)),
-                Link::Known { .. } => None,
-            })
-            .collect();
-        (0..free.len()).find_map(|start| {
-            let own = [0, 1, 2].map(|k| free[(start + k) % free.len()]);
-            let same = unknowns.iter().all(|&number| own.iter().any(|one| one.1 == number));
-            let (first, last) = (own[0].0, own[2].0);
-            if !same || first == last {
-                return None;
-            }
-            let round = |from: usize, to: usize| -> Vec<Link> {
-                match from <= to {
-                    true => links[from..to].to_vec(),
-                    false => [&links[from..], &links[..to]].concat(),
-                }
-            };
-            let (own_links, rest) = (round(first, last + 1), round(last + 1, first));
+        cycle.parts(&unknowns).find_map(|part| {
             let mut group = JointGroup::new();
-            own_links.iter().for_each(|&link| group.append(g, link));
+            part.links.iter().for_each(|&link| group.append(g, link));
             let centre = group.centre()?;
-            Some(Spherical { unknowns: own.map(|one| one.1), links: own_links, rest, centre })
+            let unknowns = part.unknowns.try_into().ok()?;
+            Some(Spherical { unknowns, links: part.links, rest: part.rest, centre })
         })
     }
 
@@ -373,21 +352,6 @@ impl Spherical {
             here == g.rotate(left, there)
         })
     }
-}
-
-impl Link {
-    /// The same with what has a coordinate moved by it.
-    fn settled(self, g: &mut Graph, system: &System) -> Link {
-        match self {
-            Link::Free { motion, unknown } => Link::moved(g, motion, system.unknowns[unknown].symbol),
-            link => link,
-        }
-    }
-}
-
-/// A cycle as it is seen from the three.
-fn around(rest: &[Link]) -> Opened<'_> {
-    Opened { motion: Motion::Ball([Scalar::ZERO; 4]), rest, winding: None, counted: false }
 }
 
 /// Three unknowns at a time that turn about one point.

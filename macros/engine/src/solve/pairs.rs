@@ -83,7 +83,12 @@ pub(super) struct Taken {
     pub(super) far: View,
 }
 
-impl Opened<'_> {
+impl<'c> Opened<'c> {
+    /// A cycle as it is seen from several unknowns that are taken out together.
+    pub(super) fn around(rest: &'c [Link]) -> Opened<'c> {
+        Opened { motion: Motion::Ball([Scalar::ZERO; 4]), rest, winding: None, counted: false }
+    }
+
     /// All equations in this unknown alone.
     pub(super) fn candidates(&self, g: &mut Graph) -> Vec<Candidate> {
         let groups = self.groups(g);

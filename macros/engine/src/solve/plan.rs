@@ -1,7 +1,7 @@
 //! Stage `solve`: which unknown is found when, and from which equation.
 //!
 //! In: cycles with unknowns in common. Out: [`Step`]s. An equation without a choice of sign goes before one with it, then the one
-//! whose solution costs less; an orientation is sought where no unknown stands in an equation alone. All this happens in small
+//! whose solution costs less; slides and turns are sought together where no unknown stands in an equation alone. All this happens in small
 //! graphs of its own: a graph keeps the form in which a value was derived first, and most equations are derived only to be left
 //! aside.
 
@@ -20,6 +20,7 @@ use super::orientation::{Found, Orientation};
 use super::pairs::Candidate;
 use super::primitives::{Known, Primitive};
 use super::system::{Cycle, System, Unknown};
+use super::translation::{self, Translation};
 use super::{Failure, Solved, Value};
 
 /// What is found next.
@@ -35,6 +36,8 @@ pub(super) enum Step {
     },
     /// What three unknowns turn by together: a new cycle, from which they follow.
     Orientation(Orientation),
+    /// Two or three slides.
+    Translation(Translation),
 }
 
 /// Most candidates for one unknown whose solutions are made to be counted.
@@ -55,6 +58,7 @@ struct Bench {
 enum Done {
     Coordinate { cycle: usize, unknown: usize, candidate: Candidate, primitive: Primitive, solved: Solved },
     Orientation(Orientation, Found),
+    Translation(Translation, translation::Found),
 }
 
 /// What may come next.
@@ -62,6 +66,7 @@ enum Done {
 enum Next {
     Coordinate { cycle: usize, unknown: usize, candidate: Candidate },
     Orientation(Orientation),
+    Translation(Translation),
 }
 
 /// Values of all symbols: a place where the equations have to tell the unknowns.
@@ -107,6 +112,7 @@ pub(super) fn adapt(g: &mut Graph, system: &System, steps: &[Step]) -> Option<Ve
                 let own = orientation.ordered(&mut scratch, &bench.system)?;
                 bench.take(Next::Orientation(own))?;
             }
+            &Step::Translation(translation) => bench.take(Next::Translation(translation))?,
         }
     }
     let complete = bench.open_unknowns(true).next().is_none();
@@ -138,7 +144,10 @@ impl Search<'_> {
         }
         let options = match bench.options(true, self.points) {
             list if list.is_empty() => match bench.options(false, self.points) {
-                list if list.is_empty() => bench.orientations(self.points),
+                list if list.is_empty() => match bench.translations(self.points) {
+                    list if list.is_empty() => bench.orientations(self.points),
+                    list => list,
+                },
                 list => list,
             },
             list => list,
@@ -212,9 +221,10 @@ impl Bench {
 
     /// Unknowns that are solved, by number.
     fn solved(&self) -> impl Iterator<Item = usize> {
-        self.done.iter().filter_map(|done| match done {
-            Done::Coordinate { unknown, .. } => Some(*unknown),
-            Done::Orientation(..) => None,
+        self.done.iter().flat_map(|done| match done {
+            Done::Coordinate { unknown, .. } => vec![*unknown],
+            Done::Orientation(..) => Vec::new(),
+            Done::Translation(translation, _) => translation.unknowns.list(),
         })
     }
 
@@ -266,7 +276,7 @@ impl Bench {
             .done
             .iter()
             .filter_map(|done| match done {
-                Done::Coordinate { .. } => None,
+                Done::Coordinate { .. } | Done::Translation(..) => None,
                 Done::Orientation(orientation, _) => {
                     let mut unknowns = orientation.unknowns;
                     unknowns.sort_unstable();
@@ -287,12 +297,33 @@ impl Bench {
             }
             list.push((effort(&scratch, &leading), unknowns, Next::Orientation(orientation)));
         }
+        self.best(list)
+    }
+
+    /// The best way to find slides together, three at once before two.
+    fn translations(&self, points: &[Point<'_>]) -> Vec<Next> {
+        let mut scratch = self.g.clone();
+        let mut list: Vec<(usize, Vec<usize>, Next)> = Vec::new();
+        for translation in Translation::candidates(&mut scratch, &self.system) {
+            let Some(leading) = translation.leading(&mut scratch, &self.system) else { continue };
+            let told = |point: &Point<'_>| leading.iter().all(|&s| is_told(&scratch, &[s], *point));
+            if !points.is_empty() && !points.iter().any(told) {
+                continue;
+            }
+            let effort = effort(&scratch, &leading);
+            list.push((effort, translation.unknowns.list(), Next::Translation(translation)));
+        }
+        self.best(list)
+    }
+
+    /// The best of each set of unknowns, by the work and a first estimate of it.
+    fn best<U: Ord + Clone>(&self, mut list: Vec<(usize, U, Next)>) -> Vec<Next> {
         list.sort_by_key(|(effort, ..)| *effort);
-        let mut triples: Vec<[usize; 3]> = list.iter().map(|(_, unknowns, _)| *unknowns).collect();
-        triples.sort_unstable();
-        triples.dedup();
-        let best = triples.into_iter().filter_map(|triple| {
-            let mine = list.iter().filter(|(_, unknowns, _)| *unknowns == triple).take(SHORTLIST);
+        let mut sets: Vec<U> = list.iter().map(|(_, unknowns, _)| unknowns.clone()).collect();
+        sets.sort_unstable();
+        sets.dedup();
+        let best = sets.into_iter().filter_map(|set| {
+            let mine = list.iter().filter(|(_, unknowns, _)| *unknowns == set).take(SHORTLIST);
             mine.map(|&(.., next)| (self.price(next), next)).min_by_key(|(price, _)| *price)
         });
         let mut options: Vec<(u32, Next)> = best.collect();
@@ -309,6 +340,7 @@ impl Bench {
         let roots = match bench.done.last() {
             Some(Done::Coordinate { solved, .. }) => results(solved),
             Some(Done::Orientation(_, found)) => found.rows.concat(),
+            Some(Done::Translation(_, found)) => found.solved.iter().flat_map(results).collect(),
             None => Vec::new(),
         };
         price(&bench.g, &roots)
@@ -330,6 +362,11 @@ impl Bench {
                 let found = orientation.solve(g, system, Scalar::ONE)?;
                 self.done.push(Done::Orientation(orientation, found));
             }
+            Next::Translation(translation) => {
+                let found = translation.solve(g, system, Scalar::ONE)?;
+                translation.unknowns.list().into_iter().for_each(|number| system.settle(g, number));
+                self.done.push(Done::Translation(translation, found));
+            }
         }
         Some(())
     }
@@ -339,22 +376,24 @@ impl Bench {
         let needed = self.needed();
         let (mut map, mut roots, mut signs) = (HashMap::new(), Vec::new(), 0);
         for (done, needed) in self.done.iter().zip(needed) {
-            let (primitive, solved) = match done {
-                Done::Coordinate { primitive, solved, .. } if needed => (primitive, solved),
-                Done::Coordinate { .. } => continue,
-                Done::Orientation(..) => {
-                    signs += 1;
-                    continue;
+            let (all, own) = match done {
+                Done::Coordinate { primitive, solved, .. } if needed => {
+                    (std::slice::from_ref(solved), primitive.signs())
                 }
+                Done::Coordinate { .. } => continue,
+                Done::Orientation(..) => (&[][..], 1),
+                Done::Translation(_, found) => (&found.solved[..], 1),
             };
-            signs += primitive.signs();
-            let list = self.g.substitute(&results(solved), &map);
-            let value = match list[..] {
-                [cos, sin, _] => self.g.angle(cos, sin),
-                _ => list[0],
-            };
-            roots.extend(list);
-            map.extend(self.g.symbol_id(solved.symbol).map(|id| (id, value)));
+            signs += own;
+            for solved in all {
+                let list = self.g.substitute(&results(solved), &map);
+                let value = match solved.value {
+                    Value::Angle { .. } => self.g.angle(list[0], list[1]),
+                    Value::Length(_) => list[0],
+                };
+                roots.extend(list);
+                map.extend(self.g.symbol_id(solved.symbol).map(|id| (id, value)));
+            }
         }
         (signs, price(&self.g, &roots))
     }
@@ -369,8 +408,9 @@ impl Bench {
                     let is_read = reached.contains(&solved.symbol.index());
                     (self.system.unknowns[*unknown].wanted || is_read, primitive.coefficients())
                 }
-                // The three are wanted.
+                // What is found together is wanted.
                 Done::Orientation(_, found) => (true, found.coefficients(&mut self.g)),
+                Done::Translation(_, found) => (true, found.coefficients.clone()),
             };
             if is_needed {
                 reached.extend(self.g.reachable_scalars(&read));
@@ -388,6 +428,7 @@ impl Bench {
                 Step::Coordinate { cycle, unknown, candidate, needed }
             }
             Done::Orientation(orientation, _) => Step::Orientation(orientation),
+            Done::Translation(translation, _) => Step::Translation(translation),
         });
         steps.collect()
     }

@@ -12,7 +12,7 @@
 //! and the distance of two points.
 
 use crate::contracts::call::Call;
-use crate::symbolic::graph::{Graph, Scalar, ScalarNode, Vector, VectorNode};
+use crate::symbolic::graph::{Graph, Scalar, ScalarNode, VectorNode};
 use crate::symbolic::substitute::Substitution;
 
 use super::{Balance, Root, Solved, Value};
@@ -275,38 +275,6 @@ pub fn quadratic(g: &mut Graph, [a, b, c]: [Scalar; 3], second: bool) -> Scalar 
     let far = g.div(q, a);
     let none = g.call(Call::Equal, &[a, Scalar::ZERO]);
     g.call(Call::Select, &[none, nan, far])
-}
-
-/// The point (x, y, z) with given distances from three points: two solutions, on either side of their plane. Squares of
-/// the distances are given. Nothing is divided by but the plane's area, (b - a) x (c - a).
-pub fn three_spheres(g: &mut Graph, centres: [Vector; 3], squares: [Scalar; 3], sign: bool) -> (Vector, Scalar) {
-    // With u = b - a, v = c - a, n = u x v the point is a + w, w = (p (v x n) + q (n x u)) / n^2 + h n / n^2, where
-    // p = w . u and q = w . v follow from differences of the squares.
-    let [a, b, c] = centres;
-    let (u, v) = (g.sub_vectors(b, a), g.sub_vectors(c, a));
-    let n = g.cross(u, v);
-    let half = g.decimal(0.5);
-    let mut along = |side: Vector, square: Scalar| {
-        let length = g.dot(side, side);
-        let terms = g.sum(&[length, squares[0], -square]);
-        g.mul(half, terms)
-    };
-    let (p, q) = (along(u, squares[1]), along(v, squares[2]));
-    let area = g.dot(n, n);
-    let inverse = g.reciprocal(area);
-    let (first, second) = (g.cross(v, n), g.cross(n, u));
-    let (first, second) = (g.scale(p, first), g.scale(q, second));
-    let flat = g.add_vectors(first, second);
-    // |flat|^2 / n^2 is the square of the part in the plane, times n^2.
-    let flat_square = g.dot(flat, flat);
-    let in_plane = g.mul(flat_square, inverse);
-    let whole = g.mul(squares[0], area);
-    let rest = g.sub(whole, in_plane);
-    let root = g.sqrt(rest);
-    let height = g.scale(if sign { root } else { -root }, n);
-    let sum = g.add_vectors(flat, height);
-    let step = g.scale(inverse, sum);
-    (g.add_vectors(a, step), root)
 }
 
 #[cfg(test)]

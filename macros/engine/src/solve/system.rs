@@ -28,11 +28,52 @@ pub(super) struct Cycle {
     pub(super) winding: Option<Scalar>,
 }
 
+/// Neighbouring unknowns of a cycle.
+pub(super) struct Part {
+    /// In the order in which the cycle meets them.
+    pub(super) unknowns: Vec<usize>,
+    /// From the first of them to the last.
+    pub(super) links: Vec<Link>,
+    /// From their right side round to their left.
+    pub(super) rest: Vec<Link>,
+}
+
 #[derive(Clone)]
 pub(super) struct System {
     pub(super) cycles: Vec<Cycle>,
     pub(super) unknowns: Vec<Unknown>,
     pub(super) known: Known,
+}
+
+impl Cycle {
+    /// Places of what is open, with the numbers of the unknowns.
+    pub(super) fn free(&self) -> Vec<(usize, usize)> {
+        let links = self.links.iter().enumerate();
+        let free = links.filter_map(|(at, link)| match link {
+            Link::Free { unknown, .. } => Some((at, *unknown)),
+            Link::Known { .. } => None,
+        });
+        free.collect()
+    }
+
+    /// These unknowns, where nothing else is open between them: in more than one way where nothing else is open at all.
+    pub(super) fn parts(&self, unknowns: &[usize]) -> impl Iterator<Item = Part> {
+        let free = self.free();
+        let starts = if free.len() < unknowns.len() { 0 } else { free.len() };
+        (0..starts).filter_map(move |start| {
+            let own: Vec<(usize, usize)> = (0..unknowns.len()).map(|k| free[(start + k) % free.len()]).collect();
+            let same = unknowns.iter().all(|&number| own.iter().any(|one| one.1 == number));
+            let (&(first, _), &(last, _)) = (own.first()?, own.last()?);
+            let round = |from: usize, to: usize| -> Vec<Link> {
+                match from <= to {
+                    true => self.links[from..to].to_vec(),
+                    false => [&self.links[from..], &self.links[..to]].concat(),
+                }
+            };
+            let unknowns = own.into_iter().map(|one| one.1).collect();
+            same.then(|| Part { unknowns, links: round(first, last + 1), rest: round(last + 1, first) })
+        })
+    }
 }
 
 impl System {
@@ -108,6 +149,16 @@ impl System {
             if link.is_open(number) {
                 *link = Link::moved(g, motion, symbol);
             }
+        }
+    }
+}
+
+impl Link {
+    /// The same with what has a coordinate moved by it.
+    pub(super) fn settled(self, g: &mut Graph, system: &System) -> Link {
+        match self {
+            Link::Free { motion, unknown } => Link::moved(g, motion, system.unknowns[unknown].symbol),
+            link => link,
         }
     }
 }

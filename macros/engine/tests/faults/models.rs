@@ -1,7 +1,7 @@
 //! Models that use every stage that is broken, with all that they may emit, and with forward dynamics alone.
 
 /// Name and text.
-pub(crate) const MODELS: [(&str, &str); 11] = [
+pub(crate) const MODELS: [(&str, &str); 12] = [
     (
         "double_pendulum",
         "mod double_pendulum {
@@ -175,6 +175,31 @@ pub(crate) const MODELS: [(&str, &str); 11] = [
                 between: [ground.at([0.05, -0.12, 0.08]), upright.at([0.0, -0.13, 0.08])], length: 0.37 }
             assume (cos(low) > 0.9);
             solve (up, pivot) from (head, tie) { up < 0.75, cos(pivot.pitch) > 0.0, cos(pivot.yaw) > 0.0 }
+            formulation { constraints: Reduced }
+            emit forward_dynamics;
+        }",
+    ),
+    (
+        "delta",
+        "mod delta {
+            world { gravity: -9.81 * Z }
+            body one { mass: 1.1, com: [0.14, 0.01, -0.02], inertia: diag(0.002, 0.03, 0.031) }
+            body two { mass: 1.2, com: [0.15, -0.01, 0.02], inertia: diag(0.003, 0.032, 0.033) }
+            body three { mass: 1.3, com: [0.13, 0.02, 0.01], inertia: diag(0.004, 0.034, 0.036) }
+            body along { mass: 0.2 }
+            body across { mass: 0.3 }
+            body plate { mass: 2.5 }
+            joint a: Revolute { parent: ground.at(0.2 * X), child: one, axis: [0.03, 1.0, -0.05] }
+            joint b: Revolute { parent: ground.rotated(Z, 2.1).at(0.21 * X), child: two, axis: Y }
+            joint c: Revolute { parent: ground.rotated(Z, -2.1).at(0.19 * X), child: three, axis: Y }
+            joint x: Prismatic { parent: ground, child: along, axis: [1.0, 0.1, 0.0] }
+            joint y: Prismatic { parent: along, child: across, axis: Y }
+            joint z: Prismatic { parent: across, child: plate, axis: Z }
+            constraint first: Rod { between: [one.at(0.31 * X), plate.at(0.06 * X)], length: 0.81 }
+            constraint second: Rod { between: [two.at(0.29 * X), plate.at([-0.03, 0.05, 0.01])], length: 0.79 }
+            constraint third: Rod { between: [three.at(0.3 * X), plate.at([-0.02, -0.06, 0.0])], length: 0.82 }
+            assume (cos(a) > 0.6 && cos(b) > 0.6 && cos(c) > 0.6);
+            solve (x, y, z) from (first, second, third) { z < 0.0 }
             formulation { constraints: Reduced }
             emit forward_dynamics;
         }",

@@ -422,6 +422,33 @@ fn a_delta_on_rods() {
 }
 
 /// A link between two points in space, whose ends turn as they like: the arm's side and the link's gimbal.
+/// Three rods that give the place of a plate together, on one side of the plane of their other ends.
+#[test]
+fn three_rods_have_a_side() {
+    for (turn, side) in [("0.5", ">"), ("-0.5", "<")] {
+        let body = format!(
+            "{BASE} param reach = 0.8123456789012345; body plate {{ mass: 0.8, com: 0.02 * Y, inertia: diag(0.01, 0.02, 0.02) }}
+            body along {{ mass: 0.2 }} body across {{ mass: 0.3 }}
+            joint first: Revolute {{ parent: base.at(0.2 * X), child: a, axis: Y }}
+            joint second: Revolute {{ parent: base.rotated(Z, 2.1).at(0.21 * X), child: b, axis: [0.1, 1.0, 0.0] }}
+            joint third: Revolute {{ parent: base.rotated(Z, -2.1).at(0.19 * X), child: c, axis: Y }}
+            joint x: Prismatic {{ parent: base, child: along, axis: [1.0, 0.2, 0.1] }}
+            joint y: Prismatic {{ parent: along, child: across, axis: Y }}
+            joint z: Prismatic {{ parent: across.at({turn} * Z), child: plate, axis: [0.1, 0.0, 1.0] }}
+            constraint one: Rod {{ between: [a.at(0.3 * X), plate.at(0.05 * X)], length: reach }}
+            constraint two: Rod {{ between: [plate.at([-0.03, 0.04, 0.0]), b.at([0.3, 0.0, 0.01])], length: 0.79 }}
+            constraint three: Rod {{ between: [c.at(0.3 * X), plate.at([-0.03, -0.04, 0.01])], length: 0.8 }}"
+        );
+        let plates = Mechanism { parts: "", body: &body, independent: ", independent: [first, second, third]" };
+        let line = format!(
+            "solve (x, y, z) from (one, two, three) {{ dot(cross(plate.at(0.05 * X).position - a.at(0.3 * X).position, \
+            plate.at([-0.03, 0.04, 0.0]).position - b.at([0.3, 0.0, 0.01]).position), \
+            plate.at([-0.03, -0.04, 0.01]).position - c.at(0.3 * X).position) {side} 0.0 }}"
+        );
+        plates.check(&[(None, &line)], Closing::ClosedForm);
+    }
+}
+
 #[test]
 fn a_link_in_space() {
     let body = format!(

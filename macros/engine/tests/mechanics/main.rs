@@ -3,6 +3,7 @@
 
 mod actuation;
 mod advice;
+mod against;
 mod alike;
 mod analysis;
 mod auto;
@@ -33,4 +34,5 @@ mod reactions;
 mod scaling;
 mod several_closings;
 mod support;
+mod translations;
 mod worked;

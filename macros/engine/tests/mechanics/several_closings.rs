@@ -1,11 +1,8 @@
 //! Closed forms from several closings together against the same mechanisms with multipliers and by Newton's method: positions,
 //! rates and accelerations of everything at random poses, on each branch that the conditions choose.
 
-use multibody_engine::contracts::function::FunctionKind;
-use multibody_engine::contracts::symbol::Symbol;
-use multibody_engine::model::types::Coordinate;
-
-use super::support::{Case, Point, Random, case, close, try_case};
+use super::against::Mechanism;
+use super::support::try_case;
 
 /// A lower arm that is moved, an upper one, and the upright between them.
 const ARMS: &str = "world { gravity: -9.80665 * Z }
@@ -29,17 +26,7 @@ const STEER_BACK: &str = "#[cut] joint steer: Ball { parent: upright.at([0.0, -0
 const ROD: &str = "constraint steer: Rod {
     between: [ground.at([0.05, -0.12, 0.08]), upright.at([0.0, -0.13, 0.08])], length: 0.37 }";
 
-struct Mechanism {
-    name: &'static str,
-    items: Vec<&'static str>,
-    solve: &'static str,
-    /// One for each solution.
-    branches: Vec<&'static str>,
-    /// As the model addresses them.
-    coordinates: Vec<&'static str>,
-    bodies: Vec<&'static str>,
-}
-
+const ASSUMED: &str = "assume (cos(low) > 0.9);";
 const PIVOTS: [&str; 4] = ["up", "pivot.roll", "pivot.pitch", "pivot.yaw"];
 
 fn wishbone(name: &'static str, items: &[&'static str], solve: &'static str) -> Mechanism {
@@ -47,6 +34,8 @@ fn wishbone(name: &'static str, items: &[&'static str], solve: &'static str) -> 
         name,
         items: [&[ARMS, UPPER, PIVOT], items].concat(),
         solve,
+        moved: vec![("low", std::f64::consts::PI)],
+        assumed: ASSUMED,
         branches: vec![
             "up < 0.75, cos(pivot.pitch) > 0.0, cos(pivot.yaw) > 0.0",
             "up < 0.75, cos(pivot.pitch) < 0.0, cos(pivot.yaw) < 0.0",
@@ -74,146 +63,11 @@ fn turning(name: &'static str, joints: &'static str, solve: &'static str, branch
         name,
         items: vec![ARMS, UPPER, HEAD, ROD, joints],
         solve,
+        moved: vec![("low", std::f64::consts::PI)],
+        assumed: ASSUMED,
         branches: branches.to_vec(),
         coordinates: vec!["up"],
         bodies: vec!["lower", "upper", "upright"],
-    }
-}
-
-impl Mechanism {
-    fn text(&self, rest: &str) -> String {
-        let mut text = format!("{} {rest} emit forward_dynamics;", self.items.join(" "));
-        for (k, address) in self.coordinates.iter().enumerate() {
-            text += &format!("output coordinate_{k} = [{address}, {address}.rate];");
-        }
-        for (k, body) in self.bodies.iter().enumerate() {
-            text += &format!(
-                "output pose_{k} = {body}.pose; output velocity_{k} = {body}.velocity;
-                output spin_{k} = {body}.angular_velocity; output acceleration_{k} = {body}.acceleration;
-                output spin_rate_{k} = {body}.angular_acceleration;"
-            );
-        }
-        text
-    }
-
-    fn coordinates(&self, case: &Case) -> Vec<Coordinate> {
-        let place = |address: &&str| {
-            let (joint, index) = match address.split_once('.') {
-                None => (*address, 0),
-                Some((joint, "roll" | "first")) => (joint, 0),
-                Some((joint, "pitch" | "second")) => (joint, 1),
-                Some((joint, _)) => (joint, 2),
-            };
-            Coordinate { joint: case.joint(joint), index }
-        };
-        self.coordinates.iter().map(place).collect()
-    }
-
-    /// At poses all over the range of what is moved.
-    fn check(&self) {
-        let kept = case(&self.text("formulation { constraints: Multipliers }"));
-        let newton = case(&self.text("formulation { constraints: Reduced }"));
-        for branch in &self.branches {
-            let solve = format!(
-                "formulation {{ constraints: Reduced }} assume (cos(low) > 0.9); solve {} {{ {branch} }}",
-                self.solve
-            );
-            self.compare(branch, &case(&self.text(&solve)), &kept, &newton);
-        }
-    }
-
-    fn compare(&self, branch: &str, closed: &Case, kept: &Case, newton: &Case) {
-        let mut random = Random(23);
-        let (mut compared, mut iterated, mut unreal, mut poor) = (0, 0, 0, 0);
-        for draw in 0..600 {
-            let mut point = closed.random(draw);
-            let position = std::f64::consts::PI * random.next();
-            let state = &closed.structure.state;
-            if let Some(&Coordinate { joint, index: component }) = state.iter().find(|c| c.joint == closed.joint("low"))
-            {
-                point.set(Symbol::Position { joint, component }, position);
-            }
-            for symbol in closed.derivation.symbols.iter().filter(|symbol| matches!(symbol, Symbol::Param { .. })) {
-                let declared = point.get(*symbol);
-                point.set(*symbol, declared * (1.0 + 0.1 * random.next()));
-            }
-            let roots = closed.candidate(FunctionKind::DeadCentres, 0, &point);
-            if roots.iter().any(|root| root.is_nan()) {
-                unreal += 1;
-                continue;
-            }
-            if roots.iter().any(|root| root.abs() < 2e-3) {
-                poor += 1;
-                continue;
-            }
-            let outputs = closed.outputs(&point);
-            let mut other = kept.random(draw);
-            let same = |of: &Case, other: &mut Point| {
-                for &Coordinate { joint, index: component } in state {
-                    let its = of.joint(&closed.model.joints[joint].place.field.to_string());
-                    let position = point.get(Symbol::Position { joint, component });
-                    other.set(Symbol::Position { joint: its, component }, position);
-                    let velocity = point.get(Symbol::Velocity { joint, component });
-                    other.set(Symbol::Velocity { joint: its, component }, velocity);
-                }
-                let common =
-                    |symbol: &&Symbol| matches!(symbol, Symbol::Input { .. } | Symbol::Param { .. } | Symbol::Time);
-                closed
-                    .derivation
-                    .symbols
-                    .iter()
-                    .filter(common)
-                    .for_each(|&symbol| other.set(symbol, point.get(symbol)));
-            };
-            // The accelerations of the state here.
-            let of_state = |of: &Case, accelerations: &[f64]| -> Vec<f64> {
-                let places = state.iter().map(|c| {
-                    let joint = of.joint(&closed.model.joints[c.joint].place.field.to_string());
-                    let own = Coordinate { joint, index: c.index };
-                    of.structure.state.iter().position(|other| *other == own).expect("a state there")
-                });
-                places.map(|place| accelerations[place]).collect()
-            };
-            same(kept, &mut other);
-            for (k, coordinate) in self.coordinates(kept).into_iter().enumerate() {
-                let [value, rate] = outputs[&format!("coordinate_{k}")][..] else { panic!("a value and its rate") };
-                let Coordinate { joint, index: component } = coordinate;
-                other.set(Symbol::Position { joint, component }, value);
-                other.set(Symbol::Velocity { joint, component }, rate);
-            }
-            let what = format!("{}, {branch}, at {position}", self.name);
-            for kind in [FunctionKind::Constraints, FunctionKind::ConstraintRate] {
-                let open = kept.candidate(kind, 0, &other);
-                assert!(open.iter().all(|gap| gap.abs() < 1e-9), "{what}: {kind:?} {open:?}");
-            }
-            let own = closed.candidate(FunctionKind::ForwardDynamics, 0, &point);
-            let its = kept.candidate(FunctionKind::ForwardDynamics, 0, &other);
-            close(&what, &own[..state.len()], &of_state(kept, &its), 1e-7);
-            // Bodies move alike, accelerations too.
-            let all = kept.outputs(&other);
-            for (name, values) in &outputs {
-                close(&format!("{what}: {name}"), values, &all[name], 1e-6);
-            }
-            let mut guessed = newton.random(draw);
-            same(newton, &mut guessed);
-            let places: Vec<Coordinate> = self.coordinates(newton);
-            for (index, coordinate) in newton.structure.guessed().iter().enumerate() {
-                let k = places.iter().position(|other| other == coordinate).expect("a coordinate");
-                let value = outputs[&format!("coordinate_{k}")][0];
-                guessed.set(Symbol::Guess { index }, value + 1e-4 * random.next());
-            }
-            let found = newton.candidate(FunctionKind::ForwardDynamics, 0, &guessed);
-            if found.last().is_some_and(|&residual| residual < 1e-12) {
-                close(&format!("{what}, by Newton's method"), &own[..state.len()], &of_state(newton, &found), 1e-7);
-                iterated += 1;
-            }
-            compared += 1;
-        }
-        println!(
-            "{}, {branch}: {compared} poses, {iterated} by Newton's method too, {unreal} unreal, {poor} poor",
-            self.name
-        );
-        assert!(compared > 40 && 10 * iterated > 9 * compared, "{compared} poses, {iterated} by Newton's method");
     }
 }
 
@@ -286,6 +140,8 @@ fn a_strut_that_guides_the_upright() {
         name: "strut",
         items: vec![ARMS, PIVOT, strut, ROD],
         solve: "(slide, pivot) from (mount, steer)",
+        moved: vec![("low", std::f64::consts::PI)],
+        assumed: ASSUMED,
         branches: vec!["slide > -0.3, cos(pivot.pitch) > 0.0, cos(pivot.yaw) > 0.0"],
         coordinates: ["slide"].into_iter().chain(PIVOTS[1..].iter().copied()).collect(),
         bodies: vec!["lower", "upright", "rod"],

@@ -5,8 +5,9 @@ use crate::cycle::{Cycle, Outcome};
 use crate::reference;
 use crate::rng::Rng;
 use multibody_engine::contracts::cost::Cost;
-use multibody_engine::solve::{Failure, three_spheres};
-use multibody_engine::symbolic::graph::Scalar;
+use multibody_engine::dynamics::tree::Motion;
+use multibody_engine::solve::{Failure, KinematicLoop, Segment, Value, solve};
+use multibody_engine::symbolic::graph::{Rotation, Scalar};
 
 const Z: usize = 2;
 
@@ -292,41 +293,53 @@ fn three_spheres_meet() {
     for _ in 0..100 {
         let mut c = Cycle::new();
         let point = [0; 3].map(|_| rng.real(-1.0, 1.0));
-        let mut squares = [Scalar::ZERO; 3];
-        let centres = [0, 1, 2].map(|k| {
+        let slides = point.map(|x| c.known(x));
+        let mut centres = Vec::new();
+        let cycles = [0; 3].map(|_| {
             let centre = [0; 3].map(|_| rng.real(-2.0, 2.0));
-            squares[k] = c.known(centre.iter().zip(point).map(|(a, b)| (a - b) * (a - b)).sum());
-            let components = centre.map(|x| c.known(x));
-            c.g.vector(components)
+            let square: f64 = centre.iter().zip(point).map(|(a, b)| (a - b) * (a - b)).sum();
+            centres.push((centre, square));
+            let unknown = |motion, symbol, wanted| Segment::Unknown { motion, symbol, wanted };
+            let mut segments: Vec<Segment> = (0..3).map(|k| unknown(Motion::Prismatic(k), slides[k], true)).collect();
+            let ball = |c: &mut Cycle| {
+                let quaternion = c.g.unit_quaternion();
+                c.values.extend([0.0; 4]);
+                unknown(Motion::Ball(quaternion), quaternion[0], false)
+            };
+            let length = c.known(square.sqrt());
+            let back = centre.map(|x| -c.known(x));
+            let offsets = [c.g.along(0, length), c.g.vector(back)];
+            for offset in offsets {
+                segments.push(ball(&mut c));
+                segments.push(Segment::Fixed { rotation: Rotation::IDENTITY, offset });
+            }
+            KinematicLoop { segments, winding: None }
         });
         let both = [true, false].map(|sign| {
-            let (p, root) = three_spheres(&mut c.g, centres, squares, sign);
-            let components = c.g.components(p);
-            let list = [components[0], components[1], components[2], root];
-            c.numbers(&list)
+            let solution = solve(&mut c.g, &cycles, &[sign]).expect("a closed form");
+            assert_eq!((solution.signs, solution.solved.len()), (1, 3));
+            let roots: Vec<f64> =
+                solution.solved.iter().flat_map(|one| &one.roots).map(|root| c.number(root.value)).collect();
+            let at = slides.map(|slide| {
+                let one = solution.solved.iter().find(|one| one.symbol == slide).expect("each slide");
+                let Value::Length(x) = one.value else { panic!("a travel") };
+                c.number(x)
+            });
+            (at, roots)
         });
-        if both[0][3].abs() < 0.3 {
+        if both[0].1[0].abs() < 0.3 {
             continue;
         }
-        // The first is on the side to which the normal points.
-        let numbers = centres.map(|centre| {
-            let components = c.g.components(centre);
-            c.numbers(&components)
-        });
-        let from = |k: usize, x: &[f64]| [0, 1, 2].map(|i| x[i] - numbers[k][i]);
-        let (u, v) = (from(0, &numbers[1]), from(0, &numbers[2]));
-        for (x, side) in both.iter().zip([1.0, -1.0]) {
-            let w = from(0, x);
-            let height = (0..3).map(|i| {
-                let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-                (u[j] * v[k] - u[k] * v[j]) * w[i]
-            });
-            assert!(side * height.sum::<f64>() > 0.0);
+        for (at, _) in &both {
+            for (centre, square) in &centres {
+                let own: f64 = centre.iter().zip(at).map(|(a, b)| (a - b) * (a - b)).sum();
+                assert!((own - square).abs() < 1e-11, "{own} {square}");
+            }
         }
         let distance = |x: &[f64]| x.iter().zip(point).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        let least = both.iter().map(|x| distance(&x[..3])).fold(f64::INFINITY, f64::min);
+        let least = both.iter().map(|x| distance(&x.0)).fold(f64::INFINITY, f64::min);
         assert!(least < 1e-12, "{least:e}");
-        assert!(distance(&both[0][..3]).max(distance(&both[1][..3])) > 1e-3);
+        assert!(distance(&both[0].0).max(distance(&both[1].0)) > 1e-3);
     }
 }
 

@@ -1,7 +1,7 @@
-//! Stage `mechanics`: loops that Newton's method closes and that a closed form could close, one closing at a time.
+//! Stage `mechanics`: loops that Newton's method closes and that a closed form could close, one closing at a time, or all of a system.
 //!
-//! In: a model with its structure. Out: of each closing whose equations Newton's method solves the coordinates that these may give
-//! alone, and poses near the default one, at which solutions are told apart. Whether there is a closed form is not known here.
+//! In: a model with its structure. Out: of each closing whose equations Newton's method solves, and of few that it solves together, the
+//! coordinates that these may give alone, and poses near the default one, at which solutions are told apart. Whether there is a closed form is not known here.
 
 use crate::mechanics::loops::structure::{Means, Role, Row, Structure};
 use crate::model::types::{Coordinate, LoopClosure, Model};
@@ -12,16 +12,19 @@ use super::relations::poses;
 /// A coordinate that is further from where it stands by default is elsewhere.
 const STANDS: f64 = 1e-9;
 
-/// A closing with what may follow from it.
+/// Closings that are solved together in closed form, if there is one.
+const MOST_TOGETHER: usize = 4;
+
+/// Closings with what may follow from them.
 #[derive(Clone, Debug)]
 pub struct Closable {
-    pub closing: LoopClosure,
-    /// Lists of as many as its equations, of those that Newton's method finds.
+    pub closings: Vec<LoopClosure>,
+    /// Lists of as many as their equations, of those that Newton's method finds.
     pub unknowns: Vec<Vec<Coordinate>>,
-    /// Coordinates of its loop, unknowns among them: angles that are the same after a turn, and what is not, travels and threads.
+    /// Coordinates of their loops, unknowns among them: angles that are the same after a turn, and what is not, travels and threads.
     pub angles: Vec<Coordinate>,
     pub lengths: Vec<Coordinate>,
-    /// Whether parameters have a say in its equations.
+    /// Whether parameters have a say in their equations.
     pub is_adjustable: bool,
 }
 
@@ -55,7 +58,9 @@ pub fn closable(model: &Model, structure: &Structure) -> Option<(Vec<Closable>, 
             closings.push(row.closing);
         }
     }
-    let found = closings.into_iter().filter_map(|closing| of_closing(model, structure, &problem, closing));
+    let alone = closings.into_iter().map(|closing| vec![closing]);
+    let sets = alone.chain(together(structure));
+    let found = sets.filter_map(|closings| of_closings(model, structure, &problem, &closings));
     Some((found.collect(), poses))
 }
 
@@ -67,19 +72,33 @@ fn newton(structure: &Structure) -> impl Iterator<Item = (&[Row], &[Coordinate])
     })
 }
 
-fn of_closing(model: &Model, structure: &Structure, problem: &Problem, closing: LoopClosure) -> Option<Closable> {
+/// Closings of each system that Newton's method solves: each unknown of such a system stands in equations of others.
+fn together(structure: &Structure) -> Vec<Vec<LoopClosure>> {
+    let mut sets: Vec<Vec<LoopClosure>> = Vec::new();
+    for (rows, _) in newton(structure) {
+        let mut own: Vec<LoopClosure> = rows.iter().map(|row| row.closing).collect();
+        own.sort_unstable();
+        own.dedup();
+        if (2..=MOST_TOGETHER).contains(&own.len()) && !sets.contains(&own) {
+            sets.push(own);
+        }
+    }
+    sets
+}
+
+fn of_closings(model: &Model, structure: &Structure, problem: &Problem, own: &[LoopClosure]) -> Option<Closable> {
     let of = |closing: LoopClosure| {
         let own = move |source: Source| matches!(source, Source::Row(row) if row.closing == closing);
         let equations = problem.equations.iter().filter(move |equation| own(equation.source));
         equations.flat_map(|equation| equation.columns.iter().copied())
     };
-    let mut columns: Vec<usize> = of(closing).collect();
+    let is_own = |row: &Row| own.contains(&row.closing);
+    let mut columns: Vec<usize> = own.iter().copied().flat_map(of).collect();
     columns.sort_unstable();
     columns.dedup();
     let coordinate = |column: &usize| problem.columns[*column].coordinate;
-    let steps: Vec<(&[Row], &[Coordinate])> =
-        newton(structure).filter(|(rows, _)| rows.iter().any(|row| row.closing == closing)).collect();
-    let count = steps.iter().flat_map(|step| step.0).filter(|row| row.closing == closing).count();
+    let steps: Vec<(&[Row], &[Coordinate])> = newton(structure).filter(|(rows, _)| rows.iter().any(is_own)).collect();
+    let count = steps.iter().flat_map(|step| step.0).filter(|row| is_own(row)).count();
     let mut found: Vec<Coordinate> = steps.iter().flat_map(|step| step.1.iter().copied()).collect();
     found.sort_unstable_by_key(|c| (c.joint, c.index));
     let mut unknowns: Vec<Vec<Coordinate>> = Vec::new();
@@ -88,13 +107,13 @@ fn of_closing(model: &Model, structure: &Structure, problem: &Problem, closing: 
             unknowns.push(list);
         }
     };
-    // All that is found with it belongs to it.
+    // All that is found with them belongs to them.
     offer(found.clone());
     // What no other loop has a part in: of several loops that are closed together each may give its own coordinates.
-    let others = super::closings(model).into_iter().filter(|&other| other != closing);
+    let others = super::closings(model).into_iter().filter(|other| !own.contains(other));
     let shared: Vec<usize> = others.flat_map(of).collect();
-    let own: Vec<Coordinate> = columns.iter().filter(|column| !shared.contains(column)).map(coordinate).collect();
-    offer(own.into_iter().filter(|one| found.contains(one)).collect());
+    let alone: Vec<Coordinate> = columns.iter().filter(|column| !shared.contains(column)).map(coordinate).collect();
+    offer(alone.into_iter().filter(|one| found.contains(one)).collect());
     // A quaternion has no formulas.
     let turns = |one: &Coordinate| problem.columns.iter().any(|column| column.turns && column.coordinate == *one);
     unknowns.retain(|list| !list.iter().any(turns));
@@ -106,12 +125,10 @@ fn of_closing(model: &Model, structure: &Structure, problem: &Problem, closing: 
             let joint = problem.columns[column].coordinate.joint;
             problem.columns[column].travels || model.joints[joint].kind.has_pitch
         });
-    let is_adjustable = problem
-        .equations
-        .iter()
-        .any(|one| one.adjustable && matches!(one.source, Source::Row(row) if row.closing == closing));
+    let is_adjustable =
+        problem.equations.iter().any(|one| one.adjustable && matches!(one.source, Source::Row(row) if is_own(&row)));
     let named = |list: Vec<usize>| list.iter().map(coordinate).collect();
-    Some(Closable { closing, unknowns, angles: named(angles), lengths: named(lengths), is_adjustable })
+    Some(Closable { closings: own.to_vec(), unknowns, angles: named(angles), lengths: named(lengths), is_adjustable })
 }
 
 fn pose(problem: &Problem, point: &Point) -> Pose {

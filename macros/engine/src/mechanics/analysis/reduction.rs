@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use crate::mechanics::loops::constraints::{coordinate_name, is_uncounted, row_count};
 use crate::mechanics::loops::structure::{Means, Row, Step};
 use crate::model::site::Sited;
-use crate::model::types::{BodyRef, Closing, ConstraintId, Coordinate, JointId, LoopClosure, Model, SolveHow};
+use crate::model::types::{BodyRef, Closing, ConstraintId, Coordinate, JointId, LoopClosure, Model, Solve, SolveHow};
 use crate::symbolic::triangular_form::{components, matching};
 
 use super::checks::thing;
@@ -45,6 +45,26 @@ struct Item {
     rows: Vec<usize>,
     /// Places among the group's columns.
     unknowns: Vec<usize>,
+}
+
+/// `solve` items of closings without a coordinate in common: one complaint for each item, whichever groups its closings are in.
+pub(super) fn apart(model: &Model, problem: &Problem, groups: &[&CoupledRows]) -> Vec<Complaint> {
+    let group_of = |closing: &Closing| {
+        let holds = |&k: &usize| row_of(problem, k).is_some_and(|row| row.closing == closing.what);
+        groups.iter().position(|group| group.equations.iter().any(holds))
+    };
+    let complaint = |solve: &Solve| {
+        let SolveHow::From { closings, .. } = &solve.how else { return None };
+        let (first, others) = closings.split_first()?;
+        let other = others.iter().find(|other| group_of(other) != group_of(first))?;
+        let (_, what) = thing(model, other.what);
+        Some(Complaint {
+            at: other.site(),
+            message: format!("{what} has no coordinate in common with the others"),
+            help: Some("write a `solve` of its own for it".to_owned()),
+        })
+    };
+    model.solves.iter().filter_map(complaint).collect()
 }
 
 pub(super) type Matrix = Vec<Vec<f64>>;
@@ -140,13 +160,8 @@ impl ReductionSearch<'_> {
                     if !closings.iter().any(|closing| is_here(&closing)) {
                         continue;
                     }
-                    if let Some(other) = closings.iter().find(|closing| !is_here(closing)) {
-                        let (_, what) = thing(self.model, other.what);
-                        complaints.push(Complaint {
-                            at: other.site(),
-                            message: format!("{what} has no coordinate in common with the others"),
-                            help: Some("write a `solve` of its own for it".to_owned()),
-                        });
+                    // What is apart was told of once for all groups, see `apart`.
+                    if !closings.iter().all(|closing| is_here(&closing)) {
                         return Err(complaints);
                     }
                     let own = |&k: &usize| closings.iter().any(|closing| of(k, closing));

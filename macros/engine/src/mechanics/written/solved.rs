@@ -18,7 +18,7 @@ pub(super) type Solved = HashMap<String, (Identifier, String)>;
 pub(super) fn solved(model: &Model, reduction: &Reduction, letters: &Letters) -> Solved {
     let named = reduction.parts.iter().filter_map(|part| {
         let coordinate = coordinate_name(model, part.coordinate);
-        let (letter, says) = match orientation(part.word) {
+        let (letter, says) = match together(part.word) {
             Some((letter, what)) => (letter, format!("{}, which `{coordinate}` has a part in", letters.sentence(what))),
             None => {
                 let (letter, what) = meaning(part.word, part.is_angle)?;
@@ -30,11 +30,12 @@ pub(super) fn solved(model: &Model, reduction: &Reduction, letters: &Letters) ->
     named.collect()
 }
 
-/// The letter of what an orientation is found from, see [`crate::solve`], and what it is.
-fn orientation(word: &str) -> Option<(&'static str, &'static str)> {
+/// The letter of what unknowns are found from together, see [`crate::solve`], and what it is.
+fn together(word: &str) -> Option<(&'static str, &'static str)> {
     Some(match word {
         "product" => ("kappa", "e^2 k - (c . e) (d . u), of an orientation R with R e = d and u . R c = k"),
         "area" => ("N", "(d x u)^2, of an orientation R with R e = d and u . R c = k"),
+        "normal" => ("N", "(n1 x n2)^2, of a point on two planes n1 . x = h1 and n2 . x = h2 and on a sphere |x| = r"),
         _ => return None,
     })
 }
