@@ -5,8 +5,10 @@ mod common;
 #[cfg(feature = "num-dual")]
 mod dual;
 mod inertia;
+mod lanes;
 mod linear;
 mod rotation;
 mod scalar;
 #[cfg(feature = "reproducible")]
 mod trigonometry;
+mod truth;
