@@ -1,6 +1,6 @@
 //! Sines in lanes and of several angles at once: error, large angles, what is no angle, every number of angles.
 //!
-//! All `f32` up to the limit are swept by `cargo bench --bench sines`.
+//! All `f32` up to the limit are swept by `cargo bench --bench angles`.
 
 use crate::truth;
 use multibody::Real;
