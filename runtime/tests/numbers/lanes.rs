@@ -2,6 +2,7 @@
 //!
 //! All `f32` up to the limit are swept by `cargo bench --bench angles`.
 
+#[cfg(not(feature = "reproducible"))]
 use crate::truth;
 use multibody::Real;
 use multibody::simba::simd::{SimdValue, WideF32x4, WideF32x8, WideF64x4};
@@ -35,6 +36,7 @@ impl Draw {
 }
 
 /// The greatest errors of sine and cosine [ulp].
+#[cfg(not(feature = "reproducible"))]
 fn worst_double(sin_cos: impl Fn([f64; 4]) -> [(f64, f64); 4]) -> f64 {
     let (mut draw, mut worst) = (Draw(7), 0.0_f64);
     for _ in 0..50_000 {
@@ -50,6 +52,7 @@ fn worst_double(sin_cos: impl Fn([f64; 4]) -> [(f64, f64); 4]) -> f64 {
     worst
 }
 
+#[cfg(not(feature = "reproducible"))]
 fn worst_single(sin_cos: impl Fn([f32; 8]) -> [(f32, f32); 8]) -> f64 {
     let (mut draw, mut worst) = (Draw(11), 0.0_f64);
     for _ in 0..100_000 {
@@ -84,7 +87,7 @@ fn by_lanes<L: Real + SimdValue<Element: Copy>, const N: usize>(
     pairs
 }
 
-/// Also by std, whose error is below one unit, and in plain arithmetic one by one, which is that of `trigonometry`.
+/// With `std-sines` of std's, whose error is below one unit too. What `reproducible` has is judged in `trigonometry`.
 #[cfg(not(feature = "reproducible"))]
 #[test]
 fn error() {

@@ -11,4 +11,5 @@ mod rotation;
 mod scalar;
 #[cfg(feature = "reproducible")]
 mod trigonometry;
+#[cfg(not(feature = "reproducible"))]
 mod truth;
