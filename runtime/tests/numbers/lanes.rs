@@ -120,9 +120,10 @@ macro_rules! odd {
                 if !x.is_finite() {
                     return assert!(sin.is_nan() && cos.is_nan(), "{name}, {x:e}");
                 }
-                // The platform's may be one off itself.
+                // The platform's may be one off itself, on the other side from those of `reproducible`.
+                let most = if cfg!(feature = "reproducible") { 2 } else { 1 };
                 let apart = |a: $float, b: $float| a.to_bits().abs_diff(b.to_bits());
-                assert!(apart(sin, s) <= 1 && apart(cos, c) <= 1, "{name}, {x:e}: {sin:e}, {cos:e}");
+                assert!(apart(sin, s) <= most && apart(cos, c) <= most, "{name}, {x:e}: {sin:e}, {cos:e}");
             }
             let list: Vec<$float> = odd_angles().into_iter().map(|x| x as $float).collect();
             $(
