@@ -104,9 +104,10 @@ fn error() {
 fn odd_angles() -> Vec<f64> {
     let mut draw = Draw(3);
     let huge = (0..20).map(|k| draw.part() * 10f64.powi(5 + k));
-    let nearest = [6_381_956_970_095_103.0 * 2f64.powi(797), 1e6, 1_000_000.000_000_1, 12_800.0, 12_800.001];
+    // The number nearest to a multiple of pi/2 is left to `trigonometry`: the platform's cosine of it is eight units off.
+    let limits = [1e6, 1_000_000.000_000_1, 12_800.0, 12_800.001];
     let none = [0.0, -0.0, 5e-324, 1e-40, f64::MAX, f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
-    let all: Vec<f64> = huge.chain(nearest).chain(none).chain([0.7, -2.1, 3.3, 0.1]).collect();
+    let all: Vec<f64> = huge.chain(limits).chain(none).chain([0.7, -2.1, 3.3, 0.1]).collect();
     // In another order, so that each has every other beside it now and then.
     (0..all.len() * 7).map(|k| all[k * 5 % all.len()] * if k % 3 == 0 { -1.0 } else { 1.0 }).collect()
 }
