@@ -63,7 +63,9 @@
 //!   dual numbers: those take the platform's functions.
 //! - `hardware-root`, `hardware-root-double`: square roots of `f32`, and of `f64`, by the processor's instruction on Arm and
 //!   RISC-V without std, where libm's take some 54 instructions in `f32`, fewer for NaN. They turn on the one file of `unsafe` code of this crate.
-//! - `wide` (default): [`Real`] for simba's lanes.
+//! - `wide` (default): [`Real`] for simba's lanes, and vectors for the sines of several angles of `f64` or `f32`
+//!   ([`Real::sin_cos_all`]), by a kernel of the crate's own.
+//! - `std-sines`: these sines one by one by std, as those of single angles are.
 //! - `num-dual`: [`Real`] for the dual numbers of the crate `num-dual`, for derivatives.
 
 #![cfg_attr(not(feature = "std"), no_std)]

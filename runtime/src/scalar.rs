@@ -8,6 +8,8 @@
 //! Generated code calls every method by its path, `multibody::Real::sin_cos(x)`, so that no name can clash with a
 //! trait that a user brings into scope.
 
+#[cfg(any(feature = "wide", feature = "reproducible", not(feature = "std")))]
+mod circle;
 #[cfg(feature = "num-dual")]
 mod dual;
 mod f32;
@@ -19,9 +21,14 @@ pub(crate) mod float;
     any(target_arch = "arm", target_arch = "riscv32", target_arch = "riscv64")
 ))]
 mod hardware_root;
+#[cfg(all(feature = "wide", not(feature = "reproducible")))]
+mod lanes;
 mod root;
 #[cfg(any(not(feature = "std"), feature = "reproducible"))]
 mod software;
+mod together;
+#[cfg(all(feature = "std", feature = "wide", not(any(feature = "reproducible", feature = "std-sines"))))]
+mod vectors;
 #[cfg(feature = "wide")]
 mod wide;
 
@@ -102,6 +109,21 @@ pub trait Real: SimdRealField<Element: RealField + Copy> + Copy {
     /// The greatest lane (the real part of it, for dual numbers), NaN if any lane is NaN. Error norms end here.
     fn greatest(self) -> f64;
 
+    /// Sines and cosines of several angles in radians, known at the same time.
+    ///
+    /// `f64` and `f32` put them in vectors, where the features `std` and `wide` are on and neither `std-sines` nor
+    /// `reproducible` is; other scalars go one by one. A value may differ from that of [`Real::sin_cos`] by rounding then.
+    ///
+    /// ```
+    /// use multibody::Real;
+    ///
+    /// let [(sin_a, _), (_, cos_b)] = Real::sin_cos_all([0.5_f64, -1.25]);
+    /// assert!((sin_a - 0.5_f64.sin()).abs() < 1e-15 && (cos_b - 1.25_f64.cos()).abs() < 1e-15);
+    /// ```
+    #[inline]
+    fn sin_cos_all<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
+        together::one_by_one(angles)
+    }
     /// Sine of an angle in radians.
     #[inline]
     fn sin(self) -> Self {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The numbers of runtime/src/scalar/software, and the reference data of runtime/tests/data.
+"""The numbers of runtime/src/scalar/circle.rs and runtime/src/scalar/software, and the reference data of runtime/tests/data.
 
     trigonometry.py             prints parts of pi/2 and pi/4, words of 2/pi, and polynomial coefficients
     trigonometry.py reference   prints trigonometry.txt, angles as bits: f32 or f64, angle, sine, cosine

@@ -14,6 +14,11 @@ impl Real for f32 {
     fn sin_cos(self) -> (Self, Self) {
         single::sin_cos(self)
     }
+    #[cfg(all(feature = "std", feature = "wide", not(any(feature = "reproducible", feature = "std-sines"))))]
+    #[inline]
+    fn sin_cos_all<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
+        super::vectors::f32::sin_cos(angles)
+    }
     #[inline]
     fn tan(self) -> Self {
         single::tan(self)

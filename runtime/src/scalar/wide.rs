@@ -1,19 +1,13 @@
 //! [`Real`] for simba's lanes: `WideF64x4`, `WideF32x4`, `WideF32x8`.
 //!
 //! Arithmetic, roots, comparisons and `sin_cos` run in lanes. Functions that models seldom call go lane by lane through
-//! the scalar ones, so that they agree with them to the last bit. The vector `sin_cos` reduces by Cody and Waite's
-//! three-part pi/2, which is exact only while the multiple of pi/2 is small; beyond [`DOUBLE_LIMIT`] and
-//! [`SINGLE_LIMIT`] all lanes take the scalar function, one branch that ordinary angles never enter. So do they
-//! with the feature `reproducible`.
+//! the scalar ones, so that they agree with them to the last bit. Sine and cosine are those of [`super::lanes`] where
+//! every lane is an ordinary angle; where one is beyond them all take the scalar function, one branch that ordinary angles
+//! never enter. So do they with the feature `reproducible`.
 
 use super::Real;
 use simba::simd::{SimdPartialOrd, SimdValue, WideBoolF32x4, WideBoolF32x8, WideBoolF64x4};
 use simba::simd::{WideF32x4, WideF32x8, WideF64x4};
-
-/// [rad] largest angle that four lanes of `f64` reduce themselves.
-const DOUBLE_LIMIT: f64 = 1.0e6;
-/// [rad] largest angle that lanes of `f32` reduce themselves.
-const SINGLE_LIMIT: f32 = 1.0e3;
 
 macro_rules! lane_by_lane {
     ($($name:ident)+) => {
@@ -26,8 +20,20 @@ macro_rules! lane_by_lane {
     };
 }
 
+/// Sine and cosine by the scalar function. Out of the way of code that never comes here.
+#[cold]
+fn one_by_one<L: SimdValue<Element: Real> + Copy>(angles: L) -> (L, L) {
+    let (mut sin, mut cos) = (angles, angles);
+    for lane in 0..L::LANES {
+        let (s, c) = Real::sin_cos(angles.extract(lane));
+        sin.replace(lane, s);
+        cos.replace(lane, c);
+    }
+    (sin, cos)
+}
+
 macro_rules! lanes {
-    ($lanes:ident, $mask:ident, $element:ident, $limit:ident) => {
+    ($lanes:ident, $mask:ident, $element:ident, $kernel:ident) => {
         impl Real for $lanes {
             type Mask = $mask;
 
@@ -37,11 +43,12 @@ macro_rules! lanes {
             }
             #[inline]
             fn sin_cos(self) -> (Self, Self) {
-                if cfg!(feature = "reproducible") || self.0.abs().simd_gt(Self::splat($limit).0).any() {
-                    return (self.map(Real::sin), self.map(Real::cos));
+                #[cfg(not(feature = "reproducible"))]
+                if !super::lanes::$kernel::is_far(self.0) {
+                    let (sin, cos) = super::lanes::$kernel::sin_cos(self.0);
+                    return (Self(sin), Self(cos));
                 }
-                let (sin, cos) = self.0.sin_cos();
-                (Self(sin), Self(cos))
+                one_by_one(self)
             }
             #[inline]
             fn tan(self) -> Self {
@@ -97,6 +104,6 @@ macro_rules! lanes {
     };
 }
 
-lanes!(WideF64x4, WideBoolF64x4, f64, DOUBLE_LIMIT);
-lanes!(WideF32x4, WideBoolF32x4, f32, SINGLE_LIMIT);
-lanes!(WideF32x8, WideBoolF32x8, f32, SINGLE_LIMIT);
+lanes!(WideF64x4, WideBoolF64x4, f64, quad);
+lanes!(WideF32x4, WideBoolF32x4, f32, single_quad);
+lanes!(WideF32x8, WideBoolF32x8, f32, single_octet);

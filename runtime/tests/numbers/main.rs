@@ -5,8 +5,11 @@ mod common;
 #[cfg(feature = "num-dual")]
 mod dual;
 mod inertia;
+mod lanes;
 mod linear;
 mod rotation;
 mod scalar;
 #[cfg(feature = "reproducible")]
 mod trigonometry;
+#[cfg(not(feature = "reproducible"))]
+mod truth;

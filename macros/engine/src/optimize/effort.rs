@@ -59,8 +59,9 @@ impl Effort {
         for statement in statements {
             match statement {
                 Statement::Let { value, .. } => self.straight = self.straight.plus(beyond(of_expression(value))),
-                Statement::SinCos { angle, .. } => {
-                    let cost = of_expression(angle).plus(Cost { sincos: 1, ..Cost::default() });
+                Statement::SinCos(sines) => {
+                    let angles = of_all(sines.iter().map(|sine| &sine.angle));
+                    let cost = angles.plus(Cost { sincos: size(sines), ..Cost::default() });
                     self.straight = self.straight.plus(beyond(cost));
                 }
                 Statement::Solve { size, symmetric, matrix, rhs, .. } => {
@@ -162,7 +163,11 @@ fn of_call(call: Call) -> Cost {
 }
 
 fn count<T>(list: &[T]) -> u32 {
-    u32::try_from(list.len().max(1)).unwrap_or(u32::MAX)
+    size(list).max(1)
+}
+
+fn size<T>(list: &[T]) -> u32 {
+    u32::try_from(list.len()).unwrap_or(u32::MAX)
 }
 
 /// An operation of the count, kind by kind.

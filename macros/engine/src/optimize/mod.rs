@@ -18,6 +18,7 @@ pub mod names;
 pub mod program;
 pub mod schedule;
 pub mod stage;
+pub mod together;
 mod wording;
 
 use crate::contracts::cost::Cost;

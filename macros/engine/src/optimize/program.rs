@@ -43,12 +43,8 @@ pub enum Statement {
         local: Local,
         value: Expression,
     },
-    /// Sine and cosine of one angle, together.
-    SinCos {
-        sin: Local,
-        cos: Local,
-        angle: Expression,
-    },
+    /// Sines and cosines of one angle or several, together.
+    SinCos(Vec<Sine>),
     /// A pivoted solution of a linear system in the runtime; `results` are the unknowns, then the rank.
     Solve {
         size: usize,
@@ -74,6 +70,14 @@ pub enum Statement {
     },
 }
 
+/// Sine and cosine of one angle.
+#[derive(Clone, Debug)]
+pub struct Sine {
+    pub sin: Local,
+    pub cos: Local,
+    pub angle: Expression,
+}
+
 /// One function body.
 #[derive(Clone, Debug, Default)]
 pub struct Program {
@@ -86,12 +90,40 @@ pub struct Program {
     pub results: Vec<Expression>,
 }
 
+impl Expression {
+    /// Every literal, symbol, field and local in it.
+    pub fn each_leaf(&self, visit: &mut dyn FnMut(&Expression)) {
+        match self {
+            Expression::Literal(_) | Expression::Symbol(_) | Expression::Field(_) | Expression::Local(_) => visit(self),
+            Expression::Neg(inner) => inner.each_leaf(visit),
+            Expression::Sum(terms) => terms.iter().for_each(|(_, term)| term.each_leaf(visit)),
+            Expression::Product(list) | Expression::Call(_, list) => list.iter().for_each(|item| item.each_leaf(visit)),
+            Expression::Quotient(above, below) => [above, below].into_iter().for_each(|item| item.each_leaf(visit)),
+        }
+    }
+
+    /// Every local in it.
+    pub fn each_local(&self, visit: &mut dyn FnMut(Local)) {
+        self.each_leaf(&mut |leaf| {
+            if let Expression::Local(local) = leaf {
+                visit(*local);
+            }
+        });
+    }
+}
+
+impl Sine {
+    pub fn defined(&self) -> [Local; 2] {
+        [self.sin, self.cos]
+    }
+}
+
 impl Statement {
     /// Its expressions, those of statements inside included.
     pub fn expressions(&self) -> Box<dyn Iterator<Item = &Expression> + '_> {
         match self {
             Statement::Let { value, .. } => Box::new(std::iter::once(value)),
-            Statement::SinCos { angle, .. } => Box::new(std::iter::once(angle)),
+            Statement::SinCos(sines) => Box::new(sines.iter().map(|sine| &sine.angle)),
             Statement::Solve { matrix, rhs, measures, .. } => Box::new(matrix.iter().chain(rhs).chain(measures)),
             Statement::Iterate { start, body, next, residual, .. } => {
                 let inside = body.iter().flat_map(Statement::expressions);
@@ -104,7 +136,7 @@ impl Statement {
     pub fn defined(&self) -> Vec<Local> {
         match self {
             Statement::Let { local, .. } => vec![*local],
-            Statement::SinCos { sin, cos, .. } => vec![*sin, *cos],
+            Statement::SinCos(sines) => sines.iter().flat_map(Sine::defined).collect(),
             Statement::Solve { results, .. } => results.clone(),
             Statement::Iterate { unknowns, residual, .. } => unknowns.iter().copied().chain([residual.0]).collect(),
         }

@@ -3,7 +3,7 @@
 //! In: an optimised DAG. Out: a [`Program`]. Values that are used more than once or have a name get a statement of their
 //! own; the others stand in the expression that uses them, up to a readable size. Signs are chosen so that a sum starts
 //! with a positive term where it can. Statements come in the order in which results need them, which keeps few values
-//! alive.
+//! alive; then sines are gathered ([`super::together`]).
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -18,8 +18,9 @@ use crate::symbolic::number::Number;
 use super::dag::{Block, Dag, Id, Kind, ONE};
 use super::hints::{headings, hints};
 use super::names::Names;
-use super::program::{Expression, FieldId, Local, Program, Statement};
+use super::program::{Expression, FieldId, Local, Program, Sine, Statement};
 use super::stage::Stage;
+use super::together;
 use super::wording::{Wording, behind};
 
 /// Operands that one expression may hold before a part of it becomes a statement.
@@ -35,6 +36,7 @@ pub fn schedule(dag: &Dag, fields: &Fields, names: &[String]) -> Program {
     let results = dag.roots.iter().map(|&root| scheduler.term(root)).collect();
     let mut program = scheduler.program;
     program.results = results;
+    program.statements = together::gather(program.statements);
     program
 }
 
@@ -345,7 +347,8 @@ impl<'a> Scheduler<'a> {
         let prefix = |used: bool, f: &str| format!("{}{f}_{name}", if used { "" } else { "_" });
         let values = [&expression];
         let locals = (self.local(&prefix(sin, "sin"), &values), self.local(&prefix(cos, "cos"), &values));
-        self.program.statements.push(Statement::SinCos { sin: locals.0, cos: locals.1, angle: expression });
+        let sine = Sine { sin: locals.0, cos: locals.1, angle: expression };
+        self.program.statements.push(Statement::SinCos(vec![sine]));
         self.angles.insert(angle, locals);
         locals
     }

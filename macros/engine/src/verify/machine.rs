@@ -52,10 +52,14 @@ impl Machine<'_> {
                 let value = self.value(value);
                 self.set(*local, value);
             }
-            Statement::SinCos { sin, cos, angle } => {
-                let (s, c) = self.value(angle).sin_cos();
-                self.set(*sin, s);
-                self.set(*cos, c);
+            Statement::SinCos(sines) => {
+                // All angles are read first: none may be a sine or cosine of its own group.
+                let angles: Vec<f64> = sines.iter().map(|sine| self.value(&sine.angle)).collect();
+                for (sine, angle) in sines.iter().zip(angles) {
+                    let (s, c) = angle.sin_cos();
+                    self.set(sine.sin, s);
+                    self.set(sine.cos, c);
+                }
             }
             Statement::Solve { size, symmetric, groups, matrix, rhs, measures, results } => {
                 let [matrix, rhs, measures] = [matrix, rhs, measures].map(|list| self.values(list));

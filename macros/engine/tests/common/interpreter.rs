@@ -36,10 +36,12 @@ impl Machine<'_> {
                 let value = self.value(value);
                 self.set(*local, value);
             }
-            Statement::SinCos { sin, cos, angle } => {
-                let (s, c) = self.value(angle).sin_cos();
-                self.set(*sin, s);
-                self.set(*cos, c);
+            Statement::SinCos(sines) => {
+                let angles: Vec<f64> = sines.iter().map(|sine| self.value(&sine.angle)).collect();
+                for (sine, angle) in sines.iter().zip(angles) {
+                    self.set(sine.sin, angle.sin());
+                    self.set(sine.cos, angle.cos());
+                }
             }
             Statement::Solve { matrix, rhs, results, .. } => {
                 let (matrix, rhs) = (self.values(matrix), self.values(rhs));

@@ -135,6 +135,7 @@ const RUNTIME: &str = concat!(
         fn lit(value: f64) -> Self;
         fn sqrt(self) -> Self;
         fn sin_cos(self) -> (Self, Self);
+        fn sin_cos_all<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] { angles.map(Self::sin_cos) }
         fn value(self) -> f64;
     }
     impl Real for f64 {

@@ -12,7 +12,7 @@ use multibody_engine::mechanics::loops::structure::Structure;
 use multibody_engine::model::joint_kinds::{self, JointKind, Written};
 use multibody_engine::model::types::*;
 use multibody_engine::optimize::program::{
-    Compiled, Expression, FieldId, Function as Derived, Local, Program, Statement,
+    Compiled, Expression, FieldId, Function as Derived, Local, Program, Sine, Statement,
 };
 use proc_macro2::{Ident, Span, TokenStream};
 use syn::parse_quote;
@@ -224,7 +224,7 @@ pub fn set(number: usize, value: Expression) -> Statement {
 }
 
 pub fn sin_cos(sin: usize, cos: usize, angle: Expression) -> Statement {
-    Statement::SinCos { sin: Local(sin), cos: Local(cos), angle }
+    Statement::SinCos(vec![Sine { sin: Local(sin), cos: Local(cos), angle }])
 }
 
 pub fn derived(kind: FunctionKind, program: Program) -> Derived {

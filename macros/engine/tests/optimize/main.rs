@@ -20,4 +20,5 @@ mod passes;
 mod rebuild;
 #[path = "../common/rng.rs"]
 mod rng;
+mod together;
 mod wording;

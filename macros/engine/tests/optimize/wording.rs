@@ -9,7 +9,7 @@ use crate::rng::Rng;
 use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics::{Derivation, of};
 use multibody_engine::optimize::compile;
-use multibody_engine::optimize::program::{Expression, Program, Statement};
+use multibody_engine::optimize::program::{Expression, Program, Sine, Statement};
 use multibody_engine::symbolic::evaluate::call_f64;
 
 /// Literals in names have three digits.
@@ -181,11 +181,13 @@ impl Reader<'_> {
                         self.wrong.push(format!("{text}: {names}"));
                     }
                 }
-                Statement::SinCos { sin, cos, angle } => {
-                    let angle = self.value(angle);
-                    for (local, value) in [(sin, angle.sin()), (cos, angle.cos())] {
-                        self.locals[local.0] = value;
-                        self.name(place, program.locals[local.0].trim_start_matches('_'), value);
+                Statement::SinCos(sines) => {
+                    for Sine { sin, cos, angle } in sines {
+                        let angle = self.value(angle);
+                        for (local, value) in [(sin, angle.sin()), (cos, angle.cos())] {
+                            self.locals[local.0] = value;
+                            self.name(place, program.locals[local.0].trim_start_matches('_'), value);
+                        }
                     }
                 }
                 Statement::Solve { .. } => self.results(program, statement),

@@ -240,7 +240,7 @@ fn statements(list: &mut [Statement], visit: &mut dyn FnMut(&mut Expression)) {
     for statement in list {
         match statement {
             Statement::Let { value, .. } => expression(value, visit),
-            Statement::SinCos { angle, .. } => expression(angle, visit),
+            Statement::SinCos(sines) => sines.iter_mut().for_each(|sine| expression(&mut sine.angle, visit)),
             Statement::Solve { size, symmetric, matrix, rhs, .. } => {
                 // Of a symmetric matrix what is right of the diagonal isn't read.
                 let (size, symmetric) = (*size, *symmetric);

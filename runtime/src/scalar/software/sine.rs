@@ -6,25 +6,15 @@
 //! (Dekker 1971); `n p4` joins it. So the remainder `r - over` is known to more than twice the precision, and the closest approach of
 //! a number to a multiple of pi/2 (2^-27.8 here for f32) is no special case. Larger angles go to [`super::reduction`].
 //!
-//! On the remainder stand minimax polynomials in the relative error (Remez; `runtime/tools/trigonometry.py` makes all
-//! numbers here). The result is made of sums and products in a stated order, never fused, so it is the same on every
-//! machine; up to the limit the instructions are the same for every angle, NaN too.
+//! On the remainder stand minimax polynomials in the relative error; all numbers are those of `scalar/circle.rs`. The result
+//! is made of sums and products in a stated order, never fused, so it is the same on every machine; up to the limit the
+//! instructions are the same for every angle, NaN too.
 
 macro_rules! sine {
-    ($float:ident, $bits:ty, $shifter:expr, $limit:expr, $parts:expr, $sine:expr, $cosine:expr) => {
+    ($float:ident, $bits:ty) => {
         pub(crate) mod $float {
+            use super::super::super::circle::$float::{COSINE, HALF_PI, LIMIT, SHIFTER, SINE};
             use super::super::polynomial::$float as polynomial;
-
-            /// [rad] largest angle that is reduced by subtraction.
-            const LIMIT: $float = $limit;
-            /// Added and subtracted, it rounds to the nearest whole number; the lowest bits of the sum are that number's.
-            const SHIFTER: $float = $shifter;
-            /// pi/2 in parts.
-            const HALF_PI: [$float; 4] = $parts;
-            /// (sin(r) / r - 1) / r^2 by powers of r^2.
-            const SINE: &[$float] = &$sine;
-            /// (cos(r) - 1 + r^2 / 2) / r^4 by powers of r^2.
-            const COSINE: &[$float] = &$cosine;
 
             /// Sine and cosine of `x` radians.
             #[inline]
@@ -40,8 +30,8 @@ macro_rules! sine {
                     (shifted.to_bits(), r, n * HALF_PI[3] - ((exact - r) - third))
                 };
                 let z = r * r;
-                let sin = r - (over - r * (z * polynomial(SINE, z)));
-                let cos = 1.0 + (z * (z * polynomial(COSINE, z) - 0.5) + over * r);
+                let sin = r - (over - r * (z * polynomial(&SINE, z)));
+                let cos = 1.0 + (z * (z * polynomial(&COSINE, z) - 0.5) + over * r);
 
                 // Bits change places under a mask, where a choice might become a jump. Second bits of the quadrant say where
                 // a function is negative: sine in the quadrants two and three, cosine in one and two.
@@ -55,35 +45,5 @@ macro_rules! sine {
     };
 }
 
-sine!(
-    f32,
-    u32,
-    12_582_912.0,
-    12_800.0,
-    [1.570_312_5, 4.837_513e-4, 7.549_533_6e-8, 2.563_344_2e-12],
-    [-0.166_666_55, 0.008_332_189, -0.000_195_182_85],
-    [0.041_666_646, -0.001_388_731, 2.443_232_7e-5]
-);
-sine!(
-    f64,
-    u64,
-    6_755_399_441_055_744.0,
-    1.0e6,
-    [1.570_796_326_734_125_6, 6.077_094_383_272_197e-11, 6.123_233_994_092_14e-17, 1.644_625_693_632_425_8e-26],
-    [
-        -0.166_666_666_666_666_3,
-        0.008_333_333_333_321_84,
-        -0.000_198_412_698_293_585_28,
-        2.755_731_353_851_453e-6,
-        -2.505_073_438_940_085_4e-8,
-        1.589_543_330_610_078e-10
-    ],
-    [
-        0.041_666_666_666_666_595,
-        -0.001_388_888_888_887_333_8,
-        2.480_158_728_899_748e-5,
-        -2.755_731_421_529_909e-7,
-        2.087_570_511_498_386e-9,
-        -1.135_873_277_503_408_8e-11
-    ]
-);
+sine!(f32, u32);
+sine!(f64, u64);

@@ -37,10 +37,11 @@ pub(in crate::emit) fn lines(layout: &Layout<'_>, program: &Program, locals: &[S
 
 /// Locals that are the sine or cosine of an angle.
 fn angles(program: &Program) -> HashMap<Local, (&'static str, &Expression)> {
-    let pairs = program.statements.iter().filter_map(|statement| match statement {
-        Statement::SinCos { sin, cos, angle } => Some([(*sin, ("sin", angle)), (*cos, ("cos", angle))]),
+    let sines = program.statements.iter().filter_map(|statement| match statement {
+        Statement::SinCos(sines) => Some(sines),
         _ => None,
     });
+    let pairs = sines.flatten().map(|sine| [(sine.sin, ("sin", &sine.angle)), (sine.cos, ("cos", &sine.angle))]);
     pairs.flatten().collect()
 }
 

@@ -17,7 +17,7 @@ use crate::emit::items::system;
 use crate::emit::layout::Layout;
 use crate::emit::layout::places::RESERVED;
 use crate::emit::methods::functions;
-use crate::emit::print::blocks::{body, each_leaf};
+use crate::emit::print::blocks::body;
 use crate::emit::print::expressions::Names;
 use crate::emit::print::{literals, range};
 use crate::emit::{Context, names};
@@ -221,7 +221,7 @@ fn iterated(context: &Context<'_>) -> Option<TokenStream> {
 fn adjustable(model: &Model, expr: &Expr) -> Option<Expression> {
     let expression = lower::scalar(model, expr)?;
     let mut reads = false;
-    each_leaf(&expression, &mut |leaf| reads |= matches!(leaf, Expression::Symbol(_)));
+    expression.each_leaf(&mut |leaf| reads |= matches!(leaf, Expression::Symbol(_)));
     reads.then_some(expression)
 }
 

@@ -12,7 +12,7 @@ use quote::quote;
 
 use crate::emit::layout::leaf;
 use crate::emit::names;
-use crate::optimize::program::{Expression, Local, Program, Statement};
+use crate::optimize::program::{Expression, Local, Program, Sine, Statement};
 
 use super::expressions::Names;
 
@@ -59,7 +59,7 @@ pub(in crate::emit) fn groups_argument(groups: &[usize]) -> Option<TokenStream> 
 fn live_statements(program: &Program) -> Vec<Live<'_>> {
     let mut read = vec![false; program.locals.len()];
     for result in &program.results {
-        each_local(result, &mut |local| set(&mut read, local, true));
+        result.each_local(&mut |local| set(&mut read, local, true));
     }
     live(&program.statements, &mut read)
 }
@@ -68,6 +68,8 @@ fn live_statements(program: &Program) -> Vec<Live<'_>> {
 struct Live<'a> {
     statement: &'a Statement,
     body: Vec<Live<'a>>,
+    /// Of several sines those that are read.
+    sines: Vec<&'a Sine>,
     /// Unknowns of an iteration that are read, by number.
     unknowns: Vec<usize>,
     /// Whether its residual is.
@@ -82,9 +84,9 @@ fn live<'a>(statements: &'a [Statement], read: &mut Vec<bool>) -> Vec<Live<'a>> 
             continue;
         }
         let mark = |expression: &Expression, read: &mut Vec<bool>| {
-            each_local(expression, &mut |local| set(read, local, true));
+            expression.each_local(&mut |local| set(read, local, true));
         };
-        let mut entry = Live { statement, body: Vec::new(), unknowns: Vec::new(), residual: false };
+        let mut entry = Live { statement, body: Vec::new(), sines: Vec::new(), unknowns: Vec::new(), residual: false };
         if let Statement::Iterate { unknowns, start, body, next, residual, .. } = statement {
             entry.residual = get(read, residual.0);
             if entry.residual {
@@ -102,6 +104,10 @@ fn live<'a>(statements: &'a [Statement], read: &mut Vec<bool>) -> Vec<Live<'a>> 
                 }
             }
             entry.unknowns.iter().for_each(|&k| mark(&start[k], read));
+        } else if let Statement::SinCos(sines) = statement {
+            let is_read = |sine: &&Sine| sine.defined().iter().any(|&local| get(read, local));
+            entry.sines = sines.iter().filter(is_read).collect();
+            entry.sines.iter().for_each(|sine| mark(&sine.angle, read));
         } else {
             statement.expressions().for_each(|expression| mark(expression, read));
         }
@@ -120,6 +126,7 @@ impl Live<'_> {
                 let residual = self.residual.then_some(&residual.1);
                 each.chain(residual).chain(self.body.iter().flat_map(Live::expressions)).collect()
             }
+            Statement::SinCos(_) => self.sines.iter().map(|sine| &sine.angle).collect(),
             statement => statement.expressions().collect(),
         }
     }
@@ -130,6 +137,7 @@ impl Live<'_> {
                 let residual = self.residual.then_some(residual.0);
                 self.unknowns.iter().map(|&k| unknowns[k]).chain(residual).collect()
             }
+            Statement::SinCos(_) => self.sines.iter().flat_map(|sine| sine.defined()).collect(),
             statement => statement.defined(),
         }
     }
@@ -156,11 +164,11 @@ impl<'a> Blocks<'a> {
         let mut last_use = vec![None; names.locals.len()];
         for (number, statement) in live.iter().enumerate() {
             for expression in statement.expressions() {
-                each_local(expression, &mut |local| set(&mut last_use, local, Some(number)));
+                expression.each_local(&mut |local| set(&mut last_use, local, Some(number)));
             }
         }
         for expression in after {
-            each_local(expression, &mut |local| set(&mut last_use, local, Some(live.len())));
+            expression.each_local(&mut |local| set(&mut last_use, local, Some(live.len())));
         }
         Blocks { names, live, last_use, headings, paragraphs: paragraphs(live, headings) }
     }
@@ -231,17 +239,14 @@ impl<'a> Blocks<'a> {
         if self.last_use(local).is_some() { quote!(#name) } else { quote!(_) }
     }
 
-    /// Expands to `let a = ..;`, `let (sin_a, cos_a) = Real::sin_cos(..);`, a solve or a loop.
+    /// Expands to `let a = ..;`, sines, a solve or a loop.
     fn statement(&self, live: &Live<'_>) -> TokenStream {
         match live.statement {
             Statement::Let { local, value } => {
                 let (name, value) = (self.name(*local), self.names.expression(value));
                 quote!(let #name = #value;)
             }
-            Statement::SinCos { sin, cos, angle } => {
-                let (sin, cos, angle) = (self.name(*sin), self.name(*cos), self.names.expression(angle));
-                quote!(let (#sin, #cos) = Real::sin_cos(#angle);)
-            }
+            Statement::SinCos(_) => self.sines(&live.sines),
             Statement::Solve { size, symmetric, groups, matrix, rhs, measures, results } => {
                 let sides = [&rhs[..], &measures[..]];
                 self.solve(*size, (*symmetric, groups), matrix, sides, results)
@@ -253,6 +258,20 @@ impl<'a> Blocks<'a> {
                 self.iterate(*count, &locals, start, next, residual, &live.body)
             }
         }
+    }
+
+    /// Expands to `let (sin_a, cos_a) = Real::sin_cos(a);`, or to `let [(sin_a, cos_a), (_, cos_b)] = Real::sin_cos_all([a, b]);`.
+    fn sines(&self, sines: &[&Sine]) -> TokenStream {
+        let pairs = sines.iter().map(|sine| {
+            let [sin, cos] = sine.defined().map(|local| self.name(local));
+            quote!((#sin, #cos))
+        });
+        let angles = sines.iter().map(|sine| self.names.expression(&sine.angle));
+        if let [_] = sines {
+            return quote!(let #(#pairs)* = Real::sin_cos(#(#angles)*););
+        }
+        let angles = angles.map(leaf::element);
+        quote!(let [#(#pairs),*] = Real::sin_cos_all([#(#angles),*]);)
     }
 
     /// Expands to `let ([x, y], rank) = ::multibody::linear::solve([[..], [..]], [..]);`.
@@ -356,39 +375,7 @@ fn set<V>(list: &mut [V], local: Local, value: V) {
     list[local.0] = value;
 }
 
-fn each_local(expression: &Expression, visit: &mut dyn FnMut(Local)) {
-    each_leaf(expression, &mut |leaf| {
-        if let Expression::Local(local) = leaf {
-            visit(*local);
-        }
-    });
-}
-
-/// Every literal, symbol, field and local of an expression.
-pub(in crate::emit) fn each_leaf(expression: &Expression, visit: &mut dyn FnMut(&Expression)) {
-    match expression {
-        Expression::Literal(_) | Expression::Symbol(_) | Expression::Field(_) | Expression::Local(_) => {
-            visit(expression)
-        }
-        Expression::Neg(inner) => each_leaf(inner, visit),
-        Expression::Sum(terms) => {
-            for (_, term) in terms {
-                each_leaf(term, visit);
-            }
-        }
-        Expression::Product(list) | Expression::Call(_, list) => {
-            for item in list {
-                each_leaf(item, visit);
-            }
-        }
-        Expression::Quotient(above, below) => {
-            each_leaf(above, visit);
-            each_leaf(below, visit);
-        }
-    }
-}
-
 /// Every leaf of a program's live and dead expressions.
 pub(in crate::emit) fn each_leaf_of(program: &Program, visit: &mut dyn FnMut(&Expression)) {
-    program.expressions().for_each(|expression| each_leaf(expression, visit));
+    program.expressions().for_each(|expression| expression.each_leaf(visit));
 }
