@@ -39,8 +39,8 @@ def read(file):
     for rows in groups.values():
         # For this processor first; for any, where there are two to compare.
         rows.sort(key=lambda row: row.any)
-        if sum(row.any for row in rows) == 1:
-            rows.pop()
+        if not any(row.any and not row.program.startswith("ours") for row in rows):
+            rows[:] = [row for row in rows if not row.any]
     return groups
 
 
@@ -57,6 +57,23 @@ def table(groups, unit):
                 f"| {row.title() if first else ''} | {row.program} | {row.least:.1f} ns | {row.least / unit:.1f} | {ratio} "
                 f"| {spread} | {error} |"
             )
+
+
+def summary(groups):
+    """README's table: ratios of least times for this processor."""
+    programs = ["CasADi", "Pinocchio", "MuJoCo", "dynibo", "phyz"]
+    yield f"| mechanism, function | ours | {' | '.join(programs)} |"
+    yield "|---|---|" + "---|" * len(programs)
+    for rows in groups.values():
+        ratios = {}
+        for row in rows:
+            # Of several methods of one program the fastest.
+            name = row.program.split(", ")[0]
+            if not row.any:
+                ratios[name] = min(row.ratio, ratios.get(name, math.inf))
+        if len(ratios) > 1:
+            others = (f"{ratios[name]:.2f}" if name in ratios else "" for name in programs)
+            yield f"| {rows[0].title()} | {rows[0].least:.0f} ns | {' | '.join(others)} |"
 
 
 def picture(groups):
@@ -104,6 +121,7 @@ def main():
         *(work / "machine").read_text().splitlines(), "", f"one sin_cos of f64: {unit:.1f} ns", "", *table(groups, unit),
     ]) + "\n"
     (work / "table.md").write_text(text)
+    (work / "summary.md").write_text("\n".join(summary(groups)) + "\n")
     (work / "peers.svg").write_text(picture(groups))
     print(text, end="")
 

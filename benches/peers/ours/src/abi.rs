@@ -56,6 +56,7 @@ macro_rules! subject {
         fn points() -> &'static [$point] {
             POINTS.get().expect("states are loaded first")
         }
+        #[allow(clippy::modulo_one, reason = "most evaluations take one state")]
         extern "C" fn evaluate(state: usize, results: *mut f64) -> usize {
             let point = &points()[state / $lanes];
             let all: Vec<f64> = ($results)(point, state % $lanes, ($evaluate)(point));

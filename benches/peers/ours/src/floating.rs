@@ -50,7 +50,7 @@ pub fn derivatives(pose: &Pose<f64>, v: &Twist<f64>, a: &Twist<f64>, ours: [DMat
     let back = matrix.transpose();
     let (own_v, own_a) = (back * v.linear, back * a.linear);
     let mut moved = by_position * &turned;
-    let carried = &by_velocity.columns(0, 3) * (-matrix * own_v.cross_matrix());
+    let carried = by_velocity.columns(0, 3) * (-matrix * own_v.cross_matrix());
     moved.columns_mut(3, 3).zip_apply(&carried, |entry, more| *entry += more);
     let by_velocity = by_velocity * &turned;
     // a' = R^T a - w x v', whose parts are differentiated one by one.
