@@ -6,7 +6,7 @@ use multibody::{Cost, multibody};
 use multibody_tests::support::random::Random;
 
 macro_rules! legs {
-    ($($name:ident [$($formulation:tt)*] { $($items:tt)* } $($groups:tt)*)*) => {
+    ($($name:ident [$($formulation:tt)*] { $($items:tt)* } [$($groups:tt)*])*) => {
         multibody! {
             mod leg {
                 port hip: Frame;
@@ -32,22 +32,22 @@ macro_rules! legs {
 legs! {
     tree [] {
         body trunk { mass: 2.0, com: [0.1, 0.2, -0.05], inertia: diag(0.1, 0.12, 0.2) }
-        joint root: Ball { parent: ground.rotated(X, 0.3), child: trunk, orientation: RollPitchYaw }
+        joint root: Ball { parent: ground.rotated(X, 0.3), child: trunk, coordinates: RollPitchYaw }
         part legs: [leg; 3] = |i| leg { hip: trunk.rotated(Z, i * 2.0 * PI / 3.0).at(0.2 * X) };
         part tail: leg { hip: trunk.at(-0.3 * X) };
         output heading = trunk.pose;
         output speed = norm(trunk.at(X).velocity);
-    } outputs { pose: [heading, legs.foot, tail.foot], loads: legs[2].load, moving: [speed, legs.track] }
+    } [outputs { pose: [heading, legs.foot, tail.foot], loads: legs[2].load, moving: [speed, legs.track] }]
     held [formulation { constraints: Multipliers }] {
-        part legs: [leg; 3] = |i| leg { hip: ground.rotated(X, i * 0.3).at(0.2 * i * X) };
-        constraint link: Rod { between: [legs[0].thigh.at(0.2 * X), legs[1].thigh.at(0.25 * X)], length: 0.30012345678901234 }
+        part legs: [leg; 3] = |i| leg { hip: ground.rotated(X, i * 0.3).at(0.2 * i * Y) };
+        constraint link: Rod { between: [legs[0].thigh.at(0.2 * X), legs[1].thigh.at(0.25 * X)], length: 0.23012345678901234 }
         output gap = legs[0].thigh.at(X).acceleration;
-    } outputs { pose: [legs.foot], loads: [legs[1].load, gap] }
+    } [outputs { pose: [legs.foot], loads: [legs[1].load, gap] }]
     iterated [formulation { constraints: Reduced, independent: [legs[0].knee, legs[2].knee] }] {
-        part legs: [leg; 3] = |i| leg { hip: ground.rotated(X, i * 0.3).at(0.2 * i * X) };
-        constraint link: Rod { between: [legs[0].thigh.at(0.2 * X), legs[1].thigh.at(0.25 * X)], length: 0.30012345678901234 }
+        part legs: [leg; 3] = |i| leg { hip: ground.rotated(X, i * 0.3).at(0.2 * i * Y) };
+        constraint link: Rod { between: [legs[0].thigh.at(0.2 * X), legs[1].thigh.at(0.25 * X)], length: 0.23012345678901234 }
         output gap = legs[0].thigh.at(X).acceleration;
-    } outputs { pose: [legs.foot], loads: [legs[1].load, gap] }
+    } [outputs { pose: [legs.foot], loads: [legs[1].load, gap] }]
 }
 
 /// Operations of a function.
@@ -91,28 +91,16 @@ fn groups_of_a_tree() {
         same("track", moving.legs_track[1].iter().copied(), all.legs[1].track.iter().copied());
     }
     // Reactions are dear: positions do without them.
-    assert!(10 * operations(tree::COSTS, "outputs_pose") < operations(tree::COSTS, "outputs"));
+    assert!(9 * operations(tree::COSTS, "outputs_pose") < operations(tree::COSTS, "outputs"));
 }
 
 #[test]
 fn groups_of_closed_loops() {
+    let mut compared = 0;
     let (kept, found) = (held::Model::<f64>::default(), iterated::Model::<f64>::default());
     let mut random = Random::new(9);
     for _ in 0..20 {
         let mut draw = |near: f64| near + 0.05 * random.unit();
-        let start = iterated::State::<f64>::default();
-        let q = SVector::<f64, 2>::from(start.q).map(&mut draw);
-        let v = SVector::<f64, 2>::zeros().map(|_: f64| 10.0 * draw(0.0));
-        let state = iterated::State { q: q.into(), v: v.into(), ..start };
-        let input = iterated::Input::default();
-        let all = found.outputs(0.0, &state, &input);
-        let (pose, loads) = (found.outputs_pose(0.0, &state, &input), found.outputs_loads(0.0, &state, &input));
-        for leg in 0..3 {
-            same("foot", pose.legs_foot[leg].iter().copied(), all.legs[leg].foot.iter().copied());
-        }
-        same("load", loads.legs_1_load.force.iter().copied(), all.legs[1].load.force.iter().copied());
-        same("gap", loads.gap.iter().copied(), all.gap.iter().copied());
-
         let q: SVector<f64, 3> = SVector::from_fn(|_, _| draw(0.0));
         let v: SVector<f64, 3> = SVector::from_fn(|_, _| draw(0.0));
         let state = held::State { q: q.into(), v: v.into() };
@@ -124,5 +112,26 @@ fn groups_of_closed_loops() {
         }
         same("load", loads.legs_1_load.moment.iter().copied(), all.legs[1].load.moment.iter().copied());
         same("gap", loads.gap.iter().copied(), all.gap.iter().copied());
+
+        let start = iterated::State::<f64>::default();
+        let q = SVector::<f64, 2>::from(start.q).map(&mut draw);
+        let v = SVector::<f64, 2>::zeros().map(|_: f64| 10.0 * draw(0.0));
+        let state = iterated::State { q: q.into(), v: v.into(), ..start };
+        let closed = found.close(0.0, &state);
+        // Some of these poses cannot be closed.
+        if closed.residual > 1e-14 {
+            continue;
+        }
+        compared += 1;
+        let state = closed.state;
+        let input = iterated::Input::default();
+        let all = found.outputs(0.0, &state, &input);
+        let (pose, loads) = (found.outputs_pose(0.0, &state, &input), found.outputs_loads(0.0, &state, &input));
+        for leg in 0..3 {
+            same("foot", pose.legs_foot[leg].iter().copied(), all.legs[leg].foot.iter().copied());
+        }
+        same("load", loads.legs_1_load.force.iter().copied(), all.legs[1].load.force.iter().copied());
+        same("gap", loads.gap.iter().copied(), all.gap.iter().copied());
     }
+    assert!(compared > 5, "{compared}");
 }
