@@ -90,7 +90,7 @@ impl<'a> Checker<'a, '_> {
         let (last, parts) = steps.split_last()?;
         let mut at = Reached { instances: vec![InstanceId(0)], counts: Vec::new(), name: Vec::new() };
         for step in parts {
-            at = self.into_part(step, at)?;
+            at = self.inner_part(step, at)?;
         }
         if let Some(index) = last.index {
             let message = format!("`{}` is listed whole: its elements are not taken apart", last.name);
@@ -116,7 +116,7 @@ impl<'a> Checker<'a, '_> {
     }
 
     /// Goes on into a part, or into all parts of an array.
-    fn into_part(&mut self, step: &Step<'a>, at: Reached) -> Option<Reached> {
+    fn inner_part(&mut self, step: &Step<'a>, at: Reached) -> Option<Reached> {
         let Reached { instances, mut counts, mut name } = at;
         let mut inside = Vec::new();
         let mut array = None;
