@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_2_PI;
 
 /// pi/2 in four parts of 53 bits (mpmath).
 const HALF_PI: [f64; 4] =
-    [1.570_796_326_794_896_6, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33, 5.562_271_104_316_826e-50];
+    [std::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33, 5.562_271_104_316_826e-50];
 
 /// A sum of two numbers, of which the second is rounding of the first.
 #[derive(Clone, Copy)]
