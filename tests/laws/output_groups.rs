@@ -19,7 +19,7 @@ macro_rules! legs {
                 output load = knee.reaction;
                 output track = thigh.at(length * X).jacobian;
             }
-            $(pub mod $name {
+            $(pub(crate) mod $name {
                 world { gravity: -9.80665 * Z }
                 $($items)*
                 $($formulation)*
