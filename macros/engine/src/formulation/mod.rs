@@ -126,6 +126,7 @@ fn judged(model: &Model, handling: &Handling) -> Model {
     if asks_forward(model) {
         judged.emit = vec![Request::ForwardDynamics];
         judged.outputs.clear();
+        judged.output_groups.clear();
         judged.kinematics.clear();
         judged.solve_for.clear();
     } else {

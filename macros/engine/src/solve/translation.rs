@@ -202,6 +202,8 @@ impl Translation {
             }
         }
         let slope = g.reciprocal(volume);
+        // Directions that may come to lie in a plane are a dead centre too.
+        let told = if g.literal(axes.volume).is_some() { root } else { g.mul(root, axes.volume) };
         let unknowns = self.unknowns.list();
         let together: Vec<Scalar> = unknowns.iter().map(|&number| system.unknowns[number].symbol).collect();
         let solved = together.iter().zip(axes.duals).enumerate().map(|(number, (&symbol, dual))| {
@@ -226,7 +228,7 @@ impl Translation {
                 balances,
                 together: together.clone(),
                 how: if is_first { self.describe() } else { "found together with the slide before it".to_owned() },
-                roots: if is_first { vec![Root { value: root, sign: 0 }] } else { Vec::new() },
+                roots: if is_first { vec![Root { value: told, sign: 0 }] } else { Vec::new() },
                 parts: if is_first { vec![("normal", area), ("gap", discriminant)] } else { Vec::new() },
             }
         });

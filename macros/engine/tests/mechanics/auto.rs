@@ -104,6 +104,16 @@ fn the_cheaper_one_is_taken() {
     assert_ne!(held.own.unwrap().operations, Cost::default());
 }
 
+/// What stands beside forward dynamics is not counted, groups of outputs neither.
+#[test]
+fn groups_of_outputs_change_no_choice() {
+    let items =
+        format!("{FOUR_BAR} {SOLVED} output tip = rocker.position; emit forward_dynamics, outputs {{ one: [tip] }};");
+    let (structure, advice) = advice(&items, "constraints: Auto");
+    assert!(structure.rows.is_empty() && structure.guesses() == 0);
+    assert_eq!(advice.own.unwrap().closing, Closing::ClosedForm);
+}
+
 /// Newton's method is taken where it costs less: six legs in a platform couple all equations of multipliers, and are found apart.
 #[test]
 fn iterations_that_cost_less() {

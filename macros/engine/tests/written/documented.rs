@@ -128,3 +128,30 @@ fn pages_are_made_when_asked_for() {
     };
     assert!(!page("") && page(", report") && page(", equations"));
 }
+
+/// What is found together reads each other, and stands before what reads it all the same.
+#[test]
+fn a_coupling_stands_behind_what_is_found_together() {
+    let module = multibody_engine::expand(GEARED_DELTA.parse().unwrap()).to_string();
+    let [place, coupled] =
+        ["\"z = ", "\"w = 2 z\""].map(|line| module.find(line).unwrap_or_else(|| panic!("no {line}")));
+    assert!(place < coupled);
+}
+
+const GEARED_DELTA: &str = "pub mod geared_delta {
+        body along { mass: 0.2 } body across { mass: 0.3 } body arm { mass: 1.0, com: 0.1*X, inertia: diag(0.1,0.1,0.1) }
+        body plate { mass: 2.5 } body cpl { mass: 0.2 }
+        joint d: Revolute { parent: ground, child: arm, axis: Z }
+        joint x: Prismatic { parent: ground, child: along, axis: X }
+        joint y: Prismatic { parent: along, child: across, axis: Y }
+        joint z: Prismatic { parent: across, child: plate, axis: Z }
+        joint w: Prismatic { parent: ground, child: cpl, axis: X }
+        constraint gear = w.travel - 2.0 * z.travel;
+        constraint first: Rod { between: [arm.at(0.3 * X), plate], length: 0.8 }
+        constraint second: Rod { between: [ground.at([-0.2, 0.3, 0.1]), plate], length: 0.79 }
+        constraint third: Rod { between: [ground.at([-0.2, -0.28, 0.0]), plate], length: 0.81 }
+        assume cos(d) > 0.5;
+        solve (x, y, z) from (first, second, third) { z < 0.0 }
+        formulation { constraints: Reduced }
+        emit equations;
+    }";

@@ -49,14 +49,18 @@ struct Item {
 
 /// `solve` items of closings without a coordinate in common: one complaint for each item, whichever groups its closings are in.
 pub(super) fn apart(model: &Model, problem: &Problem, groups: &[&CoupledRows]) -> Vec<Complaint> {
-    let group_of = |closing: &Closing| {
-        let holds = |&k: &usize| row_of(problem, k).is_some_and(|row| row.closing == closing.what);
-        groups.iter().position(|group| group.equations.iter().any(holds))
+    let holds = |group: &&&CoupledRows, closing: &Closing| {
+        let of = |&k: &usize| row_of(problem, k).is_some_and(|row| row.closing == closing.what);
+        group.equations.iter().any(of)
     };
     let complaint = |solve: &Solve| {
         let SolveHow::From { closings, .. } = &solve.how else { return None };
-        let (first, others) = closings.split_first()?;
-        let other = others.iter().find(|other| group_of(other) != group_of(first))?;
+        // A closing may have equations in several groups: none of them may do without the others of the item.
+        let lacks = |group: &&CoupledRows| {
+            let has_one = closings.iter().any(|closing| holds(&group, closing));
+            closings.iter().find(|closing| has_one && !holds(&group, closing))
+        };
+        let other = groups.iter().find_map(lacks)?;
         let (_, what) = thing(model, other.what);
         Some(Complaint {
             at: other.site(),

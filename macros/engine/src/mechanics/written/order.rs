@@ -7,17 +7,27 @@ use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Definition;
 use crate::symbolic::graph::Scalar;
 
-/// What does not read each other stays in its order. Unknowns of one iteration read none of their own, so no circle is expected;
-/// one would stay as it is.
+/// What does not read each other stays in its order, and so do those that are found together, which read each other: what comes next
+/// is read by all that it reads.
 pub(super) fn in_reading_order(e: &Equations<'_>, definitions: &[Definition]) -> Vec<Definition> {
     let symbols: Vec<Scalar> = definitions.iter().flat_map(|d| e.coordinate_symbols(d.coordinate)).collect();
     let reads = |d: &Definition| e.g.read_by(&[d.position, d.rate, d.acceleration], &symbols);
+    let size = definitions.len();
     let reads: Vec<Vec<bool>> = definitions.iter().map(reads).collect();
-    let reads = |reader: usize, read: usize| reader != read && reads[reader][3 * read..3 * read + 3].contains(&true);
-    let mut waiting: Vec<usize> = (0..definitions.len()).collect();
-    let mut ordered = Vec::with_capacity(definitions.len());
+    let mut leads: Vec<Vec<bool>> =
+        reads.iter().map(|row| row.chunks(3).map(|symbols| symbols.contains(&true)).collect()).collect();
+    // Through others too (Warshall).
+    for by in 0..size {
+        for from in 0..size {
+            for to in 0..size {
+                leads[from][to] |= leads[from][by] && leads[by][to];
+            }
+        }
+    }
+    let mut waiting: Vec<usize> = (0..size).collect();
+    let mut ordered = Vec::with_capacity(size);
     while !waiting.is_empty() {
-        let is_free = |&reader: &usize| waiting.iter().all(|&read| !reads(reader, read));
+        let is_free = |&reader: &usize| waiting.iter().all(|&read| !leads[reader][read] || leads[read][reader]);
         let next = waiting.iter().position(is_free).unwrap_or(0);
         ordered.push(definitions[waiting.remove(next)]);
     }

@@ -11,6 +11,7 @@ use syn::{Expr, ExprLit, Lit, Member};
 
 use crate::model::checker::Checker;
 use crate::model::types::{GroupField, InstanceId, Output, OutputGroup};
+use crate::rust_keywords::is_keyword;
 use crate::syntax::tree;
 
 use super::requests::elements;
@@ -48,7 +49,14 @@ impl<'a> Checker<'a, '_> {
                     continue;
                 }
                 // The structs are told apart by their names, in which letters change their case.
-                let called = |group: &OutputGroup| group.struct_name() == OutputGroup::struct_name_of(&field.name);
+                let struct_name = OutputGroup::struct_name_of(&field.name);
+                let is_part = self.part_types.iter().any(|part| part.name == struct_name);
+                if is_part || struct_name == "Output" {
+                    let message = format!("the struct of the group `{}` would be `{struct_name}`", field.name);
+                    self.report.help(field.name.span(), message, "there is one already: take another name");
+                    continue;
+                }
+                let called = |group: &OutputGroup| group.struct_name() == struct_name;
                 if groups.iter().any(called) {
                     let message = format!("the group `{}` is declared twice", field.name);
                     self.report.error(field.name.span(), message);
@@ -68,10 +76,14 @@ impl<'a> Checker<'a, '_> {
             self.report.help(list.span(), "this group is empty", "list outputs: `name: [output, ..]`");
         }
         for element in elements {
+            if is_unreadable(element) {
+                self.report.silent();
+                continue;
+            }
             let Some(field) = self.group_field(element, outputs) else { continue };
             let known: BTreeSet<usize> = fields.iter().flat_map(|field| field.outputs.iter().copied()).collect();
             if field.outputs.iter().any(|place| known.contains(place)) || fields.iter().any(|f| f.name == field.name) {
-                self.report.error(element.span(), "this output is named twice");
+                self.report.error(element.span(), "an output of this name is in the group already");
                 continue;
             }
             fields.push(field);
@@ -111,7 +123,8 @@ impl<'a> Checker<'a, '_> {
             return None;
         }
         at.name.push(plain(last.name));
-        let name = Ident::new(&at.name.join("_"), last.name.span().resolved_at(Span::mixed_site()));
+        let (name, span) = (at.name.join("_"), last.name.span().resolved_at(Span::mixed_site()));
+        let name = if is_keyword(&name) { Ident::new_raw(&name, span) } else { Ident::new(&name, span) };
         Some(GroupField { name, outputs: found, counts: at.counts })
     }
 
@@ -171,6 +184,18 @@ impl<'a> Checker<'a, '_> {
         let instead = listed.or_else(|| Some("declare it: `output name = value;`".to_owned()));
         let message = format!("there is no output `{name}`");
         self.report.unknown(name.span(), message, &name.to_string(), here.iter().map(String::as_str), instead);
+    }
+}
+
+/// Whether an error has been told of it.
+fn is_unreadable(expr: &Expr) -> bool {
+    match expr {
+        Expr::Verbatim(_) => true,
+        Expr::Paren(inner) => is_unreadable(&inner.expr),
+        Expr::Group(inner) => is_unreadable(&inner.expr),
+        Expr::Field(field) => is_unreadable(&field.base),
+        Expr::Index(index) => is_unreadable(&index.expr) || is_unreadable(&index.index),
+        _ => false,
     }
 }
 
