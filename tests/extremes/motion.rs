@@ -67,7 +67,8 @@ fn tips_lighter_and_heavier() {
         });
         println!("{name}: {most:.1e} with {evaluations} evaluations");
         assert!(most <= 1e-11, "{name}: {most:e}");
-        errors.push(most.max(f64::EPSILON));
+        // What is less is rounding of thousands of evaluations.
+        errors.push(most.max(1e-13));
     }
     let (least, most) =
         (errors.iter().fold(f64::MAX, |a, &b| a.min(b)), errors.iter().fold(0.0, |a: f64, &b| a.max(b)));
