@@ -73,7 +73,7 @@ fn scalars<T: Drawn>(n: &Numbers) {
     black_box([Real::sin(x), Real::cos(x), Real::tan(x), Real::asin(x), Real::acos(x), Real::atan(x)]);
     black_box([Real::sinh(x), Real::cosh(x), Real::tanh(x), Real::exp(x), Real::ln(x), Real::sqrt(x)]);
     black_box([Real::abs(x), Real::signum(x), Real::floor(x), Real::sin_cos(x).0, T::lit(n.draw())]);
-    black_box(Real::sin_cos_all([x, T::lit(n.draw()), T::lit(n.draw())]);
+    black_box(Real::sin_cos_all([x, T::lit(n.draw()), T::lit(n.draw())]));
     black_box([Real::atan2(x, y), Real::powf(x, y), Real::hypot(x, y), Real::min(x, y), Real::max(x, y)]);
     for power in [0, 1, -1, 7, i32::MAX, i32::MIN, n.draw() as i32] {
         black_box(Real::powi(x, power));
