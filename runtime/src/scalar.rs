@@ -124,6 +124,7 @@ pub trait Real: SimdRealField<Element: RealField + Copy> + Copy {
     fn sin_cos_all<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
         together::one_by_one(angles)
     }
+
     /// Sine of an angle in radians.
     #[inline]
     fn sin(self) -> Self {

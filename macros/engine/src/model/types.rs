@@ -9,6 +9,7 @@
 use std::rc::Rc;
 
 use proc_macro2::{Ident, Span};
+use syn::ext::IdentExt;
 use syn::{Attribute, Path, Visibility};
 
 use crate::invariant::index_vec::{IndexVec, id};
@@ -242,8 +243,8 @@ impl OutputGroup {
     }
 
     pub fn struct_name_of(name: &Ident) -> String {
-        let words = name.to_string();
-        let words = words.trim_start_matches("r#").split('_').map(|word| {
+        let words = name.unraw().to_string();
+        let words = words.split('_').map(|word| {
             let mut letters = word.chars();
             letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect::<String>()
         });

@@ -6,6 +6,7 @@
 use std::collections::BTreeSet;
 
 use proc_macro2::{Ident, Span};
+use syn::ext::IdentExt;
 use syn::spanned::Spanned;
 use syn::{Expr, ExprLit, Lit, Member};
 
@@ -234,5 +235,5 @@ fn take_steps<'e>(expr: &'e Expr, steps: &mut Vec<Step<'e>>) -> bool {
 
 /// As it is in generated names.
 fn plain(name: &Ident) -> String {
-    name.to_string().trim_start_matches("r#").to_owned()
+    name.unraw().to_string()
 }
