@@ -37,6 +37,8 @@ words! {
         "add it to the model: `emit forward_dynamics, residual;`"
     Kinematics "this model's `emit` does not ask for `kinematics`"
         "add it to the model: `emit forward_dynamics, kinematics {{ given: platform.pose, find: legs.stroke }};`"
+    AssemblyModes "this model's `emit` does not ask for `assembly_modes`"
+        "add it to the model: `emit forward_dynamics, assembly_modes {{ given: legs.stroke, find: platform.pose }};`"
     Derivatives "this model's `emit` does not ask for `derivatives`, which gives `forward_derivatives` and `inverse_derivatives`"
         "add it to the model: `emit forward_dynamics, derivatives;`"
     Linearize "this model's `emit` does not ask for `linearize`"

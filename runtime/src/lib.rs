@@ -75,6 +75,7 @@
 // Generated code names this crate `::multibody`; with this line it can do so in this crate's own examples.
 extern crate self as multibody;
 
+pub mod assembly;
 mod canonical;
 mod configuration;
 mod constrained;
@@ -112,6 +113,7 @@ mod verify;
 #[doc(hidden)]
 pub mod words;
 
+pub use assembly::AssemblyMode;
 pub use canonical::{Canonical, Separable};
 pub use configuration::Configuration;
 pub use constrained::{Constrained, Kinematics};

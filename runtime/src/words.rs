@@ -408,6 +408,14 @@ pub mod emit {
         pub find: List,
     }
 
+    /// All positions that what is given leaves.
+    pub struct assembly_modes {
+        /// Joints.
+        pub given: List,
+        /// Coordinates, joints for all of theirs, and bodies with `.pose` where their pose is a coordinate.
+        pub find: List,
+    }
+
     /// `forward_derivatives` and `inverse_derivatives`.
     pub struct derivatives;
 

@@ -2,6 +2,7 @@
 
 pub mod actuated;
 pub mod arms;
+pub mod assembled;
 pub mod energy;
 pub mod extremes;
 pub mod formulas;

@@ -1,6 +1,7 @@
 //! Against truth from elsewhere: reference data of other programs, published solutions, plain arithmetic.
 
 mod actuated;
+mod assembled;
 mod closed_forms;
 mod derivatives;
 mod formulas;

@@ -1,5 +1,6 @@
 //! Scalars, rotations, inertias, small linear systems.
 
+mod circle;
 #[path = "../common/mod.rs"]
 mod common;
 #[cfg(feature = "num-dual")]

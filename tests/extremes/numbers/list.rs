@@ -55,6 +55,9 @@ const REACHED: &[(&str, &str)] = &[
     ("inertia", "of what is verified: by `verify`"),
     ("efforts", "of what is verified: by `verify`"),
     ("kinetic", "of what is verified: by `verify`"),
+    ("modes_by_points", "of a model: by `assembly_modes`"),
+    ("modes_by_sides", "of a model: by `assembly_modes`"),
+    ("on_circle", "by `assembly_modes`"),
     ("kinematics_2", "`kinematics`, asked for a second time"),
 ];
 

@@ -19,7 +19,9 @@ use models::{kept, tree};
 use multibody::nalgebra::SVector;
 use multibody::simba::simd::{WideF32x8, WideF64x4};
 use multibody::{Dop853, Radau, Rk4, System};
-use multibody_tests::models::{energy, extremes, impulses, linearised, loops, mechanisms, motion, small, stiff};
+use multibody_tests::models::{
+    assembled, energy, extremes, impulses, linearised, loops, mechanisms, motion, small, stiff,
+};
 use std::hint::black_box;
 
 /// What one integration may ask of a system: four steps, a thousand places in each where functions of events are looked at,
@@ -94,6 +96,16 @@ torment! {
     spatial: mechanisms::spatial_multipliers,
         |n: &Numbers| mechanisms::spatial_multipliers::Input { torque: n.draw() }, [inverse_dynamics, residual];
     slider_crank: loops::rrp_right, |_| (), [inverse_dynamics, kinematics];
+}
+
+#[test]
+fn assemblies() {
+    all(256, |n| {
+        let (circles, sides) =
+            (n.state::<assembled::octahedron::State>(), n.state::<assembled::three_two_one::State>());
+        black_box(assembled::octahedron::Model::<f64>::default().assembly_modes(n.draw(), &circles.q));
+        black_box(assembled::three_two_one::Model::<f64>::default().assembly_modes(n.draw(), &sides.q));
+    });
 }
 
 #[test]

@@ -32,6 +32,10 @@ pub enum FunctionKind {
     Residual,
     /// Of the model's kinematics number k: values, then rates, then accelerations.
     Kinematics(usize),
+    /// What vanishes where the model's assembly modes are, by the point of the circle that tells them.
+    AssemblyCondition,
+    /// Coordinates in the mode that a point and sides tell, then the greatest error of the distances.
+    Assembly,
     /// The unknowns of all iterations, then the greatest residual.
     Guess,
     /// Roots in closed forms of loops that vanish where two solutions meet.
@@ -95,6 +99,8 @@ pub struct Arguments {
     /// Of the constraint equations.
     pub rates: bool,
     pub momentum: bool,
+    /// What tells an assembly mode.
+    pub alternative: bool,
 }
 
 impl Arguments {
@@ -107,8 +113,10 @@ impl Arguments {
         impulse: false,
         rates: false,
         momentum: false,
+        alternative: false,
     };
     const TIMED: Arguments = Arguments { time: true, ..Arguments::POSITION };
+    const ALTERNATIVE: Arguments = Arguments { alternative: true, ..Arguments::TIMED };
     const STATE: Arguments = Arguments { state: true, ..Arguments::POSITION };
     const TIMED_STATE: Arguments = Arguments { time: true, ..Arguments::STATE };
     const ALL: Arguments = Arguments { input: true, ..Arguments::TIMED_STATE };
@@ -127,7 +135,7 @@ pub struct Sizes {
     pub guesses: usize,
     /// Inputs that inverse dynamics finds in the place of efforts.
     pub solved: Option<usize>,
-    /// Coordinates that the kinematics in question finds.
+    /// Coordinates that the kinematics, or the assembly modes, in question find.
     pub found: usize,
     /// Scalars of the group of outputs in question.
     pub grouped: usize,
@@ -166,6 +174,8 @@ pub enum Shape {
     OutputGroup(usize),
     /// Positions, rates, accelerations, so many each, then the residual.
     Kinematics(usize),
+    /// Positions, so many, then the residual.
+    Assembly(usize),
     /// Of so many results: matrices by position, velocity, own states, inputs.
     Derivatives(usize),
     /// Of so many components of the state.
@@ -205,6 +215,9 @@ impl Shape {
                 .into_iter()
                 .fold(Parts::default(), |parts, slot| parts.with(slot, Form::Vector(found)))
                 .with(Slot::Residual, Form::Scalar),
+            Shape::Assembly(found) => {
+                Parts::default().with(Slot::Positions, Form::Vector(found)).with(Slot::Residual, Form::Scalar)
+            }
             Shape::Derivatives(results) => [
                 (Slot::ByPosition, sizes.dof),
                 (Slot::ByVelocity, sizes.dof),
@@ -240,7 +253,7 @@ pub struct FunctionRow {
 
 impl FunctionKind {
     /// All of them in the order in which they are derived; the first kinematics and the first group of outputs for all.
-    pub const ALL: [FunctionKind; 26] = [
+    pub const ALL: [FunctionKind; 28] = [
         FunctionKind::ForwardDynamics,
         FunctionKind::InverseDynamics,
         FunctionKind::MassMatrix,
@@ -254,6 +267,8 @@ impl FunctionKind {
         FunctionKind::Guess,
         FunctionKind::Residual,
         FunctionKind::Kinematics(0),
+        FunctionKind::AssemblyCondition,
+        FunctionKind::Assembly,
         FunctionKind::ForwardDerivatives,
         FunctionKind::InverseDerivatives,
         FunctionKind::Linearization,
@@ -383,6 +398,23 @@ impl FunctionKind {
                 Arguments { accel: true, ..Arguments::TIMED_STATE },
                 |s| Shape::Kinematics(s.found),
                 |_| "Positions, rates and accelerations, in this order: {}.",
+            ),
+            FunctionKind::AssemblyCondition => row(
+                by(R::AssemblyModes, "assembly_modes { given: .., find: .. }", "AssemblyModes"),
+                "assembly_condition",
+                Arguments::ALTERNATIVE,
+                |_| Shape::Scalar,
+                |_| {
+                    "What vanishes where `assembly_modes` are: a sum of sines and cosines of multiples of the angle whose point \
+                     of the circle is given, for each choice of sides."
+                },
+            ),
+            FunctionKind::Assembly => row(
+                by(R::AssemblyModes, "assembly_modes { given: .., find: .. }", "AssemblyModes"),
+                "assembly_mode",
+                Arguments::ALTERNATIVE,
+                |s| Shape::Assembly(s.found),
+                |_| "Of one of `assembly_modes` the positions, in this order: {}.",
             ),
             FunctionKind::ForwardDerivatives => row(
                 by(R::Derivatives, "derivatives", "Derivatives"),

@@ -50,6 +50,10 @@ pub enum Symbol {
     Rate {
         row: usize,
     },
+    /// What tells an assembly mode: cosine and sine of an angle, then three sides, one or minus one.
+    Alternative {
+        component: usize,
+    },
     /// Where Newton's method starts: a component of the guess in `State`.
     Guess {
         index: usize,

@@ -24,6 +24,14 @@ impl Motion {
     pub fn freedoms(self) -> usize {
         if matches!(self, Motion::Ball(_)) { 3 } else { 1 }
     }
+
+    /// The coordinate axis that it turns about or slides along.
+    pub fn axis(self) -> Option<usize> {
+        match self {
+            Motion::Revolute(axis) | Motion::Prismatic(axis) | Motion::Screw(axis, _) => Some(axis),
+            Motion::Ball(_) => None,
+        }
+    }
 }
 
 /// One moving frame with what is fixed to it.

@@ -20,6 +20,7 @@ use quote::quote;
 
 use crate::contracts::cost::Cost;
 use crate::contracts::function::FunctionKind;
+use crate::mechanics::loops::structure::Modes;
 use crate::model::joint_kinds::JointKind;
 use crate::model::types::{Docs, Joint, Param, PartTypeId, State};
 use crate::optimize::program::{Compiled, Function};
@@ -167,6 +168,22 @@ pub(super) fn new(compiled: &Compiled) -> Vec<String> {
     ]
 }
 
+/// Of `Model::assembly_modes`.
+pub(super) fn assembly_modes(found: &[String], modes: Option<Modes>) -> Vec<String> {
+    let text = format!("All positions that what is given leaves, in this order: {}.", found.join(", "));
+    let Some(Modes { sides, roots }) = modes else { return vec![text] };
+    let count = match (sides, roots) {
+        (0, roots) => format!("{roots} at most, real ones first, the others NaN."),
+        (sides, 0) => format!("{} at most; those that are not real are NaN.", 1 << sides),
+        (sides, roots) => format!(
+            "{} at most: {roots} for each of {} choices of sides, real ones first in each row, the others NaN.",
+            roots << sides,
+            1 << sides
+        ),
+    };
+    vec![text, String::new(), count]
+}
+
 /// Of a derived function.
 pub(super) fn function(layout: &Layout<'_>, function: &Function) -> Vec<String> {
     let text = (function.kind.row().documentation)(&layout.sizes(function.kind));
@@ -174,6 +191,11 @@ pub(super) fn function(layout: &Layout<'_>, function: &Function) -> Vec<String> 
         FunctionKind::Kinematics(number) => {
             let found = &layout.model.kinematics[number].find;
             let found: Vec<String> = found.iter().map(|c| format!("`{}`", code(&layout.coordinate(*c)))).collect();
+            text.replace("{}", &found.join(", "))
+        }
+        FunctionKind::Assembly => {
+            let found = layout.model.assembly.iter().flat_map(|wanted| &wanted.find);
+            let found: Vec<String> = found.map(|c| format!("`{}`", code(&layout.coordinate(*c)))).collect();
             text.replace("{}", &found.join(", "))
         }
         FunctionKind::OutputGroup(number) => {

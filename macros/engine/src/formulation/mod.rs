@@ -128,6 +128,7 @@ fn judged(model: &Model, handling: &Handling) -> Model {
         judged.outputs.clear();
         judged.output_groups.clear();
         judged.kinematics.clear();
+        judged.assembly = None;
         judged.solve_for.clear();
     } else {
         judged.emit.retain(|request| !matches!(request, Request::Report | Request::Equations));

@@ -96,6 +96,7 @@ pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
         return Err(analysis.complaints);
     }
     structure.closures = closures::closures(model, &structure)?;
+    structure.assembly = closures::assembly(model, &structure)?;
     Ok(structure)
 }
 

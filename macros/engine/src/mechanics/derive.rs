@@ -5,6 +5,7 @@
 //! value are one node, in the form that was made first, so a second way would come out as the first; and what one
 //! function costs must not depend on which others are asked for.
 
+mod assembly;
 mod checks;
 mod derivatives;
 pub(in crate::mechanics) mod formula;
@@ -34,7 +35,7 @@ use super::loops::advice::Pivoted;
 use super::loops::constraints::Writing;
 use super::loops::known::Decided;
 use super::loops::solutions::Solutions;
-use super::loops::structure::{Role, Structure};
+use super::loops::structure::{Modes, Role, Structure};
 use super::results::{euler_singularities, first_order};
 use super::scene::Method;
 use super::strut::inverse;
@@ -112,7 +113,7 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
     // Last, so that nothing of them is found by what is emitted.
     let asked: Vec<FunctionKind> = functions.iter().map(|function| function.kind).collect();
     let witnesses = deriving.witnesses(&asked)?;
-    let Deriving { graph, symbols, notes, dead_centres, .. } = deriving;
+    let Deriving { graph, symbols, notes, dead_centres, modes, .. } = deriving;
     let symbol_names = symbols.table.iter().map(|&symbol| names::symbol(model, symbol)).collect();
     let symbols = symbols.table.clone();
     Ok(Derivation {
@@ -122,6 +123,7 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
         functions,
         notes,
         dead_centres,
+        modes,
         pivoted,
         page,
         checks,
@@ -225,6 +227,8 @@ struct Deriving<'m> {
     notes: Vec<String>,
     /// Unknowns whose closed forms have a root, and pitches.
     dead_centres: Vec<Coordinate>,
+    /// How many assembly modes there are.
+    modes: Option<Modes>,
     /// By candidate of the function that is derived what became of equations with multipliers.
     pivoted: Vec<Pivoted>,
 }
@@ -235,10 +239,10 @@ type Found = Result<Results<Scalar>, Vec<Complaint>>;
 impl<'m> Deriving<'m> {
     fn new(model: &'m Model, structure: &Structure) -> Self {
         let mut graph = Graph::new();
-        let structures = structure.closures.iter().flatten().map(|other| &**other);
+        let structures = structure.closures.iter().flatten().chain(&structure.assembly).map(|other| &**other);
         let guesses = structures.chain([structure]).map(Structure::guesses).max().unwrap_or(0);
         let symbols = Symbols::new(&mut graph, model).with_structure(&mut graph, model, structure, guesses);
-        let symbols = symbols.with_impulses(&mut graph, model, structure);
+        let symbols = symbols.with_impulses(&mut graph, model, structure).with_alternative(&mut graph, model);
         Deriving {
             model,
             structure: Rc::new(structure.clone()),
@@ -248,6 +252,7 @@ impl<'m> Deriving<'m> {
             writing: Writing::PLAIN,
             notes: Vec::new(),
             dead_centres: Vec::new(),
+            modes: None,
             pivoted: Vec::new(),
         }
     }
@@ -273,6 +278,10 @@ impl<'m> Deriving<'m> {
         for kind in kinds(model, &self.structure) {
             self.pivoted.clear();
             let candidates = self.candidates(kind)?;
+            if candidates.is_empty() && kind == FunctionKind::AssemblyCondition {
+                // Where no point tells the modes.
+                continue;
+            }
             if candidates.is_empty() {
                 raise("there is a way to each function");
             }

@@ -30,7 +30,7 @@ use crate::symbolic::graph::{Graph, Scalar};
 
 use analysis::Complaint;
 use loops::advice::Pivoted;
-use loops::structure::Structure;
+use loops::structure::{Modes, Structure};
 use written::Page;
 
 /// Structure and equations of a model.
@@ -40,6 +40,7 @@ pub fn of(model: &Model) -> Result<(Structure, Derivation), Vec<Complaint>> {
     let mut derivation = derive(model, &structure)?;
     let mut structure = structure.with_notes(std::mem::take(&mut derivation.notes));
     structure.dead_centres.clone_from(&derivation.dead_centres);
+    structure.modes = derivation.modes;
     structure.pivoted = std::mem::take(&mut derivation.pivoted);
     structure.page = derivation.page.take().map(Rc::new);
     Ok((structure, derivation))
@@ -57,6 +58,8 @@ pub struct Derivation {
     pub notes: Vec<String>,
     /// Unknowns whose roots [`FunctionKind::DeadCentres`] gives, in this order.
     pub dead_centres: Vec<Coordinate>,
+    /// How many assembly modes there are, where the model asks for them.
+    pub modes: Option<Modes>,
     /// By candidate of forward dynamics what became of equations with multipliers.
     pub pivoted: Vec<Pivoted>,
     /// The equations for readers, where the model asks for them.

@@ -55,6 +55,7 @@ pub(super) struct Loops {
     pub(super) solves: Vec<Solve>,
     pub(super) independent: Vec<Coordinate>,
     pub(super) kinematics: Vec<Kinematics>,
+    pub(super) assembly: Option<Kinematics>,
     pub(super) skipped: Vec<String>,
     pub(super) small: Vec<Coordinate>,
 }
@@ -121,6 +122,7 @@ impl<'a> Checker<'a, '_> {
             small: loops.small,
             solve_for: collected.requested.solve_for,
             kinematics: loops.kinematics,
+            assembly: loops.assembly,
             output_groups: self.output_groups(&collected.requested.outputs, &outputs),
             forces: all(collected.forces)?.into(),
             outputs,
@@ -158,6 +160,7 @@ impl<'a> Checker<'a, '_> {
             small: Vec::new(),
             solve_for: Vec::new(),
             kinematics: Vec::new(),
+            assembly: None,
             output_groups: Vec::new(),
             forces: IndexVec::new(),
             outputs: Vec::new(),
@@ -304,6 +307,9 @@ impl<'a> Checker<'a, '_> {
         }
         for (request, scope) in &collected.requested.kinematics {
             loops.kinematics.extend(self.kinematics(request, *scope, tree));
+        }
+        if let Some((request, scope)) = collected.requested.assembly {
+            loops.assembly = self.kinematics(request, scope, tree);
         }
         self.check_conflicts(&loops);
         loops

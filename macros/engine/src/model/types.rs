@@ -89,6 +89,8 @@ pub struct Model {
     pub solve_for: Vec<SolveFor>,
     /// Of `emit kinematics { .. }`.
     pub kinematics: Vec<Kinematics>,
+    /// Of `emit assembly_modes { .. }`.
+    pub assembly: Option<Kinematics>,
     /// Of `emit outputs { .. }`.
     pub output_groups: Vec<OutputGroup>,
 }
@@ -208,7 +210,7 @@ pub struct SolveFor {
     pub span: Span,
 }
 
-/// `emit kinematics { given: .., find: .. }`
+/// `emit kinematics { given: .., find: .. }`, and `assembly_modes` likewise.
 #[derive(Clone)]
 pub struct Kinematics {
     /// Coordinates whose positions, velocities and accelerations are given: whole joints.
@@ -507,6 +509,8 @@ pub enum Request {
     /// The equations as a residual for solvers of differential-algebraic equations.
     Residual,
     Kinematics,
+    /// All positions of coordinates that what is given leaves.
+    AssemblyModes,
     /// Partial derivatives of forward and inverse dynamics.
     Derivatives,
     /// The equations and outputs linearised at a state.

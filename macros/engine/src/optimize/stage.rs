@@ -31,6 +31,7 @@ impl Stage {
             Symbol::Position { .. }
             | Symbol::State { .. }
             | Symbol::Guess { .. }
+            | Symbol::Alternative { .. }
             | Symbol::Unknown { .. }
             | Symbol::UnknownPoint { .. } => Stage::Position,
             Symbol::Velocity { .. } => Stage::Velocity,

@@ -11,10 +11,12 @@
 //! left that no equation has alone, `orientation` finds them together, and `translation` slides that follow each other.
 
 mod chain;
+mod distances;
 mod elements;
 mod measures;
 mod orientation;
 mod pairs;
+pub mod placement;
 mod plan;
 mod primitives;
 mod system;
@@ -166,27 +168,31 @@ impl Plan {
 
     /// Solves the cycles that were planned. `signs` are one or minus one, or what is so at run time; roots beyond them are positive.
     pub fn solve(&self, g: &mut Graph, cycles: &[KinematicLoop], signs: &[Scalar]) -> Result<Solution, Failure> {
-        let mut system = System::new(cycles);
+        self.solve_system(g, &mut System::new(cycles), signs)
+    }
+
+    fn solve_system(&self, g: &mut Graph, system: &mut System, signs: &[Scalar]) -> Result<Solution, Failure> {
+        let cycles = system.cycles.len();
         let (mut solved, mut choices): (Vec<Solved>, usize) = (Vec::with_capacity(self.steps.len()), 0);
         let mut orientations = Vec::new();
         for step in &self.steps {
             let sign = signs.get(choices).copied().unwrap_or(Scalar::ONE);
             match step {
                 Step::Orientation(orientation) => {
-                    let found = orientation.solve(g, &mut system, sign).ok_or_else(|| Failure::NotFound {
+                    let found = orientation.solve(g, system, sign).ok_or_else(|| Failure::NotFound {
                         remaining: orientation.unknowns.map(|number| system.unknowns[number].symbol).to_vec(),
                         solved: solved.len(),
-                        cycles: cycles.len(),
+                        cycles,
                     })?;
                     orientations.push((found, choices, orientation.describe()));
                     choices += 1;
                 }
                 Step::Translation(translation) => {
                     let numbers = translation.unknowns.list();
-                    let found = translation.solve(g, &system, sign).ok_or_else(|| Failure::NotFound {
+                    let found = translation.solve(g, system, sign).ok_or_else(|| Failure::NotFound {
                         remaining: numbers.iter().map(|&number| system.unknowns[number].symbol).collect(),
                         solved: solved.len(),
-                        cycles: cycles.len(),
+                        cycles,
                     })?;
                     let own = found.solved.into_iter().map(|mut one| {
                         one.roots.iter_mut().for_each(|root| root.sign = choices);
@@ -202,7 +208,7 @@ impl Plan {
                         let rest = system.rest(cycle, number);
                         let opened = system.opened(g, cycle, number, &rest);
                         let Some(primitive) = opened.derive(g, candidate.source) else {
-                            let (remaining, solved, cycles) = (vec![symbol], solved.len(), cycles.len());
+                            let (remaining, solved) = (vec![symbol], solved.len());
                             return Err(Failure::NotFound { remaining, solved, cycles });
                         };
                         let how = candidate.describe();
@@ -217,7 +223,7 @@ impl Plan {
         }
         for (found, sign, how) in orientations {
             let symbols = found.unknowns.map(|number| system.unknowns[number].symbol);
-            let balances = found.balances(g, &system);
+            let balances = found.balances(g, system);
             let mut three: Vec<&mut Solved> = solved.iter_mut().filter(|one| symbols.contains(&one.symbol)).collect();
             for (&symbol, balances) in symbols.iter().zip(balances) {
                 let Some(one) = three.iter_mut().find(|one| one.symbol == symbol) else { continue };

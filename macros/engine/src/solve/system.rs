@@ -98,6 +98,11 @@ impl System {
         System { cycles, unknowns, known: Known::default() }
     }
 
+    /// One cycle by its links.
+    pub(super) fn alone(cycle: Cycle, unknowns: Vec<Unknown>) -> System {
+        System { cycles: vec![cycle], unknowns, known: Known::default() }
+    }
+
     /// Cycles in which an unknown is open.
     pub(super) fn cycles_with(&self, number: usize) -> impl Iterator<Item = usize> {
         (0..self.cycles.len()).filter(move |&cycle| self.cycles[cycle].links.iter().any(|link| link.is_open(number)))

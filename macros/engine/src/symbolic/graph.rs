@@ -375,6 +375,11 @@ impl Graph {
         self.reads[0][symbol.index()] |= 1 << (bit % 128);
     }
 
+    /// Takes a mark away again, from what is made later.
+    pub fn unmark(&mut self, symbol: Scalar, bit: usize) {
+        self.reads[0][symbol.index()] &= !(1 << (bit % 128));
+    }
+
     /// The marks that a scalar reads.
     pub fn marks(&self, s: Scalar) -> u128 {
         self.reads[0][s.index()]

@@ -53,7 +53,7 @@ pub(super) struct States<'m> {
 /// Places of symbols.
 #[derive(Default)]
 struct Table {
-    lists: [Vec<Vec<usize>>; 12],
+    lists: [Vec<Vec<usize>>; 13],
 }
 
 /// Which list a symbol stands in, and where.
@@ -71,6 +71,7 @@ fn address(symbol: Symbol) -> (usize, usize, usize) {
         Symbol::Momentum { joint, component } => (9, joint.0, component),
         Symbol::Rate { row } => (10, row, 0),
         Symbol::Guess { index } => (11, index, 0),
+        Symbol::Alternative { component } => (12, component, 0),
         Symbol::Unknown { .. } | Symbol::UnknownPoint { .. } => (usize::MAX, 0, 0),
     }
 }
@@ -160,6 +161,12 @@ impl<'m> States<'m> {
                 None => wide * random.next(),
             },
             Symbol::Guess { .. } => 0.0,
+            // A point of the circle, another one each time, and sides.
+            Symbol::Alternative { component } => {
+                let (sin, cos) = (2.399_963 * (1 + number + 3 * attempt) as f64).sin_cos();
+                let side = |k: usize| if attempt >> k & 1 == 0 { 1.0 } else { -1.0 };
+                [cos, sin, side(0), side(1), side(2)][component]
+            }
             // Outside its iteration only what is the same anywhere on the circle reads it.
             Symbol::UnknownPoint { component, .. } => [0.6, 0.8][component],
             _ => {

@@ -91,6 +91,7 @@ pub fn empty(module: &str) -> Model {
         asked: Vec::new(),
         solve_for: Vec::new(),
         kinematics: Vec::new(),
+        assembly: None,
         output_groups: Vec::new(),
     }
 }

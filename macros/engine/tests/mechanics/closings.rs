@@ -407,6 +407,7 @@ fn a_leg_costs_what_it_should() {
                 }],
                 notes: Vec::new(),
                 dead_centres: Vec::new(),
+                modes: None,
                 pivoted: Vec::new(),
                 page: None,
                 checks: Vec::new(),

@@ -6,6 +6,7 @@ mod advice;
 mod against;
 mod alike;
 mod analysis;
+mod assembly;
 mod auto;
 mod balance;
 mod closed_forms;

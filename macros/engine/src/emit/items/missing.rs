@@ -7,10 +7,12 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::contracts::function::{Asked, FunctionKind};
+use crate::contracts::function::{Arguments, Asked, FunctionKind};
 use crate::emit::layout::StructKind;
 use crate::emit::methods::functions;
 use crate::emit::{Context, document, names};
+
+use super::assembly;
 
 /// Expands to `impl<T: Real> Model<T> { pub fn mass_matrix<A: emitted::MassMatrix>(&self, _q: &A) -> A::Result { .. } }`.
 pub(super) fn items(context: &Context<'_>) -> TokenStream {
@@ -23,6 +25,8 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
         FunctionKind::ALL.into_iter().filter(|kind| is_missing(*kind)).filter_map(|kind| match kind.row().asked {
             // Where none is declared none has a name.
             Asked::By { .. } if matches!(kind, FunctionKind::OutputGroup(_)) => None,
+            // Who asks calls what goes through all of them.
+            Asked::By { .. } if kind == FunctionKind::AssemblyCondition => None,
             Asked::By { word, missing, .. } => {
                 Some(method(context, kind, &format!("Not derived: `emit {word}` in the model asks for it."), missing))
             }
@@ -44,8 +48,12 @@ fn method(context: &Context<'_>, kind: FunctionKind, docs: &str, of: &str) -> To
     let layout = &context.layout;
     let krate = layout.krate();
     let docs = document::attributes(&[docs.to_string()]);
-    let (name, of) = (names::ident(&functions::name(layout.model, kind)), names::ident(of));
-    let arguments = kind.row().takes.refused(layout);
+    let (name, takes) = match kind {
+        FunctionKind::Assembly => (assembly::NAME.into(), Arguments { alternative: false, ..kind.row().takes }),
+        kind => (functions::name(layout.model, kind), kind.row().takes),
+    };
+    let (name, of) = (names::ident(&name), names::ident(of));
+    let arguments = takes.refused(layout);
     quote! {
         #docs
         #[doc(hidden)]

@@ -1,5 +1,6 @@
 //! Stage `emit`: the items of a generated module, one file each.
 
+mod assembly;
 mod check;
 mod conversions;
 mod costs;
@@ -38,6 +39,7 @@ pub(super) fn all(context: &Context<'_>) -> TokenStream {
         system::item(context),
         differentiable::item(context),
         separable::item(context),
+        assembly::items(context).unwrap_or_default(),
         impulses::items(context),
         verifiable::item(context).unwrap_or_default(),
         parts::items(context),

@@ -26,6 +26,7 @@ pub(in crate::emit) enum Root {
     Impulse,
     Rates,
     Momentum,
+    Alternative,
 }
 
 impl Root {
@@ -43,6 +44,7 @@ impl Root {
             Symbol::Impulse { .. } => Root::Impulse,
             Symbol::Rate { .. } => Root::Rates,
             Symbol::Momentum { .. } => Root::Momentum,
+            Symbol::Alternative { .. } => Root::Alternative,
             Symbol::Guess { .. } => Root::Guess,
             Symbol::Unknown { .. } | Symbol::UnknownPoint { .. } => return None,
         })
@@ -62,6 +64,7 @@ impl Root {
             Root::Impulse => "impulse",
             Root::Rates => "rates",
             Root::Momentum => "momentum",
+            Root::Alternative => "alternative",
         }
     }
 }
@@ -80,6 +83,7 @@ pub(in crate::emit) const RESERVED: &[&str] = &[
     "impulse",
     "rates",
     "momentum",
+    "alternative",
     "state",
     "solved",
     "scalar",
@@ -100,6 +104,11 @@ impl Layout<'_> {
             Symbol::Multiplier { row: index } | Symbol::Rate { row: index } => {
                 let index = Literal::usize_unsuffixed(index);
                 return quote!([#index]);
+            }
+            Symbol::Alternative { component } => {
+                let (field, index) = if component < 2 { ("point", component) } else { ("sides", component - 2) };
+                let (field, index) = (names::ident(field), Literal::usize_unsuffixed(index));
+                return quote!(.#field[#index]);
             }
             Symbol::Param { param, element } => self.entry(StructKind::Params, param.0, element),
             Symbol::Input { input, element } => self.entry(StructKind::Input, input.0, element),

@@ -21,7 +21,7 @@ impl Arguments {
         let mut needed = kind.row().takes;
         for root in roots {
             match root {
-                Root::Params | Root::Position | Root::Impulse | Root::Rates | Root::Momentum => {}
+                Root::Params | Root::Position | Root::Impulse | Root::Rates | Root::Momentum | Root::Alternative => {}
                 Root::Velocity | Root::States | Root::Guess => needed.state = true,
                 Root::Time if needed.time => {}
                 Root::Time if needed.impulse || needed.rates => needed.time = true,
@@ -88,6 +88,10 @@ impl Arguments {
         if self.momentum {
             let momentum = named(roots.contains(&Root::Momentum), "momentum");
             list.push(quote!(#momentum: &Velocity<T>));
+        }
+        if self.alternative {
+            let alternative = named(roots.contains(&Root::Alternative), "alternative");
+            list.push(quote!(#alternative: &#krate::assembly::Alternative<T>));
         }
         quote!(#(#list),*)
     }

@@ -45,6 +45,7 @@ impl Layout<'_> {
             [StructKind::States, StructKind::Input, StructKind::Output].map(|group| self.table(group).size);
         let found = match kind {
             FunctionKind::Kinematics(number) => self.model.kinematics[number].find.len(),
+            FunctionKind::Assembly => self.model.assembly.as_ref().map_or(0, |wanted| wanted.find.len()),
             _ => 0,
         };
         let grouped = match kind {
@@ -104,6 +105,10 @@ pub(in crate::emit) fn ty(layout: &Layout<'_>, kind: FunctionKind) -> TokenStrea
             let count = Literal::usize_unsuffixed(found);
             quote!(#krate::Kinematics<T, #count>)
         }
+        Shape::Assembly(found) => {
+            let count = Literal::usize_unsuffixed(found);
+            quote!(#krate::AssemblyMode<T, #count>)
+        }
         Shape::Derivatives(results) => {
             let sizes = layout.sizes(kind);
             let [results, dof, states, inputs] =
@@ -145,6 +150,11 @@ pub(in crate::emit) fn value(layout: &Layout<'_>, kind: FunctionKind, results: V
                     position: #position, velocity: #velocity, acceleration: #acceleration, residual: #residual
                 }
             }
+        }
+        Shape::Assembly(_) => {
+            let position = vector(layout, results.of(Slot::Positions));
+            let residual = scalar(&results, Slot::Residual);
+            quote!(#krate::AssemblyMode { position: #position, residual: #residual })
         }
         Shape::Derivatives(rows) => {
             let matrix = |slot, group| {

@@ -9,6 +9,7 @@ use std::rc::Rc;
 
 use crate::mechanics::loops::constraints::coordinate_name;
 use crate::mechanics::loops::structure::{Means, Role, Structure};
+use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::site::Sited;
 use crate::model::types::{Coordinate, Handling, Kinematics, LoopClosure, Model};
 
@@ -29,6 +30,17 @@ pub(super) fn closures(model: &Model, structure: &Structure) -> Result<Vec<Optio
         false => closure(model, structure, wanted).map(|found| Some(Rc::new(found))),
     };
     model.kinematics.iter().map(one).collect()
+}
+
+/// For `assembly_modes`.
+pub(super) fn assembly(model: &Model, structure: &Structure) -> Result<Option<Rc<Structure>>, Vec<Complaint>> {
+    let Some(wanted) = &model.assembly else { return Ok(None) };
+    if wanted.find.iter().any(|coordinate| has_quaternion(&model.joints[coordinate.joint])) {
+        let message = "orientations of assembly modes are angles".to_owned();
+        let help = "write `RollPitchYaw`, as in `coordinates: Absolute(RollPitchYaw)`".to_owned();
+        return Err(vec![Complaint { at: wanted.site(), message, help: Some(help) }]);
+    }
+    closure(model, structure, wanted).map(|closure| Some(Rc::new(closure)))
 }
 
 /// Whether formulas lead from what is given to what is to be found, as far as equations read coordinates.
@@ -89,8 +101,14 @@ fn closure(model: &Model, structure: &Structure, wanted: &Kinematics) -> Result<
         let message = format!("{} coordinates are given, but {freedoms} {are} independent", independent.len());
         return Err(complain(message, "give fewer: the others follow from them"));
     }
-    let other =
-        Model { handling: Handling::Reduced, independent, solves: Vec::new(), kinematics: Vec::new(), ..model.clone() };
+    let other = Model {
+        handling: Handling::Reduced,
+        independent,
+        solves: Vec::new(),
+        kinematics: Vec::new(),
+        assembly: None,
+        ..model.clone()
+    };
     let found = analyse(&other).map_err(|complaints| {
         let (why, help) = complaints.into_iter().next().map(|one| (one.message, one.help)).unwrap_or_default();
         // What is said of `independent` is meant of what is given.

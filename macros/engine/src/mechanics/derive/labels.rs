@@ -63,6 +63,8 @@ impl Deriving<'_> {
             FunctionKind::ConstraintBias => (Vec::new(), "gap_bias"),
             FunctionKind::Residual => (of_state("effort"), "gap"),
             FunctionKind::Kinematics(_) => (Vec::new(), "found"),
+            FunctionKind::AssemblyCondition => (Vec::new(), "condition"),
+            FunctionKind::Assembly => (Vec::new(), "found"),
             FunctionKind::Guess => (Vec::new(), "unknown"),
             FunctionKind::DeadCentres => (Vec::new(), "root"),
             FunctionKind::Margins => (Vec::new(), "margin"),

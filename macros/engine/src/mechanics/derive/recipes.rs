@@ -122,6 +122,10 @@ fn recipe(kind: FunctionKind, solves_inputs: bool) -> Recipe {
             const { &[InAxes(NEWTON_EULER, |e| Ok(Results::velocity(e.inverse_dynamics(LoadCase::Declared))))] },
             const { &[Written(&AXES, |e, r| e.residual(r)), Lumped(residual)] },
         ),
+        F::AssemblyCondition | F::Assembly => {
+            const SAME: &[Way] = &[Chosen(|d, kind| d.assembly(kind))];
+            (SAME, SAME)
+        }
         F::Kinematics(_) => (const { &[Chosen(kinematics)] }, const { &[Chosen(kinematics)] }),
         F::Guess => (NONE, const { &[Defined("Newton's method", guess)] }),
         F::DeadCentres => (

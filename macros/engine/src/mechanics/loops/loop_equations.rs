@@ -1,6 +1,6 @@
 //! Stage `mechanics`: loops as cycles for the stage `solve`.
 //!
-//! In: a `solve` item. Out: each of its loops as a [`KinematicLoop`], walked once around: from the last link that carries both ends out to
+//! In: a `solve` item, or a closing with what is unknown of its loop. Out: each of its loops as a [`KinematicLoop`], walked once around: from the last link that carries both ends out to
 //! the closing's parent frame, through the closing, and back from its child frame. Motions that are known stay as they
 //! are, unknown ones keep the symbols of their coordinates as placeholders. A motion that is walked against its sense is
 //! the same motion about the opposite axis: turned by half a turn before and after.
@@ -9,7 +9,7 @@ use crate::dynamics::tree::{Link, Motion};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::build::FixedFrame;
 use crate::mechanics::translate::symbols::UNWANTED;
-use crate::model::types::{ConstraintKind, Joint, JointId, LoopClosure, Solve};
+use crate::model::types::{ConstraintKind, Coordinate, Joint, JointId, LoopClosure, Solve};
 use crate::solve::{KinematicLoop, Segment};
 use crate::symbolic::graph::{Rotation, Scalar, Vector};
 use crate::symbolic::rotations;
@@ -22,7 +22,7 @@ impl Equations<'_> {
             .map(|(number, closing)| {
                 // The first of the closing's own coordinates.
                 let own = number * UNWANTED;
-                let segments = self.segments(closing, own, item);
+                let segments = self.segments(closing, own, &item.unknowns);
                 let winding = match closing {
                     LoopClosure::Cut(id) => self.cycle_winding(id, own),
                     LoopClosure::Constraint(_) => None,
@@ -40,7 +40,13 @@ impl Equations<'_> {
         Some(self.g.sub(sum, own))
     }
 
-    fn segments(&mut self, closing: LoopClosure, own: usize, item: &Solve) -> Vec<Segment> {
+    /// Once around the loop of a closing, with these coordinates unknown; the closing's own ones are numbered from `own` on.
+    pub(in crate::mechanics) fn segments(
+        &mut self,
+        closing: LoopClosure,
+        own: usize,
+        unknowns: &[Coordinate],
+    ) -> Vec<Segment> {
         let model = self.scene.model;
         let mut cycle = Vec::new();
         match closing {
@@ -48,9 +54,9 @@ impl Equations<'_> {
                 let joint = &model.joints[id];
                 let (from, to) = (self.place(&joint.parent), self.place(&joint.child));
                 let common = self.common(from.link, to.link);
-                self.outwards_to(&from, common, item, &mut cycle);
+                self.outwards_to(&from, common, unknowns, &mut cycle);
                 self.closing_motions(joint, own, &mut cycle);
-                self.back_from(&to, common, item, &mut cycle);
+                self.back_from(&to, common, unknowns, &mut cycle);
             }
             LoopClosure::Constraint(id) => {
                 let ConstraintKind::Rod { between, length } = &model.constraints[id].kind else {
@@ -59,33 +65,45 @@ impl Equations<'_> {
                 let (from, to) = (self.place(&between[0]), self.place(&between[1]));
                 let length = self.scalar(length);
                 let common = self.common(from.link, to.link);
-                self.outwards_to(&from, common, item, &mut cycle);
+                self.outwards_to(&from, common, unknowns, &mut cycle);
                 cycle.push(self.unwanted(Motion::Ball([Scalar::ZERO; 4]), own));
                 let offset = self.g.along(0, length);
                 cycle.push(Segment::Fixed { rotation: Rotation::IDENTITY, offset });
                 cycle.push(self.unwanted(Motion::Ball([Scalar::ZERO; 4]), own + 3));
-                self.back_from(&to, common, item, &mut cycle);
+                self.back_from(&to, common, unknowns, &mut cycle);
             }
         }
         cycle
     }
 
-    fn outwards_to(&mut self, place: &FixedFrame, common: Option<usize>, item: &Solve, cycle: &mut Vec<Segment>) {
+    fn outwards_to(
+        &mut self,
+        place: &FixedFrame,
+        common: Option<usize>,
+        unknowns: &[Coordinate],
+        cycle: &mut Vec<Segment>,
+    ) {
         let mechanism = std::rc::Rc::clone(&self.scene.mechanism);
         for index in mechanism.tree.path(common, place.link) {
             let link = &mechanism.tree.links[index];
             cycle.push(Segment::Fixed { rotation: link.rotation, offset: link.offset });
-            self.motion(link, false, item, cycle);
+            self.motion(link, false, unknowns, cycle);
         }
         cycle.push(Segment::Fixed { rotation: place.rotation, offset: place.offset });
     }
 
-    fn back_from(&mut self, place: &FixedFrame, common: Option<usize>, item: &Solve, cycle: &mut Vec<Segment>) {
+    fn back_from(
+        &mut self,
+        place: &FixedFrame,
+        common: Option<usize>,
+        unknowns: &[Coordinate],
+        cycle: &mut Vec<Segment>,
+    ) {
         let mechanism = std::rc::Rc::clone(&self.scene.mechanism);
         self.inverse(place.rotation, place.offset, cycle);
         for index in mechanism.tree.path(common, place.link).into_iter().rev() {
             let link = &mechanism.tree.links[index];
-            self.motion(link, true, item, cycle);
+            self.motion(link, true, unknowns, cycle);
             self.inverse(link.rotation, link.offset, cycle);
         }
     }
@@ -96,8 +114,8 @@ impl Equations<'_> {
     }
 
     /// A link's motion, or its inverse.
-    fn motion(&mut self, link: &Link, back: bool, item: &Solve, cycle: &mut Vec<Segment>) {
-        let unknown = item.unknowns.iter().any(|&u| {
+    fn motion(&mut self, link: &Link, back: bool, unknowns: &[Coordinate], cycle: &mut Vec<Segment>) {
+        let unknown = unknowns.iter().any(|&u| {
             let symbol = self.coordinate_symbols(u)[0];
             symbol.index() == link.q.index() && symbol != Scalar::ZERO
         });

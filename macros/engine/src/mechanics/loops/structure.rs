@@ -47,6 +47,10 @@ pub struct Structure {
     /// By `kinematics` of the model: how what is to be found follows from what is given by Newton's method, where no `solve` item
     /// gives it.
     pub closures: Vec<Option<Rc<Structure>>>,
+    /// The same of `emit assembly_modes`: what is given is independent there, and all else of its loops follows.
+    pub assembly: Option<Rc<Structure>>,
+    /// How many assembly modes there are; known once they are derived.
+    pub modes: Option<Modes>,
     /// What is there several times.
     pub groups: Vec<Group>,
     /// Unknowns whose closed forms have a root, and pitches; known once they are derived.
@@ -65,6 +69,13 @@ pub struct Structure {
     pub advice: Option<Box<Advice>>,
     /// The equations for readers, where the model asks for them; known once they are derived.
     pub page: Option<Rc<Page>>,
+}
+
+/// How many assembly modes there are at most: so many roots, where there is a polynomial, for each choice of so many sides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Modes {
+    pub sides: usize,
+    pub roots: usize,
 }
 
 /// A configuration in which all loops are closed.

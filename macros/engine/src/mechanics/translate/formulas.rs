@@ -190,6 +190,7 @@ fn variable(model: &Model, symbol: Symbol) -> Option<Variable> {
         | Symbol::Multiplier { .. }
         | Symbol::Impulse { .. }
         | Symbol::Momentum { .. }
+        | Symbol::Alternative { .. }
         | Symbol::Rate { .. }
         | Symbol::Guess { .. }
         | Symbol::Unknown { .. }

@@ -44,6 +44,9 @@ pub(in crate::mechanics) fn symbol(model: &Model, symbol: Symbol) -> String {
         Symbol::Acceleration { joint, component } => of_joint(model, joint, |kind| rate(kind, component, "accel")),
         Symbol::Impulse { joint, component } => of_joint(model, joint, |kind| rate(kind, component, "impulse")),
         Symbol::Momentum { joint, component } => of_joint(model, joint, |kind| rate(kind, component, "momentum")),
+        Symbol::Alternative { component } => {
+            ["cos_alternative", "sin_alternative", "side_1", "side_2", "side_3"][component].to_owned()
+        }
         Symbol::Rate { row } => format!("rate_{row}"),
         Symbol::Multiplier { row } => format!("multiplier_{row}"),
         Symbol::Guess { index } => format!("guess_{index}"),

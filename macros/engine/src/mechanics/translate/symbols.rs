@@ -7,6 +7,7 @@
 use crate::contracts::symbol::Symbol;
 use crate::mechanics::loops::structure::{Role, Structure};
 use crate::model::types::{Coordinate, InputId, Joint, JointId, Model, ParamId, Request, StateId};
+use crate::solve::placement::Alternative;
 use crate::symbolic::graph::{Graph, Scalar};
 
 /// Handles of all symbols, by what they stand for.
@@ -31,6 +32,8 @@ pub struct Symbols {
     pub impulses: Vec<Scalar>,
     /// By constraint equation with a multiplier: its rate in a jump.
     pub rates: Vec<Scalar>,
+    /// What tells an assembly mode, where the model asks for them.
+    pub alternative: Option<Alternative>,
     guesses: Vec<Scalar>,
     unknowns: Vec<Scalar>,
     /// By unknown of an iteration: cosine and sine, where it is an angle that is iterated as such.
@@ -50,7 +53,7 @@ impl Symbols {
         let table = &mut self.table;
         self.multipliers = several(g, table, structure.rows.len(), |row| Symbol::Multiplier { row });
         self.guesses = several(g, table, guesses, |index| Symbol::Guess { index });
-        let solves = !structure.steps.is_empty() || !model.kinematics.is_empty();
+        let solves = !structure.steps.is_empty() || !model.kinematics.is_empty() || model.assembly.is_some();
         let closings = model.solves.iter().map(|solve| solve.closings().count()).max().unwrap_or(0).max(1);
         let unknowns = if solves { guesses + closings * UNWANTED } else { 0 };
         self.unknowns = several(g, table, unknowns, |index| Symbol::Unknown { index });
@@ -82,6 +85,17 @@ impl Symbols {
         });
         self.impulses = impulses.collect();
         self.rates = several(g, table, structure.rows.len(), |row| Symbol::Rate { row });
+        self
+    }
+
+    /// The same with what tells an assembly mode, where the model asks for them, behind all others.
+    pub fn with_alternative(mut self, g: &mut Graph, model: &Model) -> Symbols {
+        if model.assembly.is_some() {
+            self.table.extend([0, 1].map(|component| Symbol::Alternative { component }));
+            let point = g.unit_circle();
+            let sides = [2, 3, 4].map(|component| one(g, &mut self.table, Symbol::Alternative { component }));
+            self.alternative = Some(Alternative { point, sides });
+        }
         self
     }
 
@@ -198,6 +212,7 @@ impl Symbols {
             multipliers: Vec::new(),
             impulses: Vec::new(),
             rates: Vec::new(),
+            alternative: None,
             guesses: Vec::new(),
             unknowns: Vec::new(),
             points: Vec::new(),

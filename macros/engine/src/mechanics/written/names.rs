@@ -32,6 +32,7 @@ pub(in crate::mechanics) fn identifier(model: &Model, symbol: Symbol) -> Identif
         Symbol::Multiplier { row } => entry("lambda", format!("{}", row + 1), Class::Multiplier),
         Symbol::Impulse { joint, component } => of_coordinate("impulse", model, joint, component),
         Symbol::Momentum { joint, component } => of_coordinate("momentum", model, joint, component),
+        Symbol::Alternative { component } => entry("alternative", format!("{}", component + 1), Class::Defined),
         Symbol::Rate { row } => entry("rate", format!("{}", row + 1), Class::Rate),
         Symbol::Guess { index } => entry("guess", format!("{}", index + 1), Class::Defined),
         Symbol::UnknownPoint { index, component } => {

@@ -88,6 +88,7 @@ impl<'a> Checker<'a, '_> {
             independent: loops.independent,
             solve_for: collected.requested.solve_for,
             kinematics: loops.kinematics,
+            assembly: loops.assembly,
             output_groups: self.output_groups(&collected.requested.outputs, &outputs),
             outputs,
             emit,

@@ -20,7 +20,7 @@ use crate::syntax::tree;
 
 use super::fields::{Known, field};
 
-const REQUESTS: [(&str, Request); 15] = [
+const REQUESTS: [(&str, Request); 16] = [
     ("forward_dynamics", Request::ForwardDynamics),
     ("inverse_dynamics", Request::InverseDynamics),
     ("mass_matrix", Request::MassMatrix),
@@ -29,6 +29,7 @@ const REQUESTS: [(&str, Request); 15] = [
     ("constraints", Request::Constraints),
     ("residual", Request::Residual),
     ("kinematics", Request::Kinematics),
+    ("assembly_modes", Request::AssemblyModes),
     ("derivatives", Request::Derivatives),
     ("linearize", Request::Linearize),
     ("impulse", Request::Impulse),
@@ -91,6 +92,8 @@ pub(in crate::model) struct Requested<'a> {
     pub(in crate::model) solve_for: Vec<SolveFor>,
     /// Read when it is known what hangs on what.
     pub(in crate::model) kinematics: Vec<(&'a tree::Request, ScopeId)>,
+    /// The same of `assembly_modes`.
+    pub(in crate::model) assembly: Option<(&'a tree::Request, ScopeId)>,
     /// Groups of outputs, read when all outputs are known.
     pub(in crate::model) outputs: Vec<&'a tree::Fields>,
     /// Where `constraints` is asked for.
@@ -121,6 +124,8 @@ impl<'a> Checker<'a, '_> {
                     let message = format!("`{name}` is asked for twice");
                     self.report.error(span, message);
                     continue;
+                } else if *found == Request::AssemblyModes {
+                    into.assembly = Some((request, scope));
                 } else {
                     self.options(request, scope, into);
                 }
@@ -219,13 +224,17 @@ impl<'a> Checker<'a, '_> {
         scope: ScopeId,
         joints: Option<(&Topology, &Joints)>,
     ) -> Option<Kinematics> {
-        const FORM: &str = "write `kinematics { given: platform.pose, find: legs.stroke }`";
+        let word = request.name.to_string();
+        let form = match &word[..] {
+            "assembly_modes" => "write `assembly_modes { given: legs.stroke, find: platform.pose }`",
+            _ => "write `kinematics { given: platform.pose, find: legs.stroke }`",
+        };
         let span = request.name.span();
         let Some(options) = &request.options else {
-            self.report.help(span, "`kinematics` needs to know what is given and what to find", FORM);
+            self.report.help(span, format!("`{word}` needs to know what is given and what to find"), form);
             return None;
         };
-        self.check_fields("`kinematics`", &request.name, options, &KINEMATICS);
+        self.check_fields(&format!("`{word}`"), &request.name, options, &KINEMATICS);
         let context = root(scope);
         let given = field(options, "given").and_then(|expr| self.given(expr, context, joints));
         let find = field(options, "find").and_then(|expr| {

@@ -34,6 +34,7 @@ const EMIT: Room = &[
     ("constraints", &[]),
     ("residual", &[]),
     ("kinematics", &["given", "find"]),
+    ("assembly_modes", &["given", "find"]),
     ("derivatives", &[]),
     ("linearize", &[]),
     ("impulse", &[]),

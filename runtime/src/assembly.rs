@@ -1,0 +1,77 @@
+//! All ways in which a parallel robot can be assembled with what is given: [`modes_by_points`] and [`modes_by_sides`], for generated code.
+//!
+//! The pose of a platform on six legs of given lengths is one of several, as many as a polynomial in one unknown has real roots
+//! (Merlet 2006, Parallel Robots, chapter 4). Generated code knows the robot up to that unknown, a point of the circle: a *condition*
+//! that vanishes there, a sum of sines and cosines of its first multiples, and the *pose* that belongs to each point. What a square
+//! root leaves open is a side, plus or minus one, and all sides are gone through. The roots are those of [`roots`].
+
+pub mod roots;
+
+use nalgebra::SVector;
+
+use crate::Real;
+
+/// What tells one assembly mode from the others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Alternative<T> {
+    /// Cosine and sine of the unknown angle, of no meaning where there is none.
+    pub point: [T; 2],
+    /// One or minus one, for each square root.
+    pub sides: [T; 3],
+}
+
+/// One way in which a mechanism can be assembled, given by `assembly_modes` of a generated model.
+///
+/// ```
+/// use multibody::{AssemblyMode, nalgebra::SVector};
+///
+/// let mode = AssemblyMode { position: SVector::from([0.1, 0.2]), residual: 1e-16 };
+/// assert_eq!(mode.position[1], 0.2);
+/// ```
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AssemblyMode<T, const N: usize> {
+    /// `[m]` or `[rad]`: the coordinates that were asked for, in their order. NaN where this mode is not real.
+    pub position: SVector<T, N>,
+    /// `[1]`: the greatest error of the distances that hold the mechanism, each relative to the squares that it is made of: rounding,
+    /// but where two modes meet. NaN where this mode is not real.
+    pub residual: T,
+}
+
+/// All assembly modes: `ROOTS` points of the circle, which is `SAMPLES - 1`, for each choice of sides, of which there are `MODES / ROOTS`.
+///
+/// The modes of one choice stand in a row, real ones first. Every input costs the same.
+#[must_use]
+pub fn modes_by_points<T: Real, const SAMPLES: usize, const ROOTS: usize, const MODES: usize, const N: usize>(
+    condition: impl Fn(&Alternative<T>) -> T,
+    mode: impl Fn(&Alternative<T>) -> AssemblyMode<T, N>,
+) -> [AssemblyMode<T, N>; MODES] {
+    let mut modes = [unknown(); MODES];
+    for (choice, row) in modes.chunks_mut(ROOTS).enumerate() {
+        let sides = sides(choice);
+        let points = roots::on_circle::<T, SAMPLES, ROOTS>(|point| condition(&Alternative { point, sides }));
+        for (found, point) in row.iter_mut().zip(points) {
+            *found = mode(&Alternative { point, sides });
+        }
+    }
+    modes
+}
+
+/// All assembly modes where no angle is unknown: one for each of `MODES` choices of sides.
+#[must_use]
+pub fn modes_by_sides<T: Real, const MODES: usize, const N: usize>(
+    mode: impl Fn(&Alternative<T>) -> AssemblyMode<T, N>,
+) -> [AssemblyMode<T, N>; MODES] {
+    let point = [T::lit(1.0), T::lit(0.0)];
+    core::array::from_fn(|choice| mode(&Alternative { point, sides: sides(choice) }))
+}
+
+fn unknown<T: Real, const N: usize>() -> AssemblyMode<T, N> {
+    let nan = T::lit(f64::NAN);
+    AssemblyMode { position: SVector::repeat(nan), residual: nan }
+}
+
+/// The sides that a number says, by its binary digits.
+fn sides<T: Real>(choice: usize) -> [T; 3] {
+    [0, 1, 2].map(|k| T::lit(if choice >> k & 1 == 1 { -1.0 } else { 1.0 }))
+}
