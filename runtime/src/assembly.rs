@@ -38,23 +38,60 @@ pub struct AssemblyMode<T, const N: usize> {
     pub residual: T,
 }
 
-/// All assembly modes: `ROOTS` points of the circle, which is `SAMPLES - 1`, for each choice of sides, of which there are `MODES / ROOTS`.
+/// All assembly modes, from up to `ROOTS` points of the circle, which is `SAMPLES - 1`, for each of `MODES / ROOTS` choices of the sides
+/// that the condition reads. To each point belong `CHOICES` more sides.
 ///
-/// The modes of one choice stand in a row, real ones first. Every input costs the same.
+/// The modes of one choice stand in a row, real ones first, each once. What has a residual above half of all digits is none, and what
+/// agrees with another one to so many digits is the same. Every input costs the same.
 #[must_use]
-pub fn modes_by_points<T: Real, const SAMPLES: usize, const ROOTS: usize, const MODES: usize, const N: usize>(
+pub fn modes_by_points<
+    T: Real,
+    const SAMPLES: usize,
+    const ROOTS: usize,
+    const CHOICES: usize,
+    const MODES: usize,
+    const N: usize,
+>(
     condition: impl Fn(&Alternative<T>) -> T,
     mode: impl Fn(&Alternative<T>) -> AssemblyMode<T, N>,
 ) -> [AssemblyMode<T, N>; MODES] {
     let mut modes = [unknown(); MODES];
     for (choice, row) in modes.chunks_mut(ROOTS).enumerate() {
-        let sides = sides(choice);
-        let points = roots::on_circle::<T, SAMPLES, ROOTS>(|point| condition(&Alternative { point, sides }));
-        for (found, point) in row.iter_mut().zip(points) {
-            *found = mode(&Alternative { point, sides });
+        let own = sides(choice);
+        let points = roots::on_circle::<T, SAMPLES, ROOTS>(|point| condition(&Alternative { point, sides: own }));
+        let mut count = T::lit(0.0);
+        for point in points {
+            for further in 0..CHOICES {
+                let sides = sides(choice + further * (MODES / ROOTS));
+                insert(row, &mut count, &mode(&Alternative { point, sides }));
+            }
         }
     }
     modes
+}
+
+/// Takes a mode to the next free place, if it is one and is not there.
+fn insert<T: Real, const N: usize>(row: &mut [AssemblyMode<T, N>], count: &mut T, mode: &AssemblyMode<T, N>) {
+    let half = Real::sqrt(T::epsilon());
+    let mut is_new = Real::le(mode.residual, half);
+    for other in row.iter() {
+        let mut is_other = Real::lt(T::lit(1.0), T::lit(0.0));
+        for (&x, &y) in mode.position.iter().zip(&other.position) {
+            // An angle may come out on either side of half a turn. Nothing is near to what is no number.
+            let apart = Real::abs(x - y);
+            let apart = Real::min(apart, Real::abs(apart - T::lit(core::f64::consts::TAU)));
+            is_other = is_other | !Real::le(apart, T::lit(64.0) * half * (T::lit(1.0) + Real::abs(x)));
+        }
+        is_new = is_new & is_other;
+    }
+    for (place, slot) in row.iter_mut().enumerate() {
+        let here = is_new & Real::eq(*count, T::lit(place as f64));
+        slot.residual = Real::select(here, mode.residual, slot.residual);
+        for (slot, &x) in slot.position.iter_mut().zip(&mode.position) {
+            *slot = Real::select(here, x, *slot);
+        }
+    }
+    *count = *count + Real::select(is_new, T::lit(1.0), T::lit(0.0));
 }
 
 /// All assembly modes where no angle is unknown: one for each of `MODES` choices of sides.

@@ -69,6 +69,27 @@ multibody! {
         emit assembly_modes { given: legs.stroke, find: plate.pose };
         emit kinematics { given: plate.pose, find: legs.stroke };
     }
+    /// Flat, symmetric and with numbers that are written: several modes have the same point on the same circle.
+    pub mod symmetric_octahedron {
+        let foot = [X, -0.5 * X + 0.5 * sqrt(3.0) * Y, -0.5 * X - 0.5 * sqrt(3.0) * Y];
+        let from = [foot[0], foot[0], foot[1], foot[1], foot[2], foot[2]];
+        let pin = [-0.6 * foot[2], -0.6 * foot[0], -0.6 * foot[1]];
+        let ends = [pin[0], pin[2], pin[0], pin[1], pin[1], pin[2]];
+        body plate { mass: 1.5, inertia: diag(0.08, 0.07, 0.09), coordinates: Absolute(RollPitchYaw) }
+        part legs: [leg; 6] = |i| leg { base: ground.at(from[i]), tip: plate.at(ends[i]) };
+        formulation { constraints: Multipliers }
+        emit assembly_modes { given: legs.stroke, find: plate.pose };
+    }
+    /// The same of three legs at the centre and three around it.
+    pub mod symmetric_hub {
+        let foot = [X, -0.5 * X + 0.5 * sqrt(3.0) * Y, -0.5 * X - 0.5 * sqrt(3.0) * Y];
+        let from = [0.8 * foot[0], foot[0], 0.8 * foot[1], foot[1], 0.8 * foot[2], foot[2]];
+        let ends = [0.0 * X, 0.5 * foot[0], 0.0 * X, 0.5 * foot[1], 0.0 * X, 0.5 * foot[2]];
+        body plate { mass: 1.5, inertia: diag(0.08, 0.07, 0.09), coordinates: Absolute(RollPitchYaw) }
+        part legs: [leg; 6] = |i| leg { base: ground.at(from[i]), tip: plate.at(ends[i]) };
+        formulation { constraints: Multipliers }
+        emit assembly_modes { given: legs.stroke, find: plate.pose };
+    }
     /// Three legs at one point of the plate, and three at points of their own.
     pub mod three_one {
         const AXES: [Vec3; 6] = [
@@ -161,6 +182,15 @@ multibody! {
         joint stand: Fixed { parent: ground.at([0.3, -0.2, 0.7]).rotated([1.0, 2.0, 2.0], 0.7), child: frame }
         joint slide: Planar { parent: frame.at(0.4 * X), child: plate, axis: Z }
         part arms: [arm; 3] = |i| arm { base: frame.at(FEET[i]), tip: plate.at(PINS[i]) };
+        formulation { constraints: Multipliers }
+        emit assembly_modes { given: arms.crank, find: slide };
+    }
+    /// The same with everything symmetric.
+    pub mod symmetric_arms {
+        let foot = [X, -0.5 * X + 0.5 * sqrt(3.0) * Y, -0.5 * X - 0.5 * sqrt(3.0) * Y];
+        body plate { mass: 1.0, inertia: diag(0.1, 0.1, 0.1) }
+        joint slide: Planar { parent: ground, child: plate, axis: Z }
+        part arms: [arm; 3] = |i| arm { base: ground.at(foot[i]), tip: plate.at(0.3 * foot[i]) };
         formulation { constraints: Multipliers }
         emit assembly_modes { given: arms.crank, find: slide };
     }

@@ -307,6 +307,75 @@ macro_rules! in_a_plane {
 in_a_plane!(two_struts_at_one_pin, planar_pair, [0, 1, 2], [0, 1, 0]);
 in_a_plane!(two_struts_from_one_foot, planar_foot, [0, 1, 0], [0, 1, 2]);
 
+/// The corners of a triangle.
+fn corners(size: f64) -> [Vector3<f64>; 3] {
+    let half = 0.5 * 3.0_f64.sqrt();
+    [[1.0, 0.0], [-0.5, half], [-0.5, -half]].map(|[x, y]| size * Vector3::new(x, y, 0.0))
+}
+
+/// Equal legs of a symmetric robot: modes that are mirror images of each other have the same point on a circle.
+#[test]
+fn symmetric_platforms() {
+    let (mut random, mut tally, mut hub) = (Random::new(15), Tally::default(), Tally::default());
+    let feet = corners(1.0);
+    for length in [0.9, 1.0, 1.1, 1.3, 1.7, 2.5] {
+        let pins = corners(-0.6);
+        let body = [2, 1, 2, 0, 0, 1].map(|k| pins[k]).to_vec();
+        let base: Vec<Vector3<f64>> = [0, 0, 1, 1, 2, 2].map(|k: usize| feet[k]).to_vec();
+        let height = (length * length - (base[0] - body[0]).norm_squared()).sqrt();
+        let mut q = symmetric_octahedron::Position::<f64>::default();
+        q.legs.iter_mut().for_each(|leg| leg.stroke = length - 0.9);
+        let modes = symmetric_octahedron::Model::<f64>::default().assembly_modes(0.0, &q);
+        let held = Held { base, body, lengths: vec![length; 6], is_planar: false };
+        tally.take(&held, &[0.0, 0.0, height, 0.0, 0.0, 0.0], &modes, 100, &mut random);
+
+        let base = (0..6).map(|k| if k % 2 == 0 { 0.8 } else { 1.0 } * feet[k / 2]).collect();
+        let ends = corners(0.5);
+        let body = (0..6).map(|k| if k % 2 == 0 { Vector3::zeros() } else { ends[k / 2] }).collect();
+        let mut q = symmetric_hub::Position::<f64>::default();
+        let lengths: Vec<f64> =
+            (0..6).map(|k| if k % 2 == 0 { length } else { (length * length - 0.39).sqrt() }).collect();
+        q.legs.iter_mut().zip(&lengths).for_each(|(leg, length)| leg.stroke = length - 0.9);
+        let modes = symmetric_hub::Model::<f64>::default().assembly_modes(0.0, &q);
+        let height = (length * length - 0.64).sqrt();
+        let held = Held { base, body, lengths, is_planar: false };
+        hub.take(&held, &[0.0, 0.0, height, 0.0, 0.0, 0.0], &modes, 100, &mut random);
+    }
+    println!("{tally:?}, {hub:?}");
+    // Where legs of a hub are at rest by symmetry two modes meet, and half of the digits are left.
+    for (tally, most) in [(tally, 1e-8), (hub, 1e-6)] {
+        assert!(tally.missed.iter().all(|&missed| missed < most) && tally.guessed > 100, "{tally:?}");
+    }
+}
+
+#[test]
+fn symmetric_arms_in_a_plane() {
+    let (mut random, mut tally) = (Random::new(16), Tally::default());
+    let feet = corners(1.0);
+    for k in 0..24 {
+        let crank = -PI + PI / 12.0 * f64::from(k);
+        let mut q = symmetric_arms::Position::<f64>::default();
+        let base: Vec<Vector3<f64>> = feet
+            .iter()
+            .enumerate()
+            .map(|(i, foot)| {
+                // The same in the axes of each foot.
+                let angle = crank + 2.0 / 3.0 * PI * i as f64;
+                q.arms[i].crank = angle;
+                foot + 0.55 * Vector3::new(angle.cos(), angle.sin(), 0.0)
+            })
+            .collect();
+        let held = Held { base, body: corners(0.3).to_vec(), lengths: vec![0.62; 3], is_planar: true };
+        let Some(pose) = (0..200).find_map(|_| held.near(&[random.unit(), random.unit(), PI * random.unit()])) else {
+            continue;
+        };
+        let modes = symmetric_arms::Model::<f64>::default().assembly_modes(0.0, &q);
+        tally.take(&held, &pose, &modes, 100, &mut random);
+    }
+    println!("{tally:?}");
+    assert!(tally.poses > 8 && tally.guessed > 50 && tally.missed.iter().all(|&missed| missed < 1e-6), "{tally:?}");
+}
+
 /// Lanes, single precision, and derivatives by what is given.
 #[test]
 fn in_other_scalars() {

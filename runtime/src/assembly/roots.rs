@@ -7,8 +7,8 @@
 //! in its bracket; these in turn come of the next derivative, down to the straight line. Each root is then improved on the circle by
 //! what the sum is there itself.
 //!
-//! Double roots lie at the rounding of the sum: there two roots may come out, or none. The number of operations is the same for all
-//! sums of one degree.
+//! Double roots lie at the rounding of the sum: where it comes within that of zero and turns back, that is one root. The number of
+//! operations is the same for all sums of one degree.
 
 use crate::Real;
 
@@ -20,7 +20,10 @@ const ROUNDS: usize = 32;
 const IMPROVEMENTS: usize = 2;
 
 /// Largest step of those: beyond it, two roots are about to meet, and the step says nothing.
-const LARGEST: f64 = 0.01;
+const LARGEST: f64 = 0.001;
+
+/// How many roundings of its greatest value the sum may stay away from zero where it touches it.
+const ROUNDINGS: f64 = 65_536.0;
 
 /// Where the points of equal distances begin: at no angle that a symmetric mechanism is symmetric about.
 const FIRST: f64 = 0.377;
@@ -43,7 +46,7 @@ const FIRST: f64 = 0.377;
 pub fn on_circle<T: Real, const SAMPLES: usize, const ROOTS: usize>(value: impl Fn([T; 2]) -> T) -> [[T; 2]; ROOTS] {
     const { assert!(SAMPLES == ROOTS + 1, "as many samples as coefficients") };
     let series = Series::<T, SAMPLES>::new(&value);
-    let (tangents, real) = real_roots::<T, SAMPLES, ROOTS>(&series.polynomial());
+    let (tangents, real) = real_roots::<T, SAMPLES, ROOTS>(&series.polynomial(), series.greatest);
     let nan = T::lit(f64::NAN);
     let mut points = [[nan; 2]; ROOTS];
     let mut next = T::lit(0.0);
@@ -82,6 +85,8 @@ fn product<T: Real>([a, b]: [T; 2], [c, d]: [T; 2]) -> [T; 2] {
 /// begin at the origin. The second half of the coefficients is not used.
 struct Series<T, const SAMPLES: usize> {
     origin: [T; 2],
+    /// Of the samples' sizes.
+    greatest: T,
     coefficients: [[T; 2]; SAMPLES],
 }
 
@@ -119,7 +124,7 @@ impl<T: Real, const SAMPLES: usize> Series<T, SAMPLES> {
             }
         }
         coefficients[0] = [coefficients[0][0] * T::lit(0.5), zero];
-        Series { origin, coefficients }
+        Series { origin, greatest, coefficients }
     }
 
     /// The derivative by the angle.
@@ -172,15 +177,17 @@ fn times_line<T: Real, const SIZE: usize>(polynomial: &mut [[T; 2]; SIZE], slope
     }
 }
 
-/// Real roots of a polynomial by rising powers, rising themselves, with whether each is one; multiple ones as often. Its first
-/// coefficient is not small beside the others, so that none lies beyond a bound.
+/// Real roots of a polynomial by rising powers, rising themselves, with whether each is one. Its first coefficient is not small beside
+/// the others, so that none lies beyond a bound; `greatest` is its value beside (1 + x^2)^n.
 fn real_roots<T: Real, const SIZE: usize, const ROOTS: usize>(
     polynomial: &[T; SIZE],
+    greatest: T,
 ) -> ([T; ROOTS], [T::Mask; ROOTS]) {
     let zero = T::lit(0.0);
     let bound = T::lit(4.0 * SIZE as f64);
     let mut roots = [-bound; ROOTS];
     let mut real = [Real::lt(zero, zero); ROOTS];
+    let mut wide = real;
     for degree in 1..=ROOTS {
         let derivative = derivative::<T, SIZE>(polynomial, ROOTS - degree);
         let separators = roots;
@@ -191,11 +198,20 @@ fn real_roots<T: Real, const SIZE: usize, const ROOTS: usize>(
             let above = evaluate(&derivative[..=degree], high)[0];
             let up = Real::le(below, zero) & Real::ge(above, zero);
             let down = Real::ge(below, zero) & Real::le(above, zero);
-            real[k] = (up | down) & Real::lt(low, high);
+            wide[k] = Real::lt(low, high);
+            real[k] = (up | down) & wide[k];
             let found = in_bracket(&derivative[..=degree], low, high, below);
             roots[k] = Real::select(real[k], found, low);
             (low, below) = (high, above);
         }
+    }
+    // Where the value turns back from zero, both sides have the same sign, and the place is still that of the derivative.
+    let rounding = T::lit(ROUNDINGS) * T::epsilon() * greatest;
+    for k in 1..ROOTS {
+        let x = roots[k];
+        let value = evaluate(polynomial, x)[0];
+        let scale = Real::powi(T::lit(1.0) + x * x, (ROOTS / 2) as i32);
+        real[k] = real[k] | (wide[k] & Real::le(Real::abs(value), rounding * scale));
     }
     (roots, real)
 }

@@ -118,6 +118,26 @@ fn lanes_are_apart_and_single_precision_serves() {
     assert!(compare(&found, &real) < 1e-4);
 }
 
+/// A sum that touches zero has a root there, on whichever side of it rounding leaves the value.
+#[test]
+fn double_roots_are_one_or_two() {
+    let mut random = Random(9);
+    for number in 0..200 {
+        let other = apart(&mut random, 3, 0.4);
+        let pairs = [[random.next() * 3.0, 0.5]];
+        let double = other[0];
+        let real = [double, double, other[1], other[2]];
+        let off = [0.0, 1e-16, -1e-16, 3e-16][number % 4];
+        let found = on_circle::<f64, 7, 6>(|point| off + value(&real, &pairs, point));
+        let angles: Vec<f64> = found.iter().filter(|p| !p[0].is_nan()).map(|[c, s]| s.atan2(*c)).collect();
+        assert!((3..=4).contains(&angles.len()), "{angles:?} {real:?}");
+        for r in real {
+            let nearest = angles.iter().map(|a| ((a - r) / 2.0).sin().abs()).fold(f64::MAX, f64::min);
+            assert!(nearest < 1e-5, "{nearest:e} {angles:?} {real:?}");
+        }
+    }
+}
+
 #[test]
 fn what_is_not_finite_has_no_roots() {
     for bad in [f64::NAN, f64::INFINITY] {

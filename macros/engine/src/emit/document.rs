@@ -171,7 +171,7 @@ pub(super) fn new(compiled: &Compiled) -> Vec<String> {
 /// Of `Model::assembly_modes`.
 pub(super) fn assembly_modes(found: &[String], modes: Option<Modes>) -> Vec<String> {
     let text = format!("All positions that what is given leaves, in this order: {}.", found.join(", "));
-    let Some(Modes { sides, roots }) = modes else { return vec![text] };
+    let Some(Modes { sides, roots, .. }) = modes else { return vec![text] };
     let count = match (sides, roots) {
         (0, roots) => format!("{roots} at most, real ones first, the others NaN."),
         (sides, 0) => format!("{} at most; those that are not real are NaN.", 1 << sides),

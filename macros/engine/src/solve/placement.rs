@@ -145,13 +145,22 @@ impl Placement {
         Ok(Placement { kind, held, groups, is_inverted, chain: chain.to_vec() })
     }
 
-    /// Number of square roots whose sides are open.
+    /// Number of square roots whose sides are open before a point is looked for.
     pub fn sides(&self) -> usize {
         match self.kind {
             Kind::Spheres => 3,
             Kind::AboutPoint => 1,
             Kind::PlanePairs => 2,
             Kind::Circles | Kind::Plane => 0,
+        }
+    }
+
+    /// Number of square roots whose sides belong to a point, and are not in the condition.
+    pub fn choices(&self) -> usize {
+        match self.kind {
+            Kind::Spheres | Kind::PlanePairs => 0,
+            Kind::AboutPoint | Kind::Plane => 1,
+            Kind::Circles => 2,
         }
     }
 

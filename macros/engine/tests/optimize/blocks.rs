@@ -131,6 +131,7 @@ fn case(seed: u64) -> Case {
         functions,
         notes: Vec::new(),
         dead_centres: Vec::new(),
+        modes: None,
         pivoted: Vec::new(),
         page: None,
         checks: Vec::new(),

@@ -145,6 +145,7 @@ fn derivation(
         functions,
         notes: Vec::new(),
         dead_centres: Vec::new(),
+        modes: None,
         pivoted: Vec::new(),
         page: None,
         checks: Vec::new(),

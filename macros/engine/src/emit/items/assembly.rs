@@ -21,10 +21,11 @@ pub(super) fn items(context: &Context<'_>) -> Option<TokenStream> {
     let found: Vec<String> = found.map(|c| format!("`{}`", document::code(&layout.coordinate(*c)))).collect();
     let count = Literal::usize_unsuffixed(found.len());
     // Of a model with mistakes nobody knows how many there are.
-    let Modes { sides, roots } = layout.structure.modes.unwrap_or(Modes { sides: 0, roots: 0 });
+    let unknown = Modes { sides: 0, roots: 0, choices: 0 };
+    let Modes { sides, roots, choices } = layout.structure.modes.unwrap_or(unknown);
     let modes = roots.max(1) << sides;
     let docs = document::attributes(&document::assembly_modes(&found, layout.structure.modes));
-    let [samples, points, modes] = [roots + 1, roots, modes].map(Literal::usize_unsuffixed);
+    let [samples, points, choices, modes] = [roots + 1, roots, 1 << choices, modes].map(Literal::usize_unsuffixed);
     let [t, q, alternative] = ["t", "q", "alternative"].map(names::ident);
     let call = |kind: FunctionKind| {
         let name = names::ident(&functions::name(layout.model, kind));
@@ -35,7 +36,7 @@ pub(super) fn items(context: &Context<'_>) -> Option<TokenStream> {
         _ if context.hollow => quote!(::core::unimplemented!()),
         Some(_) => {
             let condition = call(FunctionKind::AssemblyCondition);
-            quote!(#krate::assembly::modes_by_points::<T, #samples, #points, #modes, #count>(#condition, #mode))
+            quote!(#krate::assembly::modes_by_points::<T, #samples, #points, #choices, #modes, #count>(#condition, #mode))
         }
         None => quote!(#krate::assembly::modes_by_sides::<T, #modes, #count>(#mode)),
     };

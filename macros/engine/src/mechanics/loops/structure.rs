@@ -76,6 +76,8 @@ pub struct Structure {
 pub struct Modes {
     pub sides: usize,
     pub roots: usize,
+    /// Sides that belong to each root, of which one is right as a rule.
+    pub choices: usize,
 }
 
 /// A configuration in which all loops are closed.

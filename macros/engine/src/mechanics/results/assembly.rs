@@ -74,7 +74,7 @@ impl Equations<'_> {
             let message = unplaced(&why);
             complain(message, "ask for `kinematics`, which finds the pose that is near by Newton's method")
         })?;
-        let modes = Modes { sides: placement.sides(), roots: placement.roots() };
+        let modes = Modes { sides: placement.sides(), roots: placement.roots(), choices: placement.choices() };
         if !self.is_found(&placed, modes) {
             let message =
                 "the formulas of the assembly modes do not find the configurations that close the loops".to_owned();
@@ -188,7 +188,7 @@ impl Equations<'_> {
     }
 
     fn is_mode(&self, placed: &Placed, modes: Modes, closed: &Closed) -> bool {
-        (0..1 << modes.sides).any(|choice: usize| {
+        (0..1 << (modes.sides + modes.choices)).any(|choice: usize| {
             let side = |k: usize| if choice >> k & 1 == 1 { -1.0 } else { 1.0 };
             let value = |roots: &[Scalar], angle: f64| -> Vec<f64> {
                 let symbols = |id: SymbolId| match self.scene.symbols.table[id.0] {

@@ -7,10 +7,12 @@
 //!
 //! (cos, sin)(beta) = (X, Y) / D, X = B1 C2 - B2 C1, Y = C1 A2 - C2 A1, D = A1 B2 - A2 B1,
 //!
-//! and the condition on alpha is X^2 + Y^2 = D^2, of degree 4 in cosine and sine.
+//! and the condition on alpha is X^2 + Y^2 = D^2, of degree 4 in cosine and sine. Where D vanishes, as it does in symmetric robots, two modes
+//! have the same alpha, so beta is taken from one of both equations, on either side.
 
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
+use super::circles::{clearer, meeting as meeting_circle};
 use super::spheres::meeting;
 use super::{Alternative, Distance, Pose, frame};
 
@@ -62,8 +64,8 @@ pub(super) fn pose(g: &mut Graph, groups: &[Vec<Distance>], at: &Alternative) ->
     let [x, y, whole] = [minor(g, 1, 2), minor(g, 2, 0), minor(g, 0, 1)];
     let squares = [x, y, whole].map(|s| g.mul(s, s));
     let condition = g.sum(&[squares[0], squares[1], -squares[2]]);
-    let inverse = g.reciprocal(whole);
-    let [c_beta, s_beta] = [x, y].map(|s| g.mul(s, inverse));
+    let line = clearer(g, one, two);
+    let [c_beta, s_beta] = meeting_circle(g, line, at.sides[1]);
     // Images of c's frame, turned by beta, in d's frame: columns of X(alpha) Z.
     let [e0, e1, e2] = base;
     let combine = |g: &mut Graph, terms: &[(Scalar, Vector)]| {

@@ -11,7 +11,8 @@
 //!
 //! (g0 W - 2 C Re h1 - 2 Re h2)^2 - 4 (W - C^2) (Im h1)^2 + 16 C Im h1 Im h2 + 8 C^2 g0 Re h2 - 16 C^3 Re(conj(g1) g2 a) - 16 C^2 (W - C^2) |g2|^2,
 //!
-//! in which all divisions have cancelled: of degree 8 in cosine and sine of z_1, as the robot has 16 modes.
+//! in which all divisions have cancelled: of degree 8 in cosine and sine of z_1, as the robot has 16 modes. The points z_2 and z_3 of a mode lie where their
+//! lines meet the circle, on one side or on the other: in a symmetric robot several modes have the same z_1.
 
 use crate::contracts::call::Call;
 use crate::symbolic::graph::{Graph, Scalar, Vector};
@@ -28,7 +29,7 @@ struct Circle {
 }
 
 /// a cos + b sin + c = 0
-type Line = [Scalar; 3];
+pub(super) type Line = [Scalar; 3];
 
 pub(super) fn pose(g: &mut Graph, groups: &[Vec<Distance>], at: &Alternative) -> Option<Pose> {
     let [first, second, third] = groups else { return None };
@@ -90,32 +91,14 @@ pub(super) fn pose(g: &mut Graph, groups: &[Vec<Distance>], at: &Alternative) ->
         ];
         g.sum(&terms)
     };
-    // G at both points is E +- sqrt(gap) F, over W^2: the point of the mode is where it vanishes.
-    let [two_, four] = [2, 4].map(|n| g.integer(n));
-    let terms = [
-        g.product(&[g0, w, w]),
-        -g.product(&[two_, c, h1[0], w]),
-        -g.product(&[two_, h2[0], w]),
-        g.product(&[four, c2, h2[0]]),
-    ];
-    let even = g.sum(&terms);
-    let terms = [-g.product(&[two_, h1[1], w]), g.product(&[four, c, h2[1]])];
-    let odd = g.sum(&terms);
-    let both = g.mul(even, odd);
-    let is_plus = g.call(Call::Less, &[both, Scalar::ZERO]);
-    // Rounding leaves less than nothing of it where the line touches the circle.
-    let gap = g.call(Call::Max, &[gap, Scalar::ZERO]);
-    let root = g.sqrt(gap);
-    let root = g.call(Call::Select, &[is_plus, root, -root]);
-    let inverse = g.reciprocal(w);
-    let z2 = product(g, a, [-c, root]).map(|x| g.mul(x, inverse));
-    let at_z2 = |g: &mut Graph, form: [Scalar; 3]| {
-        let terms = [g.mul(form[0], z2[0]), g.mul(form[1], z2[1]), form[2]];
+    let z2 = meeting(g, line, at.sides[0]);
+    // Two lines for z_3, of which one may say nothing.
+    let far = [0, 1, 2].map(|k| {
+        let terms = [g.mul(far[0][k], z2[0]), g.mul(far[1][k], z2[1]), far[2][k]];
         g.sum(&terms)
-    };
-    let [x, y, d] = [x, y, d].map(|form| at_z2(g, form));
-    let inverse = g.reciprocal(d);
-    let z3 = [x, y].map(|x| g.mul(x, inverse));
+    });
+    let line = clearer(g, near, far);
+    let z3 = meeting(g, line, at.sides[1]);
     let points = [there, two.point(g, z2), three.point(g, z3)];
     Some(Pose::of_points(g, body, points, Some(condition)))
 }
@@ -190,6 +173,25 @@ impl Circle {
         let alone = [a, b, g.sum(&[square, -self.square, -other.square, -far])];
         [moved[0], moved[1], alone]
     }
+}
+
+/// Where a line meets the unit circle. Rounding leaves less than nothing of the root where it touches.
+pub(super) fn meeting(g: &mut Graph, [a, b, c]: Line, side: Scalar) -> [Scalar; 2] {
+    let w = length(g, [a, b]);
+    let square = g.mul(c, c);
+    let gap = g.sub(w, square);
+    let gap = g.call(Call::Max, &[gap, Scalar::ZERO]);
+    let root = g.sqrt(gap);
+    let root = g.mul(side, root);
+    let inverse = g.reciprocal(w);
+    product(g, [a, b], [-c, root]).map(|x| g.mul(x, inverse))
+}
+
+/// Of two lines the one with the greater coefficients of cosine and sine.
+pub(super) fn clearer(g: &mut Graph, one: Line, other: Line) -> Line {
+    let [size, its] = [one, other].map(|line| length(g, [line[0], line[1]]));
+    let less = g.call(Call::Less, &[size, its]);
+    [0, 1, 2].map(|k| g.call(Call::Select, &[less, other[k], one[k]]))
 }
 
 /// The product of two complex numbers.

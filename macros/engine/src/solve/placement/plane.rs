@@ -8,6 +8,7 @@
 //! of degree 3 in cosine and sine: w_i^2, h_i, w_2 . w_3 and D are linear in them. Where two ends are one point, that is where two circles
 //! meet, and the other end follows from it.
 
+use crate::contracts::call::Call;
 use crate::dynamics::tree::Motion;
 use crate::solve::chain::Link;
 use crate::solve::distances::at_rest;
@@ -116,9 +117,25 @@ impl Plane {
         let whole = g.dot(across, across);
         let part = g.product(&[square, area, area]);
         let condition = g.sub(whole, part);
-        let inverse = g.reciprocal(area);
-        let across = g.cross(self.normal, across);
-        let y = g.scale(inverse, across);
+        // Where the ends lie in a line, two modes have the same turn: y is where two of the circles meet, those whose centres are
+        // farther apart.
+        let [first, second] = [w2, w3].map(|w| g.dot(w, w));
+        let less = g.call(Call::Less, &[first, second]);
+        let (a, b) = (g.components(w2), g.components(w3));
+        let w = [0, 1, 2].map(|k| g.call(Call::Select, &[less, b[k], a[k]]));
+        let w = g.vector(w);
+        let h = g.call(Call::Select, &[less, h3, h2]);
+        let way = g.call(Call::Max, &[first, second]);
+        let (whole, part) = (g.mul(square, way), g.mul(h, h));
+        let gap = g.sub(whole, part);
+        let gap = g.call(Call::Max, &[gap, Scalar::ZERO]);
+        let root = g.sqrt(gap);
+        let root = g.mul(at.sides[0], root);
+        let beside = g.cross(self.normal, w);
+        let (along, beside) = (g.scale(h, w), g.scale(root, beside));
+        let sum = g.add_vectors(along, beside);
+        let inverse = g.reciprocal(way);
+        let y = g.scale(inverse, sum);
         (at.point, g.add_vectors(ends[0], y), Some(condition))
     }
 
