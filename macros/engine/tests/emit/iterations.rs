@@ -110,6 +110,7 @@ fn case(k: usize) -> (Model, Compiled, f64) {
         functions,
         notes: Vec::new(),
         dead_centres: Vec::new(),
+        modes: None,
         pivoted: Vec::new(),
         page: None,
         checks: Vec::new(),
