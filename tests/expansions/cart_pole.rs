@@ -572,6 +572,16 @@ pub mod cart_pole {
         ) -> A::Result {
             A::never()
         }
+        /// Not derived: `emit assembly_modes { given: .., find: .. }` in the model asks for it.
+        #[doc(hidden)]
+        #[must_use]
+        pub fn assembly_modes<A: ::multibody::emitted::AssemblyModes>(
+            &self,
+            _t: T,
+            _q: &A,
+        ) -> A::Result {
+            A::never()
+        }
         /// Not derived: `emit derivatives` in the model asks for it.
         #[doc(hidden)]
         #[must_use]
