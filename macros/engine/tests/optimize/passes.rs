@@ -150,6 +150,7 @@ fn derivation(
         checks: Vec::new(),
         inertia: Default::default(),
         witnesses: Vec::new(),
+        limbs: None,
     }
 }
 
