@@ -15,7 +15,7 @@ use super::order::Pack;
 
 /// Quotients and roots, in additions.
 const LONG: i32 = 4;
-/// Sines of four angles beyond what they take one by one, in vectors as well.
+/// Sine and cosine of one angle: in vectors, with packs or without them.
 const SINES: i32 = 2;
 /// To put scalars into a pack.
 const GATHER: i32 = 4;
