@@ -31,6 +31,10 @@ use unify::{Packed, Unifier};
 /// Rounds in which what limbs have in common sums is taken out; each may tell limbs apart that the one before has not.
 const ROUNDS: usize = 3;
 
+/// Fewer limbs are no faster in packs: without `target-cpu` a vector of x86-64 holds two `f64`, so two of four members are filled up for
+/// nothing.
+const LEAST: usize = 3;
+
 /// The program with packs; as it came where they don't pay.
 pub fn pack(program: Program, limbs: &Limbs) -> Program {
     let mut parted = program.clone();
@@ -82,10 +86,10 @@ pub fn operations(program: &Program) -> Option<[usize; 2]> {
     (packed > 0).then_some([packed, scalar + results])
 }
 
-/// Groups of statements, four at a time, each at the place of its limb.
+/// Groups of statements, four at a time, each at the place of its limb. The last two of six limbs fill half a pack.
 fn proposed(likeness: &Likeness<'_>) -> Vec<[Option<usize>; MEMBERS]> {
     let mut found = Vec::new();
-    for group in &likeness.groups {
+    for group in likeness.groups.iter().filter(|group| group.len() >= LEAST) {
         let chunks: BTreeSet<usize> = group.keys().map(|limb| limb.number / MEMBERS).collect();
         for chunk in chunks {
             let mut places = [None; MEMBERS];
