@@ -141,7 +141,7 @@ pub use projection::{
     Assembled, AssemblyError, Projected, Projection, ProjectionError, WithBaumgarte, WithProjection, WithRank,
     ambiguity, assemble,
 };
-pub use scalar::{Real, all, any};
+pub use scalar::{Four, Packed, Real, all, any};
 pub use simba;
 pub use simulate::{simulate, simulate_stiff};
 pub use system::{ExtraOf, Margin, PositionOf, StateSpace, System, VelocityOf};

@@ -23,6 +23,7 @@ pub(crate) mod float;
 mod hardware_root;
 #[cfg(all(feature = "wide", not(feature = "reproducible")))]
 mod lanes;
+mod packs;
 mod root;
 #[cfg(any(not(feature = "std"), feature = "reproducible"))]
 mod software;
@@ -34,6 +35,8 @@ mod wide;
 
 use nalgebra::{RealField, SimdRealField};
 use simba::simd::SimdBool;
+
+pub use packs::{Four, Packed};
 
 /// A real number, several of them in lanes, or a dual number.
 ///
@@ -52,6 +55,8 @@ use simba::simd::SimdBool;
 pub trait Real: SimdRealField<Element: RealField + Copy> + Copy {
     /// The result of a comparison: `bool`, or one boolean for each lane. Masks combine with `&`, `|` and `!`.
     type Mask: SimdBool;
+    /// Four of this scalar, see [`Packed`]: a vector of the processor, or [`Four<Self>`](Four) for any scalar that knows no better.
+    type Four: Packed<Self>;
 
     /// A literal, rounded to this scalar's precision and repeated in every lane.
     fn lit(value: f64) -> Self;
@@ -123,6 +128,41 @@ pub trait Real: SimdRealField<Element: RealField + Copy> + Copy {
     #[inline]
     fn sin_cos_all<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
         together::one_by_one(angles)
+    }
+
+    /// A pack of four.
+    #[inline(always)]
+    fn four(members: [Self; 4]) -> Self::Four {
+        Packed::of(members)
+    }
+    /// A pack of four times the same.
+    #[inline(always)]
+    fn four_of(self) -> Self::Four {
+        Packed::of([self; 4])
+    }
+    /// What is in a pack.
+    #[inline(always)]
+    fn members(pack: Self::Four) -> [Self; 4] {
+        Packed::members(pack)
+    }
+    /// The square root of each member.
+    #[inline(always)]
+    fn roots(pack: Self::Four) -> Self::Four {
+        Packed::roots(pack)
+    }
+    /// Sines and cosines of four angles in radians, by [`Real::sin_cos_all`].
+    ///
+    /// ```
+    /// use multibody::Real;
+    ///
+    /// let (sines, cosines) = f64::sines(f64::four([0.5, -1.25, 0.0, 2.0]));
+    /// assert!((f64::members(sines)[1] + 1.25_f64.sin()).abs() < 1e-15);
+    /// assert_eq!(f64::members(cosines)[2], 1.0);
+    /// ```
+    #[inline(always)]
+    fn sines(angles: Self::Four) -> (Self::Four, Self::Four) {
+        let [a, b, c, d] = Self::sin_cos_all(Packed::members(angles));
+        (Packed::of([a.0, b.0, c.0, d.0]), Packed::of([a.1, b.1, c.1, d.1]))
     }
 
     /// Sine of an angle in radians.

@@ -118,6 +118,8 @@ pub mod item {
         pub independent: List,
         /// Rounds of Newton's method where it closes loops: 6, or what is written here. Each doubles the digits of the guess.
         pub rounds: Scalar,
+        /// Whether limbs that are alike are computed four at a time: `Off` or `Four`.
+        pub packs: super::packs::Four,
         /// `[1/s]` of `Stabilised`: the factor of the residual's derivative.
         pub rate: Scalar,
         /// `[1/s^2]` of `Stabilised`: the factor of the residual.
@@ -368,6 +370,15 @@ pub mod handling {
 
     /// `Reduced` or `Multipliers`, by the counts of both.
     pub struct Auto;
+}
+
+/// Whether limbs that are alike are computed together.
+pub mod packs {
+    /// One after the other.
+    pub struct Off;
+
+    /// Four at a time, where that is worth it.
+    pub struct Four;
 }
 
 /// What `emit` asks for.

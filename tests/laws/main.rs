@@ -6,5 +6,6 @@ mod limbs;
 mod loops;
 mod momentum;
 mod output_groups;
+mod packs;
 mod power_balance;
 mod trees;

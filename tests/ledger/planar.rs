@@ -33,7 +33,9 @@ fn collect(expression: &Expression, into: &mut BTreeSet<Symbol>) {
         Expression::Literal(_) | Expression::Field(_) | Expression::Local(_) => {}
         Expression::Neg(inner) => collect(inner, into),
         Expression::Sum(terms) => terms.iter().for_each(|(_, term)| collect(term, into)),
-        Expression::Product(list) | Expression::Call(_, list) => list.iter().for_each(|e| collect(e, into)),
+        Expression::Product(list) | Expression::Call(_, list) | Expression::Pack(list) => {
+            list.iter().for_each(|e| collect(e, into));
+        }
         Expression::Quotient(a, b) => [a, b].into_iter().for_each(|e| collect(e, into)),
     }
 }

@@ -5,6 +5,10 @@ use super::float::single;
 
 impl Real for f32 {
     type Mask = bool;
+    #[cfg(feature = "wide")]
+    type Four = simba::simd::WideF32x4;
+    #[cfg(not(feature = "wide"))]
+    type Four = super::Four<f32>;
 
     #[inline(always)]
     fn lit(value: f64) -> Self {

@@ -5,6 +5,10 @@ use super::float::double;
 
 impl Real for f64 {
     type Mask = bool;
+    #[cfg(feature = "wide")]
+    type Four = simba::simd::WideF64x4;
+    #[cfg(not(feature = "wide"))]
+    type Four = super::Four<f64>;
 
     #[inline(always)]
     fn lit(value: f64) -> Self {

@@ -36,6 +36,7 @@ macro_rules! lanes {
     ($lanes:ident, $mask:ident, $element:ident, $kernel:ident) => {
         impl Real for $lanes {
             type Mask = $mask;
+            type Four = super::Four<Self>;
 
             #[inline(always)]
             fn lit(value: f64) -> Self {

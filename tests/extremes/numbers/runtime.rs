@@ -7,7 +7,7 @@ use multibody::linear::{
 };
 use multibody::nalgebra::{Quaternion, SMatrix, SVector, UnitQuaternion, Vector3};
 use multibody::simba::simd::{WideF32x8, WideF64x4};
-use multibody::{Configuration, Pose, Real, Tangent, inertia_violation, rotation};
+use multibody::{Configuration, Packed, Pose, Real, Tangent, inertia_violation, rotation};
 use std::hint::black_box;
 
 /// A group for each equation, in no order and with gaps: any number is one.
@@ -74,6 +74,9 @@ fn scalars<T: Drawn>(n: &Numbers) {
     black_box([Real::sinh(x), Real::cosh(x), Real::tanh(x), Real::exp(x), Real::ln(x), Real::sqrt(x)]);
     black_box([Real::abs(x), Real::signum(x), Real::floor(x), Real::sin_cos(x).0, T::lit(n.draw())]);
     black_box(Real::sin_cos_all([x, T::lit(n.draw()), T::lit(n.draw())]));
+    let pack = T::four([x, y, T::lit(n.draw()), x]) + T::four_of(y);
+    black_box(T::members(T::sines(T::roots(pack)).0));
+    black_box(<T::Four as Packed<T>>::roots(Packed::of(T::members(-pack / pack * pack - pack))).members());
     black_box([Real::atan2(x, y), Real::powf(x, y), Real::hypot(x, y), Real::min(x, y), Real::max(x, y)]);
     for power in [0, 1, -1, 7, i32::MAX, i32::MIN, n.draw() as i32] {
         black_box(Real::powi(x, power));

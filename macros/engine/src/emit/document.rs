@@ -23,6 +23,7 @@ use crate::contracts::function::FunctionKind;
 use crate::mechanics::loops::structure::Modes;
 use crate::model::joint_kinds::JointKind;
 use crate::model::types::{Docs, Joint, Param, PartTypeId, State};
+use crate::optimize::packs;
 use crate::optimize::program::{Compiled, Function};
 
 use super::layout::{Layout, StructKind};
@@ -211,6 +212,9 @@ pub(super) fn function(layout: &Layout<'_>, function: &Function) -> Vec<String> 
     }
     let (before, after) = (cost(&function.before), cost(&function.after));
     lines.push(format!("Operations: {after}; as derived, before optimisation: {before}."));
+    if let Some([packed, scalar]) = packs::operations(&function.program) {
+        lines.push(format!("Limbs go in packs of four: {packed} operations on packs, {scalar} on scalars."));
+    }
     lines.extend(equations::of_function(layout, function.kind));
     lines
 }

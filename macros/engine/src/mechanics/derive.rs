@@ -27,10 +27,11 @@ use crate::contracts::function::{Asked, FunctionKind};
 use crate::contracts::results::Results;
 use crate::dynamics::shared_axes::SharedAxes;
 use crate::invariant::fault::raise;
-use crate::model::types::{BodyRef, Coordinate, Joint, JointId, Model, Request};
+use crate::model::types::{BodyRef, Coordinate, Joint, JointId, Model, Packs, Request};
 use crate::symbolic::graph::{Graph, Scalar};
 
 use super::analysis::{Complaint, Hope, Pose, Writings};
+use super::limbs::Limbs;
 use super::loops::advice::Pivoted;
 use super::loops::constraints::Writing;
 use super::loops::known::Decided;
@@ -129,6 +130,7 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
         checks,
         inertia,
         witnesses,
+        limbs: (model.packs == Packs::Four).then(|| Limbs::of(model)),
     })
 }
 

@@ -8,6 +8,7 @@
 pub mod analysis;
 mod derive;
 pub mod equations;
+pub mod limbs;
 pub mod loops;
 pub mod poses;
 mod results;
@@ -70,6 +71,8 @@ pub struct Derivation {
     pub inertia: Inertia<Vec<Scalar>>,
     /// Functions that were not asked for, which laws compare with those that were.
     pub witnesses: Vec<Witness>,
+    /// What may be packed; nothing where the model wants no packs.
+    pub limbs: Option<limbs::Limbs>,
 }
 
 /// A function in one formulation, for the check in numbers alone.

@@ -19,7 +19,7 @@ use super::items::solves::SolveItem;
 use super::topology::Topology;
 use super::types::{
     Bodies, Body, Constraint, Coordinate, Drive, Expr, Force, Handling, Input, Joint, Joints, Kinematics, Model,
-    Output, Param, ROUNDS, Request, Solve, State, Type,
+    Output, Packs, Param, ROUNDS, Request, Solve, State, Type,
 };
 use super::units::Units;
 
@@ -36,6 +36,7 @@ pub(super) struct Collected<'a> {
     pub(super) gravity: Option<Expr>,
     pub(super) handling: Option<Handling>,
     pub(super) rounds: Option<usize>,
+    pub(super) packs: Option<Packs>,
     pub(super) independent: Option<(&'a tree::Fields, ScopeId)>,
     pub(super) requested: Requested<'a>,
     /// `drive` and `solve`, which need to know what hangs on what.
@@ -117,6 +118,7 @@ impl<'a> Checker<'a, '_> {
             assumptions: all(collected.assumptions)?,
             handling: collected.handling.unwrap_or_default(),
             rounds: collected.rounds.unwrap_or(ROUNDS),
+            packs: collected.packs.unwrap_or_default(),
             independent: loops.independent,
             skipped,
             small: loops.small,
@@ -155,6 +157,7 @@ impl<'a> Checker<'a, '_> {
             assumptions: Vec::new(),
             handling: Handling::default(),
             rounds: ROUNDS,
+            packs: Packs::default(),
             independent: Vec::new(),
             skipped: Vec::new(),
             small: Vec::new(),
@@ -263,6 +266,7 @@ impl<'a> Checker<'a, '_> {
                 let handling = self.formulation(fields, scope);
                 into.handling = into.handling.take().or(handling);
                 into.rounds = into.rounds.or(self.rounds(fields, scope));
+                into.packs = into.packs.or(self.packs(fields));
                 into.independent.get_or_insert((fields, scope));
             }
             ItemKind::Emit(requests) => self.emit(requests, scope, &mut into.requested),

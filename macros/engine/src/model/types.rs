@@ -72,6 +72,7 @@ pub struct Model {
     pub handling: Handling,
     /// Of Newton's method.
     pub rounds: usize,
+    pub packs: Packs,
     /// Coordinates that `formulation { independent: [..] }` names.
     pub independent: Vec<Coordinate>,
     /// Said in the report: items that another choice of coordinates has made void, such as a `#[cut]` in the tree.
@@ -200,6 +201,16 @@ pub enum Handling {
     Reduced,
     /// One of these two, by the counts of both; nothing behind [`crate::formulation`] sees it.
     Auto,
+}
+
+/// Whether limbs that are alike are computed together.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Packs {
+    /// One after the other.
+    #[default]
+    Off,
+    /// Four at a time.
+    Four,
 }
 
 /// One scalar input that inverse dynamics finds.
@@ -364,7 +375,7 @@ pub struct Body {
     pub span: Span,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BodyRef {
     Ground,
     Body(BodyId),

@@ -15,6 +15,7 @@ mod import;
 pub mod linear;
 pub mod multiples;
 pub mod names;
+pub mod packs;
 pub mod program;
 pub mod schedule;
 pub mod stage;
@@ -128,12 +129,14 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>) -> Result<Compile
         sound &= simplify(&mut prelude);
     }
     let prelude_cost = prelude.cost().1;
+    // What stands as it was derived has no packs either.
+    let limbs_of = |kind| derivation.limbs.as_ref().filter(|_| !plain.functions.contains(&kind));
     let functions: Vec<Function> = chosen
         .iter()
         .map(|Chosen { kind, parts, method, candidate, before, dag, rivals }| Function {
             kind: *kind,
             parts: parts.clone(),
-            program: with_results_broken(schedule::schedule(dag, &fields, &names)),
+            program: with_results_broken(schedule::schedule_limbs(dag, &fields, &names, limbs_of(*kind))),
             before: *before,
             after: dag.cost().0,
             method,

@@ -35,7 +35,12 @@ pub enum Expression {
     Product(Vec<Expression>),
     Quotient(Box<Expression>, Box<Expression>),
     Call(Call, Vec<Expression>),
+    /// Inside of packs alone: one scalar for each member, or one for all of them.
+    Pack(Vec<Expression>),
 }
+
+/// As many members has a pack.
+pub const MEMBERS: usize = 4;
 
 #[derive(Clone, Debug)]
 pub enum Statement {
@@ -45,6 +50,18 @@ pub enum Statement {
     },
     /// Sines and cosines of one angle or several, together.
     SinCos(Vec<Sine>),
+    /// A pack: operations of `value` work on each member, its leaves are packs.
+    Pack {
+        local: Local,
+        value: Expression,
+    },
+    /// Sines and cosines of a pack of angles.
+    PackSines(Sine),
+    /// What is in a pack; members that nothing reads have no local.
+    Members {
+        pack: Expression,
+        members: [Option<Local>; MEMBERS],
+    },
     /// A pivoted solution of a linear system in the runtime; `results` are the unknowns, then the rank.
     Solve {
         size: usize,
@@ -97,7 +114,9 @@ impl Expression {
             Expression::Literal(_) | Expression::Symbol(_) | Expression::Field(_) | Expression::Local(_) => visit(self),
             Expression::Neg(inner) => inner.each_leaf(visit),
             Expression::Sum(terms) => terms.iter().for_each(|(_, term)| term.each_leaf(visit)),
-            Expression::Product(list) | Expression::Call(_, list) => list.iter().for_each(|item| item.each_leaf(visit)),
+            Expression::Product(list) | Expression::Call(_, list) | Expression::Pack(list) => {
+                list.iter().for_each(|item| item.each_leaf(visit));
+            }
             Expression::Quotient(above, below) => [above, below].into_iter().for_each(|item| item.each_leaf(visit)),
         }
     }
@@ -112,6 +131,28 @@ impl Expression {
     }
 }
 
+impl Expression {
+    /// The same with something else for every local.
+    #[must_use]
+    pub fn with_locals(&self, of: &dyn Fn(Local) -> Expression) -> Expression {
+        let all = |list: &[Expression]| list.iter().map(|item| item.with_locals(of)).collect();
+        match self {
+            Expression::Literal(_) | Expression::Symbol(_) | Expression::Field(_) => self.clone(),
+            Expression::Local(local) => of(*local),
+            Expression::Neg(inner) => Expression::Neg(Box::new(inner.with_locals(of))),
+            Expression::Sum(terms) => {
+                Expression::Sum(terms.iter().map(|(minus, term)| (*minus, term.with_locals(of))).collect())
+            }
+            Expression::Product(list) => Expression::Product(all(list)),
+            Expression::Quotient(above, below) => {
+                Expression::Quotient(Box::new(above.with_locals(of)), Box::new(below.with_locals(of)))
+            }
+            Expression::Call(call, list) => Expression::Call(*call, all(list)),
+            Expression::Pack(list) => Expression::Pack(all(list)),
+        }
+    }
+}
+
 impl Sine {
     pub fn defined(&self) -> [Local; 2] {
         [self.sin, self.cos]
@@ -122,7 +163,10 @@ impl Statement {
     /// Its expressions, those of statements inside included.
     pub fn expressions(&self) -> Box<dyn Iterator<Item = &Expression> + '_> {
         match self {
-            Statement::Let { value, .. } => Box::new(std::iter::once(value)),
+            Statement::Let { value, .. } | Statement::Pack { value, .. } | Statement::Members { pack: value, .. } => {
+                Box::new(std::iter::once(value))
+            }
+            Statement::PackSines(sine) => Box::new(std::iter::once(&sine.angle)),
             Statement::SinCos(sines) => Box::new(sines.iter().map(|sine| &sine.angle)),
             Statement::Solve { matrix, rhs, measures, .. } => Box::new(matrix.iter().chain(rhs).chain(measures)),
             Statement::Iterate { start, body, next, residual, .. } => {
@@ -132,10 +176,32 @@ impl Statement {
         }
     }
 
+    /// All that it reads, to be changed in its place.
+    pub fn each_expression_mut(&mut self, visit: &mut dyn FnMut(&mut Expression)) {
+        match self {
+            Statement::Let { value, .. } | Statement::Pack { value, .. } | Statement::Members { pack: value, .. } => {
+                visit(value);
+            }
+            Statement::PackSines(sine) => visit(&mut sine.angle),
+            Statement::SinCos(sines) => sines.iter_mut().for_each(|sine| visit(&mut sine.angle)),
+            Statement::Solve { matrix, rhs, measures, .. } => {
+                matrix.iter_mut().chain(rhs).chain(measures).for_each(visit);
+            }
+            Statement::Iterate { start, body, next, residual, .. } => {
+                start.iter_mut().for_each(&mut *visit);
+                body.iter_mut().for_each(|statement| statement.each_expression_mut(visit));
+                next.iter_mut().for_each(&mut *visit);
+                visit(&mut residual.1);
+            }
+        }
+    }
+
     /// Locals that later statements may read.
     pub fn defined(&self) -> Vec<Local> {
         match self {
-            Statement::Let { local, .. } => vec![*local],
+            Statement::Let { local, .. } | Statement::Pack { local, .. } => vec![*local],
+            Statement::PackSines(sine) => sine.defined().to_vec(),
+            Statement::Members { members, .. } => members.iter().copied().flatten().collect(),
             Statement::SinCos(sines) => sines.iter().flat_map(Sine::defined).collect(),
             Statement::Solve { results, .. } => results.clone(),
             Statement::Iterate { unknowns, residual, .. } => unknowns.iter().copied().chain([residual.0]).collect(),
@@ -159,7 +225,9 @@ impl Program {
                     Expression::Symbol(_) | Expression::Field(_) | Expression::Local(_) => {}
                     Expression::Neg(inner) => stack.push(inner),
                     Expression::Sum(terms) => stack.extend(terms.iter().map(|t| &t.1)),
-                    Expression::Product(list) | Expression::Call(_, list) => stack.extend(list),
+                    Expression::Product(list) | Expression::Call(_, list) | Expression::Pack(list) => {
+                        stack.extend(list)
+                    }
                     Expression::Quotient(a, b) => stack.extend([&**a, &**b]),
                 }
             }

@@ -11,6 +11,7 @@ use std::sync::Arc;
 use crate::contracts::call::Call;
 use crate::contracts::symbol::Symbol;
 use crate::invariant::fault::{OrFault, raise};
+use crate::mechanics::limbs::Limbs;
 use crate::symbolic::fingerprint::Print;
 use crate::symbolic::graph::{BlockKind, SymbolId};
 use crate::symbolic::number::Number;
@@ -18,6 +19,7 @@ use crate::symbolic::number::Number;
 use super::dag::{Block, Dag, Id, Kind, ONE};
 use super::hints::{headings, hints};
 use super::names::Names;
+use super::packs;
 use super::program::{Expression, FieldId, Local, Program, Sine, Statement};
 use super::stage::Stage;
 use super::together;
@@ -31,11 +33,19 @@ pub type Fields = HashMap<Print, (FieldId, Print)>;
 
 /// Prints a DAG as a program. Nodes found in `fields` are read from there; `names` are those of fields.
 pub fn schedule(dag: &Dag, fields: &Fields, names: &[String]) -> Program {
+    schedule_limbs(dag, fields, names, None)
+}
+
+/// The same with limbs that are alike in packs.
+pub fn schedule_limbs(dag: &Dag, fields: &Fields, names: &[String], limbs: Option<&Limbs>) -> Program {
     let mut scheduler = Scheduler::new(dag, fields, names);
     scheduler.make(dag.roots.iter().map(|root| root.1));
     let results = dag.roots.iter().map(|&root| scheduler.term(root)).collect();
     let mut program = scheduler.program;
     program.results = results;
+    if let Some(limbs) = limbs {
+        program = packs::pack(program, limbs);
+    }
     program.statements = together::gather(program.statements);
     program
 }

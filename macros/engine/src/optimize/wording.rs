@@ -127,7 +127,9 @@ impl<'a> Wording<'a> {
                 },
                 Expression::Neg(inner) => stack.push(inner),
                 Expression::Sum(terms) => stack.extend(terms.iter().rev().map(|term| &term.1)),
-                Expression::Product(list) | Expression::Call(_, list) => stack.extend(list.iter().rev()),
+                Expression::Product(list) | Expression::Call(_, list) | Expression::Pack(list) => {
+                    stack.extend(list.iter().rev());
+                }
                 Expression::Quotient(a, b) => stack.extend([&**b, &**a]),
             }
         }
@@ -182,6 +184,7 @@ impl<'a> Wording<'a> {
                 }
             }
             Expression::Call(call, arguments) => self.call(*call, arguments),
+            Expression::Pack(_) => None,
         }
     }
 

@@ -3,9 +3,11 @@
 //! In: a program and the values that it reads. Out: its results. Where a system has lesser rank than size, its solution is
 //! one of many, and rounding chooses among them: then pivots are taken in the order that the derived equations took.
 
+use std::collections::HashMap;
+
 use crate::contracts::call::Call;
 use crate::contracts::symbol::Symbol;
-use crate::optimize::program::{Expression, Local, Program, Statement};
+use crate::optimize::program::{Expression, Local, MEMBERS, Program, Statement};
 use crate::symbolic::evaluate::call_f64;
 
 use super::linear::{solve, solve_symmetric};
@@ -25,13 +27,16 @@ pub(super) struct Reads<'a> {
 
 /// Results of a program.
 pub(super) fn run(program: &Program, reads: &Reads<'_>) -> Vec<f64> {
-    let mut machine = Machine { locals: vec![f64::NAN; program.locals.len()], reads };
+    let mut machine = Machine { locals: vec![f64::NAN; program.locals.len()], packs: HashMap::new(), member: 0, reads };
     machine.run(&program.statements);
     program.results.iter().map(|result| machine.value(result)).collect()
 }
 
 struct Machine<'a> {
     locals: Vec<f64>,
+    packs: HashMap<Local, [f64; MEMBERS]>,
+    /// Of packs that is worked with.
+    member: usize,
     reads: &'a Reads<'a>,
 }
 
@@ -61,6 +66,21 @@ impl Machine<'_> {
                     self.set(sine.cos, c);
                 }
             }
+            Statement::Pack { local, value } => {
+                let members = self.members(value);
+                self.packs.insert(*local, members);
+            }
+            Statement::PackSines(sine) => {
+                let points = self.members(&sine.angle).map(f64::sin_cos);
+                self.packs.insert(sine.sin, points.map(|point| point.0));
+                self.packs.insert(sine.cos, points.map(|point| point.1));
+            }
+            Statement::Members { pack, members } => {
+                let values = self.members(pack);
+                for (local, value) in members.iter().zip(values) {
+                    local.iter().for_each(|&local| self.set(local, value));
+                }
+            }
             Statement::Solve { size, symmetric, groups, matrix, rhs, measures, results } => {
                 let [matrix, rhs, measures] = [matrix, rhs, measures].map(|list| self.values(list));
                 let known = self.reads.deficient.iter().find(|pivots| is_same(&pivots.matrix, &matrix, *size));
@@ -87,6 +107,16 @@ impl Machine<'_> {
         }
     }
 
+    /// Of an expression on packs.
+    fn members(&mut self, expression: &Expression) -> [f64; MEMBERS] {
+        let values = std::array::from_fn(|member| {
+            self.member = member;
+            self.value(expression)
+        });
+        self.member = 0;
+        values
+    }
+
     fn values(&self, list: &[Expression]) -> Vec<f64> {
         list.iter().map(|expression| self.value(expression)).collect()
     }
@@ -96,7 +126,8 @@ impl Machine<'_> {
             Expression::Literal(x) => *x,
             Expression::Symbol(symbol) => (self.reads.symbol)(*symbol),
             Expression::Field(field) => self.reads.fields[field.0],
-            Expression::Local(local) => self.locals[local.0],
+            Expression::Local(local) => self.packs.get(local).map_or(self.locals[local.0], |pack| pack[self.member]),
+            Expression::Pack(list) => self.value(&list[self.member.min(list.len() - 1)]),
             Expression::Neg(x) => -self.value(x),
             Expression::Sum(terms) => {
                 let mut sum = -0.0;

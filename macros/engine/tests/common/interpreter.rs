@@ -2,18 +2,20 @@
 
 use multibody_engine::contracts::call::Call;
 use multibody_engine::contracts::symbol::Symbol;
-use multibody_engine::optimize::program::{Expression, FieldId, Local, Program, Statement};
+use multibody_engine::optimize::program::{Expression, FieldId, Local, MEMBERS, Program, Statement};
 use multibody_engine::symbolic::evaluate::{call_f64, solve_f64};
 
 /// Results of a program.
 pub(crate) fn run(program: &Program, symbols: &dyn Fn(Symbol) -> f64, fields: &dyn Fn(FieldId) -> f64) -> Vec<f64> {
-    let mut machine = Machine { locals: vec![None; program.locals.len()], symbols, fields };
+    let packs = vec![None; program.locals.len()];
+    let mut machine = Machine { locals: vec![None; program.locals.len()], packs, symbols, fields };
     machine.run(&program.statements);
     program.results.iter().map(|e| machine.value(e)).collect()
 }
 
 struct Machine<'a> {
     locals: Vec<Option<f64>>,
+    packs: Vec<Option<[f64; MEMBERS]>>,
     symbols: &'a dyn Fn(Symbol) -> f64,
     fields: &'a dyn Fn(FieldId) -> f64,
 }
@@ -43,6 +45,17 @@ impl Machine<'_> {
                     self.set(sine.cos, angle.cos());
                 }
             }
+            Statement::Pack { local, value } => self.packs[local.0] = Some(self.members(value)),
+            Statement::PackSines(sine) => {
+                let angles = self.members(&sine.angle);
+                self.packs[sine.sin.0] = Some(angles.map(f64::sin));
+                self.packs[sine.cos.0] = Some(angles.map(f64::cos));
+            }
+            Statement::Members { pack, members } => {
+                for (local, value) in members.iter().zip(self.members(pack)) {
+                    local.iter().for_each(|&local| self.set(local, value));
+                }
+            }
             Statement::Solve { matrix, rhs, results, .. } => {
                 let (matrix, rhs) = (self.values(matrix), self.values(rhs));
                 for (&local, x) in results.iter().zip(solve_f64(&matrix, &rhs)) {
@@ -70,6 +83,29 @@ impl Machine<'_> {
         list.iter().map(|e| self.value(e)).collect()
     }
 
+    /// Of an expression on packs: scalars stand in packs alone there.
+    fn members(&self, expression: &Expression) -> [f64; MEMBERS] {
+        let each =
+            |a: [f64; MEMBERS], b: [f64; MEMBERS], of: fn(f64, f64) -> f64| std::array::from_fn(|k| of(a[k], b[k]));
+        match expression {
+            Expression::Local(local) => self.packs[local.0].expect("a pack that is set"),
+            Expression::Pack(list) => match &self.values(list)[..] {
+                [one] => [*one; MEMBERS],
+                list => list.try_into().expect("a scalar for each member"),
+            },
+            Expression::Neg(x) => self.members(x).map(|x| -x),
+            Expression::Sum(terms) => terms.iter().fold([0.0; MEMBERS], |sum, (minus, term)| {
+                each(sum, self.members(term), if *minus { |a, b| a - b } else { |a, b| a + b })
+            }),
+            Expression::Product(list) => {
+                list.iter().fold([1.0; MEMBERS], |product, factor| each(product, self.members(factor), |a, b| a * b))
+            }
+            Expression::Quotient(a, b) => each(self.members(a), self.members(b), |a, b| a / b),
+            Expression::Call(Call::Sqrt, x) => self.members(&x[0]).map(f64::sqrt),
+            other => panic!("no expression on packs: {other:?}"),
+        }
+    }
+
     fn value(&self, expression: &Expression) -> f64 {
         match expression {
             Expression::Literal(x) => *x,
@@ -84,6 +120,7 @@ impl Machine<'_> {
             Expression::Quotient(a, b) => self.value(a) / self.value(b),
             Expression::Call(Call::Sqrt, x) => self.value(&x[0]).sqrt(),
             Expression::Call(call, list) => call_f64(*call, &self.values(list)),
+            Expression::Pack(_) => panic!("a pack is no number"),
         }
     }
 }

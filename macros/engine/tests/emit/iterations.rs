@@ -116,6 +116,7 @@ fn case(k: usize) -> (Model, Compiled, f64) {
         checks: Vec::new(),
         inertia: Default::default(),
         witnesses: Vec::new(),
+        limbs: None,
     })
     .unwrap();
     assert!(compiled.sound);

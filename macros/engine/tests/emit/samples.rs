@@ -81,6 +81,7 @@ pub fn empty(module: &str) -> Model {
         assumptions: Vec::new(),
         handling: Handling::default(),
         rounds: 6,
+        packs: Packs::default(),
         independent: Vec::new(),
         skipped: Vec::new(),
         small: Vec::new(),

@@ -413,6 +413,7 @@ fn a_leg_costs_what_it_should() {
                 checks: Vec::new(),
                 inertia: Default::default(),
                 witnesses: Vec::new(),
+                limbs: None,
             };
             let compiled = multibody_engine::optimize::compile(&derivation).expect("compiled");
             let cost = compiled.functions[0].after;

@@ -15,6 +15,7 @@ mod expressions;
 mod formulations;
 #[path = "../common/interpreter.rs"]
 mod interpreter;
+mod packs;
 mod passes;
 #[path = "../common/rebuild.rs"]
 mod rebuild;

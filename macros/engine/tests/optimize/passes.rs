@@ -151,6 +151,7 @@ fn derivation(
         checks: Vec::new(),
         inertia: Default::default(),
         witnesses: Vec::new(),
+        limbs: None,
     }
 }
 

@@ -64,6 +64,7 @@ impl Reader<'_> {
                 let list: Vec<f64> = list.iter().map(|argument| self.value(argument)).collect();
                 call_f64(*call, &list)
             }
+            Expression::Pack(_) => panic!("a pack is no number"),
         }
     }
 
@@ -190,7 +191,10 @@ impl Reader<'_> {
                         }
                     }
                 }
-                Statement::Solve { .. } => self.results(program, statement),
+                Statement::Solve { .. }
+                | Statement::Pack { .. }
+                | Statement::PackSines(_)
+                | Statement::Members { .. } => self.results(program, statement),
                 Statement::Iterate { body, .. } => {
                     self.results(program, statement);
                     self.statements(place, program, body);
@@ -217,7 +221,9 @@ impl Reader<'_> {
             Expression::Literal(_) | Expression::Field(_) | Expression::Local(_) => {}
             Expression::Neg(inner) => self.touch(inner),
             Expression::Sum(terms) => terms.iter().for_each(|term| self.touch(&term.1)),
-            Expression::Product(list) | Expression::Call(_, list) => list.iter().for_each(|one| self.touch(one)),
+            Expression::Product(list) | Expression::Call(_, list) | Expression::Pack(list) => {
+                list.iter().for_each(|one| self.touch(one));
+            }
             Expression::Quotient(a, b) => [a, b].into_iter().for_each(|one| self.touch(one)),
         }
     }
@@ -241,6 +247,7 @@ impl Reader<'_> {
             Expression::Product(factors) => list(factors, " * "),
             Expression::Quotient(a, b) => format!("{} / {}", self.text(program, a), self.text(program, b)),
             Expression::Call(call, arguments) => format!("{call:?}({})", list(arguments, ", ")),
+            Expression::Pack(members) => format!("[{}]", list(members, ", ")),
         }
     }
 }

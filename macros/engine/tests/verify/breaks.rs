@@ -239,7 +239,9 @@ pub(crate) fn each(program: &mut Program, visit: &mut dyn FnMut(&mut Expression)
 fn statements(list: &mut [Statement], visit: &mut dyn FnMut(&mut Expression)) {
     for statement in list {
         match statement {
-            Statement::Let { value, .. } => expression(value, visit),
+            Statement::Let { value, .. } | Statement::Pack { value, .. } => expression(value, visit),
+            Statement::PackSines(sine) => expression(&mut sine.angle, visit),
+            Statement::Members { pack, .. } => expression(pack, visit),
             Statement::SinCos(sines) => sines.iter_mut().for_each(|sine| expression(&mut sine.angle, visit)),
             Statement::Solve { size, symmetric, matrix, rhs, .. } => {
                 // Of a symmetric matrix what is right of the diagonal isn't read.
@@ -262,7 +264,9 @@ fn expression(root: &mut Expression, visit: &mut dyn FnMut(&mut Expression)) {
     match root {
         Expression::Neg(x) => expression(x, visit),
         Expression::Sum(terms) => terms.iter_mut().for_each(|term| expression(&mut term.1, visit)),
-        Expression::Product(list) | Expression::Call(_, list) => list.iter_mut().for_each(|e| expression(e, visit)),
+        Expression::Product(list) | Expression::Call(_, list) | Expression::Pack(list) => {
+            list.iter_mut().for_each(|e| expression(e, visit));
+        }
         Expression::Quotient(a, b) => [a, b].into_iter().for_each(|e| expression(e, visit)),
         Expression::Literal(_) | Expression::Symbol(_) | Expression::Field(_) | Expression::Local(Local(_)) => {}
     }

@@ -7,6 +7,7 @@ mod corpus;
 mod held_loops;
 #[path = "../common/interpreter.rs"]
 mod interpreter;
+mod packs;
 mod states;
 
 use std::time::Instant;

@@ -63,8 +63,10 @@ fn new(context: &Context<'_>) -> TokenStream {
     each_leaf_of(prelude, &mut |leaf| read |= matches!(leaf, Expression::Symbol(_)));
     let params = names::ident(if read { "params" } else { "_params" });
     let locals = names::unique(prelude.locals.iter().map(String::as_str), RESERVED);
-    let mut body =
-        body(prelude, &Names { layout: &context.layout, locals: &locals, fields: &[], commented: context.commented });
+    let mut body = body(
+        prelude,
+        &Names { layout: &context.layout, locals: &locals, fields: &[], commented: context.commented, packed: false },
+    );
     let value = if context.hollow {
         body.statements = TokenStream::new();
         quote!(::core::unimplemented!())

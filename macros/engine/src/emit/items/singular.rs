@@ -67,7 +67,10 @@ fn own(context: &Context<'_>, program: &Program) -> (TokenStream, TokenStream) {
     let arguments = Arguments::of(FunctionKind::ForwardDynamics, &read);
     let opened = arguments.open(&read);
     let locals = names::unique(program.locals.iter().map(String::as_str), RESERVED);
-    let body = body(program, &Names { layout, locals: &locals, fields: &context.fields, commented: context.commented });
+    let body = body(
+        program,
+        &Names { layout, locals: &locals, fields: &context.fields, commented: context.commented, packed: false },
+    );
     let statements = body.statements;
     let matrix = leaf::matrix(layout.krate(), layout.dof(), layout.dof(), &mut body.results.into_iter());
     let ty = results::ty(layout, FunctionKind::MassMatrix);

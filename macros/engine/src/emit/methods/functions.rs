@@ -86,7 +86,7 @@ pub(in crate::emit) fn method(context: &Context<'_>, function: &Function) -> Tok
         let locals = names::unique(function.program.locals.iter().map(String::as_str), RESERVED);
         let body = body(
             &function.program,
-            &Names { layout, locals: &locals, fields: &context.fields, commented: context.commented },
+            &Names { layout, locals: &locals, fields: &context.fields, commented: context.commented, packed: false },
         );
         let statements = body.statements;
         let value = results::value(layout, kind, body.results);

@@ -239,12 +239,31 @@ impl<'a> Blocks<'a> {
         if self.last_use(local).is_some() { quote!(#name) } else { quote!(_) }
     }
 
-    /// Expands to `let a = ..;`, sines, a solve or a loop.
+    /// Names in expressions on packs.
+    fn packed(&self) -> Names<'a> {
+        Names { packed: true, ..*self.names }
+    }
+
+    /// Expands to `let a = ..;`, sines, packs, a solve or a loop.
     fn statement(&self, live: &Live<'_>) -> TokenStream {
         match live.statement {
             Statement::Let { local, value } => {
                 let (name, value) = (self.name(*local), self.names.expression(value));
                 quote!(let #name = #value;)
+            }
+            Statement::Pack { local, value } => {
+                let (name, value) = (self.name(*local), self.packed().expression(value));
+                quote!(let #name = #value;)
+            }
+            Statement::PackSines(sine) => {
+                let [sin, cos] = sine.defined().map(|local| self.name(local));
+                let angle = self.packed().expression(&sine.angle);
+                quote!(let (#sin, #cos) = T::sines(#angle);)
+            }
+            Statement::Members { pack, members } => {
+                let names = members.iter().map(|local| local.map_or(quote!(_), |local| self.name(local)));
+                let pack = self.packed().expression(pack);
+                quote!(let [#(#names),*] = T::members(#pack);)
             }
             Statement::SinCos(_) => self.sines(&live.sines),
             Statement::Solve { size, symmetric, groups, matrix, rhs, measures, results } => {

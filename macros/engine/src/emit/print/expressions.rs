@@ -9,6 +9,7 @@ use quote::quote;
 
 use crate::contracts::call::Call;
 use crate::emit::layout::Layout;
+use crate::emit::layout::leaf;
 use crate::emit::names;
 use crate::invariant::injection::{Break, broken};
 use crate::optimize::program::Expression;
@@ -33,6 +34,8 @@ pub(in crate::emit) struct Names<'a> {
     pub(in crate::emit) fields: &'a [Ident],
     /// Whether statements stand under headings, as `#[doc = "// .."]`.
     pub(in crate::emit) commented: bool,
+    /// Whether operations are those of packs.
+    pub(in crate::emit) packed: bool,
 }
 
 impl Names<'_> {
@@ -71,9 +74,25 @@ impl Names<'_> {
                 quote!(#local)
             }
             Expression::Sum(terms) => self.sum(terms),
+            Expression::Call(Call::Sqrt, arguments) if self.packed => {
+                let arguments = arguments.iter().map(|argument| self.expression(argument));
+                quote!(T::roots(#(#arguments),*))
+            }
             Expression::Call(call, arguments) => self.call(*call, arguments),
+            Expression::Pack(members) => self.pack(members),
         };
         if binds < least { quote!((#tokens)) } else { tokens }
+    }
+
+    /// `T::four([a, b, c, d])`, `T::four_of(a)`.
+    fn pack(&self, members: &[Expression]) -> TokenStream {
+        let mut each = members.iter().map(|member| self.expression(member));
+        if members.iter().all(|member| Some(member) == members.first()) {
+            let member = each.next();
+            return quote!(T::four_of(#member));
+        }
+        let each = each.map(leaf::element);
+        quote!(T::four([#(#each),*]))
     }
 
     /// Terms from left to right.

@@ -11,18 +11,22 @@ use crate::model::expand::root;
 use crate::model::topology::Topology;
 use crate::model::typed::Allowed;
 use crate::model::types::Expr as Checked;
-use crate::model::types::{Coordinate, Handling, Joints};
+use crate::model::types::{Coordinate, Handling, Joints, Packs};
 use crate::syntax::tree;
 
 use super::fields::{Known, field};
 
 const WORLD: Known<'static> = Known { required: &[], optional: &["gravity"] };
 
-const FORMULATION: Known<'static> =
-    Known { required: &[], optional: &["coordinates", "constraints", "independent", "rounds", "rate", "position"] };
+const FORMULATION: Known<'static> = Known {
+    required: &[],
+    optional: &["coordinates", "constraints", "independent", "rounds", "packs", "rate", "position"],
+};
 
 /// More rounds of Newton's method than any guess is worth.
 const MOST_ROUNDS: usize = 50;
+
+const PACKS: [&str; 2] = ["Off", "Four"];
 
 const HANDLINGS: [&str; 4] = ["Multipliers", "Reduced", "Stabilised", "Auto"];
 
@@ -109,6 +113,28 @@ impl<'a> Checker<'a, '_> {
                     message,
                     "Newton's method doubles its digits in every round: three serve a guess that is near, six one that is not",
                 );
+                None
+            }
+        }
+    }
+
+    /// `packs: Four`
+    pub(in crate::model) fn packs(&mut self, fields: &'a tree::Fields) -> Option<Packs> {
+        let expr = field(fields, "packs")?;
+        let name = match expr {
+            Expr::Verbatim(_) => {
+                self.report.silent();
+                return None;
+            }
+            Expr::Path(path) => path.path.get_ident().map(ToString::to_string).unwrap_or_default(),
+            _ => String::new(),
+        };
+        match name.as_str() {
+            "Four" => Some(Packs::Four),
+            "Off" => Some(Packs::Off),
+            other => {
+                let help = Some(format!("there are `{}`", PACKS.join("`, `")));
+                self.report.unknown(expr.span(), "unknown packs of limbs", other, PACKS, help);
                 None
             }
         }

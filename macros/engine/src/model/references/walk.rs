@@ -223,6 +223,7 @@ impl<'a> Walk<'a> {
             match field.name.to_string().as_str() {
                 "coordinates" => self.words_in("coordinates", &field.value),
                 "constraints" => self.words_in("handling", &field.value),
+                "packs" => self.words_in("packs", &field.value),
                 _ => self.expr(&field.value),
             }
         }

@@ -10,7 +10,7 @@ type Room = &'static [(&'static str, &'static [&'static str])];
 
 const ITEM: Room = &[
     ("World", &["gravity"]),
-    ("Formulation", &["coordinates", "constraints", "independent", "rounds", "rate", "position"]),
+    ("Formulation", &["coordinates", "constraints", "independent", "rounds", "packs", "rate", "position"]),
     ("Body", &["mass", "com", "inertia", "coordinates"]),
 ];
 
@@ -59,6 +59,8 @@ const COORDINATES: Room = &[("Joint", &[]), ("Absolute", &[]), ("Quaternion", &[
 
 const HANDLING: Room = &[("Multipliers", &[]), ("Reduced", &[]), ("Stabilised", &[]), ("Auto", &[])];
 
+const PACKS: Room = &[("Off", &[]), ("Four", &[])];
+
 /// What a declared name is.
 const NAME: Room = &[
     ("Const", &[]),
@@ -78,7 +80,7 @@ const NAME: Room = &[
 ];
 
 /// The rooms whose words stand here.
-const ROOMS: [(&str, Room); 8] = [
+const ROOMS: [(&str, Room); 9] = [
     ("item", ITEM),
     ("force", FORCE),
     ("constraint", CONSTRAINT),
@@ -86,6 +88,7 @@ const ROOMS: [(&str, Room); 8] = [
     ("ty", TYPE),
     ("coordinates", COORDINATES),
     ("handling", HANDLING),
+    ("packs", PACKS),
     ("name", NAME),
 ];
 

@@ -1,0 +1,185 @@
+//! Stage `optimize`, packs: all statements in a row.
+//!
+//! In: statements and packs that take the place of some. Out: the program with packs. Where the first member of a pack stood, the
+//! pack stands, behind all that it reads; its members are taken out right behind it, as far as something that is no pack reads
+//! them.
+
+use std::collections::{HashMap, HashSet};
+
+use crate::optimize::program::{Expression, Local, MEMBERS, Program, Statement};
+
+use super::unify::Signs;
+
+/// Statements as one.
+pub(super) struct Pack {
+    /// Numbers of the members' statements.
+    pub(super) statements: [Option<usize>; MEMBERS],
+    pub(super) statement: Statement,
+    pub(super) signs: Signs,
+}
+
+impl Pack {
+    /// Places and numbers of the members' statements.
+    pub(super) fn members(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.statements.iter().enumerate().filter_map(|(place, number)| Some((place, (*number)?)))
+    }
+}
+
+/// What is done at once: a statement, or all of a pack. Packs count behind statements.
+struct Units {
+    /// Of each statement.
+    of: Vec<usize>,
+    /// What each reads.
+    reads: Vec<Vec<usize>>,
+}
+
+impl Units {
+    fn new(program: &Program, packs: &[Pack]) -> Units {
+        let count = program.statements.len();
+        let mut of: Vec<usize> = (0..count).collect();
+        for (number, pack) in packs.iter().enumerate() {
+            for (_, statement) in pack.members() {
+                of[statement] = count + number;
+            }
+        }
+        let mut defined: HashMap<Local, usize> = HashMap::new();
+        let mut reads = vec![Vec::new(); count + packs.len()];
+        for (number, statement) in program.statements.iter().enumerate() {
+            for expression in statement.expressions() {
+                expression.each_local(&mut |local| reads[of[number]].extend(defined.get(&local).map(|&by| of[by])));
+            }
+            defined.extend(statement.defined().into_iter().map(|local| (local, number)));
+        }
+        Units { of, reads }
+    }
+
+    /// Units in an order in which each stands behind what it reads, or one that reads itself.
+    fn order(&self) -> Result<Vec<usize>, usize> {
+        let mut order = Vec::new();
+        // Not seen, begun, done.
+        let mut state = vec![0_u8; self.reads.len()];
+        for &first in &self.of {
+            let mut stack = vec![(first, 0)];
+            while let Some((unit, next)) = stack.pop() {
+                if state[unit] == 2 {
+                    continue;
+                }
+                state[unit] = 1;
+                match self.reads[unit].get(next) {
+                    Some(&read) => {
+                        stack.push((unit, next + 1));
+                        if state[read] == 1 {
+                            let circle = stack.iter().rev().take_while(|(other, _)| *other != read);
+                            return Err(circle.map(|pair| pair.0).chain([read]).max().unwrap_or(read));
+                        }
+                        stack.push((read, 0));
+                    }
+                    None => {
+                        state[unit] = 2;
+                        order.push(unit);
+                    }
+                }
+            }
+        }
+        Ok(order)
+    }
+}
+
+/// A pack that reads what its members give, if there is one.
+pub(super) fn circular(program: &Program, packs: &[Pack]) -> Option<usize> {
+    let unit = Units::new(program, packs).order().err()?;
+    unit.checked_sub(program.statements.len())
+}
+
+/// The program with packs in the place of their members.
+pub(super) fn ordered(mut program: Program, packs: &[Pack]) -> Program {
+    let count = program.statements.len();
+    let units = Units::new(&program, packs);
+    let Ok(order) = units.order() else { return program };
+    let read = read_outside(&program, packs, &units);
+    let mut statements = Vec::with_capacity(order.len());
+    let mut minus: HashMap<Local, Local> = HashMap::new();
+    let mut old: Vec<Option<Statement>> = std::mem::take(&mut program.statements).into_iter().map(Some).collect();
+    for unit in order {
+        let Some(pack) = unit.checked_sub(count).map(|number| &packs[number]) else {
+            statements.extend(old[unit].take());
+            continue;
+        };
+        statements.push(pack.statement.clone());
+        for (which, local) in pack.statement.defined().into_iter().enumerate() {
+            let mut members = [None; MEMBERS];
+            for (place, number) in pack.members() {
+                let own = old[number].as_ref().and_then(|statement| statement.defined().get(which).copied());
+                let Some(own) = own.filter(|own| read.contains(own)) else { continue };
+                members[place] = Some(own);
+                if pack.signs[place] {
+                    let name = &program.locals[own.0];
+                    let name = name.strip_prefix("minus_").map_or(format!("minus_{name}"), str::to_owned);
+                    let heading = program.headings.get(own.0).cloned().flatten();
+                    program.headings.resize(program.locals.len(), None);
+                    program.headings.push(heading);
+                    program.locals.push(unused(&program.locals, &name));
+                    minus.insert(own, Local(program.locals.len() - 1));
+                    members[place] = Some(Local(program.locals.len() - 1));
+                }
+            }
+            if members.iter().any(Option::is_some) {
+                statements.push(Statement::Members { pack: Expression::Local(local), members });
+            }
+        }
+    }
+    let signed = |local: Local| match minus.get(&local) {
+        Some(&minus) => Expression::Neg(Box::new(Expression::Local(minus))),
+        None => Expression::Local(local),
+    };
+    for statement in &mut statements {
+        statement.each_expression_mut(&mut |expression| *expression = expression.with_locals(&signed));
+    }
+    for result in &mut program.results {
+        *result = result.with_locals(&signed);
+    }
+    program.statements = statements;
+    program
+}
+
+/// Locals that something else than their pack gives away: scalars, results, and packs that are filled with them.
+fn read_outside(program: &Program, packs: &[Pack], units: &Units) -> HashSet<Local> {
+    let mut read = HashSet::new();
+    let scalars = program.statements.iter().enumerate().filter(|(number, _)| units.of[*number] == *number);
+    let scalars = scalars.flat_map(|(_, statement)| statement.expressions());
+    let filled = packs.iter().flat_map(|pack| pack.statement.expressions());
+    for expression in scalars.chain(filled).chain(&program.results) {
+        expression.each_local(&mut |local| {
+            read.insert(local);
+        });
+    }
+    read
+}
+
+/// What names have in common: words that differ become `each`.
+pub(super) fn common_name(names: &[&str]) -> String {
+    let words: Vec<Vec<&str>> =
+        names.iter().map(|name| name.trim_start_matches("minus_").split('_').collect()).collect();
+    let Some((first, rest)) = words.split_first() else { return "each".to_owned() };
+    if rest.iter().any(|other| other.len() != first.len()) {
+        return format!("{}_of_each", first.join("_"));
+    }
+    let mut common: Vec<&str> = Vec::new();
+    for (at, &word) in first.iter().enumerate() {
+        let word = if rest.iter().all(|other| other[at] == word) { word } else { "each" };
+        if !(word == "each" && common.last() == Some(&"each")) {
+            common.push(word);
+        }
+    }
+    let name = common.join("_");
+    if common.contains(&"each") { name } else { format!("{name}_of_each") }
+}
+
+/// The name, with a number if it is taken.
+pub(super) fn unused(names: &[String], name: &str) -> String {
+    let is_free = |name: &str| names.iter().all(|known| known != name);
+    if is_free(name) {
+        return name.to_owned();
+    }
+    (2..).map(|number| format!("{name}_{number}")).find(|name| is_free(name)).unwrap_or_default()
+}

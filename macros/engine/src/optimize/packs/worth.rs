@@ -1,0 +1,201 @@
+//! Stage `optimize`, packs: what pays.
+//!
+//! In: statements and packs. Out: the packs that save more than it takes to fill and to empty them.
+//!
+//! A pack saves the operations of all members but one. To put four scalars into one takes three instructions, one scalar one, and to
+//! take a member out about one; literals are loaded. What another pack gives or takes is free, so a pack with little work
+//! between others pays.
+
+use std::collections::{HashMap, HashSet};
+
+use crate::contracts::call::Call;
+use crate::optimize::program::{Expression, Local, Program, Statement};
+
+use super::order::Pack;
+
+/// Quotients and roots, in additions.
+const LONG: i32 = 4;
+/// Sine and cosine of one angle: in vectors, with packs or without them.
+const SINES: i32 = 2;
+/// To put scalars into a pack.
+const GATHER: i32 = 4;
+/// To repeat a scalar.
+const REPEAT: i32 = 1;
+/// To take a member out.
+const TAKE: i32 = 1;
+/// Less than such a share of a function's operations, in hundredths, is not worth the trouble.
+const SHARE: i32 = 5;
+
+/// Numbers of the packs that pay as long as the others stand.
+pub(super) fn kept(program: &Program, packs: &[Pack]) -> HashSet<usize> {
+    let outlook = Outlook::new(program, packs);
+    (0..packs.len()).filter(|&number| outlook.gain(number) >= 0).collect()
+}
+
+/// Whether all of them together do.
+pub(super) fn pays(before: &Program, parted: &Program, packs: &[Pack]) -> bool {
+    if packs.is_empty() {
+        return false;
+    }
+    let outlook = Outlook::new(parted, packs);
+    let all: i32 = before.statements.iter().map(of_statement).sum();
+    outlook.total() * 100 > all * SHARE
+}
+
+struct Outlook<'a> {
+    program: &'a Program,
+    packs: &'a [Pack],
+    /// The pack that a statement is in.
+    of: HashMap<usize, usize>,
+    readers: HashMap<Local, Vec<usize>>,
+    /// The pack that gives a local of a pack.
+    gives: HashMap<Local, usize>,
+    /// Locals that packs read: of packs, and scalars that they are filled with.
+    read: HashSet<Local>,
+    /// How many packs read a pack of scalars.
+    shared: HashMap<String, i32>,
+}
+
+impl<'a> Outlook<'a> {
+    fn new(program: &'a Program, packs: &'a [Pack]) -> Outlook<'a> {
+        let (mut of, mut gives, mut shared) = (HashMap::new(), HashMap::new(), HashMap::new());
+        let mut read = HashSet::new();
+        for (number, pack) in packs.iter().enumerate() {
+            of.extend(pack.members().map(|(_, statement)| (statement, number)));
+            gives.extend(pack.statement.defined().into_iter().map(|local| (local, number)));
+            for expression in pack.statement.expressions() {
+                expression.each_local(&mut |local| {
+                    read.insert(local);
+                });
+            }
+            for (key, _) in gathers(&pack.statement) {
+                *shared.entry(key).or_insert(0) += 1;
+            }
+        }
+        Outlook { program, packs, of, readers: readers(program), gives, read, shared }
+    }
+
+    /// Operations that packs save.
+    fn saved(&self, number: usize) -> i32 {
+        let pack = &self.packs[number];
+        let members: i32 = pack.members().map(|(_, statement)| of_statement(&self.program.statements[statement])).sum();
+        members - of_statement(&pack.statement)
+    }
+
+    /// Members that something reads beside packs, with `dropped` none.
+    fn taken(&self, number: usize, dropped: Option<usize>) -> i32 {
+        let locals =
+            self.packs[number].members().flat_map(|(_, statement)| self.program.statements[statement].defined());
+        let is_read = |local: &Local| {
+            // Packs may be filled with members of another.
+            self.read.contains(local)
+                || self.readers.get(local).is_some_and(|list| {
+                    list.iter().any(|reader| self.of.get(reader).is_none_or(|&pack| Some(pack) == dropped))
+                })
+        };
+        locals.filter(is_read).count() as i32
+    }
+
+    /// What all would cost more without this one.
+    fn gain(&self, number: usize) -> i32 {
+        let pack = &self.packs[number];
+        let filled: i32 = gathers(&pack.statement)
+            .into_iter()
+            .map(|(key, cost)| if self.shared.get(&key) == Some(&1) { cost } else { 0 })
+            .sum();
+        let mut reads = HashSet::new();
+        for expression in pack.statement.expressions() {
+            expression.each_local(&mut |local| reads.extend(self.gives.get(&local)));
+        }
+        let more_taken: i32 =
+            reads.into_iter().map(|read| self.taken(read, Some(number)) - self.taken(read, None)).sum();
+        // What it gives to other packs they would have to be filled with.
+        let given = pack.statement.defined().into_iter().filter(|local| self.read.contains(local));
+        let given = given.count() as i32 * GATHER;
+        self.saved(number) + more_taken * TAKE + given - filled - self.taken(number, None) * TAKE
+    }
+
+    fn total(&self) -> i32 {
+        let filled: HashMap<String, i32> = self.packs.iter().flat_map(|pack| gathers(&pack.statement)).collect();
+        let each = (0..self.packs.len()).map(|number| self.saved(number) - self.taken(number, None) * TAKE);
+        each.sum::<i32>() - filled.values().sum::<i32>()
+    }
+}
+
+/// Packs that are made of scalars in a statement, and what each takes.
+fn gathers(statement: &Statement) -> HashMap<String, i32> {
+    let mut found = HashMap::new();
+    let mut stack: Vec<&Expression> = statement.expressions().collect();
+    while let Some(expression) = stack.pop() {
+        match expression {
+            Expression::Pack(list) if list.iter().all(|item| matches!(item, Expression::Literal(_))) => {}
+            Expression::Pack(list) => {
+                found.insert(format!("{list:?}"), if list.len() == 1 { REPEAT } else { GATHER });
+            }
+            Expression::Neg(inner) => stack.push(inner),
+            Expression::Sum(terms) => stack.extend(terms.iter().map(|(_, term)| term)),
+            Expression::Product(list) | Expression::Call(_, list) => stack.extend(list),
+            Expression::Quotient(above, below) => stack.extend([&**above, &**below]),
+            Expression::Literal(_) | Expression::Symbol(_) | Expression::Field(_) | Expression::Local(_) => {}
+        }
+    }
+    found
+}
+
+fn of_statement(statement: &Statement) -> i32 {
+    let own = match statement {
+        Statement::PackSines(_) => 4 * SINES,
+        Statement::SinCos(sines) => SINES * sines.len() as i32,
+        _ => 0,
+    };
+    own + statement.expressions().map(of_expression).sum::<i32>()
+}
+
+/// In additions.
+fn of_expression(expression: &Expression) -> i32 {
+    let all = |list: &[Expression]| list.iter().map(of_expression).sum::<i32>();
+    let between = |count: usize| count.saturating_sub(1) as i32;
+    match expression {
+        Expression::Literal(_)
+        | Expression::Symbol(_)
+        | Expression::Field(_)
+        | Expression::Local(_)
+        | Expression::Pack(_) => 0,
+        Expression::Neg(inner) => of_expression(inner),
+        Expression::Sum(terms) => between(terms.len()) + terms.iter().map(|(_, term)| of_expression(term)).sum::<i32>(),
+        Expression::Product(list) => between(list.len()) + all(list),
+        Expression::Quotient(above, below) => LONG + of_expression(above) + of_expression(below),
+        Expression::Call(Call::Sqrt, list) => LONG + all(list),
+        Expression::Call(_, list) => 1 + all(list),
+    }
+}
+
+/// Sums and products of two, quotients, roots, calls.
+pub(super) fn operations(expression: &Expression) -> usize {
+    let all = |list: &[Expression]| list.iter().map(operations).sum::<usize>();
+    match expression {
+        Expression::Literal(_) | Expression::Symbol(_) | Expression::Field(_) | Expression::Local(_) => 0,
+        Expression::Neg(inner) => operations(inner),
+        Expression::Sum(terms) => {
+            terms.len().saturating_sub(1) + terms.iter().map(|(_, term)| operations(term)).sum::<usize>()
+        }
+        Expression::Product(list) => list.len().saturating_sub(1) + all(list),
+        Expression::Quotient(above, below) => 1 + operations(above) + operations(below),
+        Expression::Call(_, list) => 1 + all(list),
+        Expression::Pack(list) => all(list),
+    }
+}
+
+/// What reads each local, by the number of the statement; results count as one more.
+fn readers(program: &Program) -> HashMap<Local, Vec<usize>> {
+    let mut found: HashMap<Local, Vec<usize>> = HashMap::new();
+    for (number, statement) in program.statements.iter().enumerate() {
+        for expression in statement.expressions() {
+            expression.each_local(&mut |local| found.entry(local).or_default().push(number));
+        }
+    }
+    for result in &program.results {
+        result.each_local(&mut |local| found.entry(local).or_default().push(program.statements.len()));
+    }
+    found
+}
