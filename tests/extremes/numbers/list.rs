@@ -55,6 +55,7 @@ const REACHED: &[(&str, &str)] = &[
     ("inertia", "of what is verified: by `verify`"),
     ("efforts", "of what is verified: by `verify`"),
     ("kinetic", "of what is verified: by `verify`"),
+    ("mass_matrix_lower", "entries of `mass_matrix`: in runtime/tests/numbers/lower_triangle.rs"),
     ("kinematics_2", "`kinematics`, asked for a second time"),
 ];
 
