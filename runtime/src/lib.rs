@@ -99,6 +99,7 @@ pub mod integrators;
 pub mod language {}
 pub mod linear;
 mod linearization;
+mod lower_triangle;
 mod opening;
 #[doc(hidden)]
 pub mod pivots;
@@ -131,6 +132,7 @@ pub use integrators::{
     SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint, Tolerance, Verlet,
 };
 pub use linearization::Linearization;
+pub use lower_triangle::LowerTriangle;
 #[doc(hidden)]
 pub use multibody_macros::multibody as __multibody;
 pub use nalgebra;

@@ -399,6 +399,9 @@ pub mod emit {
     /// `M` of `M * accel + bias = effort`.
     pub struct mass_matrix;
 
+    /// What is on and below the diagonal of the mass matrix.
+    pub struct mass_matrix_lower;
+
     /// `bias` of `M * accel + bias = effort`: the efforts at zero acceleration.
     pub struct bias;
 

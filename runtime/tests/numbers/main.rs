@@ -8,6 +8,7 @@ mod dual;
 mod inertia;
 mod lanes;
 mod linear;
+mod lower_triangle;
 mod rotation;
 mod scalar;
 #[cfg(feature = "reproducible")]

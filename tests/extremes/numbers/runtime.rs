@@ -7,7 +7,7 @@ use multibody::linear::{
 };
 use multibody::nalgebra::{Quaternion, SMatrix, SVector, UnitQuaternion, Vector3};
 use multibody::simba::simd::{WideF32x8, WideF64x4};
-use multibody::{Configuration, Packed, Pose, Real, Tangent, inertia_violation, rotation};
+use multibody::{Configuration, LowerTriangle, Packed, Pose, Real, Tangent, inertia_violation, rotation};
 use std::hint::black_box;
 
 /// A group for each equation, in no order and with gaps: any number is one.
@@ -46,6 +46,12 @@ fn linear<T: Drawn>(n: &Numbers) {
     wide::<T, 2, 4>(n);
     wide::<T, 4, 4>(n);
     wide::<T, 5, 3>(n);
+}
+
+fn triangles<T: Drawn>(n: &Numbers) {
+    let lower = LowerTriangle::<T, 3, 6>::from_packed([(); 6].map(|()| n.scalar()));
+    black_box((lower.packed(), lower.full(), lower.times(&SVector::from_fn(|_, _| n.scalar()))));
+    black_box(lower.get(n.draw() as usize, n.draw() as usize));
 }
 
 fn rotations<T: Drawn>(n: &Numbers) {
@@ -98,6 +104,7 @@ fn functions_of_the_runtime() {
     fn every<T: Drawn>(cases: u32) {
         all(cases, |n| {
             linear::<T>(n);
+            triangles::<T>(n);
             rotations::<T>(n);
             scalars::<T>(n);
         });

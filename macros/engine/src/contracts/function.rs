@@ -16,6 +16,8 @@ pub enum FunctionKind {
     InverseDynamics,
     /// DOF x DOF, row by row.
     MassMatrix,
+    /// Of the same what is on and below the diagonal, row by row.
+    MassMatrixLower,
     /// DOF
     Bias,
     KineticEnergy,
@@ -158,6 +160,8 @@ pub enum Shape {
     Vector(usize),
     /// Row by row.
     Matrix(usize, usize),
+    /// Of a symmetric matrix of so many rows what is on and below the diagonal, row by row.
+    Lower(usize),
     Velocity,
     /// Accelerations, rates of own states, multipliers, rank, residual: those that there are.
     Derivative,
@@ -201,6 +205,7 @@ impl Shape {
             Shape::Scalar => one(Form::Scalar),
             Shape::Vector(size) => one(Form::Vector(size)),
             Shape::Matrix(rows, columns) => one(Form::Matrix(rows, columns)),
+            Shape::Lower(rows) => one(Form::Vector(triangle(rows))),
             Shape::Velocity => velocity(),
             Shape::Derivative => residual(multipliers(any(velocity(), Slot::States, sizes.states))),
             Shape::Solved(inputs) => {
@@ -239,6 +244,11 @@ impl Shape {
     }
 }
 
+/// Entries on and below the diagonal of so many rows.
+pub fn triangle(rows: usize) -> usize {
+    rows * (rows + 1) / 2
+}
+
 /// One generated function.
 pub struct FunctionRow {
     pub asked: Asked,
@@ -253,10 +263,11 @@ pub struct FunctionRow {
 
 impl FunctionKind {
     /// All of them in the order in which they are derived; the first kinematics and the first group of outputs for all.
-    pub const ALL: [FunctionKind; 28] = [
+    pub const ALL: [FunctionKind; 29] = [
         FunctionKind::ForwardDynamics,
         FunctionKind::InverseDynamics,
         FunctionKind::MassMatrix,
+        FunctionKind::MassMatrixLower,
         FunctionKind::Bias,
         FunctionKind::KineticEnergy,
         FunctionKind::PotentialEnergy,
@@ -319,6 +330,13 @@ impl FunctionKind {
                 Arguments::POSITION,
                 |s| Shape::Matrix(s.dof, s.dof),
                 |_| "Mass matrix `M` of `M * accel + bias = effort`.",
+            ),
+            FunctionKind::MassMatrixLower => row(
+                by(R::MassMatrixLower, "mass_matrix_lower", "MassMatrix"),
+                "mass_matrix_lower",
+                Arguments::POSITION,
+                |s| Shape::Lower(s.dof),
+                |_| "What is on and below the diagonal of the mass matrix `M` of `M * accel + bias = effort`, which is symmetric.",
             ),
             FunctionKind::Bias => row(
                 by(R::Bias, "bias", "Bias"),

@@ -513,6 +513,8 @@ pub enum Request {
     ForwardDynamics,
     InverseDynamics,
     MassMatrix,
+    /// Of it what is on and below the diagonal.
+    MassMatrixLower,
     Bias,
     Energy,
     /// Constraint equations, their Jacobian, rate and bias; with loops and multipliers they are always emitted.

@@ -134,6 +134,7 @@ fn every_break_of_a_function_alone_is_told() {
         ("forward_dynamics", &[FunctionKind::ForwardDynamics][..]),
         ("inverse_dynamics", &[FunctionKind::InverseDynamics]),
         ("mass_matrix", &[FunctionKind::MassMatrix]),
+        ("mass_matrix_lower", &[FunctionKind::MassMatrixLower]),
         ("bias", &[FunctionKind::Bias]),
         ("energy", &[FunctionKind::KineticEnergy, FunctionKind::PotentialEnergy]),
         ("residual", &[FunctionKind::Residual]),

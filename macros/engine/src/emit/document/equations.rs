@@ -98,7 +98,7 @@ fn in_block(says: &str) -> String {
 pub(super) fn of_function(layout: &Layout<'_>, kind: FunctionKind) -> Vec<String> {
     let Some(page) = page(layout) else { return Vec::new() };
     let wanted = |subject: Subject| match kind {
-        FunctionKind::MassMatrix => matches!(subject, Subject::Mass(..)),
+        FunctionKind::MassMatrix | FunctionKind::MassMatrixLower => matches!(subject, Subject::Mass(..)),
         FunctionKind::Bias => matches!(subject, Subject::Inertial(_) | Subject::Gravity(_) | Subject::Force(_)),
         FunctionKind::ForwardDynamics | FunctionKind::InverseDynamics | FunctionKind::Residual => {
             matches!(subject, Subject::Motion(_))

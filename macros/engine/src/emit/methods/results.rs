@@ -6,7 +6,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use crate::contracts::function::{FunctionKind, Shape, Sizes};
+use crate::contracts::function::{FunctionKind, Shape, Sizes, triangle};
 use crate::contracts::results::{Parts, Results, Slot};
 use crate::contracts::symbol::Symbol;
 use crate::emit::layout::{Layout, StructKind, groups, leaf};
@@ -91,6 +91,10 @@ pub(in crate::emit) fn ty(layout: &Layout<'_>, kind: FunctionKind) -> TokenStrea
         Shape::Scalar => quote!(T),
         Shape::Vector(size) => vector_type(layout, size),
         Shape::Matrix(rows, columns) => matrix_type(layout, rows, columns),
+        Shape::Lower(rows) => {
+            let [rows, entries] = [rows, triangle(rows)].map(Literal::usize_unsuffixed);
+            quote!(#krate::LowerTriangle<T, #rows, #entries>)
+        }
         Shape::Residual | Shape::Margins(_) => vector_type(layout, parts(layout, kind).count()),
         Shape::Velocity => quote!(Velocity<T>),
         Shape::Derivative => quote!(Derivative<T>),
@@ -132,6 +136,10 @@ pub(in crate::emit) fn value(layout: &Layout<'_>, kind: FunctionKind, results: V
         Shape::Scalar => scalar(&results, Slot::Value),
         Shape::Vector(_) | Shape::Residual | Shape::Margins(_) => vector(layout, &results.list),
         Shape::Matrix(rows, columns) => leaf::matrix(krate, rows, columns, &mut results.list.into_iter()),
+        Shape::Lower(_) => {
+            let entries = results.list.into_iter().map(leaf::element);
+            quote!(#krate::LowerTriangle::from_packed([#(#entries),*]))
+        }
         Shape::Velocity => filled(layout, StructKind::Velocity, results.of(Slot::Velocity)),
         Shape::Derivative => derivative(layout, &results),
         Shape::Solved(_) => solved(layout, &results),

@@ -54,7 +54,7 @@ impl Deriving<'_> {
                 (inputs.collect(), "rank")
             }
             FunctionKind::InverseDynamics | FunctionKind::Bias => (of_state("effort"), "effort"),
-            FunctionKind::MassMatrix => (Vec::new(), "mass_matrix"),
+            FunctionKind::MassMatrix | FunctionKind::MassMatrixLower => (Vec::new(), "mass_matrix"),
             FunctionKind::KineticEnergy => (vec!["kinetic_energy".to_owned()], "energy"),
             FunctionKind::PotentialEnergy => (vec!["potential_energy".to_owned()], "energy"),
             FunctionKind::Constraints => (Vec::new(), "gap"),

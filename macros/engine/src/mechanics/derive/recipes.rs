@@ -106,6 +106,10 @@ fn recipe(kind: FunctionKind, solves_inputs: bool) -> Recipe {
             const { &[InAxes(COMPOSITE, |e| Ok(square(e.mass_matrix())))] },
             const { &[Reduced(COMPOSITE, |e, r| Ok(square(e.reduced_mass_matrix(r).concat())))] },
         ),
+        F::MassMatrixLower => (
+            const { &[InAxes(COMPOSITE, |e| Ok(lower(e.mass_matrix())))] },
+            const { &[Reduced(COMPOSITE, |e, r| Ok(lower(e.reduced_mass_matrix(r).concat())))] },
+        ),
         F::KineticEnergy => (
             const { &[Plain(LINKS, |e| Ok(Results::scalar(e.kinetic())))] },
             const { &[PutIn(LINKS, |e| Ok(Results::scalar(e.kinetic())))] },
@@ -193,6 +197,14 @@ fn output_group(deriving: &mut Deriving<'_>, kind: FunctionKind) -> Candidates {
 fn square(entries: Vec<Scalar>) -> Results<Scalar> {
     let size = entries.len().isqrt();
     Results::matrix(size, size, entries)
+}
+
+/// Of a square matrix what is on and below the diagonal, row by row.
+fn lower(entries: Vec<Scalar>) -> Results<Scalar> {
+    let size = entries.len().isqrt();
+    Results::vector(
+        entries.chunks(size.max(1)).enumerate().flat_map(|(row, list)| list.iter().take(row + 1)).copied().collect(),
+    )
 }
 
 fn jacobian(e: &mut Equations<'_>, reduction: &Reduction) -> Results<Scalar> {

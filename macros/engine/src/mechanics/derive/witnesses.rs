@@ -46,7 +46,7 @@ fn partners(asked: &[FunctionKind], solves_inputs: bool) -> Vec<FunctionKind> {
     add(&mut all, needed, if solves_inputs { F::Residual } else { F::InverseDynamics });
     // Energies.
     let moves = [F::ForwardDynamics, F::InverseDynamics, F::Bias].iter().any(|&kind| has(&all, kind));
-    let needed = moves || has(&all, F::MassMatrix) || has(&all, F::Momentum);
+    let needed = moves || has(&all, F::MassMatrix) || has(&all, F::MassMatrixLower) || has(&all, F::Momentum);
     add(&mut all, needed, F::KineticEnergy);
     add(&mut all, moves, F::PotentialEnergy);
     all.split_off(asked.len())

@@ -20,10 +20,11 @@ use crate::syntax::tree;
 
 use super::fields::{Known, field};
 
-const REQUESTS: [(&str, Request); 16] = [
+const REQUESTS: [(&str, Request); 17] = [
     ("forward_dynamics", Request::ForwardDynamics),
     ("inverse_dynamics", Request::InverseDynamics),
     ("mass_matrix", Request::MassMatrix),
+    ("mass_matrix_lower", Request::MassMatrixLower),
     ("bias", Request::Bias),
     ("energy", Request::Energy),
     ("constraints", Request::Constraints),

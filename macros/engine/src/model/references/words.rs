@@ -29,6 +29,7 @@ const EMIT: Room = &[
     ("forward_dynamics", &[]),
     ("inverse_dynamics", &["solve_for"]),
     ("mass_matrix", &[]),
+    ("mass_matrix_lower", &[]),
     ("bias", &[]),
     ("energy", &[]),
     ("constraints", &[]),

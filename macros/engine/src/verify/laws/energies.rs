@@ -18,6 +18,8 @@ const DEPENDENT: f64 = 1e-9;
 
 pub(super) const LAWS: &[Law] = &[
     Law { between: "the mass matrix and kinetic energy", judge: |at| at.energy() },
+    Law { between: "the lower triangle of the mass matrix and kinetic energy", judge: |at| at.energy_by_triangle() },
+    Law { between: "the mass matrix and its lower triangle", judge: |at| at.triangle() },
     Law { between: "the mass matrix and its transpose", judge: |at| at.symmetry() },
     Law { between: "the mass matrix and energies that are positive", judge: |at| at.pivots() },
     Law { between: "energies and the equations of motion", judge: |at| at.lagrange() },
@@ -41,6 +43,49 @@ impl At<'_, '_> {
         energy.iter().for_each(|&x| sum.add(-x));
         if sum.holds() != Some(true) {
             sum.bound = self.bound(a, &weights) + self.bound(b, &[1.0]);
+        }
+        judged(&sum, a, b)
+    }
+
+    /// The same, with twice what is below the diagonal.
+    fn energy_by_triangle(&mut self) -> Judged {
+        let (a, b) = (FunctionKind::MassMatrixLower, FunctionKind::KineticEnergy);
+        if !self.has(a) || !self.has(b) || !self.is_scleronomic(&[a, b]) {
+            return Some(None);
+        }
+        let (lower, energy, v) = (self.values(a)?, self.values(b)?, self.velocities());
+        let places = (0..v.len()).flat_map(|row| (0..=row).map(move |column| (row, column)));
+        let (mut sum, mut weights) = (Sum::default(), Vec::new());
+        for ((i, j), &m) in places.zip(&lower) {
+            let times = if i == j { 0.5 } else { 1.0 };
+            sum.product(&[m, v[i], v[j], Doubled::new(times)]);
+            weights.push(times * v[i].high * v[j].high);
+        }
+        energy.iter().for_each(|&x| sum.add(-x));
+        if sum.holds() != Some(true) {
+            sum.bound = self.bound(a, &weights) + self.bound(b, &[1.0]);
+        }
+        judged(&sum, a, b)
+    }
+
+    /// Entry by entry, by weights that are random.
+    fn triangle(&mut self) -> Judged {
+        let (a, b) = (FunctionKind::MassMatrixLower, FunctionKind::MassMatrix);
+        if !self.has(a) || !self.has(b) {
+            return Some(None);
+        }
+        let (lower, mass, n) = (self.values(a)?, self.values(b)?, self.dof());
+        let of_lower = self.weights(lower.len());
+        let mut of_mass = vec![0.0; n * n];
+        let places = (0..n).flat_map(|row| (0..=row).map(move |column| row * n + column));
+        let mut sum = Sum::default();
+        for ((at, &x), &weight) in places.zip(&lower).zip(&of_lower) {
+            sum.product(&[x, Doubled::new(weight)]);
+            sum.product(&[-mass[at], Doubled::new(weight)]);
+            of_mass[at] = weight;
+        }
+        if sum.holds() != Some(true) {
+            sum.bound = self.bound(a, &of_lower) + self.bound(b, &of_mass);
         }
         judged(&sum, a, b)
     }
