@@ -201,6 +201,21 @@ fn legs_follow_their_mode() {
     assert!(seen > 40);
 }
 
+/// A stroke behind its gimbal is one that the legs' formulas don't give: the pose is one, and angles for it are not made up.
+#[test]
+fn legs_on_another_branch() {
+    let model = six_three::Model::<f64>::default();
+    let mut state = six_three::State::<f64>::default();
+    state.q.plate.position = [-1.2, 0.1, 1.6].into();
+    let legs = model.kinematics(0.0, &state, &six_three::Velocity::default());
+    state.q.legs.iter_mut().zip(legs.position.iter()).for_each(|(leg, stroke)| leg.stroke = *stroke);
+    let count =
+        |q: &six_three::Position| model.assembly_modes(0.0, q).iter().filter(|mode| mode.residual.is_finite()).count();
+    assert!(count(&state.q) > 0);
+    state.q.legs[2].stroke = -1.8 - state.q.legs[2].stroke;
+    assert_eq!(count(&state.q), 0);
+}
+
 #[test]
 fn rods_from_rails() {
     const FEET: [[f64; 3]; 6] = [

@@ -118,8 +118,8 @@ impl Placement {
     /// Recognises what cycles through the same chain of motions are.
     pub fn new(g: &mut Graph, cycles: &[KinematicLoop], chain: &[Scalar]) -> Result<Placement, Unplaced> {
         let held = distances::distances(g, cycles, chain).ok_or(Unplaced::Unmeasured)?;
-        let (body, base): (fn(&Distance) -> Vector, fn(&Distance) -> Vector) = (|d| d.body, |d| d.base);
-        let sides = [body, base].map(|end| {
+        let ends: [fn(&Distance) -> Vector; 2] = [|distance| distance.body, |distance| distance.base];
+        let sides = ends.map(|end| {
             let mut groups: Vec<Vec<Distance>> = Vec::new();
             for &distance in &held.distances {
                 match groups.iter_mut().find(|group| end(&group[0]) == end(&distance)) {
@@ -184,6 +184,11 @@ impl Placement {
             (Kind::PlanePairs, true) => "two points beside the body in a plane in turn, from two and one distances",
             (Kind::Plane, _) => "a turn in a plane by a polynomial of degree 6",
         }
+    }
+
+    /// The square of one of the distances: what lengths are compared with.
+    pub fn square(&self) -> Scalar {
+        self.held.distances.first().map_or(Scalar::ONE, |distance| distance.square)
     }
 
     /// The mode that an alternative tells.

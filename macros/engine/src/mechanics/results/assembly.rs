@@ -17,7 +17,7 @@ use crate::invariant::fault::OrFault;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::constraints::{closings, coordinate_name};
-use crate::mechanics::loops::reduction::Reduction;
+use crate::mechanics::loops::reduction::{Map, Reduction};
 use crate::mechanics::loops::structure::{Closed, Means, Modes, Role, Structure};
 use crate::model::site::Sited;
 use crate::model::types::{Coordinate, JointId, Kinematics, LoopClosure};
@@ -93,7 +93,11 @@ impl Equations<'_> {
             let message = format!("`{name}` is not known from the pose of the body that the legs hold");
             return Err(complain(message, "give it a `solve` item, `solve (gimbal, stroke) from ball { .. }`"));
         }
-        let sizes: Vec<Scalar> = placed.errors.iter().map(|&error| self.g.call(Call::Abs, &[error])).collect();
+        let mut errors = placed.errors;
+        if wanted.find.iter().any(|coordinate| !chain.contains(coordinate)) {
+            errors.extend(self.other_branches(wanted, reduction, &map, placement.square()));
+        }
+        let sizes: Vec<Scalar> = errors.iter().map(|&error| self.g.call(Call::Abs, &[error])).collect();
         found.push(self.worst(&sizes));
         // Given coordinates follow from the pose by the formulas of their legs, but here they are what is known.
         let given = wanted.given.iter().flat_map(|joint| &self.scene.symbols.positions[joint.0]);
@@ -106,6 +110,38 @@ impl Equations<'_> {
             Results::default().with(Slot::Positions, positions.to_vec()).with_scalar(Slot::Residual, *residual);
         let condition = placed.condition.map(|condition| self.g.substitute(&[condition], &known)[0]);
         Ok(Assembly { condition, results, modes, name: placement.describe() })
+    }
+
+    /// What joints of legs that follow from the pose make of what is given: a formula may be on another branch than that, and is of no
+    /// use then. Squares, those of lengths beside one.
+    fn other_branches(
+        &mut self,
+        wanted: &Kinematics,
+        reduction: &Reduction,
+        pose: &Map,
+        square: Scalar,
+    ) -> Vec<Scalar> {
+        let model = self.scene.model;
+        let mut errors = Vec::new();
+        for &joint in &wanted.given {
+            for index in 0..model.joints[joint].kind.freedoms() {
+                let symbol = self.coordinate_symbols(Coordinate { joint, index })[0];
+                let Some(&formula) = self.g.symbol_id(symbol).and_then(|id| reduction.map.get(&id)) else { continue };
+                let formula = self.g.substitute(&[formula], pose)[0];
+                let off = self.g.sub(symbol, formula);
+                errors.push(match model.joints[joint].kind.is_slide(index) {
+                    true => {
+                        let squared = self.g.mul(off, off);
+                        self.g.div(squared, square)
+                    }
+                    false => {
+                        let cos = self.g.cos(off);
+                        self.g.sub(Scalar::ONE, cos)
+                    }
+                });
+            }
+        }
+        errors
     }
 
     /// The one body that is to be placed: its joint slides and turns, and nothing of it is given.
