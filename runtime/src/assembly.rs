@@ -91,7 +91,7 @@ fn insert<T: Real, const N: usize>(row: &mut [AssemblyMode<T, N>], count: &mut T
             *slot = Real::select(here, x, *slot);
         }
     }
-    *count = *count + Real::select(is_new, T::lit(1.0), T::lit(0.0));
+    *count += Real::select(is_new, T::lit(1.0), T::lit(0.0));
 }
 
 /// All assembly modes where no angle is unknown: one for each of `MODES` choices of sides.

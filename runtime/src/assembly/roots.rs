@@ -63,7 +63,7 @@ pub fn on_circle<T: Real, const SAMPLES: usize, const ROOTS: usize>(value: impl 
             let here = is_real & Real::eq(next, T::lit(place as f64));
             *slot = [0, 1].map(|k| Real::select(here, point[k], slot[k]));
         }
-        next = next + Real::select(is_real, T::lit(1.0), T::lit(0.0));
+        next += Real::select(is_real, T::lit(1.0), T::lit(0.0));
     }
     points
 }
@@ -134,7 +134,7 @@ impl<T: Real, const SAMPLES: usize> Series<T, SAMPLES> {
         let (mut power, mut sum) = ([T::lit(1.0), T::lit(0.0)], T::lit(0.0));
         for (k, &coefficient) in self.coefficients.iter().enumerate().take(Self::DEGREE + 1).skip(1) {
             power = product(power, z);
-            sum = sum - T::lit(k as f64) * product(coefficient, power)[1];
+            sum -= T::lit(k as f64) * product(coefficient, power)[1];
         }
         sum
     }
