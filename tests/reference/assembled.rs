@@ -443,7 +443,7 @@ fn in_other_scalars() {
         for ((x, y), z) in mode.position.iter().zip(&before.position).zip(&after.position) {
             let slope = (z - y) / (2.0 * h);
             assert!(
-                slope.is_nan() == x.re.is_nan() && !((x.eps - slope).abs() > 1e-6 * (1.0 + slope.abs())),
+                slope.is_nan() && x.re.is_nan() || (x.eps - slope).abs() < 1e-6 * (1.0 + slope.abs()),
                 "{x} {slope}"
             );
         }
@@ -456,7 +456,7 @@ fn out_of_reach() {
     let mut q = octahedron::Position::<f64>::default();
     q.legs.iter_mut().for_each(|leg| leg.stroke = -0.85);
     let none = octahedron::Model::<f64>::default().assembly_modes(0.0, &q);
-    assert!(none.iter().all(|mode| !(mode.residual < 1e-6)), "{none:?}");
+    assert!(none.iter().all(|mode| mode.residual.is_nan()), "{none:?}");
     q.legs[2].stroke = f64::NAN;
     let none = octahedron::Model::<f64>::default().assembly_modes(0.0, &q);
     assert!(none.iter().all(|mode| mode.residual.is_nan()));

@@ -104,9 +104,9 @@ fn lanes_are_apart_and_single_precision_serves() {
         let lanes: [f64; 4] = core::array::from_fn(|k| value(&roots[k], &[], point.map(|x| x.extract(k))) + shift[k]);
         WideF64x4::from(lanes)
     });
-    for lane in 0..4 {
+    for (lane, roots) in roots.iter().enumerate() {
         let own: Vec<[f64; 2]> = found.iter().map(|p| p.map(|x| x.extract(lane))).collect();
-        let there: &[f64] = if lane == 2 { &[] } else { &roots[lane] };
+        let there: &[f64] = if lane == 2 { &[] } else { roots };
         assert!(compare(&own, there) < 1e-14);
     }
     let found = on_circle::<f32, 17, 16>(|[c, s]| {

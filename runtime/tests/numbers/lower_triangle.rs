@@ -93,7 +93,7 @@ fn angles() -> impl Iterator<Item = f64> {
 #[test]
 fn of_an_arm() {
     for (k, a) in angles().enumerate() {
-        let params = arm::Params { m: 0.4 + 0.9 * k as f64, reach: 1.9 - 0.2 * a, ..arm::Params::default() };
+        let params = arm::Params { m: 0.4 + 0.9 * k as f64, reach: 1.9 - 0.2 * a };
         let model = arm::Model::new(&params);
         let q = SVector::from([0.3 - a, a, 2.0 * a + 0.4, -0.7 * a, 1.0 - a]).into();
         compare(&model.mass_matrix_lower(&q), &model.mass_matrix(&q));
