@@ -5,7 +5,7 @@
 //! something else reads them. An operation on a pack is the operation on each of its members, so `verify` runs the program as
 //! it is, and values differ from those without packs by the order of terms and factors alone, which is that of the first limb.
 //!
-//! [`likeness`] finds statements that do the same work, [`unify`] makes one expression of them, [`worth`] keeps what pays, [`order`]
+//! `likeness` finds statements that do the same work, `unify` makes one expression of them, `worth` keeps what pays, `order`
 //! puts all in a row. Sums over several limbs stay scalar; what a limb has in them is taken out first (`parted`), so
 //! that only additions are left there. Nothing of this can make a program wrong: an expression of a pack is put together from what its
 //! members compute, whatever proposed them.
