@@ -33,8 +33,8 @@ pub struct Alternative<T> {
 pub struct AssemblyMode<T, const N: usize> {
     /// `[m]` or `[rad]`: the coordinates that were asked for, in their order. NaN where this mode is not real.
     pub position: SVector<T, N>,
-    /// `[1]`: the greatest error of the distances that hold the mechanism, each relative to the squares that it is made of: rounding,
-    /// but where two modes meet. NaN where this mode is not real.
+    /// `[1]`: the greatest error of the distances that hold the mechanism, each relative to the squares that it is made of; and, where
+    /// joints of legs are asked for, of what these make of what is given. NaN where this mode is not real.
     pub residual: T,
 }
 
@@ -50,6 +50,7 @@ pub fn modes_by_points<
     const ROOTS: usize,
     const CHOICES: usize,
     const MODES: usize,
+    const ANGLES: u64,
     const N: usize,
 >(
     condition: impl Fn(&Alternative<T>) -> T,
@@ -63,24 +64,36 @@ pub fn modes_by_points<
         for point in points {
             for further in 0..CHOICES {
                 let sides = sides(choice + further * (MODES / ROOTS));
-                insert(row, &mut count, &mode(&Alternative { point, sides }));
+                insert::<T, ANGLES, N>(row, &mut count, &mode(&Alternative { point, sides }));
             }
         }
     }
     modes
 }
 
-/// Takes a mode to the next free place, if it is one and is not there.
-fn insert<T: Real, const N: usize>(row: &mut [AssemblyMode<T, N>], count: &mut T, mode: &AssemblyMode<T, N>) {
+/// Takes a mode to the next free place, if it is one and is not there. Coordinates whose bit in `ANGLES` is set are angles.
+fn insert<T: Real, const ANGLES: u64, const N: usize>(
+    row: &mut [AssemblyMode<T, N>],
+    count: &mut T,
+    mode: &AssemblyMode<T, N>,
+) {
     let half = Real::sqrt(T::epsilon());
+    let tolerance = T::lit(64.0) * half;
+    let is_angle = |k: usize| k < 64 && ANGLES >> k & 1 == 1;
+    // Lengths are compared beside the greatest one.
+    let lengths = mode.position.iter().enumerate().filter(|(k, _)| !is_angle(*k));
+    let size = lengths.fold(T::lit(0.0), |size, (_, &x)| Real::max(size, Real::abs(x)));
     let mut is_new = Real::le(mode.residual, half);
     for other in row.iter() {
         let mut is_other = Real::lt(T::lit(1.0), T::lit(0.0));
-        for (&x, &y) in mode.position.iter().zip(&other.position) {
-            // An angle may come out on either side of half a turn. Nothing is near to what is no number.
+        for (k, (&x, &y)) in mode.position.iter().zip(&other.position).enumerate() {
             let apart = Real::abs(x - y);
-            let apart = Real::min(apart, Real::abs(apart - T::lit(core::f64::consts::TAU)));
-            is_other = is_other | !Real::le(apart, T::lit(64.0) * half * (T::lit(1.0) + Real::abs(x)));
+            // Nothing is near to what is no number. An angle may come out on either side of half a turn.
+            let same = match is_angle(k) {
+                true => Real::le(Real::min(apart, Real::abs(apart - T::lit(core::f64::consts::TAU))), tolerance),
+                false => Real::le(apart, tolerance * size),
+            };
+            is_other = is_other | !same;
         }
         is_new = is_new & is_other;
     }
@@ -94,13 +107,17 @@ fn insert<T: Real, const N: usize>(row: &mut [AssemblyMode<T, N>], count: &mut T
     *count += Real::select(is_new, T::lit(1.0), T::lit(0.0));
 }
 
-/// All assembly modes where no angle is unknown: one for each of `MODES` choices of sides.
+/// All assembly modes where no angle is unknown, from `MODES` choices of sides: real ones first, each once.
 #[must_use]
-pub fn modes_by_sides<T: Real, const MODES: usize, const N: usize>(
+pub fn modes_by_sides<T: Real, const MODES: usize, const ANGLES: u64, const N: usize>(
     mode: impl Fn(&Alternative<T>) -> AssemblyMode<T, N>,
 ) -> [AssemblyMode<T, N>; MODES] {
     let point = [T::lit(1.0), T::lit(0.0)];
-    core::array::from_fn(|choice| mode(&Alternative { point, sides: sides(choice) }))
+    let (mut modes, mut count) = ([unknown(); MODES], T::lit(0.0));
+    for choice in 0..MODES {
+        insert::<T, ANGLES, N>(&mut modes, &mut count, &mode(&Alternative { point, sides: sides(choice) }));
+    }
+    modes
 }
 
 fn unknown<T: Real, const N: usize>() -> AssemblyMode<T, N> {

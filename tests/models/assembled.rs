@@ -124,7 +124,7 @@ multibody! {
         body plate { mass: 1.5, inertia: diag(0.08, 0.07, 0.09), coordinates: Absolute(RollPitchYaw) }
         part legs: [leg; 6] = |i| leg { base: ground.at(FEET[i]).rotated(AXES[i], TURNS[i]), tip: plate.at(ends[i]) };
         formulation { constraints: Multipliers }
-        emit assembly_modes { given: legs.stroke, find: plate.pose };
+        emit assembly_modes { given: legs.stroke, find: [plate.pose, legs.gimbal] };
         emit kinematics { given: plate.pose, find: legs.stroke };
     }
 }

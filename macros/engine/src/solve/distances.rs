@@ -1,13 +1,20 @@
 //! Stage `solve`: distances that hold a body.
 //!
 //! In: cycles through the motions by which a body moves about, the same in all of them. Out: of each cycle the one distance that
-//! is known between a point of the body and a point beside it, whatever the other joints of the cycle do: that of the centres of a
-//! universal joint and a ball joint at the ends of a strut, of the hinges at the ends of a planar link.
+//! is known between a point of the body and a point beside it, whatever the other joints of the cycle do, and which is all that the cycle
+//! says: every pose with that distance closes it. So these are the legs that are known, for all parameters:
+//!
+//! - two balls, the ends of a rod;
+//! - a ball, and two hinges whose axes meet at right angles, the second one at a right angle to the line to the ball, so that they turn
+//!   that line wherever one likes;
+//! - two hinges that are parallel, for bodies in a plane across them. Their distance is that in the plane.
 
+use crate::dynamics::tree::Motion;
 use crate::invariant::fault::OrFault;
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
-use super::chain::{Link, unit};
+use super::chain::{Kind, Link, Side, unit};
+use super::elements::{JointGroup, Seen};
 use super::measures::Measure;
 use super::pairs::{Opened, pairs};
 use super::system::{Part, System};
@@ -21,6 +28,8 @@ pub(super) struct Distance {
     /// In the frame behind them.
     pub(super) body: Vector,
     pub(super) square: Scalar,
+    /// Whether it is one in the plane across two hinges, whatever their places along these.
+    pub(super) is_flat: bool,
 }
 
 /// A chain of motions with the distances that are measured across it.
@@ -42,9 +51,27 @@ pub(super) fn distances(g: &mut Graph, cycles: &[KinematicLoop], chain: &[Scalar
             Some((ends, opened.along_rest(g, first, second, measure)?))
         });
         let ((base, body), along) = measured?;
+        let leg = Leg::new(g, &rest)?;
         // Squares of distances come halved.
         let two = g.integer(2);
-        held.distances.push(Distance { base, body, square: g.mul(two, along) });
+        let mut square = g.mul(two, along);
+        let mut is_flat = false;
+        if let Leg::Hinges { height, axes: [near, far] } = leg {
+            let across = |g: &mut Graph, v: Option<Vector>, normal: Vector| {
+                v.is_some_and(|v| g.cross(v, normal) == Vector::ZERO)
+            };
+            let (rotation, _, directions) = at_rest(g, &part);
+            let turn = part.iter().filter_map(motion).zip(directions).find(|one| matches!(one.0, Motion::Revolute(_)));
+            let normal = turn?.1;
+            let own = g.rotate(rotation.transpose(), normal);
+            if chain.len() != 3 || !across(g, near, own) || !across(g, far, normal) {
+                return None;
+            }
+            let height = g.mul(height, height);
+            square = g.sub(square, height);
+            is_flat = true;
+        }
+        held.distances.push(Distance { base, body, square, is_flat });
         held.links = part;
     }
     Some(held)
@@ -89,6 +116,79 @@ fn reversed(g: &mut Graph, cycle: &KinematicLoop) -> KinematicLoop {
         }
     }
     KinematicLoop { segments, winding: None }
+}
+
+/// What stands between a body and what is beside it.
+enum Leg {
+    /// One distance in space.
+    Distance,
+    /// Two parallel hinges: how far they are apart along their axes, and these as the body and the base see them.
+    Hinges { height: Scalar, axes: [Option<Vector>; 2] },
+}
+
+impl Leg {
+    /// From the body round to the base; nothing where it is of no kind that is known.
+    fn new(g: &mut Graph, rest: &[Link]) -> Option<Leg> {
+        let open: Vec<(usize, Motion)> =
+            rest.iter().enumerate().filter_map(|(at, link)| Some((at, motion(link)?))).collect();
+        match open[..] {
+            [(_, Motion::Ball(_)), (_, Motion::Ball(_))] => Some(Leg::Distance),
+            [(first, Motion::Revolute(a)), (second, Motion::Revolute(b)), (ball, Motion::Ball(_))] => {
+                let group = grown(g, &rest[first..=second])?;
+                let centre = carry(g, &rest[second + 1..ball], Side::Left, Kind::Point, Vector::ZERO)?;
+                let before = unit(g, a);
+                let before = carry(g, &rest[first + 1..second], Side::Right, Kind::Direction, before)?;
+                turns_anywhere(g, before, b, (centre, group.right))
+            }
+            [(ball, Motion::Ball(_)), (second, Motion::Revolute(b)), (first, Motion::Revolute(a))] => {
+                let group = grown(g, &rest[second..=first])?;
+                let centre = carry(g, &rest[ball + 1..second], Side::Right, Kind::Point, Vector::ZERO)?;
+                let behind = unit(g, a);
+                let behind = carry(g, &rest[second + 1..first], Side::Left, Kind::Direction, behind)?;
+                turns_anywhere(g, behind, b, (centre, group.left))
+            }
+            [(first, Motion::Revolute(a)), (second, Motion::Revolute(b))] => {
+                let (between, axis) = (&rest[first + 1..second], unit(g, a));
+                let other = unit(g, b);
+                let seen = carry(g, between, Side::Left, Kind::Direction, other)?;
+                let way = carry(g, between, Side::Left, Kind::Point, Vector::ZERO)?;
+                let near = carry(g, &rest[..first], Side::Left, Kind::Direction, axis);
+                let far = carry(g, &rest[second + 1..], Side::Right, Kind::Direction, other);
+                let is_parallel = g.cross(seen, axis) == Vector::ZERO;
+                is_parallel.then(|| Leg::Hinges { height: g.dot(way, axis), axes: [near, far] })
+            }
+            _ => None,
+        }
+    }
+}
+
+fn motion(link: &Link) -> Option<Motion> {
+    match link {
+        Link::Free { motion, .. } => Some(*motion),
+        Link::Known { .. } => None,
+    }
+}
+
+/// The point about which hinges turn.
+fn grown(g: &mut Graph, links: &[Link]) -> Option<Seen> {
+    let mut group = JointGroup::new();
+    links.iter().for_each(|&link| group.append(g, link));
+    group.centre()
+}
+
+fn carry(g: &mut Graph, links: &[Link], way: Side, kind: Kind, v: Vector) -> Option<Vector> {
+    match way {
+        Side::Left => links.iter().rev().try_fold(v, |v, link| link.carry(g, way, kind, v)),
+        Side::Right => links.iter().try_fold(v, |v, link| link.carry(g, way, kind, v)),
+    }
+}
+
+/// Of two hinges through one point, the second about a coordinate axis, and a ball: whether they take it everywhere around the point.
+fn turns_anywhere(g: &mut Graph, first: Vector, axis: usize, (ball, centre): (Vector, Vector)) -> Option<Leg> {
+    let second = unit(g, axis);
+    let arm = g.sub_vectors(ball, centre);
+    let square = [g.dot(first, second), g.dot(arm, second)] == [Scalar::ZERO; 2];
+    square.then_some(Leg::Distance)
 }
 
 /// Where a chain of links leads with its coordinates all zero, and the directions of its motions seen from its left side then.

@@ -22,12 +22,13 @@ mod improved;
 mod plane;
 mod spheres;
 
+use crate::contracts::call::Call;
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
 use super::chain::{Link, unit};
 use super::distances::{self, Distance, Held};
 use super::system::{Cycle, System, Unknown};
-use super::{KinematicLoop, Plan, Value, plan};
+use super::{KinematicLoop, Plan, Solved, Value, plan};
 
 use improved::Twist;
 
@@ -99,7 +100,7 @@ pub struct Placed {
 
 /// Why a body is not placed.
 pub enum Unplaced {
-    /// A cycle measures no distance of two points.
+    /// A cycle says something else than one distance of two points.
     Unmeasured,
     /// So many ends in common on the body, and beside it.
     Unknown { body: Vec<usize>, base: Vec<usize> },
@@ -206,11 +207,13 @@ impl Placement {
         .ok_or(Unplaced::Untold)?;
         let pose = if self.is_inverted { pose.inverted(g) } else { pose };
         let twists = self.twists(g);
-        let pose = pose.improved(g, &self.held.distances, &twists);
+        let normal = self.normal(g);
+        let pose = pose.improved(g, &self.held.distances, &twists, normal);
         let values = self.coordinates(g, &pose).ok_or(Unplaced::Untold)?;
         let (rotation, offset) = distances::moved(g, &self.held.links, &self.chain);
+        let normal = self.normal(g);
         let errors: Vec<Scalar> =
-            self.held.distances.iter().map(|distance| distance.error(g, rotation, offset)).collect();
+            self.held.distances.iter().map(|distance| distance.error(g, rotation, offset, normal)).collect();
         let put = self.chain.iter().zip(&values).filter_map(|(&symbol, &value)| Some((g.symbol_id(symbol)?, value)));
         let put = put.collect();
         let errors = g.substitute(&errors, &put);
@@ -222,6 +225,12 @@ impl Placement {
         }
         let between = between.into_iter().flat_map(|v| g.components(v)).collect();
         Ok(Placed { condition: pose.condition, values, errors, between })
+    }
+
+    /// Across the plane in which the body moves, seen from the base.
+    fn normal(&self, g: &mut Graph) -> Option<Vector> {
+        let is_planar = matches!(self.kind, Kind::PlanePairs | Kind::Plane);
+        is_planar.then(|| plane::twists(g, &self.held.links)).and_then(|twists| Some(twists.last()?.1))
     }
 
     /// How the body can move.
@@ -248,9 +257,15 @@ impl Placement {
         });
         let unknowns = motions.zip(&self.chain).map(|(motion, &symbol)| Unknown { motion, symbol, wanted: true });
         let unknowns = unknowns.collect();
-        let mut system = System::alone(Cycle { links, winding: None }, unknowns);
-        let steps = plan::plan(&mut g.clone(), &system, &[]).ok()?;
-        let solution = Plan { steps }.solve_system(g, &mut system, &[]).ok()?;
+        let system = System::alone(Cycle { links, winding: None }, unknowns);
+        let plan = Plan { steps: plan::plan(&mut g.clone(), &system, &[]).ok()? };
+        let positive = plan.solve_system(g, &mut system.clone(), &[]).ok()?;
+        // The pitch has a root for its cosine, and is between quarters of a turn.
+        let turned = |one: &Solved| matches!(one.value, Value::Angle { cos, .. } if cos.is_negative());
+        let solution = match positive.solved.iter().any(|one| !one.roots.is_empty() && turned(one)) {
+            true => plan.solve_system(g, &mut system.clone(), &[-Scalar::ONE]).ok()?,
+            false => positive,
+        };
         // Each may read those before it.
         let mut found: Vec<(Scalar, Scalar)> = Vec::new();
         for one in solution.solved {
@@ -306,11 +321,20 @@ impl Pose {
 }
 
 impl Distance {
+    /// What lies between the ends, of a distance in the plane without what lies across it.
+    fn seen(&self, g: &mut Graph, normal: Option<Vector>, between: Vector) -> Vector {
+        let Some(normal) = normal.filter(|_| self.is_flat) else { return between };
+        let height = g.dot(normal, between);
+        let part = g.scale(height, normal);
+        g.sub_vectors(between, part)
+    }
+
     /// The error of its square in a pose, relative to the squares that it is made of.
-    fn error(&self, g: &mut Graph, rotation: Rotation, offset: Vector) -> Scalar {
+    fn error(&self, g: &mut Graph, rotation: Rotation, offset: Vector, normal: Option<Vector>) -> Scalar {
         let arm = g.rotate(rotation, self.body);
         let from = g.sub_vectors(offset, self.base);
         let between = g.add_vectors(arm, from);
+        let between = self.seen(g, normal, between);
         let [square, arm, from] = [between, arm, from].map(|v| g.dot(v, v));
         let error = g.sub(square, self.square);
         let scale = g.sum(&[self.square, arm, from]);
@@ -330,14 +354,33 @@ fn turned(g: &mut Graph, rows: &[[Scalar; 3]; 3], v: Vector) -> Vector {
 
 /// Three unit vectors, the first one along a vector, the second one in a plane with another; and one over the vector's length.
 fn frame(g: &mut Graph, v: Vector, other: Vector) -> ([Vector; 3], Scalar) {
-    let unit = |g: &mut Graph, v: Vector| {
-        let components = g.components(v);
-        let length = g.length(components);
-        let inverse = g.reciprocal(length);
-        (g.scale(inverse, v), inverse)
-    };
-    let (first, inverse) = unit(g, v);
+    let (first, inverse) = unit_of(g, v);
     let normal = g.cross(first, other);
-    let (third, _) = unit(g, normal);
+    let (third, _) = unit_of(g, normal);
     ([first, g.cross(third, first), third], inverse)
+}
+
+/// The same with the other two anywhere.
+fn frame_along(g: &mut Graph, v: Vector) -> ([Vector; 3], Scalar) {
+    let (first, inverse) = unit_of(g, v);
+    let normal = beside(g, first);
+    let (third, _) = unit_of(g, normal);
+    ([first, g.cross(third, first), third], inverse)
+}
+
+/// A vector across another one, across X or across Y too, whichever is farther from it.
+fn beside(g: &mut Graph, v: Vector) -> Vector {
+    let [x, y, z] = g.components(v);
+    let [xx, yy] = [x, y].map(|s| g.mul(s, s));
+    let is_nearer = g.call(Call::Less, &[yy, xx]);
+    let zero = Scalar::ZERO;
+    let components = [(-z, zero), (zero, z), (x, -y)].map(|(a, b)| g.call(Call::Select, &[is_nearer, a, b]));
+    g.vector(components)
+}
+
+fn unit_of(g: &mut Graph, v: Vector) -> (Vector, Scalar) {
+    let components = g.components(v);
+    let length = g.length(components);
+    let inverse = g.reciprocal(length);
+    (g.scale(inverse, v), inverse)
 }

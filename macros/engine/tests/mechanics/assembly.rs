@@ -96,6 +96,32 @@ fn others_are_refused_with_the_reason() {
     told(&platform(own, [0, 0, 1, 1, 2, 2], RPY, gimbals), "`g0.first` is not known from the pose");
     let reduced = platform(own, [0, 0, 1, 1, 2, 2], RPY, ALL).replace("Multipliers", "Reduced");
     told(&reduced, "Multipliers");
+    // Legs that don't reach everywhere, or hold more with other parameters.
+    let short = platform(own, [0, 0, 1, 1, 2, 2], RPY, ALL);
+    told(&short.replace("parent: p3, child", "parent: p3.at(0.6 * Y), child"), "something else than one distance");
+    told(
+        &short.replace("child: c3, axes: [X, Y]", "child: c3, axes: [X, [0.0, 1.0, 1.0]]"),
+        "something else than one distance",
+    );
+    told(&short.replace("child: p3, axis: Z", "child: p3, axis: [0.0, 0.6, 0.8]"), "something else than one distance");
+    let arms = [0.0, 2.1, 4.2].iter().enumerate().map(|(k, turn)| {
+        let tilt = if k == 1 { ".rotated(X, tilt)" } else { "" };
+        format!(
+            "body a{k} {{ mass: 1.0, inertia: diag(0.1, 0.1, 0.1) }} body b{k} {{ mass: 1.0, inertia: diag(0.1, 0.1, 0.1) }}
+             joint s{k}: Revolute {{ parent: ground.rotated(Z, {turn}).at(X), child: a{k}, axis: Z }}
+             joint k{k}: Revolute {{ parent: a{k}.at(0.5 * X){tilt}, child: b{k}, axis: Z }}
+             #[cut] joint w{k}: Revolute {{ parent: b{k}.at(0.6 * X), child: plate.rotated(Z, {turn}).at(0.3 * X), axis: Z }}\n"
+        )
+    });
+    let arms: String = arms.collect();
+    told(
+        &format!(
+            "param tilt = 0.0; body plate {{ mass: 1.0, inertia: diag(0.1, 0.1, 0.1) }}
+             joint slide: Planar {{ parent: ground, child: plate, axis: Z }} {arms}
+             formulation {{ constraints: Multipliers }} emit assembly_modes {{ given: [s0, s1, s2], find: slide }};"
+        ),
+        "something else than one distance",
+    );
     // A hinge in place of a universal joint holds more than a distance.
     let legs = [0.0, 2.1, 4.2].iter().enumerate().map(|(k, turn)| {
         format!(

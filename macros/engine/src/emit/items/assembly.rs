@@ -7,6 +7,7 @@ use crate::contracts::function::FunctionKind;
 use crate::emit::methods::functions;
 use crate::emit::{Context, document, names};
 use crate::mechanics::loops::structure::Modes;
+use crate::model::types::Coordinate;
 
 /// Name of the method.
 pub(super) const NAME: &str = "assembly_modes";
@@ -25,6 +26,10 @@ pub(super) fn items(context: &Context<'_>) -> Option<TokenStream> {
     let Modes { sides, roots, choices } = layout.structure.modes.unwrap_or(unknown);
     let modes = roots.max(1) << sides;
     let docs = document::attributes(&document::assembly_modes(&found, layout.structure.modes));
+    let turning = |c: &Coordinate| !layout.model.joints[c.joint].kind.is_slide(c.index);
+    let wanted = layout.model.assembly.iter().flat_map(|wanted| &wanted.find);
+    let angles = wanted.take(64).enumerate().fold(0_u64, |bits, (k, c)| bits | u64::from(turning(c)) << k);
+    let angles = Literal::u64_unsuffixed(angles);
     let [samples, points, choices, modes] = [roots + 1, roots, 1 << choices, modes].map(Literal::usize_unsuffixed);
     let [t, q, alternative] = ["t", "q", "alternative"].map(names::ident);
     let call = |kind: FunctionKind| {
@@ -36,9 +41,9 @@ pub(super) fn items(context: &Context<'_>) -> Option<TokenStream> {
         _ if context.hollow => quote!(::core::unimplemented!()),
         Some(_) => {
             let condition = call(FunctionKind::AssemblyCondition);
-            quote!(#krate::assembly::modes_by_points::<T, #samples, #points, #choices, #modes, #count>(#condition, #mode))
+            quote!(#krate::assembly::modes_by_points::<T, #samples, #points, #choices, #modes, #angles, #count>(#condition, #mode))
         }
-        None => quote!(#krate::assembly::modes_by_sides::<T, #modes, #count>(#mode)),
+        None => quote!(#krate::assembly::modes_by_sides::<T, #modes, #angles, #count>(#mode)),
     };
     let at = layout.model.assembly.as_ref().map(|wanted| wanted.span);
     let name = at.map_or_else(|| names::ident(NAME), |span| names::at(span, NAME));

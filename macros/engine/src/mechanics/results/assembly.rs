@@ -5,8 +5,7 @@
 //! that belong to each point. Joints of legs that stand in a `solve` item follow from the body's pose by its formulas.
 //!
 //! That each leg holds the body by its distance and by nothing else is counted: one equation more than it has unknown joints. The formulas are looked at in
-//! numbers, at configurations that Newton's method has closed by the equations themselves: each must be one of the modes, up to a
-//! few that lie where two modes meet.
+//! numbers, at configurations that Newton's method has closed by the equations themselves: several must be among the modes.
 
 use std::f64::consts::TAU;
 
@@ -20,17 +19,19 @@ use crate::mechanics::loops::constraints::{closings, coordinate_name};
 use crate::mechanics::loops::reduction::{Map, Reduction};
 use crate::mechanics::loops::structure::{Closed, Means, Modes, Role, Structure};
 use crate::model::site::Sited;
-use crate::model::types::{Coordinate, JointId, Kinematics, LoopClosure};
+use crate::model::types::{Coordinate, JointId, Kinematics};
 use crate::solve::placement::{Placed, Placement, Unplaced};
 use crate::solve::{KinematicLoop, Segment};
 use crate::symbolic::evaluate::{Evaluator, Real};
 use crate::symbolic::graph::{Scalar, SymbolId};
 
-/// Configurations at which formulas are looked at.
-const POSES: usize = 5;
+/// Configurations at which formulas are looked at, and how many of them have to be found if it is not most of them: some lie where
+/// two modes meet, and where a sum changes its sign tells less than what the runtime looks for.
+const POSES: usize = 8;
+const ENOUGH: usize = 3;
 
-/// How near a mode has to come to a configuration.
-const NEAR: f64 = 1e-6;
+/// How near a mode has to come to a configuration, in all of twelve numbers.
+const NEAR: f64 = 1e-4;
 
 /// Places at which a series is looked at for changes of its sign.
 const LOOKED_AT: usize = 4096;
@@ -78,16 +79,18 @@ impl Equations<'_> {
         if !self.is_found(&placed, modes) {
             let message =
                 "the formulas of the assembly modes do not find the configurations that close the loops".to_owned();
-            return Err(complain(message, "ask for `kinematics`, and report this model: it should be in closed form"));
+            return Err(complain(
+                message,
+                "ask for `kinematics`; points that have to be apart may be in one place, or in a line, with the declared parameters",
+            ));
         }
         let find: Vec<Scalar> = wanted.find.iter().map(|&c| self.coordinate_symbols(c)[0]).collect();
         let found = self.finish(reduction, &find);
         let pairs: Vec<(Scalar, Scalar)> = symbols.iter().copied().zip(placed.values).collect();
         let map = self.map(&pairs);
         let mut found = self.g.substitute(&found, &map);
-        let joints = self.scene.symbols.positions.iter().enumerate();
-        let others = joints.filter(|(k, _)| !wanted.given.contains(&JointId(*k)));
-        let others: Vec<Scalar> = others.flat_map(|(_, positions)| positions.iter().copied()).collect();
+        let following = closure.steps.iter().flat_map(|step| &step.unknowns);
+        let others: Vec<Scalar> = following.map(|&c| self.coordinate_symbols(c)[0]).collect();
         if let Some(at) = found.iter().position(|&s| self.g.depends_on(s, &others)) {
             let name = coordinate_name(self.scene.model, wanted.find[at]);
             let message = format!("`{name}` is not known from the pose of the body that the legs hold");
@@ -204,9 +207,11 @@ impl Equations<'_> {
                 return Err("a loop of its own has a part in what legs hold".to_owned());
             }
             let shared = own.iter().any(|c| seen.contains(c));
-            if shared || count != own.len() + 1 || matches!(closing, LoopClosure::Constraint(_)) && segments.is_empty()
-            {
+            if shared || count > own.len() + 1 || segments.is_empty() {
                 return Err("a leg holds the body by more than one distance".to_owned());
+            }
+            if count <= own.len() {
+                return Err("a leg does not hold the body".to_owned());
             }
             seen.extend(own);
             cycles.push(KinematicLoop { segments, winding: None });
@@ -220,7 +225,7 @@ impl Equations<'_> {
         let closed = &self.scene.structure.closed;
         let list: Vec<&Closed> = closed.iter().take(POSES).collect();
         let found = list.iter().filter(|closed| self.is_mode(placed, modes, closed)).count();
-        2 * found > list.len()
+        found >= ENOUGH || 2 * found > list.len()
     }
 
     fn is_mode(&self, placed: &Placed, modes: Modes, closed: &Closed) -> bool {
@@ -294,7 +299,9 @@ fn roots(count: usize, value: impl Fn(f64) -> f64) -> Vec<f64> {
 fn unplaced(why: &Unplaced) -> String {
     let list = |counts: &[usize]| counts.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
     match why {
-        Unplaced::Unmeasured => "a leg holds the body by something else than the distance of two points".to_owned(),
+        Unplaced::Unmeasured => "a leg holds the body by something else than one distance: known are rods, struts between a ball and two hinges at right angles \
+             to each other and to the strut, and parallel hinges across the plane of the body"
+                .to_owned(),
         Unplaced::Untold => "the coordinates of the body do not follow from its pose in closed form".to_owned(),
         Unplaced::Unknown { body, base } => format!(
             "no polynomial of low degree is known for this robot: legs end in common on the body by {}, beside it by {}; \

@@ -14,7 +14,7 @@ use crate::symbolic::graph::{Graph, Scalar, Vector};
 
 use super::circles::{clearer, meeting as meeting_circle};
 use super::spheres::meeting;
-use super::{Alternative, Distance, Pose, frame};
+use super::{Alternative, Distance, Pose, frame_along};
 
 pub(super) fn pose(g: &mut Graph, groups: &[Vec<Distance>], at: &Alternative) -> Option<Pose> {
     let [point, others @ ..] = groups else { return None };
@@ -30,8 +30,8 @@ pub(super) fn pose(g: &mut Graph, groups: &[Vec<Distance>], at: &Alternative) ->
         products.push((d, c, g.mul(half, sum)));
     }
     let [(d, c, k), second, third] = products[..] else { return None };
-    let (base, long) = frame(g, d, second.0);
-    let (own, short) = frame(g, c, second.1);
+    let (base, long) = frame_along(g, d);
+    let (own, short) = frame_along(g, c);
     let scale = g.mul(long, short);
     let kappa = g.mul(k, scale);
     let square = g.mul(kappa, kappa);

@@ -18,7 +18,7 @@ use crate::contracts::call::Call;
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
 use super::spheres::plane;
-use super::{Alternative, Distance, Pose};
+use super::{Alternative, Distance, Pose, beside, unit_of};
 
 /// Where two distances leave a point.
 struct Circle {
@@ -34,8 +34,7 @@ pub(super) type Line = [Scalar; 3];
 pub(super) fn pose(g: &mut Graph, groups: &[Vec<Distance>], at: &Alternative) -> Option<Pose> {
     let [first, second, third] = groups else { return None };
     let body = [first, second, third].map(|group| group[0].body);
-    let all: Vec<Vector> = groups.iter().flatten().map(|distance| distance.base).collect();
-    let [one, two, three] = [first, second, third].map(|group| Circle::new(g, group, &all));
+    let [one, two, three] = [first, second, third].map(|group| Circle::new(g, group));
     let (one, two, three) = (one?, two?, three?);
     let apart = |g: &mut Graph, a: usize, b: usize| {
         let between = g.sub_vectors(body[a], body[b]);
@@ -104,9 +103,8 @@ pub(super) fn pose(g: &mut Graph, groups: &[Vec<Distance>], at: &Alternative) ->
 }
 
 impl Circle {
-    /// About the line through both centres. Its angle begins across the plane through them and one of the other points, which may
-    /// have a centre in common.
-    fn new(g: &mut Graph, pair: &[Distance], others: &[Vector]) -> Option<Circle> {
+    /// About the line through both centres. Its angle begins anywhere.
+    fn new(g: &mut Graph, pair: &[Distance]) -> Option<Circle> {
         let [a, b] = pair else { return None };
         let (axis, place) = plane(g, (a.base, a.square), (b.base, b.square));
         let length = g.dot(axis, axis);
@@ -115,19 +113,9 @@ impl Circle {
         let way = g.scale(share, axis);
         let part = g.mul(place, share);
         let square = g.sub(a.square, part);
-        let mut normals = others.iter().map(|&other| {
-            let beside = g.sub_vectors(other, a.base);
-            g.cross(axis, beside)
-        });
-        let normal = normals.find(|&normal| normal != Vector::ZERO)?;
-        let unit = |g: &mut Graph, v: Vector| {
-            let components = g.components(v);
-            let length = g.length(components);
-            let inverse = g.reciprocal(length);
-            g.scale(inverse, v)
-        };
-        let first = unit(g, normal);
-        let along = unit(g, axis);
+        let (along, _) = unit_of(g, axis);
+        let normal = beside(g, along);
+        let (first, _) = unit_of(g, normal);
         let axes = [first, g.cross(along, first)];
         Some(Circle { centre: g.add_vectors(a.base, way), radius: g.sqrt(square), square, axes })
     }

@@ -17,13 +17,20 @@ pub(super) type Twist = (Vector, Vector);
 
 impl Pose {
     /// Nearer to what the distances say, along these twists, as many as there are distances.
-    pub(super) fn improved(self, g: &mut Graph, distances: &[Distance], twists: &[Twist]) -> Pose {
+    pub(super) fn improved(
+        self,
+        g: &mut Graph,
+        distances: &[Distance],
+        twists: &[Twist],
+        normal: Option<Vector>,
+    ) -> Pose {
         let half = g.decimal(0.5);
         let (mut matrix, mut side) = (Vec::new(), Vec::new());
         for distance in distances {
             let arm = turned(g, &self.rows, distance.body);
             let from = g.sub_vectors(self.position, distance.base);
             let between = g.add_vectors(arm, from);
+            let between = distance.seen(g, normal, between);
             for &(linear, angular) in twists {
                 let way = g.cross(angular, arm);
                 let way = g.add_vectors(linear, way);

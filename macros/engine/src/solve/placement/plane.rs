@@ -44,8 +44,8 @@ pub(super) fn pose(
         let between = g.sub_vectors(distance.base, moved);
         let height = g.dot(own.normal, between);
         let height = g.mul(height, height);
-        let square = g.sub(distance.square, height);
-        Distance { base: own.project(g, distance.base), body: own.project(g, body), square }
+        let square = if distance.is_flat { distance.square } else { g.sub(distance.square, height) };
+        Distance { base: own.project(g, distance.base), body: own.project(g, body), square, is_flat: true }
     });
     let flat: Vec<Distance> = flat.collect();
     let [first, second, third] = flat[..] else { return None };
