@@ -14,7 +14,7 @@ use crate::invariant::fault::OrFault;
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
 use super::chain::{Kind, Link, Side, unit};
-use super::elements::{JointGroup, Seen};
+use super::elements::{JointGroup, Seen, parallel};
 use super::measures::Measure;
 use super::pairs::{Opened, pairs};
 use super::system::{Part, System};
@@ -57,9 +57,7 @@ pub(super) fn distances(g: &mut Graph, cycles: &[KinematicLoop], chain: &[Scalar
         let mut square = g.mul(two, along);
         let mut is_flat = false;
         if let Leg::Hinges { height, axes: [near, far] } = leg {
-            let across = |g: &mut Graph, v: Option<Vector>, normal: Vector| {
-                v.is_some_and(|v| g.cross(v, normal) == Vector::ZERO)
-            };
+            let across = |g: &mut Graph, v: Option<Vector>, normal: Vector| v.is_some_and(|v| parallel(g, v, normal));
             let (rotation, _, directions) = at_rest(g, &part);
             let turn = part.iter().filter_map(motion).zip(directions).find(|one| matches!(one.0, Motion::Revolute(_)));
             let normal = turn?.1;
@@ -154,8 +152,7 @@ impl Leg {
                 let way = carry(g, between, Side::Left, Kind::Point, Vector::ZERO)?;
                 let near = carry(g, &rest[..first], Side::Left, Kind::Direction, axis);
                 let far = carry(g, &rest[second + 1..], Side::Right, Kind::Direction, other);
-                let is_parallel = g.cross(seen, axis) == Vector::ZERO;
-                is_parallel.then(|| Leg::Hinges { height: g.dot(way, axis), axes: [near, far] })
+                parallel(g, seen, axis).then(|| Leg::Hinges { height: g.dot(way, axis), axes: [near, far] })
             }
             _ => None,
         }

@@ -211,7 +211,6 @@ impl Placement {
         let pose = pose.improved(g, &self.held.distances, &twists, normal);
         let values = self.coordinates(g, &pose).ok_or(Unplaced::Untold)?;
         let (rotation, offset) = distances::moved(g, &self.held.links, &self.chain);
-        let normal = self.normal(g);
         let errors: Vec<Scalar> =
             self.held.distances.iter().map(|distance| distance.error(g, rotation, offset, normal)).collect();
         let put = self.chain.iter().zip(&values).filter_map(|(&symbol, &value)| Some((g.symbol_id(symbol)?, value)));
@@ -245,7 +244,7 @@ impl Placement {
         }
     }
 
-    /// Coordinates of the chain for a pose, where there are two solutions that with a positive root.
+    /// Coordinates of the chain for a pose; of two solutions that with the pitch between quarters of a turn.
     fn coordinates(&self, g: &mut Graph, pose: &Pose) -> Option<Vec<Scalar>> {
         let rotation = g.matrix_rotation(pose.rows);
         let back = g.rotate(rotation.transpose(), pose.position);
@@ -260,7 +259,7 @@ impl Placement {
         let system = System::alone(Cycle { links, winding: None }, unknowns);
         let plan = Plan { steps: plan::plan(&mut g.clone(), &system, &[]).ok()? };
         let positive = plan.solve_system(g, &mut system.clone(), &[]).ok()?;
-        // The pitch has a root for its cosine, and is between quarters of a turn.
+        // The root is the cosine of the pitch.
         let turned = |one: &Solved| matches!(one.value, Value::Angle { cos, .. } if cos.is_negative());
         let solution = match positive.solved.iter().any(|one| !one.roots.is_empty() && turned(one)) {
             true => plan.solve_system(g, &mut system.clone(), &[-Scalar::ONE]).ok()?,

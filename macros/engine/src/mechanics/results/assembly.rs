@@ -1,11 +1,12 @@
 //! Stage `mechanics`: assembly modes, all positions that what is given leaves.
 //!
 //! In: what is given and what is to be found, with the structure in which the one is independent and the other follows. Out: one
-//! body that moves freely or in a plane, held by distances alone, as a [`Placement`]; and of it a condition on a point of the circle, and the coordinates
-//! that belong to each point. Joints of legs that stand in a `solve` item follow from the body's pose by its formulas.
+//! body that moves freely or in a plane, held by distances alone, as a [`Placement`]; and of it a condition on a point of the circle,
+//! and the coordinates that belong to each point. Joints of legs that stand in a `solve` item follow from the body's pose by its
+//! formulas.
 //!
-//! That each leg holds the body by its distance and by nothing else is counted: one equation more than it has unknown joints. The formulas are looked at in
-//! numbers, at configurations that Newton's method has closed by the equations themselves: several must be among the modes.
+//! That each leg holds the body by its distance and by nothing else follows from its joints, and is counted too: one equation more
+//! than it has unknown joints. The formulas are looked at in numbers, at configurations that Newton's method has closed by the equations themselves: several must be among the modes.
 
 use std::f64::consts::TAU;
 
