@@ -36,6 +36,7 @@
 //! | all states within each step | [`Integrator::intervals`] |
 //! | stops, impacts, switches: what happens where a function crosses zero | [`Integrator::with_events`] and [`Events`] |
 //! | rounding that does not grow over very many steps | [`Integrator::compensated`] |
+//! | many motions, one in each lane of the scalar, each with its own steps | [`Integrator::integrate_lanes`] |
 //! | bounds on the length of steps | [`Integrator::within`] a [`Tolerance`] |
 //!
 //! The common methods have `step` and `integrate` of their own (`Rk4::step(..)`), for loops of one's own and for
@@ -43,6 +44,7 @@
 
 mod composition;
 mod control;
+mod course;
 mod dense;
 mod dop853;
 mod dormand_prince;
@@ -55,6 +57,7 @@ pub mod generalised_alpha;
 mod hermite;
 mod integrator;
 mod interval;
+mod lanes;
 mod method;
 mod outlook;
 mod problem;
@@ -62,6 +65,7 @@ mod radau;
 mod rk4;
 mod run;
 mod sampling;
+mod scope;
 mod semi_implicit_euler;
 mod slope;
 
@@ -79,6 +83,7 @@ pub use gauss::{
 pub use generalised_alpha::GeneralisedAlpha;
 pub use integrator::{Integrator, Statistics, Steps};
 pub use interval::Interval;
+pub use lanes::{LaneEnd, LaneEnds};
 pub use method::{Accepted, Attempt, Method};
 pub use problem::{Problem, Step};
 pub use radau::Radau;

@@ -128,8 +128,8 @@ pub use impulsive::Impulsive;
 pub use inertia::{ParamError, inertia_violation, is_held};
 pub use integrators::{
     Composition4, Composition6, Dop853, DormandPrince, Euler, GaussLegendre4, GaussLegendre6, GeneralisedAlpha,
-    ImplicitMidpoint, IntegrationError, Integrator, Method, Radau, Rk4, SemiImplicitEuler, Statistics, Steps,
-    SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint, Tolerance, Verlet,
+    ImplicitMidpoint, IntegrationError, Integrator, LaneEnd, LaneEnds, Method, Radau, Rk4, SemiImplicitEuler,
+    Statistics, Steps, SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint, Tolerance, Verlet,
 };
 pub use linearization::Linearization;
 pub use lower_triangle::LowerTriangle;
@@ -145,7 +145,7 @@ pub use projection::{
 };
 pub use scalar::{Four, Packed, Real, all, any};
 pub use simba;
-pub use simulate::{simulate, simulate_stiff};
+pub use simulate::{simulate, simulate_lanes, simulate_stiff};
 pub use system::{ExtraOf, Margin, PositionOf, StateSpace, System, VelocityOf};
 pub use tangent::Tangent;
 pub use verify::{Agreement, Verifiable, verify, verify_at};

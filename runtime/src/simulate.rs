@@ -1,11 +1,14 @@
-//! A motion to an accuracy, without a choice of method: [`simulate`], and [`simulate_stiff`] for stiff systems.
+//! A motion to an accuracy, without a choice of method: [`simulate`], [`simulate_lanes`] for one in each lane, and [`simulate_stiff`] for
+//! stiff systems.
 //!
 //! Which method and which tolerances is what `examples/tradeoff` measured: over its scenes, the method of order eight
 //! costs least from 1e-3 on. Tolerances are such that every scene reaches what was asked for, in all its formulations (f64).
 //! What is lost to the best choice in hindsight is then at most a factor of 2.2 (`docs/tradeoff/summary.md` lists it), but
 //! three where accelerations depend on positions alone and a symplectic composition takes less.
 
-use crate::{Differentiable, Dop853, DormandPrince, IntegrationError, Integrator, Radau, Real, Statistics, System};
+use crate::{
+    Differentiable, Dop853, DormandPrince, IntegrationError, Integrator, LaneEnds, Radau, Real, Statistics, System,
+};
 
 /// Looser than that, the method of order five costs less.
 const LOOSE: f64 = 3e-3;
@@ -62,18 +65,37 @@ pub fn simulate<S: System>(
     accuracy: f64,
     observe: impl FnMut(f64, &S::State),
 ) -> Result<(S::State, Statistics), IntegrationError> {
-    let [five, coarse, fine, _] = SHARES;
+    let tolerance = explicit::<S>(accuracy)?;
     if accuracy > LOOSE {
-        let tolerance = tolerance::<S>(five * accuracy, accuracy)?;
         return Integrator::adaptive(DormandPrince, tolerance, tolerance)
             .integrate(system, t0, t1, state, input, observe);
     }
-    let share = if accuracy > TIGHT { coarse } else { fine };
-    let tolerance = tolerance::<S>(share * accuracy, accuracy)?;
     Integrator::adaptive(Dop853, tolerance, tolerance).integrate(system, t0, t1, state, input, observe)
 }
 
-/// The same for stiff systems, by the implicit method [`Radau`] with the exact derivatives of `emit derivatives`.
+/// The same in each lane of the scalar, each with steps of its own: see [`Integrator::integrate_lanes`].
+///
+/// # Errors
+/// As those of [`simulate`], and what is wrong with the start in any lane; errors of a motion are in its
+/// [`LaneEnd`](crate::LaneEnd).
+pub fn simulate_lanes<S: System>(
+    system: &S,
+    t0: f64,
+    t1: f64,
+    state: &S::State,
+    input: &S::Input,
+    accuracy: f64,
+    observe: impl FnMut(S::Scalar, &S::State),
+) -> Result<LaneEnds<S::State>, IntegrationError> {
+    let tolerance = explicit::<S>(accuracy)?;
+    if accuracy > LOOSE {
+        return Integrator::adaptive(DormandPrince, tolerance, tolerance)
+            .integrate_lanes(system, t0, t1, state, input, observe);
+    }
+    Integrator::adaptive(Dop853, tolerance, tolerance).integrate_lanes(system, t0, t1, state, input, observe)
+}
+
+/// The same as [`simulate`] for stiff systems, by the implicit method [`Radau`] with the exact derivatives of `emit derivatives`.
 ///
 /// Its steps follow the motion, however fast what is damped in it may be. Where nothing is fast it costs two to four times
 /// as much as [`simulate`].
@@ -92,6 +114,19 @@ pub fn simulate_stiff<S: Differentiable>(
     let [.., implicit] = SHARES;
     let tolerance = tolerance::<S>(implicit * accuracy, accuracy)?;
     Integrator::adaptive(Radau, tolerance, tolerance).integrate(system, t0, t1, state, input, observe)
+}
+
+/// The tolerance of steps of the explicit methods.
+fn explicit<S: System>(accuracy: f64) -> Result<f64, IntegrationError> {
+    let [five, coarse, fine, _] = SHARES;
+    let share = if accuracy > LOOSE {
+        five
+    } else if accuracy > TIGHT {
+        coarse
+    } else {
+        fine
+    };
+    tolerance::<S>(share * accuracy, accuracy)
 }
 
 /// A tolerance of steps, if the accuracy is one.

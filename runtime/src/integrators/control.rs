@@ -6,7 +6,8 @@
 
 use super::error::IntegrationError;
 use super::problem::Problem;
-use super::slope::{SlopeOf, displaced, is_finite, magnitude};
+use super::scope::Scope;
+use super::slope::{SlopeOf, displaced, finite, magnitude};
 use crate::{Real, System, Tangent, any};
 
 /// Weight of the integral part, `beta` in `dopri5`, for an estimate of fifth order; in proportion for others.
@@ -79,10 +80,11 @@ impl Tolerance {
         (t0, t1): (f64, f64),
         state: &S::State,
         slope: &SlopeOf<S>,
+        scope: &Scope<S::Scalar>,
     ) -> f64 {
         let span = (t1 - t0).abs();
         let size = magnitude(state);
-        let norm = |vector: &SlopeOf<S>| Real::greatest(self.norm(vector, &size, &size));
+        let norm = |vector: &SlopeOf<S>| scope.greatest(self.norm(vector, &size, &size));
         let (d0, d1) = (norm(&size), norm(slope));
         let guess = if d0 < 1e-5 || d1 < 1e-5 { 1e-6 } else { 0.01 * d0 / d1 };
         let euler = clamp(guess, span * 1e-12, Real::min(span, self.max_step));
@@ -122,16 +124,17 @@ impl Control {
         (t0, t1): (f64, f64),
         state: &S::State,
         slope: impl FnOnce() -> SlopeOf<S>,
+        scope: &Scope<S::Scalar>,
     ) -> Result<Self, IntegrationError> {
         let order = f64::from(order);
         let length = if tolerance.first_step > 0.0 {
             tolerance.first_step
         } else {
             let slope = slope();
-            if !is_finite(&slope) {
+            if !scope.all(finite(&slope)) {
                 return Err(IntegrationError::NonFinite { time: t0 });
             }
-            tolerance.choose_first_step(order, problem, (t0, t1), state, &slope)
+            tolerance.choose_first_step(order, problem, (t0, t1), state, &slope, scope)
         };
         let integral = INTEGRAL / order;
         Ok(Self {

@@ -1,10 +1,11 @@
 //! Whether it is clear which motion goes on from the end of a step: see [`System::ambiguity`].
 
 use super::problem::Problem;
-use super::slope::{is_finite, magnitude};
+use super::scope::Scope;
+use super::slope::{finite, magnitude};
 use crate::projection::TURNED;
 use crate::tangent::greatest;
-use crate::{Real, StateSpace, System, Tangent, any};
+use crate::{Real, StateSpace, System, Tangent};
 
 /// The end of a step where motions cross.
 #[derive(Clone, Copy, PartialEq)]
@@ -20,16 +21,22 @@ pub(super) enum Doubt {
 
 impl Doubt {
     /// Of the end of a step, and of `next`, which the system has made of it.
-    pub(super) fn at<S: System>(problem: &Problem<'_, S>, t: S::Scalar, end: &S::State, next: &S::State) -> Self {
+    pub(super) fn at<S: System>(
+        problem: &Problem<'_, S>,
+        t: S::Scalar,
+        end: &S::State,
+        next: &S::State,
+        scope: &Scope<S::Scalar>,
+    ) -> Self {
         let one = S::Scalar::lit(1.0);
         let ambiguity = problem.ambiguity(t, next);
-        if !any(Real::ge(ambiguity, one)) || !is_finite(&magnitude(end)) {
+        if !scope.any(Real::ge(ambiguity, one) & finite(&magnitude(end))) {
             return Self::None;
         }
         let ((_, before, _), (_, after, _)) = (end.split(), next.split());
         let change = greatest(&after.add_scaled(-one, &before));
         let turned = !Real::le(change, S::Scalar::lit(TURNED) * greatest(&before)) | !Real::is_finite(ambiguity);
-        if any(Real::ge(ambiguity, one) & turned) { Self::Turned } else { Self::Here }
+        if scope.any(Real::ge(ambiguity, one) & turned) { Self::Turned } else { Self::Here }
     }
 
     /// Whether steps of one length can't go on from here, where the one before ended in `last`: steps that are short beside

@@ -5,6 +5,7 @@ use super::doubt::Doubt;
 use super::error::IntegrationError;
 use super::outlook::{Soundness, cause, check_start};
 use super::problem::{Problem, Step};
+use super::scope::Scope;
 use super::slope::{SlopeOf, displaced, is_finite, magnitude};
 use crate::{Real, StateSpace, System, Tangent, all};
 
@@ -161,7 +162,7 @@ pub(super) fn step<S: System, M: Method<S>>(
         attempt.displacement = attempt.displacement.scale(S::Scalar::lit(f64::NAN)); // no state rather than a wrong one
     }
     let next = problem.accepted(step.end, &displaced(state, &attempt.displacement));
-    let sound = Soundness::at(&problem, step.end, &next, dt).mask;
+    let sound = Soundness::at(&problem, step.end, &next, dt, &Scope::whole()).mask;
     let (q, v, x) = next.split();
     let next = next.join(q, v.map(&mut |v| Real::select(sound, v, S::Scalar::lit(f64::NAN))), x);
     problem.reached(step.end, &next);
@@ -181,6 +182,7 @@ pub(super) fn integrate<S: System, M: Method<S>>(
     let mut state = *state;
     let mut t = t0;
     let (mut memory, mut signs, mut doubt) = (None, None, Doubt::None);
+    let scope = Scope::whole();
     check_start(&problem, t, &state)?;
     for k in 1..=steps {
         let end = t0 + S::Scalar::lit(f64::from(k)) * dt;
@@ -189,18 +191,19 @@ pub(super) fn integrate<S: System, M: Method<S>>(
         let attempt = method.attempt(&problem, &step, &now);
         let reached = displaced(&state, &attempt.displacement);
         let next = Accepted::new(&problem, end, &reached);
-        let found = Doubt::at(&problem, end, &reached, &next.state);
+        let found = Doubt::at(&problem, end, &reached, &next.state, &scope);
         if found.stops(doubt) {
             return Err(IntegrationError::Ambiguous { time: t.greatest() });
         }
         doubt = found;
         if !is_finite(&magnitude(&next.state)) {
-            return Err(cause(&problem, t, &state, dt));
+            return Err(cause(&problem, t, &state, dt, &scope));
         }
         if !attempt.converged {
             return Err(IntegrationError::NoConvergence { time: t.greatest() });
         }
-        signs = Some(Soundness::at(&problem, end, &next.state, dt).check(t, signs, &problem, &next.state)?);
+        let soundness = Soundness::at(&problem, end, &next.state, dt, &scope);
+        signs = Some(soundness.check(t, signs, &problem, &next.state)?);
         if k < steps {
             memory = Some(method.proceed(&problem, &step, &now, &attempt, &next));
         }

@@ -16,11 +16,11 @@
 //! tolerance is a different motion. Where rounding alone is more than that, the dead centre is reached.
 
 use super::error::IntegrationError;
-use super::method::Accepted;
 use super::problem::Problem;
+use super::scope::Scope;
 use super::slope::{Slope, SlopeOf, displaced, is_finite, magnitude};
 use crate::tangent::greatest;
-use crate::{Configuration, Margin, Open, Real, StateSpace, System, Tangent, all, any};
+use crate::{Configuration, Margin, Open, Real, StateSpace, System, Tangent, all};
 
 /// No dead centre may lie within so many lengths of a step. With one, methods of first order creep up to it and never arrive.
 const LENGTHS: f64 = 2.0;
@@ -55,11 +55,11 @@ pub(super) struct Signs {
 
 impl Signs {
     #[inline]
-    fn push<T: Real>(&mut self, root: T) {
+    fn push<T: Real>(&mut self, root: T, scope: &Scope<T>) {
         let zero = T::lit(0.0);
         if let Some([negative, positive]) = self.bits.get_mut(self.count / 64 % (ROOTS / 64)) {
-            *negative ^= u64::from(any(Real::lt(root, zero))) << (self.count % 64);
-            *positive ^= u64::from(any(Real::gt(root, zero))) << (self.count % 64);
+            *negative ^= u64::from(scope.any(Real::lt(root, zero))) << (self.count % 64);
+            *positive ^= u64::from(scope.any(Real::gt(root, zero))) << (self.count % 64);
         }
         self.count += 1;
     }
@@ -95,28 +95,34 @@ impl Outlook {
 
     /// At a state that [`System::accepted`] gave.
     #[inline]
-    pub(super) fn at<S: System>(problem: &Problem<'_, S>, t: S::Scalar, state: &S::State) -> Self {
+    pub(super) fn at<S: System>(
+        problem: &Problem<'_, S>,
+        t: S::Scalar,
+        state: &S::State,
+        scope: &Scope<S::Scalar>,
+    ) -> Self {
         let mut found = Self { signs: Some(Signs::default()), ..Self::unknown() };
         let zero = S::Scalar::lit(0.0);
         let residual = problem.margins(t, state, &mut |margin: Margin<S::Scalar>| {
             if let Some(signs) = &mut found.signs {
-                signs.push(margin.root);
+                signs.push(margin.root, scope);
             }
             let square = margin.root * margin.root;
-            if !all(Real::gt(square, zero) & Real::is_finite(square)) || any(Real::ne(margin.rate, margin.rate)) {
+            let known = Real::gt(square, zero) & Real::is_finite(square) & Real::eq(margin.rate, margin.rate);
+            if !scope.all(known) {
                 found.lost = found.lost.or(Some(margin.coordinate));
                 return;
             }
             let rate = margin.rate / square;
             for (known, rate) in [(&mut found.falls, -rate), (&mut found.rises, rate)] {
-                let rate = rate.greatest();
+                let rate = scope.greatest(rate);
                 if rate > known.0 {
                     *known = (rate, margin.coordinate);
                 }
             }
         });
-        if !all(is_closed(residual)) {
-            found.open = Some(residual.greatest());
+        if !scope.all(is_closed(residual)) {
+            found.open = Some(scope.greatest(residual));
         }
         found
     }
@@ -137,12 +143,10 @@ impl Outlook {
         length: f64,
         before: &Self,
         problem: &Problem<'_, S>,
-        (t, state): (f64, &S::State),
+        (t, state): (S::Scalar, &S::State),
     ) -> Option<&'static str> {
         let passed = match (self.signs, before.signs) {
-            (Some(signs), Some(others)) if signs != others => {
-                Some(changed(problem, S::Scalar::lit(t), state, &signs, &others))
-            }
+            (Some(signs), Some(others)) if signs != others => Some(changed(problem, t, state, &signs, &others)),
             _ => None,
         };
         let near = || within(if length > 0.0 { self.rises } else { self.falls }, length);
@@ -192,15 +196,16 @@ impl Outlook {
         end: &S::State,
         error: &SlopeOf<S>,
         tolerance: f64,
+        scope: &Scope<S::Scalar>,
     ) -> f64 {
         let (zero, turn) = (S::Scalar::lit(0.0), S::Scalar::lit(TURN));
         let rounding = S::Scalar::lit(ROUNDINGS) * S::Scalar::epsilon();
         let sizes = magnitude(end).map(&mut |size| Real::abs(size));
-        let far = any(Real::gt(greatest(&sizes.q), turn));
+        let far = scope.any(Real::gt(greatest(&sizes.q), turn));
         let near = Slope { q: sizes.q.map(&mut |size| Real::min(size, turn)), ..sizes };
         let change = |displacement: &SlopeOf<S>| {
             let pair = [*end, displaced(end, displacement)].map(|state| problem.accepted(t, &state));
-            change(problem, t, S::Scalar::lit(length), &pair)
+            change(problem, (t, S::Scalar::lit(length)), &pair, scope)
         };
         let error = change(&error.zip(&near, &mut |error, size| {
             let rounding = rounding * size;
@@ -218,7 +223,12 @@ impl Outlook {
 
 /// The greatest change of a root's square, and of its rate over the length, from one state to the other, as a share of the
 /// square; NaN if one is NaN. Roots are held a few at a time, so that nothing is evaluated for each of them.
-fn change<S: System>(problem: &Problem<'_, S>, t: S::Scalar, length: S::Scalar, [one, other]: &[S::State; 2]) -> f64 {
+fn change<S: System>(
+    problem: &Problem<'_, S>,
+    (t, length): (S::Scalar, S::Scalar),
+    [one, other]: &[S::State; 2],
+    scope: &Scope<S::Scalar>,
+) -> f64 {
     let (mut worst, mut first) = (0.0_f64, 0);
     loop {
         let mut held = [[S::Scalar::lit(1.0), S::Scalar::lit(0.0)]; HELD];
@@ -235,7 +245,7 @@ fn change<S: System>(problem: &Problem<'_, S>, t: S::Scalar, length: S::Scalar, 
                 let square = *root * *root;
                 let change = Real::abs(square - margin.root * margin.root);
                 let rate = Real::abs(length * (*rate - margin.rate));
-                let share = (Real::max(change, rate) / square).greatest();
+                let share = scope.greatest(Real::max(change, rate) / square);
                 worst = if share <= worst || worst.is_nan() { worst } else { share };
             }
             at += 1;
@@ -272,7 +282,13 @@ pub(super) struct Soundness<T: Real> {
 
 impl<T: Real> Soundness<T> {
     #[inline]
-    pub(super) fn at<S: System<Scalar = T>>(problem: &Problem<'_, S>, t: T, state: &S::State, dt: T) -> Self {
+    pub(super) fn at<S: System<Scalar = T>>(
+        problem: &Problem<'_, S>,
+        t: T,
+        state: &S::State,
+        dt: T,
+        scope: &Scope<T>,
+    ) -> Self {
         let zero = T::lit(0.0);
         let mut mask = Real::le(zero, zero);
         let mut coordinate = None;
@@ -280,11 +296,11 @@ impl<T: Real> Soundness<T> {
         let residual = problem.margins(t, state, &mut |margin| {
             let square = margin.root * margin.root;
             let far = Real::lt(Real::abs(margin.rate * dt) * T::lit(LENGTHS), square);
-            if !all(far) {
+            if !scope.all(far) {
                 coordinate = coordinate.or(Some(margin.coordinate));
             }
             mask = mask & far;
-            signs.push(margin.root);
+            signs.push(margin.root, scope);
         });
         Self { mask: mask & is_closed(residual), coordinate, residual, signs }
     }
@@ -317,9 +333,10 @@ pub(super) fn cause<S: System>(
     t: S::Scalar,
     state: &S::State,
     dt: S::Scalar,
+    scope: &Scope<S::Scalar>,
 ) -> IntegrationError {
-    let (time, blamed) = (t.greatest(), dt * S::Scalar::lit(BLAMED));
-    if let Some(coordinate) = Soundness::at(problem, t, &problem.accepted(t, state), blamed).coordinate {
+    let (time, blamed) = (scope.greatest(t), dt * S::Scalar::lit(BLAMED));
+    if let Some(coordinate) = Soundness::at(problem, t, &problem.accepted(t, state), blamed, scope).coordinate {
         return IntegrationError::DeadCentre { time, coordinate };
     }
     // Where the step began, and about where most methods look within it.
@@ -378,21 +395,6 @@ fn changed<S: System>(
 /// What Newton's method says of a run in which it stops converging.
 pub(super) const STUCK: &str = "Newton's method no longer converges from the solution of the step before: shorter steps \
      help, if not a dead centre is near";
-
-/// The end of a step that is to be kept with what lies around it.
-pub(super) struct Reached<S: System> {
-    pub(super) end: Accepted<S>,
-    pub(super) outlook: Outlook,
-}
-
-impl<S: System> Reached<S> {
-    #[inline]
-    pub(super) fn new(problem: &Problem<'_, S>, t: S::Scalar, end: &S::State) -> Self {
-        let end = Accepted::new(problem, t, end);
-        let outlook = Outlook::at(problem, t, &end.state);
-        Self { end, outlook }
-    }
-}
 
 #[cfg(test)]
 mod tests {

@@ -145,5 +145,12 @@ pub(super) fn advance_by<T: Real, V: Tangent<T>, const N: usize>(
 /// Whether every component of a vector is finite, in every lane.
 #[inline]
 pub(super) fn is_finite<T: Real, V: Tangent<T>>(vector: &V) -> bool {
-    vector.fold(true, &mut |finite, component| finite & all(Real::is_finite(component)))
+    all(finite(vector))
+}
+
+/// The same lane by lane.
+#[inline]
+pub(super) fn finite<T: Real, V: Tangent<T>>(vector: &V) -> T::Mask {
+    let zero = T::lit(0.0);
+    vector.fold(Real::le(zero, zero), &mut |finite, component| finite & Real::is_finite(component))
 }

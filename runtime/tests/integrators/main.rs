@@ -11,6 +11,7 @@ mod failures;
 mod generalised_alpha;
 mod order;
 mod order_symplectic;
+mod own_steps;
 mod radau;
 mod verify;
 mod without_inertia;

@@ -3,8 +3,10 @@
 //! steps, and none of them stops at what only comes near. The truth is the same mechanism with its equations, projected.
 
 use std::f64::consts::TAU;
+use std::mem;
 
 use multibody::integrators::{Action, Direction, Event, Events};
+use multibody::simba::simd::{SimdValue, WideF64x4};
 use multibody::{
     Canonical, Differentiable, Dop853, DormandPrince, Euler, GaussLegendre4, GaussLegendre6, GeneralisedAlpha,
     ImplicitMidpoint, IntegrationError, Integrator, Method, Projection, Radau, Rk4, SemiImplicitEuler,
@@ -206,6 +208,56 @@ fn every_method_ends_in_a_dead_centre() {
     start.guess = iterated::Guess { b: b + 0.01, c: c - 0.01 };
     plain("Newton", &model, &start, truth);
     implicit("Newton", &model, &start, truth);
+}
+
+/// In lanes with steps of their own each motion ends as it does alone: in its dead centre at its time, or at its end.
+#[test]
+fn lanes_end_in_dead_centres_of_their_own() {
+    let angles = [0.7, 0.2, 0.5, -0.3];
+    let rates = [0.0, 0.5, -1.0, 2.0];
+    let span = (0.0, 0.9);
+    let alone = |a: f64, rate: f64, integrator: &Integrator<Dop853>| {
+        let start = solved::State { q: solved::Position { a }, v: solved::Velocity { a: rate }, ..Default::default() };
+        let mut last = (start, 0.0);
+        let seen = |t: f64, x: &solved::State| last = (*x, t);
+        let result = integrator.integrate(&solved::Model::default(), span.0, span.1, &start, &(), seen);
+        (last, result.err())
+    };
+    let mut dead = 0;
+    for tolerance in [1e-5, 1e-9] {
+        let integrator = Integrator::adaptive(Dop853, tolerance, tolerance);
+        let start = solved::State {
+            q: solved::Position { a: WideF64x4::from(angles) },
+            v: solved::Velocity { a: WideF64x4::from(rates) },
+            ..Default::default()
+        };
+        let model = solved::Model::<WideF64x4>::default();
+        let closed = integrator.integrate_lanes(&model, span.0, span.1, &start, &(), |_, _| ()).unwrap();
+        // The same by Newton's method, whose guess is part of the state.
+        let [_, b, c] = model.outputs(WideF64x4::ZERO, &start, &()).angles;
+        let start = iterated::State {
+            q: iterated::Position { a: start.q.a },
+            v: iterated::Velocity { a: start.v.a },
+            guess: iterated::Guess { b, c },
+        };
+        let model = iterated::Model::<WideF64x4>::default();
+        let newton = integrator.integrate_lanes(&model, span.0, span.1, &start, &(), |_, _| ()).unwrap();
+        for lane in 0..4 {
+            let ((state, time), error) = alone(angles[lane], rates[lane], &integrator);
+            for (end, a) in [(closed.lanes()[lane], closed.state.q.a), (newton.lanes()[lane], newton.state.q.a)] {
+                println!("{lane}: {end:?}, alone {error:?}");
+                assert_eq!(
+                    end.error.map(|e| mem::discriminant(&e)),
+                    error.map(|e| mem::discriminant(&e)),
+                    "{end:?} {error:?}"
+                );
+                let near = if error.is_some() { 1e-5 } else { 1e-7 }; // rounding decides where steps come to nothing
+                assert!((end.time - time).abs() < near && (a.extract(lane) - state.q.a).abs() < near);
+            }
+            dead += usize::from(error.is_some());
+        }
+    }
+    assert!((1..8).contains(&dead), "{dead} motions ended early");
 }
 
 #[test]
