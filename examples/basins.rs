@@ -60,12 +60,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let cores = std::thread::available_parallelism()?.get();
     println!("{} arms, {SPAN} s each, on {cores} cores:", side * side);
 
-    let (fates, all) = batch(side, cores)?;
-    let rate = |(steps, seconds): (u64, f64)| steps as f64 / seconds;
-    println!("{} steps in {:.2} s: {:.2e} steps a second", all.0, all.1, rate(all));
+    let all = batch(side, cores)?;
+    println!("{} steps in {:.2} s: {:.2e} steps a second", all.steps, all.seconds, all.rate());
     // A share of the arms will do on one core, drawn evenly.
-    let (_, one) = batch(side.div_ceil(2), 1)?;
-    println!("on one core {:.2e}: {cores} cores are worth {:.2} of it", rate(one), rate(all) / rate(one));
+    let one = batch(side.div_ceil(2), 1)?;
+    println!("on one core {:.2e}: {cores} cores are worth {:.2} of it", one.rate(), all.rate() / one.rate());
+    let fates = all.fates;
 
     let mut known: Vec<([i32; 2], usize)> = Vec::new();
     for fate in &fates {
@@ -91,8 +91,21 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// The fates of side times side arms on some cores, row by row from below; the steps that they took, and the seconds.
-fn batch(side: usize, cores: usize) -> Result<(Vec<Fate>, (u64, f64)), Box<dyn std::error::Error>> {
+/// What side times side arms have come to, row by row from below, and what that took.
+struct Batch {
+    fates: Vec<Fate>,
+    steps: u64,
+    seconds: f64,
+}
+
+impl Batch {
+    /// Steps in a second.
+    fn rate(&self) -> f64 {
+        self.steps as f64 / self.seconds
+    }
+}
+
+fn batch(side: usize, cores: usize) -> Result<Batch, Box<dyn std::error::Error>> {
     let bar = ProgressBar::new((side * side) as u64);
     bar.set_style(ProgressStyle::with_template("{wide_bar} {pos}/{len}, {eta} to go")?);
     let pool = ThreadPoolBuilder::new().num_threads(cores).build()?;
@@ -113,7 +126,7 @@ fn batch(side: usize, cores: usize) -> Result<(Vec<Fate>, (u64, f64)), Box<dyn s
     let mut ends: Vec<(Fate, u32)> = ends?.into_iter().flatten().collect();
     ends.truncate(side * side);
     let steps = ends.iter().map(|(_, steps)| u64::from(*steps)).sum();
-    Ok((ends.into_iter().map(|(fate, _)| fate).collect(), (steps, seconds)))
+    Ok(Batch { fates: ends.into_iter().map(|(fate, _)| fate).collect(), steps, seconds })
 }
 
 /// The angles [rad] of shoulder and elbow that the arm with this number starts with.

@@ -58,6 +58,7 @@ const REACHED: &[(&str, &str)] = &[
     ("modes_by_points", "of a model: by `assembly_modes`"),
     ("modes_by_sides", "of a model: by `assembly_modes`"),
     ("on_circle", "by `assembly_modes`"),
+    ("integrate_lanes", "by `simulate_lanes`"),
     ("mass_matrix_lower", "entries of `mass_matrix`: in runtime/tests/numbers/lower_triangle.rs"),
     ("kinematics_2", "`kinematics`, asked for a second time"),
 ];

@@ -176,6 +176,9 @@ pub(super) fn simulated<S: Differentiable<Scalar: Drawn>>(
         system.reset();
         ended(&simulate(system, t0, t1, state, input, accuracy, |_, _| ()));
         system.reset();
+        let ends = simulate_lanes(system, t0, t1, state, input, accuracy, |_, _| ());
+        assert!(ends.is_err() || ends.is_ok_and(|ends| finite(&ends.state) && !ends.lanes().is_empty()));
+        system.reset();
         ended(&simulate_stiff(system, t0, t1, state, input, accuracy, |_, _| ()));
     }
 }
