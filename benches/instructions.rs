@@ -1,8 +1,8 @@
 //! Instruction counts of the functions in `speed.rs`, and what must hold: the generated double pendulum needs no more
 //! instructions than the one written by hand in `hand.rs`.
 //!
-//! Needs valgrind, and `cargo install gungraun-runner` in the library's version; then `cargo bench --bench instructions`.
-//! Sines and cosines are the platform's and count with the rest. Valgrind does not know every instruction of every
+//! `cargo xtask instructions` runs it, with valgrind, and compares counts with `instructions.txt`.
+//! Sines and cosines count with the rest: the crate's own in generated functions, the platform's in others. Valgrind does not know every instruction of every
 //! processor: leave `target-cpu` alone.
 
 mod hand;

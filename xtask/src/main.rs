@@ -1,6 +1,7 @@
 //! `cargo xtask COMMAND`: what the project checks about itself beyond tests.
 
 mod firmware;
+mod instructions;
 mod minimum;
 mod mutants;
 mod packages;
@@ -14,6 +15,7 @@ type Stop = Box<dyn Error>;
 
 const USAGE: &str = "\
 cargo xtask firmware [--accept] [VARIANT...]   build, run and compare examples/firmware
+cargo xtask instructions [--accept]            instructions of benches, counted by callgrind
 cargo xtask packages                           what would be published, and that nothing is missing
 cargo xtask minimum                            build with the oldest Rust that Cargo.toml admits
 cargo xtask mutants [--jury] [--budget SECONDS] [--longest SECONDS] [--each SECONDS] [--seed N] [--among LIST] AREA...
@@ -49,6 +51,8 @@ fn main() -> ExitCode {
     };
     let passed = match (name.as_str(), rest) {
         ("firmware", rest) => firmware::run(rest),
+        ("instructions", []) => instructions::run(false),
+        ("instructions", [accept]) if accept == "--accept" => instructions::run(true),
         ("packages", []) => packages::run(),
         ("mutants", rest) => mutants::run(rest),
         ("minimum", []) => minimum::run(),
