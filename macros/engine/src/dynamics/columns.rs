@@ -37,6 +37,11 @@ impl Default for Columns {
 }
 
 impl Columns {
+    /// In the axes of a link.
+    pub(crate) fn at(root: usize) -> Self {
+        Columns::new(Some(root), Rotation::IDENTITY)
+    }
+
     pub(crate) fn new(root: Option<usize>, turn: Rotation) -> Self {
         Columns { root, turn, known: HashMap::new() }
     }

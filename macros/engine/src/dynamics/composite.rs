@@ -14,10 +14,6 @@ use super::tree::{Motion, Tree};
 /// The symmetric mass matrix.
 pub fn mass_matrix(g: &mut Graph, tree: &Tree) -> Vec<Vec<Scalar>> {
     let composites = composites(g, tree);
-    for (link, composite) in tree.links.iter().zip(&composites) {
-        let heading = format!("Inertia of {} and all that it carries.", link.name);
-        g.under(&heading, |g| composite.label(g, &format!("{}_outward", link.name)));
-    }
     let n = tree.freedoms();
     let mut matrix = vec![vec![Scalar::ZERO; n]; n];
     for (index, link) in tree.links.iter().enumerate() {
@@ -40,16 +36,21 @@ pub fn mass_matrix(g: &mut Graph, tree: &Tree) -> Vec<Vec<Scalar>> {
             matrix[column][column] = g.add(matrix[column][column], link.armature);
         }
     }
+    named(g, &matrix);
+    matrix
+}
+
+/// Says which entries of a mass matrix its values are.
+pub(super) fn named(g: &mut Graph, matrix: &[Vec<Scalar>]) {
     for (i, row) in matrix.iter().enumerate() {
         for (j, &entry) in row.iter().enumerate().skip(i) {
             g.under("Mass matrix.", |g| g.name(entry, || format!("m_{}_{}", i + 1, j + 1)));
         }
     }
-    matrix
 }
 
 /// Moments of each link's subtree about the link's origin.
-fn composites(g: &mut Graph, tree: &Tree) -> Vec<Inertia> {
+pub(super) fn composites(g: &mut Graph, tree: &Tree) -> Vec<Inertia> {
     let mut composites: Vec<Inertia> = tree.links.iter().map(|link| link.inertia).collect();
     for index in (0..tree.links.len()).rev() {
         let link = &tree.links[index];
@@ -71,11 +72,15 @@ fn composites(g: &mut Graph, tree: &Tree) -> Vec<Inertia> {
         let shifted = placed.shift(g, origin);
         composites[parent] = composites[parent].add(g, &shifted);
     }
+    for (link, composite) in tree.links.iter().zip(&composites) {
+        let heading = format!("Inertia of {} and all that it carries.", link.name);
+        g.under(&heading, |g| composite.label(g, &format!("{}_outward", link.name)));
+    }
     composites
 }
 
 /// The wrench that gives a body at rest this unit acceleration (angular, linear).
-fn unit_wrench(g: &mut Graph, inertia: &Inertia, twist: &[Scalar; 6]) -> Wrench {
+pub(super) fn unit_wrench(g: &mut Graph, inertia: &Inertia, twist: &[Scalar; 6]) -> Wrench {
     let angular = g.vector([twist[0], twist[1], twist[2]]);
     let linear = g.vector([twist[3], twist[4], twist[5]]);
     let first = g.vector(inertia.first);

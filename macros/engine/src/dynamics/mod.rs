@@ -3,8 +3,8 @@
 //!
 //! [`tree`] is what all recursions walk. Kinematics: [`kinematics`] and [`velocities`] in link axes, [`columns`] and
 //! [`world`] in those of one link or the world, [`point_kinematics`] for single points. Dynamics: [`newton_euler`],
-//! [`lumped`] (the same over links that turn together), [`composite`], [`articulated`], [`momentum`],
-//! [`energy`]; [`regroup`], [`shared_axes`] and
+//! [`lumped`] (the same over links that turn together), [`composite`], [`composite_at_root`] (the same for long chains),
+//! [`articulated`], [`momentum`], [`energy`]; [`regroup`], [`shared_axes`] and
 //! [`floating_bases`] say how a tree is written so that they cost less; [`saddle`] solves systems with constraints, in an
 //! order that [`elimination`] finds.
 
@@ -12,6 +12,7 @@ pub mod articulated;
 pub mod articulated_inertia;
 pub mod columns;
 pub mod composite;
+pub mod composite_at_root;
 pub mod elimination;
 pub mod energy;
 pub mod floating_bases;

@@ -29,6 +29,7 @@ use crate::model::types::Model;
 use crate::optimize::program::{Compiled, Function};
 
 use self::layout::Layout;
+use self::print::parts;
 
 pub use self::broken::skeleton::skeleton;
 pub use self::document::alike::once as alike;
@@ -49,6 +50,9 @@ struct Context<'a> {
     hollow: bool,
     /// Paragraphs of statements have headings: for readers, since the compiler warns of comments that document nothing.
     commented: bool,
+    /// Functions of more operations are written in parts, of so many operations each.
+    most: usize,
+    part: usize,
 }
 
 impl Context<'_> {
@@ -68,6 +72,12 @@ pub fn emit(model: &Model, structure: &Structure, compiled: &Compiled) -> TokenS
 /// The same with a heading over each paragraph of statements, as the attribute `#[doc = "// .."]`; writes no files.
 pub fn commented(model: &Model, structure: &Structure, compiled: &Compiled) -> TokenStream {
     module(&Context { commented: true, ..context(model, structure, compiled, false) })
+}
+
+/// The same with all functions of more than so many operations in parts of about as many; writes no files.
+pub fn in_parts(model: &Model, structure: &Structure, compiled: &Compiled, operations: usize) -> TokenStream {
+    let context = context(model, structure, compiled, false);
+    module(&Context { most: operations, part: operations, ..context })
 }
 
 /// The first function whose program doesn't fill the slots that its value is built from: numbers would be handed out to the
@@ -98,6 +108,8 @@ fn context<'a>(model: &'a Model, structure: &'a Structure, compiled: &'a Compile
         fields: names::unique(compiled.fields.iter().map(String::as_str), &["scalar", "self"]),
         hollow,
         commented: false,
+        most: parts::MOST,
+        part: parts::PART,
     }
 }
 

@@ -48,7 +48,7 @@ pub(super) fn plain(user: &Ident) -> String {
 }
 
 /// One identifier per name, all different, none of them in `reserved`.
-pub(super) fn unique<'a>(names: impl IntoIterator<Item = &'a str>, reserved: &[&'static str]) -> Vec<Ident> {
+pub(super) fn unique<'a>(names: impl IntoIterator<Item = &'a str>, reserved: &[&str]) -> Vec<Ident> {
     let mut taken: HashSet<String> = reserved.iter().map(|name| (*name).to_string()).collect();
     let mut idents = Vec::new();
     for name in names {

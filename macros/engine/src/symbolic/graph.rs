@@ -173,7 +173,7 @@ pub enum RotationNode {
 }
 
 /// Most nodes that one graph may hold: a bound, so that a model too large ends in an error and not in a hang.
-pub const MOST_NODES: usize = 1_000_000;
+pub const MOST_NODES: usize = 2_000_000;
 
 /// A node of any kind, by its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

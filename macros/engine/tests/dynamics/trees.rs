@@ -7,12 +7,12 @@ use crate::on_graph::{Derived, derive, point};
 use crate::random::{Kind, Mechanism, State};
 use crate::rng::Rng;
 use crate::{formulations, plain};
-use multibody_engine::dynamics::articulated;
 use multibody_engine::dynamics::floating_bases::floating_bases;
 use multibody_engine::dynamics::newton_euler::Wrench;
 use multibody_engine::dynamics::regroup::regroup;
 use multibody_engine::dynamics::shared_axes::{SharedAxes, share_axes};
 use multibody_engine::dynamics::tree::{Motion, Tree};
+use multibody_engine::dynamics::{articulated, composite_at_root};
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
 use multibody_engine::symbolic::graph::{Graph, Scalar, ScalarNode, SymbolId};
 use multibody_engine::symbolic::identity::{Draw, Modular, Verdict, identical};
@@ -35,6 +35,10 @@ fn bias(m: &mut Derived) -> Vec<Scalar> {
 
 fn mass_matrix(m: &mut Derived) -> Vec<Scalar> {
     formulations::mass_matrix(&mut m.graph, &m.tree)
+}
+
+fn mass_matrix_at_root(m: &mut Derived) -> Vec<Scalar> {
+    composite_at_root::mass_matrix(&mut m.graph, &m.tree).concat()
 }
 
 fn by_composite(m: &mut Derived) -> Vec<Scalar> {
@@ -98,6 +102,7 @@ fn check_numbers(mechanism: &Mechanism, state: &State) {
         assert_near("inverse dynamics", &get(inverse_dynamics), &efforts, 1e-10);
         assert_near("bias", &get(bias), &bias_forces, 1e-10);
         assert_near("mass matrix", &get(mass_matrix), &matrix.concat(), 1e-10);
+        assert_near("mass matrix at the root", &get(mass_matrix_at_root), &matrix.concat(), 1e-10);
         for (what, function) in [("composite", by_composite as Function), ("articulated", by_articulated)] {
             let got = get(function);
             assert_near(what, &got, &accelerations, 1e-10);
@@ -226,6 +231,7 @@ fn formulations_are_identical() {
         assert_identical("composite, regrouped", &composite, &get(true, by_composite));
         assert_identical("inverse", &get(false, inverse_dynamics), &get(true, inverse_dynamics));
         assert_identical("mass", &get(false, mass_matrix), &get(true, mass_matrix));
+        assert_identical("mass at the root", &get(false, mass_matrix), &get(true, mass_matrix_at_root));
     });
 }
 

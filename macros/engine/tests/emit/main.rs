@@ -10,6 +10,7 @@ mod looped;
 mod loops;
 mod module;
 mod parsed;
+mod parts;
 mod references;
 mod samples;
 mod skeleton;

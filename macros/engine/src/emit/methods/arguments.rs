@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use crate::contracts::function::{Arguments, FunctionKind};
@@ -41,59 +41,91 @@ impl Arguments {
         self.declared(layout, roots, None)
     }
 
+    /// Those of which something is read; a state or position stays.
+    pub(in crate::emit) fn read(self, roots: &BTreeSet<Root>) -> Arguments {
+        let reads = |root| roots.contains(&root);
+        Arguments {
+            time: self.time && reads(Root::Time),
+            state: self.state,
+            input: self.input && reads(Root::Input),
+            accel: self.accel && reads(Root::Acceleration),
+            multipliers: self.multipliers && reads(Root::Multipliers),
+            impulse: self.impulse && reads(Root::Impulse),
+            rates: (self.rates || self.impulse) && reads(Root::Rates),
+            momentum: self.momentum && reads(Root::Momentum),
+            alternative: self.alternative && reads(Root::Alternative),
+        }
+    }
+
     /// The same, none of it read, with `A` for the type of the state or position: of a method that can't be called.
     pub(in crate::emit) fn refused(self, layout: &Layout<'_>) -> TokenStream {
         self.declared(layout, &BTreeSet::new(), Some(quote!(A)))
     }
 
     fn declared(self, layout: &Layout<'_>, roots: &BTreeSet<Root>, refused: Option<TokenStream>) -> TokenStream {
+        let list = self.each(layout, roots, refused).into_iter().map(|(name, ty)| quote!(#name: #ty));
+        quote!(#(#list),*)
+    }
+
+    /// Names of the arguments, for a call by a function that has the same.
+    pub(in crate::emit) fn handed_on(self, layout: &Layout<'_>, roots: &BTreeSet<Root>) -> Vec<Ident> {
+        self.each(layout, roots, None).into_iter().map(|argument| argument.0).collect()
+    }
+
+    /// Names and types.
+    fn each(
+        self,
+        layout: &Layout<'_>,
+        roots: &BTreeSet<Root>,
+        refused: Option<TokenStream>,
+    ) -> Vec<(Ident, TokenStream)> {
         let named = |read: bool, name: &str| names::ident(&format!("{}{name}", if read { "" } else { "_" }));
         let krate = layout.krate();
         let mut list = Vec::new();
         if self.time {
             let t = named(roots.contains(&Root::Time), "t");
-            list.push(quote!(#t: T));
+            list.push((t, quote!(T)));
         }
         if self.state {
             let state = named(OF_STATE.iter().any(|root| roots.contains(root)), "state");
             let ty = refused.unwrap_or_else(|| quote!(State<T>));
-            list.push(quote!(#state: &#ty));
+            list.push((state, quote!(&#ty)));
         } else {
             let q = named(roots.contains(&Root::Position), "q");
             let ty = refused.unwrap_or_else(|| quote!(Position<T>));
-            list.push(quote!(#q: &#ty));
+            list.push((q, quote!(&#ty)));
         }
         if self.input {
             let (input, ty) = (named(roots.contains(&Root::Input), "input"), input_type(layout));
-            list.push(quote!(#input: &#ty));
+            list.push((input, quote!(&#ty)));
         }
         if self.accel {
             let accel = named(roots.contains(&Root::Acceleration), "accel");
-            list.push(quote!(#accel: &Velocity<T>));
+            list.push((accel, quote!(&Velocity<T>)));
         }
         if self.multipliers {
             let multipliers = named(roots.contains(&Root::Multipliers), "multipliers");
             let count = Literal::usize_unsuffixed(layout.structure.rows.len());
-            list.push(quote!(#multipliers: &#krate::nalgebra::SVector<T, #count>));
+            list.push((multipliers, quote!(&#krate::nalgebra::SVector<T, #count>)));
         }
         if self.impulse {
             let impulse = named(roots.contains(&Root::Impulse), "impulse");
-            list.push(quote!(#impulse: &Velocity<T>));
+            list.push((impulse, quote!(&Velocity<T>)));
         }
         if (self.impulse || self.rates) && layout.rows() > 0 {
             let rates = named(roots.contains(&Root::Rates), "rates");
             let ty = vector_type(layout, layout.rows());
-            list.push(quote!(#rates: &#ty));
+            list.push((rates, quote!(&#ty)));
         }
         if self.momentum {
             let momentum = named(roots.contains(&Root::Momentum), "momentum");
-            list.push(quote!(#momentum: &Velocity<T>));
+            list.push((momentum, quote!(&Velocity<T>)));
         }
         if self.alternative {
             let alternative = named(roots.contains(&Root::Alternative), "alternative");
-            list.push(quote!(#alternative: &#krate::assembly::Alternative<T>));
+            list.push((alternative, quote!(&#krate::assembly::Alternative<T>)));
         }
-        quote!(#(#list),*)
+        list
     }
 
     /// Expands to `let q = &state.q;` for the parts of the state that are read.

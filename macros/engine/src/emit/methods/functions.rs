@@ -12,12 +12,13 @@ use crate::contracts::function::{Asked, FunctionKind};
 use crate::emit::layout::places::{RESERVED, Root};
 use crate::emit::print::blocks::{body, each_leaf_of};
 use crate::emit::print::expressions::Names;
+use crate::emit::print::parts;
 use crate::emit::{Context, document, names};
 use crate::model::site::Site;
 use crate::model::types::Model;
 use crate::optimize::program::{Expression, Function, Program};
 
-use super::results;
+use super::{in_parts, results};
 use crate::contracts::function::Arguments;
 
 /// Name of the method.
@@ -80,8 +81,13 @@ pub(in crate::emit) fn method(context: &Context<'_>, function: &Function) -> Tok
     let name = ident(context, kind);
     let result = results::ty(layout, kind);
     let docs = document::attributes(&document::function(layout, function));
+    let mut parts = TokenStream::new();
     let block = if context.hollow {
         quote!(::core::unimplemented!())
+    } else if parts::operations(&function.program) > context.most {
+        let block;
+        (block, parts) = in_parts::method(context, function, &named);
+        block
     } else {
         let locals = names::unique(function.program.locals.iter().map(String::as_str), RESERVED);
         let body = body(
@@ -96,5 +102,7 @@ pub(in crate::emit) fn method(context: &Context<'_>, function: &Function) -> Tok
         #docs
         #[must_use]
         pub fn #name(&self, #declared) -> #result { #block }
+
+        #parts
     }
 }

@@ -2,4 +2,5 @@
 
 pub(super) mod arguments;
 pub(super) mod functions;
+mod in_parts;
 pub(super) mod results;

@@ -55,8 +55,20 @@ pub(in crate::emit) fn groups_argument(groups: &[usize]) -> Option<TokenStream> 
     (!groups.is_empty()).then(|| quote!(, &[#(#numbers),*]))
 }
 
+/// Expands to some of a program's live statements; `after` is what is read behind them.
+pub(in crate::emit) fn some(
+    program: &Program,
+    names: &Names<'_>,
+    live: &[Live<'_>],
+    after: impl Iterator<Item = Local>,
+) -> TokenStream {
+    let after: Vec<Expression> = after.map(Expression::Local).collect();
+    let after: Vec<&Expression> = after.iter().collect();
+    Blocks::new(names, live, &program.headings, &after).all()
+}
+
 /// Statements that something reads.
-fn live_statements(program: &Program) -> Vec<Live<'_>> {
+pub(in crate::emit) fn live_statements(program: &Program) -> Vec<Live<'_>> {
     let mut read = vec![false; program.locals.len()];
     for result in &program.results {
         result.each_local(&mut |local| set(&mut read, local, true));
@@ -65,8 +77,8 @@ fn live_statements(program: &Program) -> Vec<Live<'_>> {
 }
 
 /// A statement that something reads, and what lives inside it.
-struct Live<'a> {
-    statement: &'a Statement,
+pub(in crate::emit) struct Live<'a> {
+    pub(super) statement: &'a Statement,
     body: Vec<Live<'a>>,
     /// Of several sines those that are read.
     sines: Vec<&'a Sine>,
@@ -119,7 +131,7 @@ fn live<'a>(statements: &'a [Statement], read: &mut Vec<bool>) -> Vec<Live<'a>> 
 
 impl Live<'_> {
     /// What it reads, inside too.
-    fn expressions(&self) -> Vec<&Expression> {
+    pub(in crate::emit) fn expressions(&self) -> Vec<&Expression> {
         match self.statement {
             Statement::Iterate { start, next, residual, .. } => {
                 let each = self.unknowns.iter().flat_map(|&k| [&start[k], &next[k]]);
@@ -131,7 +143,8 @@ impl Live<'_> {
         }
     }
 
-    fn defined(&self) -> Vec<Local> {
+    /// What later statements may read.
+    pub(super) fn defined(&self) -> Vec<Local> {
         match self.statement {
             Statement::Iterate { unknowns, residual, .. } => {
                 let residual = self.residual.then_some(residual.0);
@@ -139,6 +152,14 @@ impl Live<'_> {
             }
             Statement::SinCos(_) => self.sines.iter().flat_map(|sine| sine.defined()).collect(),
             statement => statement.defined(),
+        }
+    }
+
+    /// Visits what its body defines for itself.
+    pub(super) fn inside(&self, visit: &mut dyn FnMut(Local)) {
+        for live in &self.body {
+            live.defined().into_iter().for_each(&mut *visit);
+            live.inside(visit);
         }
     }
 }

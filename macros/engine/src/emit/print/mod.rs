@@ -3,5 +3,6 @@
 pub(super) mod blocks;
 pub(super) mod expressions;
 pub(super) mod literals;
+pub(super) mod parts;
 pub(super) mod range;
 pub(super) mod text;

@@ -10,7 +10,7 @@ use crate::mechanics::scene::Method;
 use crate::mechanics::translate::dependencies::Dependencies;
 use crate::model::types::JointId;
 
-use super::{Candidate, Deriving, Found};
+use super::{Candidate, Deriving, Found, MOST_COMPOSITE, freedoms};
 
 /// Ways to derivatives. From the results' side common axes cost more than they save.
 const SIDES: [(Accumulation, &[&str]); 3] = [
@@ -53,6 +53,9 @@ impl<'m> Deriving<'m> {
         kept: &[JointId],
         f: impl Fn(&mut Equations<'m>, &Reduction, Accumulation) -> Found,
     ) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        // An effort reads what carries its joint and what hangs on it, so of large trees rows have come out as the cheapest.
+        let is_large = self.is_open() && freedoms(self.model) > MOST_COMPOSITE;
+        let sides = sides.iter().filter(|side| !is_large || side.0 == Accumulation::Reverse);
         let mut candidates = Vec::new();
         for &(side, names) in sides {
             candidates.extend(self.in_all_axes(names, Method::Composite, kept, |e| {
@@ -60,11 +63,6 @@ impl<'m> Deriving<'m> {
                 f(e, &reduction, side)
             })?);
         }
-        // The functions are long: only ways that may come out as the cheapest are worth optimising.
-        let weights: Vec<u32> = candidates.iter().map(|candidate| self.weight(&candidate.1.list)).collect();
-        let least = weights.iter().copied().min().unwrap_or(0);
-        let mut kept = weights.into_iter().map(|weight| 10 * weight <= 11 * least);
-        candidates.retain(|_| kept.next() == Some(true));
-        Ok(candidates)
+        Ok(self.promising(candidates))
     }
 }

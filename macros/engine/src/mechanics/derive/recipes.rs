@@ -33,6 +33,8 @@ pub(super) enum Way {
     Defined(&'static str, OnLoops),
     /// In the axes in which loops are closed, which give the name; in those axes for parallel hinges.
     Written(&'static [Option<SharedAxes>], fn(&mut Equations<'_>, &Reduction) -> Results<Scalar>),
+    /// On the tree, for models of many coordinates, if it is there for them.
+    FarOut(&'static str, fn(&mut Equations<'_>) -> Option<Results<Scalar>>),
     /// Ways that depend on the model.
     Chosen(fn(&mut Deriving<'_>, FunctionKind) -> Candidates),
 }
@@ -67,6 +69,7 @@ pub(super) struct Recipe {
     looped: &'static [Way],
 }
 
+const AT_ROOT: &str = "composite rigid body, wrenches at the root";
 const LINKS: &str = "sum over links";
 const FIRST_MOMENT: &str = "first moment of mass, springs";
 const WITHOUT_CHOICE: &[Option<SharedAxes>] = &[None];
@@ -74,7 +77,7 @@ const WITHOUT_CHOICE: &[Option<SharedAxes>] = &[None];
 /// One row per function.
 fn recipe(kind: FunctionKind, solves_inputs: bool) -> Recipe {
     use FunctionKind as F;
-    use Way::{Chosen, Defined, InAxes, Lumped, Plain, PutIn, Reduced, Written};
+    use Way::{Chosen, Defined, FarOut, InAxes, Lumped, Plain, PutIn, Reduced, Written};
     const NONE: &[Way] = &[];
     let (open, looped): (&'static [Way], &'static [Way]) = match kind {
         F::ForwardDynamics => {
@@ -103,11 +106,21 @@ fn recipe(kind: FunctionKind, solves_inputs: bool) -> Recipe {
             const { &[Reduced(NEWTON_EULER, |e, r| Ok(Results::vector(e.reduced_bias(r))))] },
         ),
         F::MassMatrix => (
-            const { &[InAxes(COMPOSITE, |e| Ok(square(e.mass_matrix())))] },
+            const {
+                &[
+                    InAxes(COMPOSITE, |e| Ok(square(e.mass_matrix()))),
+                    FarOut(AT_ROOT, |e| e.mass_matrix_at_root().map(square)),
+                ]
+            },
             const { &[Reduced(COMPOSITE, |e, r| Ok(square(e.reduced_mass_matrix(r).concat())))] },
         ),
         F::MassMatrixLower => (
-            const { &[InAxes(COMPOSITE, |e| Ok(lower(e.mass_matrix())))] },
+            const {
+                &[
+                    InAxes(COMPOSITE, |e| Ok(lower(e.mass_matrix()))),
+                    FarOut(AT_ROOT, |e| e.mass_matrix_at_root().map(lower)),
+                ]
+            },
             const { &[Reduced(COMPOSITE, |e, r| Ok(lower(e.reduced_mass_matrix(r).concat())))] },
         ),
         F::KineticEnergy => (
@@ -261,10 +274,12 @@ impl Deriving<'_> {
                 Way::PutIn(name, f) => self.put_in(name, f)?,
                 Way::Defined(name, f) => self.equations(name, f)?,
                 Way::Written(axes, f) => self.written(axes, f)?,
+                Way::FarOut(name, f) => self.far_out(name, *f)?.into_iter().collect(),
                 Way::Chosen(f) => f(self, kind)?,
             });
         }
-        Ok(candidates)
+        let is_large = ways.iter().any(|way| matches!(way, Way::FarOut(..))) && candidates.len() > 1;
+        Ok(if is_large { self.promising(candidates) } else { candidates })
     }
 
     /// One way to a function, without a choice of axes; nothing where all depend on the model.
@@ -276,7 +291,7 @@ impl Deriving<'_> {
             Way::PutIn(_, f) => Some(PlainWay::PutIn(f)),
             Way::Reduced(_, f) | Way::Defined(_, f) => Some(PlainWay::OnLoops(f)),
             Way::Written(_, f) => Some(PlainWay::Written(f)),
-            Way::Lumped(_) | Way::Chosen(_) => None,
+            Way::Lumped(_) | Way::FarOut(..) | Way::Chosen(_) => None,
         })
     }
 }

@@ -21,6 +21,9 @@ use crate::symbolic::lower::Lowering;
 
 use super::{AXES, Candidate, Deriving, Found, LUMPED, MOST_COMPOSITE, Names, freedoms};
 
+/// Operations, beyond which one way alone is optimised.
+const LONG: usize = 30_000;
+
 impl<'m> Deriving<'m> {
     /// One method, in the axes that [`AXES`] names.
     pub(super) fn one(
@@ -132,6 +135,32 @@ impl<'m> Deriving<'m> {
         let mut lowering = Lowering::new(&self.graph);
         let roots = lowering.run(results);
         lowering.to.cost(&roots).weight()
+    }
+
+    /// Of long functions only those that may come out as the cheapest, which are worth optimising; of very long ones, in which
+    /// little is left to share, the first of the cheapest.
+    pub(super) fn promising(&self, mut candidates: Vec<Candidate>) -> Vec<Candidate> {
+        let weights: Vec<u32> = candidates.iter().map(|candidate| self.weight(&candidate.1.list)).collect();
+        let least = weights.iter().copied().min().unwrap_or(0);
+        let cheapest = weights.iter().position(|&weight| weight == least);
+        let is_long = least as usize > LONG;
+        let mut kept = weights.iter().enumerate().map(|(at, &weight)| {
+            if is_long { Some(at) == cheapest } else { 10 * u64::from(weight) <= 11 * u64::from(least) }
+        });
+        candidates.retain(|_| kept.next() == Some(true));
+        candidates
+    }
+
+    /// A way that pays where chains are long.
+    pub(super) fn far_out(
+        &mut self,
+        name: &'static str,
+        f: fn(&mut Equations<'_>) -> Option<Results<Scalar>>,
+    ) -> Result<Option<Candidate>, Vec<Complaint>> {
+        if freedoms(self.model) <= MOST_COMPOSITE {
+            return Ok(None);
+        }
+        self.maybe(self.way(), |e| Ok(f(e).map(|results| (name, results))))
     }
 
     /// The same, with the definitions at hand.

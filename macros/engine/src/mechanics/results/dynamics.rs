@@ -9,7 +9,7 @@ use crate::dynamics::floating_bases::floating_bases;
 use crate::dynamics::kinematics::motions;
 use crate::dynamics::newton_euler::{efforts, transmitted};
 use crate::dynamics::regroup::regroup_but;
-use crate::dynamics::{articulated, composite, lumped};
+use crate::dynamics::{articulated, composite, composite_at_root, lumped};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::scene::Method;
 use crate::mechanics::translate::forces::LoadCase;
@@ -67,9 +67,24 @@ impl Equations<'_> {
 
     /// Row by row.
     pub(in crate::mechanics) fn mass_matrix(&mut self) -> Vec<Scalar> {
-        let mechanism = Rc::clone(&self.scene.mechanism);
         let shared = self.shared();
         let matrix = composite::mass_matrix(&mut self.g, &shared.tree);
+        self.inertia_of_coordinates(&matrix)
+    }
+
+    /// The same with all wrenches about one point, where that is another way.
+    pub(in crate::mechanics) fn mass_matrix_at_root(&mut self) -> Option<Vec<Scalar>> {
+        let shared = self.shared();
+        if !composite_at_root::differs(&shared.tree) {
+            return None;
+        }
+        let matrix = composite_at_root::mass_matrix(&mut self.g, &shared.tree);
+        Some(self.inertia_of_coordinates(&matrix))
+    }
+
+    /// The mass matrix of the tree in the user's coordinates, row by row, with rotors.
+    fn inertia_of_coordinates(&mut self, matrix: &[Vec<Scalar>]) -> Vec<Scalar> {
+        let mechanism = Rc::clone(&self.scene.mechanism);
         let mut entries = Vec::new();
         for (row, &flip) in matrix.iter().zip(&mechanism.flipped) {
             let row = mechanism.sign(row);

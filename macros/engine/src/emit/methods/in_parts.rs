@@ -1,0 +1,133 @@
+//! Stage `emit`: a method of `Model` that is too long for one function.
+//!
+//! In: a function of many operations. Out: the body of its method, which calls one function after the other, and these functions.
+//! They take what the method takes, and an array of what they have computed for each other ([`parts`]).
+
+use std::collections::BTreeSet;
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::quote;
+
+use crate::contracts::function::Arguments;
+use crate::emit::layout::places::{RESERVED, Root};
+use crate::emit::print::blocks::{Live, live_statements, some};
+use crate::emit::print::expressions::Names;
+use crate::emit::print::parts::{self, Part, Parts};
+use crate::emit::{Context, names};
+use crate::optimize::program::{Expression, Function, Program};
+
+use super::{functions, results};
+
+/// The array of what is kept.
+const KEPT: &str = "kept";
+
+/// Expands to `let mut kept = ..; self.bias_part_1(q, v, &mut kept); ..`, and to the functions that are called. `named` are the
+/// variables that the method's arguments are named after.
+pub(super) fn method(context: &Context<'_>, function: &Function, named: &BTreeSet<Root>) -> (TokenStream, TokenStream) {
+    let layout = &context.layout;
+    let program = parts::with_results_first(function.program.clone());
+    let live = live_statements(&program);
+    let cut = Parts::new(&program, &live, context.part);
+    let reserved: Vec<&str> = RESERVED.iter().copied().chain([KEPT]).collect();
+    let locals = names::unique(program.locals.iter().map(String::as_str), &reserved);
+    let names = Names { layout, locals: &locals, fields: &context.fields, commented: context.commented, packed: false };
+    let read = functions::roots(&program);
+    let arguments = Arguments::of(function.kind, &read).read(&read);
+    let writing = Writing { program: &program, live: &live, names: &names, arguments, places: cut.places };
+
+    let stem = stem(context, function);
+    let called: Vec<Ident> = (1..=cut.list.len()).map(|number| names::ident(&format!("{stem}_{number}"))).collect();
+    let whole = functions::name(layout.model, function.kind);
+    let functions = cut.list.iter().zip(&called).enumerate().map(|(number, (part, name))| {
+        let docs = format!("Part {} of {} of `{whole}`.", number + 1, called.len());
+        let function = writing.function(part, name);
+        quote!(#[doc = #docs] #function)
+    });
+    let functions = quote!(#(#functions)*);
+
+    let kept = names::ident(KEPT);
+    let places = Literal::usize_unsuffixed(cut.places);
+    let passed = arguments.handed_on(layout, named);
+    let opened = arguments.open(&in_results(&program));
+    let mut taken = vec![quote!(_); cut.places];
+    for (local, &place) in &cut.results {
+        let name = &locals[local.0];
+        taken[place] = quote!(#name);
+    }
+    let values = program.results.iter().map(|result| names.expression(result)).collect();
+    let value = results::value(layout, function.kind, values);
+    let calls = called.iter().map(|name| quote!(self.#name(#(#passed,)* &mut #kept);));
+    let block = quote! {
+        let mut #kept = [T::lit(0.0); #places];
+        #(#calls)*
+        #opened
+        let [#(#taken),*] = #kept;
+        #value
+    };
+    (block, functions)
+}
+
+/// What the names of parts begin with; no other function's does.
+fn stem(context: &Context<'_>, function: &Function) -> String {
+    let model = context.layout.model;
+    let mut stem = format!("{}_part", functions::name(model, function.kind));
+    let all = || context.compiled.functions.iter().map(|other| functions::name(model, other.kind));
+    while all().any(|name| name.starts_with(&stem)) {
+        stem.push_str("_of");
+    }
+    stem
+}
+
+/// The variables that results read themselves.
+fn in_results(program: &Program) -> BTreeSet<Root> {
+    functions::roots(&Program { results: program.results.clone(), ..Program::default() })
+}
+
+/// What all parts of a function have in common.
+struct Writing<'a> {
+    program: &'a Program,
+    live: &'a [Live<'a>],
+    names: &'a Names<'a>,
+    arguments: Arguments,
+    places: usize,
+}
+
+impl Writing<'_> {
+    /// Expands to `fn bias_part_2(&self, q: &Position<T>, kept: &mut [T; 40]) { let [a, b] = [kept[3], kept[7]]; ..; kept[5] = c; }`.
+    fn function(&self, part: &Part, name: &Ident) -> TokenStream {
+        let (layout, locals) = (self.names.layout, self.names.locals);
+        let live = &self.live[part.from..part.to];
+        let mut read = BTreeSet::new();
+        for expression in live.iter().flat_map(Live::expressions) {
+            expression.each_leaf(&mut |leaf| {
+                if let Expression::Symbol(symbol) = leaf {
+                    read.extend(Root::of(*symbol));
+                }
+            });
+        }
+        let declared = self.arguments.declare(layout, &read);
+        let opened = self.arguments.open(&read);
+        let kept = names::ident(KEPT);
+        let place = |place: usize| Literal::usize_unsuffixed(place);
+        let taken = (!part.reads.is_empty()).then(|| {
+            let names = part.reads.iter().map(|read| &locals[read.local.0]);
+            let places = part.reads.iter().map(|read| place(read.place));
+            quote!(let [#(#names),*] = [#(#kept[#places]),*];)
+        });
+        let statements = some(self.program, self.names, live, part.writes.iter().map(|write| write.local));
+        let written = part.writes.iter().map(|write| {
+            let (place, name) = (place(write.place), &locals[write.local.0]);
+            quote!(#kept[#place] = #name;)
+        });
+        let places = place(self.places);
+        quote! {
+            #[inline(never)]
+            fn #name(&self, #declared, #kept: &mut [T; #places]) {
+                #opened
+                #taken
+                #statements
+                #(#written)*
+            }
+        }
+    }
+}
