@@ -66,6 +66,9 @@
 //! - `wide` (default): [`Real`] for simba's lanes, and vectors for the sines of several angles of `f64` or `f32`
 //!   ([`Real::sin_cos_all`]), by a kernel of the crate's own.
 //! - `std-sines`: these sines one by one by std, as those of single angles are.
+//! - `fma`: products that are added to something are one instruction with one rounding, in what [`multibody!`] generates, where
+//!   the target has it ([`Real::mul_add`]): faster, a little more accurate, and with other last bits. `reproducible` keeps its bits and leaves
+//!   this feature without effect.
 //! - `num-dual`: [`Real`] for the dual numbers of the crate `num-dual`, for derivatives.
 
 #![cfg_attr(not(feature = "std"), no_std)]
@@ -176,9 +179,24 @@ pub use verify::{Agreement, Verifiable, verify, verify_at};
 /// # Errors
 ///
 /// Every mistake of a call is a compile error at the token where it stands, all of them in one build.
+#[cfg(not(all(feature = "fma", not(feature = "reproducible"))))]
 #[macro_export]
 macro_rules! multibody {
     ($($tokens:tt)*) => {
         $crate::__multibody! { @runtime($crate) $($tokens)* }
+    };
+}
+
+/// Derives the equations of motion of the declared mechanisms and emits them as Rust modules, with products fused to sums: the
+/// feature `fma` is on. All else is told in the module [`language`].
+///
+/// # Errors
+///
+/// Every mistake of a call is a compile error at the token where it stands, all of them in one build.
+#[cfg(all(feature = "fma", not(feature = "reproducible")))]
+#[macro_export]
+macro_rules! multibody {
+    ($($tokens:tt)*) => {
+        $crate::__multibody! { @runtime($crate) @fused $($tokens)* }
     };
 }

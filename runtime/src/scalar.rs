@@ -130,6 +130,22 @@ pub trait Real: SimdRealField<Element: RealField + Copy> + Copy {
         together::one_by_one(angles)
     }
 
+    /// `self * factor + addend`: rounded once where the feature `fma` is on and the target has an instruction for it, as fast as
+    /// a product then; rounded twice, as it is written, everywhere else.
+    ///
+    /// One rounding are `f64`, `f32` and their lanes on 64-bit Arm and, with `target-feature=+fma` or a `target-cpu` that has it, on x86, with
+    /// `std` and without `reproducible`. Nothing ever calls a function for it.
+    ///
+    /// ```
+    /// use multibody::Real;
+    ///
+    /// assert_eq!(Real::mul_add(2.0_f64, 3.0, 4.0), 10.0);
+    /// ```
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        self * factor + addend
+    }
+
     /// A pack of four.
     #[inline(always)]
     fn four(members: [Self; 4]) -> Self::Four {
@@ -149,6 +165,11 @@ pub trait Real: SimdRealField<Element: RealField + Copy> + Copy {
     #[inline(always)]
     fn roots(pack: Self::Four) -> Self::Four {
         Packed::roots(pack)
+    }
+    /// [`Real::mul_add`] of each member.
+    #[inline(always)]
+    fn mul_adds(pack: Self::Four, factors: Self::Four, addends: Self::Four) -> Self::Four {
+        Packed::mul_add(pack, factors, addends)
     }
     /// Sines and cosines of four angles in radians, by [`Real::sin_cos_all`].
     ///

@@ -36,6 +36,7 @@ fn collect(expression: &Expression, into: &mut BTreeSet<Symbol>) {
         Expression::Product(list) | Expression::Call(_, list) | Expression::Pack(list) => {
             list.iter().for_each(|e| collect(e, into));
         }
+        Expression::Fused(operands) => operands.iter().for_each(|e| collect(e, into)),
         Expression::Quotient(a, b) => [a, b].into_iter().for_each(|e| collect(e, into)),
     }
 }

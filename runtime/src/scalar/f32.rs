@@ -14,6 +14,10 @@ impl Real for f32 {
     fn lit(value: f64) -> Self {
         value as f32
     }
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        single::mul_add(self, factor, addend)
+    }
     #[inline]
     fn sin_cos(self) -> (Self, Self) {
         single::sin_cos(self)

@@ -14,6 +14,10 @@ impl Real for f64 {
     fn lit(value: f64) -> Self {
         value
     }
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        double::mul_add(self, factor, addend)
+    }
     #[inline]
     fn sin_cos(self) -> (Self, Self) {
         double::sin_cos(self)

@@ -7,6 +7,15 @@
 #[cfg(not(any(feature = "std", feature = "libm")))]
 compile_error!("multibody needs elementary functions: turn on the feature `std` or, without std, `libm`");
 
+/// Whether a product and a sum are one instruction that rounds once, and the user has asked for it. Targets without std have
+/// no function for it in `core`, and where bits are the same everywhere there is none.
+pub(crate) const FUSED: bool = cfg!(all(
+    feature = "fma",
+    feature = "std",
+    not(feature = "reproducible"),
+    any(all(any(target_arch = "x86", target_arch = "x86_64"), target_feature = "fma"), target_arch = "aarch64")
+));
+
 macro_rules! elementary {
     ($float:ident: $($name:ident($($arg:ident),+) = $libm:ident;)+) => {
         $(
@@ -79,6 +88,15 @@ macro_rules! exact {
         #[inline]
         pub(crate) fn sqrt(x: $float) -> $float {
             super::super::root::$float(x)
+        }
+
+        #[inline(always)]
+        pub(crate) fn mul_add(x: $float, factor: $float, addend: $float) -> $float {
+            #[cfg(feature = "std")]
+            if super::FUSED {
+                return x.mul_add(factor, addend);
+            }
+            x * factor + addend
         }
 
         #[inline]

@@ -7,6 +7,8 @@
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::Real;
+#[cfg(feature = "wide")]
+use super::float::FUSED;
 
 /// Four of a scalar, whose operations are those of the scalar on each of them.
 pub trait Packed<T>:
@@ -19,6 +21,12 @@ pub trait Packed<T>:
     /// The square root of each.
     #[must_use]
     fn roots(self) -> Self;
+    /// [`Real::mul_add`] of each.
+    #[must_use]
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        self * factor + addend
+    }
 }
 
 /// A pack of any scalar: an array, worked with member by member.
@@ -71,6 +79,11 @@ impl<T: Real> Packed<T> for Four<T> {
         let [a, b, c, d] = self.0;
         Four([Real::sqrt(a), Real::sqrt(b), Real::sqrt(c), Real::sqrt(d)])
     }
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        let ([a, b, c, d], [x, y, z, w], [p, q, r, s]) = (self.0, factor.0, addend.0);
+        Four([Real::mul_add(a, x, p), Real::mul_add(b, y, q), Real::mul_add(c, z, r), Real::mul_add(d, w, s)])
+    }
 }
 
 #[cfg(feature = "wide")]
@@ -88,6 +101,10 @@ macro_rules! vectors {
             #[inline(always)]
             fn roots(self) -> Self {
                 Self(self.0.sqrt())
+            }
+            #[inline(always)]
+            fn mul_add(self, factor: Self, addend: Self) -> Self {
+                if FUSED { Self(self.0.mul_add(factor.0, addend.0)) } else { self * factor + addend }
             }
         }
     )+ };

@@ -6,6 +6,7 @@
 //! never enter. So do they with the feature `reproducible`.
 
 use super::Real;
+use super::float::FUSED;
 use simba::simd::{SimdPartialOrd, SimdValue, WideBoolF32x4, WideBoolF32x8, WideBoolF64x4};
 use simba::simd::{WideF32x4, WideF32x8, WideF64x4};
 
@@ -68,6 +69,10 @@ macro_rules! lanes {
             #[inline]
             fn hypot(self, other: Self) -> Self {
                 self.zip_map(other, Real::hypot)
+            }
+            #[inline(always)]
+            fn mul_add(self, factor: Self, addend: Self) -> Self {
+                if FUSED { Self(self.0.mul_add(factor.0, addend.0)) } else { self * factor + addend }
             }
             #[inline]
             fn sqrt(self) -> Self {

@@ -5,6 +5,8 @@ mod circle;
 mod common;
 #[cfg(feature = "num-dual")]
 mod dual;
+#[cfg(feature = "wide")]
+mod fused;
 mod inertia;
 mod lanes;
 mod linear;

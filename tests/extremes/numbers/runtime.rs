@@ -81,6 +81,8 @@ fn scalars<T: Drawn>(n: &Numbers) {
     black_box([Real::abs(x), Real::signum(x), Real::floor(x), Real::sin_cos(x).0, T::lit(n.draw())]);
     black_box(Real::sin_cos_all([x, T::lit(n.draw()), T::lit(n.draw())]));
     let pack = T::four([x, y, T::lit(n.draw()), x]) + T::four_of(y);
+    black_box(Real::mul_add(x, y, T::lit(n.draw())));
+    black_box(T::members(T::mul_adds(pack, pack, T::four_of(x))));
     black_box(T::members(T::sines(T::roots(pack)).0));
     black_box(<T::Four as Packed<T>>::roots(Packed::of(T::members(-pack / pack * pack - pack))).members());
     black_box([Real::atan2(x, y), Real::powf(x, y), Real::hypot(x, y), Real::min(x, y), Real::max(x, y)]);

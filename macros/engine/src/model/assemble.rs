@@ -142,6 +142,7 @@ impl<'a> Checker<'a, '_> {
             vis: module.vis.clone(),
             attrs: module.attrs.iter().filter(|attr| !docs::is_derive(attr)).cloned().collect(),
             krate: self.source.krate.clone().unwrap_or_else(runtime),
+            fused: self.source.fused,
             part_types: self.part_types.clone(),
             instances: self.instances.clone(),
             params: IndexVec::new(),

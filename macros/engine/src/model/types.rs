@@ -51,6 +51,8 @@ pub struct Model {
     pub attrs: Vec<Attribute>,
     /// Path of the runtime crate, `::multibody` unless renamed.
     pub krate: Path,
+    /// Whether products are fused to sums: the feature `fma` of the runtime.
+    pub fused: bool,
     pub part_types: IndexVec<PartTypeId, PartType>,
     pub instances: IndexVec<InstanceId, Instance>,
     pub params: IndexVec<ParamId, Param>,

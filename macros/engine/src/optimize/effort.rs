@@ -153,6 +153,7 @@ fn of_expression(expression: &Expression) -> Cost {
         Expression::Sum(terms) => {
             (Cost { add: count(terms) - 1, ..Cost::default() }, terms.iter().map(|(_, term)| term).collect())
         }
+        Expression::Fused(operands) => (Cost { add: 1, mul: 1, ..Cost::default() }, operands.iter().collect()),
         Expression::Product(factors) => (Cost { mul: count(factors) - 1, ..Cost::default() }, factors.iter().collect()),
         Expression::Quotient(a, b) => (Cost { div: 1, ..Cost::default() }, vec![a, b]),
         Expression::Call(call, arguments) => (of_call(*call), arguments.iter().collect()),

@@ -10,11 +10,13 @@ pub mod effort;
 pub mod factor;
 pub mod fields;
 pub mod flatten;
+pub mod fuse;
 mod hints;
 mod import;
 pub mod linear;
 pub mod multiples;
 pub mod names;
+pub mod order;
 pub mod packs;
 pub mod program;
 pub mod schedule;
@@ -32,6 +34,7 @@ use crate::symbolic::lower::Lowering;
 
 use dag::Dag;
 use program::{Checks, Compiled, Function, Program, Rival};
+use schedule::Form;
 
 /// Most operations that one function may have before optimisation. A hundred thousand take about seven seconds from the model
 /// to its code in an unoptimised build, and rustc takes twenty more in release, with 600 MB.
@@ -69,7 +72,7 @@ pub enum Excess {
 
 /// Optimises every candidate, takes the cheapest of each function, and moves parameter work into `Model::new`.
 pub fn compile(derivation: &Derivation) -> Result<Compiled, Refusal> {
-    compile_with(derivation, Plain::default())
+    compile_with(derivation, Plain::default(), false)
 }
 
 /// What is to stand as it was derived, since the optimiser has made it wrong.
@@ -81,8 +84,8 @@ pub struct Plain<'a> {
     pub checks: bool,
 }
 
-/// The same with some functions as they were derived.
-pub fn compile_with(derivation: &Derivation, plain: Plain<'_>) -> Result<Compiled, Refusal> {
+/// The same with some functions as they were derived, and products fused to sums in the others if so desired.
+pub fn compile_with(derivation: &Derivation, plain: Plain<'_>, fused: bool) -> Result<Compiled, Refusal> {
     if derivation.graph.is_full() {
         return Err(Refusal::TooLarge(Excess::Expressions));
     }
@@ -129,14 +132,17 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>) -> Result<Compile
         sound &= simplify(&mut prelude);
     }
     let prelude_cost = prelude.cost().1;
-    // What stands as it was derived has no packs either.
-    let limbs_of = |kind| derivation.limbs.as_ref().filter(|_| !plain.functions.contains(&kind));
+    // What stands as it was derived has no packs either, and every operation by itself.
+    let form_of = |kind| match plain.functions.contains(&kind) {
+        true => Form { ordered: true, ..Form::default() },
+        false => Form { limbs: derivation.limbs.as_ref(), fused, ordered: true },
+    };
     let functions: Vec<Function> = chosen
         .iter()
         .map(|Chosen { kind, parts, method, candidate, before, dag, rivals }| Function {
             kind: *kind,
             parts: parts.clone(),
-            program: with_results_broken(schedule::schedule_limbs(dag, &fields, &names, limbs_of(*kind))),
+            program: with_results_broken(schedule::schedule_as(dag, &fields, &names, form_of(*kind))),
             before: *before,
             after: dag.cost().0,
             method,

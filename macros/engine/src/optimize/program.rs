@@ -32,6 +32,8 @@ pub enum Expression {
     Neg(Box<Expression>),
     /// Terms are added from left to right; `true` subtracts. The first term may be negative.
     Sum(Vec<(bool, Expression)>),
+    /// The product of the first two added to the third with one rounding, where the target has an instruction for it.
+    Fused(Box<[Expression; 3]>),
     Product(Vec<Expression>),
     Quotient(Box<Expression>, Box<Expression>),
     Call(Call, Vec<Expression>),
@@ -117,6 +119,7 @@ impl Expression {
             Expression::Product(list) | Expression::Call(_, list) | Expression::Pack(list) => {
                 list.iter().for_each(|item| item.each_leaf(visit));
             }
+            Expression::Fused(operands) => operands.iter().for_each(|item| item.each_leaf(visit)),
             Expression::Quotient(above, below) => [above, below].into_iter().for_each(|item| item.each_leaf(visit)),
         }
     }
@@ -142,6 +145,9 @@ impl Expression {
             Expression::Neg(inner) => Expression::Neg(Box::new(inner.with_locals(of))),
             Expression::Sum(terms) => {
                 Expression::Sum(terms.iter().map(|(minus, term)| (*minus, term.with_locals(of))).collect())
+            }
+            Expression::Fused(operands) => {
+                Expression::Fused(Box::new(operands.each_ref().map(|item| item.with_locals(of))))
             }
             Expression::Product(list) => Expression::Product(all(list)),
             Expression::Quotient(above, below) => {
@@ -228,6 +234,7 @@ impl Program {
                     Expression::Product(list) | Expression::Call(_, list) | Expression::Pack(list) => {
                         stack.extend(list)
                     }
+                    Expression::Fused(operands) => stack.extend(operands.iter()),
                     Expression::Quotient(a, b) => stack.extend([&**a, &**b]),
                 }
             }

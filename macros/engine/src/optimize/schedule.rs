@@ -3,7 +3,7 @@
 //! In: an optimised DAG. Out: a [`Program`]. Values that are used more than once or have a name get a statement of their
 //! own; the others stand in the expression that uses them, up to a readable size. Signs are chosen so that a sum starts
 //! with a positive term where it can. Statements come in the order in which results need them, which keeps few values
-//! alive; then sines are gathered ([`super::together`]).
+//! alive; then sines are gathered ([`super::together`]), and long functions get an order of their own ([`super::order`]).
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -17,8 +17,10 @@ use crate::symbolic::graph::{BlockKind, SymbolId};
 use crate::symbolic::number::Number;
 
 use super::dag::{Block, Dag, Id, Kind, ONE};
+use super::fuse;
 use super::hints::{headings, hints};
 use super::names::Names;
+use super::order;
 use super::packs;
 use super::program::{Expression, FieldId, Local, Program, Sine, Statement};
 use super::stage::Stage;
@@ -33,20 +35,38 @@ pub type Fields = HashMap<Print, (FieldId, Print)>;
 
 /// Prints a DAG as a program. Nodes found in `fields` are read from there; `names` are those of fields.
 pub fn schedule(dag: &Dag, fields: &Fields, names: &[String]) -> Program {
-    schedule_limbs(dag, fields, names, None)
+    schedule_as(dag, fields, names, Form::default())
 }
 
-/// The same with limbs that are alike in packs.
-pub fn schedule_limbs(dag: &Dag, fields: &Fields, names: &[String], limbs: Option<&Limbs>) -> Program {
+/// What becomes of a program's operations.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Form<'a> {
+    /// Limbs that are alike go into packs.
+    pub limbs: Option<&'a Limbs>,
+    /// Products are fused to sums.
+    pub fused: bool,
+    /// Long programs get an order of their own: not where they are run once.
+    pub ordered: bool,
+}
+
+/// The same in a form.
+pub fn schedule_as(dag: &Dag, fields: &Fields, names: &[String], form: Form<'_>) -> Program {
     let mut scheduler = Scheduler::new(dag, fields, names);
     scheduler.make(dag.roots.iter().map(|root| root.1));
     let results = dag.roots.iter().map(|&root| scheduler.term(root)).collect();
     let mut program = scheduler.program;
     program.results = results;
-    if let Some(limbs) = limbs {
+    if let Some(limbs) = form.limbs {
         program = packs::pack(program, limbs);
     }
+    if form.fused {
+        fuse::fuse(&mut program);
+    }
     program.statements = together::gather(program.statements);
+    if form.ordered {
+        let after: Vec<&Expression> = program.results.iter().collect();
+        program.statements = order::order(program.statements, &after);
+    }
     program
 }
 
@@ -516,7 +536,7 @@ fn of_kind(dag: &Dag, order: &[Id], f: impl Fn(&Kind) -> Option<Id>) -> HashSet<
     order.iter().filter_map(|&id| f(&dag.nodes[id].kind)).collect()
 }
 
-fn negated(expression: Expression) -> Expression {
+pub(super) fn negated(expression: Expression) -> Expression {
     match expression {
         Expression::Literal(x) => Expression::Literal(-x),
         Expression::Neg(inner) => *inner,

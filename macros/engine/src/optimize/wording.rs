@@ -130,6 +130,7 @@ impl<'a> Wording<'a> {
                 Expression::Product(list) | Expression::Call(_, list) | Expression::Pack(list) => {
                     stack.extend(list.iter().rev());
                 }
+                Expression::Fused(operands) => stack.extend(operands.iter().rev()),
                 Expression::Quotient(a, b) => stack.extend([&**b, &**a]),
             }
         }
@@ -184,7 +185,7 @@ impl<'a> Wording<'a> {
                 }
             }
             Expression::Call(call, arguments) => self.call(*call, arguments),
-            Expression::Pack(_) => None,
+            Expression::Fused(_) | Expression::Pack(_) => None,
         }
     }
 

@@ -18,7 +18,8 @@ const FORM: &str = "write `pub mod name { .. }`";
 pub(super) fn source(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Source {
     let mut cursor = Cursor::new(tokens);
     let runtime = runtime(&mut cursor, diagnostics);
-    let mut source = Source { krate: None, modules: Vec::new() };
+    let fused = runtime.is_some() && fused(&mut cursor);
+    let mut source = Source { krate: None, fused, modules: Vec::new() };
     let errors = diagnostics.errors().len();
     beginning(&mut source, &mut cursor, diagnostics);
     let mut seen = false;
@@ -58,6 +59,16 @@ fn runtime(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Option<Path> {
     cursor.bump();
     let group = cursor.take_group(Delimiter::Parenthesis)?;
     attributes::crate_path(group.stream(), group.span(), diagnostics).ok()
+}
+
+/// `@fused`, which the runtime's own macro says behind where it is.
+fn fused(cursor: &mut Cursor) -> bool {
+    let is_said = cursor.at("@") && cursor.ident(1).is_some_and(|word| word == "fused");
+    if is_said {
+        cursor.bump();
+        cursor.bump();
+    }
+    is_said
 }
 
 /// `#![krate(::mb)]`

@@ -36,6 +36,8 @@ pub fn poisoned_type(ty: &Type) -> bool {
 pub struct Source {
     /// `#![krate(::mb)]`: where the runtime crate is found, `::multibody` if not said.
     pub krate: Option<Path>,
+    /// `@fused`, which the runtime's macro says with its feature `fma`.
+    pub fused: bool,
     /// Models and parts in source order; a module with ports is a part.
     pub modules: Vec<Module>,
 }

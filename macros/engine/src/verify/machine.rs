@@ -137,6 +137,10 @@ impl Machine<'_> {
                 }
                 sum
             }
+            Expression::Fused(operands) => {
+                let [a, b, c] = operands.each_ref().map(|operand| self.value(operand));
+                a.mul_add(b, c)
+            }
             Expression::Product(list) => {
                 let mut product = 1.0;
                 for factor in list {

@@ -40,7 +40,7 @@ const FURTHER: usize = 16;
 
 /// Compiles a derivation, and checks what comes of it.
 pub fn compile(model: &Model, structure: &Structure, derivation: &Derivation) -> Result<Compiled, Refusal> {
-    let mut compiled = optimize::compile(derivation)?;
+    let mut compiled = optimize::compile_with(derivation, Plain::default(), model.fused)?;
     let (mut functions, mut checks) = (Vec::new(), false);
     loop {
         let plain = Plain { functions: &functions, checks };
@@ -64,7 +64,7 @@ pub fn compile(model: &Model, structure: &Structure, derivation: &Derivation) ->
         }
         functions.extend(found.wrong);
         checks |= found.wrong_checks;
-        compiled = optimize::compile_with(derivation, Plain { functions: &functions, checks })?;
+        compiled = optimize::compile_with(derivation, Plain { functions: &functions, checks }, model.fused)?;
     }
 }
 

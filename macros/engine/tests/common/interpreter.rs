@@ -97,6 +97,10 @@ impl Machine<'_> {
             Expression::Sum(terms) => terms.iter().fold([0.0; MEMBERS], |sum, (minus, term)| {
                 each(sum, self.members(term), if *minus { |a, b| a - b } else { |a, b| a + b })
             }),
+            Expression::Fused(operands) => {
+                let [a, b, c] = operands.each_ref().map(|operand| self.members(operand));
+                std::array::from_fn(|k| a[k].mul_add(b[k], c[k]))
+            }
             Expression::Product(list) => {
                 list.iter().fold([1.0; MEMBERS], |product, factor| each(product, self.members(factor), |a, b| a * b))
             }
@@ -115,6 +119,10 @@ impl Machine<'_> {
             Expression::Neg(x) => -self.value(x),
             Expression::Sum(terms) => {
                 terms.iter().fold(0.0, |sum, (minus, x)| if *minus { sum - self.value(x) } else { sum + self.value(x) })
+            }
+            Expression::Fused(operands) => {
+                let [a, b, c] = operands.each_ref().map(|operand| self.value(operand));
+                a.mul_add(b, c)
             }
             Expression::Product(list) => list.iter().map(|x| self.value(x)).product(),
             Expression::Quotient(a, b) => self.value(a) / self.value(b),

@@ -60,6 +60,7 @@ pub fn empty(module: &str) -> Model {
         vis: parse_quote!(pub),
         attrs: vec![parse_quote!(#[doc = " A model made by hand."])],
         krate: parse_quote!(::multibody),
+        fused: false,
         part_types: IndexVec::new(),
         instances: IndexVec::from(vec![Instance {
             parent: None,

@@ -13,8 +13,10 @@ mod exact_literals;
 mod expressions;
 #[path = "../common/formulations.rs"]
 mod formulations;
+mod fuse;
 #[path = "../common/interpreter.rs"]
 mod interpreter;
+mod order;
 mod packs;
 mod passes;
 #[path = "../common/rebuild.rs"]

@@ -6,23 +6,23 @@ use crate::interpreter;
 use multibody_engine::optimize::program::{Expression, Local, Program, Sine, Statement};
 use multibody_engine::optimize::together::{MOST, gather};
 
-fn local(number: usize) -> Expression {
+pub(crate) fn local(number: usize) -> Expression {
     Expression::Local(Local(number))
 }
 
-fn number(value: f64) -> Expression {
+pub(crate) fn number(value: f64) -> Expression {
     Expression::Literal(value)
 }
 
-fn sum(list: &[Expression]) -> Expression {
+pub(crate) fn sum(list: &[Expression]) -> Expression {
     Expression::Sum(list.iter().map(|term| (false, term.clone())).collect())
 }
 
-fn set(number: usize, value: Expression) -> Statement {
+pub(crate) fn set(number: usize, value: Expression) -> Statement {
     Statement::Let { local: Local(number), value }
 }
 
-fn sine(sin: usize, cos: usize, angle: Expression) -> Statement {
+pub(crate) fn sine(sin: usize, cos: usize, angle: Expression) -> Statement {
     Statement::SinCos(vec![Sine { sin: Local(sin), cos: Local(cos), angle }])
 }
 
@@ -36,7 +36,7 @@ fn groups(statements: &[Statement]) -> Vec<Vec<usize>> {
 }
 
 /// Whatever is read stands before; members of a group read nothing of each other.
-fn is_in_order(statements: &[Statement], mut written: HashSet<Local>) -> bool {
+pub(crate) fn is_in_order(statements: &[Statement], mut written: HashSet<Local>) -> bool {
     statements.iter().all(|statement| {
         let mut ready = true;
         let mut look = |expression: &Expression, written: &HashSet<Local>| {

@@ -64,7 +64,7 @@ impl Reader<'_> {
                 let list: Vec<f64> = list.iter().map(|argument| self.value(argument)).collect();
                 call_f64(*call, &list)
             }
-            Expression::Pack(_) => panic!("a pack is no number"),
+            Expression::Fused(_) | Expression::Pack(_) => panic!("nothing is fused or packed here"),
         }
     }
 
@@ -224,6 +224,7 @@ impl Reader<'_> {
             Expression::Product(list) | Expression::Call(_, list) | Expression::Pack(list) => {
                 list.iter().for_each(|one| self.touch(one));
             }
+            Expression::Fused(operands) => operands.iter().for_each(|one| self.touch(one)),
             Expression::Quotient(a, b) => [a, b].into_iter().for_each(|one| self.touch(one)),
         }
     }
@@ -246,6 +247,7 @@ impl Reader<'_> {
             }
             Expression::Product(factors) => list(factors, " * "),
             Expression::Quotient(a, b) => format!("{} / {}", self.text(program, a), self.text(program, b)),
+            Expression::Fused(operands) => format!("fused({})", list(&operands[..], ", ")),
             Expression::Call(call, arguments) => format!("{call:?}({})", list(arguments, ", ")),
             Expression::Pack(members) => format!("[{}]", list(members, ", ")),
         }

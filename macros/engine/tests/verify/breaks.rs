@@ -268,6 +268,7 @@ fn expression(root: &mut Expression, visit: &mut dyn FnMut(&mut Expression)) {
         Expression::Product(list) | Expression::Call(_, list) | Expression::Pack(list) => {
             list.iter_mut().for_each(|e| expression(e, visit));
         }
+        Expression::Fused(operands) => operands.iter_mut().for_each(|e| expression(e, visit)),
         Expression::Quotient(a, b) => [a, b].into_iter().for_each(|e| expression(e, visit)),
         Expression::Literal(_) | Expression::Symbol(_) | Expression::Field(_) | Expression::Local(Local(_)) => {}
     }

@@ -4,6 +4,7 @@ mod accepted;
 mod breaks;
 #[path = "../common/corpus.rs"]
 mod corpus;
+mod fused;
 mod held_loops;
 #[path = "../common/interpreter.rs"]
 mod interpreter;

@@ -356,7 +356,7 @@ fn results_without_digits_excuse_nothing() {
     assert_eq!(compiled.unchecked, []);
     let functions = [FunctionKind::Outputs];
     for plain in [optimize::Plain::default(), optimize::Plain { functions: &functions, checks: false }] {
-        let compiled = optimize::compile_with(&case.derivation, plain).unwrap();
+        let compiled = optimize::compile_with(&case.derivation, plain, false).unwrap();
         let check = |compiled: &_| verify::check_with(&case.model, &case.structure, &case.derivation, compiled, plain);
         let found = check(&compiled);
         assert!(found.wrong.is_empty() && found.unchecked.is_empty(), "{plain:?}: {found:?}");

@@ -69,8 +69,8 @@ impl Writer<'_> {
         Some(match expression {
             Expression::Literal(value) => literal(*value),
             Expression::Symbol(symbol) => (self.symbol(*symbol), Level::Atom),
-            // `Model::new` reads none, and has no packs.
-            Expression::Field(_) | Expression::Pack(_) => ("..".to_string(), Level::Atom),
+            // `Model::new` reads none, and has no packs and nothing fused.
+            Expression::Field(_) | Expression::Fused(_) | Expression::Pack(_) => ("..".to_string(), Level::Atom),
             Expression::Local(local) => match (self.values.get(local), self.angles.get(local)) {
                 (Some(value), _) if depth > 0 => self.write(value, depth - 1, left)?,
                 (_, Some((name, angle))) if depth > 0 => {

@@ -74,6 +74,13 @@ impl Names<'_> {
                 quote!(#local)
             }
             Expression::Sum(terms) => self.sum(terms),
+            Expression::Fused(operands) => {
+                let operands = operands.iter().map(|operand| self.expression(operand));
+                match self.packed {
+                    true => quote!(T::mul_adds(#(#operands),*)),
+                    false => quote!(Real::mul_add(#(#operands),*)),
+                }
+            }
             Expression::Call(Call::Sqrt, arguments) if self.packed => {
                 let arguments = arguments.iter().map(|argument| self.expression(argument));
                 quote!(T::roots(#(#arguments),*))

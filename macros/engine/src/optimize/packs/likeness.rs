@@ -312,7 +312,7 @@ impl<'a> Likeness<'a> {
             Expression::Product(list) => hash(&("product", all(list)?)),
             Expression::Quotient(above, below) => hash(&("quotient", self.signature(above)?, self.signature(below)?)),
             Expression::Call(Call::Sqrt, list) => hash(&("root", all(list)?)),
-            Expression::Call(..) | Expression::Pack(_) => return None,
+            Expression::Fused(_) | Expression::Call(..) | Expression::Pack(_) => return None,
         })
     }
 }

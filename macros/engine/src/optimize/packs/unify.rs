@@ -94,7 +94,7 @@ impl Unifier<'_> {
                 let inner = self.unsigned(&each.collect::<Option<Members<'_>>>()?)?;
                 Some(Value { expression: Expression::Call(Call::Sqrt, vec![inner]), signs: [false; MEMBERS] })
             }
-            Expression::Call(..) | Expression::Neg(_) | Expression::Pack(_) => None,
+            Expression::Fused(_) | Expression::Call(..) | Expression::Neg(_) | Expression::Pack(_) => None,
         }
     }
 

@@ -135,6 +135,7 @@ fn gathers(statement: &Statement) -> HashMap<String, i32> {
             Expression::Neg(inner) => stack.push(inner),
             Expression::Sum(terms) => stack.extend(terms.iter().map(|(_, term)| term)),
             Expression::Product(list) | Expression::Call(_, list) => stack.extend(list),
+            Expression::Fused(operands) => stack.extend(operands.iter()),
             Expression::Quotient(above, below) => stack.extend([&**above, &**below]),
             Expression::Literal(_) | Expression::Symbol(_) | Expression::Field(_) | Expression::Local(_) => {}
         }
@@ -164,6 +165,7 @@ fn of_expression(expression: &Expression) -> i32 {
         Expression::Neg(inner) => of_expression(inner),
         Expression::Sum(terms) => between(terms.len()) + terms.iter().map(|(_, term)| of_expression(term)).sum::<i32>(),
         Expression::Product(list) => between(list.len()) + all(list),
+        Expression::Fused(operands) => 2 + all(&operands[..]),
         Expression::Quotient(above, below) => LONG + of_expression(above) + of_expression(below),
         Expression::Call(Call::Sqrt, list) => LONG + all(list),
         Expression::Call(_, list) => 1 + all(list),
@@ -180,6 +182,7 @@ pub(super) fn operations(expression: &Expression) -> usize {
             terms.len().saturating_sub(1) + terms.iter().map(|(_, term)| operations(term)).sum::<usize>()
         }
         Expression::Product(list) => list.len().saturating_sub(1) + all(list),
+        Expression::Fused(parts) => 2 + all(&parts[..]),
         Expression::Quotient(above, below) => 1 + operations(above) + operations(below),
         Expression::Call(_, list) => 1 + all(list),
         Expression::Pack(list) => all(list),
