@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use crate::contracts::function::{Arguments, FunctionKind};
@@ -46,9 +46,18 @@ impl Arguments {
         self.declared(layout, &BTreeSet::new(), Some(quote!(A)))
     }
 
+    /// What a function of what `Model::at` gives takes: what its meaning demands beside the position, and what its program reads.
+    pub(in crate::emit) fn declare_at(self, layout: &Layout<'_>, roots: &BTreeSet<Root>) -> TokenStream {
+        let v = named(roots.contains(&Root::Velocity), "v");
+        let v = self.state.then(|| quote!(#v: &Velocity<T>,));
+        let input = named(roots.contains(&Root::Input), "input");
+        let has_inputs = !layout.is_empty(StructKind::Input, None);
+        let input = (self.input && has_inputs).then(|| quote!(#input: &Input<T>,));
+        let others = self.others(layout, roots);
+        quote!(#v #input #(#others),*)
+    }
+
     fn declared(self, layout: &Layout<'_>, roots: &BTreeSet<Root>, refused: Option<TokenStream>) -> TokenStream {
-        let named = |read: bool, name: &str| names::ident(&format!("{}{name}", if read { "" } else { "_" }));
-        let krate = layout.krate();
         let mut list = Vec::new();
         if self.time {
             let t = named(roots.contains(&Root::Time), "t");
@@ -67,6 +76,14 @@ impl Arguments {
             let (input, ty) = (named(roots.contains(&Root::Input), "input"), input_type(layout));
             list.push(quote!(#input: &#ty));
         }
+        list.extend(self.others(layout, roots));
+        quote!(#(#list),*)
+    }
+
+    /// What comes behind the state and the input.
+    fn others(self, layout: &Layout<'_>, roots: &BTreeSet<Root>) -> Vec<TokenStream> {
+        let krate = layout.krate();
+        let mut list = Vec::new();
         if self.accel {
             let accel = named(roots.contains(&Root::Acceleration), "accel");
             list.push(quote!(#accel: &Velocity<T>));
@@ -93,7 +110,7 @@ impl Arguments {
             let alternative = named(roots.contains(&Root::Alternative), "alternative");
             list.push(quote!(#alternative: &#krate::assembly::Alternative<T>));
         }
-        quote!(#(#list),*)
+        list
     }
 
     /// Expands to `let q = &state.q;` for the parts of the state that are read.
@@ -126,6 +143,11 @@ impl Arguments {
     pub(in crate::emit) fn has_input(self) -> bool {
         self.input
     }
+}
+
+/// A name, with `_` in front where nothing reads it.
+fn named(read: bool, name: &str) -> Ident {
+    names::ident(&format!("{}{name}", if read { "" } else { "_" }))
 }
 
 const OF_STATE: [Root; 4] = [Root::Position, Root::Velocity, Root::States, Root::Guess];
