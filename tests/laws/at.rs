@@ -252,14 +252,12 @@ fn a_closed_form_in_all_scalars() {
     let mut random = Random::new(7);
     for _ in 0..20 {
         let mut draw = |near: f64| near + random.unit();
-        let mut params = linkage::Params::<f64>::default();
-        params.crank_length = 0.35 + 0.05 * draw(0.0);
+        let params = linkage::Params { crank_length: 0.35 + 0.05 * draw(0.0), ..linkage::Params::<f64>::default() };
         let model = linkage::Model::new(&params);
         let (turn, rate, t, push) = (3.0 * draw(0.0), draw(0.0), draw(1.0), draw(0.0));
         let mut state = linkage::State::<f64>::default();
         (state.q.turn, state.v.turn) = (turn, rate);
-        let mut accel = linkage::Velocity::<f64>::default();
-        accel.turn = draw(0.0);
+        let accel = linkage::Velocity { turn: draw(0.0) };
         let input = linkage::Input { push, twist: 0.3 };
         let at = model.at(t, &state.q);
         let alone = model.forward_dynamics(t, &state, &input).turn;
