@@ -445,6 +445,12 @@ pub mod emit {
     /// Some of the outputs alone: `outputs { name: [output, ..] }` gives the method `outputs_name`.
     pub struct outputs;
 
+    /// `Model::at`, which does once what several functions need at one position.
+    pub struct at {
+        /// Names of methods, such as `mass_matrix`, which go on from there.
+        pub functions: List,
+    }
+
     /// The equations, in the documentation of the module.
     pub struct report;
 

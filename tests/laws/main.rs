@@ -1,5 +1,6 @@
 //! What holds whatever the numbers: conservation, power, impulses, two descriptions of one mechanism.
 
+mod at;
 mod impulse;
 mod iterated;
 mod limbs;

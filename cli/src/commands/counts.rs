@@ -20,8 +20,14 @@ pub(crate) fn run(subject: &Subject) -> Result<String, Stop> {
 pub(crate) fn rows(built: &Built) -> Vec<(String, Option<Cost>, Cost)> {
     let new = ("new".to_owned(), None, built.compiled.prelude_cost);
     let functions = built.compiled.functions.iter();
+    let at = built.compiled.at.iter().flat_map(|at| {
+        let functions = at.functions.iter();
+        let functions = functions.map(|f| (format!("at.{}", built.function(f.kind)), Some(f.before), f.after));
+        std::iter::once(("at".to_owned(), None, at.cost)).chain(functions)
+    });
     std::iter::once(new)
         .chain(functions.map(|function| (built.function(function.kind), Some(function.before), function.after)))
+        .chain(at)
         .collect()
 }
 

@@ -228,19 +228,28 @@ fn costs(material: &Material<'_>) -> Option<Section> {
     let prelude = compiled.prelude_cost;
     let new = ["`new`".to_owned()].into_iter().chain([const { String::new() }; 7]).chain(cells(prelude));
     table.rows.push(new.chain([prelude.weight().to_string(), String::new()]).collect());
-    for function in &told {
+    let at = compiled.at.as_ref();
+    if let Some(at) = at {
+        let own = ["`at`".to_owned()].into_iter().chain([const { String::new() }; 7]).chain(cells(at.cost));
+        table.rows.push(own.chain([at.cost.weight().to_string(), String::new()]).collect());
+    }
+    let of_at = at.iter().flat_map(|at| &at.functions).map(|f| (format!("`at` {}", name(f)), f));
+    for (name, function) in told.iter().map(|f| (name(f), *f)).chain(of_at) {
         let (before, after) = (function.before, function.after);
         let left = match before.weight() {
             0 => String::new(),
             weight => format!("{:.0} %", 100.0 * f64::from(after.weight()) / f64::from(weight)),
         };
-        let row = [name(function)].into_iter().chain(cells(before)).chain([before.weight().to_string()]);
+        let row = [name].into_iter().chain(cells(before)).chain([before.weight().to_string()]);
         table.rows.push(row.chain(cells(after)).chain([after.weight().to_string(), left]).collect());
     }
     let mut says =
         "Work counts additions, products, selections and comparisons as 1, quotients and roots as 8, sines with their \
                     cosines and other functions as 20. What parameters alone decide is done once, in `new`."
             .to_owned();
+    if at.is_some() {
+        says.push_str(" What a position decides is done once for several functions, in `at`.");
+    }
     if material.structure.guesses() > 0 {
         says.push_str(" Of Newton's method one round counts.");
     }

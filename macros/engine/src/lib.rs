@@ -257,6 +257,15 @@ impl Trouble {
                 ),
                 REPORT,
             ),
+            Trouble::Refused(Refusal::WrongAt(kind)) => diagnostics.error_help(
+                span,
+                format!(
+                    "`At::{}` of `{}` does not have the values of its equations",
+                    emit::function_name(model, kind),
+                    model.name
+                ),
+                REPORT,
+            ),
             Trouble::Refused(Refusal::WrongChecks) => diagnostics.error_help(
                 span,
                 format!("`Params::check` of `{}` does not have the values of its equations", model.name),

@@ -67,8 +67,8 @@ fn numbers<T: Real>(x: &State<T>) -> [T; 16] {
 }
 
 fn model<T: Real>(gain: T) -> Model<T> {
-    let base = Params::<T>::default();
-    Model::new(&Params { gain, pull: base.pull.map(|pull| pull * gain), ..base })
+    let pull = Params::<T>::default().pull.map(|pull| pull * gain);
+    Model::new(&Params { gain, pull })
 }
 
 /// A number from each lane.

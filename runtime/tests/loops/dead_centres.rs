@@ -217,7 +217,7 @@ fn lanes_end_in_dead_centres_of_their_own() {
     let rates = [0.0, 0.5, -1.0, 2.0];
     let span = (0.0, 0.9);
     let alone = |a: f64, rate: f64, integrator: &Integrator<Dop853>| {
-        let start = solved::State { q: solved::Position { a }, v: solved::Velocity { a: rate }, ..Default::default() };
+        let start = solved::State { q: solved::Position { a }, v: solved::Velocity { a: rate } };
         let mut last = (start, 0.0);
         let seen = |t: f64, x: &solved::State| last = (*x, t);
         let result = integrator.integrate(&solved::Model::default(), span.0, span.1, &start, &(), seen);
@@ -229,7 +229,6 @@ fn lanes_end_in_dead_centres_of_their_own() {
         let start = solved::State {
             q: solved::Position { a: WideF64x4::from(angles) },
             v: solved::Velocity { a: WideF64x4::from(rates) },
-            ..Default::default()
         };
         let model = solved::Model::<WideF64x4>::default();
         let closed = integrator.integrate_lanes(&model, span.0, span.1, &start, &(), |_, _| ()).unwrap();

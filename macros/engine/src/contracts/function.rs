@@ -3,7 +3,9 @@
 //! A row says what asks for the function, its name, what it takes, what it gives and its documentation. The [`Shape`] says
 //! what type it gives, and which slots fill it.
 
-use crate::model::types::Request;
+use std::borrow::Cow;
+
+use crate::model::types::{Model, Request};
 
 use super::results::{Form, Parts, Slot};
 
@@ -294,6 +296,17 @@ impl FunctionKind {
         FunctionKind::Granted,
         FunctionKind::Displacement,
     ];
+
+    /// Name of its method.
+    pub fn method(self, model: &Model) -> Cow<'static, str> {
+        match self {
+            FunctionKind::OutputGroup(number) if number < model.output_groups.len() => {
+                Cow::Owned(model.output_groups[number].method())
+            }
+            FunctionKind::Kinematics(number) if number > 0 => Cow::Owned(format!("{}_{}", self.row().name, number + 1)),
+            kind => Cow::Borrowed(kind.row().name),
+        }
+    }
 
     pub fn row(self) -> FunctionRow {
         use Request as R;

@@ -24,7 +24,7 @@ use crate::mechanics::loops::structure::Modes;
 use crate::model::joint_kinds::JointKind;
 use crate::model::types::{Docs, Joint, Param, PartTypeId, State};
 use crate::optimize::packs;
-use crate::optimize::program::{Compiled, Function};
+use crate::optimize::program::{At, Compiled, Function};
 
 use super::layout::{Layout, StructKind};
 use super::print::literals;
@@ -185,10 +185,10 @@ pub(super) fn assembly_modes(found: &[String], modes: Option<Modes>) -> Vec<Stri
     vec![text, String::new(), count]
 }
 
-/// Of a derived function.
-pub(super) fn function(layout: &Layout<'_>, function: &Function) -> Vec<String> {
+/// What a function gives.
+fn meaning(layout: &Layout<'_>, function: &Function) -> String {
     let text = (function.kind.row().documentation)(&layout.sizes(function.kind));
-    let text = match function.kind {
+    match function.kind {
         FunctionKind::Kinematics(number) => {
             let found = &layout.model.kinematics[number].find;
             let found: Vec<String> = found.iter().map(|c| format!("`{}`", code(&layout.coordinate(*c)))).collect();
@@ -205,8 +205,19 @@ pub(super) fn function(layout: &Layout<'_>, function: &Function) -> Vec<String> 
             text.replace("{}", &named.collect::<Vec<_>>().join(", "))
         }
         _ => text.to_string(),
-    };
-    let mut lines = vec![text, String::new()];
+    }
+}
+
+/// Of a derived function.
+pub(super) fn function(layout: &Layout<'_>, function: &Function) -> Vec<String> {
+    let mut lines = work(layout, function);
+    lines.extend(equations::of_function(layout, function.kind));
+    lines
+}
+
+/// What a function gives, by which method, and what that costs.
+fn work(layout: &Layout<'_>, function: &Function) -> Vec<String> {
+    let mut lines = vec![meaning(layout, function), String::new()];
     if !function.method.is_empty() {
         lines.extend([format!("Method: {}.", function.method), String::new()]);
     }
@@ -215,7 +226,37 @@ pub(super) fn function(layout: &Layout<'_>, function: &Function) -> Vec<String> 
     if let Some([packed, scalar]) = packs::operations(&function.program) {
         lines.push(format!("Limbs go in packs of four: {packed} operations on packs, {scalar} on scalars."));
     }
-    lines.extend(equations::of_function(layout, function.kind));
+    lines
+}
+
+/// Of the struct that `Model::at` gives.
+pub(super) fn at(layout: &Layout<'_>, at: &At) -> Vec<String> {
+    let name = names::plain(&layout.model.name);
+    let fields = match at.fields.len() {
+        0 => "It holds no value: nothing depends on these alone.".to_string(),
+        1 => "It holds the one value that depends on these alone, and is read by its functions.".to_string(),
+        count => format!("It holds the {count} values that depend on these alone, and are read by its functions."),
+    };
+    vec![format!("`{name}` at a position, with what else [`Model::at`] takes. {fields}")]
+}
+
+/// Of `Model::at`.
+pub(super) fn new_at(layout: &Layout<'_>, at: &At) -> Vec<String> {
+    let functions = at.functions.iter().map(|f| format!("[`{0}`](At::{0})", f.kind.method(layout.model)));
+    vec![
+        "Does the work that depends on parameters and what is given here alone, once for several functions."
+            .to_string(),
+        String::new(),
+        format!("Functions that go on from there: {}.", functions.collect::<Vec<_>>().join(", ")),
+        String::new(),
+        format!("Operations: {}.", cost(&at.cost)),
+    ]
+}
+
+/// Of a function of what that gives.
+pub(super) fn of_at(layout: &Layout<'_>, function: &Function) -> Vec<String> {
+    let mut lines = work(layout, function);
+    lines.extend([String::new(), format!("The same as [`Model::{}`].", function.kind.method(layout.model))]);
     lines
 }
 

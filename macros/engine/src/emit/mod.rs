@@ -88,7 +88,8 @@ pub fn misfit(model: &Model, structure: &Structure, compiled: &Compiled) -> Opti
         let parts = methods::results::parts(&layout, function.kind);
         function.parts == parts && function.program.results.len() == parts.count()
     };
-    compiled.functions.iter().find(|function| !fits(function)).map(|function| function.kind)
+    let of_at = compiled.at.iter().flat_map(|at| &at.functions);
+    compiled.functions.iter().chain(of_at).find(|function| !fits(function)).map(|function| function.kind)
 }
 
 /// What is said of a model in its documentation.

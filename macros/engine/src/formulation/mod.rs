@@ -122,7 +122,7 @@ fn counted(structure: &Structure, compiled: &Compiled, is_forward: bool) -> Figu
 
 /// The model with what is counted, and nothing else.
 fn judged(model: &Model, handling: &Handling) -> Model {
-    let mut judged = Model { handling: handling.clone(), ..model.clone() };
+    let mut judged = Model { handling: handling.clone(), at: Vec::new(), ..model.clone() };
     if asks_forward(model) {
         judged.emit = vec![Request::ForwardDynamics];
         judged.outputs.clear();
@@ -131,7 +131,7 @@ fn judged(model: &Model, handling: &Handling) -> Model {
         judged.assembly = None;
         judged.solve_for.clear();
     } else {
-        judged.emit.retain(|request| !matches!(request, Request::Report | Request::Equations));
+        judged.emit.retain(|request| !matches!(request, Request::Report | Request::Equations | Request::At));
     }
     judged.asked.retain(|asked| judged.emit.contains(&asked.0));
     judged

@@ -27,6 +27,7 @@ use crate::contracts::function::{Asked, FunctionKind};
 use crate::contracts::results::Results;
 use crate::dynamics::shared_axes::SharedAxes;
 use crate::invariant::fault::raise;
+use crate::model::site::Sited;
 use crate::model::types::{BodyRef, Coordinate, Joint, JointId, Model, Packs, Request};
 use crate::symbolic::graph::{Graph, Scalar};
 
@@ -101,6 +102,7 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
     deriving.choose_writing()?;
     let (mut functions, pivoted) = deriving.functions()?;
     functions.extend(deriving.found()?);
+    let at = at_functions(model, &functions)?;
     let checks = deriving.checks()?;
     let inertia = deriving.inertia()?;
     for function in &functions {
@@ -122,6 +124,7 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
         symbols,
         symbol_names,
         functions,
+        at,
         notes,
         dead_centres,
         modes,
@@ -193,6 +196,26 @@ pub fn agrees(model: &Model, structure: &Structure, poses: &[Pose]) -> Result<bo
         Ok(Results::default())
     })?;
     Ok(agrees)
+}
+
+/// Functions that go on from a position; what is wrong where one of them is not derived.
+fn at_functions(model: &Model, functions: &[Derived]) -> Result<Vec<FunctionKind>, Vec<Complaint>> {
+    let (mut found, mut complaints) = (Vec::new(), Vec::new());
+    for wanted in &model.at {
+        let mut kinds = functions.iter().map(|function| function.kind);
+        match kinds.find(|kind| kind.method(model) == wanted.name) {
+            Some(kind) => found.push(kind),
+            None => {
+                let name = &wanted.name;
+                let (message, help) = match name.as_str() {
+                    "velocity" => ("`velocity` is not emitted: `impulse` gives the same", "name `impulse`".to_owned()),
+                    _ => ("no equation of this model keeps a multiplier", format!("there is no function `{name}`")),
+                };
+                complaints.push(Complaint { at: wanted.site(), message: message.to_owned(), help: Some(help) });
+            }
+        }
+    }
+    if complaints.is_empty() { Ok(found) } else { Err(complaints) }
 }
 
 /// What to derive, each once, in a fixed order.

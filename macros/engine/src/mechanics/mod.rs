@@ -55,6 +55,8 @@ pub struct Derivation {
     /// Readable names of the symbols, in snake case, such as `elbow`, `elbow_rate`, `m1`.
     pub symbol_names: Vec<String>,
     pub functions: Vec<Derived>,
+    /// Those that go on from what is done once for a position, in the order of the model.
+    pub at: Vec<FunctionKind>,
     /// Sentences for the report: how loops were solved and checked.
     pub notes: Vec<String>,
     /// Unknowns whose roots [`FunctionKind::DeadCentres`] gives, in this order.

@@ -101,6 +101,7 @@ impl<'a> Checker<'a, '_> {
         if emit.is_empty() {
             emit.push(Request::ForwardDynamics);
         }
+        let output_groups = self.output_groups(&collected.requested.outputs, &outputs);
         let mut skipped = topology.skipped;
         skipped.extend(loops.skipped);
         skipped.extend(self.settled_states());
@@ -125,7 +126,8 @@ impl<'a> Checker<'a, '_> {
             solve_for: collected.requested.solve_for,
             kinematics: loops.kinematics,
             assembly: loops.assembly,
-            output_groups: self.output_groups(&collected.requested.outputs, &outputs),
+            at: self.at_functions(collected.requested.at, &emit, &outputs, &output_groups),
+            output_groups,
             forces: all(collected.forces)?.into(),
             outputs,
             gravity: collected.gravity,
@@ -166,6 +168,7 @@ impl<'a> Checker<'a, '_> {
             kinematics: Vec::new(),
             assembly: None,
             output_groups: Vec::new(),
+            at: Vec::new(),
             forces: IndexVec::new(),
             outputs: Vec::new(),
             gravity: None,

@@ -5,7 +5,8 @@
 use proc_macro2::Span;
 
 use super::types::{
-    Closing, Constraint, Drive, Expr, Force, Formula, Given, Joint, Kinematics, Model, Request, Solve, SolveFor,
+    AtFunction, Closing, Constraint, Drive, Expr, Force, Formula, Given, Joint, Kinematics, Model, Request, Solve,
+    SolveFor,
 };
 
 /// Where something of the model is written.
@@ -39,7 +40,7 @@ impl Sited for Formula {
     }
 }
 
-sited!(Closing, Constraint, Drive, Expr, Force, Given, Joint, Kinematics, Solve, SolveFor);
+sited!(AtFunction, Closing, Constraint, Drive, Expr, Force, Given, Joint, Kinematics, Solve, SolveFor);
 
 /// Its name.
 impl Sited for Model {

@@ -96,6 +96,8 @@ pub struct Model {
     pub assembly: Option<Kinematics>,
     /// Of `emit outputs { .. }`.
     pub output_groups: Vec<OutputGroup>,
+    /// Of `emit at { .. }`: functions that go on from what is done once for a position.
+    pub at: Vec<AtFunction>,
 }
 
 /// One velocity coordinate of a joint in the tree.
@@ -233,6 +235,14 @@ pub struct Kinematics {
     pub span: Span,
 }
 
+/// A function that `emit at { functions: [..] }` names.
+#[derive(Clone)]
+pub struct AtFunction {
+    /// As the method of `Model` is called.
+    pub name: String,
+    pub span: Span,
+}
+
 /// `name: [output, ..]` of `emit outputs { .. }`: outputs that a function of their own gives.
 #[derive(Clone)]
 pub struct OutputGroup {
@@ -264,6 +274,11 @@ impl OutputGroup {
             letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect::<String>()
         });
         format!("Output{}", words.collect::<String>())
+    }
+
+    /// Name of its method of `Model`: `outputs_pose` of the group `pose`.
+    pub fn method(&self) -> String {
+        format!("outputs_{}", self.name.unraw())
     }
 
     /// Places among the model's outputs.
@@ -536,6 +551,8 @@ pub enum Request {
     Momentum,
     /// Outputs by groups.
     Outputs,
+    /// What is done once for a position, and functions that go on from there.
+    At,
     /// The equations, in the module's documentation.
     Report,
     /// The equations as constants.

@@ -43,6 +43,8 @@ pub enum Kind {
         block: usize,
         index: usize,
     },
+    /// Computed elsewhere: what it is made of is not looked at.
+    Stored,
 }
 
 /// Work that is no formula, see [`BlockKind`]. Its operands stay what they are: passes rewrite the nodes themselves.
@@ -160,6 +162,7 @@ impl Dag {
         match kind {
             Kind::One => Stage::Literal,
             Kind::Symbol(id) => Stage::of(self.symbols[id.0]),
+            Kind::Stored => Stage::Position,
             _ => self.operands(kind).map(|id| self.nodes[id].stage).max().unwrap_or(Stage::Literal),
         }
     }
@@ -390,7 +393,7 @@ impl Dag {
     /// Nodes that an operation reads.
     pub fn operands<'a>(&'a self, kind: &'a Kind) -> Box<dyn Iterator<Item = Id> + 'a> {
         match kind {
-            Kind::One | Kind::Symbol(_) => Box::new(std::iter::empty()),
+            Kind::One | Kind::Symbol(_) | Kind::Stored => Box::new(std::iter::empty()),
             Kind::Sum(terms) => Box::new(terms.iter().map(|t| t.1)),
             Kind::Product(list) | Kind::Call(_, list) => Box::new(list.iter().copied()),
             Kind::Reciprocal(x) | Kind::Sqrt(x) | Kind::Sin(x) | Kind::Cos(x) => Box::new(std::iter::once(*x)),
@@ -401,7 +404,7 @@ impl Dag {
     /// Visits them: half the time of [`Dag::operands`] where this library is not optimised, as inside of a user's build.
     fn each_operand(&self, kind: &Kind, visit: &mut impl FnMut(Id)) {
         let list = match kind {
-            Kind::One | Kind::Symbol(_) => return,
+            Kind::One | Kind::Symbol(_) | Kind::Stored => return,
             Kind::Sum(terms) => {
                 for term in terms {
                     visit(term.1);
@@ -433,7 +436,7 @@ impl Dag {
                 _ => &mut runtime,
             };
             match &node.kind {
-                Kind::One | Kind::Symbol(_) => {}
+                Kind::One | Kind::Symbol(_) | Kind::Stored => {}
                 Kind::Sum(terms) => {
                     cost.add += terms.len() as u32 - 1;
                     cost.mul += terms.iter().filter(|(c, id)| *id != ONE && !c.is_unit()).count() as u32;

@@ -14,7 +14,7 @@ use crate::symbolic::number::Number;
 use super::dag::{Dag, Id, Kind, ONE};
 use super::hints::hints;
 use super::names::Names;
-use super::program::FieldId;
+use super::program::{Expression, FieldId, Program};
 use super::schedule::Fields;
 use super::stage::Stage;
 use super::wording::Wording;
@@ -76,9 +76,7 @@ pub fn gather(functions: &[&Dag], symbols: &[Symbol]) -> StoredFields {
             fields.insert(print, (FieldId(prelude.roots.len()), dag.nodes[id].print));
             let adopted = prelude.adopt(dag, id, &mut map);
             prelude.roots.push(if broken(Break::FieldOfParameters) { (Number::ONE, ONE) } else { adopted });
-            let text = hint(dag, id, &hints);
-            let words = if names.is_free(&text) { None } else { wording.of_node(dag, id) };
-            let text = names.unique(words.as_ref().unwrap_or(&text));
+            let text = name(dag, id, &hints, &wording, &mut names, "constant");
             prelude.name(adopted, &Name { text: text.clone(), stands_alone: false, is_minus: false, heading: None });
             list.push(text);
         }
@@ -86,15 +84,57 @@ pub fn gather(functions: &[&Dag], symbols: &[Symbol]) -> StoredFields {
     StoredFields { prelude, fields, names: list }
 }
 
-/// A parameter's own name, the name of the value, or that of the value which it serves.
-fn hint(dag: &Dag, id: Id, hints: &[Option<String>]) -> String {
+/// Names of values that `Model::at` stores, none of them one of `taken`: those that they have in the program that computes them.
+pub fn names_of_roots(dag: &Dag, program: &Program, taken: &[String]) -> Vec<String> {
+    let mut names = Names::default();
+    for name in taken {
+        names.unique(name);
+    }
+    let (hints, wording) = (hints(dag), Wording::new(dag, taken));
+    let local = |expression: &Expression| match expression {
+        Expression::Local(local) => Some(program.locals[local.0].trim_start_matches('_').to_owned()),
+        _ => None,
+    };
+    let minus = |name: String| match name.strip_prefix("minus_") {
+        Some(positive) => positive.to_owned(),
+        None => format!("minus_{name}"),
+    };
+    let each = dag.roots.iter().zip(&program.results).map(|(root, result)| {
+        let known = match result {
+            Expression::Neg(inner) => local(inner).map(minus),
+            other => local(other),
+        };
+        match known {
+            Some(known) => names.unique(&known),
+            None => name(dag, root.1, &hints, &wording, &mut names, "value"),
+        }
+    });
+    each.collect()
+}
+
+/// A name that is free.
+fn name(
+    dag: &Dag,
+    id: Id,
+    hints: &[Option<String>],
+    wording: &Wording<'_>,
+    names: &mut Names,
+    otherwise: &str,
+) -> String {
+    let text = hint(dag, id, hints, otherwise);
+    let words = if names.is_free(&text) { None } else { wording.of_node(dag, id) };
+    names.unique(words.as_ref().unwrap_or(&text))
+}
+
+/// A symbol's own name, the name of the value, or that of the value which it serves.
+fn hint(dag: &Dag, id: Id, hints: &[Option<String>], otherwise: &str) -> String {
     if let Kind::Symbol(symbol) = dag.nodes[id].kind {
         return dag.symbol_name(symbol);
     }
     match (&dag.nodes[id].name, &hints[id]) {
         (Some(name), _) => name.of_sign(false),
         (None, Some(served)) => format!("{served}_factor"),
-        (None, None) => "constant".to_owned(),
+        (None, None) => otherwise.to_owned(),
     }
 }
 

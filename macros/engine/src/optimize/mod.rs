@@ -18,6 +18,7 @@ pub mod multiples;
 pub mod names;
 pub mod order;
 pub mod packs;
+mod position;
 pub mod program;
 pub mod schedule;
 pub mod stage;
@@ -27,13 +28,15 @@ mod wording;
 use crate::contracts::cost::Cost;
 use crate::contracts::function::FunctionKind;
 use crate::contracts::results::Parts;
+use crate::invariant::fault::OrFault;
 use crate::invariant::injection::{Break, broken};
-use crate::mechanics::{Derivation, Inertia};
+use crate::mechanics::{Derivation, Derived, Inertia};
 use crate::symbolic::graph::Scalar;
 use crate::symbolic::lower::Lowering;
 
 use dag::Dag;
-use program::{Checks, Compiled, Function, Program, Rival};
+use position::Together;
+use program::{At, Checks, Compiled, FieldId, Function, Program, Rival};
 use schedule::Form;
 
 /// Most operations that one function may have before optimisation. A hundred thousand take about seven seconds from the model
@@ -49,6 +52,8 @@ pub enum Refusal {
     NotFinite,
     /// A function does not have the values of its equations: an error of this compiler.
     Wrong(FunctionKind),
+    /// A function of what `Model::at` gives does not have the values of its equations: an error of this compiler.
+    WrongAt(FunctionKind),
     /// The tests of parameters do not have the values of their equations: an error of this compiler.
     WrongChecks,
     /// The mass matrix of `System::without_inertia` does not have the values of its equations: an error of this compiler.
@@ -80,6 +85,8 @@ pub fn compile(derivation: &Derivation) -> Result<Compiled, Refusal> {
 pub struct Plain<'a> {
     /// With them what all functions read of parameters.
     pub functions: &'a [FunctionKind],
+    /// `Model::at` and the functions of what it gives.
+    pub at: bool,
     /// The tests of parameters.
     pub checks: bool,
 }
@@ -91,7 +98,9 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>, fused: bool) -> R
     }
     let mut sound = true;
     let mut chosen: Vec<Chosen> = Vec::new();
+    let mut members: Vec<Member<'_>> = derivation.at.iter().map(|&kind| Member::new(derivation, kind)).collect();
     for function in &derivation.functions {
+        let mut member = members.iter_mut().find(|member| member.derived.kind == function.kind);
         let mut best: Option<(u32, Chosen)> = None;
         let mut tried: Vec<Rival> = Vec::new();
         for (candidate, (method, results)) in function.candidates.iter().enumerate() {
@@ -108,6 +117,10 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>, fused: bool) -> R
             }
             let cost = dag.cost().0;
             tried.push(Rival { method, cost });
+            if let Some(member) = &mut member {
+                member.ways.push(dag.clone());
+                member.before.push(before);
+            }
             let weight = cost.weight();
             if best.as_ref().is_none_or(|(least, _)| weight < *least) {
                 let (kind, parts, rivals) = (function.kind, results.parts.clone(), Vec::new());
@@ -120,7 +133,8 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>, fused: bool) -> R
             chosen
         }));
     }
-    let dags: Vec<&Dag> = chosen.iter().map(|c| &c.dag).collect();
+    let together = (!members.is_empty()).then(|| together(derivation, &members, plain.at, &mut sound));
+    let dags: Vec<&Dag> = chosen.iter().map(|c| &c.dag).chain(together.as_ref().map(|found| &found.dag)).collect();
     let mut gathered = fields::gather(&dags, &derivation.symbols);
     let inertia = inertia(derivation);
     if let Inertia::Own(dag) = &inertia {
@@ -137,6 +151,9 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>, fused: bool) -> R
         true => Form { ordered: true, ..Form::default() },
         false => Form { limbs: derivation.limbs.as_ref(), fused, ordered: true },
     };
+    let form = Form { limbs: derivation.limbs.as_ref(), fused, ordered: true };
+    let form = if plain.at { Form { ordered: true, ..Form::default() } } else { form };
+    let at = together.map(|found| at(&members, &found, (&fields, &names), form));
     let functions: Vec<Function> = chosen
         .iter()
         .map(|Chosen { kind, parts, method, candidate, before, dag, rivals }| Function {
@@ -158,10 +175,91 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>, fused: bool) -> R
     };
     let checks = checks(derivation, plain.checks, &mut sound);
     let finite = |program: &program::Program| program.literals().all(f64::is_finite);
-    if !finite(&prelude) || !functions.iter().all(|f| finite(&f.program)) {
+    let of_at = at.iter().flat_map(|at| at.functions.iter().map(|f| &f.program).chain([&at.program]));
+    if !finite(&prelude) || !functions.iter().map(|f| &f.program).chain(of_at).all(finite) {
         return Err(Refusal::NotFinite);
     }
-    Ok(Compiled { fields: names, prelude, prelude_cost, functions, checks, inertia, sound, unchecked: Vec::new() })
+    Ok(Compiled { fields: names, prelude, prelude_cost, functions, at, checks, inertia, sound, unchecked: Vec::new() })
+}
+
+/// A function that is asked for at a position, with all its ways.
+struct Member<'d> {
+    derived: &'d Derived,
+    /// Each optimised for itself.
+    ways: Vec<Dag>,
+    /// What each costs as it was derived.
+    before: Vec<Cost>,
+}
+
+impl<'d> Member<'d> {
+    fn new(derivation: &'d Derivation, kind: FunctionKind) -> Member<'d> {
+        let derived = derivation.functions.iter().find(|derived| derived.kind == kind);
+        let derived = derived.or_fault("what is asked for at a position is derived");
+        Member { derived, ways: Vec::new(), before: Vec::new() }
+    }
+}
+
+/// All functions that are asked for at a position in one DAG; as they were derived if `plain`.
+fn together(derivation: &Derivation, members: &[Member<'_>], plain: bool, sound: &mut bool) -> Together {
+    let import = |ways: &[usize]| {
+        let each = members.iter().zip(ways).flat_map(|(member, &way)| &member.derived.candidates[way].1.list);
+        let roots: Vec<Scalar> = each.copied().collect();
+        let mut lowering = Lowering::new(&derivation.graph);
+        let roots = lowering.run(&roots);
+        let small = lowering.to.len() <= MOST_OPERATIONS;
+        let mut dag = Dag::import(&lowering.to, &roots, &derivation.symbols);
+        dag.symbol_names.clone_from(&derivation.symbol_names);
+        (dag, small)
+    };
+    if !plain {
+        let functions: Vec<position::Ways> = members.iter().map(|member| member.ways.clone()).collect();
+        let found = position::choose(&functions, &derivation.symbols, |ways| {
+            let (mut dag, small) = import(ways);
+            // What is too large for the passes has the work of each function shared as it is.
+            small.then(|| {
+                *sound &= simplify(&mut dag);
+                dag
+            })
+        });
+        if let Some(found) = found {
+            return found;
+        }
+        *sound = false;
+    }
+    let first = vec![0; members.len()];
+    let (dag, _) = import(&first);
+    Together::plain(first, dag, members.iter().map(|member| member.derived.candidates[0].1.list.len()))
+}
+
+/// Programs of what is known at a position, and of what is left of each function.
+fn at(members: &[Member<'_>], found: &Together, (fields, names): (&schedule::Fields, &[String]), form: Form<'_>) -> At {
+    let (position, mut late) = found.parts();
+    let program = schedule::schedule_as(&position, fields, names, form);
+    let stored = fields::names_of_roots(&position, &program, names);
+    let mut fields = fields.clone();
+    for (number, &(_, id)) in position.roots.iter().enumerate() {
+        let print = position.nodes[id].print;
+        fields.insert(print.canonical(), (FieldId(names.len() + number), print));
+    }
+    let names: Vec<String> = names.iter().chain(&stored).cloned().collect();
+    let costs = found.costs();
+    let results = std::mem::take(&mut late.roots);
+    let functions = members.iter().enumerate().map(|(number, Member { derived, before, .. })| {
+        late.roots = results[found.results[number].clone()].to_vec();
+        let way = found.ways[number];
+        let (method, candidate) = &derived.candidates[way];
+        Function {
+            kind: derived.kind,
+            parts: candidate.parts.clone(),
+            program: with_results_broken(schedule::schedule_as(&late, &fields, &names, form)),
+            before: before[way],
+            after: costs[number + 1],
+            method,
+            candidate: way,
+            rivals: Vec::new(),
+        }
+    });
+    At { functions: functions.collect(), fields: stored, program, cost: costs[0] }
 }
 
 /// As it came, but for a break.

@@ -262,6 +262,18 @@ pub struct Function {
     pub rivals: Vec<Rival>,
 }
 
+/// What `Model::at` computes, and what functions do with it.
+#[derive(Clone, Debug, Default)]
+pub struct At {
+    /// Names of its fields, unique, readable, none of them one of [`Compiled::fields`].
+    pub fields: Vec<String>,
+    /// One result for each field.
+    pub program: Program,
+    pub cost: Cost,
+    /// They read fields of the model, and those of this struct, which are numbered behind them.
+    pub functions: Vec<Function>,
+}
+
 /// A way to a function that was not taken.
 #[derive(Clone, Debug)]
 pub struct Rival {
@@ -279,6 +291,8 @@ pub struct Compiled {
     pub prelude: Program,
     pub prelude_cost: Cost,
     pub functions: Vec<Function>,
+    /// What is done once for a position, where the model asks for that.
+    pub at: Option<At>,
     /// What `Params::check` computes from parameters.
     pub checks: Checks,
     /// What `System::without_inertia` looks at: entries row by row. It reads fields.
@@ -300,6 +314,8 @@ pub struct Unchecked {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     Function(FunctionKind),
+    /// A function of what `Model::at` gives.
+    At(FunctionKind),
     /// The program of `Params::check`.
     Checks,
     /// The mass matrix of `System::without_inertia`.

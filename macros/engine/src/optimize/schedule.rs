@@ -261,7 +261,7 @@ impl<'a> Scheduler<'a> {
     fn visit(&mut self, id: Id) {
         self.heading.clone_from(&self.headings[id]);
         let node = &self.dag.nodes[id];
-        if node.stage <= Stage::Parameter
+        if (node.stage <= Stage::Parameter || node.kind == Kind::Stored)
             && id != ONE
             && let Some((negative, field)) = self.field(id)
         {
@@ -271,6 +271,7 @@ impl<'a> Scheduler<'a> {
         }
         let (expression, size) = match &node.kind {
             Kind::One => (Expression::Literal(1.0), 1),
+            Kind::Stored => raise("what is stored has a field"),
             Kind::Symbol(symbol) => match self.dag.symbols[symbol.0] {
                 // Outside its iteration an unknown is read only by values that don't change with it.
                 Symbol::Unknown { .. } => (Expression::Literal(1.0), 1),

@@ -56,6 +56,41 @@ pub fn split(dag: &mut Dag) {
     }
 }
 
+/// The same of what the position decides, for sums and products of which more is known later: as many operations as before, of
+/// which fewer are left. `inside` are values that have no meaning outside of their iteration.
+pub fn split_positions(dag: &mut Dag, inside: &[bool]) {
+    let is_early = |dag: &Dag, id: Id| {
+        dag.nodes[id].stage <= Stage::Position && !dag.is_mask(id) && !inside.get(id).copied().unwrap_or(false)
+    };
+    for id in dag.order() {
+        if dag.nodes[id].stage <= Stage::Position || inside[id] {
+            continue;
+        }
+        match dag.nodes[id].kind.clone() {
+            Kind::Sum(terms) => {
+                let (now, mut later): (Vec<_>, Vec<_>) = terms.into_iter().partition(|&(_, t)| is_early(dag, t));
+                let scales = |&(c, t): &(Number, Id)| dag.nodes[t].stage > Stage::Parameter && !c.is_unit();
+                if now.len() > 1 || now.iter().any(scales) {
+                    let sum = dag.sum(now);
+                    later.push(if sum.1 == ONE { sum } else { (Number::ONE, dag.plain(sum)) });
+                    let list = dag.normal_terms(later);
+                    dag.rewrite(id, Kind::Sum(list));
+                }
+            }
+            Kind::Product(factors) => {
+                let (now, mut later): (Vec<Id>, Vec<Id>) = factors.into_iter().partition(|&f| is_early(dag, f));
+                if now.len() > 1 {
+                    let product = dag.product(now);
+                    later.push(dag.plain(product));
+                    later.sort_unstable();
+                    dag.rewrite(id, Kind::Product(later));
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
 fn early(dag: &Dag, id: Id) -> bool {
     dag.nodes[id].stage <= Stage::Parameter
 }

@@ -8,6 +8,7 @@
 //! value at any state that was tried is accepted, and said in the module's documentation ([`Compiled::unchecked`]).
 
 mod arithmetic;
+mod at;
 mod laws;
 mod linear;
 mod machine;
@@ -41,9 +42,9 @@ const FURTHER: usize = 16;
 /// Compiles a derivation, and checks what comes of it.
 pub fn compile(model: &Model, structure: &Structure, derivation: &Derivation) -> Result<Compiled, Refusal> {
     let mut compiled = optimize::compile_with(derivation, Plain::default(), model.fused)?;
-    let (mut functions, mut checks) = (Vec::new(), false);
+    let (mut functions, mut at, mut checks) = (Vec::new(), false, false);
     loop {
-        let plain = Plain { functions: &functions, checks };
+        let plain = Plain { functions: &functions, at, checks };
         let found = check_with(model, structure, derivation, &compiled, plain);
         if let Some((a, b)) = found.broken {
             return Err(Refusal::Contradiction(a, b));
@@ -52,19 +53,23 @@ pub fn compile(model: &Model, structure: &Structure, derivation: &Derivation) ->
         if let Some(&kind) = found.wrong.iter().find(|kind| functions.contains(kind)) {
             return Err(Refusal::Wrong(kind));
         }
+        if let Some(kind) = found.wrong_at.filter(|_| at) {
+            return Err(Refusal::WrongAt(kind));
+        }
         if checks && found.wrong_checks {
             return Err(Refusal::WrongChecks);
         }
         if found.wrong_inertia {
             return Err(Refusal::WrongInertia);
         }
-        if found.wrong.is_empty() && !found.wrong_checks {
+        if found.wrong.is_empty() && found.wrong_at.is_none() && !found.wrong_checks {
             compiled.unchecked = found.unchecked;
             return Ok(compiled);
         }
         functions.extend(found.wrong);
+        at |= found.wrong_at.is_some();
         checks |= found.wrong_checks;
-        compiled = optimize::compile_with(derivation, Plain { functions: &functions, checks }, model.fused)?;
+        compiled = optimize::compile_with(derivation, Plain { functions: &functions, at, checks }, model.fused)?;
     }
 }
 
@@ -73,6 +78,8 @@ pub fn compile(model: &Model, structure: &Structure, derivation: &Derivation) ->
 pub struct Found {
     /// Functions whose programs don't have the values of their equations.
     pub wrong: Vec<FunctionKind>,
+    /// The first of the functions of what `Model::at` gives that is one.
+    pub wrong_at: Option<FunctionKind>,
     /// Whether the program of `Params::check` is one.
     pub wrong_checks: bool,
     /// Whether the mass matrix of `System::without_inertia` is one; it stands as it was derived.
@@ -193,22 +200,10 @@ pub fn check_with(
     let mut drawn = Drawn { states: &states, closing: closing.map(|pair| pair.1), list: HashMap::new() };
     let mut found = Found::default();
     for ((function, tape), lowered) in compiled.functions.iter().zip(&tapes).zip(&forms) {
-        let residual = match function.kind {
-            FunctionKind::ForwardDynamics | FunctionKind::Guess | FunctionKind::Margins => closing.is_some(),
-            // By loops of its own, or by those of the model.
-            FunctionKind::Kinematics(number) => {
-                closing.is_some() || structure.closures.get(number).is_some_and(Option::is_some)
-            }
-            _ => false,
-        };
+        let residual = has_residual(function.kind, structure, closing.is_some());
         let (plain, prelude) = (plain.functions.contains(&function.kind), Some(&compiled.prelude));
-        let subject = Subject { tape, lowered, plain, prelude, program: &function.program, residual };
-        // A parameter of zero shows nothing of what it multiplies: where one state must do, parameters are not at their defaults.
-        let numbers: &[usize] = match tape.nodes.len() {
-            0..=2_000 => &[0, 1, 2],
-            2_001..=10_000 => &[0, 1],
-            _ => &[1],
-        };
+        let subject = Subject { tape, lowered, plain, prelude, at: None, program: &function.program, residual };
+        let numbers = numbers(tape);
         let verdict = match function.kind {
             FunctionKind::Granted => drawn.compare_granted(&subject, numbers),
             _ => drawn.compare(&subject, numbers),
@@ -219,6 +214,9 @@ pub fn check_with(
             Verdict::Unclear(doubt) => found.unchecked.push(Unchecked { part: Part::Function(function.kind), doubt }),
         }
     }
+    at::check(derivation, compiled, plain.at, &tapes, &mut drawn, &mut found, |kind| {
+        has_residual(kind, structure, closing.is_some())
+    });
     check_checks(derivation, compiled, plain, &mut drawn, &mut found);
     check_inertia(derivation, compiled, &mut drawn, &mut found);
     let beside: Vec<Tape> =
@@ -249,6 +247,26 @@ pub fn check_with(
     found
 }
 
+/// Whether the last result of a function is what iterations leave; `closing` where the model's loops are closed by these.
+fn has_residual(kind: FunctionKind, structure: &Structure, closing: bool) -> bool {
+    match kind {
+        FunctionKind::ForwardDynamics | FunctionKind::Guess | FunctionKind::Margins => closing,
+        // By loops of its own, or by those of the model.
+        FunctionKind::Kinematics(number) => closing || structure.closures.get(number).is_some_and(Option::is_some),
+        _ => false,
+    }
+}
+
+/// States for a function. A parameter of zero shows nothing of what it multiplies: where one state must do, parameters are not
+/// at their defaults.
+fn numbers(tape: &Tape) -> &'static [usize] {
+    match tape.nodes.len() {
+        0..=2_000 => &[0, 1, 2],
+        2_001..=10_000 => &[0, 1],
+        _ => &[1],
+    }
+}
+
 /// The tests of parameters.
 fn check_checks(
     derivation: &Derivation,
@@ -264,7 +282,7 @@ fn check_checks(
     let tape = Tape::new(&derivation.graph, &roots);
     let lowered = Lowered::new(&derivation.graph, &roots);
     let (plain, program) = (plain.checks, &compiled.checks.program);
-    let subject = Subject { tape: &tape, lowered: &lowered, plain, prelude: None, program, residual: false };
+    let subject = Subject { tape: &tape, lowered: &lowered, plain, prelude: None, at: None, program, residual: false };
     match drawn.compare_granted(&subject, &[0, 1]) {
         Verdict::Right => {}
         Verdict::Wrong(_) => found.wrong_checks = true,
@@ -278,7 +296,7 @@ fn check_inertia(derivation: &Derivation, compiled: &Compiled, drawn: &mut Drawn
     let tape = Tape::new(&derivation.graph, roots);
     let lowered = Lowered::new(&derivation.graph, roots);
     let (plain, prelude) = (true, Some(&compiled.prelude));
-    let subject = Subject { tape: &tape, lowered: &lowered, plain, prelude, program, residual: false };
+    let subject = Subject { tape: &tape, lowered: &lowered, plain, prelude, at: None, program, residual: false };
     match drawn.compare(&subject, &[0, 1]) {
         Verdict::Right => {}
         Verdict::Wrong(_) => found.wrong_inertia = true,

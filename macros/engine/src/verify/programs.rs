@@ -95,6 +95,8 @@ pub(super) struct Subject<'a> {
     pub plain: bool,
     /// What computes the fields of the model, where the program reads them.
     pub prelude: Option<&'a Program>,
+    /// What is computed for a position before it, whose values stand behind the fields of the model.
+    pub at: Option<&'a Program>,
     pub program: &'a Program,
     /// Whether the last result is what an iteration has left: nothing but rounding where loops are closed.
     pub residual: bool,
@@ -120,8 +122,7 @@ impl Subject<'_> {
         let exact = Trace::<Doubled>::new(self.tape, &symbol).roots();
         let look = |symbol| states.value(state, symbol);
         let nothing = Reads { symbol: &look, fields: &[], deficient: &[], rounds: usize::MAX };
-        let fields = self.prelude.map_or_else(Vec::new, |prelude| machine::run(prelude, &nothing));
-        let results = machine::run(self.program, &Reads { fields: &fields, ..nothing });
+        let results = self.run(&nothing);
         let largest = exact.iter().fold(0.0_f64, |largest, x| largest.max(x.high.abs()));
         let clear = exact.iter().all(|x| x.high.is_finite()) && largest > POOR;
         let off = |(result, exact): (&f64, &Doubled)| (Doubled::of(*result).sub(*exact)).high.abs();
@@ -137,6 +138,16 @@ impl Subject<'_> {
         }
     }
 
+    /// Results of the program, and of what runs before it; `reads` without fields.
+    fn run(&self, reads: &Reads<'_>) -> Vec<f64> {
+        let mut fields = Vec::new();
+        for before in self.prelude.into_iter().chain(self.at) {
+            let values = machine::run(before, &Reads { fields: &fields, ..*reads });
+            fields.extend(values);
+        }
+        machine::run(self.program, &Reads { fields: &fields, ..*reads })
+    }
+
     fn compare_roots(
         &self,
         states: &States<'_>,
@@ -150,9 +161,7 @@ impl Subject<'_> {
         let deficient = exact.deficient();
         let look = |symbol| states.value(state, symbol);
         let nothing = Reads { symbol: &look, fields: &[], deficient: &[], rounds };
-        let fields = self.prelude.map_or_else(Vec::new, |prelude| machine::run(prelude, &nothing));
-        let reads = Reads { symbol: &look, fields: &fields, deficient: &deficient, rounds };
-        let results = machine::run(self.program, &reads);
+        let results = self.run(&Reads { deficient: &deficient, ..nothing });
         let own = |tape| Trace::<f64>::rounds(tape, &symbol, rounds).roots();
         let count = self.tape.roots.len();
         let sizes = LazyCell::new(|| Trace::<f64>::rounds(self.lowered.tape(), &symbol, rounds));

@@ -30,6 +30,7 @@ pub(crate) fn rebuild(from: &Graph, dag: &Dag) -> (Graph, Vec<Scalar>) {
                 let arguments = of(&made, arguments);
                 g.call(*call, &arguments)
             }
+            Kind::Stored => unreachable!("passes know no stored values"),
             Kind::Output { block, index } => {
                 let block = &dag.blocks[*block];
                 let operands = of(&made, &block.operands);

@@ -108,6 +108,7 @@ fn case(k: usize) -> (Model, Compiled, f64) {
         symbols,
         symbol_names,
         functions,
+        at: Vec::new(),
         notes: Vec::new(),
         dead_centres: Vec::new(),
         modes: None,

@@ -95,6 +95,7 @@ pub fn empty(module: &str) -> Model {
         kinematics: Vec::new(),
         assembly: None,
         output_groups: Vec::new(),
+        at: Vec::new(),
     }
 }
 
@@ -272,6 +273,7 @@ pub fn pendulum() -> (Model, Compiled) {
         ),
         prelude_cost: Cost { mul: 4, div: 2, ..Cost::default() },
         checks: Default::default(),
+        at: None,
         inertia: Default::default(),
         sound: true,
         unchecked: Vec::new(),
@@ -431,6 +433,7 @@ fn everything_read(model: &Model) -> Compiled {
         prelude: program(&[], vec![], vec![sum(&params)]),
         prelude_cost: Cost::default(),
         checks: Default::default(),
+        at: None,
         inertia: Default::default(),
         sound: true,
         unchecked: Vec::new(),

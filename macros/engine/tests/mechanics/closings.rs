@@ -405,6 +405,7 @@ fn a_leg_costs_what_it_should() {
                     kind: FunctionKind::Constraints,
                     candidates: vec![("one", Results::vector(residuals))],
                 }],
+                at: Vec::new(),
                 notes: Vec::new(),
                 dead_centres: Vec::new(),
                 modes: None,

@@ -129,6 +129,7 @@ fn case(seed: u64) -> Case {
         symbols,
         symbol_names,
         functions,
+        at: Vec::new(),
         notes: Vec::new(),
         dead_centres: Vec::new(),
         modes: None,

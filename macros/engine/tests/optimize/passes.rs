@@ -143,6 +143,7 @@ fn derivation(
         symbols,
         symbol_names,
         functions,
+        at: Vec::new(),
         notes: Vec::new(),
         dead_centres: Vec::new(),
         modes: None,

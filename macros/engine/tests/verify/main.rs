@@ -1,6 +1,7 @@
 //! The check of compiled programs in numbers: it accepts every model of the project, and tells every error that is put in.
 
 mod accepted;
+mod at;
 mod breaks;
 #[path = "../common/corpus.rs"]
 mod corpus;

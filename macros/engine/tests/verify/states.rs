@@ -355,7 +355,7 @@ fn results_without_digits_excuse_nothing() {
     let compiled = verify::compile(&case.model, &case.structure, &case.derivation).unwrap();
     assert_eq!(compiled.unchecked, []);
     let functions = [FunctionKind::Outputs];
-    for plain in [optimize::Plain::default(), optimize::Plain { functions: &functions, checks: false }] {
+    for plain in [optimize::Plain::default(), optimize::Plain { functions: &functions, at: true, checks: false }] {
         let compiled = optimize::compile_with(&case.derivation, plain, false).unwrap();
         let check = |compiled: &_| verify::check_with(&case.model, &case.structure, &case.derivation, compiled, plain);
         let found = check(&compiled);

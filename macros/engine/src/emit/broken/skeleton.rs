@@ -12,7 +12,7 @@ use crate::contracts::results::Parts;
 use crate::emit::{context, module};
 use crate::mechanics;
 use crate::model::{Checked, Soundness};
-use crate::optimize::program::{Compiled, Function, Program};
+use crate::optimize::program::{At, Compiled, Function, Program};
 
 use super::guesses;
 
@@ -31,7 +31,18 @@ pub fn skeleton(checked: &Checked) -> TokenStream {
         (_, Asked::Found) => Vec::new(),
         (_, Asked::By { .. } | Asked::Outputs | Asked::Equations | Asked::Guesses) => vec![kind],
     });
-    compiled.functions.extend(kinds.map(|kind| Function {
+    compiled.functions.extend(kinds.map(stand_in));
+    if !model.at.is_empty() {
+        let kinds = compiled.functions.iter().map(|function| function.kind);
+        let named = kinds.filter(|kind| model.at.iter().any(|wanted| kind.method(model) == wanted.name));
+        compiled.at = Some(At { functions: named.map(stand_in).collect(), ..At::default() });
+    }
+    module(&context(model, &structure, &compiled, true))
+}
+
+/// A function without a body.
+fn stand_in(kind: FunctionKind) -> Function {
+    Function {
         kind,
         parts: Parts::default(),
         program: Program::default(),
@@ -40,6 +51,5 @@ pub fn skeleton(checked: &Checked) -> TokenStream {
         method: "",
         candidate: 0,
         rivals: Vec::new(),
-    }));
-    module(&context(model, &structure, &compiled, true))
+    }
 }

@@ -70,7 +70,15 @@ pub(in crate::emit) fn lines(context: &Context<'_>) -> Vec<String> {
             let f = &compiled.functions[number];
             row(&functions::name(layout.model, f.kind), vec![cell(f.method), cost(&f.after), cost(&f.before)])
         });
-        std::iter::once(row("new", new)).chain(functions)
+        let at = compiled.at.iter().flat_map(|at| {
+            let own = row("at", vec![String::new(), cost(&at.cost), String::new()]);
+            let functions = at.functions.iter().map(|f| {
+                let name = format!("at.{}", functions::name(layout.model, f.kind));
+                row(&name, vec![cell(f.method), cost(&f.after), cost(&f.before)])
+            });
+            std::iter::once(own).chain(functions)
+        });
+        std::iter::once(row("new", new)).chain(functions).chain(at)
     });
     lines.extend(unchecked::lines(&facts));
     if facts.is_separable {

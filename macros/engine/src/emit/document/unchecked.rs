@@ -33,6 +33,7 @@ pub(super) fn items(context: &Context<'_>) -> Vec<String> {
 fn item(model: &Model, unchecked: &Unchecked) -> String {
     let what = match unchecked.part {
         Part::Function(kind) => format!("`{}`", functions::name(model, kind)),
+        Part::At(kind) => format!("`At::{}`", functions::name(model, kind)),
         Part::Checks => "`Params::check`".to_string(),
         Part::Inertia => "`System::without_inertia`".to_string(),
         Part::Law(between) => between.to_string(),

@@ -26,10 +26,22 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
     let functions =
         || compiled.functions.iter().map(|function| (functions::name(context.layout.model, function.kind), function));
     let after = functions().map(|(name, function)| row(krate, name, &function.after));
-    let costs = std::iter::once(row(krate, "new".into(), &compiled.prelude_cost)).chain(after);
+    let at = compiled.at.iter().flat_map(|at| {
+        let functions = at.functions.iter();
+        let name = |kind| format!("at.{}", functions::name(context.layout.model, kind));
+        let functions = functions.map(move |function| row(krate, name(function.kind).into(), &function.after));
+        std::iter::once(row(krate, "at".into(), &at.cost)).chain(functions)
+    });
+    let costs = std::iter::once(row(krate, "new".into(), &compiled.prelude_cost)).chain(after).chain(at);
     let derived = functions().map(|(name, function)| row(krate, name, &function.before));
+    let docs = match compiled.at {
+        None => " Operation counts of every function, and of `Model::new`.",
+        Some(_) => {
+            " Operation counts of every function, of `Model::new`, of `Model::at` and of the functions that go on from there."
+        }
+    };
     quote! {
-        /// Operation counts of every function, and of `Model::new`.
+        #[doc = #docs]
         pub const COSTS: &[#krate::Cost] = &[#(#costs),*];
         /// The same of every function as it was derived, before optimisation, with the work on parameters in it.
         pub const DERIVED: &[#krate::Cost] = &[#(#derived),*];

@@ -1,6 +1,7 @@
 //! Stage `emit`: the items of a generated module, one file each.
 
 mod assembly;
+mod at;
 mod check;
 mod conversions;
 mod costs;
@@ -40,6 +41,7 @@ pub(super) fn all(context: &Context<'_>) -> TokenStream {
         differentiable::item(context),
         separable::item(context),
         assembly::items(context).unwrap_or_default(),
+        at::items(context).unwrap_or_default(),
         impulses::items(context),
         verifiable::item(context).unwrap_or_default(),
         parts::items(context),

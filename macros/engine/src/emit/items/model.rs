@@ -65,7 +65,14 @@ fn new(context: &Context<'_>) -> TokenStream {
     let locals = names::unique(prelude.locals.iter().map(String::as_str), RESERVED);
     let mut body = body(
         prelude,
-        &Names { layout: &context.layout, locals: &locals, fields: &[], commented: context.commented, packed: false },
+        &Names {
+            layout: &context.layout,
+            locals: &locals,
+            fields: &[],
+            stored: None,
+            commented: context.commented,
+            packed: false,
+        },
     );
     let value = if context.hollow {
         body.statements = TokenStream::new();

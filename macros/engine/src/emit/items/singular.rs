@@ -69,7 +69,14 @@ fn own(context: &Context<'_>, program: &Program) -> (TokenStream, TokenStream) {
     let locals = names::unique(program.locals.iter().map(String::as_str), RESERVED);
     let body = body(
         program,
-        &Names { layout, locals: &locals, fields: &context.fields, commented: context.commented, packed: false },
+        &Names {
+            layout,
+            locals: &locals,
+            fields: &context.fields,
+            stored: None,
+            commented: context.commented,
+            packed: false,
+        },
     );
     let statements = body.statements;
     let matrix = leaf::matrix(layout.krate(), layout.dof(), layout.dof(), &mut body.results.into_iter());

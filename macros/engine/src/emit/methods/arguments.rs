@@ -62,6 +62,17 @@ impl Arguments {
         self.declared(layout, &BTreeSet::new(), Some(quote!(A)))
     }
 
+    /// What a function of what `Model::at` gives takes: what its meaning demands beside the position, and what its program reads.
+    pub(in crate::emit) fn declare_at(self, layout: &Layout<'_>, roots: &BTreeSet<Root>) -> TokenStream {
+        let v = named(roots.contains(&Root::Velocity), "v");
+        let v = self.state.then(|| quote!(#v: &Velocity<T>,));
+        let input = named(roots.contains(&Root::Input), "input");
+        let has_inputs = !layout.is_empty(StructKind::Input, None);
+        let input = (self.input && has_inputs).then(|| quote!(#input: &Input<T>,));
+        let others = self.others(layout, roots).into_iter().map(|(name, ty)| quote!(#name: #ty));
+        quote!(#v #input #(#others),*)
+    }
+
     fn declared(self, layout: &Layout<'_>, roots: &BTreeSet<Root>, refused: Option<TokenStream>) -> TokenStream {
         let list = self.each(layout, roots, refused).into_iter().map(|(name, ty)| quote!(#name: #ty));
         quote!(#(#list),*)
@@ -79,8 +90,6 @@ impl Arguments {
         roots: &BTreeSet<Root>,
         refused: Option<TokenStream>,
     ) -> Vec<(Ident, TokenStream)> {
-        let named = |read: bool, name: &str| names::ident(&format!("{}{name}", if read { "" } else { "_" }));
-        let krate = layout.krate();
         let mut list = Vec::new();
         if self.time {
             let t = named(roots.contains(&Root::Time), "t");
@@ -99,6 +108,14 @@ impl Arguments {
             let (input, ty) = (named(roots.contains(&Root::Input), "input"), input_type(layout));
             list.push((input, quote!(&#ty)));
         }
+        list.extend(self.others(layout, roots));
+        list
+    }
+
+    /// What comes behind the state and the input.
+    fn others(self, layout: &Layout<'_>, roots: &BTreeSet<Root>) -> Vec<(Ident, TokenStream)> {
+        let krate = layout.krate();
+        let mut list = Vec::new();
         if self.accel {
             let accel = named(roots.contains(&Root::Acceleration), "accel");
             list.push((accel, quote!(&Velocity<T>)));
@@ -158,6 +175,11 @@ impl Arguments {
     pub(in crate::emit) fn has_input(self) -> bool {
         self.input
     }
+}
+
+/// A name, with `_` in front where nothing reads it.
+fn named(read: bool, name: &str) -> Ident {
+    names::ident(&format!("{}{name}", if read { "" } else { "_" }))
 }
 
 const OF_STATE: [Root; 4] = [Root::Position, Root::Velocity, Root::States, Root::Guess];

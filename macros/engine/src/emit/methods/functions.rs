@@ -23,14 +23,7 @@ use crate::contracts::function::Arguments;
 
 /// Name of the method.
 pub fn name(model: &Model, kind: FunctionKind) -> Cow<'static, str> {
-    match kind {
-        FunctionKind::OutputGroup(number) => {
-            let group = model.output_groups.get(number).map(|group| names::plain(&group.name));
-            Cow::Owned([Some(kind.row().name.to_owned()), group].into_iter().flatten().collect::<Vec<_>>().join("_"))
-        }
-        FunctionKind::Kinematics(number) if number > 0 => Cow::Owned(format!("{}_{}", kind.row().name, number + 1)),
-        kind => Cow::Borrowed(kind.row().name),
-    }
+    kind.method(model)
 }
 
 /// Name of the method, at the word in `emit` that asks for it.
@@ -92,7 +85,14 @@ pub(in crate::emit) fn method(context: &Context<'_>, function: &Function) -> Tok
         let locals = names::unique(function.program.locals.iter().map(String::as_str), RESERVED);
         let body = body(
             &function.program,
-            &Names { layout, locals: &locals, fields: &context.fields, commented: context.commented, packed: false },
+            &Names {
+                layout,
+                locals: &locals,
+                fields: &context.fields,
+                stored: None,
+                commented: context.commented,
+                packed: false,
+            },
         );
         let statements = body.statements;
         let value = results::value(layout, kind, body.results);

@@ -30,7 +30,8 @@ pub(super) fn method(context: &Context<'_>, function: &Function, named: &BTreeSe
     let cut = Parts::new(&program, &live, context.part);
     let reserved: Vec<&str> = RESERVED.iter().copied().chain([KEPT]).collect();
     let locals = names::unique(program.locals.iter().map(String::as_str), &reserved);
-    let names = Names { layout, locals: &locals, fields: &context.fields, commented: context.commented, packed: false };
+    let (fields, commented) = (&context.fields, context.commented);
+    let names = Names { layout, locals: &locals, fields, stored: None, commented, packed: false };
     let read = functions::roots(&program);
     let arguments = Arguments::of(function.kind, &read).read(&read);
     let writing = Writing { program: &program, live: &live, names: &names, arguments, places: cut.places };

@@ -12,7 +12,7 @@ use crate::emit::layout::Layout;
 use crate::emit::layout::leaf;
 use crate::emit::names;
 use crate::invariant::injection::{Break, broken};
-use crate::optimize::program::Expression;
+use crate::optimize::program::{Expression, FieldId};
 
 use super::literals;
 
@@ -32,6 +32,8 @@ pub(in crate::emit) struct Names<'a> {
     pub(in crate::emit) layout: &'a Layout<'a>,
     pub(in crate::emit) locals: &'a [Ident],
     pub(in crate::emit) fields: &'a [Ident],
+    /// In functions of what `Model::at` gives: its own fields, numbered behind those of the model.
+    pub(in crate::emit) stored: Option<&'a [Ident]>,
     /// Whether statements stand under headings, as `#[doc = "// .."]`.
     pub(in crate::emit) commented: bool,
     /// Whether operations are those of packs.
@@ -65,10 +67,17 @@ impl Names<'_> {
                 quote!(- #operand)
             }
             Expression::Symbol(symbol) => self.layout.symbol(*symbol),
-            Expression::Field(field) => {
-                let field = &self.fields[field.0];
-                quote!(self.#field)
-            }
+            Expression::Field(FieldId(field)) => match (self.stored, self.fields.get(*field)) {
+                (None, _) => {
+                    let field = &self.fields[*field];
+                    quote!(self.#field)
+                }
+                (Some(_), Some(field)) => quote!(self.model.#field),
+                (Some(stored), None) => {
+                    let field = &stored[*field - self.fields.len()];
+                    quote!(self.#field)
+                }
+            },
             Expression::Local(local) => {
                 let local = &self.locals[local.0];
                 quote!(#local)

@@ -270,6 +270,7 @@ fn weight(expression: &Expression) -> usize {
         Expression::Product(list) => list.len().saturating_sub(1) + list.iter().map(weight).sum::<usize>(),
         Expression::Quotient(above, below) => 1 + weight(above) + weight(below),
         Expression::Call(_, list) => 1 + list.iter().map(weight).sum::<usize>(),
+        Expression::Fused(operands) => 2 + operands.iter().map(weight).sum::<usize>(),
         Expression::Pack(list) => list.iter().map(weight).sum(),
     }
 }

@@ -73,6 +73,7 @@ impl<'a> Checker<'a, '_> {
             emit.push(Request::ForwardDynamics);
         }
         let outputs = self.filled_outputs();
+        let output_groups = self.output_groups(&collected.requested.outputs, &outputs);
         let model = Model {
             params: self.filled_params().into(),
             inputs: self.filled_inputs().into(),
@@ -89,7 +90,8 @@ impl<'a> Checker<'a, '_> {
             solve_for: collected.requested.solve_for,
             kinematics: loops.kinematics,
             assembly: loops.assembly,
-            output_groups: self.output_groups(&collected.requested.outputs, &outputs),
+            at: self.at_functions(collected.requested.at, &emit, &outputs, &output_groups),
+            output_groups,
             outputs,
             emit,
             ..self.blank(module)

@@ -1,5 +1,6 @@
 //! Room `items`: one file per item of the language, from its fields to its place in the checked model.
 
+pub(super) mod at;
 pub(super) mod bodies;
 pub(super) mod coordinates;
 pub(super) mod fields;

@@ -20,7 +20,7 @@ use crate::syntax::tree;
 
 use super::fields::{Known, field};
 
-const REQUESTS: [(&str, Request); 17] = [
+const REQUESTS: [(&str, Request); 18] = [
     ("forward_dynamics", Request::ForwardDynamics),
     ("inverse_dynamics", Request::InverseDynamics),
     ("mass_matrix", Request::MassMatrix),
@@ -36,6 +36,7 @@ const REQUESTS: [(&str, Request); 17] = [
     ("impulse", Request::Impulse),
     ("momentum", Request::Momentum),
     ("outputs", Request::Outputs),
+    ("at", Request::At),
     ("report", Request::Report),
     ("equations", Request::Equations),
 ];
@@ -97,6 +98,8 @@ pub(in crate::model) struct Requested<'a> {
     pub(in crate::model) assembly: Option<(&'a tree::Request, ScopeId)>,
     /// Groups of outputs, read when all outputs are known.
     pub(in crate::model) outputs: Vec<&'a tree::Fields>,
+    /// Functions that go on from a position, read when all else that is asked for is known.
+    pub(in crate::model) at: Option<&'a tree::Request>,
     /// Where `constraints` is asked for.
     pub(in crate::model) constraints: Option<Span>,
 }
@@ -127,6 +130,8 @@ impl<'a> Checker<'a, '_> {
                     continue;
                 } else if *found == Request::AssemblyModes {
                     into.assembly = Some((request, scope));
+                } else if *found == Request::At {
+                    into.at = Some(request);
                 } else {
                     self.options(request, scope, into);
                 }

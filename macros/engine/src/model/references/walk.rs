@@ -210,7 +210,9 @@ impl<'a> Walk<'a> {
                     let fields = request.options.as_ref().filter(|_| request.name != "outputs");
                     self.word("emit", request.name.clone(), fields);
                     let options = request.options.iter().flat_map(|options| &options.list);
-                    options.for_each(|option| self.expr(&option.value));
+                    // What `at` lists are functions, whatever the user's names are.
+                    let values = options.filter(|_| request.name != "at").map(|option| &option.value);
+                    values.for_each(|value| self.expr(value));
                 }
             }
         }

@@ -41,6 +41,7 @@ const EMIT: Room = &[
     ("impulse", &[]),
     ("momentum", &[]),
     ("outputs", &[]),
+    ("at", &["functions"]),
     ("report", &[]),
     ("equations", &[]),
 ];
