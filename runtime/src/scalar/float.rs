@@ -9,6 +9,7 @@ compile_error!("multibody needs elementary functions: turn on the feature `std` 
 
 /// Whether a product and a sum are one instruction that rounds once, and the user has asked for it. Targets without std have
 /// no function for it in `core`, and where bits are the same everywhere there is none.
+#[cfg(any(feature = "std", feature = "wide"))]
 pub(crate) const FUSED: bool = cfg!(all(
     feature = "fma",
     feature = "std",
