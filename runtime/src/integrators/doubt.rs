@@ -30,7 +30,7 @@ impl Doubt {
     ) -> Self {
         let one = S::Scalar::lit(1.0);
         let ambiguity = problem.ambiguity(t, next);
-        if !scope.any(Real::ge(ambiguity, one) & finite(&magnitude(end))) {
+        if !scope.any(Real::ge(ambiguity, one)) || !scope.all(finite(&magnitude(end))) {
             return Self::None;
         }
         let ((_, before, _), (_, after, _)) = (end.split(), next.split());
