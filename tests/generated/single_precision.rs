@@ -40,6 +40,7 @@ fn decides(function: &str) -> bool {
     let controls = [
         "controlled_",
         "integrators7control",
+        "integrators6course",
         "integrators7outlook",
         "integrators3run",
         "5radau6newton",

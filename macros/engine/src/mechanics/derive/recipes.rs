@@ -13,7 +13,7 @@ use crate::mechanics::translate::forces::LoadCase;
 use crate::model::types::Output;
 use crate::symbolic::graph::Scalar;
 
-use super::{AXES, COMPOSITE, Candidates, Deriving, Found, NEWTON_EULER, Names};
+use super::{AXES, COMPOSITE, Candidates, Deriving, Found, MOST_COMPOSITE, NEWTON_EULER, Names, freedoms};
 
 /// Results from the tree, and with the definitions of dependent coordinates.
 type OnTree = fn(&mut Equations<'_>) -> Found;
@@ -278,7 +278,7 @@ impl Deriving<'_> {
                 Way::Chosen(f) => f(self, kind)?,
             });
         }
-        let is_large = ways.iter().any(|way| matches!(way, Way::FarOut(..))) && candidates.len() > 1;
+        let is_large = ways.iter().any(|way| matches!(way, Way::FarOut(..))) && freedoms(self.model) > MOST_COMPOSITE;
         Ok(if is_large { self.promising(candidates) } else { candidates })
     }
 
