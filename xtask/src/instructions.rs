@@ -1,7 +1,7 @@
 //! Instructions of the functions in `benches/instructions.rs`, as callgrind counts them, against `benches/instructions.txt`.
 //!
-//! A count changes with the compiler, so the file names the one that made it, and with another one counts are shown and judged by
-//! nobody. With the same one a count that is off by more than [`TOLERANCE`] fails, less or more: `--accept` writes the file
+//! A count changes with the compiler, and where a single sine is the platform's with the C library and its choice for the processor. So
+//! the file names these, and elsewhere counts are shown and judged by nobody. With the same ones a count that is off by more than [`TOLERANCE`] fails, less or more: `--accept` writes the file
 //! anew, to be read in review.
 
 use crate::{Stop, command, output, root};
@@ -22,16 +22,15 @@ pub(crate) fn run(accept: bool) -> Result<bool, Stop> {
     bench.args(["bench", "--quiet", "--package", "multibody-benches", "--bench", "instructions", "--"]);
     bench.arg("--output-format=json").env("GUNGRAUN_RUNNER", runner).env_remove("RUSTFLAGS").current_dir(root());
     let counts = parse(&output(&mut bench)?)?;
-    let compiler = output(command("rustc").arg("--version"))?;
-    let (compiler, path) = (compiler.trim(), root().join("benches/instructions.txt"));
+    let (makers, path) = (makers()?, root().join("benches/instructions.txt"));
     if accept {
-        fs::write(path, text(compiler, &counts))?;
+        fs::write(path, text(&makers, &counts))?;
         return Ok(true);
     }
     let (made_by, expected) = read(&fs::read_to_string(path)?)?;
-    let comparable = made_by == compiler;
+    let comparable = made_by == makers;
     if !comparable {
-        println!("counts are those of {made_by}, this is {compiler}: none is judged");
+        println!("counts are those of {made_by}, this is {makers}: none is judged");
     }
     let mut passed = counts.keys().eq(expected.keys());
     if !passed {
@@ -47,6 +46,15 @@ pub(crate) fn run(accept: bool) -> Result<bool, Stop> {
     }
     println!("{} functions", counts.len());
     Ok(passed)
+}
+
+/// What counts depend on.
+fn makers() -> Result<String, Stop> {
+    let compiler = output(command("rustc").arg("--version"))?;
+    let library = output(command("ldd").arg("--version")).unwrap_or_default();
+    let processor = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let fused = if processor.split_whitespace().any(|flag| flag == "fma") { "fma" } else { "no fma" };
+    Ok(format!("{}; {}; {fused}", compiler.trim(), library.lines().next().unwrap_or("another C library").trim()))
 }
 
 /// The program that runs such benches, in the version of its library; installed into `target/tools`.
@@ -86,19 +94,19 @@ fn find<'a>(value: &'a Value, key: &str) -> Option<&'a Value> {
     }
 }
 
-fn text(compiler: &str, counts: &Counts) -> String {
+fn text(makers: &str, counts: &Counts) -> String {
     let lines = counts.iter().map(|(name, count)| format!("{name} {count}\n"));
-    std::iter::once(format!("{compiler}\n")).chain(lines).collect()
+    std::iter::once(format!("{makers}\n")).chain(lines).collect()
 }
 
 fn read(text: &str) -> Result<(String, Counts), Stop> {
-    let (compiler, lines) = text.split_once('\n').ok_or("benches/instructions.txt is empty")?;
+    let (makers, lines) = text.split_once('\n').ok_or("benches/instructions.txt is empty")?;
     let mut counts = Counts::new();
     for line in lines.lines() {
         let (name, count) = line.split_once(' ').ok_or("a line of benches/instructions.txt has no count")?;
         counts.insert(name.to_owned(), count.parse()?);
     }
-    Ok((compiler.to_owned(), counts))
+    Ok((makers.to_owned(), counts))
 }
 
 #[cfg(test)]
