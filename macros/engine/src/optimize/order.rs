@@ -8,7 +8,7 @@
 //! operands lie on the stack. Compilers keep close to the order of the source in blocks of this size. So statements are listed
 //! anew: of those whose operands are there, the one with the longest way to a result comes first, counted in the cycles of its operations (list
 //! scheduling by critical paths). Register pressure weighs against it (as in Goodman and Hsu 1988, by one weight in the place of their
-//! switch): a statement is put off by [`ROOM`] cycles for each value that it makes, and preferred by as many for each that it is the last one
+//! switch): a statement is put off by `ROOM` cycles for each value that it makes, and preferred by as many for each that it is the last one
 //! to read, by half as many where one other reader is left, and so on. Ties go to the order as it was.
 //!
 //! Of more than [`MANY`] statements what is kept counts alone: from the results down, of the operands of a statement the one first that takes most
