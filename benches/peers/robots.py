@@ -31,6 +31,8 @@ EMITTED = {
     "four_legged": (None, "forward_dynamics, derivatives"),
     "humanoid": ("mass_matrix", "forward_dynamics"),
 }
+# Robots with limbs that are computed four at a time too.
+PACKED = ["four_legged"]
 
 
 class Link:
@@ -100,10 +102,12 @@ def words(robot):
     return "\n".join(lines) + "\n"
 
 
-def module(robot, driven):
+def module(robot, driven, packed=False):
     """A macro call."""
-    lines = ["multibody! {", f"    pub mod {robot.name}{'_driven' if driven else ''} {{"]
+    lines = ["multibody! {", f"    pub mod {robot.name}{'_packed' if packed else '_driven' if driven else ''} {{"]
     items = [f"world {{ gravity: {vector(robot.gravity)} }}"]
+    if packed:
+        items.append("formulation { packs: Four }")
     if driven:
         items.append(f"input torque: [Scalar; {robot.joints}];")
     for k, link in enumerate(robot.links):
@@ -135,6 +139,8 @@ def models(robots):
         for driven in [False, True]:
             if EMITTED[robot.name][driven]:
                 text += "\n" + module(robot, driven)
+        if robot.name in PACKED:
+            text += "\n" + module(robot, True, packed=True)
     return text
 
 

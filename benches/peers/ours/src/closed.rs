@@ -40,7 +40,7 @@ macro_rules! multipliers {
             $length,
             1,
             Point,
-            |x| ($module::Model::default(), $samples.iter().find(|all| all.4.numbers() == x).expect("one of ours")),
+            |x| ($module::Model::default(), $samples.iter().find(|all| all.4.is(x)).expect("one of ours")),
             (|(model, all): &Point| model.forward_dynamics(0.0, &all.0, &all.1)),
             // The states themselves hold what this gives.
             (|(_, all): &Point, _, _| all.4.accel.clone()),
@@ -59,7 +59,7 @@ macro_rules! reduced {
             $length,
             1,
             Point,
-            |x| ($module::Model::default(), $samples.iter().find(|all| all.4.numbers() == x).expect("one of ours")),
+            |x| ($module::Model::default(), $samples.iter().find(|all| all.4.is(x)).expect("one of ours")),
             (|(model, all): &Point| model.forward_dynamics(0.0, &all.2, &all.3)),
             (|(_, all): &Point, _, accel: $module::Velocity<f64>| $results(*all, accel)),
         )
@@ -106,7 +106,7 @@ pub const SUBJECTS: &[Subject] = &[
             1,
             Point,
             |x| {
-                let all = STEWART.iter().find(|all| all.4.numbers() == x).expect("one of ours");
+                let all = STEWART.iter().find(|all| all.4.is(x)).expect("one of ours");
                 let model = stewart_reduced::Model::default();
                 (model, all.2, model.forward_dynamics(0.0, &all.2, &all.3), all.3.legs.map(|leg| leg.thrust))
             },
@@ -132,7 +132,7 @@ pub const SUBJECTS: &[Subject] = &[
             1,
             Point,
             |x| {
-                let all = STEWART.iter().find(|all| all.4.numbers() == x).expect("one of ours");
+                let all = STEWART.iter().find(|all| all.4.is(x)).expect("one of ours");
                 let model = stewart_reduced::Model::default();
                 (model, all.2, model.forward_dynamics(0.0, &all.2, &all.3))
             },

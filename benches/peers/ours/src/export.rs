@@ -9,6 +9,7 @@ pub const COUNT: usize = 64;
 
 /// This library, and what it was compiled for.
 pub const PROGRAM: &CStr = if cfg!(peers_native) { c"ours" } else { c"ours, any processor" };
+pub const PACKS: &CStr = if cfg!(peers_native) { c"ours, packs" } else { c"ours, packs, any processor" };
 pub const MULTIPLIERS: &CStr =
     if cfg!(peers_native) { c"ours, multipliers" } else { c"ours, multipliers, any processor" };
 

@@ -22,6 +22,13 @@ impl Sample {
     pub fn numbers(&self) -> Vec<f64> {
         [&self.q[..], &self.v, &self.accel, &self.effort].concat()
     }
+
+    /// Whether these are its numbers: up to rounding, since they may come from another build of this program, with fused
+    /// products where this one has none.
+    pub fn is(&self, numbers: &[f64]) -> bool {
+        let near = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-8 * (1.0 + a.abs());
+        self.numbers().iter().zip(numbers).all(near)
+    }
 }
 
 /// How a floating base moves: velocities and accelerations of its origin in ground axes, angular ones in its own.

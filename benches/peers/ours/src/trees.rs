@@ -6,10 +6,12 @@ use multibody::nalgebra::{DMatrix, SVector};
 use multibody::{Configuration, Pose};
 
 use crate::abi::{Subject, subject};
-use crate::export::{COUNT, PROGRAM};
+use crate::export::{COUNT, PACKS, PROGRAM};
 use crate::floating;
 use crate::random::Random;
-use crate::robots::{four_legged_driven, humanoid, humanoid_driven, panda, panda_driven, puma560, puma560_driven};
+use crate::robots::{
+    four_legged_driven, four_legged_packed, humanoid, humanoid_driven, panda, panda_driven, puma560, puma560_driven,
+};
 
 /// Random states of a tree with `joints` coordinates, on a floating base if `floats`; none of any other robot.
 pub fn states(robot: &CStr) -> Option<Vec<f64>> {
@@ -125,13 +127,16 @@ macro_rules! driven {
 
 /// A robot on a floating base with an input for each of its joints.
 macro_rules! floating {
-    ($name:literal, $function:literal, $module:ident, $joints:literal, $evaluate:expr, $results:expr) => {{
+    ($name:literal, $function:literal, $module:ident, $joints:literal, $evaluate:expr, $results:expr) => {
+        floating!($name, $function, PROGRAM, $module, $joints, $evaluate, $results)
+    };
+    ($name:literal, $function:literal, $program:expr, $module:ident, $joints:literal, $evaluate:expr, $results:expr) => {{
         const DOF: usize = 6 + $joints;
         type Point = ($module::Model<f64>, $module::State<f64>, $module::Input<f64>);
         subject!(
             $name,
             $function,
-            PROGRAM,
+            $program,
             1 + 4 * DOF,
             1,
             Point,
@@ -151,6 +156,39 @@ macro_rules! floating {
             $results,
         )
     }};
+}
+
+/// Forward dynamics of the four-legged robot, and its derivatives.
+macro_rules! four_legged {
+    (forward, $program:expr, $module:ident) => {
+        floating!(
+            c"four_legged",
+            c"forward",
+            $program,
+            $module,
+            12,
+            (|model: &$module::Model<f64>, state, input| model.forward_dynamics(0.0, state, input)),
+            (|(_, state, _): &Point, _, accel: $module::Velocity<f64>| {
+                let base = floating::accel(&state.q.float, &state.v.float, &accel.float);
+                [&base, &flat::<18>(accel)[6..]].concat()
+            })
+        )
+    };
+    (derivatives, $program:expr, $module:ident) => {
+        floating!(
+            c"four_legged",
+            c"derivatives",
+            $program,
+            $module,
+            12,
+            (|model: &$module::Model<f64>, state, input| model.forward_derivatives(0.0, state, input)),
+            (|(model, state, input): &Point, _, by: multibody::Derivatives<f64, 18, 18, 0, 12>| {
+                let accel = model.forward_dynamics(0.0, state, input);
+                let by = [dynamic(&by.position), dynamic(&by.velocity), dynamic(&by.input)];
+                columns(&floating::derivatives(&state.q.float, &state.v.float, &accel.float, by))
+            })
+        )
+    };
 }
 
 pub const SUBJECTS: &[Subject] = &[
@@ -184,29 +222,10 @@ pub const SUBJECTS: &[Subject] = &[
             columns(&[dynamic(&by.position), dynamic(&by.velocity), dynamic(&by.input)])
         })
     ),
-    floating!(
-        c"four_legged",
-        c"forward",
-        four_legged_driven,
-        12,
-        (|model: &four_legged_driven::Model<f64>, state, input| model.forward_dynamics(0.0, state, input)),
-        (|(_, state, _): &Point, _, accel: four_legged_driven::Velocity<f64>| {
-            let base = floating::accel(&state.q.float, &state.v.float, &accel.float);
-            [&base, &flat::<18>(accel)[6..]].concat()
-        })
-    ),
-    floating!(
-        c"four_legged",
-        c"derivatives",
-        four_legged_driven,
-        12,
-        (|model: &four_legged_driven::Model<f64>, state, input| model.forward_derivatives(0.0, state, input)),
-        (|(model, state, input): &Point, _, by: multibody::Derivatives<f64, 18, 18, 0, 12>| {
-            let accel = model.forward_dynamics(0.0, state, input);
-            let by = [dynamic(&by.position), dynamic(&by.velocity), dynamic(&by.input)];
-            columns(&floating::derivatives(&state.q.float, &state.v.float, &accel.float, by))
-        })
-    ),
+    four_legged!(forward, PROGRAM, four_legged_driven),
+    four_legged!(forward, PACKS, four_legged_packed),
+    four_legged!(derivatives, PROGRAM, four_legged_driven),
+    four_legged!(derivatives, PACKS, four_legged_packed),
     floating!(
         c"humanoid",
         c"forward",
