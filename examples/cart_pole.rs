@@ -1,21 +1,21 @@
 //! A pole on a cart: swung up from rest and balanced by a force on the cart.
 //!
-//! The feedback law is a `System` around the model, so that it acts at every stage of a step, as a continuous law does.
-//! A computer's law is held from one sample to the next: the same law given as an input, at 1 kHz and at 25 Hz.
+//! The feedback law in a closed loop acts at every stage of a step, as a continuous law does. A computer's law is held from
+//! one sample to the next: the same law sampled, at 1 kHz and at 25 Hz.
 //!
 //! `cargo run --release --example cart_pole`
 
 use std::f64::consts::{PI, TAU};
 
-use multibody::{ExtraOf, IntegrationError, Rk4, System, VelocityOf};
+use multibody::{IntegrationError, Rk4, closed_loop, sampled};
 
 #[path = "models/cart_pole.rs"]
 mod model;
 
 use model::cart_pole::{Input, Model, Params, State};
 
-/// The cart-pole with its controller: energy shaping until the pole is nearly up, then state feedback.
-struct Controlled {
+/// The controller, which knows the model: energy shaping until the pole is nearly up, then state feedback.
+struct Controller {
     plant: Model,
     /// [1/s^2] gravity over the pole's equivalent length, 2/3 of a rod's
     stiffness: f64,
@@ -23,7 +23,7 @@ struct Controlled {
     g: f64,
 }
 
-impl Controlled {
+impl Controller {
     /// Where the law stops pumping and balances.
     fn near(x: &State) -> bool {
         x.q.hinge.cos() > 0.93 && x.v.hinge.abs() < 2.5
@@ -58,20 +58,12 @@ impl Controlled {
     }
 }
 
-impl System for Controlled {
-    type Scalar = f64;
-    type State = State;
-    type Input = ();
-
-    fn derivative(&self, t: f64, x: &State, (): &()) -> (VelocityOf<Self>, ExtraOf<Self>) {
-        self.plant.derivative(t, x, &Input { push: self.push(t, x) })
-    }
-}
-
 fn main() -> Result<(), IntegrationError> {
     let params = Params::default();
     let stiffness = 1.5 * params.g / params.length;
-    let controlled = Controlled { plant: Model::new(&params), stiffness, g: params.g };
+    let controller = Controller { plant: Model::new(&params), stiffness, g: params.g };
+    let law = |t: f64, x: &State| Input { push: controller.push(t, x) };
+    let controlled = closed_loop(&controller.plant, law);
     let mut start = State::default();
     start.q.hinge = PI - 0.05; // rad, almost straight down
     let steps = 10_000;
@@ -79,28 +71,22 @@ fn main() -> Result<(), IntegrationError> {
     println!(" t [s]  phase    angle [rad]  push [N]  energy [J]    track from -1.5 m to 1.5 m");
     let (mut caught, mut next) = (None, 0.0);
     let end = Rk4::integrate(&controlled, 0.0, &start, &(), 1e-3, steps, |t, x| {
-        let catch = caught.is_none() && Controlled::near(x);
+        let catch = caught.is_none() && Controller::near(x);
         if catch {
             caught = Some(t);
         }
         if catch || t >= next {
-            show(&controlled, t, x);
+            show(&controller, t, x);
             next = t + if t < 5.0 { 0.25 } else { 1.0 };
         }
     })?;
     println!("\nUp after {:.3} s. Distance from rest upright in the middle after 10 s:", caught.unwrap_or(f64::NAN));
 
     report("law at every stage", &end);
-    for (rate, every) in [("1 kHz", 1), ("25 Hz", 40)] {
-        let (mut x, mut input) = (start, Input::default());
-        for k in 0..steps {
-            let t = 1e-3 * f64::from(k);
-            if k % every == 0 {
-                input.push = controlled.push(t, &x);
-            }
-            x = Rk4::step(&controlled.plant, t, &x, &input, 1e-3);
-        }
-        report(&format!("held, {rate}"), &x);
+    for (rate, period) in [("1 kHz", 1e-3), ("25 Hz", 0.04)] {
+        let held = sampled(&controller.plant, period, |t, x: &State, (): &mut ()| law(t, x));
+        let end = Rk4::integrate(&held, 0.0, &held.start(0.0, &start, ()), &(), 1e-3, steps, |_, _| ())?;
+        report(&format!("held, {rate}"), &end.state);
     }
     Ok(())
 }
@@ -111,10 +97,10 @@ fn upright(x: &State) -> f64 {
 }
 
 /// One line: numbers, and an arrow on the track, where the cart is and along the pole.
-fn show(controlled: &Controlled, t: f64, x: &State) {
-    let phase = if Controlled::near(x) { "balance" } else { "pump" };
-    let push = controlled.push(t, x);
-    let energy = controlled.plant.outputs(t, x, &Input { push }).energy;
+fn show(controller: &Controller, t: f64, x: &State) {
+    let phase = if Controller::near(x) { "balance" } else { "pump" };
+    let push = controller.push(t, x);
+    let energy = controller.plant.outputs(t, x, &Input { push }).energy;
     let turn = (upright(x) / TAU * 8.0).round().rem_euclid(8.0) as usize;
     let arrow = ['↑', '↖', '←', '↙', '↓', '↘', '→', '↗'][turn];
     let left = ((x.q.track + 1.5) * 10.0).clamp(0.0, 30.0) as usize;

@@ -8,7 +8,7 @@ use crate::{ExtraOf, Margin, Opening, System, VelocityOf};
 /// handed on, which a wrapper written by hand would have to do function by function: see [`System`].
 ///
 /// ```
-/// use multibody::{Feedback, Rk4, multibody};
+/// use multibody::{Rk4, closed_loop, multibody};
 ///
 /// multibody! {
 ///     mod cart {
@@ -18,7 +18,7 @@ use crate::{ExtraOf, Margin, Opening, System, VelocityOf};
 ///         force motor: Effort { joint: x, value: force }
 ///     }
 /// }
-/// let controlled = Feedback::new(cart::Model::<f64>::default(), |_t, state: &cart::State<f64>| {
+/// let controlled = closed_loop(cart::Model::<f64>::default(), |_t, state: &cart::State<f64>| {
 ///     cart::Input { force: -8.0 * state.q.x - 8.0 * state.v.x }
 /// });
 /// let start = cart::State { q: cart::Position { x: 1.0 }, ..cart::State::default() };
@@ -33,11 +33,10 @@ pub struct Feedback<S, F> {
     pub law: F,
 }
 
-impl<S: System, F: Fn(S::Scalar, &S::State) -> S::Input> Feedback<S, F> {
-    /// A system with the input that a law gives.
-    pub const fn new(system: S, law: F) -> Self {
-        Self { system, law }
-    }
+/// A system with the input that a law gives at every time and state: see [`Feedback`]. [`sampled`](crate::sampled) is the same with a
+/// law that acts once in a period.
+pub const fn closed_loop<S: System, F: Fn(S::Scalar, &S::State) -> S::Input>(system: S, law: F) -> Feedback<S, F> {
+    Feedback { system, law }
 }
 
 impl<S: System, F: Fn(S::Scalar, &S::State) -> S::Input> System for Feedback<S, F> {
@@ -56,6 +55,10 @@ impl<S: System, F: Fn(S::Scalar, &S::State) -> S::Input> System for Feedback<S, 
     #[inline]
     fn reached(&self, t: S::Scalar, state: &S::State) {
         self.system.reached(t, state);
+    }
+    #[inline]
+    fn horizon(&self, t: S::Scalar, state: &S::State) -> S::Scalar {
+        self.system.horizon(t, state)
     }
     #[inline]
     fn margins(&self, t: S::Scalar, state: &S::State, (): &(), visit: &mut dyn FnMut(Margin<S::Scalar>)) -> S::Scalar {

@@ -108,6 +108,7 @@ mod opening;
 pub mod pivots;
 pub mod projection;
 pub mod rotation;
+mod sampled;
 mod scalar;
 mod shake;
 mod simulate;
@@ -126,7 +127,7 @@ pub use cost::Cost;
 pub use differentiable::{Derivatives, Differentiable, Jacobian};
 pub use equation::Equation;
 pub use equilibrium::{Equilibrium, EquilibriumError, Free, constrained_equilibrium, equilibrium, trim};
-pub use feedback::Feedback;
+pub use feedback::{Feedback, closed_loop};
 pub use impulsive::Impulsive;
 pub use inertia::{ParamError, inertia_violation, is_held};
 pub use integrators::{
@@ -146,6 +147,7 @@ pub use projection::{
     Assembled, AssemblyError, Projected, Projection, ProjectionError, WithBaumgarte, WithProjection, WithRank,
     ambiguity, assemble,
 };
+pub use sampled::{Held, Sampled, sampled};
 pub use scalar::{Four, Packed, Real, all, any};
 pub use simba;
 pub use simulate::{simulate, simulate_lanes, simulate_stiff};

@@ -51,7 +51,8 @@ pub type ExtraOf<S> = <<S as System>::State as StateSpace>::Extra;
 /// A mechanical system that can be integrated in time.
 ///
 /// Generated models with forward dynamics implement it. A feedback law that is to be evaluated at every stage of a step, not
-/// held over the step as an input is, is a [`Feedback`](crate::Feedback) around the model. Other wrappers implement the
+/// held over the step as an input is, is a [`closed_loop`](crate::closed_loop) around the model; one that acts once in a period is
+/// [`sampled`](crate::sampled). Other wrappers implement the
 /// trait; around a model with loops they have to hand on every function of it, as all of the crate do, since without them
 /// integrators don't see open loops, dead centres and crossing motions. A controller around a system without loops:
 ///
@@ -138,6 +139,15 @@ pub trait System {
     #[inline]
     fn reached(&self, _t: Self::Scalar, _state: &Self::State) {}
 
+    /// `[s]` the time until which the motion from a state goes on by one law: where it changes at a time that is known before,
+    /// as the input that [`Sampled`](crate::Sampled) holds does. No step goes past it, and [`System::accepted`] of a state at that
+    /// time gives one with the next law and a later horizon; such a system goes forwards in time alone. By default there is
+    /// none. Wrappers hand the call on.
+    #[inline]
+    fn horizon(&self, _t: Self::Scalar, _state: &Self::State) -> Self::Scalar {
+        Self::Scalar::lit(f64::INFINITY)
+    }
+
     /// How far the loops are from each of their dead centres, and how fast they come nearer, at a state that
     /// [`System::accepted`] gave. Returns the greatest residual that Newton's method has left in a loop, over the greatest of
     /// those that amount to a radian or to the mechanism's size.
@@ -200,6 +210,10 @@ impl<S: System + ?Sized> System for &S {
     #[inline]
     fn reached(&self, t: S::Scalar, state: &S::State) {
         (**self).reached(t, state);
+    }
+    #[inline]
+    fn horizon(&self, t: S::Scalar, state: &S::State) -> S::Scalar {
+        (**self).horizon(t, state)
     }
     #[inline]
     fn margins(

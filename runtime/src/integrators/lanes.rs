@@ -13,7 +13,7 @@ use super::problem::{Problem, Step};
 use super::run::{begin, error};
 use super::scope::Scope;
 use super::slope::{SlopeOf, advanced, displaced, owed};
-use crate::{Real, System, Tangent};
+use crate::{Real, System, Tangent, any};
 use nalgebra::SimdValue;
 
 /// A scalar may have so many lanes.
@@ -156,6 +156,11 @@ impl<'a, S: System, M: Method<S, Memory = SlopeOf<S>>> Batch<'a, S, M> {
             return Err(IntegrationError::InvalidArgument { what });
         }
         let memory = begin(settings, problem, times, state)?;
+        if any(Real::is_finite(problem.horizon(S::Scalar::lit(times.0), state))) {
+            let what =
+                "lanes with steps of their own would sample at different times: `integrate` has them share their steps";
+            return Err(IntegrationError::InvalidArgument { what });
+        }
         let mut lanes = [const { None }; MOST];
         for (number, lane) in lanes.iter_mut().enumerate().take(S::Scalar::LANES) {
             let control = (problem.tolerance(), M::ESTIMATE);
@@ -195,7 +200,7 @@ impl<'a, S: System, M: Method<S, Memory = SlopeOf<S>>> Batch<'a, S, M> {
             } else {
                 (displaced(&state, &attempt.displacement), self.rest)
             };
-            let next = Accepted::new(problem, step.end, &end);
+            let next = Accepted::new(problem, &step, &end);
             if self.inspect(&step, &end, &next.state) {
                 if self.settings.compensated {
                     self.rest = self.chosen(&owed(&next.state, &rest), &self.rest);

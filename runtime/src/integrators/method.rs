@@ -3,11 +3,11 @@
 use super::dense::Dense;
 use super::doubt::Doubt;
 use super::error::IntegrationError;
-use super::outlook::{Soundness, cause, check_start};
+use super::outlook::{Soundness, cause, check_horizon, check_start};
 use super::problem::{Problem, Step};
 use super::scope::Scope;
 use super::slope::{SlopeOf, displaced, is_finite, magnitude};
-use crate::{Real, StateSpace, System, Tangent, all};
+use crate::{Real, StateSpace, System, Tangent, all, any};
 
 /// A step that was tried.
 pub struct Attempt<S: System, D> {
@@ -35,15 +35,44 @@ pub struct Accepted<S: System> {
     pub state: S::State,
     /// Whether [`System::accepted`] changed coordinates, so that what is known of the step's end does not hold for `state`.
     pub changed: bool,
+    /// Whether another law holds from here on, since the step has come to the [horizon](System::horizon).
+    pub renewed: bool,
 }
 
 impl<S: System> Accepted<S> {
-    /// What the system makes of the end of a step at the time `t` `[s]`.
+    /// What the system makes of the end of a step.
     #[inline]
-    pub(super) fn new(problem: &Problem<'_, S>, t: S::Scalar, end: &S::State) -> Self {
-        let state = problem.accepted(t, end);
-        Self { state, changed: !same(end, &state) }
+    pub(super) fn new(problem: &Problem<'_, S>, step: &Step<'_, S>, end: &S::State) -> Self {
+        let state = problem.accepted(step.end, end);
+        let (before, now) = (problem.horizon(step.t, step.state), problem.horizon(step.end, &state));
+        Self { state, changed: !same(end, &state), renewed: any(Real::ne(before, now)) }
     }
+}
+
+/// A step over a horizon by this share of it is rounding.
+pub(super) const OVER: f64 = 1e-6;
+
+/// Whether a step goes past the horizon, or nobody knows where that is, in each lane.
+#[inline]
+fn overshoots<S: System>(problem: &Problem<'_, S>, step: &Step<'_, S>) -> <S::Scalar as Real>::Mask {
+    let horizon = problem.horizon(step.t, step.state);
+    Real::gt(step.end - S::Scalar::lit(OVER) * Real::abs(step.dt), horizon) | Real::ne(horizon, horizon)
+}
+
+/// The memory for the step after an accepted one; where another law holds, that of a first step.
+#[inline]
+pub(super) fn proceed<S: System, M: Method<S>>(
+    method: &M,
+    problem: &Problem<'_, S>,
+    step: &Step<'_, S>,
+    memory: &M::Memory,
+    attempt: &Attempt<S, M::Details>,
+    next: &Accepted<S>,
+) -> M::Memory {
+    if next.renewed {
+        return method.begin(problem, step.end, &next.state);
+    }
+    method.proceed(problem, step, memory, attempt, next)
 }
 
 /// Whether two states have the same coordinates, exactly. Opposite quaternions are the same rotation.
@@ -162,7 +191,7 @@ pub(super) fn step<S: System, M: Method<S>>(
         attempt.displacement = attempt.displacement.scale(S::Scalar::lit(f64::NAN)); // no state rather than a wrong one
     }
     let next = problem.accepted(step.end, &displaced(state, &attempt.displacement));
-    let sound = Soundness::at(&problem, step.end, &next, dt, &Scope::whole()).mask;
+    let sound = Soundness::at(&problem, step.end, &next, dt, &Scope::whole()).mask & !overshoots(&problem, &step);
     let (q, v, x) = next.split();
     let next = next.join(q, v.map(&mut |v| Real::select(sound, v, S::Scalar::lit(f64::NAN))), x);
     problem.reached(step.end, &next);
@@ -184,13 +213,18 @@ pub(super) fn integrate<S: System, M: Method<S>>(
     let (mut memory, mut signs, mut doubt) = (None, None, Doubt::None);
     let scope = Scope::whole();
     check_start(&problem, t, &state)?;
+    check_horizon(&problem, t, &state, any(Real::lt(dt, S::Scalar::lit(0.0))))?;
     for k in 1..=steps {
         let end = t0 + S::Scalar::lit(f64::from(k)) * dt;
         let now = memory.unwrap_or_else(|| method.begin(&problem, t, &state));
         let step = Step { t, end, dt, state: &state, full: false };
+        if any(overshoots(&problem, &step)) {
+            let what = "a step goes past a sample: take steps that divide the period, or an `Integrator`, which ends steps there";
+            return Err(IntegrationError::InvalidArgument { what });
+        }
         let attempt = method.attempt(&problem, &step, &now);
         let reached = displaced(&state, &attempt.displacement);
-        let next = Accepted::new(&problem, end, &reached);
+        let next = Accepted::new(&problem, &step, &reached);
         let found = Doubt::at(&problem, end, &reached, &next.state, &scope);
         if found.stops(doubt) {
             return Err(IntegrationError::Ambiguous { time: t.greatest() });
@@ -205,7 +239,7 @@ pub(super) fn integrate<S: System, M: Method<S>>(
         let soundness = Soundness::at(&problem, end, &next.state, dt, &scope);
         signs = Some(soundness.check(t, signs, &problem, &next.state)?);
         if k < steps {
-            memory = Some(method.proceed(&problem, &step, &now, &attempt, &next));
+            memory = Some(proceed(method, &problem, &step, &now, &attempt, &next));
         }
         state = next.state;
         t = end;

@@ -20,7 +20,7 @@ use super::problem::Problem;
 use super::scope::Scope;
 use super::slope::{Slope, SlopeOf, displaced, is_finite, magnitude};
 use crate::tangent::greatest;
-use crate::{Configuration, Margin, Open, Real, StateSpace, System, Tangent, all};
+use crate::{Configuration, Margin, Open, Real, StateSpace, System, Tangent, all, any};
 
 /// No dead centre may lie within so many lengths of a step. With one, methods of first order creep up to it and never arrive.
 const LENGTHS: f64 = 2.0;
@@ -351,6 +351,24 @@ pub(super) fn cause<S: System>(
         Some(coordinate) => IntegrationError::NoInertia { time, coordinate },
         None => IntegrationError::NonFinite { time },
     }
+}
+
+/// What is wrong with the horizon of a start, if anything.
+pub(super) fn check_horizon<S: System>(
+    problem: &Problem<'_, S>,
+    t: S::Scalar,
+    state: &S::State,
+    backwards: bool,
+) -> Result<(), IntegrationError> {
+    let horizon = problem.horizon(t, state);
+    let what = if !all(Real::gt(horizon, t)) {
+        "a state that samples starts at the time for which it was made, with a positive period"
+    } else if backwards && any(Real::is_finite(horizon)) {
+        "a system that samples goes forwards in time alone"
+    } else {
+        return Ok(());
+    };
+    Err(IntegrationError::InvalidArgument { what })
 }
 
 /// What is wrong with a start, if anything.

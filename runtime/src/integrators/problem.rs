@@ -71,6 +71,12 @@ impl<'a, S: System> Problem<'a, S> {
         self.system.reached(t, state);
     }
 
+    /// Until when one law holds: see [`System::horizon`].
+    #[inline]
+    pub fn horizon(&self, t: S::Scalar, state: &S::State) -> S::Scalar {
+        self.system.horizon(t, state)
+    }
+
     /// Calls with every dead centre that the loops have: see [`System::margins`].
     #[inline]
     pub fn margins(&self, t: S::Scalar, state: &S::State, visit: &mut dyn FnMut(Margin<S::Scalar>)) -> S::Scalar {

@@ -4,8 +4,8 @@ use super::course::Course;
 use super::error::IntegrationError;
 use super::integrator::{Integrator, Statistics, Steps};
 use super::interval::Interval;
-use super::method::{Accepted, Attempt, Method};
-use super::outlook::check_start;
+use super::method::{Accepted, Attempt, Method, OVER, proceed};
+use super::outlook::{check_horizon, check_start};
 use super::problem::{Problem, Step};
 use super::scope::Scope;
 use super::slope::{SlopeOf, advanced, displaced, is_finite, magnitude, owed};
@@ -24,6 +24,16 @@ pub(super) enum Verdict<Z> {
     Restart { time: f64, state: Z },
     /// It ends there.
     Stop { time: f64, state: Z },
+}
+
+/// The end of a step that is to be tried.
+struct Target {
+    /// `[s]`
+    time: f64,
+    /// `[s]` of the step, with its sign.
+    length: f64,
+    /// Whether steps of one length count it: false where it ends early.
+    on_grid: bool,
 }
 
 /// Where an integration stands.
@@ -102,10 +112,31 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
         }
     }
 
-    /// The time at which the next step ends, and its signed length.
-    fn target(&self) -> Result<(f64, f64), IntegrationError> {
+    /// Where the next step ends: where its length leads to, or before it at the horizon.
+    fn target(&self) -> Result<Target, IntegrationError> {
+        let target = self.target_alone()?;
+        let scope = self.course.scope();
+        let t = S::Scalar::lit(self.course.t);
+        let horizon = -scope.greatest(-self.problem.horizon(t, &self.state));
+        if horizon.is_nan() {
+            let what = "lanes came to a sample at different times";
+            return Err(IntegrationError::InvalidArgument { what });
+        }
+        // With steps of one length a difference of rounding is none.
+        let near = match self.settings.steps {
+            Steps::Fixed(step) => horizon + OVER * step,
+            Steps::Adaptive(_) => horizon,
+        };
+        if near < target.time {
+            return Ok(Target { time: horizon, length: horizon - self.course.t, on_grid: false });
+        }
+        Ok(target)
+    }
+
+    fn target_alone(&self) -> Result<Target, IntegrationError> {
         let Steps::Fixed(step) = self.settings.steps else {
-            return self.course.target(self.problem, &self.state);
+            let (time, length) = self.course.target(self.problem, &self.state)?;
+            return Ok(Target { time, length, on_grid: true });
         };
         let (t, end) = (self.course.t, self.course.end);
         let remaining = end - t;
@@ -115,7 +146,7 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
         let rounding = 4.0 * f64::EPSILON * (t.abs() + end.abs());
         let whole = self.on_grid && (!last || (remaining.abs() - step).abs() <= rounding);
         let target = if last { end } else { target };
-        Ok((target, if whole { step.copysign(remaining) } else { target - t }))
+        Ok(Target { time: target, length: if whole { step.copysign(remaining) } else { target - t }, on_grid: true })
     }
 
     /// One attempt of a step; if it is accepted, the run goes on as `observe` says.
@@ -127,7 +158,7 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
         if self.course.tried() >= self.settings.max_steps {
             return Err(IntegrationError::TooManySteps { time: start });
         }
-        let (target, length) = self.target()?;
+        let Target { time: target, length, on_grid } = self.target()?;
         self.course.look_ahead(length)?;
         let state = self.state;
         let step = Step {
@@ -150,7 +181,7 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
             self.memory = method.repeat(&self.memory, &attempt);
             return Ok(());
         }
-        let next = Accepted::new(problem, step.end, &end);
+        let next = Accepted::new(problem, &step, &end);
         let rest = if self.settings.compensated { owed(&next.state, &rest) } else { rest };
         let Some(kept) = self.course.inspect(problem, (&step, length), &end, &next.state)? else {
             self.memory = method.repeat(&self.memory, &attempt);
@@ -169,13 +200,13 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
             Verdict::Continue => {
                 problem.reached(step.end, &next.state);
                 if target != self.course.end {
-                    self.memory = method.proceed(problem, &step, &self.memory, &attempt, &next);
+                    self.memory = proceed(method, problem, &step, &self.memory, &attempt, &next);
                 }
                 self.state = next.state;
                 self.rest = rest;
                 self.course.t = target;
-                self.count = self.count.saturating_add(1);
-                self.on_grid = true;
+                self.count = self.count.saturating_add(on_grid.into());
+                self.on_grid = on_grid;
                 self.interruptions = 0;
             }
             Verdict::Restart { time, state } => {
@@ -183,7 +214,7 @@ impl<'a, S: System, M: Method<S>> Run<'a, S, M> {
                     self.memory = method.begin(problem, S::Scalar::lit(time), &state);
                 }
                 self.course.restart(length);
-                self.on_grid = time == target;
+                self.on_grid = on_grid && time == target;
                 self.interruptions = if self.on_grid { 0 } else { self.interruptions + 1 };
                 if self.interruptions > INTERRUPTIONS && matches!(self.settings.steps, Steps::Fixed(_)) {
                     return Err(IntegrationError::EventsAccumulate { time });
@@ -235,6 +266,7 @@ pub(super) fn begin<S: System, M: Method<S>>(
         return Err(IntegrationError::NonFinite { time: t0 });
     }
     check_start(problem, start, state)?;
+    check_horizon(problem, start, state, t1 < t0)?;
     Ok(memory)
 }
 

@@ -103,6 +103,10 @@ macro_rules! handed_on {
 macro_rules! watched {
     () => {
         #[inline]
+        fn horizon(&self, t: S::Scalar, state: &S::State) -> S::Scalar {
+            self.system.horizon(t, state)
+        }
+        #[inline]
         fn margins(
             &self,
             t: S::Scalar,

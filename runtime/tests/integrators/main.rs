@@ -13,6 +13,7 @@ mod order;
 mod order_symplectic;
 mod own_steps;
 mod radau;
+mod sampled;
 mod verify;
 mod without_inertia;
 mod wrappers;

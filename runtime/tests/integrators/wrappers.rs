@@ -6,8 +6,8 @@ use multibody::linear::least_norm;
 use multibody::nalgebra::{Vector1, Vector2};
 use multibody::projection::Plain;
 use multibody::{
-    Constrained, Feedback, Margin, Open, Opening, Projection, StateSpace, System, WithBaumgarte, WithProjection,
-    WithRank,
+    Constrained, Margin, Open, Opening, Projection, StateSpace, System, WithBaumgarte, WithProjection, WithRank,
+    closed_loop,
 };
 
 #[derive(Clone, Copy)]
@@ -50,6 +50,9 @@ impl System for Bead {
     fn reached(&self, _t: f64, _state: &State) {
         self.reached.set(self.reached.get() + 1);
     }
+    fn horizon(&self, t: f64, _state: &State) -> f64 {
+        t + 7.0
+    }
     fn margins(&self, _t: f64, _state: &State, (): &(), visit: &mut dyn FnMut(Margin<f64>)) -> f64 {
         visit(Margin { coordinate: "bead", root: 3.0, rate: 1.0 });
         0.125
@@ -85,6 +88,7 @@ fn check<S: System<Scalar = f64, State = State, Input = ()>>(name: &str, wrapper
     let _ = wrapper.accepted(0.0, &state, &());
     wrapper.reached(0.0, &state);
     assert_eq!((bead.accepted.get(), bead.reached.get()), (accepted + 1, reached + 1), "{name}");
+    assert_eq!(wrapper.horizon(1.0, &state), 8.0, "{name}");
     let mut seen = Vec::new();
     assert_eq!(wrapper.margins(0.0, &state, &(), &mut |margin| seen.push(margin)), 0.125, "{name}");
     assert_eq!(seen, [Margin { coordinate: "bead", root: 3.0, rate: 1.0 }], "{name}");
@@ -97,12 +101,12 @@ fn check<S: System<Scalar = f64, State = State, Input = ()>>(name: &str, wrapper
 fn all_that_a_system_says_is_handed_on() {
     let bead = Bead::default();
     check("reference", &&bead, &bead, 0.75);
-    check("feedback", &Feedback::new(&bead, |_, _: &State| ()), &bead, 0.75);
+    check("feedback", &closed_loop(&bead, |_, _: &State| ()), &bead, 0.75);
     check("rank", &WithRank::new(&bead), &bead, 0.75);
     check("projection", &WithProjection::new(&bead, Projection::default()), &bead, 0.0);
     check("fixed projection", &WithProjection::fixed(&bead, Projection::default()), &bead, 0.0);
     check("weighted", &WithProjection::weighted(&bead, Projection::default(), Plain), &bead, 0.0);
     check("Baumgarte", &WithBaumgarte::plain(&bead, 1.0), &bead, 0.0);
-    let both = Feedback::new(WithRank::new(WithProjection::new(&bead, Projection::default())), |_, _: &State| ());
+    let both = closed_loop(WithRank::new(WithProjection::new(&bead, Projection::default())), |_, _: &State| ());
     check("all", &both, &bead, 0.0);
 }
