@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 use multibody_engine::contracts::cost::Cost;
 use multibody_tests::models::{arms, motion, small};
 use multibody_tests::support::data::path;
-use multibody_tests::support::ledger::{Row, Written, all, flops};
+use multibody_tests::support::ledger::{Behind, Packed, Row, Written, all, flops, once, packed};
 use multibody_tests::support::required::{CASES, Case};
 
 /// Additions, products, quotients that others need, for arms whose every number is a literal.
@@ -71,6 +71,26 @@ fn written() -> String {
         let (before, after) = (Written(&row.before), Written(&row.after));
         let Row { model, function, method, .. } = row;
         writeln!(text, "| {model} | {function} | {numbers} | {method} | {before} | {after} | {new} |").unwrap();
+    }
+    text += "\n## Once for a position\n\n\
+             What `emit at` asks for: operations that are done once for a position, and those of each function behind them, beside\n\
+             those of the function alone.\n\n\
+             | model | function | alone | behind |\n\
+             |---|---|---|---|\n";
+    for once in once() {
+        writeln!(text, "| {} | at |  | {} |", once.model, Written(&once.at)).unwrap();
+        for Behind { model, function, alone, behind } in &once.functions {
+            writeln!(text, "| {model} | {function} | {} | {} |", Written(alone), Written(behind)).unwrap();
+        }
+    }
+    text += "\n## Limbs in packs\n\n\
+             With `formulation { packs: Four }`: operations on packs of four, and on scalars beside them, sines counted as one with\n\
+             their cosines. Functions that no packs pay for are left out.\n\n\
+             | model | function | without packs | sum | on packs | on scalars |\n\
+             |---|---|---|---|---|---|\n";
+    for Packed { model, function, after, operations: [packed, scalar] } in packed() {
+        let (after, sum) = (Written(&after), flops(&after) + after.sincos);
+        writeln!(text, "| {model} | {function} | {after} | {sum} | {packed} | {scalar} |").unwrap();
     }
     text += "\n## Bars\n\n\
              Every number `const`; sums of additions, products, quotients and roots. Hand: a pruned recursion written by\n\
@@ -202,4 +222,43 @@ fn compiled_models_are_those_of_the_ledger() {
     check("top", true, motion::top::COSTS);
     check("cart_pole", true, small::cart_pole::COSTS);
     assert!(compared >= 50, "only {compared} rows");
+}
+
+/// What is done once for a position pays for itself where all that it is done for is asked for, and costs no function anything.
+#[test]
+fn work_for_a_position_is_shared() {
+    for once in once() {
+        let all: u32 = once.functions.iter().map(|function| function.behind.weight()).sum();
+        let alone: u32 = once.functions.iter().map(|function| function.alone.weight()).sum();
+        println!("{}: {} + {all} instead of {alone}", once.model, once.at.weight());
+        assert!(once.at.weight() + all < alone, "{}", once.model);
+        for Behind { model, function, alone, behind } in &once.functions {
+            assert!(behind.weight() <= alone.weight(), "{model}, {function}: {behind:?} behind, {alone:?} alone");
+        }
+    }
+}
+
+/// Half of a symmetric matrix takes no operation that all of it doesn't.
+#[test]
+fn half_a_mass_matrix_costs_no_more() {
+    let lower: Vec<&Row> = rows().iter().filter(|row| row.function == "mass_matrix_lower").collect();
+    assert!(!lower.is_empty());
+    for row in lower {
+        let whole = literals(&row.model, "mass_matrix");
+        assert!(row.after.weight() <= whole.weight(), "{}: {:?}, of {whole:?}", row.model, row.after);
+    }
+}
+
+/// Four limbs do in packs what takes one of them, beside what they share.
+#[test]
+fn packs_save_operations() {
+    let rows = packed();
+    for function in ["forward_dynamics", "inverse_dynamics", "mass_matrix", "mass_matrix_lower", "bias"] {
+        assert!(rows.iter().any(|row| row.model == "quadruped" && row.function == function), "{function} has no packs");
+    }
+    for Packed { model, function, after, operations } in rows {
+        let (sum, packed) = ((flops(&after) + after.sincos) as usize, operations.iter().sum::<usize>());
+        println!("{model}, {function}: {packed} instead of {sum}");
+        assert!(10 * packed <= 9 * sum, "{model}, {function}: {packed} instructions instead of {sum}");
+    }
 }

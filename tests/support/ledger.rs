@@ -5,7 +5,8 @@ use std::fmt;
 
 use multibody_engine::contracts::cost::Cost;
 use multibody_engine::emit::function_name;
-use multibody_engine::model::types::Model;
+use multibody_engine::model::types::{Model, Packs};
+use multibody_engine::optimize::program::Compiled;
 use multibody_engine::{mechanics, optimize};
 
 use super::engine::{calls, literal, models};
@@ -35,6 +36,7 @@ pub fn count(model: &Model, params: bool) -> Vec<Row> {
     let mut derivation =
         mechanics::of(model).unwrap_or_else(|trouble| panic!("{}: {}", model.name, trouble[0].message)).1;
     let dof = model.joints.iter().map(|joint| joint.kind.freedoms()).sum();
+    derivation.at.clear();
     let functions = std::mem::take(&mut derivation.functions);
     let rows = functions.into_iter().map(|function| {
         derivation.functions = vec![function];
@@ -60,46 +62,161 @@ pub fn count(model: &Model, params: bool) -> Vec<Row> {
 const IMPULSES: [&str; 4] = ["rods", "crane", "four_bar", "stretched"];
 const MOMENTA: [&str; 5] = ["forward_dynamics", "impulse", "momentum", "momentum_rate", "velocity"];
 
+/// A model that the ledger keeps.
+pub struct Entry {
+    /// As declared.
+    pub model: Model,
+    /// Every number is a param; else every number is a literal.
+    pub params: bool,
+    /// Before its name, where several files have models of one name.
+    group: &'static str,
+    /// Functions that are kept; all of them where there are none.
+    only: &'static [&'static str],
+}
+
+impl Entry {
+    /// As the ledger has it.
+    pub fn name(&self) -> String {
+        let text = self.model.name.to_string();
+        let name = text.strip_suffix("_params").unwrap_or(&text);
+        if self.group.is_empty() { name.to_owned() } else { format!("{}, {name}", self.group) }
+    }
+
+    /// Whether the ledger has a function of the model.
+    pub fn keeps(&self, function: &str) -> bool {
+        self.only.is_empty() || self.only.contains(&function)
+    }
+
+    fn rows(&self) -> Vec<Row> {
+        let mut rows = count(&self.model, self.params);
+        rows.retain(|row| self.keeps(&row.function));
+        rows.iter_mut().for_each(|row| row.model = self.name());
+        rows
+    }
+}
+
 /// All models that the ledger keeps. The arms stand in their file in both forms, the others with params.
-pub fn all() -> Vec<Row> {
-    let mut rows = Vec::new();
+pub fn entries() -> Vec<Entry> {
+    let mut entries = Vec::new();
+    let mut add = |models: Vec<Model>, params: bool, group: &'static str, only: &'static [&'static str]| {
+        entries.extend(models.into_iter().map(|model| Entry { model, params, group, only }));
+    };
     for model in calls("models/arms.rs").into_iter().flat_map(models) {
-        rows.extend(count(&model, model.name.to_string().ends_with("_params")));
+        let params = model.name.to_string().ends_with("_params");
+        add(vec![model], params, "", &[]);
     }
     for call in calls("models/actuated.rs") {
-        models(literal(call.clone())).iter().for_each(|model| rows.extend(count(model, false)));
-        models(call).iter().filter(|model| !model.params.is_empty()).for_each(|model| rows.extend(count(model, true)));
+        add(models(literal(call.clone())), false, "", &[]);
+        let with_params = models(call).into_iter().filter(|model| !model.params.is_empty());
+        add(with_params.collect(), true, "", &[]);
     }
-    for file in ["models/small.rs", "models/motion.rs"] {
-        for call in calls(file) {
-            models(literal(call.clone())).iter().for_each(|model| rows.extend(count(model, false)));
-            models(call).iter().for_each(|model| rows.extend(count(model, true)));
-        }
+    for call in ["models/small.rs", "models/motion.rs"].into_iter().flat_map(calls) {
+        add(models(literal(call.clone())), false, "", &[]);
+        add(models(call), true, "", &[]);
     }
     // What answers to impulses, and what has momenta.
     for model in calls("models/impulses.rs").into_iter().flat_map(|call| models(literal(call))) {
-        let mut counted = count(&model, false);
-        counted.retain(|row| IMPULSES.contains(&&*row.model) && MOMENTA.contains(&&*row.function));
-        counted.iter_mut().for_each(|row| row.model = format!("momenta, {}", row.model));
-        rows.extend(counted);
+        if IMPULSES.contains(&&*model.name.to_string()) {
+            add(vec![model], false, "momenta", &MOMENTA);
+        }
     }
-    for model in calls("models/required.rs").into_iter().flat_map(models) {
-        rows.extend(count(&model, false));
+    for call in ["models/required.rs", "models/quadruped.rs"].into_iter().flat_map(calls) {
+        add(models(call), false, "", &[]);
     }
-    // The platform in several coordinates: everything literal.
-    for model in calls("models/stewart.rs").into_iter().flat_map(|call| models(literal(call))) {
-        let mut counted = count(&model, false);
-        counted.iter_mut().for_each(|row| row.model = format!("stewart, {}", row.model));
-        rows.extend(counted);
+    // The platform in several coordinates: everything literal. Then what Newton's method closes, beside the same with
+    // multipliers.
+    for (file, group) in [("models/stewart.rs", "stewart"), ("models/iterated.rs", "iterated")] {
+        for call in calls(file) {
+            add(models(literal(call)), false, group, &[]);
+        }
     }
-    // What Newton's method closes, beside the same with multipliers.
-    for model in calls("models/iterated.rs").into_iter().flat_map(|call| models(literal(call))) {
-        let mut counted = count(&model, false);
-        counted.iter_mut().for_each(|row| row.model = format!("iterated, {}", row.model));
-        rows.extend(counted);
+    entries
+}
+
+/// Rows of all of them.
+pub fn all() -> Vec<Row> {
+    entries().iter().flat_map(Entry::rows).collect()
+}
+
+/// A function that goes on from what is done once for a position.
+pub struct Behind {
+    /// Of the generated module.
+    pub model: String,
+    /// Of the generated method.
+    pub function: Cow<'static, str>,
+    /// Of the method of `Model` with this name.
+    pub alone: Cost,
+    /// Of that which takes a position.
+    pub behind: Cost,
+}
+
+/// What is done once for a position in a model, and what its functions do behind that.
+pub struct Once {
+    /// Of the generated module.
+    pub model: String,
+    /// What is done once.
+    pub at: Cost,
+    /// In the order of the model.
+    pub functions: Vec<Behind>,
+}
+
+/// All models of the ledger that ask for it.
+pub fn once() -> Vec<Once> {
+    let entries = entries();
+    let asking = entries.iter().filter(|entry| !entry.model.at.is_empty());
+    asking.map(|entry| of_position(&entry.model, entry.name())).collect()
+}
+
+fn of_position(model: &Model, name: String) -> Once {
+    let compiled = compiled(model);
+    let at = compiled.at.as_ref().expect("what a model asks for");
+    let functions = at.functions.iter().map(|function| {
+        let alone = compiled.functions.iter().find(|alone| alone.kind == function.kind);
+        Behind {
+            model: name.clone(),
+            function: function_name(model, function.kind),
+            alone: alone.expect("what is asked for at a position is asked for").after,
+            behind: function.after,
+        }
+    });
+    Once { at: at.cost, functions: functions.collect(), model: name }
+}
+
+fn compiled(model: &Model) -> Compiled {
+    let derived = mechanics::of(model).unwrap_or_else(|trouble| panic!("{}: {}", model.name, trouble[0].message));
+    let compiled = optimize::compile(&derived.1).unwrap_or_else(|_| panic!("{} is too large", model.name));
+    assert!(compiled.sound, "{}: a pass changed a value", model.name);
+    compiled
+}
+
+/// A function whose limbs go in packs.
+pub struct Packed {
+    /// Of the generated module.
+    pub model: String,
+    /// Of the generated method.
+    pub function: Cow<'static, str>,
+    /// On scalars alone.
+    pub after: Cost,
+    /// Operations on packs, and on scalars beside these.
+    pub operations: [usize; 2],
+}
+
+/// The models of the ledger with limbs that are alike, in packs: functions that have any.
+pub fn packed() -> Vec<Packed> {
+    let mut rows = Vec::new();
+    for mut entry in entries().into_iter().filter(|entry| PACKED.contains(&&*entry.name())) {
+        entry.model.packs = Packs::Four;
+        for function in compiled(&entry.model).functions {
+            let Some(operations) = optimize::packs::operations(&function.program) else { continue };
+            let name = function_name(&entry.model, function.kind);
+            rows.push(Packed { model: entry.name(), function: name, after: function.after, operations });
+        }
     }
     rows
 }
+
+/// Those models.
+const PACKED: [&str; 2] = ["quadruped", "stewart, reduced"];
 
 /// Additions, products, quotients and roots.
 pub fn flops(cost: &Cost) -> u32 {

@@ -23,7 +23,7 @@ use std::collections::{BTreeSet, HashSet};
 use crate::mechanics::limbs::Limbs;
 
 use likeness::{Likeness, Owner};
-use order::Pack;
+use order::{Pack, Taken};
 
 use super::program::{Expression, Local, MEMBERS, Program, Sine, Statement};
 use unify::{Packed, Unifier};
@@ -109,6 +109,7 @@ fn proposed(likeness: &Likeness<'_>) -> Vec<[Option<usize>; MEMBERS]> {
 fn packs(program: &mut Program, likeness: &Likeness<'_>, places: &[[Option<usize>; MEMBERS]]) -> Vec<Pack> {
     let mut packed = Packed::new();
     let mut found = Vec::new();
+    let mut taken = Taken::new(&program.locals);
     for &statements in places {
         let members: Vec<(usize, &Statement)> = statements
             .iter()
@@ -138,7 +139,7 @@ fn packs(program: &mut Program, likeness: &Likeness<'_>, places: &[[Option<usize
         let mut local = |which: usize| {
             let names: Vec<&str> =
                 defined.iter().filter_map(|(_, locals)| Some(program.locals[locals.get(which)?.0].as_str())).collect();
-            let name = order::unused(&program.locals, &order::common_name(&names));
+            let name = taken.unused(&order::common_name(&names));
             let heading = defined.first().and_then(|(_, locals)| program.headings.get(locals.get(which)?.0).cloned());
             program.headings.resize(program.locals.len(), None);
             program.headings.push(heading.flatten());

@@ -99,6 +99,7 @@ pub(super) fn ordered(mut program: Program, packs: &[Pack]) -> Program {
     let read = read_outside(&program, packs, &units);
     let mut statements = Vec::with_capacity(order.len());
     let mut minus: HashMap<Local, Local> = HashMap::new();
+    let mut taken = Taken::new(&program.locals);
     let mut old: Vec<Option<Statement>> = std::mem::take(&mut program.statements).into_iter().map(Some).collect();
     for unit in order {
         let Some(pack) = unit.checked_sub(count).map(|number| &packs[number]) else {
@@ -118,7 +119,7 @@ pub(super) fn ordered(mut program: Program, packs: &[Pack]) -> Program {
                     let heading = program.headings.get(own.0).cloned().flatten();
                     program.headings.resize(program.locals.len(), None);
                     program.headings.push(heading);
-                    program.locals.push(unused(&program.locals, &name));
+                    program.locals.push(taken.unused(&name));
                     minus.insert(own, Local(program.locals.len() - 1));
                     members[place] = Some(Local(program.locals.len() - 1));
                 }
@@ -175,11 +176,45 @@ pub(super) fn common_name(names: &[&str]) -> String {
     if common.contains(&"each") { name } else { format!("{name}_of_each") }
 }
 
-/// The name, with a number if it is taken.
-pub(super) fn unused(names: &[String], name: &str) -> String {
-    let is_free = |name: &str| names.iter().all(|known| known != name);
-    if is_free(name) {
-        return name.to_owned();
+/// Names that are taken, with the next number of each that was asked for more than once: so many locals get one name that a search
+/// from the first number on would take the square of their count.
+pub(super) struct Taken {
+    names: HashSet<String>,
+    next: HashMap<String, usize>,
+}
+
+impl Taken {
+    pub(super) fn new(names: &[String]) -> Taken {
+        Taken { names: names.iter().cloned().collect(), next: HashMap::new() }
     }
-    (2..).map(|number| format!("{name}_{number}")).find(|name| is_free(name)).unwrap_or_default()
+
+    /// The name, with the least number that is free if it is taken.
+    pub(super) fn unused(&mut self, name: &str) -> String {
+        if self.names.insert(name.to_owned()) {
+            return name.to_owned();
+        }
+        // No name is ever given back, so numbers below the next are taken.
+        let next = self.next.entry(name.to_owned()).or_insert(2);
+        loop {
+            let numbered = format!("{name}_{next}");
+            *next += 1;
+            if self.names.insert(numbered.clone()) {
+                return numbered;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The least free number, whatever was asked for before.
+    #[test]
+    fn names_get_the_least_number_that_is_free() {
+        let names = ["a", "a_3", "b", "b_2"].map(str::to_owned);
+        let mut taken = Taken::new(&names);
+        let given = ["a", "a", "c", "c", "a_2", "b", "a"].map(|name| taken.unused(name));
+        assert_eq!(given, ["a_2", "a_4", "c", "c_2", "a_2_2", "b_3", "a_5"]);
+    }
 }
