@@ -14,6 +14,7 @@ use crate::emit::print::blocks::{Live, live_statements, some};
 use crate::emit::print::expressions::Names;
 use crate::emit::print::parts::{self, Part, Parts};
 use crate::emit::{Context, names};
+use crate::invariant::fault::OrFault;
 use crate::optimize::program::{Expression, Function, Program};
 
 use super::{functions, results};
@@ -50,22 +51,33 @@ pub(super) fn method(context: &Context<'_>, function: &Function, named: &BTreeSe
     let places = Literal::usize_unsuffixed(cut.places);
     let passed = arguments.handed_on(layout, named);
     let opened = arguments.open(&in_results(&program));
-    let mut taken = vec![quote!(_); cut.places];
-    for (local, &place) in &cut.results {
-        let name = &locals[local.0];
-        taken[place] = quote!(#name);
-    }
-    let values = program.results.iter().map(|result| names.expression(result)).collect();
+    let values = program.results.iter().map(|result| handed_on(result, &names, &cut)).collect();
     let value = results::value(layout, function.kind, values);
     let calls = called.iter().map(|name| quote!(self.#name(#(#passed,)* &mut #kept);));
     let block = quote! {
         let mut #kept = [T::lit(0.0); #places];
         #(#calls)*
         #opened
-        let [#(#taken),*] = #kept;
         #value
     };
     (block, functions)
+}
+
+/// Expands to `kept[3]`, `-kept[3]`, or to what no part has computed: read where it goes, since thousands of names for what is
+/// kept would cost rustc more than a part does.
+fn handed_on(result: &Expression, names: &Names<'_>, cut: &Parts) -> TokenStream {
+    match result {
+        Expression::Local(local) => {
+            let place = cut.results.get(local).or_fault("results are kept to the end");
+            let (kept, place) = (names::ident(KEPT), Literal::usize_unsuffixed(*place));
+            quote!(#kept[#place])
+        }
+        Expression::Neg(inner) => {
+            let inner = handed_on(inner, names, cut);
+            quote!(-#inner)
+        }
+        other => names.expression(other),
+    }
 }
 
 /// What the names of parts begin with; no other function's does.
