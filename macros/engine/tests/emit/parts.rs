@@ -108,7 +108,7 @@ fn small_functions_are_whole() {
     let (model, compiled) = long(1_000);
     let module = parsed::module(&model, &compiled);
     assert_eq!(functions(&module, "forward_dynamics").len(), 1);
-    let (model, compiled) = long(10_000);
+    let (model, compiled) = long(20_000);
     let module = parsed::module(&model, &compiled);
     assert!(functions(&module, "forward_dynamics").len() > 2);
 }

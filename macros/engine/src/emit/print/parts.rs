@@ -17,7 +17,7 @@ use crate::optimize::program::{Expression, Local, Program, Statement};
 use super::blocks::Live;
 
 /// As many operations stand in one function.
-pub(in crate::emit) const MOST: usize = 10_000;
+pub(in crate::emit) const MOST: usize = 20_000;
 /// As many stand in a part, about, where there are more.
 pub(in crate::emit) const PART: usize = 2_000;
 
