@@ -126,7 +126,7 @@ pub trait System {
     /// coordinates, and brings coordinates back to where they belong. Wrappers of a model that has such things hand the
     /// call on.
     ///
-    /// Not all of these states are kept: the search for an event tries many, and so does that for an equilibrium. What
+    /// A state that it has given it gives again. Not all of these states are kept: the search for an event tries many, and so does that for an equilibrium. What
     /// counts steps does so in [`System::reached`].
     #[inline]
     fn accepted(&self, _t: Self::Scalar, state: &Self::State, _input: &Self::Input) -> Self::State {

@@ -278,7 +278,7 @@ fn a_closed_form_in_all_scalars() {
         let found = at.forward_dynamics(&v, &linkage::Input { push: push as f32, twist: 0.3 }).turn;
         same("single", [f64::from(found)], [alone], 2e-3);
 
-        // Lanes, each with the same bits as alone.
+        // Lanes, each as alone.
         let wide =
             linkage::Params { crank_length: WideF64x4::splat(params.crank_length), ..linkage::Params::default() };
         let wide = linkage::Model::new(&wide);

@@ -3,7 +3,8 @@
 //! In a round every lane tries one step, of its own length from its own time. A lane that refuses its step, that has arrived
 //! or has failed takes part in the arithmetic and stays where it is: its displacement is zero. So a batch takes as
 //! many rounds as its longest motion takes steps, where steps that lanes share are the shortest that any of them needs
-//! at each time; and no lane changes another.
+//! at each time; and no lane changes another, but for what rounding of lanes that share an operation may differ by. That it stays also asks
+//! [`System::accepted`] to leave alone what it has given.
 
 use super::course::{Course, Kept};
 use super::error::IntegrationError;

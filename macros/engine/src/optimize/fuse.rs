@@ -6,8 +6,10 @@
 //! other product is fused to what has been added up before it, in their order. So each term and each partial sum is rounded once
 //! at most, where plain sums round products too: the bound of the error, a rounding of each partial sum and of each product, loses
 //! the products and gains nothing. What is lost is a coincidence: products of equal value that are rounded alike cancel to zero in a plain
-//! sum, and to the rounding of one of them in a fused one. Nothing rests on that: what is equal is one node long before, entries of
-//! symmetric matrices are one value read twice, and ranks are judged beside the size of the terms. Values that are read more than once, or have
+//! sum, and to the rounding of one of them in a fused one. What is equal for all values is one node long before, entries of
+//! symmetric matrices are one value read twice, and ranks are judged beside the size of the terms; but a root of a a - b b is zero where a
+//! and b happen to be equal, and of a rounding below zero it is none. So what leads to the argument of a function with a bounded domain, by sums,
+//! products, quotients and the locals in them ([`Guarded`]), keeps plain sums, but for those whose terms are squares and the like. Values that are read more than once, or have
 //! a name, keep their statement: a product that is computed anyway is added as any other value. Chains are as long as those of
 //! sums, and shorter in time by one product.
 //!
@@ -20,27 +22,161 @@
 //! accelerations 0.75. On x86 without the instruction, where what is emitted is a product and a sum in another order of terms, between 0.90 and
 //! 1.06, but for the panda's inverse dynamics: 1.33, since the vectoriser no longer sees there what the order alone had shown it.
 
-use super::program::{Expression, Program};
+use std::collections::{HashMap, HashSet};
+
+use crate::contracts::call::Call;
+
+use super::program::{Expression, Local, Program, Statement};
 use super::schedule::negated;
 
 /// Fuses what can be fused in all statements and results.
 pub fn fuse(program: &mut Program) {
-    let visit = &mut |expression: &mut Expression| {
-        let plain = std::mem::replace(expression, Expression::Literal(0.0));
-        *expression = fused(plain);
-    };
-    program.statements.iter_mut().for_each(|statement| statement.each_expression_mut(visit));
-    program.results.iter_mut().for_each(visit);
+    let guarded = Guarded::of(program);
+    program.statements.iter_mut().for_each(|statement| fuse_in(statement, &guarded));
+    program.results.iter_mut().for_each(|result| replace(result, false));
 }
 
-fn fused(expression: Expression) -> Expression {
-    let all = |list: Vec<Expression>| list.into_iter().map(fused).collect();
+fn fuse_in(statement: &mut Statement, guarded: &Guarded) {
+    match statement {
+        Statement::Let { local, value } | Statement::Pack { local, value } => replace(value, guarded.0.contains(local)),
+        Statement::Iterate { start, body, next, residual, .. } => {
+            start.iter_mut().chain(next).for_each(|value| replace(value, false));
+            replace(&mut residual.1, false);
+            body.iter_mut().for_each(|statement| fuse_in(statement, guarded));
+        }
+        other => other.each_expression_mut(&mut |value| replace(value, false)),
+    }
+}
+
+fn replace(expression: &mut Expression, guarded: bool) {
+    let plain = std::mem::replace(expression, Expression::Literal(0.0));
+    *expression = fused(plain, guarded);
+}
+
+/// Locals on the way to an argument of a function with a bounded domain.
+struct Guarded(HashSet<Local>);
+
+impl Guarded {
+    fn of(program: &Program) -> Guarded {
+        let mut values: HashMap<Local, Vec<&Expression>> = HashMap::new();
+        let mut open: Vec<&Expression> = Vec::new();
+        each_value(&program.statements, &mut |local, value| {
+            values.entry(local).or_default().push(value);
+        });
+        for expression in program.expressions() {
+            arguments(expression, &mut open);
+        }
+        let mut guarded = Guarded(HashSet::new());
+        while let Some(expression) = open.pop() {
+            match expression {
+                Expression::Local(local) => {
+                    if guarded.0.insert(*local) {
+                        open.extend(values.get(local).into_iter().flatten());
+                    }
+                }
+                expression if cannot_be_negative(expression) => {}
+                Expression::Neg(inner) => open.push(inner),
+                Expression::Sum(terms) => open.extend(terms.iter().map(|(_, term)| term)),
+                Expression::Product(list) => open.extend(list),
+                Expression::Quotient(above, below) => open.extend([&**above, &**below]),
+                Expression::Call(call, list) if passes(*call) => open.extend(list),
+                _ => {}
+            }
+        }
+        guarded
+    }
+}
+
+/// Every local with its value, inside iterations too.
+fn each_value<'a>(statements: &'a [Statement], visit: &mut dyn FnMut(Local, &'a Expression)) {
+    for statement in statements {
+        match statement {
+            Statement::Let { local, value } | Statement::Pack { local, value } => visit(*local, value),
+            Statement::Members { pack, members } => {
+                members.iter().flatten().for_each(|&member| visit(member, pack));
+            }
+            Statement::Iterate { unknowns, start, body, next, residual, .. } => {
+                for values in [start, next] {
+                    unknowns.iter().zip(values).for_each(|(&local, value)| visit(local, value));
+                }
+                visit(residual.0, &residual.1);
+                each_value(body, visit);
+            }
+            Statement::SinCos(_) | Statement::PackSines(_) | Statement::Solve { .. } => {}
+        }
+    }
+}
+
+/// What stands in functions with a bounded domain.
+fn arguments<'a>(expression: &'a Expression, found: &mut Vec<&'a Expression>) {
     match expression {
+        Expression::Call(call, list) => {
+            if is_bounded(*call) {
+                found.extend(list);
+            }
+            list.iter().for_each(|item| arguments(item, found));
+        }
+        Expression::Product(list) | Expression::Pack(list) => list.iter().for_each(|item| arguments(item, found)),
+        Expression::Neg(inner) => arguments(inner, found),
+        Expression::Sum(terms) => terms.iter().for_each(|(_, term)| arguments(term, found)),
+        Expression::Quotient(above, below) => {
+            arguments(above, found);
+            arguments(below, found);
+        }
+        Expression::Fused(operands) => operands.iter().for_each(|item| arguments(item, found)),
+        Expression::Literal(_) | Expression::Symbol(_) | Expression::Field(_) | Expression::Local(_) => {}
+    }
+}
+
+/// Whether it is NaN for arguments a rounding beside some for which it is not.
+const fn is_bounded(call: Call) -> bool {
+    matches!(call, Call::Sqrt | Call::Ln | Call::Powf | Call::Asin | Call::Acos)
+}
+
+/// Whether it hands one of its arguments on.
+const fn passes(call: Call) -> bool {
+    matches!(call, Call::Min | Call::Max | Call::Select)
+}
+
+/// Whether rounding can't make it negative, so that sums in it may be fused.
+fn cannot_be_negative(expression: &Expression) -> bool {
+    match expression {
+        Expression::Literal(value) => *value >= 0.0,
+        Expression::Sum(terms) => terms.iter().all(|(minus, term)| !minus && cannot_be_negative(term)),
+        Expression::Product(factors) => {
+            let mut odd: Vec<&Expression> = Vec::new();
+            for factor in factors.iter().filter(|factor| !cannot_be_negative(factor)) {
+                match odd.iter().position(|other| *other == factor) {
+                    Some(at) => drop(odd.swap_remove(at)),
+                    None => odd.push(factor),
+                }
+            }
+            odd.is_empty()
+        }
+        Expression::Quotient(above, below) => cannot_be_negative(above) && cannot_be_negative(below),
+        Expression::Call(call, _) => matches!(call, Call::Sqrt | Call::Abs | Call::Exp | Call::Cosh | Call::Epsilon),
+        _ => false,
+    }
+}
+
+/// `guarded`: sums that could come out below zero by rounding alone stay plain.
+fn fused(expression: Expression, guarded: bool) -> Expression {
+    let guarded = guarded && !cannot_be_negative(&expression);
+    let all = |list: Vec<Expression>| list.into_iter().map(|item| fused(item, guarded)).collect();
+    match expression {
+        Expression::Sum(terms) if guarded => {
+            Expression::Sum(terms.into_iter().map(|(minus, term)| (minus, fused(term, true))).collect())
+        }
         Expression::Sum(terms) => sum(terms),
-        Expression::Neg(inner) => Expression::Neg(Box::new(fused(*inner))),
+        Expression::Neg(inner) => Expression::Neg(Box::new(fused(*inner, guarded))),
         Expression::Product(factors) => Expression::Product(all(factors)),
-        Expression::Quotient(above, below) => Expression::Quotient(Box::new(fused(*above)), Box::new(fused(*below))),
-        Expression::Call(call, list) => Expression::Call(call, all(list)),
+        Expression::Quotient(above, below) => {
+            Expression::Quotient(Box::new(fused(*above, guarded)), Box::new(fused(*below, guarded)))
+        }
+        Expression::Call(call, list) => {
+            let guarded = is_bounded(call) || guarded && passes(call);
+            Expression::Call(call, list.into_iter().map(|item| fused(item, guarded)).collect())
+        }
         other => other,
     }
 }
@@ -48,7 +184,7 @@ fn fused(expression: Expression) -> Expression {
 fn sum(terms: Vec<(bool, Expression)>) -> Expression {
     let mut terms: Vec<(bool, Expression)> = terms
         .into_iter()
-        .map(|(minus, term)| match fused(term) {
+        .map(|(minus, term)| match fused(term, false) {
             Expression::Neg(inner) => (!minus, *inner),
             term => (minus, term),
         })

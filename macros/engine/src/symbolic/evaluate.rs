@@ -55,6 +55,11 @@ impl<'g, F: Field> Evaluator<'g, F> {
         Evaluator { graph, field, scalars: HashMap::new(), vectors: HashMap::new(), blocks: HashMap::new() }
     }
 
+    /// What was evaluated in, with what it keeps of its own.
+    pub fn field(&self) -> &F {
+        &self.field
+    }
+
     /// Values of these scalars; operands go first, so that no recursion is deep.
     pub fn run(&mut self, roots: &[Scalar]) -> Vec<F::Value> {
         for node in self.graph.reachable(roots) {

@@ -59,6 +59,48 @@ fn what_has_no_product_stays_as_it_is() {
     assert_eq!(fused(pack.clone()), pack);
 }
 
+/// A root of a a - b b is zero where a and b are equal: neither in the root nor on the way to it is it fused, but sums of squares
+/// are, and so is what no such function reads.
+#[test]
+fn roots_of_what_cancels_stay_numbers() {
+    use multibody_engine::contracts::call::Call;
+    let root = |x: Expression| Expression::Call(Call::Sqrt, vec![x]);
+    let [a, b, c] = [0, 1, 2].map(local);
+    let difference =
+        Expression::Sum(vec![(false, product(&[a.clone(), a.clone()])), (true, product(&[b.clone(), b.clone()]))]);
+    let scaled = |x: Expression| product(&[number(0.5), x, c.clone()]);
+    let (four, six) = (number(4.0), local(6));
+    let mut program = Program {
+        statements: vec![
+            set(0, number(0.1)),
+            set(1, number(0.1)),
+            set(2, number(3.0)),
+            // Read by a root by way of another local, a quotient and a choice.
+            set(3, difference.clone()),
+            set(4, Expression::Call(Call::Max, vec![number(-1.0), scaled(local(3))])),
+            set(5, root(Expression::Quotient(Box::new(local(4)), Box::new(four)))),
+            set(6, difference.clone()),
+        ],
+        results: vec![root(difference.clone()), local(5), difference.clone(), six],
+        ..Program::default()
+    };
+    fuse(&mut program);
+    let run = interpreter::run(&program, &|_| f64::NAN, &|_| f64::NAN);
+    assert_eq!(run[..2], [0.0, 0.0]);
+    assert_eq!(program.results[2], fused(difference.clone()));
+    assert_ne!(program.results[2], difference);
+    let Statement::Let { value, .. } = &program.statements[6] else { unreachable!() };
+    assert_eq!(*value, fused(difference.clone()));
+    let squares = Expression::Sum(vec![(false, product(&[a.clone(), a])), (false, product(&[b.clone(), c, b]))]);
+    assert_eq!(fused(root(squares.clone())), root(squares), "of which one may be negative");
+    let [a, b] = [0, 1].map(local);
+    let squares = Expression::Sum(vec![
+        (false, product(&[a.clone(), a.clone()])),
+        (false, product(&[b.clone(), number(2.0), b.clone()])),
+    ]);
+    assert_eq!(fused(root(squares.clone())), root(fused(squares)));
+}
+
 /// Random sums of products against 31 digits: each is within the rounding of its partial sums and of one product, and beside the plain
 /// one errors are smaller on average.
 #[test]

@@ -180,7 +180,7 @@ fn functions_of_the_position_are_stored() {
     assert!(at.fields.len() <= 6 + 15, "{:?}", at.fields);
 }
 
-/// Each literal and each sign of each program, one at a time.
+/// Each result of each program with its sign turned, one at a time.
 #[test]
 fn errors_are_noticed() {
     let model = corpus::model(&ARM.replace("FUNCTIONS", "mass_matrix, bias, inverse_dynamics"));
