@@ -70,9 +70,10 @@ impl Guarded {
         while let Some(expression) = open.pop() {
             match expression {
                 Expression::Local(local) => {
-                    if guarded.0.insert(*local) {
-                        open.extend(values.get(local).into_iter().flatten());
+                    if !guarded.0.insert(*local) {
+                        continue;
                     }
+                    open.extend(values.get(local).into_iter().flatten());
                 }
                 expression if cannot_be_negative(expression) => {}
                 Expression::Neg(inner) => open.push(inner),
