@@ -256,8 +256,9 @@ impl Field for Tape<'_> {
             let pivot = self.reciprocal(a[k][k]);
             for i in k + 1..n {
                 let factor = self.mul(a[i][k], pivot);
-                for j in k + 1..n {
-                    a[i][j] = self.sub(a[i][j], self.mul(factor, a[k][j]));
+                let (above, below) = a.split_at_mut(i);
+                for (entry, &over) in below[0].iter_mut().zip(&above[k]).skip(k + 1) {
+                    *entry = self.sub(*entry, self.mul(factor, over));
                 }
                 b[i] = self.sub(b[i], self.mul(factor, b[k]));
             }
