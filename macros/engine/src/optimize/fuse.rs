@@ -9,7 +9,7 @@
 //! sum, and to the rounding of one of them in a fused one. What is equal for all values is one node long before, entries of
 //! symmetric matrices are one value read twice, and ranks are judged beside the size of the terms; but a root of a a - b b is zero where a
 //! and b happen to be equal, and of a rounding below zero it is none. So what leads to the argument of a function with a bounded domain, by sums,
-//! products, quotients and the locals in them ([`Guarded`]), keeps plain sums, but for those whose terms are squares and the like. Values that are read more than once, or have
+//! products, quotients and the locals in them (`Guarded`), keeps plain sums, but for those whose terms are squares and the like. Values that are read more than once, or have
 //! a name, keep their statement: a product that is computed anyway is added as any other value. Chains are as long as those of
 //! sums, and shorter in time by one product.
 //!
