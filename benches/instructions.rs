@@ -1,18 +1,23 @@
-//! Instruction counts of the functions in `speed.rs`, and what must hold: the generated double pendulum needs no more
-//! instructions than the one written by hand in `hand.rs`.
+//! Instruction counts of the functions in `speed.rs`, of a Stewart platform and of loops in `loops.rs`, and what must hold: the
+//! generated double pendulum needs no more instructions than the one written by hand in `hand.rs`.
 //!
 //! `cargo xtask instructions` runs it, with valgrind, and compares counts with `instructions.txt`.
 //! Sines and cosines count with the rest: the crate's own in generated functions, the platform's in others. Valgrind does not know every instruction of every
 //! processor: leave `target-cpu` alone.
 
 mod hand;
+#[path = "../tests/models/iterated.rs"]
+mod iterated;
 mod models;
 mod recursive;
+#[path = "../tests/models/stewart.rs"]
+mod stewart;
 
 use std::hint::black_box;
 
 use gungraun::{library_benchmark, library_benchmark_group, main};
 use multibody::nalgebra::{SMatrix, SVector};
+use multibody::simba::simd::WideF64x4;
 
 use models::sample;
 use recursive::Tree;
@@ -126,4 +131,129 @@ mod by_hand {
 }
 use by_hand::against_hand;
 
-main!(library_benchmark_groups = against_hand, double_pendulum, cart5, puma560, panda);
+/// The panda once more: four in a lane, and derivatives.
+mod pandas {
+    use super::*;
+    use models::panda::{self, Point};
+
+    fn point() -> &'static Point<f64> {
+        leak(panda::point())
+    }
+
+    fn lane() -> &'static Point<WideF64x4> {
+        leak(panda::point())
+    }
+
+    #[library_benchmark]
+    #[bench::generated(lane())]
+    fn inverse_dynamics_in_a_lane(p: &Point<WideF64x4>) {
+        black_box(panda::inverse_dynamics(black_box(p)));
+    }
+
+    #[library_benchmark]
+    #[bench::generated(lane())]
+    fn mass_matrix_in_a_lane(p: &Point<WideF64x4>) {
+        black_box(panda::mass_matrix(black_box(p)));
+    }
+
+    #[library_benchmark]
+    #[bench::generated(lane())]
+    fn forward_dynamics_in_a_lane(p: &Point<WideF64x4>) {
+        black_box(panda::forward_dynamics(black_box(p)));
+    }
+
+    #[library_benchmark]
+    #[bench::generated(point())]
+    fn forward_derivatives(p: &Point<f64>) {
+        let p = black_box(p);
+        black_box(p.driven.forward_derivatives(0.0, &p.driven_state, &p.input));
+    }
+
+    library_benchmark_group!(
+        name = panda_beside;
+        benchmarks = inverse_dynamics_in_a_lane, mass_matrix_in_a_lane, forward_dynamics_in_a_lane, forward_derivatives
+    );
+}
+use pandas::panda_beside;
+
+/// The Stewart platform: forward dynamics, forces in the legs, strokes with their rates and accelerations.
+mod platform {
+    use super::*;
+    use stewart::reduced::{Input, Model, State, Velocity};
+
+    type Subject = (Model<f64>, State<f64>, Input<f64>, Velocity<f64>);
+
+    /// At the start, moving.
+    fn subject() -> &'static Subject {
+        let mut state = State::default();
+        let [v, accel] = [1, 2].map(|kind| Velocity::from(sample::<f64, 6>(kind)));
+        state.v = v;
+        leak((Model::default(), state, Input::default(), accel))
+    }
+
+    #[library_benchmark]
+    #[bench::generated(subject())]
+    fn forward_dynamics(subject: &Subject) {
+        let (model, state, input, _) = black_box(subject);
+        black_box(model.forward_dynamics(0.0, state, input));
+    }
+
+    #[library_benchmark]
+    #[bench::generated(subject())]
+    fn leg_forces(subject: &Subject) {
+        let (model, state, input, accel) = black_box(subject);
+        black_box(model.inverse_dynamics(0.0, state, input, accel));
+    }
+
+    #[library_benchmark]
+    #[bench::generated(subject())]
+    fn strokes(subject: &Subject) {
+        let (model, state, _, accel) = black_box(subject);
+        black_box(model.kinematics(0.0, state, accel));
+    }
+
+    library_benchmark_group!(name = stewart_platform; benchmarks = forward_dynamics, leg_forces, strokes);
+}
+use platform::stewart_platform;
+
+/// Forward dynamics of loops in the choices of coordinates that `loops.rs` times.
+macro_rules! closed {
+    ($($name:ident: $file:ident::$model:ident,)*) => {
+        mod closed {
+            use super::*;
+
+            $(
+                #[library_benchmark]
+                #[bench::generated(leak(Default::default()))]
+                fn $name(subject: &($file::$model::Model<f64>, $file::$model::State<f64>, $file::$model::Input<f64>)) {
+                    let (model, state, input) = black_box(subject);
+                    black_box(model.forward_dynamics(0.0, state, input));
+                }
+            )*
+
+            library_benchmark_group!(name = loops; benchmarks = $($name),*);
+        }
+    };
+}
+
+closed! {
+    stewart_hybrid: stewart::hybrid,
+    stewart_absolute: stewart::absolute,
+    delta_closed: iterated::delta_closed,
+    delta_newton: iterated::delta_newton,
+    delta_multipliers: iterated::delta_multipliers,
+    stephenson_newton: iterated::stephenson_newton,
+    stephenson_multipliers: iterated::stephenson_multipliers,
+}
+use closed::loops;
+
+main!(
+    library_benchmark_groups = against_hand,
+    double_pendulum,
+    cart5,
+    puma560,
+    panda,
+    panda_beside,
+    stewart_platform,
+    loops
+);
