@@ -59,6 +59,8 @@ const REACHED: &[(&str, &str)] = &[
     ("modes_by_sides", "of a model: by `assembly_modes`"),
     ("on_circle", "by `assembly_modes`"),
     ("integrate_lanes", "by `simulate_lanes`"),
+    ("horizon", "of a system: before every step"),
+    ("closed_loop", "a wrapper that computes nothing: in runtime/tests/integrators/wrappers.rs"),
     ("mass_matrix_lower", "entries of `mass_matrix`: in runtime/tests/numbers/lower_triangle.rs"),
     ("kinematics_2", "`kinematics`, asked for a second time"),
 ];
