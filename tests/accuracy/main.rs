@@ -8,7 +8,7 @@
 //! Algorithms, 2nd ed., sections 1.6 and 25.2, but for that it counts one at least. The median error, of all results at all
 //! states, is at most [`MEDIAN`], the greatest [`GREATEST`] times the condition number.
 //!
-//! It takes minutes, and functions are known that miss these bounds (`docs/accuracy.md` has them), so it is run by hand.
+//! It takes minutes, and functions are known that miss these bounds, so it is run by hand.
 //! `STATES=1000` looks at as many states, with every pass left out in turn; `UPDATE_ACCURACY=1` writes `docs/accuracy.md`:
 //!
 //! ```text
@@ -63,7 +63,7 @@ fn all(states: usize, thorough: bool) -> Vec<Figures> {
 }
 
 #[test]
-#[ignore = "minutes, and misses that are known: docs/accuracy.md"]
+#[ignore = "minutes, and misses that are known"]
 fn errors_are_those_of_the_data() {
     let wanted = std::env::var("STATES").ok().and_then(|text| text.parse().ok());
     let states = wanted.unwrap_or(FEW);
