@@ -17,9 +17,9 @@ const EARLY: f64 = 1e-9;
 ///
 /// The law sees time, state and a memory of its own, which it may change: the sum of an integral term, the last measurement,
 /// an estimate. What it gives holds until the next sample. It may be called more often than there are samples, so all that it
-/// remembers belongs into that memory. Integrations by [`Integrator`](crate::Integrator), [`simulate`](crate::simulate) and the like end a step at each sample; steps that are taken
-/// one by one (`Rk4::step`, `Rk4::integrate`) have to divide the period, and give NaN, or an error, where they don't. Time goes
-/// forwards, and lanes sample together.
+/// remembers belongs in that memory. Integrations by [`Integrator`](crate::Integrator), [`simulate`](crate::simulate) and the
+/// like end a step at each sample. Steps that are taken one by one have to divide the period: where they don't, `Rk4::step`
+/// gives NaN and `Rk4::integrate` an error. Time goes forwards, and lanes sample together.
 ///
 /// ```
 /// use multibody::{Dop853, Integrator, multibody, sampled};

@@ -51,9 +51,8 @@ pub type ExtraOf<S> = <<S as System>::State as StateSpace>::Extra;
 /// A mechanical system that can be integrated in time.
 ///
 /// Generated models with forward dynamics implement it. A feedback law that is to be evaluated at every stage of a step, not
-/// held over the step as an input is, is a [`closed_loop`](crate::closed_loop) around the model; one that acts once in a period is
-/// [`sampled`](crate::sampled). Other wrappers implement the
-/// trait; around a model with loops they have to hand on every function of it, as all of the crate do, since without them
+/// held over the step as an input is, is a [`closed_loop`](crate::closed_loop) around the model; one that acts once in a
+/// period is [`sampled`](crate::sampled). Other wrappers implement the trait; around a model with loops they have to hand on every function of it, as all of the crate do, since without them
 /// integrators don't see open loops, dead centres and crossing motions. A controller around a system without loops:
 ///
 /// ```
@@ -126,8 +125,8 @@ pub trait System {
     /// coordinates, and brings coordinates back to where they belong. Wrappers of a model that has such things hand the
     /// call on.
     ///
-    /// A state that it has given it gives again. Not all of these states are kept: the search for an event tries many, and so does that for an equilibrium. What
-    /// counts steps does so in [`System::reached`].
+    /// A state that it has returned is left as it is if it comes again at the same time. Not all of these states are kept: the
+    /// search for an event tries many, and so does that for an equilibrium. What counts steps does so in [`System::reached`].
     #[inline]
     fn accepted(&self, _t: Self::Scalar, state: &Self::State, _input: &Self::Input) -> Self::State {
         *state

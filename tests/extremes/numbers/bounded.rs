@@ -49,6 +49,9 @@ impl<S: System> System for Bounded<'_, S> {
         self.count();
         self.system.reached(t, state);
     }
+    fn horizon(&self, t: S::Scalar, state: &S::State) -> S::Scalar {
+        self.system.horizon(t, state)
+    }
     fn margins(
         &self,
         t: S::Scalar,

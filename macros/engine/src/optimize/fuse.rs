@@ -16,7 +16,7 @@
 //! What packs are filled with stays plain: these are leaves, but for signs. So do parameters' work, tests of parameters and the matrix of
 //! `without_inertia`, which are run once.
 //!
-//! Measured (f64, `target-cpu=native` on AMD EPYC of family 25, level 3, interleaved minima in one process), time with over without, both in
+//! Measured, before sums that roots read were exempt (f64, `target-cpu=native` on AMD EPYC of family 25, level 3, interleaved minima in one process), time with over without, both in
 //! the order of [`super::order`]: panda inverse dynamics 0.89, mass matrix 0.99, forward dynamics 0.97, its derivatives 0.86; four legs on a floating body,
 //! forward dynamics 0.86, in packs 0.83; humanoid of 32 joints 0.83; Stewart platform, forward dynamics 0.95, leg forces 0.92, strokes with rates and
 //! accelerations 0.75. On x86 without the instruction, where what is emitted is a product and a sum in another order of terms, between 0.90 and
