@@ -26,6 +26,7 @@ commands
 
 options
   --model NAME   only the model of this name
+  --parts FILE   a file that declares parts which a call of FILE uses by `use path::of::part;`; may be given several times
 ";
 
 /// What a command looks at.
@@ -33,6 +34,8 @@ pub(crate) struct Subject {
     pub(crate) file: PathBuf,
     /// The only model that is looked at.
     pub(crate) model: Option<String>,
+    /// Files whose parts it uses, beside its own.
+    pub(crate) parts: Vec<PathBuf>,
 }
 
 /// How equations are printed.
@@ -82,7 +85,9 @@ pub(crate) fn read(mut words: Vec<OsString>) -> Result<Command, String> {
     let mut values = given.values.into_iter();
     let Some(name) = values.next() else { return Ok(Command::Help) };
     let name = name.to_string_lossy().into_owned();
-    let subjects: Vec<Subject> = values.map(|file| Subject { file: file.into(), model: given.model.clone() }).collect();
+    let subject =
+        |file: OsString| Subject { file: file.into(), model: given.model.clone(), parts: given.parts.clone() };
+    let subjects: Vec<Subject> = values.map(subject).collect();
     match name.as_str() {
         "check" => Ok(Command::Check(one(&name, subjects)?)),
         "compare" => Ok(Command::Compare(one(&name, subjects)?, given.extent)),
@@ -111,6 +116,7 @@ fn files<const N: usize>(name: &str, wanted: &str, subjects: Vec<Subject>) -> Re
 struct Given {
     values: Vec<OsString>,
     model: Option<String>,
+    parts: Vec<PathBuf>,
     form: Form,
     extent: Extent,
     out: Option<PathBuf>,
@@ -127,6 +133,7 @@ impl Given {
             match argument {
                 Arg::Value(value) => given.values.push(value),
                 Arg::Long("model") => given.model = Some(parser.value()?.string()?),
+                Arg::Long("parts") => given.parts.push(parser.value()?.into()),
                 Arg::Long("all") => given.extent.all = true,
                 Arg::Long("measure") => given.extent.measure = true,
                 Arg::Long("out") => given.out = Some(parser.value()?.into()),

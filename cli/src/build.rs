@@ -11,9 +11,11 @@ use multibody_engine::model::types::Model;
 use multibody_engine::optimize::program::Compiled;
 use multibody_engine::optimize::{Excess, Refusal};
 use multibody_engine::{Trouble, compile, mechanics, model, settled, syntax};
+use proc_macro2::TokenStream;
 
 use crate::Stop;
 use crate::arguments::Subject;
+use crate::parts;
 use crate::progress;
 use crate::said::Mistake;
 use crate::source::{Call, File, Found};
@@ -107,7 +109,7 @@ pub(crate) fn each<T>(
 /// The file and its calls, with a word about what is left out.
 pub(crate) fn open(subject: &Subject) -> Result<(File, Found), Stop> {
     let file = File::read(&subject.file).map_err(Stop::Usage)?;
-    let found = file.calls();
+    let mut found = file.calls();
     if let Some(at) = found.unreadable {
         let message = "this is not Rust: the tokens end here".to_owned();
         tell(&file, &[Mistake { start: at, end: at, message, help: None }])?;
@@ -123,6 +125,18 @@ pub(crate) fn open(subject: &Subject) -> Result<(File, Found), Stop> {
     if found.calls.is_empty() {
         return Err(Stop::Usage(format!("{} holds no call of `multibody!` that can be read", file.name)));
     }
+    let mut calls: Vec<TokenStream> = found.calls.iter().map(|call| call.tokens.clone()).collect();
+    for path in &subject.parts {
+        calls.extend(File::read(path).map_err(Stop::Usage)?.calls().calls.into_iter().map(|call| call.tokens));
+    }
+    let mut wrong = Vec::new();
+    for call in &mut found.calls {
+        match parts::linked(&call.tokens, &calls) {
+            Ok(tokens) => call.tokens = tokens,
+            Err(diagnostics) => wrong.extend(mistakes(&diagnostics, call)),
+        }
+    }
+    tell(&file, &wrong)?;
     Ok((file, found))
 }
 

@@ -6,6 +6,7 @@
 mod arguments;
 mod build;
 mod commands;
+mod parts;
 mod progress;
 mod report;
 mod said;

@@ -340,3 +340,23 @@ fn the_command_line_is_checked() {
     assert_eq!(refused(&["check", "pendulum.rs", "--model", "arm"]), "error: pendulum.rs has no model `arm`\n");
     assert!(refused(&["check", "--fast", "pendulum.rs"]).contains("--fast"));
 }
+
+/// rustc brings a part to the call that uses it in a build; here the file is named.
+#[test]
+fn parts_of_another_file_are_named() {
+    let (output, messages, code) = run(&["check", "walking.rs"]);
+    assert_eq!((output.as_str(), code), ("", 1));
+    let expected = "\
+error: no file that is read here declares the part `leg`
+  help: name the file: `--parts FILE`
+ --> walking.rs:4:23
+  |
+4 |     use crate::shelf::leg;
+  |                       ^^^
+
+1 error
+";
+    assert_eq!(messages, expected);
+    let expected = quiet(&["expand", "shelf.rs"]);
+    assert_eq!(quiet(&["expand", "walking.rs", "--parts", "shelf.rs"]), expected);
+}

@@ -29,5 +29,13 @@ use proc_macro::TokenStream;
 /// Every mistake of a call is a compile error at the token where it stands, all of them in one build.
 #[proc_macro]
 pub fn multibody(input: TokenStream) -> TokenStream {
-    multibody_engine::expand(input.into()).into()
+    let place = place(input.clone());
+    multibody_engine::expand_at(input.into(), &place).into()
+}
+
+/// Where the call ends in its crate: the last token is the user's own, whatever macros the call went through.
+fn place(input: TokenStream) -> String {
+    let Some(last) = input.into_iter().last() else { return String::new() };
+    let span = last.span();
+    format!("{}:{}:{}", span.file(), span.line(), span.column())
 }

@@ -61,14 +61,19 @@ use syntax::tree::Source;
 /// Tokens of a `multibody!` call to tokens of its modules, and of everything that is wrong. A model without a mistake is
 /// there in full whatever stands beside it, one with mistakes as an outline without equations: one mistake, one error.
 pub fn expand(tokens: TokenStream) -> TokenStream {
+    expand_at(tokens, "")
+}
+
+/// The same where the call stands at a `place` of the crate: macros that hand parts on to other calls are named by it.
+pub fn expand_at(tokens: TokenStream, place: &str) -> TokenStream {
     let followed = if emit::references::for_an_editor() { Followed::Always } else { Followed::Sound };
-    expand_by(tokens, syntax::parse, emit::emit, followed)
+    expand_by(tokens, place, syntax::parse, emit::emit, followed)
 }
 
 /// The same for readers: paragraphs of statements have headings, as the attribute `#[doc = "// .."]`, and what editors alone
 /// follow is left out.
 pub fn commented(tokens: TokenStream) -> TokenStream {
-    expand_by(tokens, syntax::parse, emit::commented, Followed::Never)
+    expand_by(tokens, "", syntax::parse, emit::commented, Followed::Never)
 }
 
 /// When references stand beside the modules, for editors to follow.
@@ -82,16 +87,26 @@ enum Followed {
 
 fn expand_by(
     tokens: TokenStream,
+    place: &str,
     parse: fn(TokenStream, &mut Diagnostics) -> Source,
     emit: fn(&Model, &Structure, &Compiled) -> TokenStream,
     followed: Followed,
 ) -> TokenStream {
     let mut diagnostics = Diagnostics::default();
+    let text = tokens.to_string();
     let source = guard("syntax", || parse(tokens, &mut diagnostics));
+    let suffix = format!("{:016x}", hash(&format!("{place} {text}")));
+    // Parts of other calls come first: rustc brings them, and calls again.
+    if let Some(pending) = source.as_ref().ok().and_then(|source| source.pending.as_ref()) {
+        let mut output = diagnostics.to_tokens();
+        output.extend(pending.invocation(&suffix));
+        return output;
+    }
     // What is for editors alone never stands in the way of a build.
     let references = source.as_ref().ok().filter(|_| followed != Followed::Never);
     let references = references.and_then(|source| guard("model", || model::references::of(source)).ok());
-    let checked = source.and_then(|source| guard("model", || model::check_all(&source, &mut diagnostics)));
+    let checked = source.as_ref().map_err(Fault::clone);
+    let checked = checked.and_then(|source| guard("model", || model::check_all(source, &mut diagnostics)));
     let checked = checked.unwrap_or_else(|fault| {
         diagnostics.error_help(Span::call_site(), fault_of("the call", &fault), REPORT);
         Vec::new()
@@ -134,10 +149,18 @@ fn expand_by(
     } else {
         fields = TokenStream::new();
     }
+    let exports = source.iter().flat_map(|source| model::exports::of(source, !diagnostics.is_empty()));
+    let exports = emit::exports(exports, &suffix);
     output.extend(diagnostics.to_tokens());
     output.extend(modules);
+    output.extend(exports);
     output.extend(fields);
     output
+}
+
+/// FNV-1a of 64 bits, which is the same in every build.
+fn hash(text: &str) -> u64 {
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
 }
 
 /// The stages behind the checked model.

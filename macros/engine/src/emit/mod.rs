@@ -13,6 +13,7 @@
 mod broken;
 mod document;
 mod dump;
+mod exports;
 mod items;
 mod layout;
 mod methods;
@@ -37,6 +38,7 @@ pub use self::document::facts::{BodyFact, ClosingFact, Declared, Facts, ForceFac
 pub use self::document::report::report;
 pub use self::document::shown::{Form, Shown};
 pub use self::document::unused::Unused;
+pub use self::exports::exports;
 pub use self::methods::functions::name as function_name;
 pub use self::print::text::source;
 

@@ -13,6 +13,7 @@ mod checker;
 pub(crate) mod checks;
 mod docs;
 mod expand;
+pub mod exports;
 mod expressions;
 pub mod formulated;
 mod items;
@@ -32,7 +33,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use syn::spanned::Spanned;
 
 use crate::diagnostics::Diagnostics;
-use crate::syntax::tree::{self, ItemKind};
+use crate::syntax::tree::{self, Home, ItemKind};
 
 use checker::Checker;
 use report::Report;
@@ -68,7 +69,7 @@ pub fn check_all(source: &tree::Source, diagnostics: &mut Diagnostics) -> Vec<Ch
     let mut models = Vec::new();
     let mut sound = BTreeSet::new();
     for (index, module) in source.modules.iter().enumerate() {
-        if is_part(module) {
+        if is_part(module) || module.home != Home::Own {
             continue;
         }
         // Without them the model is what was meant.
@@ -90,7 +91,7 @@ pub fn check_all(source: &tree::Source, diagnostics: &mut Diagnostics) -> Vec<Ch
         }
     }
     for (index, module) in source.modules.iter().enumerate() {
-        if !is_part(module) {
+        if !is_part(module) || module.home != Home::Own {
             continue;
         }
         if let Some(cfg) = module.attrs.iter().find(|a| a.path().is_ident("cfg")) {

@@ -70,6 +70,21 @@ impl Cursor {
         Some(token)
     }
 
+    /// How many tokens are read.
+    pub(super) fn position(&self) -> usize {
+        self.position
+    }
+
+    /// What was read since so many tokens were.
+    pub(super) fn since(&self, position: usize) -> TokenStream {
+        self.tokens.get(position..self.position).unwrap_or_default().iter().cloned().collect()
+    }
+
+    /// What is not read yet.
+    pub(super) fn rest(&self) -> TokenStream {
+        self.tokens.get(self.position..).unwrap_or_default().iter().cloned().collect()
+    }
+
     /// Whether all tokens are read.
     pub(super) fn at_end(&self) -> bool {
         self.position >= self.tokens.len()

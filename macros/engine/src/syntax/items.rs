@@ -83,6 +83,11 @@ fn start(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Option<Keyword> 
         diagnostics.error_help(span, "models don't stand inside one another", help);
         return None;
     }
+    if word == "use" {
+        let help = "parts of other calls are used at the head of the call, before the first model";
+        diagnostics.error_help(span, "`use` doesn't stand inside a model", help);
+        return None;
+    }
     let message = format!("unknown item {found}");
     if let Some(keyword) = Keyword::meant_by(&word) {
         diagnostics.error_help(span, message, form(keyword));

@@ -6,7 +6,8 @@
 //! The grammar (`*`: any number, `?`: at most one, `,*`: with commas between and perhaps one behind):
 //!
 //! ```text
-//! call        = ("#![krate(" "::" path ")]")? module*
+//! call        = ("#![krate(" "::" path ")]")? use* module*
+//! use         = "use" PATH ("as" NAME)? ";", with braces as in Rust
 //! module      = attribute* visibility? "mod" NAME "{" item* "}"
 //! item        = attribute* (value | state | port | world | formulation | body | joint | force | constraint
 //!             | drive | solve | assume | part | emit)
@@ -40,11 +41,14 @@ mod attributes;
 mod blocks;
 mod build;
 mod cursor;
+mod exports;
 mod expressions;
 mod fields;
 mod hints;
+mod imports;
 mod items;
 pub mod keywords;
+mod link;
 mod modules;
 mod names;
 mod numbers;

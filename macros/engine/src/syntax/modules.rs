@@ -5,11 +5,11 @@
 use proc_macro2::{Delimiter, TokenStream};
 use syn::{Attribute, Path, Visibility};
 
-use super::attributes;
 use super::cursor::Cursor;
 use super::expressions::is_name;
 use super::items::items;
-use super::tree::{Module, Source};
+use super::tree::{Home, Module, Source};
+use super::{attributes, exports, imports, link};
 use crate::diagnostics::Diagnostics;
 
 const FORM: &str = "write `pub mod name { .. }`";
@@ -19,33 +19,47 @@ pub(super) fn source(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Sour
     let mut cursor = Cursor::new(tokens);
     let runtime = runtime(&mut cursor, diagnostics);
     let fused = runtime.is_some() && fused(&mut cursor);
-    let mut source = Source { krate: None, fused, modules: Vec::new() };
+    let handed = runtime.is_some().then(|| imports::handed(&mut cursor, diagnostics)).unwrap_or_default();
+    let mut source =
+        Source { krate: None, fused, modules: Vec::new(), exports: Vec::new(), lost: handed.lost, pending: None };
     let errors = diagnostics.errors().len();
     beginning(&mut source, &mut cursor, diagnostics);
+    source.krate = source.krate.or(runtime);
+    let uses = imports::uses(&mut cursor, &mut source.lost, diagnostics);
+    if !uses.is_empty() {
+        source.pending = Some(imports::pending(&source, handed.tokens, uses, cursor.rest()));
+        return source;
+    }
     let mut seen = false;
     while !cursor.at_end() {
         seen = true;
+        if imports::late(&mut cursor, diagnostics) {
+            source.lost = true;
+            continue;
+        }
         if let Some(semicolon) = cursor.take(";") {
             diagnostics.error_help(semicolon, "expected a model, found `;`", "remove the `;`");
             continue;
         }
-        let before = cursor.span();
+        let (before, start_of_module) = (cursor.span(), cursor.position());
         let attrs = attributes::outer(&mut cursor, diagnostics);
         let vis = attributes::visibility(&mut cursor, diagnostics);
         if cursor.at_end() {
             diagnostics.error_help(before, "expected a model after this", FORM);
         } else if start(&mut cursor, diagnostics) {
-            source.modules.extend(module(attrs, vis, &mut cursor, diagnostics));
+            let module = module(attrs, vis, &mut cursor, diagnostics);
+            source.modules.extend(module.map(|module| Module { tokens: cursor.since(start_of_module), ..module }));
         } else {
             while !cursor.at_end() && !at_module(&cursor) {
                 cursor.bump();
             }
         }
     }
-    source.krate = source.krate.or(runtime);
     if !seen && diagnostics.errors().len() == errors {
         diagnostics.error_help(cursor.span(), "there is no model here", FORM);
     }
+    source.exports = exports::of(&source.modules, &handed.bundles);
+    link::link(&mut source, handed.bundles, diagnostics);
     source
 }
 
@@ -124,7 +138,7 @@ fn start(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> bool {
 }
 
 /// A model behind its `mod`; `None` without a name.
-fn module(
+pub(super) fn module(
     mut attrs: Vec<Attribute>,
     vis: Visibility,
     cursor: &mut Cursor,
@@ -146,7 +160,15 @@ fn module(
         while !cursor.at_end() && !at_module(cursor) {
             cursor.bump();
         }
-        return name.map(|name| Module { attrs, vis, name, items: Vec::new(), broken: true });
+        return name.map(|name| Module {
+            attrs,
+            vis,
+            name,
+            items: Vec::new(),
+            broken: true,
+            tokens: TokenStream::new(),
+            home: Home::Own,
+        });
     };
     let Ok(mut inner) = cursor.enter(&group, diagnostics) else {
         return None;
@@ -161,5 +183,5 @@ fn module(
     }
     // Items of a model without a name are read all the same, for their own mistakes.
     let (items, broken) = items(&mut inner, diagnostics);
-    name.map(|name| Module { attrs, vis, name, items, broken })
+    name.map(|name| Module { attrs, vis, name, items, broken, tokens: TokenStream::new(), home: Home::Own })
 }

@@ -38,8 +38,50 @@ pub struct Source {
     pub krate: Option<Path>,
     /// `@fused`, which the runtime's macro says with its feature `fma`.
     pub fused: bool,
-    /// Models and parts in source order; a module with ports is a part.
+    /// Models and parts in source order; a module with ports is a part. Behind those of the call stand those that it uses.
     pub modules: Vec<Module>,
+    /// Parts of this call that other calls may use.
+    pub exports: Vec<Export>,
+    /// A `use` was lost to an error already reported: what looks unknown may be what it named.
+    pub lost: bool,
+    /// Parts of other calls that are asked for. Then nothing else of the call is read yet.
+    pub pending: Option<Pending>,
+}
+
+/// A part of this call, as tokens that another call reads.
+pub struct Export {
+    /// Its place in [`Source::modules`].
+    pub module: usize,
+    /// Of `@part(..)`: the version of the language, the part's name, and the modules that it needs.
+    pub tokens: TokenStream,
+}
+
+impl Export {
+    /// The same where the call has a mistake: those who use the part hear nothing more of it.
+    pub fn withheld(&self) -> TokenStream {
+        self.tokens.clone().into_iter().take(2).collect()
+    }
+}
+
+/// A call that can't go on before rustc has put in the parts that it uses.
+pub struct Pending {
+    /// What the next call begins with: where the runtime is, and what is known already.
+    pub head: TokenStream,
+    /// What the next call is: the path of the procedural macro.
+    pub callback: TokenStream,
+    /// At least one.
+    pub uses: Vec<Use>,
+    /// Modules of the call.
+    pub rest: TokenStream,
+}
+
+/// `use robot_parts::leg as limb;`, of one part.
+#[derive(Clone)]
+pub struct Use {
+    /// `robot_parts::leg`
+    pub path: TokenStream,
+    /// `limb`; the last name of the path where nothing else is said.
+    pub name: Ident,
 }
 
 /// `pub mod name { .. }`
@@ -54,6 +96,21 @@ pub struct Module {
     pub items: Vec<Item>,
     /// An item was lost to an error already reported: what looks missing or unknown may be what was lost.
     pub broken: bool,
+    /// All of the above as written.
+    pub tokens: TokenStream,
+    /// Whose it is.
+    pub home: Home,
+}
+
+/// Where a module was declared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Home {
+    /// In this call.
+    Own,
+    /// In another call, and named by a `use` of this one.
+    Used,
+    /// In another call; only parts from there know its name.
+    Inner,
 }
 
 /// One declaration inside a module.

@@ -25,7 +25,7 @@ pub fn names(references: &References, all: bool) -> TokenStream {
         quote!(#docs #name,)
     });
     let enums = modules().map(|(index, _)| writer.declare(index));
-    let uses = modules().map(|(_, module)| writer.uses(module));
+    let uses = modules().filter(|(_, module)| !module.is_foreign).map(|(_, module)| writer.uses(module));
     quote! {
         const _: () = {
             enum Modules { #(#variants)* }

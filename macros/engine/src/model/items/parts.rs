@@ -11,12 +11,15 @@ use crate::model::expand::{MAX_ITEMS, article, declared, root};
 use crate::model::typed::Allowed;
 use crate::model::types::{PartType, PartTypeId};
 use crate::model::{docs, names};
-use crate::syntax::tree::{self, ItemKind};
+use crate::syntax::tree::{self, Home, ItemKind};
 
 impl<'a> Checker<'a, '_> {
     pub(in crate::model) fn part_module(&mut self, kind: &Ident) -> Option<usize> {
         let name = kind.to_string();
-        match self.modules.get(&name) {
+        let caller = self.expanding.last().map_or(Home::Own, |&index| self.source.modules[index].home);
+        // Parts of a part are known where that one was declared.
+        let knows = |module: &tree::Module| caller != Home::Own || module.home != Home::Inner;
+        match self.modules.get(&name).filter(|&&index| knows(&self.source.modules[index])) {
             Some(&index) => {
                 let module = &self.source.modules[index];
                 if crate::model::is_part(module) {
@@ -28,16 +31,17 @@ impl<'a> Checker<'a, '_> {
                     "a part has at least one `port name: Frame;`",
                 );
             }
+            None if self.source.lost => self.report.silent(),
             None => {
                 let source = self.source;
-                let parts = source.modules.iter().filter(|m| crate::model::is_part(m));
+                let parts = source.modules.iter().filter(|m| crate::model::is_part(m) && knows(m));
                 let parts: Vec<String> = parts.map(|m| m.name.to_string()).collect();
                 self.report.unknown(
                     kind.span(),
                     format!("unknown part `{name}`"),
                     &name,
                     parts.iter().map(String::as_str),
-                    Some("declare it in the same `multibody!` call".into()),
+                    Some("declare it in this call, or write `use path::of::it;` at its head".into()),
                 );
             }
         }

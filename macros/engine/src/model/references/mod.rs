@@ -12,7 +12,7 @@ use std::collections::{HashMap, HashSet};
 use proc_macro2::Ident;
 use syn::Path;
 
-use crate::syntax::tree;
+use crate::syntax::tree::{self, Home};
 
 use super::types::Docs;
 use super::{assemble, is_part};
@@ -38,6 +38,8 @@ impl References {
 pub struct Module {
     pub name: Ident,
     pub is_part: bool,
+    /// Declared in another call, where its uses are followed.
+    pub is_foreign: bool,
     pub docs: Docs,
     pub declared: Vec<Declared>,
     pub uses: Vec<Use>,
@@ -84,6 +86,7 @@ pub fn of(source: &tree::Source) -> References {
         .map(|module| Module {
             name: module.name.clone(),
             is_part: is_part(module),
+            is_foreign: module.home != Home::Own,
             docs: super::docs::docs(&module.attrs),
             declared: declared(module),
             uses: Vec::new(),
@@ -91,7 +94,9 @@ pub fn of(source: &tree::Source) -> References {
         .collect();
     // A compiler's identifiers are compared by asking it for their texts, so texts are what is looked up.
     let known = walk::Known::new(source, &modules);
-    let uses: Vec<Vec<Use>> = (0..modules.len()).map(|index| walk::uses(source, &known, index)).collect();
+    let own = modules.iter().map(|module| !module.is_foreign).enumerate();
+    let uses = own.map(|(index, is_own)| if is_own { walk::uses(source, &known, index) } else { Vec::new() });
+    let uses: Vec<Vec<Use>> = uses.collect();
     for (module, uses) in modules.iter_mut().zip(uses) {
         module.uses = uses;
     }
