@@ -385,7 +385,7 @@ mod tests {
 
     #[test]
     fn a_panic_of_the_parser_is_one_error_that_names_the_stage() {
-        let output = expand_by(TokenStream::new(), fails, emit::emit, Followed::Sound).to_string();
+        let output = expand_by(TokenStream::new(), "", fails, emit::emit, Followed::Sound).to_string();
         assert_eq!(output.matches("compile_error").count(), 1, "{output}");
         assert!(output.contains("the stage `syntax` has failed for the call: no token is left"), "{output}");
         assert!(output.contains("please report it with the model"), "{output}");

@@ -46,7 +46,7 @@ fn documentation(export: &Export) -> Vec<String> {
     let ports: Vec<String> = ports.map(|port| format!("{}: ..", port.name)).collect();
     lines.extend([
         String::new(),
-        format!("A part for the models of other calls: `use` it at the head of a call, then write"),
+        "A part for the models of other calls: `use` it at the head of a call, then write".to_owned(),
         format!("`part name: {name} {{ {} }};`.", ports.join(", ")),
         String::new(),
         "| | name | |".to_owned(),

@@ -61,6 +61,9 @@ pub(super) struct Loops {
     pub(super) small: Vec<Coordinate>,
 }
 
+/// What a port may be.
+const PORTS: [&str; 4] = ["Frame", "Joint", "Scalar", "Vec3"];
+
 impl<'a> Checker<'a, '_> {
     /// Checks the module at `index` and all parts inside it.
     pub(super) fn model(&mut self, index: usize) -> Option<Model> {
@@ -80,7 +83,9 @@ impl<'a> Checker<'a, '_> {
         let tree = found.as_ref().map(|(_, joints, topology)| (topology, joints));
         let loops = self.loops(&collected, tree);
         units.loops(&loops);
-        units.tell(self.report);
+        if !self.open_unit {
+            units.tell(self.report);
+        }
         let (bodies, joints, topology) = found?;
         self.check_coordinate_uses(&topology, &joints);
         let mut constraints: Vec<Constraint> = all(collected.constraints)?;
@@ -278,8 +283,9 @@ impl<'a> Checker<'a, '_> {
             ItemKind::Drive { .. } | ItemKind::Solve { .. } => into.deferred.push(task),
             ItemKind::Settled(state) => self.check_settled(state, scope),
             ItemKind::Small(list) => into.small.extend(list.iter().map(|expr| (expr, scope))),
-            ItemKind::Port { ty, .. } if ty != "Frame" && ty != tree::UNREADABLE => {
-                self.report.help(ty.span(), format!("a port is no `{ty}`"), "write `port name: Frame;`");
+            ItemKind::Port { ty, .. } if ty != tree::UNREADABLE && !PORTS.iter().any(|known| ty == known) => {
+                let help = "a port is a `Frame`, a `Joint`, a `Scalar` or a `Vec3`";
+                self.report.help(ty.span(), format!("a port is no `{ty}`"), help);
             }
             _ => {}
         }

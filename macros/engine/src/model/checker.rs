@@ -164,6 +164,10 @@ pub(super) enum Role {
     Output,
     BoundParam,
     Port,
+    /// A port for a coordinate.
+    JointPort,
+    /// A port for a value.
+    Signal,
 }
 
 /// Equations of the user's own, for unknowns of theirs.
@@ -300,6 +304,8 @@ pub(super) struct Checker<'a, 'd> {
     pub(super) expanded: usize,
     /// A part by itself: its ports lead nowhere.
     pub(super) alone: bool,
+    /// A port of it leads to a coordinate whose unit is not known.
+    pub(super) open_unit: bool,
     pub(super) ports: usize,
     /// An item is missing: how the rest hangs together is not known.
     pub(super) lost: bool,
@@ -346,6 +352,7 @@ impl<'a, 'd> Checker<'a, 'd> {
             expanding: Vec::new(),
             expanded: 0,
             alone,
+            open_unit: false,
             ports: 0,
             lost: false,
             fuel: MAX_EXPRESSIONS,

@@ -247,19 +247,19 @@ impl<'a> Checker<'a, '_> {
                     (Subject::Param(id), Symbol::Param(id))
                 }
             },
-            ItemKind::Port { .. } => match binding.and_then(|b| bound(b, name)) {
+            ItemKind::Port { ty, signal, .. } => match binding.and_then(|b| bound(b, name)) {
                 Some((expr, context)) => {
-                    let request = NamedRequest { role: Role::Port, context, item: None, home: scope, expr: Some(expr) };
-                    let id = self.add_named(name, request, None);
+                    let (role, value) = match ty.to_string().as_str() {
+                        "Joint" => (Role::JointPort, None),
+                        "Scalar" | "Vec3" => (Role::Signal, Some(signal)),
+                        _ => (Role::Port, None),
+                    };
+                    let unit = value.and_then(|_| units::declared(&name.to_string(), &docs::docs(&item.attrs)));
+                    let request = NamedRequest { role, context, item: value, home: scope, expr: Some(expr) };
+                    let id = self.add_named(name, request, unit);
                     (Subject::Named(id), Symbol::Named(id, keyword))
                 }
-                None if self.alone => {
-                    let request =
-                        NamedRequest { role: Role::Port, context: root(scope), item: None, home: scope, expr: None };
-                    let id = self.add_named(name, request, None);
-                    self.leave_open(id, name);
-                    (Subject::Named(id), Symbol::Named(id, keyword))
-                }
+                None if self.alone => self.open_port(item, name, &ty.to_string(), signal, scope),
                 // The part's own item reports the missing port.
                 None => (Subject::None, Symbol::Opaque(keyword)),
             },
@@ -348,14 +348,49 @@ impl<'a> Checker<'a, '_> {
         }))
     }
 
-    /// A part by itself: what its ports lead to is not known, but they are frames of different bodies.
-    fn leave_open(&mut self, id: NamedId, name: &Ident) {
+    /// A port of a part by itself. What it leads to is not known: a frame is one of a body that no other port leads to, a joint is
+    /// one between two such bodies, which turns unless the port's unit is a length, a value is an input.
+    fn open_port(
+        &mut self,
+        item: &'a tree::Item,
+        name: &'a Ident,
+        ty: &str,
+        signal: &'a tree::Value,
+        scope: ScopeId,
+    ) -> (Subject, Symbol) {
+        let place = self.place(scope, name);
+        let docs = docs::docs(&item.attrs);
+        match ty {
+            "Joint" => {
+                let kind = match docs.unit.as_deref() {
+                    Some("m") => &joint_kinds::PRISMATIC,
+                    _ => &joint_kinds::REVOLUTE,
+                };
+                let frames = [self.open_frame(name), self.open_frame(name)];
+                let slot = JointSlot { place, item, scope, kind: Some(kind), frames: Lazy::Done(Some(frames)) };
+                self.open_unit |= docs.unit.is_none();
+                (Subject::None, Symbol::Joint(self.joints.push(slot)))
+            }
+            "Scalar" | "Vec3" => {
+                let slot = InputSlot { place, item: signal, scope, docs, state: Lazy::Waiting };
+                (Subject::None, Symbol::Input(self.inputs.push(slot)))
+            }
+            _ => {
+                let request =
+                    NamedRequest { role: Role::Port, context: root(scope), item: None, home: scope, expr: None };
+                let id = self.add_named(name, request, None);
+                self.named[id].state = Lazy::Done(Some(Meaning::Frame(self.open_frame(name))));
+                (Subject::Named(id), Symbol::Named(id, "port"))
+            }
+        }
+    }
+
+    /// A frame of a body that nobody knows.
+    fn open_frame(&mut self, name: &Ident) -> FrameValue {
         let body = BodyId(FIRST_OF_PORTS.0 + self.ports);
         self.ports += 1;
-        self.named[id].state = Lazy::Done(Some(Meaning::Frame(FrameValue {
-            frame: Frame { body: BodyRef::Body(body), steps: Vec::new(), span: name.span() },
-            uses: Uses::default(),
-        })));
+        let frame = Frame { body: BodyRef::Body(body), steps: Vec::new(), span: name.span() };
+        FrameValue { frame, uses: Uses::default() }
     }
 
     /// All instances of a part; nothing if the item is at fault.

@@ -56,7 +56,7 @@ fn shown(item: &tree::Item) -> Option<Shown> {
         Shown { keyword, name: name.to_string(), kind, default, docs: docs::docs(&item.attrs) }
     };
     let shown = match &item.kind {
-        ItemKind::Port { name, ty } => of("port", name, Some(ty), None),
+        ItemKind::Port { name, ty, .. } => of("port", name, Some(ty), None),
         ItemKind::Param(value) => {
             let default = value.value.as_ref().map(|expr| expr.to_token_stream().to_string());
             of("param", &value.name, None, default)

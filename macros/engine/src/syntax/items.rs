@@ -4,7 +4,7 @@
 //! item is reported where it stands; reading goes on at the next item.
 
 use proc_macro2::{Delimiter, TokenTree};
-use syn::{BinOp, Expr, ExprLit, Lit, Member};
+use syn::{BinOp, Expr, ExprLit, Lit, Member, Type, TypePath};
 
 use super::attributes::{outer, visibility};
 use super::blocks;
@@ -237,12 +237,18 @@ fn port(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Option<ItemKind> 
         diagnostics.error_help(cursor.span(), message, form(keyword));
         let ty = unreadable(cursor.span());
         cursor.skip_item();
-        return Some(ItemKind::Port { name, ty });
+        return Some(port_of(name, ty));
     };
     cursor.bump();
     // The port is valid whatever comes behind.
     let _ = finish(Ok(()), "`;`", cursor, diagnostics);
-    Some(ItemKind::Port { name, ty })
+    Some(port_of(name, ty))
+}
+
+fn port_of(name: proc_macro2::Ident, ty: proc_macro2::Ident) -> ItemKind {
+    let written = Type::Path(TypePath { attrs: Vec::new(), qself: None, path: ty.clone().into() });
+    let signal = Value { name: name.clone(), ty: Some(written), value: None };
+    ItemKind::Port { name, ty, signal }
 }
 
 /// `target = value;`

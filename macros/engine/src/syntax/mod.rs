@@ -14,7 +14,7 @@
 //! value       = ("const" | "param" | "let" | "output") NAME (":" type)? "=" expr ";"
 //!             | "input" NAME (":" type)? ";"
 //! state       = "state" NAME ":" "rate" "=" expr ("," "start" ":" expr)? ","? ";"
-//! port        = "port" NAME ":" "Frame" ";"
+//! port        = "port" NAME ":" NAME ";"
 //! world       = "world" fields
 //! formulation = "formulation" fields
 //! body        = "body" NAME fields

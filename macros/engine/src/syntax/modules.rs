@@ -7,6 +7,7 @@ use syn::{Attribute, Path, Visibility};
 
 use super::cursor::Cursor;
 use super::expressions::is_name;
+use super::imports::Handed;
 use super::items::items;
 use super::tree::{Home, Module, Source};
 use super::{attributes, exports, imports, link};
@@ -19,7 +20,7 @@ pub(super) fn source(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Sour
     let mut cursor = Cursor::new(tokens);
     let runtime = runtime(&mut cursor, diagnostics);
     let fused = runtime.is_some() && fused(&mut cursor);
-    let handed = runtime.is_some().then(|| imports::handed(&mut cursor, diagnostics)).unwrap_or_default();
+    let handed = if runtime.is_some() { imports::handed(&mut cursor, diagnostics) } else { Handed::default() };
     let mut source =
         Source { krate: None, fused, modules: Vec::new(), exports: Vec::new(), lost: handed.lost, pending: None };
     let errors = diagnostics.errors().len();

@@ -148,8 +148,10 @@ pub enum ItemKind {
     Port {
         /// After the keyword.
         name: Ident,
-        /// `Frame`.
+        /// `Frame`, `Joint`, `Scalar` or `Vec3`.
         ty: Ident,
+        /// The same as a value without a value: what stands for it in a part by itself.
+        signal: Value,
     },
     /// `world { .. }`
     World(Fields),

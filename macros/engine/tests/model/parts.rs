@@ -108,3 +108,103 @@ fn two_models_and_a_rename() {
     assert_eq!(models[0].emit, [Request::ForwardDynamics]);
     assert_eq!(models[2].attrs.len(), 1);
 }
+
+const DRIVE: &str = "
+    /// A motor without inductance.
+    mod motor {
+        port shaft: Joint;
+        /// [V]
+        port supply: Scalar;
+        /// [N m/A]
+        param constant = 0.05;
+        /// [ohm]
+        param resistance = 2.0;
+        /// [A]
+        let current = (supply - constant * shaft.rate) / resistance;
+        force torque: Effort { joint: shaft, value: constant * current }
+        output power = supply * current;
+        output angle = shaft;
+    }
+    /// A push along a given direction.
+    mod pusher {
+        port at: Frame;
+        port along: Vec3;
+        force push: Force { at: at, axes: ground, value: 2.0 * along }
+    }";
+
+/// A coordinate and values are given as frames are: what is meant is the joint of the model, what is written is read where it stands.
+#[test]
+fn ports_take_coordinates_and_values() {
+    let m = model(&format!(
+        "{DRIVE} pub mod m {{
+            /// [V]
+            input voltage;
+            param k = 3.0;
+            body a {{ mass: 1.0, com: X, inertia: diag(1, 1, 1) }}
+            body b {{ mass: 1.0, com: X, inertia: diag(1, 1, 1) }}
+            joint hinge: Revolute {{ parent: ground, child: a, axis: Z }}
+            joint gimbal: Universal {{ parent: a.at(X), child: b, axes: [X, Y] }}
+            part one: motor {{ shaft: hinge, supply: voltage - k * gimbal.second, constant: 0.1 }};
+            part two: motor {{ shaft: gimbal.second, supply: 2.0 * one.current, constant: 0.2 }};
+            part three: pusher {{ at: b.at(X), along: k * a.velocity }};
+            output x = two.power;
+        }}"
+    ));
+    let w = Writer(&m);
+    assert_eq!(w.output("one.angle"), "q(hinge, 0)");
+    assert_eq!(w.output("two.angle"), "q(gimbal, 1)");
+    let one = "(((voltage - (k * q(gimbal, 1))) - (0.1 * v(hinge, 0))) / one.resistance)";
+    let two = format!("(((2 * {one}) - (0.2 * v(gimbal, 1))) / two.resistance)");
+    assert_eq!(w.output("x"), format!("((2 * {one}) * {two})"));
+    assert_eq!(m.inputs.len(), 1);
+    assert_eq!(m.joints.len(), 2);
+}
+
+#[test]
+fn mistakes_of_ports() {
+    let model = "body a { mass: 1.0, com: X, inertia: diag(1, 1, 1) }
+        joint gimbal: Universal { parent: ground, child: a, axes: [X, Y] } /// [m]
+        param far = 1.0;";
+    let cases = [
+        (
+            "part p: motor { shaft: gimbal, supply: 1.0 };",
+            "gimbal | a universal joint has 2 coordinates, a port for a joint takes one | name the coordinate, such as `gimbal.first`",
+        ),
+        (
+            "part p: motor { shaft: a, supply: 1.0 };",
+            "a | this is no joint | a port for a joint takes a joint of one coordinate, or a coordinate of one",
+        ),
+        (
+            "part p: motor { shaft: gimbal.first, supply: a };",
+            "a | expected a value, found a frame | take `.position`, `.velocity`, `.pose`, .. of it",
+        ),
+        ("part p: motor { shaft: gimbal.first, supply: far };", "far | `supply` is declared in V, its value is in m"),
+        (
+            "part p: motor { supply: 1.0 };",
+            "p | the port `shaft` of `motor` is not bound | write `shaft: <joint>` between the braces",
+        ),
+        (
+            "part p: motor { shaft: gimbal.first };",
+            "p | the port `supply` of `motor` is not bound | write `supply: <value>` between the braces",
+        ),
+        ("part p: pusher { at: a, along: 1.0 };", "1.0 | expected a Vec3, found a scalar"),
+    ];
+    for (part, expected) in cases {
+        let said = support::said(&format!("{DRIVE} mod m {{ {model} {part} }}"));
+        assert!(said.iter().any(|line| line.starts_with(expected)), "{part}\n{said:#?}");
+    }
+    // A signal that goes round in a circle.
+    let round = format!(
+        "{DRIVE} mod m {{ {model} part p: motor {{ shaft: gimbal.first, supply: q.current }}; part q: motor {{ shaft: gimbal.second, supply: p.current }}; }}"
+    );
+    let said = support::said(&round);
+    assert!(said.iter().any(|line| line.contains("is defined through itself")), "{said:#?}");
+}
+
+/// A part that nobody uses is checked by itself, whatever its ports lead to.
+#[test]
+fn ports_of_a_part_by_itself() {
+    assert_eq!(support::said(DRIVE), Vec::<String>::new());
+    let wrong = DRIVE.replace("shaft.rate", "shaft.rat").replace("2.0 * along", "at * along");
+    assert_eq!(support::said(&wrong).len(), 2, "{:#?}", support::said(&wrong));
+}

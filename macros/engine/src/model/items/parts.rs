@@ -13,6 +13,19 @@ use crate::model::types::{PartType, PartTypeId};
 use crate::model::{docs, names};
 use crate::syntax::tree::{self, Home, ItemKind};
 
+/// What a port of this name is given.
+fn wanted(module: &tree::Module, name: &str) -> &'static str {
+    let ty = module.items.iter().find_map(|item| match &item.kind {
+        ItemKind::Port { name: own, ty, .. } if own == name => Some(ty.to_string()),
+        _ => None,
+    });
+    match ty.as_deref() {
+        Some("Joint") => "<joint>",
+        Some("Scalar" | "Vec3") => "<value>",
+        _ => "<frame>",
+    }
+}
+
 impl<'a> Checker<'a, '_> {
     pub(in crate::model) fn part_module(&mut self, kind: &Ident) -> Option<usize> {
         let name = kind.to_string();
@@ -165,7 +178,7 @@ impl<'a> Checker<'a, '_> {
             self.report.help(
                 part.name.span(),
                 format!("the port `{}` of `{}` is not bound", missing.join("`, `"), part.kind),
-                format!("write `{first}: <frame>` between the braces"),
+                format!("write `{first}: {}` between the braces", wanted(module, first)),
             );
         }
     }

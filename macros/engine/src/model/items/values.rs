@@ -32,6 +32,7 @@ impl<'a> Checker<'a, '_> {
         };
         let value = match request.role {
             Role::Port => return self.frame(expr, context).map(Meaning::Frame),
+            Role::JointPort => return self.joint_port(expr, context),
             Role::Let if ty.is_none() => return self.meaning(expr, context),
             Role::BoundParam => {
                 let ty = match ty {
@@ -52,9 +53,30 @@ impl<'a> Checker<'a, '_> {
                 let value = self.value_as(expr, context, ty.as_ref())?;
                 self.output_type(value)?
             }
-            Role::Let => self.value_as(expr, context, ty.as_ref())?,
+            Role::Let | Role::Signal => self.value_as(expr, context, ty.as_ref())?,
         };
         Some(Meaning::Value(value))
+    }
+
+    /// What a port for a joint is given: one coordinate, or a joint that has no other.
+    fn joint_port(&mut self, expr: &Expr, context: Context<'a>) -> Option<Meaning> {
+        let meaning = self.meaning(expr, context)?;
+        let (message, help) = match &meaning {
+            Meaning::Coordinate(..) => return Some(meaning),
+            Meaning::Joint(id) => match self.joints[*id].kind? {
+                kind if kind.freedoms() == 1 => return Some(meaning),
+                kind => (
+                    format!("a {} joint has {} coordinates, a port for a joint takes one", kind.word, kind.freedoms()),
+                    "name the coordinate, such as `gimbal.first`",
+                ),
+            },
+            _ => (
+                "this is no joint".to_owned(),
+                "a port for a joint takes a joint of one coordinate, or a coordinate of one",
+            ),
+        };
+        self.report.help(crate::model::expressions::span(expr), message, help);
+        None
     }
 
     fn value_as(&mut self, expr: &Expr, context: Context<'a>, ty: Option<&Type>) -> Option<Typed> {

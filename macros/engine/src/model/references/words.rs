@@ -55,6 +55,7 @@ const TYPE: Room = &[
     ("Wrench", &[]),
     ("Jacobian", &[]),
     ("Frame", &[]),
+    ("Joint", &[]),
 ];
 
 const COORDINATES: Room = &[("Joint", &[]), ("Absolute", &[]), ("Quaternion", &[]), ("RollPitchYaw", &[])];
