@@ -26,7 +26,8 @@ commands
   report FILE    a page about each model: graph, drawing, tables, structure of matrices, costs, candidates, equations;
                  NAME.html in --out DIR (target/multibody by default), and with --markdown NAME.md beside it
   import FILE    a URDF file as a model. The root stands on the ground, with --base floating it moves freely;
-                 --efforts gives every coordinate an input; --allow-unphysical LINK takes an inertia that no body has
+                 --efforts gives hinges and slides an input each; --allow-unphysical LINK takes an inertia that no
+                 body has
 
 options
   --model NAME   only the model of this name

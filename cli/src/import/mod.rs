@@ -23,7 +23,7 @@ use crate::source::File;
 pub(crate) struct Choice {
     /// The root moves freely; otherwise it stands on the ground.
     pub(crate) floating: bool,
-    /// Every coordinate gets an input, the effort that acts on it.
+    /// Joints of one coordinate get an input each, the effort that acts on it, but for those that follow others.
     pub(crate) efforts: bool,
     /// Links of the file whose inertia is taken although no body can have it.
     pub(crate) unphysical: Vec<String>,

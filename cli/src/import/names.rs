@@ -48,7 +48,7 @@ impl Names {
 /// Of the model.
 pub(super) fn module(name: &str) -> String {
     let name = snake(name, "robot");
-    if is_sound(&format!("mod {name} {{ {PROBE} }}")) { name } else { format!("{name}_robot") }
+    if is_sound(&format!("mod {name} {{ {} }}", body("b"))) { name } else { format!("{name}_robot") }
 }
 
 fn snake(name: &str, kind: &str) -> String {
@@ -64,11 +64,17 @@ fn snake(name: &str, kind: &str) -> String {
     if text.starts_with(|first: char| first.is_ascii_digit()) { format!("{kind}_{text}") } else { text }
 }
 
-const PROBE: &str = "body b { mass: 1.0, inertia: diag(1.0, 1.0, 1.0) } joint j: Free { parent: ground, child: b }";
-
 /// Whether an item may have this name: the compiler is asked, whose list it is.
 fn is_item(name: &str) -> bool {
-    is_sound(&format!("mod m {{ {PROBE} const {name} = 1.0; }}"))
+    is_sound(&format!("mod m {{ {} const {name} = 1.0; }}", body(&format!("{name}_body"))))
+}
+
+/// Items without which nothing is a model.
+fn body(name: &str) -> String {
+    format!(
+        "body {name} {{ mass: 1.0, inertia: diag(1.0, 1.0, 1.0) }} \
+         joint {name}_joint: Free {{ parent: ground, child: {name} }}"
+    )
 }
 
 fn is_sound(call: &str) -> bool {

@@ -30,6 +30,9 @@ pub(super) fn write(robot: &Robot, tree: &Tree, choice: &Choice, file: &str) -> 
             return Err(Wrong::new(&robot.name.at, message));
         }
     }
+    if !choice.floating && tree.joints.iter().all(|hung| !is_joint(robot, hung)) {
+        return Err(Wrong::new(&robot.name.at, "nothing of this robot moves or has a mass"));
+    }
     let mut names = Names::default();
     // Links first: what is placed in the model is placed in them.
     let root = names.of(&robot.links[tree.root].name.value, "link");
@@ -42,8 +45,13 @@ pub(super) fn write(robot: &Robot, tree: &Tree, choice: &Choice, file: &str) -> 
     for hung in tree.joints.iter().filter(|hung| is_joint(robot, hung)) {
         joints[hung.joint] = names.of(&robot.joints[hung.joint].name.value, "joint");
     }
-    let mut writer = Writer { robot, choice, links, joints, names, lines: Vec::new(), notes: Vec::new() };
+    let mut writer =
+        Writer { robot, choice, links, joints, names, turned: Vec::new(), lines: Vec::new(), notes: Vec::new() };
     writer.model(tree, file);
+    if !writer.turned.is_empty() {
+        let links = writer.turned.join(", ");
+        writer.notes.push(format!("inertias turned into the axes of their links, in double precision: {links}"));
+    }
     writer.notes.extend(writer.names.note());
     Ok(Written { lines: writer.lines, notes: writer.notes })
 }
@@ -60,6 +68,8 @@ struct Writer<'a> {
     links: Vec<String>,
     joints: Vec<String>,
     names: Names,
+    /// Links with an inertia in axes of its own.
+    turned: Vec<String>,
     lines: Vec<Line>,
     notes: Vec<String>,
 }
@@ -161,8 +171,7 @@ impl Writer<'_> {
         let is_turned = !inertial.origin.rpy.iter().all(|angle| matches!(angle.angle(), Angle::Right(0)));
         let turned = is_turned.then(|| turned(&inertial.inertia, &inertial.origin.rpy));
         if is_turned {
-            let name = link.name.value.escape_debug();
-            self.notes.push(format!("`{name}`: its inertia was turned into the axes of the link, in double precision"));
+            self.turned.push(format!("`{}`", link.name.value.escape_debug()));
         }
         let entries = turned.as_ref().unwrap_or(&inertial.inertia);
         let list = |entries: &[Number]| entries.iter().map(|entry| entry.text.as_str()).collect::<Vec<_>>().join(", ");

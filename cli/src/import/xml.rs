@@ -21,16 +21,19 @@ pub(super) fn parse(text: &str) -> Result<Document<'_>, Wrong> {
     let options = ParsingOptions { allow_dtd: false, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
     Document::parse_with_options(text, options).map_err(|error| {
         let place = error.pos();
-        let at = offset(text, place.row, place.col);
+        let at = match error {
+            Error::UnexpectedEndOfStream | Error::UnclosedRootNode => text.trim_end().len(),
+            _ => offset(text, place.row, place.col),
+        };
+        let at = at..at;
         match error {
-            Error::UnknownNamespace(prefix, _) if prefix == "xacro" => xacro(&(at..at)),
-            Error::DtdDetected => Wrong::new(&(at..at), "a document type is declared here, and none is read"),
-            Error::NodesLimitReached => Wrong::new(&(at..at), format!("more than {MOST_NODES} elements")),
-            // Its own words end with the place.
+            Error::UnknownNamespace(prefix, _) if prefix == "xacro" => xacro(&at),
+            Error::DtdDetected => Wrong::new(&at, "a document type is declared here, and none is read"),
+            Error::NodesLimitReached => Wrong::new(&at, format!("more than {MOST_NODES} elements")),
+            // The place is told beside it.
             error => {
-                let words = error.to_string();
-                let words = words.split(&format!(" at {place}")).next().unwrap_or_default().to_owned();
-                Wrong::new(&(at..at), format!("this is not XML: {words}"))
+                let words = error.to_string().replace(&format!(" at {place}"), "");
+                Wrong::new(&at, format!("this is not XML: {words}"))
             }
         }
     })
@@ -70,9 +73,9 @@ impl<'a, 'i> Element<'a, 'i> {
         self.node.tag_name().name()
     }
 
-    /// Of another vocabulary, `drake:..`.
+    /// Of another vocabulary than the document, `drake:..`.
     pub(super) fn is_foreign(&self) -> bool {
-        self.node.tag_name().namespace().is_some()
+        self.node.tag_name().namespace() != self.node.document().root_element().tag_name().namespace()
     }
 
     pub(super) fn children(&self) -> impl Iterator<Item = Element<'a, 'i>> + use<'a, 'i> {
