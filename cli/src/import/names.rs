@@ -20,7 +20,7 @@ pub(super) struct Names {
 impl Names {
     /// Of a thing in the file; `kind` is `link` or `joint`.
     pub(super) fn of(&mut self, name: &str, kind: &str) -> String {
-        let given = self.new(&snake(name, kind), kind);
+        let given = self.give(&snake(name, kind), kind);
         if given != name {
             self.changed.push((name.to_owned(), given.clone()));
         }
@@ -28,7 +28,7 @@ impl Names {
     }
 
     /// Of what the file has no name for.
-    pub(super) fn new(&mut self, wanted: &str, kind: &str) -> String {
+    pub(super) fn give(&mut self, wanted: &str, kind: &str) -> String {
         let is_free = |name: &String| !self.taken.contains(name) && is_item(name);
         let longer = |k: usize| if k == 1 { format!("{wanted}_{kind}") } else { format!("{wanted}_{kind}_{k}") };
         let mut all = std::iter::once(wanted.to_owned()).chain((1..).map(longer));

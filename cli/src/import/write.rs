@@ -120,7 +120,7 @@ impl Writer<'_> {
         }
         self.body(link, &name);
         let (wanted, kind) = if self.choice.floating { ("float", "Free") } else { ("base", "Fixed") };
-        let joint = self.names.new(wanted, "joint");
+        let joint = self.names.give(wanted, "joint");
         self.item(at, &format!("joint {joint}: {kind} {{ parent: ground, child: {name} }}"));
     }
 
@@ -240,7 +240,7 @@ impl Writer<'_> {
         let from = &self.robot.joints[joint];
         let name = self.joints[joint].clone();
         if let Some(damping) = &from.damping {
-            let force = self.names.new(&format!("{name}_damping"), "force");
+            let force = self.names.give(&format!("{name}_damping"), "force");
             let text = format!("force {force}: Damper {{ joint: {name}, damping: {} }}", damping.value.text);
             self.item(&damping.at, &text);
         }
@@ -250,8 +250,8 @@ impl Writer<'_> {
             Kind::Fixed | Kind::Floating | Kind::Planar => return,
         };
         if self.choice.efforts && from.mimic.is_none() {
-            let input = self.names.new(&format!("{name}_effort"), "input");
-            let force = self.names.new(&format!("{name}_motor"), "force");
+            let input = self.names.give(&format!("{name}_effort"), "input");
+            let force = self.names.give(&format!("{name}_motor"), "force");
             self.item(&from.at, &format!("/// [{unit}]"));
             self.item(&from.at, &format!("input {input};"));
             self.item(&from.at, &format!("force {force}: Effort {{ joint: {name}, value: {input} }}"));
@@ -269,7 +269,7 @@ impl Writer<'_> {
         };
         let (this, other) = (coordinate(joint), coordinate(followed));
         let offset = if mimic.offset.is_zero() { String::new() } else { format!(" + {}", mimic.offset.text) };
-        let name = self.names.new(&format!("{}_mimic", self.joints[joint]), "constraint");
+        let name = self.names.give(&format!("{}_mimic", self.joints[joint]), "constraint");
         let text = format!("constraint {name} = {this} - ({} * {other}{offset});", mimic.multiplier.text);
         self.item(&mimic.at, &text);
     }
