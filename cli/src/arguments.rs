@@ -26,8 +26,8 @@ commands
   report FILE    a page about each model: graph, drawing, tables, structure of matrices, costs, candidates, equations;
                  NAME.html in --out DIR (target/multibody by default), and with --markdown NAME.md beside it
   import FILE    a URDF file as a model. The root stands on the ground, with --base floating it moves freely;
-                 --efforts gives hinges and slides an input each; --allow-unphysical LINK takes an inertia that no
-                 body has
+                 --efforts gives hinges and slides an input each, --without-friction leaves dry friction out,
+                 --allow-unphysical LINK takes an inertia that no body has
 
 options
   --model NAME   only the model of this name
@@ -140,6 +140,7 @@ impl Given {
                 Arg::Long("out") => given.out = Some(parser.value()?.into()),
                 Arg::Long("base") => given.choice.floating = is_floating(&parser.value()?.string()?)?,
                 Arg::Long("efforts") => given.choice.efforts = true,
+                Arg::Long("without-friction") => given.choice.frictionless = true,
                 Arg::Long("allow-unphysical") => given.choice.unphysical.push(parser.value()?.string()?),
                 Arg::Long("markdown") => given.markdown = true,
                 Arg::Long("text") => given.form = Form::Text,

@@ -25,6 +25,8 @@ pub(crate) struct Choice {
     pub(crate) floating: bool,
     /// Joints of one coordinate get an input each, the effort that acts on it, but for those that follow others.
     pub(crate) efforts: bool,
+    /// Dry friction is left out.
+    pub(crate) frictionless: bool,
     /// Links of the file whose inertia is taken although no body can have it.
     pub(crate) unphysical: Vec<String>,
 }
@@ -57,7 +59,7 @@ pub(crate) struct Imported {
 /// The model of a URDF file. Of several mistakes the reader tells the first one, the compiler all of them.
 pub(crate) fn urdf(file: &File, choice: &Choice) -> Result<Imported, Vec<Wrong>> {
     let document = xml::parse(&file.text).map_err(|wrong| vec![wrong])?;
-    let (robot, mut notes) = urdf::read(&document).map_err(|wrong| vec![wrong])?;
+    let (robot, mut notes) = urdf::read(&document, choice).map_err(|wrong| vec![wrong])?;
     let tree = tree::grow(&robot).map_err(|wrong| vec![wrong])?;
     let written = write::write(&robot, &tree, choice, &file.name).map_err(|wrong| vec![wrong])?;
     compiler::check(&written)?;

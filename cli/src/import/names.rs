@@ -1,6 +1,6 @@
 //! Names of the file as names of the language.
 //!
-//! Capitals become small, with `_` before one that follows a small letter or a digit; what is neither letter nor digit becomes
+//! Capitals become small, with `_` before one that begins a word, as in `IMULink`; what is neither letter nor digit becomes
 //! `_`. Links, joints and what belongs to them have their names in common here: a name that is taken, or that the language has
 //! for itself, gets the kind of its thing at the end, then a number.
 
@@ -48,17 +48,21 @@ impl Names {
 /// Of the model.
 pub(super) fn module(name: &str) -> String {
     let name = snake(name, "robot");
-    if is_sound(&format!("mod {name} {{ {} }}", body("b"))) { name } else { format!("{name}_robot") }
+    if is_sound(&format!("mod {name} {{ {} }}", body("b", "j"))) { name } else { format!("{name}_robot") }
 }
 
 fn snake(name: &str, kind: &str) -> String {
+    let letters: Vec<char> = name.trim().chars().collect();
     let mut text = String::new();
-    let mut is_small = false;
-    for letter in name.trim().chars() {
-        if letter.is_ascii_uppercase() && is_small {
+    for (k, letter) in letters.iter().enumerate() {
+        let before = k.checked_sub(1).map(|k| letters[k]);
+        let is_next_small = letters.get(k + 1).is_some_and(char::is_ascii_lowercase);
+        let begins = before.is_some_and(|before| {
+            before.is_ascii_lowercase() || before.is_ascii_digit() || before.is_ascii_uppercase() && is_next_small
+        });
+        if letter.is_ascii_uppercase() && begins {
             text.push('_');
         }
-        is_small = letter.is_ascii_lowercase() || letter.is_ascii_digit();
         text.push(if letter.is_ascii_alphanumeric() { letter.to_ascii_lowercase() } else { '_' });
     }
     if text.starts_with(|first: char| first.is_ascii_digit()) { format!("{kind}_{text}") } else { text }
@@ -66,14 +70,15 @@ fn snake(name: &str, kind: &str) -> String {
 
 /// Whether an item may have this name: the compiler is asked, whose list it is.
 fn is_item(name: &str) -> bool {
-    is_sound(&format!("mod m {{ {} const {name} = 1.0; }}", body(&format!("{name}_body"))))
+    let held = format!("{name}_held");
+    is_sound(&format!("mod m {{ {} }}", body(name, &held))) && is_sound(&format!("mod m {{ {} }}", body(&held, name)))
 }
 
 /// Items without which nothing is a model.
-fn body(name: &str) -> String {
+fn body(name: &str, joint: &str) -> String {
     format!(
         "body {name} {{ mass: 1.0, inertia: diag(1.0, 1.0, 1.0) }} \
-         joint {name}_joint: Free {{ parent: ground, child: {name} }}"
+         joint {joint}: Free {{ parent: ground, child: {name} }}"
     )
 }
 
@@ -95,6 +100,7 @@ mod tests {
             ("panda_link0", "panda_link0"),
             ("LH_HAA", "lh_haa"),
             ("hipYaw", "hip_yaw"),
+            ("LeftIMULink2Roll", "left_imu_link2_roll"),
             ("left arm/tip.3", "left_arm_tip_3"),
             ("3rd", "link_3rd"),
             ("Z\u{fc}", "z_"),
@@ -113,6 +119,7 @@ mod tests {
         assert_eq!(names.of("type", "link"), "type_link");
         assert_eq!(names.of("_", "link"), "__link");
         assert_eq!(names.of("ground", "link"), "ground_link");
+        assert_eq!(names.of("world", "link"), "world_link");
         assert_eq!(module("crate"), "crate_robot");
         assert_eq!(module("panda"), "panda");
     }

@@ -10,8 +10,9 @@ pub(super) struct Number {
     pub(super) value: f64,
 }
 
-/// Angles that differ by less than that from a multiple of a right angle are one: 1.57079632679 differs by 5e-12.
-const RIGHT: f64 = 1e-9;
+/// Angles that differ by less than that from a multiple of a right angle are one: 1.57079633 differs by 3.2e-9, 3.14159265 by
+/// 3.6e-9.
+const RIGHT: f64 = 5e-9;
 /// Those that differ by less than that were probably meant to be one.
 const ALMOST_RIGHT: f64 = 1e-4;
 
@@ -125,6 +126,8 @@ mod tests {
         assert_eq!(turns("1.57079632679"), Some(1));
         assert_eq!(turns("-1.5707963267948966"), Some(-1));
         assert_eq!(turns("3.1415926535897931"), Some(2));
+        assert_eq!(turns("-1.57079633"), Some(-1));
+        assert_eq!(turns("3.1415926"), Some(100));
         assert_eq!(turns("0"), Some(0));
         assert_eq!(turns("1.5708"), Some(100));
         assert_eq!(turns("1e-5"), None);

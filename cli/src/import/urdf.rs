@@ -7,20 +7,27 @@ use std::collections::{BTreeMap, HashSet};
 
 use roxmltree::Document;
 
-use super::Wrong;
 use super::number::Number;
 use super::robot::{Inertial, Joint, Kind, Link, Mimic, Origin, Placed, Robot};
 use super::xml::{self, Element};
+use super::{Choice, Wrong};
 
 /// Elements beside the equations of motion, by the element that they stand in.
 const READ_OVER: [(&str, &[&str]); 3] = [
     ("robot", &["material", "transmission", "gazebo", "sensor", "ros2_control", "mujoco"]),
-    ("link", &["visual", "collision", "self_collision_checking", "contact", "material"]),
+    (
+        "link",
+        &["visual", "collision", "self_collision_checking", "collision_checking", "self_filter", "contact", "material"],
+    ),
     ("joint", &["limit", "safety_controller", "calibration"]),
 ];
 
+/// Attributes that simulators have added, which no reader of URDF takes for a force.
+const FOREIGN: [(&str, &[&str]); 2] =
+    [("joint", &["dont_collapse"]), ("dynamics", &["D", "K", "mu_coulomb", "mu_viscous"])];
+
 /// The robot, and notes about what was read over.
-pub(super) fn read(document: &Document<'_>) -> Result<(Robot, Vec<String>), Wrong> {
+pub(super) fn read(document: &Document<'_>, choice: &Choice) -> Result<(Robot, Vec<String>), Wrong> {
     let root = Element::new(document.root_element());
     refuse_macros(document)?;
     if root.name() != "robot" {
@@ -34,7 +41,7 @@ pub(super) fn read(document: &Document<'_>) -> Result<(Robot, Vec<String>), Wron
     known(&root, &["link", "joint"], &mut over)?;
     let of = |name: &'static str| root.children().filter(move |child| child.name() == name && !child.is_foreign());
     let links = of("link").map(|element| link(&element, &mut over)).collect::<Result<Vec<_>, _>>()?;
-    let joints = of("joint").map(|element| joint(&element, &mut over)).collect::<Result<Vec<_>, _>>()?;
+    let joints = of("joint").map(|element| joint(&element, choice, &mut over)).collect::<Result<Vec<_>, _>>()?;
     twice(links.iter().map(|link| &link.name), "links")?;
     twice(joints.iter().map(|joint| &joint.name), "joints")?;
     if links.is_empty() {
@@ -87,6 +94,14 @@ fn end(element: &Element<'_, '_>) -> Result<(), Wrong> {
     element.no_others()
 }
 
+/// Asks for attributes that are read over, so that they count as known.
+fn foreign(element: &Element<'_, '_>, over: &mut Over) {
+    let names = FOREIGN.iter().find(|(name, _)| *name == element.name()).map_or(&[][..], |(_, names)| names);
+    for name in names.iter().filter(|name| element.text(name).is_some()) {
+        *over.entry((*name).to_owned()).or_default() += 1;
+    }
+}
+
 fn twice<'a>(names: impl Iterator<Item = &'a Placed<String>>, what: &str) -> Result<(), Wrong> {
     let mut seen = HashSet::new();
     for name in names {
@@ -101,7 +116,16 @@ fn link(element: &Element<'_, '_>, over: &mut Over) -> Result<Link, Wrong> {
     let name = element.required("name")?;
     element.text("type");
     element.no_others()?;
-    known(element, &["inertial"], over)?;
+    known(element, &["inertial", "origin"], over)?;
+    // Some writers put an empty one here, where URDF has none.
+    let placed = origin(element)?;
+    if !placed.xyz.iter().chain(&placed.rpy).all(Number::is_zero) {
+        return Err(Wrong::help(
+            &element.at(),
+            "a link has no origin of its own",
+            "its joint has one, and its inertial",
+        ));
+    }
     let inertial = element.child("inertial")?.map(|inertial| self::inertial(&inertial)).transpose()?;
     let is_empty = |inertial: &Inertial| inertial.mass.is_zero() && inertial.inertia.iter().all(Number::is_zero);
     Ok(Link { name, inertial: inertial.filter(|inertial| !is_empty(inertial)) })
@@ -132,9 +156,10 @@ fn origin(element: &Element<'_, '_>) -> Result<Origin, Wrong> {
     Ok(Origin { xyz: xyz.unwrap_or_else(zero), rpy: rpy.unwrap_or_else(zero) })
 }
 
-fn joint(element: &Element<'_, '_>, over: &mut Over) -> Result<Joint, Wrong> {
+fn joint(element: &Element<'_, '_>, choice: &Choice, over: &mut Over) -> Result<Joint, Wrong> {
     let name = element.required("name")?;
     let kind = element.required("type")?;
+    foreign(element, over);
     element.no_others()?;
     known(element, &["origin", "parent", "child", "axis", "dynamics", "mimic"], over)?;
     let kind = match kind.value.as_str() {
@@ -161,8 +186,8 @@ fn joint(element: &Element<'_, '_>, over: &mut Over) -> Result<Joint, Wrong> {
         parent: end_of("parent")?,
         child: end_of("child")?,
         axis: axis(element, kind)?,
-        damping: damping(element, kind)?,
-        mimic: mimic(element, kind)?,
+        damping: damping(element, kind, choice, over)?,
+        mimic: mimic(element, kind, over)?,
         at: element.at(),
     })
 }
@@ -179,18 +204,28 @@ fn axis(element: &Element<'_, '_>, kind: Kind) -> Result<[Number; 3], Wrong> {
     Ok(xyz)
 }
 
-fn damping(element: &Element<'_, '_>, kind: Kind) -> Result<Option<Placed<Number>>, Wrong> {
+fn damping(
+    element: &Element<'_, '_>,
+    kind: Kind,
+    choice: &Choice,
+    over: &mut Over,
+) -> Result<Option<Placed<Number>>, Wrong> {
     let Some(dynamics) = element.child("dynamics")? else { return Ok(None) };
     let damping = dynamics.number("damping")?;
     let friction = dynamics.number("friction")?;
+    foreign(&dynamics, over);
     end(&dynamics)?;
     if kind == Kind::Fixed {
         return Ok(None);
     }
-    if let Some(friction) = friction.filter(|friction| !friction.value.is_zero()) {
-        let help = "dry friction has no equation that holds at rest: take it out of the file, and add a law of your own \
-                    to the model, such as `force friction: Effort { joint: NAME, value: -f * tanh(NAME.rate / v) }`";
-        return Err(Wrong::help(&friction.at, "friction is not imported", help));
+    match friction.filter(|friction| !friction.value.is_zero()) {
+        Some(_) if choice.frictionless => *over.entry("friction".to_owned()).or_default() += 1,
+        Some(friction) => {
+            let help = "dry friction has no equation that holds at rest: leave it out by `--without-friction`, and add a law of \
+                        your own to the model, such as `force friction: Effort { joint: NAME, value: -f * tanh(NAME.rate / v) }`";
+            return Err(Wrong::help(&friction.at, "friction is not imported", help));
+        }
+        None => {}
     }
     let Some(damping) = damping.filter(|damping| !damping.value.is_zero()) else { return Ok(None) };
     if damping.value.value < 0.0 {
@@ -203,11 +238,15 @@ fn damping(element: &Element<'_, '_>, kind: Kind) -> Result<Option<Placed<Number
     Ok(Some(damping))
 }
 
-fn mimic(element: &Element<'_, '_>, kind: Kind) -> Result<Option<Mimic>, Wrong> {
+fn mimic(element: &Element<'_, '_>, kind: Kind, over: &mut Over) -> Result<Option<Mimic>, Wrong> {
     let Some(mimic) = element.child("mimic")? else { return Ok(None) };
     let joint = mimic.required("joint")?;
     let (multiplier, offset) = (mimic.number("multiplier")?, mimic.number("offset")?);
     end(&mimic)?;
+    if kind == Kind::Fixed {
+        *over.entry("mimic of a fixed joint".to_owned()).or_default() += 1;
+        return Ok(None);
+    }
     if !matches!(kind, Kind::Revolute | Kind::Prismatic) {
         return Err(Wrong::new(&mimic.at(), "only a joint with one coordinate can follow another one"));
     }

@@ -21,6 +21,8 @@ pub(super) struct Line {
     pub(super) text: String,
     /// What it comes from.
     pub(super) origin: Range<usize>,
+    /// Of a body: its link in the file.
+    pub(super) link: Option<String>,
 }
 
 pub(super) fn write(robot: &Robot, tree: &Tree, choice: &Choice, file: &str) -> Result<Written, Wrong> {
@@ -31,7 +33,8 @@ pub(super) fn write(robot: &Robot, tree: &Tree, choice: &Choice, file: &str) -> 
         }
     }
     if !choice.floating && tree.joints.iter().all(|hung| !is_joint(robot, hung)) {
-        return Err(Wrong::new(&robot.name.at, "nothing of this robot moves or has a mass"));
+        let message = "nothing of this robot moves on the ground";
+        return Err(Wrong::help(&robot.name.at, message, "a vehicle moves freely by `--base floating`"));
     }
     let mut names = Names::default();
     // Links first: what is placed in the model is placed in them.
@@ -45,12 +48,17 @@ pub(super) fn write(robot: &Robot, tree: &Tree, choice: &Choice, file: &str) -> 
     for hung in tree.joints.iter().filter(|hung| is_joint(robot, hung)) {
         joints[hung.joint] = names.of(&robot.joints[hung.joint].name.value, "joint");
     }
+    let (turned, almost) = (Vec::new(), Vec::new());
     let mut writer =
-        Writer { robot, choice, links, joints, names, turned: Vec::new(), lines: Vec::new(), notes: Vec::new() };
+        Writer { robot, choice, links, joints, names, turned, almost, lines: Vec::new(), notes: Vec::new() };
     writer.model(tree, file);
-    if !writer.turned.is_empty() {
-        let links = writer.turned.join(", ");
-        writer.notes.push(format!("inertias turned into the axes of their links, in double precision: {links}"));
+    for (list, what) in [
+        (&writer.turned, "inertias turned into the axes of their links, in double precision"),
+        (&writer.almost, "almost right angles, taken as they stand (exact ones take fewer operations)"),
+    ] {
+        if !list.is_empty() {
+            writer.notes.push(format!("{what}: {}", list.join(", ")));
+        }
     }
     writer.notes.extend(writer.names.note());
     Ok(Written { lines: writer.lines, notes: writer.notes })
@@ -70,6 +78,8 @@ struct Writer<'a> {
     names: Names,
     /// Links with an inertia in axes of its own.
     turned: Vec<String>,
+    /// Angles that are almost right ones.
+    almost: Vec<String>,
     lines: Vec<Line>,
     notes: Vec<String>,
 }
@@ -77,7 +87,7 @@ struct Writer<'a> {
 impl Writer<'_> {
     fn line(&mut self, origin: &Range<usize>, indent: usize, text: &str) {
         let text = if text.is_empty() { String::new() } else { format!("{}{text}", "    ".repeat(indent)) };
-        self.lines.push(Line { text, origin: origin.clone() });
+        self.lines.push(Line { text, origin: origin.clone(), link: None });
     }
 
     fn item(&mut self, origin: &Range<usize>, text: &str) {
@@ -164,6 +174,9 @@ impl Writer<'_> {
         }
         text += &self.inertia(link, inertial);
         self.item(&inertial.at, &format!("{text} }}"));
+        if let Some(line) = self.lines.last_mut() {
+            line.link = Some(link.name.value.clone());
+        }
     }
 
     /// The field `inertia`, if there is any: of a point mass there is none.
@@ -202,7 +215,7 @@ impl Writer<'_> {
 
     /// Nothing where it is zero. A right angle that the file has rounded is written as one, so that its cosine is zero.
     fn angle(&mut self, joint: &Joint, angle: &Number) -> Option<String> {
-        let note = match angle.angle() {
+        match angle.angle() {
             Angle::Right(0) => return None,
             Angle::Right(turns) => {
                 return Some(match turns {
@@ -213,11 +226,13 @@ impl Writer<'_> {
                     turns => format!("{turns} * PI / 2"),
                 });
             }
-            Angle::Almost => "almost a right angle, and is taken as it stands; the exact one takes fewer operations",
-            Angle::Other if angle.value.abs() > 2.0 * PI => "more than a turn: should it be in degrees?",
-            Angle::Other => return Some(angle.text.clone()),
-        };
-        self.notes.push(format!("`{}`: the angle {} is {note}", joint.name.value.escape_debug(), angle.text));
+            Angle::Almost => self.almost.push(format!("{} of `{}`", angle.text, joint.name.value.escape_debug())),
+            Angle::Other if angle.value.abs() > 2.0 * PI => {
+                let name = joint.name.value.escape_debug();
+                self.notes.push(format!("`{name}`: the angle {} is more than a turn; degrees?", angle.text));
+            }
+            Angle::Other => {}
+        }
         Some(angle.text.clone())
     }
 

@@ -153,7 +153,10 @@ fn numbers_stay_as_they_are_written() {
         assert!(text.contains(&part), "{part} of\n{text}");
     }
     assert!(text.contains("base.at([1.0, 0.0, 0.0]).rotated(Z, 0.10).rotated(X, 1.5708)"), "{text}");
-    assert!(notes.contains("`j`: the angle 1.5708 is almost a right angle"), "{notes}");
+    assert!(
+        notes.contains("almost right angles, taken as they stand (exact ones take fewer operations): 1.5708 of `j`"),
+        "{notes}"
+    );
     assert!(notes.contains("`j`: the axis has the length 5"), "{notes}");
 }
 
@@ -188,4 +191,43 @@ fn what_is_read_over_is_listed_once() {
     let expected =
         "note: read over: collision (2), gazebo (2), limit (1), material (1), transmission (1), visual (2)\n";
     assert_eq!(imported(&[&file]).1, expected);
+}
+
+/// As published with a well-known arm: the words beside `damping` are a simulator's.
+#[test]
+fn friction_is_left_out_where_that_is_asked_for() {
+    let dynamics = r#"<dynamics D="1" K="7000" damping="0.5" friction="0.2" mu_coulomb="0" mu_viscous="16"/>"#;
+    let file = robot(
+        "rough.urdf",
+        &[
+            r#"<link name="base"/>"#.to_owned(),
+            link("a", "1", "0 0 0"),
+            joint("j", "revolute", ["base", "a"], dynamics),
+        ],
+    );
+    let (text, notes) = imported(&[&file, "--without-friction"]);
+    assert_eq!(notes, "note: read over: D (1), K (1), friction (1), mu_coulomb (1), mu_viscous (1)\n");
+    let at = At { v: vec![("j", 0, 2.0)], ..At::default() };
+    close(&Functions::of(&text).run(FunctionKind::InverseDynamics, &at), &[1.0]);
+}
+
+#[test]
+fn a_word_of_the_language_is_no_name() {
+    let file = robot(
+        "words.urdf",
+        &[
+            r#"<link name="world"/>"#.to_owned(),
+            link("body", "1", "0 0 0"),
+            link("sin", "1", "0 0 0"),
+            joint("fn", "fixed", ["world", "body"], ""),
+            joint("joint", "revolute", ["body", "sin"], ""),
+            joint("float", "fixed", ["sin", "x y"], ""),
+            r#"<link name="x y"/>"#.to_owned(),
+        ],
+    );
+    for base in ["fixed", "floating"] {
+        let (text, notes) = imported(&[&file, "--base", base]);
+        assert!(notes.contains("`world` is `world_link`") && notes.contains("`fn` is `fn_joint`"), "{notes}");
+        assert_eq!(Functions::of(&text).model.bodies.len(), if base == "fixed" { 2 } else { 3 });
+    }
 }
