@@ -38,9 +38,9 @@ pub(super) struct Inertial {
 /// A frame in another one.
 #[derive(Debug)]
 pub(super) struct Origin {
-    /// [m]
+    /// `[m]`
     pub(super) xyz: [Number; 3],
-    /// [rad] roll, pitch, yaw: the rotation is Rz(yaw) Ry(pitch) Rx(roll).
+    /// `[rad]` roll, pitch, yaw: the rotation is Rz(yaw) Ry(pitch) Rx(roll).
     pub(super) rpy: [Number; 3],
 }
 
@@ -53,7 +53,7 @@ pub(super) struct Joint {
     pub(super) parent: Placed<String>,
     pub(super) child: Placed<String>,
     pub(super) axis: [Number; 3],
-    /// [N m s/rad] or [N s/m]
+    /// `[N m s/rad]` or `[N s/m]`
     pub(super) damping: Option<Placed<Number>>,
     pub(super) mimic: Option<Mimic>,
     pub(super) at: Range<usize>,

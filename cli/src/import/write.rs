@@ -1,6 +1,6 @@
 //! A robot in the language.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::Range;
 use std::path::Path;
 
@@ -48,12 +48,13 @@ pub(super) fn write(robot: &Robot, tree: &Tree, choice: &Choice, file: &str) -> 
     for hung in tree.joints.iter().filter(|hung| is_joint(robot, hung)) {
         joints[hung.joint] = names.of(&robot.joints[hung.joint].name.value, "joint");
     }
-    let (turned, almost) = (Vec::new(), Vec::new());
+    let (turned, rounded, almost) = (Vec::new(), Vec::new(), Vec::new());
     let mut writer =
-        Writer { robot, choice, links, joints, names, turned, almost, lines: Vec::new(), notes: Vec::new() };
+        Writer { robot, choice, links, joints, names, turned, rounded, almost, lines: Vec::new(), notes: Vec::new() };
     writer.model(tree, file);
     for (list, what) in [
         (&writer.turned, "inertias turned into the axes of their links, in double precision"),
+        (&writer.rounded, "right angles that the file has rounded, taken as exact"),
         (&writer.almost, "almost right angles, taken as they stand (exact ones take fewer operations)"),
     ] {
         if !list.is_empty() {
@@ -78,6 +79,8 @@ struct Writer<'a> {
     names: Names,
     /// Links with an inertia in axes of its own.
     turned: Vec<String>,
+    /// Right angles that the file has rounded.
+    rounded: Vec<String>,
     /// Angles that are almost right ones.
     almost: Vec<String>,
     lines: Vec<Line>,
@@ -215,7 +218,13 @@ impl Writer<'_> {
 
     /// Nothing where it is zero. A right angle that the file has rounded is written as one, so that its cosine is zero.
     fn angle(&mut self, joint: &Joint, angle: &Number) -> Option<String> {
-        match angle.angle() {
+        let right = angle.angle();
+        if let Angle::Right(turns) = right
+            && angle.value != turns as f64 * FRAC_PI_2
+        {
+            self.rounded.push(format!("{} of `{}`", angle.text, joint.name.value.escape_debug()));
+        }
+        match right {
             Angle::Right(0) => return None,
             Angle::Right(turns) => {
                 return Some(match turns {
