@@ -1,7 +1,7 @@
 //! Models of other formats, written in the language.
 //!
-//! [`urdf`] reads a file into a [`robot`], whose links and joints stand as the file has them; [`tree`] finds what hangs on
-//! what; [`write`] says the same in the language, and [`compiler`] has the result checked before anybody sees it. What is
+//! `urdf` reads a file into a `robot`, whose links and joints stand as the file has them; `tree` finds what hangs on
+//! what; `write` says the same in the language, and `compiler` has the result checked before anybody sees it. What is
 //! wrong is told with its place in the file that was read.
 
 mod compiler;

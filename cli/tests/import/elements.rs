@@ -69,7 +69,10 @@ fn fixed_links_are_carried_and_empty_ones_are_frames() {
         ],
     );
     let (text, notes) = imported(&[&file]);
-    assert_eq!(notes, "note: right angles that the file has rounded, taken as exact: 1.57079632679 of `mount`\n");
+    assert_eq!(
+        notes,
+        "note: right angles that the file has rounded, taken as exact: 1.57079632679 of `mount`\nnote: names: `world` is `world_link`\n"
+    );
     assert!(text.contains("let flange = arm.at([0.4, 0.0, 0.0]).rotated(Y, PI / 2);"), "{text}");
     // The tool's z is the arm's x: its mass is at (0.6, 0.3), and what it has about the arm's z is its xx.
     let about = 0.25 + 2.0 * 0.01 + 0.1 + 3.0 * (0.36 + 0.09);
