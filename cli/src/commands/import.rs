@@ -30,9 +30,10 @@ fn mistake(text: &str, Wrong { at: Range { start, end }, message, help }: Wrong)
     Mistake { start: place(text, start), end: place(text, end), message, help }
 }
 
-/// Lines are counted from one, columns from zero.
+/// Lines are counted from one, columns from zero. A byte within a letter stands for that letter.
 fn place(text: &str, byte: usize) -> LineColumn {
-    let before = &text[..byte];
+    let start = (0..=byte).rev().find(|&byte| text.is_char_boundary(byte)).unwrap_or_default();
+    let before = &text[..start];
     let line = before.rfind('\n').map_or(0, |newline| newline + 1);
     LineColumn { line: before.matches('\n').count() + 1, column: before[line..].chars().count() }
 }

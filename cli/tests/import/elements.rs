@@ -235,3 +235,19 @@ fn a_word_of_the_language_is_no_name() {
         assert_eq!(Functions::of(&text).model.bodies.len(), if base == "fixed" { 2 } else { 3 });
     }
 }
+
+/// What stands in a name stays in one comment, whatever it is.
+#[test]
+fn names_cannot_write_items() {
+    let file = written(
+        "hostile.urdf",
+        &format!(
+            "<robot name=\"r&#10;}} input evil; `\"><link name=\"*/ &#10;input worse;\"/>{}{}</robot>",
+            link("a", "1", "0 0 0"),
+            joint("j", "revolute", ["*/ &#10;input worse;", "a"], ""),
+        ),
+    );
+    let (text, notes) = imported(&[&file]);
+    assert!(text.contains("/// The robot `r\\n} input evil; `` of hostile.urdf.\n"), "{text}");
+    assert!(notes.lines().count() == 1 && Functions::of(&text).model.inputs.is_empty(), "{text}");
+}
