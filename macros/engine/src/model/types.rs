@@ -100,6 +100,13 @@ pub struct Model {
     pub at: Vec<AtFunction>,
 }
 
+impl Model {
+    /// Whether it has the function `poses` and its struct.
+    pub fn shows_poses(&self) -> bool {
+        self.emit.contains(&Request::Poses) && !self.bodies.is_empty()
+    }
+}
+
 /// One velocity coordinate of a joint in the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Coordinate {
@@ -549,6 +556,8 @@ pub enum Request {
     Impulse,
     /// Momenta, their rates, velocities from momenta.
     Momentum,
+    /// Where all bodies are.
+    Poses,
     /// Outputs by groups.
     Outputs,
     /// What is done once for a position, and functions that go on from there.
