@@ -122,7 +122,9 @@ pub use assembly::AssemblyMode;
 pub use canonical::{Canonical, Separable};
 pub use configuration::Configuration;
 pub use constrained::{Constrained, Kinematics};
-pub use coordinates::{Cylindrical, FreeRollPitchYaw, PinSlot, Placement, Planar, Pose, RollPitchYaw, Twist, Universal, Wrench};
+pub use coordinates::{
+    Cylindrical, FreeRollPitchYaw, PinSlot, Placement, Planar, Pose, RollPitchYaw, Twist, Universal, Wrench,
+};
 pub use cost::Cost;
 pub use differentiable::{Derivatives, Differentiable, Jacobian};
 pub use equation::Equation;

@@ -26,7 +26,10 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
             // Groups have a name only where they are declared; for a triangle and poses nothing is added to models
             // without them.
             Asked::By { .. }
-                if matches!(kind, FunctionKind::OutputGroup(_) | FunctionKind::MassMatrixLower | FunctionKind::Poses) =>
+                if matches!(
+                    kind,
+                    FunctionKind::OutputGroup(_) | FunctionKind::MassMatrixLower | FunctionKind::Poses
+                ) =>
             {
                 None
             }
