@@ -67,7 +67,7 @@ fn same(what: &str, got: impl IntoIterator<Item = f64>, want: impl IntoIterator<
 
 /// Where the pose of a thigh has its foot.
 fn foot(thigh: &Placement<f64>) -> [f64; 3] {
-    (thigh.rotation * (0.3171 * Vector3::x()) + thigh.position).into()
+    (thigh.rotation * Vector3::new(0.3171, 0.0, 0.0) + thigh.position).into()
 }
 
 #[test]

@@ -70,9 +70,9 @@ impl<T: Real> Default for Placement<T> {
 }
 
 /// Equality of components.
-impl<T: PartialEq> PartialEq for Placement<T> {
+impl<T: nalgebra::Scalar> PartialEq for Placement<T> {
     fn eq(&self, other: &Self) -> bool {
-        self.position == other.position && self.rotation.matrix() == other.rotation.matrix()
+        self.position == other.position && self.rotation == other.rotation
     }
 }
 
