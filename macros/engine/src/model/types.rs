@@ -105,6 +105,12 @@ impl Model {
     pub fn shows_poses(&self) -> bool {
         self.emit.contains(&Request::Poses) && !self.bodies.is_empty()
     }
+
+    /// The frames of all bodies, in the order of declaration.
+    pub fn body_frames(&self) -> Vec<Frame> {
+        let frame = |(id, body): (BodyId, &Body)| Frame { body: BodyRef::Body(id), steps: Vec::new(), span: body.span };
+        self.bodies.iter_ids().map(frame).collect()
+    }
 }
 
 /// One velocity coordinate of a joint in the tree.
