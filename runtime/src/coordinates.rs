@@ -9,4 +9,4 @@ mod joint;
 mod spatial;
 
 pub use joint::{Cylindrical, FreeRollPitchYaw, PinSlot, Planar, RollPitchYaw, Universal};
-pub use spatial::{Pose, Twist, Wrench};
+pub use spatial::{Placement, Pose, Twist, Wrench};

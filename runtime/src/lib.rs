@@ -36,7 +36,7 @@
 //! - [`System`], [`StateSpace`], [`Configuration`], [`Tangent`]: what integrators see of a model, of its state, of its
 //!   position and of its velocity. Generated models implement them; so do wrappers written by hand.
 //! - [`Real`]: the scalar that generated code is generic over: `f32`, `f64`, lanes of them, dual numbers.
-//! - [`coordinates`]: the coordinates of joints that have several, [`Pose`], [`Twist`] and [`Wrench`].
+//! - [`coordinates`]: the coordinates of joints that have several, [`Pose`], [`Placement`], [`Twist`] and [`Wrench`].
 //! - [`rotation`]: unit quaternions that stay of unit length.
 //! - [`Constrained`]: a model whose coordinates obey equations; [`assemble`] closes its loops, and [`projection`] keeps
 //!   them closed.
@@ -122,7 +122,9 @@ pub use assembly::AssemblyMode;
 pub use canonical::{Canonical, Separable};
 pub use configuration::Configuration;
 pub use constrained::{Constrained, Kinematics};
-pub use coordinates::{Cylindrical, FreeRollPitchYaw, PinSlot, Planar, Pose, RollPitchYaw, Twist, Universal, Wrench};
+pub use coordinates::{
+    Cylindrical, FreeRollPitchYaw, PinSlot, Placement, Planar, Pose, RollPitchYaw, Twist, Universal, Wrench,
+};
 pub use cost::Cost;
 pub use differentiable::{Derivatives, Differentiable, Jacobian};
 pub use equation::Equation;

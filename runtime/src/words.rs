@@ -442,6 +442,9 @@ pub mod emit {
     /// `momentum`, `momentum_rate` and `velocity`.
     pub struct momentum;
 
+    /// Where all bodies are: positions and rotations of their frames.
+    pub struct poses;
+
     /// Some of the outputs alone: `outputs { name: [output, ..] }` gives the method `outputs_name`.
     pub struct outputs;
 

@@ -33,11 +33,11 @@ multibody! {
         // Names that generated code has of its own.
         output at = trunk.at(X).velocity;
         output model = tail.at(0.3 * Z).pose;
-        emit forward_dynamics, inverse_dynamics, mass_matrix, mass_matrix_lower, bias, energy, outputs { feet: [legs.foot, legs.track] };
+        emit forward_dynamics, inverse_dynamics, mass_matrix, mass_matrix_lower, bias, energy, poses, outputs { feet: [legs.foot, legs.track] };
         emit at {
             functions: [
                 forward_dynamics, inverse_dynamics, mass_matrix, mass_matrix_lower, bias, kinetic_energy, potential_energy,
-                outputs, outputs_feet,
+                poses, outputs, outputs_feet,
             ],
         };
     }
@@ -157,6 +157,10 @@ fn a_floating_tree() {
                 model.mass_matrix_lower(&state.q).packed().iter().copied(),
                 1e-13,
             );
+            let (bodies, alone) = (at.poses(), model.poses(&state.q));
+            same("tail", list(bodies.tail.position), list(alone.tail.position), 1e-13);
+            let thigh = |bodies: &tree::Poses<f64>| list(*bodies.legs[1].thigh.rotation.matrix());
+            same("thigh", thigh(&bodies), thigh(&alone), 1e-13);
             same("bias", list(at.bias(&state.v, &input)), list(model.bias(t, &state, &input)), 1e-12);
             let (efforts, alone) =
                 (at.inverse_dynamics(&state.v, &input, &accel), model.inverse_dynamics(t, &state, &input, &accel));

@@ -1,8 +1,8 @@
-//! Groups of outputs: each gives what `outputs` gives of them, in trees, with multipliers and by Newton's method, through arrays of
-//! parts, and takes no work for the others.
+//! Groups of outputs, and poses: each gives what `outputs` gives of them, in trees, with multipliers and by Newton's method,
+//! through arrays of parts, and takes no work for the others.
 
-use multibody::nalgebra::SVector;
-use multibody::{Cost, multibody};
+use multibody::nalgebra::{SVector, Vector3};
+use multibody::{Cost, Placement, multibody};
 use multibody_tests::support::random::Random;
 
 macro_rules! legs {
@@ -37,17 +37,17 @@ legs! {
         part tail: leg { hip: trunk.at(-0.3 * X) };
         output heading = trunk.pose;
         output speed = norm(trunk.at(X).velocity);
-    } [outputs { pose: [heading, legs.foot, tail.foot], loads: legs[2].load, moving: [speed, legs.track] }]
+    } [poses, outputs { pose: [heading, legs.foot, tail.foot], loads: legs[2].load, moving: [speed, legs.track] }]
     held [formulation { constraints: Multipliers }] {
         part legs: [leg; 3] = |i| leg { hip: ground.rotated(X, i * 0.3).at(0.2 * i * Y) };
         constraint link: Rod { between: [legs[0].thigh.at(0.2 * X), legs[1].thigh.at(0.25 * X)], length: 0.23012345678901234 }
         output gap = legs[0].thigh.at(X).acceleration;
-    } [outputs { pose: [legs.foot], loads: [legs[1].load, gap] }]
+    } [poses, outputs { pose: [legs.foot], loads: [legs[1].load, gap] }]
     iterated [formulation { constraints: Reduced, independent: [legs[0].knee, legs[2].knee] }] {
         part legs: [leg; 3] = |i| leg { hip: ground.rotated(X, i * 0.3).at(0.2 * i * Y) };
         constraint link: Rod { between: [legs[0].thigh.at(0.2 * X), legs[1].thigh.at(0.25 * X)], length: 0.23012345678901234 }
         output gap = legs[0].thigh.at(X).acceleration;
-    } [outputs { pose: [legs.foot], loads: [legs[1].load, gap] }]
+    } [poses, outputs { pose: [legs.foot], loads: [legs[1].load, gap] }]
 }
 
 /// Operations of a function.
@@ -63,6 +63,11 @@ fn same(what: &str, got: impl IntoIterator<Item = f64>, want: impl IntoIterator<
     for (a, b) in got.iter().zip(&want) {
         assert!((a - b).abs() <= 1e-12 * size, "{what}: {a} {b}");
     }
+}
+
+/// Where the pose of a thigh has its foot.
+fn foot(thigh: &Placement<f64>) -> [f64; 3] {
+    (thigh.rotation * Vector3::new(0.3171, 0.0, 0.0) + thigh.position).into()
 }
 
 #[test]
@@ -83,6 +88,14 @@ fn groups_of_a_tree() {
             same("foot", pose.legs_foot[leg].iter().copied(), all.legs[leg].foot.iter().copied());
         }
         same("tail", pose.tail_foot.iter().copied(), all.tail.foot.iter().copied());
+        let bodies = model.poses(&state.q);
+        same("trunk", bodies.trunk.position.iter().copied(), all.heading.position.iter().copied());
+        let turned = all.heading.orientation.to_rotation_matrix();
+        same("trunk", bodies.trunk.rotation.matrix().iter().copied(), turned.matrix().iter().copied());
+        for leg in 0..3 {
+            same("thigh", foot(&bodies.legs[leg].thigh), all.legs[leg].foot.iter().copied());
+        }
+        same("thigh of the tail", foot(&bodies.tail.thigh), all.tail.foot.iter().copied());
         let loads = model.outputs_loads(0.0, &state, &input);
         same("load", loads.legs_2_load.moment.iter().copied(), all.legs[2].load.moment.iter().copied());
         same("load", loads.legs_2_load.force.iter().copied(), all.legs[2].load.force.iter().copied());
@@ -107,8 +120,10 @@ fn groups_of_closed_loops() {
         let input = held::Input::default();
         let all = kept.outputs(0.0, &state, &input);
         let (pose, loads) = (kept.outputs_pose(0.0, &state, &input), kept.outputs_loads(0.0, &state, &input));
+        let bodies = kept.poses(&state.q);
         for leg in 0..3 {
             same("foot", pose.legs_foot[leg].iter().copied(), all.legs[leg].foot.iter().copied());
+            same("thigh", foot(&bodies.legs[leg].thigh), all.legs[leg].foot.iter().copied());
         }
         same("load", loads.legs_1_load.moment.iter().copied(), all.legs[1].load.moment.iter().copied());
         same("gap", loads.gap.iter().copied(), all.gap.iter().copied());
@@ -127,8 +142,10 @@ fn groups_of_closed_loops() {
         let input = iterated::Input::default();
         let all = found.outputs(0.0, &state, &input);
         let (pose, loads) = (found.outputs_pose(0.0, &state, &input), found.outputs_loads(0.0, &state, &input));
+        let bodies = found.poses(&state);
         for leg in 0..3 {
             same("foot", pose.legs_foot[leg].iter().copied(), all.legs[leg].foot.iter().copied());
+            same("thigh", foot(&bodies.legs[leg].thigh), all.legs[leg].foot.iter().copied());
         }
         same("load", loads.legs_1_load.force.iter().copied(), all.legs[1].load.force.iter().copied());
         same("gap", loads.gap.iter().copied(), all.gap.iter().copied());

@@ -2,7 +2,7 @@
 
 use super::fields::field_by_field;
 use crate::{Configuration, Real, Tangent, rotation};
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 /// Where a frame is: position and orientation. Coordinates of a free body, and the type of pose outputs.
 #[repr(C)]
@@ -12,6 +12,17 @@ pub struct Pose<T = f64> {
     pub position: Vector3<T>,
     /// orientation; it maps child to parent (or world) components
     pub orientation: UnitQuaternion<T>,
+}
+
+/// Where a body is, as the function `poses` of generated models gives it: its rotation as the matrix that it is worked
+/// out as, no quaternion taken from it. A point `p` of the body is at `rotation * p + position`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct Placement<T = f64> {
+    /// `[m]` position of the body's origin, in world axes
+    pub position: Vector3<T>,
+    /// rotation; it maps body to world components
+    pub rotation: Rotation3<T>,
 }
 
 /// How a frame moves. As the velocity of a free body it mixes axes: the linear part is in parent axes, the angular
@@ -47,6 +58,21 @@ impl<T: Real> Default for Pose<T> {
             position: Tangent::zero(),
             orientation: UnitQuaternion::new_unchecked(Quaternion::new(one, zero, zero, zero)),
         }
+    }
+}
+
+/// The identity, at the origin.
+impl<T: Real> Default for Placement<T> {
+    #[inline]
+    fn default() -> Self {
+        Self { position: Tangent::zero(), rotation: Rotation3::identity() }
+    }
+}
+
+/// Equality of components.
+impl<T: nalgebra::Scalar> PartialEq for Placement<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.position == other.position && self.rotation == other.rotation
     }
 }
 

@@ -67,6 +67,8 @@ pub enum FunctionKind {
     MomentumRate,
     /// Velocities that belong to momenta.
     MomentumVelocity,
+    /// Of each body the position of its frame's origin, then its rotation row by row, in the order of declaration.
+    Poses,
     /// Output after output, flattened: `Vec3` 3, `Rotation` 9 row by row, `Pose` x, y, z, w, i, j, k, `Twist` and
     /// `Wrench` 6, `Jacobian` 6 x DOF row by row, arrays element by element.
     Outputs,
@@ -146,6 +148,8 @@ pub struct Sizes {
     pub dead_centres: usize,
     pub margins: usize,
     pub granted: usize,
+    /// Scalars of the bodies' poses.
+    pub poses: usize,
 }
 
 impl Sizes {
@@ -175,6 +179,7 @@ pub enum Shape {
     Margins(usize),
     /// Velocities, multipliers, rank.
     Jump,
+    Poses,
     Outputs,
     /// Scalars of a group of outputs.
     OutputGroup(usize),
@@ -216,6 +221,7 @@ impl Shape {
             Shape::Residual => any(velocity(), Slot::Gaps, sizes.rows),
             Shape::Margins(count) => residual(one(Form::Vector(2 * count))),
             Shape::Jump => multipliers(velocity()),
+            Shape::Poses => one(Form::Vector(sizes.poses)),
             Shape::Outputs => one(Form::Vector(sizes.outputs)),
             Shape::OutputGroup(size) => one(Form::Vector(size)),
             Shape::Kinematics(found) => [Slot::Positions, Slot::Rates, Slot::Accelerations]
@@ -265,7 +271,7 @@ pub struct FunctionRow {
 
 impl FunctionKind {
     /// All of them in the order in which they are derived; the first kinematics and the first group of outputs for all.
-    pub const ALL: [FunctionKind; 29] = [
+    pub const ALL: [FunctionKind; 30] = [
         FunctionKind::ForwardDynamics,
         FunctionKind::InverseDynamics,
         FunctionKind::MassMatrix,
@@ -289,6 +295,7 @@ impl FunctionKind {
         FunctionKind::Momentum,
         FunctionKind::MomentumRate,
         FunctionKind::MomentumVelocity,
+        FunctionKind::Poses,
         FunctionKind::Outputs,
         FunctionKind::OutputGroup(0),
         FunctionKind::DeadCentres,
@@ -545,6 +552,13 @@ impl FunctionKind {
                 Arguments { momentum: true, ..Arguments::POSITION },
                 |_| Shape::Velocity,
                 |_| "Velocities `M^-1 * momentum` that belong to momenta.",
+            ),
+            FunctionKind::Poses => row(
+                by(R::Poses, "poses", "Poses"),
+                "poses",
+                Arguments::POSITION,
+                |_| Shape::Poses,
+                |_| "Where the frames of all bodies are in the world: positions of their origins, and rotations.",
             ),
             FunctionKind::OutputGroup(_) => row(
                 by(R::Outputs, "outputs { name: [output, ..] }", "Outputs"),

@@ -140,6 +140,7 @@ pub(super) fn group(layout: &Layout<'_>, group: StructKind, owner: Option<PartTy
             format!("Where Newton's method starts to close the loops of {of}: coordinates that follow from the others.")
         }
         StructKind::Output => format!("Outputs of {of}."),
+        StructKind::Poses => format!("Where the bodies of {of} are in the world."),
     };
     let mut lines = vec![line];
     let size = layout.table(group).size;

@@ -34,10 +34,12 @@ pub(super) enum StructKind {
     Guess,
     Input,
     Output,
+    /// Where all bodies are.
+    Poses,
 }
 
 impl StructKind {
-    pub(super) const ALL: [StructKind; 7] = [
+    pub(super) const ALL: [StructKind; 8] = [
         StructKind::Params,
         StructKind::Position,
         StructKind::Velocity,
@@ -45,6 +47,7 @@ impl StructKind {
         StructKind::Guess,
         StructKind::Input,
         StructKind::Output,
+        StructKind::Poses,
     ];
 
     /// Name of the struct.
@@ -57,6 +60,7 @@ impl StructKind {
             StructKind::Guess => "Guess",
             StructKind::Input => "Input",
             StructKind::Output => "Output",
+            StructKind::Poses => "Poses",
         })
     }
 
@@ -110,6 +114,7 @@ pub(super) struct Layout<'a> {
     guess: Table,
     input: Table,
     output: Table,
+    poses: Table,
     /// By the number of an unknown in the guess: its leaf there, and the component.
     guessed: Vec<(usize, usize)>,
     /// By joint: numbers of its leaves in `position` and `velocity`, and what of the joint they hold.
@@ -129,6 +134,7 @@ impl<'a> Layout<'a> {
             guessed: Vec::new(),
             input: Table::default(),
             output: Table::default(),
+            poses: Table::default(),
             joints: Vec::new(),
         };
         layout.add_joints();
@@ -154,6 +160,11 @@ impl<'a> Layout<'a> {
             let leaf = Leaf::value(&output.value.ty, dof);
             let docs = document::item(&output.docs, "output");
             layout.add(StructKind::Output, &output.place, leaf, docs);
+        }
+        if model.shows_poses() {
+            for body in model.bodies.iter() {
+                layout.add(StructKind::Poses, &body.place, Leaf::placement(), document::item(&body.docs, "body"));
+            }
         }
         layout
     }
@@ -257,6 +268,7 @@ impl<'a> Layout<'a> {
             StructKind::Guess => &self.guess,
             StructKind::Input => &self.input,
             StructKind::Output => &self.output,
+            StructKind::Poses => &self.poses,
         }
     }
 
@@ -269,6 +281,7 @@ impl<'a> Layout<'a> {
             StructKind::Guess => &mut self.guess,
             StructKind::Input => &mut self.input,
             StructKind::Output => &mut self.output,
+            StructKind::Poses => &mut self.poses,
         }
     }
 

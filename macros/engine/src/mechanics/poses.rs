@@ -94,7 +94,7 @@ pub fn still(model: &Model, structure: &Structure, frames: &[Frame], vectors: &[
 
 impl Equations<'_> {
     /// The position of a frame's origin, then its rotation to the world row by row.
-    fn pose(&mut self, frame: &Frame) -> Vec<Scalar> {
+    pub(in crate::mechanics) fn pose(&mut self, frame: &Frame) -> Vec<Scalar> {
         let place = self.place(frame);
         let position = self.of_place(&place, FrameQuantity::Position).vector(&mut self.g);
         let position = self.g.components(position);

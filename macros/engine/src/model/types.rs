@@ -100,6 +100,19 @@ pub struct Model {
     pub at: Vec<AtFunction>,
 }
 
+impl Model {
+    /// Whether it has the function `poses` and its struct.
+    pub fn shows_poses(&self) -> bool {
+        self.emit.contains(&Request::Poses) && !self.bodies.is_empty()
+    }
+
+    /// The frames of all bodies, in the order of declaration.
+    pub fn body_frames(&self) -> Vec<Frame> {
+        let frame = |(id, body): (BodyId, &Body)| Frame { body: BodyRef::Body(id), steps: Vec::new(), span: body.span };
+        self.bodies.iter_ids().map(frame).collect()
+    }
+}
+
 /// One velocity coordinate of a joint in the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Coordinate {
@@ -549,6 +562,8 @@ pub enum Request {
     Impulse,
     /// Momenta, their rates, velocities from momenta.
     Momentum,
+    /// Where all bodies are.
+    Poses,
     /// Outputs by groups.
     Outputs,
     /// What is done once for a position, and functions that go on from there.

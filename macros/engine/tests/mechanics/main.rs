@@ -28,6 +28,7 @@ mod loop_counts;
 mod loops;
 mod motion;
 mod pin_slot;
+mod poses;
 mod random_loops;
 mod random_outputs;
 mod ranks;

@@ -46,7 +46,9 @@ const MODELS: [&str; 3] = [
         output place = seen.position;
         output speed = seen.velocity;
         output columns = seen.jacobian;
-        emit forward_dynamics, inverse_dynamics, mass_matrix, bias, energy, derivatives;
+        output middle = top.position;
+        output turned = top.rotation;
+        emit forward_dynamics, inverse_dynamics, mass_matrix, bias, energy, derivatives, poses;
     }",
 ];
 

@@ -26,6 +26,8 @@ pub fn skeleton(checked: &Checked) -> TokenStream {
     let kinds = FunctionKind::ALL.into_iter().flat_map(|kind| match (kind, kind.row().asked) {
         (FunctionKind::Kinematics(_), _) => (0..model.kinematics.len()).map(FunctionKind::Kinematics).collect(),
         (FunctionKind::OutputGroup(_), _) => (0..model.output_groups.len()).map(FunctionKind::OutputGroup).collect(),
+        // Its struct is there only where it is asked for.
+        (FunctionKind::Poses, _) => vec![kind; usize::from(model.shows_poses())],
         (_, Asked::Equations) if structure.rows.is_empty() => Vec::new(),
         (_, Asked::Guesses) if structure.guesses() == 0 => Vec::new(),
         (_, Asked::Found) => Vec::new(),

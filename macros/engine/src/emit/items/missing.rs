@@ -23,8 +23,16 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
     };
     let methods =
         FunctionKind::ALL.into_iter().filter(|kind| is_missing(*kind)).filter_map(|kind| match kind.row().asked {
-            // Groups have a name only where they are declared; for a triangle nothing is added to models without it.
-            Asked::By { .. } if matches!(kind, FunctionKind::OutputGroup(_) | FunctionKind::MassMatrixLower) => None,
+            // Groups have a name only where they are declared; for a triangle and poses nothing is added to models
+            // without them.
+            Asked::By { .. }
+                if matches!(
+                    kind,
+                    FunctionKind::OutputGroup(_) | FunctionKind::MassMatrixLower | FunctionKind::Poses
+                ) =>
+            {
+                None
+            }
             // Who asks calls what goes through all of them.
             Asked::By { .. } if kind == FunctionKind::AssemblyCondition => None,
             Asked::By { word, missing, .. } => {

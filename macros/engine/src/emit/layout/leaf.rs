@@ -42,6 +42,8 @@ const FREE_ROLL_PITCH_YAW: &Struct = &Struct {
     fields: &[("position", Leaf::Vec3), ("orientation", Leaf::Coordinates(&joint_kinds::BALL_BY_ANGLES))],
 };
 const POSE: &Struct = &Struct { name: "Pose", fields: &[("position", Leaf::Vec3), ("orientation", Leaf::Quaternion)] };
+const PLACEMENT: &Struct =
+    &Struct { name: "Placement", fields: &[("position", Leaf::Vec3), ("rotation", Leaf::Rotation)] };
 const TWIST: &Struct = &Struct { name: "Twist", fields: &[("linear", Leaf::Vec3), ("angular", Leaf::Vec3)] };
 const WRENCH: &Struct = &Struct { name: "Wrench", fields: &[("force", Leaf::Vec3), ("moment", Leaf::Vec3)] };
 
@@ -67,6 +69,11 @@ impl Leaf {
                 _ => Leaf::Coordinates(kind),
             },
         })
+    }
+
+    /// Of a body's pose as `poses` gives it: 3, then 9 row by row.
+    pub(in crate::emit) fn placement() -> Leaf {
+        Leaf::Struct(PLACEMENT)
     }
 
     /// Of a param, an input or an output.

@@ -67,6 +67,7 @@ impl Layout<'_> {
             dead_centres: self.structure.dead_centres.len(),
             margins: self.structure.margins().len(),
             granted: self.structure.granted.len(),
+            poses: self.table(StructKind::Poses).size,
         }
     }
 }
@@ -100,6 +101,7 @@ pub(in crate::emit) fn ty(layout: &Layout<'_>, kind: FunctionKind) -> TokenStrea
         Shape::Derivative => quote!(Derivative<T>),
         Shape::Solved(_) => quote!(Solved<T>),
         Shape::Jump => quote!(Jump<T>),
+        Shape::Poses => quote!(Poses<T>),
         Shape::Outputs => quote!(Output<T>),
         Shape::OutputGroup(_) => {
             let name = group(layout, kind).map(groups::name);
@@ -144,6 +146,7 @@ pub(in crate::emit) fn value(layout: &Layout<'_>, kind: FunctionKind, results: V
         Shape::Derivative => derivative(layout, &results),
         Shape::Solved(_) => solved(layout, &results),
         Shape::Jump => jump(layout, &results),
+        Shape::Poses => filled(layout, StructKind::Poses, results.of(Slot::Value)),
         Shape::Outputs => filled(layout, StructKind::Output, results.of(Slot::Value)),
         Shape::OutputGroup(_) => {
             let value = group(layout, kind).map(|group| groups::value(layout, group, results.of(Slot::Value)));

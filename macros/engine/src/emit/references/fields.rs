@@ -80,7 +80,8 @@ fn holds(group: StructKind, declared: &Declared) -> bool {
         "Input" => group == StructKind::Input,
         "State" => group == StructKind::States,
         "Output" => group == StructKind::Output,
-        // A body may have coordinates of its own.
+        // A body may have coordinates of its own, which are joints' too.
+        "Body" => matches!(group, StructKind::Position | StructKind::Velocity | StructKind::Guess | StructKind::Poses),
         "Const" | "Let" | "Port" | "Force" | "Constraint" | "Unknown" => false,
         _ => matches!(group, StructKind::Position | StructKind::Velocity | StructKind::Guess),
     }

@@ -7,7 +7,7 @@ use crate::contracts::function::FunctionKind;
 use crate::contracts::symbol::Symbol;
 use crate::mechanics::translate::names;
 use crate::mechanics::translate::values::width;
-use crate::model::types::Type;
+use crate::model::types::{Body, Type};
 use crate::symbolic::graph::Scalar;
 
 use super::Deriving;
@@ -81,6 +81,15 @@ impl Deriving<'_> {
             FunctionKind::Momentum => (of_state("momentum"), "momentum"),
             FunctionKind::MomentumRate => (of_state("momentum_rate"), "momentum_rate"),
             FunctionKind::MomentumVelocity => (of_state("rate"), "rate"),
+            FunctionKind::Poses => {
+                let one = |body: &Body| {
+                    let name = names::path(model, &body.place);
+                    let rotation = (0..9).map(|k| format!("rotation_{k}"));
+                    let components = AXES.iter().map(|axis| (*axis).to_string()).chain(rotation);
+                    components.map(|component| format!("{name}_{component}")).collect::<Vec<String>>()
+                };
+                (model.bodies.iter().flat_map(one).collect(), "pose")
+            }
             FunctionKind::Outputs | FunctionKind::OutputGroup(_) => {
                 let freedoms = self.structure.state.len();
                 let one = |output: &crate::model::types::Output| {

@@ -106,16 +106,29 @@ impl<'m> Deriving<'m> {
     }
 
     pub(super) fn outputs(&mut self, wanted: &[&'m Output]) -> Result<Vec<Candidate>, Vec<Complaint>> {
-        let model = self.model;
         let needs = Dependencies::of(wanted.iter().map(|output| &output.value));
+        self.shown(&needs, |equations| equations.output_scalars(wanted))
+    }
+
+    pub(super) fn poses(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        self.shown(&Dependencies::on_frames(), |equations| Ok(equations.body_poses()))
+    }
+
+    /// What a model shows of itself, by all ways that what it needs leaves; `scalars` gives it on the tree.
+    fn shown(
+        &mut self,
+        needs: &Dependencies,
+        mut scalars: impl FnMut(&mut Equations<'m>) -> Result<Vec<Scalar>, Vec<Complaint>>,
+    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        let model = self.model;
         let kept = needs.kept(model);
         let open = self.is_open();
         let mut all = |equations: &mut Equations<'m>| {
             if open {
-                return equations.output_scalars(wanted).map(Results::vector);
+                return scalars(equations).map(Results::vector);
             }
             let reduction = equations.reduce()?;
-            let results = equations.output_scalars(wanted)?;
+            let results = scalars(equations)?;
             Ok(Results::vector(match equations.solved() {
                 Some(solved) => equations.put_in_all(&reduction, &solved, &results),
                 None => equations.finish(&reduction, &results),

@@ -180,6 +180,10 @@ fn recipe(kind: FunctionKind, solves_inputs: bool) -> Recipe {
             const SAME: &[Way] = &[Chosen(|d, _| d.outputs(&d.model.outputs.iter().collect::<Vec<_>>()))];
             (SAME, SAME)
         }
+        F::Poses => {
+            const SAME: &[Way] = &[Chosen(|d, _| d.poses())];
+            (SAME, SAME)
+        }
         F::OutputGroup(_) => {
             const SAME: &[Way] = &[Chosen(output_group)];
             (SAME, SAME)

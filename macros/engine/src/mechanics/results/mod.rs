@@ -18,5 +18,6 @@ pub(super) mod margins;
 pub(super) mod momentum;
 pub(super) mod outputs;
 pub(super) mod parts;
+pub(super) mod poses;
 pub(super) mod reactions;
 pub(super) mod state_space;

@@ -44,6 +44,11 @@ impl Dependencies {
         needs
     }
 
+    /// Of what asks for frames' positions and rotations alone.
+    pub(in crate::mechanics) fn on_frames() -> Dependencies {
+        Dependencies { frames: true, ..Dependencies::default() }
+    }
+
     /// `Fixed` joints whose reactions are asked for.
     pub(in crate::mechanics) fn kept(&self, model: &Model) -> Vec<JointId> {
         let fixed = |id: &JointId| model.joints.get(id.0).is_some_and(|joint| joint.kind.freedoms() == 0);

@@ -20,7 +20,7 @@ use crate::syntax::tree;
 
 use super::fields::{Known, field};
 
-const REQUESTS: [(&str, Request); 18] = [
+const REQUESTS: [(&str, Request); 19] = [
     ("forward_dynamics", Request::ForwardDynamics),
     ("inverse_dynamics", Request::InverseDynamics),
     ("mass_matrix", Request::MassMatrix),
@@ -35,6 +35,7 @@ const REQUESTS: [(&str, Request); 18] = [
     ("linearize", Request::Linearize),
     ("impulse", Request::Impulse),
     ("momentum", Request::Momentum),
+    ("poses", Request::Poses),
     ("outputs", Request::Outputs),
     ("at", Request::At),
     ("report", Request::Report),
@@ -78,7 +79,7 @@ const ELSEWHERE: [(&str, &str); 13] = [
     ("state_space", "write `linearize`"),
     ("gradients", "write `derivatives`"),
     ("jacobian", "write `output name = body.jacobian;`: outputs are always emitted"),
-    ("forward_kinematics", "write `output name = body.pose;`: outputs are always emitted"),
+    ("forward_kinematics", "write `poses` for all bodies, or `output name = body.pose;`: outputs are always emitted"),
 ];
 
 const KINEMATICS: Known<'static> = Known { required: &["given", "find"], optional: &[] };
@@ -135,6 +136,9 @@ impl<'a> Checker<'a, '_> {
                 } else {
                     self.options(request, scope, into);
                 }
+                if *found == Request::Poses {
+                    self.check_poses(span);
+                }
                 if *found == Request::Constraints {
                     into.constraints = Some(span);
                 }
@@ -162,6 +166,15 @@ impl<'a> Checker<'a, '_> {
                     Some(format!("there are `{}`", list.join("`, `"))),
                 );
             }
+        }
+    }
+
+    /// A part of this name is in the way only of who asks for the struct.
+    fn check_poses(&mut self, span: Span) {
+        if let Some(part) = self.part_types.iter().find(|part| part.name == "Poses") {
+            let message = "the struct that `poses` gives would be `Poses`";
+            let help = format!("there is a part of this name: give `mod {}` another one", part.name);
+            self.report.help(span, message, help);
         }
     }
 

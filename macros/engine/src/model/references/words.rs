@@ -40,6 +40,7 @@ const EMIT: Room = &[
     ("linearize", &[]),
     ("impulse", &[]),
     ("momentum", &[]),
+    ("poses", &[]),
     ("outputs", &[]),
     ("at", &["functions"]),
     ("report", &[]),

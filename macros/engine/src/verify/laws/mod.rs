@@ -12,6 +12,7 @@ mod energies;
 mod forces;
 mod momenta;
 mod outputs;
+mod poses;
 
 use std::ops::Range;
 
@@ -118,7 +119,8 @@ impl<'a> Laws<'a> {
     pub(super) fn all(&self) -> Vec<Pending> {
         // Energies are exact where motions are taken to first order.
         let energies = if self.model.small.is_empty() { energies::LAWS } else { &[] };
-        let families = [energies, dynamics::LAWS, derivatives::LAWS, momenta::LAWS, constraints::LAWS, outputs::LAWS];
+        let shown = [outputs::LAWS, poses::LAWS].concat();
+        let families = [energies, dynamics::LAWS, derivatives::LAWS, momenta::LAWS, constraints::LAWS, &shown];
         families.concat().into_iter().map(|law| Pending { law, doubt: None }).collect()
     }
 

@@ -19,14 +19,14 @@ pub(super) const LAWS: &[Law] = &[
 ];
 
 /// Outputs of frames with the place of their first number.
-struct Shown<'m> {
-    quantities: Vec<(usize, &'m Frame, FrameQuantity)>,
+pub(super) struct Shown<'m> {
+    pub(super) quantities: Vec<(usize, &'m Frame, FrameQuantity)>,
     /// In world axes.
     jacobians: Vec<(usize, &'m Frame)>,
 }
 
 impl<'m> Shown<'m> {
-    fn new(model: &'m Model, freedoms: usize) -> Shown<'m> {
+    pub(super) fn new(model: &'m Model, freedoms: usize) -> Shown<'m> {
         let mut shown = Shown { quantities: Vec::new(), jacobians: Vec::new() };
         let mut place = 0;
         for output in &model.outputs {
