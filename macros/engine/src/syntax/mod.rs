@@ -8,10 +8,11 @@
 //! ```text
 //! call        = ("#![krate(" "::" path ")]")? module*
 //! module      = attribute* visibility? "mod" NAME "{" item* "}"
-//! item        = attribute* (value | state | port | world | formulation | body | joint | force | constraint
+//! item        = attribute* (value | function | state | port | world | formulation | body | joint | force | constraint
 //!             | drive | solve | assume | part | emit)
 //! value       = ("const" | "param" | "let" | "output") NAME (":" type)? "=" expr ";"
 //!             | "input" NAME (":" type)? ";"
+//! function    = "let" NAME "(" NAME,* ")" "=" expr ";"
 //! state       = "state" NAME ":" "rate" "=" expr ("," "start" ":" expr)? ","? ";"
 //! port        = "port" NAME ":" "Frame" ";"
 //! world       = "world" fields
@@ -42,6 +43,7 @@ mod build;
 mod cursor;
 mod expressions;
 mod fields;
+mod functions;
 mod hints;
 mod items;
 pub mod keywords;

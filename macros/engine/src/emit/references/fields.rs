@@ -81,7 +81,7 @@ fn holds(group: StructKind, declared: &Declared) -> bool {
         "State" => group == StructKind::States,
         "Output" => group == StructKind::Output,
         // A body may have coordinates of its own.
-        "Const" | "Let" | "Port" | "Force" | "Constraint" | "Unknown" => false,
+        "Const" | "Let" | "Function" | "Port" | "Force" | "Constraint" | "Unknown" => false,
         _ => matches!(group, StructKind::Position | StructKind::Velocity | StructKind::Guess),
     }
 }
@@ -91,7 +91,7 @@ fn each_name<'a>(uses: &'a [Use], f: &mut impl FnMut(usize, &'a Ident)) {
     for used in uses {
         match used {
             Use::Name { module, name, is_known: true } => f(*module, name),
-            Use::Index { uses, .. } => each_name(uses, f),
+            Use::Local { uses, .. } => each_name(uses, f),
             _ => {}
         }
     }

@@ -145,8 +145,8 @@ impl<'a> Checker<'a, '_> {
             }
             Expr::Path(_) if !self.report.is_hopeless() => {
                 let names = self.names_of(context.scope);
-                let index = context.index.map(|(index, _)| index.to_string());
-                let names = names.iter().map(String::as_str).chain(VALUES).chain(index.as_deref());
+                let locals = self.locals(context);
+                let names = names.iter().chain(&locals).map(String::as_str).chain(VALUES);
                 respell(expr, names);
             }
             _ => {}

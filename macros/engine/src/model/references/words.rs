@@ -79,6 +79,8 @@ const NAME: Room = &[
     ("Part", &[]),
     ("Unknown", &[]),
     ("Index", &[]),
+    ("Function", &[]),
+    ("Argument", &[]),
 ];
 
 /// The rooms whose words stand here.
