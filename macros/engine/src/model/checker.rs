@@ -125,8 +125,8 @@ pub(super) struct DefinedFunction<'a> {
     pub(super) scope: ScopeId,
     /// Of its value, declared with it.
     pub(super) unit: Option<Declared>,
-    /// It leads back to itself, which has been reported.
-    pub(super) circular: bool,
+    /// It leads back to itself, or there are too many calls, which has been reported: calls are expanded no more.
+    pub(super) refused: bool,
 }
 
 /// A call of a function while its value is read.
@@ -299,6 +299,8 @@ pub(super) struct Checker<'a, 'd> {
     pub(super) functions: IndexVec<FunctionId, DefinedFunction<'a>>,
     /// Calls that are being expanded, outermost first.
     pub(super) calls: Vec<Call>,
+    /// Calls that have been expanded so far.
+    pub(super) expanded_calls: usize,
     /// Values of calls for which the function declares a unit.
     pub(super) returned: Vec<Expr>,
     /// Values that read unknowns of systems that are being solved.
@@ -359,6 +361,7 @@ impl<'a, 'd> Checker<'a, 'd> {
             systems: IndexVec::new(),
             functions: IndexVec::new(),
             calls: Vec::new(),
+            expanded_calls: 0,
             returned: Vec::new(),
             opened: Vec::new(),
             part_types: IndexVec::new(),

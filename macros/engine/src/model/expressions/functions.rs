@@ -16,6 +16,9 @@ use crate::syntax::tree;
 
 use super::span;
 
+/// Bound on the calls of one model, those in values of functions included: each is written out.
+const MAX_CALLS: usize = 10_000;
+
 impl<'a> Checker<'a, '_> {
     /// Enters a function of one instance of a module.
     pub(in crate::model) fn define(
@@ -24,7 +27,7 @@ impl<'a> Checker<'a, '_> {
         scope: ScopeId,
         unit: Option<Declared>,
     ) -> FunctionId {
-        self.functions.push(DefinedFunction { item, scope, unit, circular: false })
+        self.functions.push(DefinedFunction { item, scope, unit, refused: false })
     }
 
     /// Names of arguments hide nothing, as that of an index doesn't.
@@ -87,11 +90,11 @@ impl<'a> Checker<'a, '_> {
         at: Span,
         context: Context<'a>,
     ) -> Option<Meaning> {
-        let DefinedFunction { item, scope, circular, .. } = self.functions[id];
+        let DefinedFunction { item, scope, refused, .. } = self.functions[id];
         // What stands between the parentheses may hold mistakes of its own.
         let given: Vec<Option<Meaning>> =
             arguments.iter().map(|argument| self.argument_of_call(argument, context)).collect();
-        if circular || tree::poisoned(&item.value) {
+        if refused || tree::poisoned(&item.value) {
             self.report.silent();
             return None;
         }
@@ -101,6 +104,18 @@ impl<'a> Checker<'a, '_> {
             self.circle(first, name);
             return None;
         }
+        if self.expanded_calls >= MAX_CALLS {
+            let message = format!("more than {MAX_CALLS} calls of functions once all are expanded");
+            self.report.help(
+                at,
+                message,
+                "a function that is called twice by each of the next doubles with every step",
+            );
+            // What has been begun comes to an end, and nothing more is begun.
+            self.functions.iter_mut().for_each(|function| function.refused = true);
+            return None;
+        }
+        self.expanded_calls += 1;
         self.calls.push(Call { function: id, arguments });
         let inside = Context { scope, index: None, call: Some(self.calls.len() - 1) };
         let meaning = self.meaning(&item.value, inside);
@@ -156,7 +171,7 @@ impl<'a> Checker<'a, '_> {
         };
         self.report.help(name.span(), message, "functions are expanded where they are called, so none leads to itself");
         for id in members {
-            self.functions[id].circular = true;
+            self.functions[id].refused = true;
         }
     }
 }
