@@ -45,23 +45,23 @@ fn a_call_is_the_text_in_its_place() {
         let hand(leg, n) = leg + n * Y;
         part legs: [leg; 2] = |i| leg { hip: rod.at(hand([0.1, 0.2, 0.3], i)) };
         state s: rate = steep(s, -0.5 * s) - s, start: 0.25;
-        force spring: Effort { joint: slide, value: -steep(push, slide) - rate(slide) };
+        force spring: Effort { joint: slide, value: -steep(push, slide) - rate(slide) }
         output a = slope(steep(2.0, hinge), hinge) + slope(cubic(c, slide), c);
         output b: Vec3 = about(tip(0.2)) + about(rod);
         output d = rate(hinge) + legs[0].reach(slide) * legs[1].reach(-2.0);
-        emit forward_dynamics, outputs;";
+        emit forward_dynamics;";
     let written = "
         part legs: [leg; 2] = |i| leg { hip: rod.at([0.1, 0.2, 0.3] + i * Y) };
         state s: rate = (s * (-0.5 * s) + c * powi(-0.5 * s, 3)) * (-0.5 * s) + c * powi(-0.5 * s, 3)
             + (1.0 * (2.0 * (-0.5 * s)) + c * powi(2.0 * (-0.5 * s), 3)) - s, start: 0.25;
         force spring: Effort { joint: slide, value:
             -((push * slide + c * powi(slide, 3)) * slide + c * powi(slide, 3)
-            + (1.0 * (2.0 * slide) + c * powi(2.0 * slide, 3))) - slide.rate * cos(slide) };
+            + (1.0 * (2.0 * slide) + c * powi(2.0 * slide, 3))) - slide.rate * cos(slide) }
         output a = diff((2.0 * hinge + c * powi(hinge, 3)) * hinge + c * powi(hinge, 3)
             + (1.0 * (2.0 * hinge) + c * powi(2.0 * hinge, 3)), hinge) + diff(c * slide + c * powi(slide, 3), c);
         output b: Vec3 = cross(bead.at(0.2 * X).position, bead.at(0.2 * X).velocity) + cross(rod.position, rod.velocity);
         output d = hinge.rate * cos(hinge) + (legs[0].l * slide + sin(legs[0].knee)) * (legs[1].l * -2.0 + sin(legs[1].knee));
-        emit forward_dynamics, outputs;";
+        emit forward_dynamics;";
     let called = code(calls, "let reach(x) = l * x + sin(knee);");
     assert_eq!(called, code(written, ""));
     // Another function is other code.
