@@ -27,7 +27,7 @@ impl<'a> Checker<'a, '_> {
             _ => None,
         };
         // Names of constructors and of other models are free for the user's own functions, which come first.
-        if let Some((name, function)) = name.and_then(|name| Some((name, self.function_called(name, context)?))) {
+        if let Some((name, function)) = name.and_then(|name| Some((name, self.function_of(context.scope, name)?))) {
             let arguments: Vec<&Expr> = call.args.iter().collect();
             return self.expanded_call(function, name, &arguments, call.span(), context);
         }

@@ -45,13 +45,8 @@ impl<'a> Checker<'a, '_> {
         }
     }
 
-    /// The function that a name stands for where it is called.
-    pub(super) fn function_called(&self, name: &Ident, context: Context<'a>) -> Option<FunctionId> {
-        self.function_of(context.scope, name)
-    }
-
     /// The function of this name in a module.
-    pub(super) fn function_of(&self, scope: ScopeId, name: &Ident) -> Option<FunctionId> {
+    pub(in crate::model) fn function_of(&self, scope: ScopeId, name: &Ident) -> Option<FunctionId> {
         match self.scopes[scope].names.get(&name.to_string()) {
             Some(Symbol::Function(id)) => Some(*id),
             _ => None,
@@ -59,7 +54,7 @@ impl<'a> Checker<'a, '_> {
     }
 
     /// The names of all functions of a module.
-    pub(super) fn functions_of(&self, scope: ScopeId) -> Vec<String> {
+    pub(in crate::model) fn functions_of(&self, scope: ScopeId) -> Vec<String> {
         let names = self.scopes[scope].names.iter();
         names.filter(|(_, symbol)| matches!(symbol, Symbol::Function(_))).map(|(name, _)| name.clone()).collect()
     }

@@ -282,7 +282,7 @@ impl<'a> Walk<'a> {
                 self.name(module, &field.name);
             }
         }
-        let index = part.index.as_ref().map_or(&[][..], std::slice::from_ref);
+        let index = part.index.as_slice();
         self.within(index, "Index", |walk| {
             for field in &part.fields.list {
                 walk.expr(&field.value);
