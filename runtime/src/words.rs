@@ -96,6 +96,12 @@ pub mod name {
 
     /// Counts the parts of an array, from zero.
     pub struct Index;
+
+    /// An expression of arguments, expanded where it is called.
+    pub struct Function;
+
+    /// What is given to a function where it is called.
+    pub struct Argument;
 }
 
 /// Items whose fields stand in braces.

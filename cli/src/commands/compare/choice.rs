@@ -177,7 +177,7 @@ fn each_unknown(modules: &[references::Module], model: usize, f: &mut impl FnMut
     while let Some(next) = waiting.pop() {
         match next {
             Use::Name { module, name, is_known: false } if *module == model => f(name),
-            Use::Index { uses, .. } => waiting.extend(uses),
+            Use::Local { uses, .. } => waiting.extend(uses),
             _ => {}
         }
     }

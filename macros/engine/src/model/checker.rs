@@ -34,7 +34,10 @@ pub(super) struct NamedId(pub(super) usize);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct SystemId(pub(super) usize);
 
-id!(ScopeId, NamedId, SystemId);
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct FunctionId(pub(super) usize);
+
+id!(ScopeId, NamedId, SystemId, FunctionId);
 
 /// Bound on the expressions of one model, once all parts are expanded.
 const MAX_EXPRESSIONS: usize = 1_000_000;
@@ -82,6 +85,8 @@ pub(super) enum Symbol {
     Unknown(SystemId, usize),
     Part(ScopeId),
     Parts(Rc<[ScopeId]>),
+    /// `let name(x) = ..;`
+    Function(FunctionId),
 }
 
 impl Symbol {
@@ -98,15 +103,37 @@ impl Symbol {
             Symbol::Constraint(_) => "constraint",
             Symbol::Unknown(..) => "solve",
             Symbol::Part(_) | Symbol::Parts(_) => "part",
+            Symbol::Function(_) => "let",
         }
     }
 }
 
-/// Where an expression stands: its scope, and the index of `|i|` if it belongs to an array of parts.
+/// Where an expression stands: its scope, the index of `|i|` if it belongs to an array of parts, and the call whose
+/// arguments it names if it belongs to a function.
 #[derive(Clone, Copy)]
 pub(super) struct Context<'a> {
     pub(super) scope: ScopeId,
     pub(super) index: Option<(&'a Ident, usize)>,
+    /// Place among the calls that are being expanded: a context with one lives no longer than that call.
+    pub(super) call: Option<usize>,
+}
+
+/// A function of the user's own, in one instance of its module.
+pub(super) struct DefinedFunction<'a> {
+    pub(super) item: &'a tree::Function,
+    /// Where all names in its value are looked up but those of its arguments.
+    pub(super) scope: ScopeId,
+    /// Of its value, declared with it.
+    pub(super) unit: Option<Declared>,
+    /// It leads back to itself, or there are too many calls, which has been reported: calls are expanded no more.
+    pub(super) refused: bool,
+}
+
+/// A call of a function while its value is read.
+pub(super) struct Call {
+    pub(super) function: FunctionId,
+    /// In the order of the function's own names for them.
+    pub(super) arguments: Vec<Meaning>,
 }
 
 /// What an expression means before it is asked for a value.
@@ -273,6 +300,13 @@ pub(super) struct Checker<'a, 'd> {
     pub(super) scopes: IndexVec<ScopeId, Scope<'a>>,
     pub(super) named: IndexVec<NamedId, Named<'a>>,
     pub(super) systems: IndexVec<SystemId, System<'a>>,
+    pub(super) functions: IndexVec<FunctionId, DefinedFunction<'a>>,
+    /// Calls that are being expanded, outermost first.
+    pub(super) calls: Vec<Call>,
+    /// Calls that have been expanded so far.
+    pub(super) expanded_calls: usize,
+    /// Values of calls for which the function declares a unit.
+    pub(super) returned: Vec<Expr>,
     /// Values that read unknowns of systems that are being solved.
     pub(super) opened: Vec<NamedId>,
     pub(super) part_types: IndexVec<PartTypeId, PartType>,
@@ -331,6 +365,10 @@ impl<'a, 'd> Checker<'a, 'd> {
             scopes: IndexVec::new(),
             named: IndexVec::new(),
             systems: IndexVec::new(),
+            functions: IndexVec::new(),
+            calls: Vec::new(),
+            expanded_calls: 0,
+            returned: Vec::new(),
             opened: Vec::new(),
             part_types: IndexVec::new(),
             part_modules: IndexVec::new(),

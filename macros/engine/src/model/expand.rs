@@ -45,6 +45,7 @@ pub(super) fn declared(kind: &ItemKind) -> Option<(&Ident, &'static str)> {
         ItemKind::Param(value) => (&value.name, "param"),
         ItemKind::Input(value) => (&value.name, "input"),
         ItemKind::Let(value) => (&value.name, "let"),
+        ItemKind::Function(function) => (&function.name, "let"),
         ItemKind::Output(value) => (&value.name, "output"),
         ItemKind::State { name, .. } => (name, "state"),
         ItemKind::Port { name, .. } => (name, "port"),
@@ -130,13 +131,18 @@ impl<'a> Checker<'a, '_> {
             }
             own.push(true);
             self.set_symbol(scope, name, Symbol::Pending(keyword));
-            let context = Context { scope, index: None };
+            let unit = || units::declared(&text, &docs::docs(&item.attrs));
             let (value, role) = match &item.kind {
                 ItemKind::Const(value) => (value, Role::Const),
                 ItemKind::Let(value) => (value, Role::Let),
+                ItemKind::Function(function) => {
+                    let id = self.define(function, scope, unit());
+                    self.set_symbol(scope, name, Symbol::Function(id));
+                    continue;
+                }
                 _ => continue,
             };
-            let unit = units::declared(&text, &docs::docs(&item.attrs));
+            let (context, unit) = (root(scope), unit());
             let request = NamedRequest { role, context, item: Some(value), home: scope, expr: value.value.as_ref() };
             let id = self.add_named(name, request, unit);
             self.set_symbol(scope, name, Symbol::Named(id, keyword));
@@ -183,7 +189,7 @@ impl<'a> Checker<'a, '_> {
             self.report.error(name.span(), message);
             return false;
         }
-        let context = Context { scope, index: None };
+        let context = root(scope);
         let request =
             NamedRequest { role: Role::Output, context, item: Some(value), home: scope, expr: value.value.as_ref() };
         let id = self.add_named(name, request, unit);
@@ -226,6 +232,10 @@ impl<'a> Checker<'a, '_> {
                     Some(Symbol::Named(id, _)) if own => Subject::Named(*id),
                     _ => Subject::None,
                 };
+            }
+            ItemKind::Function(function) => {
+                self.check_parameters(function, scope);
+                return Subject::None;
             }
             ItemKind::Param(value) => match binding.and_then(|b| bound(b, name)) {
                 Some((expr, context)) => {
@@ -436,7 +446,7 @@ impl<'a> Checker<'a, '_> {
                 part_type: Some(part_type),
                 docs: docs::docs(&item.attrs),
             });
-            let context = Context { scope, index: part.index.as_ref().map(|name| (name, k)) };
+            let context = Context { scope, index: part.index.as_ref().map(|name| (name, k)), call: None };
             let binding = Binding { part, context };
             scopes.push(self.expand(index, instance, Some(binding)));
         }
@@ -455,7 +465,7 @@ pub(super) fn article(keyword: &str) -> &'static str {
 
 /// The context of a module's own items.
 pub(super) fn root<'a>(scope: ScopeId) -> Context<'a> {
-    Context { scope, index: None }
+    Context { scope, index: None, call: None }
 }
 
 /// What the part's declaration sets a port or param to.

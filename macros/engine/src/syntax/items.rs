@@ -3,7 +3,7 @@
 //! In: the tokens between a module's braces. Out: items in source order, and whether one was lost. A mistake inside an
 //! item is reported where it stands; reading goes on at the next item.
 
-use proc_macro2::{Delimiter, TokenTree};
+use proc_macro2::{Delimiter, Ident, TokenTree};
 use syn::{BinOp, Expr, ExprLit, Lit, Member, Type, TypePath};
 
 use super::attributes::{outer, visibility};
@@ -11,6 +11,7 @@ use super::blocks;
 use super::cursor::{Cursor, Reported};
 use super::expressions::{expression, is_name};
 use super::fields::{between, fields};
+use super::functions::function;
 use super::keywords::Keyword;
 use super::names::{finish, form, last_value, name, optional_type, unreadable};
 use super::tree::{Item, ItemKind, Request, Value, poison, poison_type, poisoned, poisoned_type};
@@ -115,7 +116,7 @@ fn item(keyword: Keyword, cursor: &mut Cursor, diagnostics: &mut Diagnostics) ->
         Keyword::Const => value(keyword, cursor, diagnostics).map(ItemKind::Const),
         Keyword::Param => value(keyword, cursor, diagnostics).map(ItemKind::Param),
         Keyword::Input => value(keyword, cursor, diagnostics).map(ItemKind::Input),
-        Keyword::Let => value(keyword, cursor, diagnostics).map(ItemKind::Let),
+        Keyword::Let => binding(cursor, diagnostics),
         Keyword::Output => value(keyword, cursor, diagnostics).map(ItemKind::Output),
         Keyword::State => state(cursor, diagnostics),
         Keyword::Port => port(cursor, diagnostics),
@@ -142,9 +143,23 @@ fn item(keyword: Keyword, cursor: &mut Cursor, diagnostics: &mut Diagnostics) ->
     }
 }
 
+/// `name: Ty = value;` or `name(x, y) = value;`
+fn binding(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Option<ItemKind> {
+    let name = name(Keyword::Let, cursor, diagnostics).ok()?;
+    match cursor.take_group(Delimiter::Parenthesis) {
+        Some(parameters) => Some(ItemKind::Function(function(name, &parameters, cursor, diagnostics))),
+        None => value_of(Keyword::Let, name, cursor, diagnostics).map(ItemKind::Let),
+    }
+}
+
 /// `name: Ty = value;`
 fn value(keyword: Keyword, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Option<Value> {
     let name = name(keyword, cursor, diagnostics).ok()?;
+    value_of(keyword, name, cursor, diagnostics)
+}
+
+/// `: Ty = value;`
+fn value_of(keyword: Keyword, name: Ident, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Option<Value> {
     let ty = optional_type(cursor, diagnostics);
     let valued = keyword != Keyword::Input;
     if let Some(equals) = cursor.take("=") {
@@ -245,7 +260,7 @@ fn port(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Option<ItemKind> 
     Some(port_of(name, ty))
 }
 
-fn port_of(name: proc_macro2::Ident, ty: proc_macro2::Ident) -> ItemKind {
+fn port_of(name: Ident, ty: Ident) -> ItemKind {
     let written = Type::Path(TypePath { attrs: Vec::new(), qself: None, path: ty.clone().into() });
     let signal = Value { name: name.clone(), ty: Some(written), value: None };
     ItemKind::Port { name, ty, signal }

@@ -133,6 +133,8 @@ pub enum ItemKind {
     Input(Value),
     /// `let name = value;`
     Let(Value),
+    /// `let name(x, y) = value;`
+    Function(Function),
     /// `output name: Ty = value;`
     Output(Value),
     /// `state name: rate = value, start: value;`
@@ -241,6 +243,16 @@ pub struct Value {
     pub ty: Option<Type>,
     /// After the `=`; present on all but `input`.
     pub value: Option<Expr>,
+}
+
+/// `name(x, y) = value`, expanded where it is called.
+pub struct Function {
+    /// After the keyword.
+    pub name: Ident,
+    /// Between the parentheses: at least one, unless the item was reported and its value is poisoned.
+    pub parameters: Vec<Ident>,
+    /// After the `=`.
+    pub value: Expr,
 }
 
 /// `{ name: value, .. }`

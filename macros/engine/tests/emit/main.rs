@@ -5,6 +5,7 @@ mod blocks;
 #[allow(dead_code)]
 mod corpus;
 mod expressions;
+mod functions;
 mod iterations;
 mod looped;
 mod loops;

@@ -217,6 +217,33 @@ fn a_formula_leads_into_its_model() {
     assert!(text.contains(want), "{text}");
 }
 
+/// Arguments mean something in their function's value; functions, those of parts too, lead to their items.
+#[test]
+fn functions_and_their_arguments_lead_somewhere() {
+    let call = "mod leg {
+        port hip: Frame;
+        body shank { mass: 1.0 }
+        joint knee: Revolute { parent: hip, child: shank, axis: Z }
+        let reach(x) = x * knee;
+    }
+    mod m {
+        body b { mass: 1.0 }
+        joint j: Prismatic { parent: ground, child: b, axis: Z }
+        part legs: [leg; 2] = |i| leg { hip: b.at(far(i, j) * X) };
+        let far(u, v) = u + sin(v) * u;
+        let closed(w) = far(w, w);
+        output y = closed(legs[0].reach(j)) + far(legs[1].knee, 2.0);
+    }";
+    let want = "leg hip Frame shank mass knee Revolute parent hip child shank axis reach x x knee
+        m b mass j Prismatic parent child b axis legs leg i leg hip b far i j far u v u v u closed w far w w
+        y closed legs reach j far legs knee";
+    assert_eq!(followed(call), want.split_whitespace().collect::<Vec<_>>());
+    let text = names_of(call.parse().unwrap(), false).to_string().replace(' ', "");
+    let inside = "{letu:::multibody::words::name::Argument=A::any();{letv:::multibody::words::name::Argument=A::any();\
+                  let_=u;let_=v;let_=u;}}";
+    assert!(text.contains(inside), "{text}");
+}
+
 /// `r#arm` is `arm`: one name of the module's, to which both lead. A keyword is a name as a raw one alone.
 #[test]
 fn raw_names_are_names() {

@@ -86,6 +86,33 @@ fn doubling_stays_small() {
     assert!(said[0].contains("at most 10000 numbers"), "{said:?}");
 }
 
+/// Calls within calls, values that call twice, and circles of many: an answer, whatever they come to.
+#[test]
+fn functions_stay_bounded() {
+    let nested = format!("{}j{}", "f(".repeat(24), ")".repeat(24));
+    let text = format!("mod m {{ {BODY} let f(x) = x * x + sin(x); output x = {nested}; }}");
+    assert_eq!(quickly(move || said(&text)), Vec::<String>::new());
+
+    let twice = |count: usize| -> String {
+        (1..count).map(|k| format!("let f{k}(x) = f{0}(x) * f{0}(x + 1.0);", k - 1)).collect()
+    };
+    let text = format!("mod m {{ {BODY} let f0(x) = x; {} output x = f10(j); }}", twice(11));
+    assert_eq!(quickly(move || said(&text)), Vec::<String>::new());
+    let text = format!("mod m {{ {BODY} let f0(x) = x; {} output x = f23(j); }}", twice(24));
+    let doubled = quickly(move || said(&text));
+    assert_eq!(doubled.len(), 1, "{doubled:?}");
+    assert!(doubled[0].contains("more than 10000 calls"), "{doubled:?}");
+
+    let all: String = (0..20).map(|k| format!(" + f{k}(x)")).collect();
+    let circles: String = (0..20).map(|k| format!("let f{k}(x) = x{all};")).collect();
+    let text = format!("mod m {{ {BODY} {circles} output x = f0(j); output y = f19(j); }}");
+    let circles = quickly(move || said(&text));
+    assert!(
+        !circles.is_empty() && circles.iter().all(|line| line.contains("is defined through itself")),
+        "{circles:?}"
+    );
+}
+
 #[test]
 fn parts_stay_bounded() {
     let mut text = String::from("mod p0 { port a: Frame; body b { mass: 1.0 } }");

@@ -33,6 +33,10 @@ fn line(item: &Item) -> String {
         ItemKind::Param(v) => value("param", v),
         ItemKind::Input(v) => value("input", v),
         ItemKind::Let(v) => value("let", v),
+        ItemKind::Function(f) => {
+            let parameters: Vec<String> = f.parameters.iter().map(ToString::to_string).collect();
+            format!("let {}({}) {}", f.name, parameters.join(","), text(&f.value))
+        }
         ItemKind::Output(v) => value("output", v),
         ItemKind::State { name, rate, start } => {
             format!("state {name} {} {}", text(rate), text(start))

@@ -82,7 +82,7 @@ fn holds(group: StructKind, declared: &Declared) -> bool {
         "Output" => group == StructKind::Output,
         // A body may have coordinates of its own, which are joints' too.
         "Body" => matches!(group, StructKind::Position | StructKind::Velocity | StructKind::Guess | StructKind::Poses),
-        "Const" | "Let" | "Port" | "Force" | "Constraint" | "Unknown" => false,
+        "Const" | "Let" | "Function" | "Port" | "Force" | "Constraint" | "Unknown" => false,
         _ => matches!(group, StructKind::Position | StructKind::Velocity | StructKind::Guess),
     }
 }
@@ -92,7 +92,7 @@ fn each_name<'a>(uses: &'a [Use], f: &mut impl FnMut(usize, &'a Ident)) {
     for used in uses {
         match used {
             Use::Name { module, name, is_known: true } => f(*module, name),
-            Use::Index { uses, .. } => each_name(uses, f),
+            Use::Local { uses, .. } => each_name(uses, f),
             _ => {}
         }
     }

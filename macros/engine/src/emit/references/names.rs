@@ -115,19 +115,19 @@ impl Writer<'_> {
                 let (room, word) = (names::ident(room), names::field(word));
                 quote!(let #krate::words::#room::#word { #(#given: _,)* .. } = A::any();)
             }
-            Use::Index { name, uses } => {
+            Use::Local { name, word, uses } => {
                 let inside = self.statements(uses);
                 if !is_written(name) || may_be_constant(name) {
                     return inside;
                 }
-                let name = names::field(name);
-                quote!({ let #name: #krate::words::name::Index = A::any(); #inside })
+                let (name, word) = (names::field(name), names::ident(word));
+                quote!({ let #name: #krate::words::name::#word = A::any(); #inside })
             }
-            Use::Counter(name) if is_written(name) && !may_be_constant(name) => {
+            Use::OfLocal(name) if is_written(name) && !may_be_constant(name) => {
                 let name = names::field(name);
                 quote!(let _ = #name;)
             }
-            Use::Name { .. } | Use::Module { .. } | Use::Counter(_) => TokenStream::new(),
+            Use::Name { .. } | Use::Module { .. } | Use::OfLocal(_) => TokenStream::new(),
         }
     }
 }

@@ -125,7 +125,9 @@ impl<'a> Checker<'a, '_> {
             Expr::Array(array) => array.elems.iter_mut().for_each(|element| self.correct(element, context)),
             Expr::Index(index) => self.correct(&mut index.expr, context),
             Expr::Call(call) => {
-                respell(&mut call.func, FUNCTIONS.iter().map(|function| function.0));
+                let own = self.functions_of(context.scope);
+                let known = FUNCTIONS.iter().map(|function| function.0);
+                respell(&mut call.func, known.chain(own.iter().map(String::as_str)));
                 call.args.iter_mut().for_each(|argument| self.correct(argument, context));
             }
             Expr::MethodCall(call) => {
@@ -145,8 +147,8 @@ impl<'a> Checker<'a, '_> {
             }
             Expr::Path(_) if !self.report.is_hopeless() => {
                 let names = self.names_of(context.scope);
-                let index = context.index.map(|(index, _)| index.to_string());
-                let names = names.iter().map(String::as_str).chain(VALUES).chain(index.as_deref());
+                let locals = self.locals(context);
+                let names = names.iter().chain(&locals).map(String::as_str).chain(VALUES);
                 respell(expr, names);
             }
             _ => {}

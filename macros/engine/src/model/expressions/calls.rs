@@ -6,7 +6,7 @@ use proc_macro2::{Ident, Span};
 use syn::spanned::Spanned;
 use syn::{Expr, ExprCall};
 
-use crate::model::checker::{Checker, Context};
+use crate::model::checker::{Checker, Context, Meaning};
 use crate::model::names::{CONSTRUCTORS, FUNCTIONS, MANIPULATIONS, SPECIAL_FUNCTIONS};
 use crate::model::typed::{Class, Typed, Uses, type_text};
 use crate::model::types::{Expr as Checked, ExprNode, Function, Type};
@@ -21,7 +21,20 @@ const SHAPES: [&str; 6] = ["diag", "inertia", "rod", "cuboid", "cylinder", "sphe
 const MAX_POWER: i64 = 1000;
 
 impl<'a> Checker<'a, '_> {
-    pub(super) fn call(&mut self, call: &ExprCall, context: Context<'a>) -> Option<Typed> {
+    pub(super) fn call(&mut self, call: &ExprCall, context: Context<'a>) -> Option<Meaning> {
+        let name = match &*call.func {
+            Expr::Path(path) => path.path.get_ident(),
+            _ => None,
+        };
+        // Names of constructors and of other models are free for the user's own functions, which come first.
+        if let Some((name, function)) = name.and_then(|name| Some((name, self.function_of(context.scope, name)?))) {
+            let arguments: Vec<&Expr> = call.args.iter().collect();
+            return self.expanded_call(function, name, &arguments, call.span(), context);
+        }
+        self.call_of_language(call, context).map(Meaning::Value)
+    }
+
+    fn call_of_language(&mut self, call: &ExprCall, context: Context<'a>) -> Option<Typed> {
         let at = call.span();
         let name = match &*call.func {
             Expr::Path(path) => path.path.get_ident(),
@@ -114,7 +127,7 @@ impl<'a> Checker<'a, '_> {
         }
     }
 
-    fn arity(&mut self, name: &Ident, arguments: &[&Expr], count: usize, at: Span) -> Option<()> {
+    pub(super) fn arity(&mut self, name: &Ident, arguments: &[&Expr], count: usize, at: Span) -> Option<()> {
         if arguments.len() == count {
             return Some(());
         }
@@ -210,7 +223,9 @@ impl<'a> Checker<'a, '_> {
             let message = format!("`{text}` stands in the field `inertia` of a body only");
             return self.report.error(name.span(), message);
         }
-        if self.names_of(context.scope).contains(&text) {
+        let locals = self.locals(context);
+        let functions = self.functions_of(context.scope);
+        if self.names_of(context.scope).contains(&text) || locals.contains(&text) {
             let message = format!("`{text}` is no function");
             return self.report.help(name.span(), message, "a product needs its `*`");
         }
@@ -223,7 +238,8 @@ impl<'a> Checker<'a, '_> {
                 .map(|(known, ..)| *known)
                 .chain(SPECIAL_FUNCTIONS)
                 .chain(CONSTRUCTORS)
-                .chain(MANIPULATIONS),
+                .chain(MANIPULATIONS)
+                .chain(functions.iter().map(String::as_str)),
             None,
         );
     }

@@ -185,7 +185,7 @@ impl<'a> Checker<'a, '_> {
     pub(super) fn matrix_name(&self, expr: &Expr, context: Context<'a>) -> Option<&'static str> {
         let Expr::Path(path) = expr else { return None };
         let name = path.path.get_ident()?.to_string();
-        let declared = self.scopes[context.scope].symbol(&name).is_some();
+        let declared = self.scopes[context.scope].symbol(&name).is_some() || self.locals(context).contains(&name);
         MATRICES.into_iter().find(|known| *known == name && !declared)
     }
 

@@ -8,6 +8,7 @@ mod broadcast;
 mod calls;
 mod coerce;
 pub(super) mod formulas;
+mod functions;
 mod joints;
 mod manipulate;
 mod members;
@@ -79,7 +80,7 @@ impl<'a> Checker<'a, '_> {
             Expr::Unary(unary) => self.unary(unary, context).map(Meaning::Value),
             Expr::Binary(binary) => self.binary(binary, context).map(Meaning::Value),
             Expr::Array(array) => self.array(array, context).map(Meaning::Value),
-            Expr::Call(call) => self.call(call, context).map(Meaning::Value),
+            Expr::Call(call) => self.call(call, context),
             Expr::MethodCall(call) => self.method(call, context),
             Expr::Field(field) => self.member(field, context),
             Expr::Index(index) => self.index(index, context),

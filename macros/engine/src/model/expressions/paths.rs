@@ -30,6 +30,9 @@ impl<'a> Checker<'a, '_> {
         if let Some((_, k)) = context.index.filter(|(index, _)| *index == name) {
             return Some(Meaning::Value(Typed::number(k as f64, span)));
         }
+        if let Some(argument) = self.argument(name, context) {
+            return Some(argument);
+        }
         let text = name.to_string();
         if let Some(meaning) = builtin(&text, span) {
             return Some(meaning);
@@ -53,7 +56,7 @@ impl<'a> Checker<'a, '_> {
     fn unknown_name(&mut self, name: &Ident, context: Context<'a>) {
         let text = name.to_string();
         let mut known: Vec<String> = self.names_of(context.scope);
-        known.extend(context.index.map(|(index, _)| index.to_string()));
+        known.extend(self.locals(context));
         let candidates = known.iter().map(String::as_str).chain(VALUES);
         if self.is_broken(context.scope) {
             // The name may have been lost with an item that the parser gave up.
@@ -130,6 +133,10 @@ impl<'a> Checker<'a, '_> {
             Symbol::Force(id) => Some(Meaning::Force(*id)),
             Symbol::Constraint(id) => Some(Meaning::Constraint(*id)),
             Symbol::Unknown(system, place) => self.unknown(*system, *place, site).map(Meaning::Value),
+            Symbol::Function(_) => {
+                self.report.help(span, format!("`{site}` is a function"), format!("write `{site}(..)`"));
+                None
+            }
             Symbol::Part(scope) => Some(Meaning::Part(*scope)),
             Symbol::Parts(scopes) => Some(Meaning::Parts(scopes.clone())),
         }

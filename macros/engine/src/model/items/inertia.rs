@@ -61,6 +61,13 @@ impl<'a> Checker<'a, '_> {
     fn shape_call(&mut self, call: &ExprCall, context: Context<'a>) -> Option<Tensor> {
         let at = call.span();
         let name = source_text(&call.func);
+        if let Written::Path(path) = &*call.func
+            && path.path.get_ident().is_some_and(|name| self.function_of(context.scope, name).is_some())
+        {
+            let message = format!("`{name}` is a function of this model: its value is no inertia");
+            self.report.help(call.func.span(), message, "a shape needs its name for itself: rename the function");
+            return None;
+        }
         let Some((_, arguments)) = SHAPES.iter().find(|(known, _)| *known == name) else {
             let list: Vec<&str> = SHAPES.iter().map(|(known, _)| *known).collect();
             self.report.unknown(

@@ -64,10 +64,11 @@ pub enum Use {
     Module { name: Ident, is_known: bool },
     /// A word of the language with its fields.
     Word { room: &'static str, word: Ident, fields: Vec<Ident> },
-    /// `|i|` with all that stands in the part's braces.
-    Index { name: Ident, uses: Vec<Use> },
-    /// A use of that `i`.
-    Counter(Ident),
+    /// A name that means something in one place alone, with the word for what it is and all that stands in that place: `|i|` in
+    /// the part's braces, an argument in its function's value.
+    Local { name: Ident, word: &'static str, uses: Vec<Use> },
+    /// A use of that name.
+    OfLocal(Ident),
 }
 
 /// Reads a call.

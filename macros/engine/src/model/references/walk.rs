@@ -34,6 +34,7 @@ pub(super) fn declared(module: &tree::Module) -> Vec<Declared> {
             ItemKind::Param(value) => add(&value.name, "name", "Param"),
             ItemKind::Input(value) => add(&value.name, "name", "Input"),
             ItemKind::Let(value) => add(&value.name, "name", "Let"),
+            ItemKind::Function(function) => add(&function.name, "name", "Function"),
             ItemKind::Output(value) => add(&value.name, "name", "Output"),
             ItemKind::State { name, .. } => add(name, "name", "State"),
             ItemKind::Port { name, .. } => add(name, "name", "Port"),
@@ -86,6 +87,7 @@ impl<'a> Known<'a> {
                 let name = match &item.kind {
                     ItemKind::Part(part) => &part.name,
                     ItemKind::Let(value) => &value.name,
+                    ItemKind::Function(function) => &function.name,
                     _ => continue,
                 };
                 names.entry(name.to_string()).or_default().get_or_insert(&item.kind);
@@ -103,6 +105,12 @@ impl<'a> Known<'a> {
     fn part(&self, kind: &Ident) -> Option<usize> {
         let (index, is_part) = self.modules.get(&kind.to_string())?;
         is_part.then_some(*index)
+    }
+
+    /// Whether the first item of this name in a module is a function.
+    fn is_function(&self, module: usize, name: &Ident) -> bool {
+        let item = self.names.get(module).and_then(|names| names.get(&name.to_string()));
+        matches!(item, Some(Some(ItemKind::Function(_))))
     }
 
     /// The model that a function's name stands for, if it is none of the language.
@@ -143,7 +151,7 @@ impl<'a> Known<'a> {
 
 /// All uses in a module.
 pub(super) fn uses(source: &tree::Source, known: &Known<'_>, index: usize) -> Vec<Use> {
-    let mut walk = Walk { known, module: index, index: None, uses: Vec::new() };
+    let mut walk = Walk { known, module: index, locals: &[], uses: Vec::new() };
     for item in source.modules.get(index).map_or(&[][..], |module| &module.items) {
         walk.item(item);
     }
@@ -153,8 +161,8 @@ pub(super) fn uses(source: &tree::Source, known: &Known<'_>, index: usize) -> Ve
 struct Walk<'a> {
     known: &'a Known<'a>,
     module: usize,
-    /// `|i|` of the part whose fields are read.
-    index: Option<&'a Ident>,
+    /// `|i|` of the part whose fields are read, arguments of the function whose value is read.
+    locals: &'a [Ident],
     uses: Vec<Use>,
 }
 
@@ -168,6 +176,9 @@ impl<'a> Walk<'a> {
             | ItemKind::Output(value) => {
                 value.ty.iter().for_each(|ty| self.ty(ty));
                 self.all(&value.value);
+            }
+            ItemKind::Function(function) => {
+                self.within(&function.parameters, "Argument", |walk| walk.expr(&function.value));
             }
             ItemKind::State { rate, start, .. } => {
                 self.expr(rate);
@@ -271,17 +282,25 @@ impl<'a> Walk<'a> {
                 self.name(module, &field.name);
             }
         }
+        let index = part.index.as_slice();
+        self.within(index, "Index", |walk| {
+            for field in &part.fields.list {
+                walk.expr(&field.value);
+            }
+        });
+    }
+
+    /// What stands where these names mean something.
+    fn within(&mut self, locals: &'a [Ident], word: &'static str, inside: impl FnOnce(&mut Self)) {
         let before = std::mem::take(&mut self.uses);
-        self.index = part.index.as_ref();
-        for field in &part.fields.list {
-            self.expr(&field.value);
+        self.locals = locals;
+        inside(self);
+        self.locals = &[];
+        let mut uses = std::mem::replace(&mut self.uses, before);
+        for name in locals.iter().rev() {
+            uses = vec![Use::Local { name: name.clone(), word, uses }];
         }
-        self.index = None;
-        let inside = std::mem::replace(&mut self.uses, before);
-        match &part.index {
-            Some(name) => self.uses.push(Use::Index { name: name.clone(), uses: inside }),
-            None => self.uses.extend(inside),
-        }
+        self.uses.extend(uses);
     }
 
     fn ty(&mut self, ty: &'a Type) {
@@ -320,6 +339,10 @@ impl<'a> Walk<'a> {
             Expr::Call(call) => self.call(call),
             Expr::MethodCall(call) => {
                 self.expr(&call.receiver);
+                let part = self.known.part_in(self.module, &call.receiver, MOST_STEPS);
+                if let Some(module) = part.filter(|module| self.known.is_function(*module, &call.method)) {
+                    self.name(module, &call.method);
+                }
                 self.all(&call.args);
             }
             Expr::Field(field) => {
@@ -342,9 +365,13 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// What is called is a function of the language, or another model: what it is asked for, and variables that are given, are names of
+    /// What is called is a function of the module's own, one of the language, or another model: what it is asked for, and variables that are given, are names of
     /// that model.
     fn call(&mut self, call: &'a syn::ExprCall) {
+        if let Some(name) = single(&call.func).filter(|name| self.known.is_function(self.module, name)) {
+            self.name(self.module, name);
+            return self.all(&call.args);
+        }
         let Some((name, model)) = single(&call.func).and_then(|name| Some((name, self.known.model(name)?))) else {
             return self.all(&call.args);
         };
@@ -363,18 +390,18 @@ impl<'a> Walk<'a> {
 
     /// An expression in the terms of another module.
     fn elsewhere(&mut self, module: usize, expr: &'a Expr) {
-        let (home, index) = (self.module, self.index.take());
+        let (home, locals) = (self.module, std::mem::take(&mut self.locals));
         self.module = module;
         self.expr(expr);
         self.module = home;
-        self.index = index;
+        self.locals = locals;
     }
 
     fn path(&mut self, expr: &Expr) {
         let Some(name) = single(expr) else { return };
         let text = name.to_string();
-        if self.index == Some(name) {
-            self.uses.push(Use::Counter(name.clone()));
+        if self.locals.contains(name) {
+            self.uses.push(Use::OfLocal(name.clone()));
         } else if self.known.is_declared(self.module, &text) || !is_of_the_language(&text) {
             self.name(self.module, name);
         }

@@ -81,6 +81,8 @@ const NAME: Room = &[
     ("Part", &[]),
     ("Unknown", &[]),
     ("Index", &[]),
+    ("Function", &[]),
+    ("Argument", &[]),
 ];
 
 /// The rooms whose words stand here.

@@ -46,6 +46,7 @@ impl Units {
         let items = [&expressions.params, &expressions.inputs, &expressions.states];
         let declares = items.into_iter().flatten().any(Option::is_some)
             || checker.named.iter().any(|named| named.unit.is_some())
+            || checker.functions.iter().any(|function| function.unit.is_some())
             // Others may declare what this model gives them.
             || !checker.asked_elsewhere.is_empty()
             || checker.joints.iter().any(|slot| docs::docs(&slot.item.attrs).unit.is_some())
@@ -64,6 +65,9 @@ impl Units {
         }
         self.hold(collected.constraints.iter().map(Option::as_ref));
         self.names(checker);
+        for value in &checker.returned {
+            self.named(value);
+        }
         for (expr, wanted) in &checker.quantities {
             self.expressions.expect(expr, *wanted);
         }
