@@ -5,14 +5,12 @@ use std::path::PathBuf;
 
 use lexopt::{Arg, Parser, ValueExt};
 
-use crate::import::Choice;
-
 pub(crate) const HELP: &str = "\
 The compiler of multibody models as a command.
 
 usage: cargo multibody COMMAND FILE [--model NAME]
 
-FILE is a Rust file, or Markdown with blocks of Rust; its calls `multibody! { .. }` are read. `import` reads URDF.
+FILE is a Rust file, or Markdown with blocks of Rust; its calls `multibody! { .. }` are read.
 
 commands
   check FILE     mistakes with their places, as the compiler tells them; else one line per model
@@ -25,9 +23,6 @@ commands
                  and times all of them
   report FILE    a page about each model: graph, drawing, tables, structure of matrices, costs, candidates, equations;
                  NAME.html in --out DIR (target/multibody by default), and with --markdown NAME.md beside it
-  import FILE    a URDF file as a model. The root stands on the ground, with --base floating it moves freely;
-                 --efforts gives hinges and slides an input each, --without-friction leaves dry friction out,
-                 --allow-unphysical LINK takes an inertia that no body has
 
 options
   --model NAME   only the model of this name
@@ -69,7 +64,6 @@ pub(crate) enum Command {
     Compare(Subject, Extent),
     Equations(Subject, Form),
     Expand(Subject),
-    Import(PathBuf, Choice),
     /// The older file, the newer one.
     Diff(Subject, Subject),
     /// Into a folder, and as Markdown too.
@@ -100,7 +94,6 @@ pub(crate) fn read(mut words: Vec<OsString>) -> Result<Command, String> {
         "counts" => Ok(Command::Counts(one(&name, subjects)?)),
         "equations" => Ok(Command::Equations(one(&name, subjects)?, given.form)),
         "expand" => Ok(Command::Expand(one(&name, subjects)?)),
-        "import" => Ok(Command::Import(one(&name, subjects)?.file, given.choice)),
         "report" => Ok(Command::Report(one(&name, subjects)?, given.out, given.markdown)),
         "diff" => {
             let [old, new] = files(&name, "two files", subjects)?;
@@ -128,7 +121,6 @@ struct Given {
     extent: Extent,
     out: Option<PathBuf>,
     markdown: bool,
-    choice: Choice,
     help: bool,
     version: bool,
 }
@@ -145,10 +137,6 @@ impl Given {
                 Arg::Long("all") => given.extent.all = true,
                 Arg::Long("measure") => given.extent.measure = true,
                 Arg::Long("out") => given.out = Some(parser.value()?.into()),
-                Arg::Long("base") => given.choice.floating = is_floating(&parser.value()?.string()?)?,
-                Arg::Long("efforts") => given.choice.efforts = true,
-                Arg::Long("without-friction") => given.choice.frictionless = true,
-                Arg::Long("allow-unphysical") => given.choice.unphysical.push(parser.value()?.string()?),
                 Arg::Long("markdown") => given.markdown = true,
                 Arg::Long("text") => given.form = Form::Text,
                 Arg::Long("latex") => given.form = Form::Latex,
@@ -159,13 +147,5 @@ impl Given {
             }
         }
         Ok(given)
-    }
-}
-
-fn is_floating(base: &str) -> Result<bool, lexopt::Error> {
-    match base {
-        "fixed" => Ok(false),
-        "floating" => Ok(true),
-        _ => Err(format!("`--base` is `fixed` or `floating`, and not `{base}`").into()),
     }
 }

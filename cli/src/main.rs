@@ -6,7 +6,6 @@
 mod arguments;
 mod build;
 mod commands;
-mod import;
 mod parts;
 mod progress;
 mod report;
@@ -54,7 +53,6 @@ fn run(command: Command) -> Result<String, Stop> {
         Command::Compare(subject, extent) => commands::compare::run(&subject, extent),
         Command::Equations(subject, form) => commands::equations::run(&subject, form),
         Command::Expand(subject) => commands::expand::run(&subject),
-        Command::Import(file, choice) => commands::import::run(&file, &choice),
         Command::Report(subject, folder, markdown) => commands::report::run(&subject, folder.as_deref(), markdown),
         Command::Diff(old, new) => commands::diff::run(&old, &new),
     }
