@@ -1,6 +1,9 @@
 //! The procedural macro `multibody!`: a shell around the engine, which is an ordinary library.
 
+use std::path::{Path, PathBuf};
+
 use proc_macro::TokenStream;
+use syn::LitStr;
 
 /// Derives the equations of motion of the declared mechanisms and emits them as Rust modules.
 ///
@@ -29,5 +32,12 @@ use proc_macro::TokenStream;
 /// Every mistake of a call is a compile error at the token where it stands, all of them in one build.
 #[proc_macro]
 pub fn multibody(input: TokenStream) -> TokenStream {
-    multibody_engine::expand(input.into()).into()
+    multibody_engine::expand_reading(input.into(), &read).into()
+}
+
+/// The text of a file beside the one that calls, or in the manifest's folder where the compiler names none.
+fn read(file: &LitStr) -> Result<String, String> {
+    let folder = file.span().unwrap().local_file().and_then(|calling| calling.parent().map(Path::to_owned));
+    let folder = folder.or_else(|| std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from)).unwrap_or_default();
+    std::fs::read_to_string(folder.join(file.value())).map_err(|error| error.to_string())
 }
