@@ -101,7 +101,7 @@ pub(crate) fn refusal(name: &str) -> Option<String> {
 }
 
 /// Why a model or part can't have this name.
-pub(super) fn module_refusal(name: &str) -> Option<String> {
+pub(crate) fn module_refusal(name: &str) -> Option<String> {
     if GENERATED.contains(&name) {
         return Some(format!("`{name}` is the name of a generated item"));
     }

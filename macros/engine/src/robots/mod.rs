@@ -76,6 +76,32 @@ pub fn place(source: &mut Source, reader: &Reader, diagnostics: &mut Diagnostics
     files
 }
 
+/// A robot's file as a call, with a part that is the robot and a model in which it stands on the ground.
+pub fn import(text: &str, file: &str) -> Result<String, String> {
+    let whole = |fault| match fault {
+        Fault::Of(mistake) => match &mistake.help {
+            Some(help) => format!("{}\n  help: {help}", mistake.text(file)),
+            None => mistake.text(file),
+        },
+        Fault::At(_, message, _) => message,
+    };
+    let robot = urdf::read(text, false).map_err(|mistake| whole(Fault::Of(mistake)))?;
+    let name = names::module(&robot.name);
+    let Written { text, port } = write::part(&robot, &name, file, &Options::plain(file)).map_err(whole)?;
+    let mut call = "multibody! {\n".to_owned();
+    let mut depth = 1;
+    for line in text.lines() {
+        depth -= usize::from(line == "}");
+        call.push_str(&format!("{}{line}\n", "    ".repeat(depth)));
+        depth += usize::from(line.starts_with("mod "));
+    }
+    call.push_str(&format!(
+        "    pub mod model {{\n        world {{ gravity: -9.81 * Z }}\n        part robot: {name} {{ {port}: ground }};\n        \
+         emit forward_dynamics, inverse_dynamics;\n    }}\n}}\n"
+    ));
+    Ok(call)
+}
+
 struct Placed {
     file: LitStr,
     /// Nothing if another part is the same.

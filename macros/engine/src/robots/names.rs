@@ -5,7 +5,7 @@
 
 use std::collections::HashMap;
 
-use crate::model::names::refusal;
+use crate::model::names::{module_refusal, refusal};
 
 use super::mistake::{Mistake, Place};
 use super::robot::Robot;
@@ -55,6 +55,14 @@ impl Names {
         self.taken.insert(name.clone(), "the base".to_owned());
         name
     }
+}
+
+/// Of a part, from what a robot is called.
+pub(super) fn module(name: &str) -> String {
+    let name = identifier(name, Place { line: 1, column: 1 }).unwrap_or_else(|_| "robot".to_owned());
+    // The model beside it has that name.
+    let name = if name == "model" { "robot".to_owned() } else { name };
+    if module_refusal(&name).is_some() { format!("{name}_") } else { name }
 }
 
 fn identifier(name: &str, at: Place) -> Result<String, Mistake> {

@@ -36,6 +36,23 @@ pub(super) struct Options {
     pub(super) is_inertia_waived: bool,
 }
 
+impl Options {
+    /// Of a robot that stands on a frame, with everything as its file has it.
+    pub(super) fn plain(file: &str) -> Options {
+        let span = Span::call_site();
+        Options {
+            file: LitStr::new(file, span),
+            base: Base::Frame(tree::poison()),
+            lock: Vec::new(),
+            drop: Vec::new(),
+            params: Vec::new(),
+            are_angles_snapped: false,
+            is_friction_ignored: false,
+            is_inertia_waived: false,
+        }
+    }
+}
+
 const FIELDS: [&str; 8] = ["file", "base", "lock", "drop", "param", "angles", "friction", "allow"];
 const FORM: &str = "write `part arm: Urdf { file: \"arm.urdf\", base: ground };`";
 
