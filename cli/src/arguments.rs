@@ -17,6 +17,7 @@ commands
   counts FILE    operations of every function, as derived and as emitted
   equations FILE the equations of each model, for readers: --text (so by default), --latex or --mathml
   expand FILE    the generated code, formatted, with a heading over each paragraph
+  import URDF    a robot's file as a part and a model of the language, for those who want to go on from its text
   diff OLD NEW   what has changed between two files in the operations of functions and in equations
   compare FILE   each model in every choice of coordinates and constraints: sizes, operations of forward dynamics
                  (--all: and of the other functions that it asks for), and which choice to take; --measure compiles
@@ -64,6 +65,8 @@ pub(crate) enum Command {
     Compare(Subject, Extent),
     Equations(Subject, Form),
     Expand(Subject),
+    /// A robot's file.
+    Import(Subject),
     /// The older file, the newer one.
     Diff(Subject, Subject),
     /// Into a folder, and as Markdown too.
@@ -94,6 +97,7 @@ pub(crate) fn read(mut words: Vec<OsString>) -> Result<Command, String> {
         "counts" => Ok(Command::Counts(one(&name, subjects)?)),
         "equations" => Ok(Command::Equations(one(&name, subjects)?, given.form)),
         "expand" => Ok(Command::Expand(one(&name, subjects)?)),
+        "import" => Ok(Command::Import(one(&name, subjects)?)),
         "report" => Ok(Command::Report(one(&name, subjects)?, given.out, given.markdown)),
         "diff" => {
             let [old, new] = files(&name, "two files", subjects)?;

@@ -1,5 +1,8 @@
 //! Models of a file, through the stages of the engine.
 
+use std::fs;
+use std::path::Path;
+
 use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::emit::function_name;
@@ -88,7 +91,7 @@ pub(crate) fn each<T>(
     let mut wrong = Vec::new();
     for call in &found.calls {
         let mut diagnostics = Diagnostics::default();
-        let source = syntax::parse(call.tokens.clone(), &mut diagnostics);
+        let source = source(&file, call, &mut diagnostics);
         for model in checked(&source, &mut diagnostics) {
             let name = model.name.to_string();
             if subject.model.as_ref().is_some_and(|only| *only != name) {
@@ -104,6 +107,13 @@ pub(crate) fn each<T>(
     tell(&file, &wrong)?;
     some(&models, subject, &file)?;
     Ok(models)
+}
+
+/// What a call says, with the robots whose files lie beside this one.
+pub(crate) fn source(file: &File, call: &Call, diagnostics: &mut Diagnostics) -> syntax::tree::Source {
+    let folder = Path::new(&file.name).parent().unwrap_or(Path::new(""));
+    let read = |name: &syn::LitStr| fs::read_to_string(folder.join(name.value())).map_err(|error| error.to_string());
+    multibody_engine::parse_reading(call.tokens.clone(), &read, diagnostics)
 }
 
 /// The file and its calls, with a word about what is left out.

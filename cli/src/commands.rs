@@ -6,4 +6,5 @@ pub(crate) mod counts;
 pub(crate) mod diff;
 pub(crate) mod equations;
 pub(crate) mod expand;
+pub(crate) mod import;
 pub(crate) mod report;

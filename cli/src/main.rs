@@ -53,6 +53,7 @@ fn run(command: Command) -> Result<String, Stop> {
         Command::Compare(subject, extent) => commands::compare::run(&subject, extent),
         Command::Equations(subject, form) => commands::equations::run(&subject, form),
         Command::Expand(subject) => commands::expand::run(&subject),
+        Command::Import(subject) => commands::import::run(&subject),
         Command::Report(subject, folder, markdown) => commands::report::run(&subject, folder.as_deref(), markdown),
         Command::Diff(old, new) => commands::diff::run(&old, &new),
     }

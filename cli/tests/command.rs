@@ -361,3 +361,30 @@ error: no file that is read here declares the part `leg`
     let expected = quiet(&["expand", "shelf.rs"]);
     assert_eq!(quiet(&["expand", "walking.rs", "--parts", "shelf.rs"]), expected);
 }
+
+/// What is imported is a model of the language, and the one that the file is.
+#[test]
+fn robots_are_imported_as_text() {
+    let arm = "../../../tests/data/robots/double_pendulum.urdf";
+    let text = quiet(&["import", arm]);
+    assert!(
+        text.contains("joint joint2: Revolute { parent: link1.at([0.023, 0.0, 0.1]), child: link2, axis: X }\n"),
+        "{text}"
+    );
+    let file = std::env::temp_dir().join(format!("imported-{}.rs", std::process::id()));
+    std::fs::write(&file, text).unwrap();
+    let checked = quiet(&["check", file.to_str().unwrap()]);
+    let expected = "model: 2 bodies, 2 coordinates, 0 equations with multipliers; forward_dynamics, inverse_dynamics\n";
+    assert_eq!(checked, expected);
+    let (_, messages, code) = run(&["import", "pendulum.rs"]);
+    assert_eq!(code, 2);
+    assert!(messages.starts_with("error: pendulum.rs:1:1: no XML"), "{messages}");
+    // Beside the file that calls.
+    let call = "multibody! { mod model { part r: Urdf { file: \"imported.urdf\", base: ground }; emit forward_dynamics, inverse_dynamics; } }";
+    std::fs::write(&file, call.replace("imported", &format!("imported-{}", std::process::id()))).unwrap();
+    let beside = file.with_extension("urdf");
+    std::fs::copy(concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/robots/double_pendulum.urdf"), &beside).unwrap();
+    assert_eq!(quiet(&["check", file.to_str().unwrap()]), expected);
+    let _ = std::fs::remove_file(file);
+    let _ = std::fs::remove_file(beside);
+}

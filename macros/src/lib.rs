@@ -1,6 +1,9 @@
 //! The procedural macro `multibody!`: a shell around the engine, which is an ordinary library.
 
+use std::path::{Path, PathBuf};
+
 use proc_macro::TokenStream;
+use syn::LitStr;
 
 /// Derives the equations of motion of the declared mechanisms and emits them as Rust modules.
 ///
@@ -30,7 +33,7 @@ use proc_macro::TokenStream;
 #[proc_macro]
 pub fn multibody(input: TokenStream) -> TokenStream {
     let place = place(input.clone());
-    multibody_engine::expand_at(input.into(), &place).into()
+    multibody_engine::expand_at(input.into(), &place, &read).into()
 }
 
 /// Where the call ends in its crate: the last token is the user's own, whatever macros the call went through.
@@ -38,4 +41,11 @@ fn place(input: TokenStream) -> String {
     let Some(last) = input.into_iter().last() else { return String::new() };
     let span = last.span();
     format!("{}:{}:{}", span.file(), span.line(), span.column())
+}
+
+/// The text of a file beside the one that calls, or in the manifest's folder where the compiler names none.
+fn read(file: &LitStr) -> Result<String, String> {
+    let folder = file.span().unwrap().local_file().and_then(|calling| calling.parent().map(Path::to_owned));
+    let folder = folder.or_else(|| std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from)).unwrap_or_default();
+    std::fs::read_to_string(folder.join(file.value())).map_err(|error| error.to_string())
 }

@@ -12,7 +12,7 @@ use multibody_engine::contracts::function::{Asked, FunctionKind};
 use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::mechanics::loops::advice::{Closing, Figures as Closed, Pivoted};
 use multibody_engine::optimize::effort::Effort;
-use multibody_engine::syntax::{self, tree::Source};
+use multibody_engine::syntax::tree::Source;
 use multibody_engine::{compile, emit};
 use syn::Meta;
 
@@ -91,7 +91,7 @@ pub(crate) fn run(subject: &Subject, extent: Extent) -> Result<String, Stop> {
     let mut models = Vec::new();
     for (number, call) in found.calls.iter().enumerate() {
         let mut diagnostics = Diagnostics::default();
-        let source = syntax::parse(call.tokens.clone(), &mut diagnostics);
+        let source = build::source(&file, call, &mut diagnostics);
         // What is wrong whatever the formulation.
         build::checked(&source, &mut diagnostics);
         mistakes.extend(build::mistakes(&diagnostics, call));
@@ -194,7 +194,10 @@ impl Task<'_> {
         let of = |constraints| {
             let choice = Choice { coordinates: self.coordinates, constraints };
             let what = format!("deriving `{}` with {}", self.model.title, choice.words());
-            Row { choice, result: progress::during(&what, || figures(call, self.model.module, choice, self.extent)) }
+            Row {
+                choice,
+                result: progress::during(&what, || figures(self.file, call, self.model.module, choice, self.extent)),
+            }
         };
         let held = of(Constraints::Multipliers);
         // Without equations there is nothing to choose.
@@ -204,16 +207,16 @@ impl Task<'_> {
 }
 
 /// The call without the models below, of which this one cannot ask for formulas.
-fn until(call: &Call, model: usize) -> Source {
-    let mut source = syntax::parse(call.tokens.clone(), &mut Diagnostics::default());
+fn until(file: &File, call: &Call, model: usize) -> Source {
+    let mut source = build::source(file, call, &mut Diagnostics::default());
     let mut number = 0..;
     source.modules.retain(|module| number.next().is_some_and(|number| number <= model) || is_part(module));
     source
 }
 
 /// The model in this choice, or the first thing that is said against it.
-fn figures(call: &Call, model: usize, choice: Choice, extent: Extent) -> Result<Figures, String> {
-    let mut source = until(call, model);
+fn figures(file: &File, call: &Call, model: usize, choice: Choice, extent: Extent) -> Result<Figures, String> {
+    let mut source = until(file, call, model);
     rewrite(&mut source, model, choice, extent.all);
     let mut diagnostics = Diagnostics::default();
     // The last one: of those without a mistake it may be another, but then there are diagnostics.

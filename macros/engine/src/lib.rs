@@ -10,6 +10,7 @@
 //! diagnostics:
 //! syntax: diagnostics rust_keywords
 //! model: syntax diagnostics rust_keywords invariant
+//! robots: model::names syntax diagnostics
 //! contracts: model invariant
 //! symbolic: contracts::call contracts::cost invariant
 //! dynamics: symbolic contracts::call contracts::cost invariant
@@ -34,6 +35,7 @@ pub mod invariant;
 pub mod mechanics;
 pub mod model;
 pub mod optimize;
+pub mod robots;
 mod rust_keywords;
 pub mod solve;
 pub mod symbolic;
@@ -61,19 +63,32 @@ use syntax::tree::Source;
 /// Tokens of a `multibody!` call to tokens of its modules, and of everything that is wrong. A model without a mistake is
 /// there in full whatever stands beside it, one with mistakes as an outline without equations: one mistake, one error.
 pub fn expand(tokens: TokenStream) -> TokenStream {
-    expand_at(tokens, "")
+    expand_at(tokens, "", &robots::no_file)
 }
 
-/// The same where the call stands at a `place` of the crate: macros that hand parts on to other calls are named by it.
-pub fn expand_at(tokens: TokenStream, place: &str) -> TokenStream {
+/// The same where the call stands at a `place` of the crate, by which macros that hand parts on to other calls are named, with what
+/// reads the files that robots stand in. The output holds each of these by `include_str!`, so that a build follows its changes.
+pub fn expand_at(tokens: TokenStream, place: &str, reader: &robots::Reader) -> TokenStream {
     let followed = if emit::references::for_an_editor() { Followed::Always } else { Followed::Sound };
-    expand_by(tokens, place, syntax::parse, emit::emit, followed)
+    expand_by(tokens, place, syntax::parse, reader, emit::emit, followed)
 }
 
 /// The same for readers: paragraphs of statements have headings, as the attribute `#[doc = "// .."]`, and what editors alone
 /// follow is left out.
 pub fn commented(tokens: TokenStream) -> TokenStream {
-    expand_by(tokens, "", syntax::parse, emit::commented, Followed::Never)
+    commented_reading(tokens, &robots::no_file)
+}
+
+/// The same, with what reads the files that robots stand in.
+pub fn commented_reading(tokens: TokenStream, reader: &robots::Reader) -> TokenStream {
+    expand_by(tokens, "", syntax::parse, reader, emit::commented, Followed::Never)
+}
+
+/// A call as the stages behind `robots` have it, for tools that show or compare what its models are.
+pub fn parse_reading(tokens: TokenStream, reader: &robots::Reader, diagnostics: &mut Diagnostics) -> Source {
+    let mut source = syntax::parse(tokens, diagnostics);
+    robots::place(&mut source, reader, diagnostics);
+    source
 }
 
 /// When references stand beside the modules, for editors to follow.
@@ -89,6 +104,7 @@ fn expand_by(
     tokens: TokenStream,
     place: &str,
     parse: fn(TokenStream, &mut Diagnostics) -> Source,
+    reader: &robots::Reader,
     emit: fn(&Model, &Structure, &Compiled) -> TokenStream,
     followed: Followed,
 ) -> TokenStream {
@@ -105,6 +121,14 @@ fn expand_by(
     // What is for editors alone never stands in the way of a build.
     let references = source.as_ref().ok().filter(|_| followed != Followed::Never);
     let references = references.and_then(|source| guard("model", || model::references::of(source)).ok());
+    let placed = source.and_then(|mut source| {
+        let files = guard("robots", || robots::place(&mut source, reader, &mut diagnostics))?;
+        Ok((source, files))
+    });
+    let (source, files) = match placed {
+        Ok((source, files)) => (Ok(source), files),
+        Err(fault) => (Err(fault), Vec::new()),
+    };
     let checked = source.as_ref().map_err(Fault::clone);
     let checked = checked.and_then(|source| guard("model", || model::check_all(source, &mut diagnostics)));
     let checked = checked.unwrap_or_else(|fault| {
@@ -155,6 +179,11 @@ fn expand_by(
     output.extend(modules);
     output.extend(exports);
     output.extend(fields);
+    output.extend(files.iter().map(|file| {
+        quote::quote!(
+            const _: &str = ::core::include_str!(#file);
+        )
+    }));
     output
 }
 
@@ -385,7 +414,8 @@ mod tests {
 
     #[test]
     fn a_panic_of_the_parser_is_one_error_that_names_the_stage() {
-        let output = expand_by(TokenStream::new(), "", fails, emit::emit, Followed::Sound).to_string();
+        let output =
+            expand_by(TokenStream::new(), "", fails, &robots::no_file, emit::emit, Followed::Sound).to_string();
         assert_eq!(output.matches("compile_error").count(), 1, "{output}");
         assert!(output.contains("the stage `syntax` has failed for the call: no token is left"), "{output}");
         assert!(output.contains("please report it with the model"), "{output}");

@@ -18,7 +18,7 @@ mod expressions;
 pub mod formulated;
 mod items;
 pub mod joint_kinds;
-mod names;
+pub(crate) mod names;
 mod operands;
 pub mod references;
 mod report;

@@ -84,7 +84,7 @@ const IN_SCOPE: [&str; 14] =
     ["T", "F", "A", "Real", "Default", "From", "FnMut", "Clone", "Copy", "Debug", "PartialEq", "Result", "Ok", "Err"];
 
 /// Why an item can't have this name.
-pub(super) fn refusal(name: &str) -> Option<String> {
+pub(crate) fn refusal(name: &str) -> Option<String> {
     if VALUES.contains(&name) {
         return Some(format!("`{name}` has a meaning of its own in the language"));
     }
@@ -101,7 +101,7 @@ pub(super) fn refusal(name: &str) -> Option<String> {
 }
 
 /// Why a model or part can't have this name.
-pub(super) fn module_refusal(name: &str) -> Option<String> {
+pub(crate) fn module_refusal(name: &str) -> Option<String> {
     if GENERATED.contains(&name) {
         return Some(format!("`{name}` is the name of a generated item"));
     }

@@ -10,8 +10,8 @@ use syn::{BinOp, Expr, Lit, Member, Token, UnOp, token};
 /// Between brackets, with commas.
 pub(super) type Elements = Punctuated<Expr, Token![,]>;
 
-/// A number.
-pub(super) fn number(lit: Lit) -> Box<Expr> {
+/// A number or a text.
+pub(super) fn literal(lit: Lit) -> Box<Expr> {
     Box::new(Expr::Lit(syn::ExprLit { attrs: Vec::new(), lit }))
 }
 

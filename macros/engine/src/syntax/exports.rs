@@ -8,12 +8,15 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use proc_macro2::{Delimiter, Literal, TokenTree};
+use proc_macro2::{Delimiter, Ident, Literal, TokenTree};
 use quote::quote;
 use syn::Visibility;
 
 use super::imports::{Bundle, VERSION};
 use super::tree::{Export, ItemKind, Module};
+
+/// The kind of a part that stands in a robot's file (see the stage `robots`).
+const ROBOT: &str = "Urdf";
 
 /// Of all modules of a call.
 pub(super) fn of(modules: &[Module], bundles: &[Bundle]) -> Vec<Export> {
@@ -33,6 +36,10 @@ pub(super) fn of(modules: &[Module], bundles: &[Bundle]) -> Vec<Export> {
                 let why = format!("it asks the model `{}` of its own call", modules[*model].name);
                 quote!(#version #name #why)
             }
+            None if needed.iter().any(|index| reads_robot(&modules[*index], &places)) => {
+                let why = "it holds a robot, whose file is read in the part's own call";
+                quote!(#version #name #why)
+            }
             None => {
                 let bundles = bundles.iter().filter(|bundle| words.contains(&bundle.local.to_string()));
                 let bundles = bundles.map(|bundle| &bundle.tokens);
@@ -47,6 +54,12 @@ pub(super) fn of(modules: &[Module], bundles: &[Bundle]) -> Vec<Export> {
 
 fn is_part(module: &Module) -> bool {
     module.items.iter().any(|item| matches!(item.kind, ItemKind::Port { .. }))
+}
+
+/// Whether a part of it stands in a robot's file: the path is that of the file which names it.
+fn reads_robot(module: &Module, places: &HashMap<String, usize>) -> bool {
+    let is_robot = |kind: &Ident| kind == ROBOT && !places.contains_key(ROBOT);
+    module.items.iter().any(|item| matches!(&item.kind, ItemKind::Part(part) if is_robot(&part.kind)))
 }
 
 /// The modules that a part may mean, in source order, and all words that stand in these. A model is meant by a call of its name

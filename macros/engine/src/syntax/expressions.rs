@@ -188,7 +188,7 @@ fn index(base: &Expr, group: &Group, cursor: &Cursor, diagnostics: &mut Diagnost
 /// A number or name.
 fn leaf(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Read<Node> {
     let expr = match cursor.peek(0) {
-        Some(TokenTree::Literal(literal)) => build::number(number(literal, cursor, diagnostics)?),
+        Some(TokenTree::Literal(literal)) => build::literal(number(literal, cursor, diagnostics)?),
         Some(TokenTree::Ident(word)) if is_name(word) && !cursor.at_item(0) => build::name(word.clone()),
         _ => return Err(hints::no_value(cursor, diagnostics)),
     };

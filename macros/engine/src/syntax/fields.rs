@@ -3,8 +3,9 @@
 //! In: the place of the braces. Out: fields in source order. A field that can't be read costs only itself.
 
 use proc_macro2::{Delimiter, Group, TokenTree};
-use syn::Expr;
+use syn::{Expr, Lit};
 
+use super::build;
 use super::cursor::{Cursor, Reported};
 use super::expressions::{expression, is_name};
 use super::hints;
@@ -107,7 +108,8 @@ fn field(before: Option<&Field>, cursor: &mut Cursor, diagnostics: &mut Diagnost
             return Ok(Field { name, value: poison() });
         }
     }
-    let value = expression(cursor, diagnostics).and_then(|value| {
+    let text = if name == "file" { text(cursor) } else { None };
+    let value = text.map_or_else(|| expression(cursor, diagnostics), Ok).and_then(|value| {
         let next_field = cursor.ident(0).is_some() && cursor.operator(1) == ":";
         if cursor.at_end() || cursor.take(",").is_some() {
             Ok(value)
@@ -128,4 +130,15 @@ fn field(before: Option<&Field>, cursor: &mut Cursor, diagnostics: &mut Diagnost
         poison()
     });
     Ok(Field { name, value })
+}
+
+/// A text in quotation marks, which only names a file.
+fn text(cursor: &mut Cursor) -> Option<Expr> {
+    let literal = cursor.literal()?.clone();
+    let lit = syn::parse2::<Lit>(TokenTree::Literal(literal).into()).ok()?;
+    if !matches!(lit, Lit::Str(_)) {
+        return None;
+    }
+    cursor.bump();
+    Some(*build::literal(lit))
 }

@@ -30,7 +30,7 @@
 //! part        = "part" NAME ":" KIND fields ";"
 //!             | "part" NAME ":" "[" KIND ";" expr "]" "=" ("|" NAME "|")? KIND fields ";"
 //! emit        = "emit" (NAME fields?),* ";"
-//! fields      = "{" (NAME ":" expr),* "}"
+//! fields      = "{" (NAME ":" expr | "file" ":" TEXT),* "}"
 //! type        = NAME | "[" type ";" expr "]"
 //! expr        = NUMBER | NAME | NAME "(" expr,* ")" | expr "." NAME ("(" expr,* ")")? | expr "[" expr "]"
 //!             | "(" expr ")" | "[" expr,* "]" | ("-" | "!") expr | expr OPERATOR expr

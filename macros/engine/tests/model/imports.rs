@@ -190,6 +190,10 @@ fn parts_that_cannot_be_handed_on() {
         said,
         ["asking | the part `asking` can't be used in another call: it asks the model `other` of its own call"]
     );
+    shelve("pub mod arm { port p: Frame; part r: Urdf { file: \"a.urdf\", base: p }; }", &mut shelf);
+    let (_, said) = checked("use a::arm; mod m { part l: arm { p: ground }; }", &shelf);
+    let expected = "arm | the part `arm` can't be used in another call: it holds a robot, whose file is read in the part's own call";
+    assert_eq!(said, [expected]);
     let newer: Shelf = [("leg".to_owned(), "99 leg mod leg { port p: Frame; }".parse().expect("tokens"))].into();
     let (_, said) = checked("use a::leg; mod m { part l: leg { p: ground }; }", &newer);
     let expected = "leg | the part `leg` is written in version 99 of the language, this call in version 1 | let both crates depend on one version of multibody";

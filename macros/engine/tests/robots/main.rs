@@ -1,0 +1,8 @@
+//! Robots from their files: what they are, and what is said of files that hold none.
+
+mod arms;
+#[path = "../common/interpreter.rs"]
+mod interpreter;
+mod malformed;
+mod options;
+mod support;
