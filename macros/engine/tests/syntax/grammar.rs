@@ -41,7 +41,7 @@ fn line(item: &Item) -> String {
         ItemKind::State { name, rate, start } => {
             format!("state {name} {} {}", text(rate), text(start))
         }
-        ItemKind::Port { name, ty } => format!("port {name} {ty}"),
+        ItemKind::Port { name, ty, .. } => format!("port {name} {ty}"),
         ItemKind::World(f) => format!("world {}", fields(f)),
         ItemKind::Formulation(f) => format!("formulation {}", fields(f)),
         ItemKind::Body { name, fields: f } => format!("body {name} {}", fields(f)),
