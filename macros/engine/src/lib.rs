@@ -406,7 +406,7 @@ mod tests {
 
     use super::diagnostics::Diagnostics;
     use super::syntax::tree::Source;
-    use super::{Followed, emit, expand_by};
+    use super::{Followed, emit, expand_by, robots};
 
     fn fails(_: TokenStream, _: &mut Diagnostics) -> Source {
         panic!("no token is left")
