@@ -20,7 +20,7 @@ pub fn exports(exports: impl IntoIterator<Item = Export>, suffix: &str) -> Token
 fn macro_of(export: &Export, suffix: &str) -> TokenStream {
     let Export { vis, tokens, .. } = export;
     let hidden: Ident = format_ident!("__multibody_part_{}_{suffix}", names::plain(&export.name));
-    // In a function nobody else can name it, and there is no lint of it.
+    // A call may stand in a function body, where an exported macro would raise a lint.
     let exported =
         matches!(vis, Visibility::Public(_)).then(|| quote!(#[macro_export] #[allow(non_local_definitions)]));
     let name = names::field(&export.name);

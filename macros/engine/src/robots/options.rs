@@ -61,7 +61,7 @@ pub(super) fn read(part: &Part, diagnostics: &mut Diagnostics) -> Option<Options
     let before = diagnostics.errors().len();
     let mut file = None;
     let mut base = None;
-    let mut options = (Vec::new(), Vec::new(), Vec::new(), false, false, false);
+    let mut options = Options::plain("");
     let mut seen: Vec<String> = Vec::new();
     for field in &part.fields.list {
         let name = field.name.to_string();
@@ -86,12 +86,12 @@ pub(super) fn read(part: &Part, diagnostics: &mut Diagnostics) -> Option<Options
                     _ => Base::Frame(value.clone()),
                 });
             }
-            "lock" => options.0 = names(span, value, diagnostics),
-            "drop" => options.1 = names(span, value, diagnostics),
-            "param" => options.2 = quantities(span, value, diagnostics),
-            "angles" => options.3 = is(span, value, ["Snapped", "Written"], diagnostics),
-            "friction" => options.4 = is(span, value, ["Ignored", "Refused"], diagnostics),
-            "allow" => options.5 = is(span, value, ["unphysical_inertia", "nothing"], diagnostics),
+            "lock" => options.lock = names(span, value, diagnostics),
+            "drop" => options.drop = names(span, value, diagnostics),
+            "param" => options.params = quantities(span, value, diagnostics),
+            "angles" => options.are_angles_snapped = is(span, value, ["Snapped", "Written"], diagnostics),
+            "friction" => options.is_friction_ignored = is(span, value, ["Ignored", "Refused"], diagnostics),
+            "allow" => options.is_inertia_waived = is(span, value, ["unphysical_inertia", "nothing"], diagnostics),
             _ => {
                 let help = match nearest(&name, FIELDS) {
                     Some(near) => format!("did you mean `{near}`?"),
@@ -109,12 +109,10 @@ pub(super) fn read(part: &Part, diagnostics: &mut Diagnostics) -> Option<Options
             diagnostics.error_help(part.name.span(), format!("`{}` needs the field `base`", part.name), help);
         }
     }
-    let (lock, drop, params, are_angles_snapped, is_friction_ignored, is_inertia_waived) = options;
     if diagnostics.errors().len() > before {
         return None;
     }
-    let (file, base) = (file?, base?);
-    Some(Options { file, base, lock, drop, params, are_angles_snapped, is_friction_ignored, is_inertia_waived })
+    Some(Options { file: file?, base: base?, ..options })
 }
 
 /// A single name.

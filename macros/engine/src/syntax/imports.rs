@@ -55,18 +55,18 @@ pub(super) struct Handed {
     pub(super) bundles: Vec<Bundle>,
     /// A `use` of the call was lost to an error that was told before.
     pub(super) lost: bool,
-    /// All of it as written.
+    /// All of the bundles as written.
     pub(super) tokens: TokenStream,
 }
 
 /// `@lost`, `@as(limb) @part(1 leg ..)`, as this macro itself has written them.
 pub(super) fn handed(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Handed {
-    let start = cursor.position();
     let mut lost = marker(cursor, "lost");
     if lost {
         cursor.bump();
         cursor.bump();
     }
+    let start = cursor.position();
     let bundles = bundles(cursor, &mut lost, diagnostics);
     Handed { bundles, lost, tokens: cursor.since(start) }
 }
@@ -295,9 +295,7 @@ pub(super) fn pending(source: &Source, handed: TokenStream, uses: Vec<Use>, rest
         None => quote!(::multibody),
     };
     let fused = source.fused.then(|| quote!(@fused));
-    // What was handed to this call says it already.
-    let is_said = handed.to_string().replace(' ', "").starts_with("@lost");
-    let lost = (source.lost && !is_said).then(|| quote!(@lost));
+    let lost = source.lost.then(|| quote!(@lost));
     Pending { head: quote!(@runtime(#krate) #fused #lost #handed), callback: quote!(#krate::__multibody), uses, rest }
 }
 
