@@ -435,6 +435,7 @@ impl<'a, 'd> Checker<'a, 'd> {
             expr: named.expr,
         };
         let mut meaning = self.resolve_named(&request);
+        self.check_joint_unit(id, meaning.as_ref());
         let named = &mut self.named[id];
         if let (Some(unit), Some(Meaning::Value(value))) = (&named.unit, &mut meaning) {
             value.expr.unit = Some(Rc::new(unit.clone().over(value.expr.unit.take())));

@@ -264,7 +264,8 @@ impl<'a> Checker<'a, '_> {
                         "Scalar" | "Vec3" => (Role::Signal, Some(signal)),
                         _ => (Role::Port, None),
                     };
-                    let unit = value.and_then(|_| units::declared(&name.to_string(), &docs::docs(&item.attrs)));
+                    let has_unit = !matches!(role, Role::Port);
+                    let unit = units::declared(&name.to_string(), &docs::docs(&item.attrs)).filter(|_| has_unit);
                     let request = NamedRequest { role, context, item: value, home: scope, expr: Some(expr) };
                     let id = self.add_named(name, request, unit);
                     (Subject::Named(id), Symbol::Named(id, keyword))

@@ -193,6 +193,14 @@ fn mistakes_of_ports() {
         let said = support::said(&format!("{DRIVE} mod m {{ {model} {part} }}"));
         assert!(said.iter().any(|line| line.starts_with(expected)), "{part}\n{said:#?}");
     }
+    // The unit of a joint says whether it slides.
+    let slides = DRIVE.replace("port shaft: Joint", "/// [m]\n port shaft: Joint").replace("/// [N m/A]", "");
+    let said =
+        support::said(&format!("{slides} mod m {{ {model} part p: motor {{ shaft: gimbal.first, supply: 1.0 }}; }}"));
+    assert!(
+        said.iter().any(|line| line == "gimbal.first | `shaft` is declared in m, this coordinate is in rad"),
+        "{said:#?}"
+    );
     // A signal that goes round in a circle.
     let round = format!(
         "{DRIVE} mod m {{ {model} part p: motor {{ shaft: gimbal.first, supply: q.current }}; part q: motor {{ shaft: gimbal.second, supply: p.current }}; }}"

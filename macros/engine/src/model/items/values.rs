@@ -79,6 +79,25 @@ impl<'a> Checker<'a, '_> {
         None
     }
 
+    /// Of a port for a joint that says in its unit whether it slides or turns.
+    pub(in crate::model) fn check_joint_unit(&mut self, id: NamedId, meaning: Option<&Meaning>) {
+        let named = &self.named[id];
+        let (Some(unit), Some(expr)) = (&named.unit, named.expr) else { return };
+        let (joint, index) = match meaning {
+            Some(Meaning::Joint(joint)) => (*joint, 0),
+            Some(Meaning::Coordinate(joint, index)) => (*joint, *index),
+            _ => return,
+        };
+        let Some(kind) = self.joints[joint].kind else { return };
+        let (wanted, found) = match (&*unit.text, kind.is_slide(index)) {
+            ("m", false) => ("m", "rad"),
+            ("rad", true) => ("rad", "m"),
+            _ => return,
+        };
+        let message = format!("`{}` is declared in {wanted}, this coordinate is in {found}", unit.name);
+        self.report.error(crate::model::expressions::span(expr), message);
+    }
+
     fn value_as(&mut self, expr: &Expr, context: Context<'a>, ty: Option<&Type>) -> Option<Typed> {
         match ty {
             Some(ty) => self.expect(expr, context, ty),

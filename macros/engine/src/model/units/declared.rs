@@ -11,9 +11,9 @@ use super::parse::parse;
 
 #[derive(Clone, Debug)]
 pub(in crate::model) struct Declared {
-    pub(super) name: String,
+    pub(in crate::model) name: String,
     /// Between the brackets.
-    pub(super) text: Rc<str>,
+    pub(in crate::model) text: Rc<str>,
     pub(super) unit: Unit,
     /// What the value declares itself: that of `G` in `const A = G;`.
     pub(super) beneath: Option<Rc<Declared>>,
