@@ -109,7 +109,7 @@ fn expand_by(
     followed: Followed,
 ) -> TokenStream {
     let mut diagnostics = Diagnostics::default();
-    let text = tokens.to_string();
+    let text = syntax::text(tokens.clone());
     let source = guard("syntax", || parse(tokens, &mut diagnostics));
     let suffix = format!("{:016x}", hash(&format!("{place} {text}")));
     // Parts of other calls come first: rustc brings them, and calls again.

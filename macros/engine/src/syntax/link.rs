@@ -8,6 +8,7 @@ use std::collections::{BTreeSet, HashMap};
 use proc_macro2::Ident;
 
 use super::imports::Bundle;
+use super::text;
 use super::tree::{Home, ItemKind, Module, Source};
 use crate::diagnostics::Diagnostics;
 
@@ -112,7 +113,7 @@ impl Linker {
             let means = names.get(&kind).map_or_else(String::new, Ident::to_string);
             (kind, means)
         });
-        let identity = Identity { text: module.tokens.to_string(), parts: parts.collect() };
+        let identity = Identity { text: text(module.tokens.clone()), parts: parts.collect() };
         if let Some(&known) = self.known.get(&identity) {
             let known = &mut self.modules[known];
             if wanted.is_some() {

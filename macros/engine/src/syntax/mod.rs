@@ -55,9 +55,12 @@ mod modules;
 mod names;
 mod numbers;
 mod raw;
+mod text;
 pub mod tree;
 
 use proc_macro2::TokenStream;
+
+pub(crate) use text::text;
 
 use crate::diagnostics::Diagnostics;
 
