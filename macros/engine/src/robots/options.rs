@@ -31,6 +31,8 @@ pub(super) struct Options {
     pub(super) lock: Vec<Ident>,
     pub(super) drop: Vec<Ident>,
     pub(super) params: Vec<Quantity>,
+    /// Whether each joint of one coordinate has an input for its effort.
+    pub(super) is_driven: bool,
     pub(super) are_angles_snapped: bool,
     pub(super) is_friction_ignored: bool,
     pub(super) is_inertia_waived: bool,
@@ -46,6 +48,7 @@ impl Options {
             lock: Vec::new(),
             drop: Vec::new(),
             params: Vec::new(),
+            is_driven: false,
             are_angles_snapped: false,
             is_friction_ignored: false,
             is_inertia_waived: false,
@@ -53,7 +56,7 @@ impl Options {
     }
 }
 
-const FIELDS: [&str; 8] = ["file", "base", "lock", "drop", "param", "angles", "friction", "allow"];
+const FIELDS: [&str; 9] = ["file", "base", "lock", "drop", "param", "efforts", "angles", "friction", "allow"];
 const FORM: &str = "write `part arm: Urdf { file: \"arm.urdf\", base: ground };`";
 
 /// Nothing if a mistake has been reported.
@@ -89,6 +92,7 @@ pub(super) fn read(part: &Part, diagnostics: &mut Diagnostics) -> Option<Options
             "lock" => options.lock = names(span, value, diagnostics),
             "drop" => options.drop = names(span, value, diagnostics),
             "param" => options.params = quantities(span, value, diagnostics),
+            "efforts" => options.is_driven = is(span, value, ["Inputs", "Declared"], diagnostics),
             "angles" => options.are_angles_snapped = is(span, value, ["Snapped", "Written"], diagnostics),
             "friction" => options.is_friction_ignored = is(span, value, ["Ignored", "Refused"], diagnostics),
             "allow" => options.is_inertia_waived = is(span, value, ["unphysical_inertia", "nothing"], diagnostics),

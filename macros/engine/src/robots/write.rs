@@ -37,6 +37,8 @@ struct Writer<'a> {
     names: Names,
     options: &'a Options,
     file: &'a str,
+    /// The input for the effort of each joint, where there is one.
+    efforts: Vec<Option<String>>,
     /// Whether a link is there.
     kept: Vec<bool>,
     locked: Vec<bool>,
@@ -55,6 +57,7 @@ pub(super) fn part(robot: &Robot, module: &str, file: &str, options: &Options) -
         kept: vec![true; robot.links.len()],
         locked: vec![false; robot.joints.len()],
         used: vec![false; options.params.len()],
+        efforts: vec![None; robot.joints.len()],
         robot,
         tree,
         names,
@@ -67,6 +70,7 @@ pub(super) fn part(robot: &Robot, module: &str, file: &str, options: &Options) -
     writer.choose()?;
     let port = writer.names.free("mounting");
     writer.base(&port)?;
+    writer.inputs();
     for (k, link) in robot.links.iter().enumerate() {
         if writer.kept[k] && k != writer.tree.root {
             writer.link(k, link)?;
@@ -161,6 +165,7 @@ impl Writer<'_> {
         }
         if kind != Kind::Fixed {
             self.damper(joint, &name)?;
+            self.motor(above, joint, &name);
         }
         self.mimic(joint, &name, kind)
     }
@@ -175,6 +180,42 @@ impl Writer<'_> {
         self.document(joint.at);
         let _ = writeln!(self.items, "force {force}: Damper {{ joint: {name}, damping: {value} }}");
         Ok(())
+    }
+
+    /// One array of inputs for the joints that an effort can drive, in the order of the file.
+    fn inputs(&mut self) {
+        let is_driven = |(k, joint): (usize, &Joint)| {
+            let child = self.robot.links.iter().position(|link| link.name == joint.child);
+            let is_there = child.is_some_and(|link| self.kept[link]) && !self.locked[k] && joint.mimic.is_none();
+            (is_there && matches!(joint.kind, Kind::Revolute | Kind::Prismatic)).then_some(k)
+        };
+        if !self.options.is_driven {
+            return;
+        }
+        let driven: Vec<usize> = self.robot.joints.iter().enumerate().filter_map(is_driven).collect();
+        if driven.is_empty() {
+            return;
+        }
+        let input = self.names.free("effort");
+        let all = |kind| driven.iter().all(|&joint| self.robot.joints[joint].kind == kind);
+        let unit = match (all(Kind::Revolute), all(Kind::Prismatic)) {
+            (true, _) => "[N m] ",
+            (_, true) => "[N] ",
+            _ => "N m or N ",
+        };
+        let joints: Vec<&str> = driven.iter().map(|&joint| self.names.joints[joint].as_str()).collect();
+        let (joints, count) = (joints.join("`, `"), driven.len());
+        let _ = writeln!(self.params, "/// {unit}of `{joints}`\ninput {input}: [Scalar; {count}];");
+        for (at, &joint) in driven.iter().enumerate() {
+            self.efforts[joint] = Some(format!("{input}[{at}]"));
+        }
+    }
+
+    fn motor(&mut self, number: usize, joint: &Joint, name: &str) {
+        let Some(effort) = self.efforts[number].take() else { return };
+        let force = self.names.free(&format!("{name}_motor"));
+        self.document(joint.at);
+        let _ = writeln!(self.items, "force {force}: Effort {{ joint: {name}, value: {effort} }}");
     }
 
     fn mimic(&mut self, joint: &Joint, name: &str, kind: Kind) -> Result<(), Fault> {

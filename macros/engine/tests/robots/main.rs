@@ -5,4 +5,5 @@ mod arms;
 mod interpreter;
 mod malformed;
 mod options;
+mod recursion;
 mod support;

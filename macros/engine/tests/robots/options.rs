@@ -119,6 +119,35 @@ fn a_joint_mimics_another_one() {
     same("base: ground", &file, &items, "");
 }
 
+/// Joints that nothing else holds have an input each, in the order of the file, whatever the order of links is.
+#[test]
+fn efforts_are_inputs() {
+    let file = [
+        link("d", ""),
+        link("a", ""),
+        link("b", ""),
+        link("c", ""),
+        link("e", ""),
+        link("f", ""),
+        joint("k", "prismatic", ["a", "c"], OBLIQUE),
+        joint("j", "revolute", ["a", "b"], OBLIQUE),
+        joint("stopped", "revolute", ["b", "d"], OBLIQUE),
+        joint("gone", "revolute", ["d", "e"], OBLIQUE),
+        joint("l", "prismatic", ["b", "f"], &format!("{OBLIQUE}<mimic joint='j' multiplier='2'/>")),
+    ]
+    .concat();
+    let items = format!(
+        "input u: [Scalar; 2]; \
+         body a {{ {BODY} }} body b {{ {BODY} }} body c {{ {BODY} }} body d {{ {BODY} }} body f {{ {BODY} }} \
+         joint m: Fixed {{ parent: ground, child: a }} \
+         joint d_: Fixed {{ parent: b{FRAME}, child: d }} \
+         joint j: Revolute {{ parent: a{FRAME}, child: b, axis: [1, 2, -2] }} force on_j: Effort {{ joint: j, value: u[1] }} \
+         joint k: Prismatic {{ parent: a{FRAME}, child: c, axis: [1, 2, -2] }} force on_k: Effort {{ joint: k, value: u[0] }} \
+         joint l: Prismatic {{ parent: b{FRAME}, child: f, axis: [1, 2, -2] }} constraint g = l.travel - 2.0 * j.angle;"
+    );
+    same("base: ground, efforts: Inputs, lock: [stopped], drop: [e]", &file, &items, "");
+}
+
 /// Names that Rust or the language has, and links and joints of one name.
 #[test]
 fn names_become_identifiers() {

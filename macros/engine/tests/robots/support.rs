@@ -41,7 +41,7 @@ pub(crate) fn compiled(model: &Model) -> Compiled {
 }
 
 /// A number between -1 and 1 for each symbol, always the same one.
-fn value(symbol: Symbol) -> f64 {
+pub(crate) fn value(symbol: Symbol) -> f64 {
     let text = format!("{symbol:?}");
     let hash = text
         .bytes()

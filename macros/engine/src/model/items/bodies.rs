@@ -2,6 +2,7 @@
 //!
 //! In: `body name { .. }`. Out: mass, centre of mass and inertia, possible ones at the declared defaults.
 
+use proc_macro2::Ident;
 use syn::Expr;
 use syn::spanned::Spanned;
 
@@ -32,7 +33,7 @@ impl<'a> Checker<'a, '_> {
         let context = root(slot.scope);
         let mass = field(fields, "mass").and_then(|expr| {
             let mass = self.scalar(expr, context, Allowed::Parameters)?;
-            self.not_negative(&mass, "a mass")
+            self.not_negative(&mass, &format!("the mass of `{name}`"))
         });
         let com = match field(fields, "com") {
             Some(expr) => {
@@ -44,7 +45,7 @@ impl<'a> Checker<'a, '_> {
             Some(expr) => {
                 let tensor = self.inertia(expr, context);
                 if let (Some(tensor), None) = (&tensor, attributes.unphysical_inertia) {
-                    self.check_inertia(tensor, expr);
+                    self.check_inertia(name, tensor, expr);
                 }
                 tensor.map(Some)
             }
@@ -91,7 +92,7 @@ impl<'a> Checker<'a, '_> {
 
     /// No body can have an inertia whose half trace times one, minus itself, has a negative eigenvalue: that is the
     /// second moment of mass.
-    fn check_inertia(&mut self, tensor: &Tensor, expr: &Expr) -> Option<()> {
+    fn check_inertia(&mut self, name: &Ident, tensor: &Tensor, expr: &Expr) -> Option<()> {
         let mut numbers = [0.0; 6];
         for (number, entry) in numbers.iter_mut().zip(tensor.iter()) {
             *number = self.evaluator.scalar(entry)?;
@@ -105,7 +106,7 @@ impl<'a> Checker<'a, '_> {
             self.report.help(
                 expr.span(),
                 format!(
-                    "no body can have this inertia: an eigenvalue of tr(I)/2 - I is {least:.3e} at the declared defaults"
+                    "`{name}` can't have this inertia: an eigenvalue of tr(I)/2 - I is {least:.3e} at the declared defaults"
                 ),
                 "each principal moment is at most the sum of the other two; `#[allow(unphysical_inertia)]` on the body waives this",
             );
