@@ -52,6 +52,9 @@ pub(super) const CONSTRUCTORS: [&str; 4] = ["identity", "rotation", "roll_pitch_
 pub(super) const MANIPULATIONS: [&str; 3] = ["diff", "substitute", "closed"];
 pub(super) const MATRICES: [&str; 4] = ["mass_matrix", "bias", "constraint", "jacobian"];
 
+/// Values between points of constant arrays. Their names stay free for items.
+pub(super) const TABLES: [&str; 2] = ["table", "smooth_table"];
+
 /// Types that a user may name.
 pub(super) const TYPES: [&str; 7] = ["Scalar", "Vec3", "Pose", "Rotation", "Twist", "Wrench", "Jacobian"];
 

@@ -36,5 +36,6 @@ mod reactions;
 mod scaling;
 mod several_closings;
 mod support;
+mod tables;
 mod translations;
 mod worked;

@@ -7,7 +7,7 @@ use syn::spanned::Spanned;
 use syn::{Expr, ExprCall};
 
 use crate::model::checker::{Checker, Context, Meaning};
-use crate::model::names::{CONSTRUCTORS, FUNCTIONS, MANIPULATIONS, SPECIAL_FUNCTIONS};
+use crate::model::names::{CONSTRUCTORS, FUNCTIONS, MANIPULATIONS, SPECIAL_FUNCTIONS, TABLES};
 use crate::model::typed::{Class, Typed, Uses, type_text};
 use crate::model::types::{Expr as Checked, ExprNode, Function, Type};
 
@@ -51,6 +51,9 @@ impl<'a> Checker<'a, '_> {
             "diff" => return self.diff(name, &arguments, at, context),
             "substitute" => return self.substitute(name, &arguments, at, context),
             "closed" => return self.closed(name, &arguments, at, context),
+            _ if TABLES.contains(&text.as_str()) && self.module_called(name).is_none() => {
+                return self.table(name, &arguments, at, context);
+            }
             "kinetic" | "potential" => {
                 self.arity(name, &arguments, 0, at)?;
                 let node = if text == "kinetic" { ExprNode::Kinetic } else { ExprNode::Potential };
@@ -212,6 +215,9 @@ impl<'a> Checker<'a, '_> {
             }
             "derivative" | "gradient" | "partial" => pow("write `diff(x, hinge)`"),
             "subs" | "replace" => pow("write `substitute(x, hinge.rate = 0.0)`"),
+            "interpolate" | "interp" | "interp1" | "lookup" => {
+                pow("write `table(x, XS, YS)` or `smooth_table(x, XS, YS)`")
+            }
             "if_else" | "ifelse" | "cond" => pow("write `select(condition, a, b)`"),
             _ => None,
         };
@@ -239,6 +245,7 @@ impl<'a> Checker<'a, '_> {
                 .chain(SPECIAL_FUNCTIONS)
                 .chain(CONSTRUCTORS)
                 .chain(MANIPULATIONS)
+                .chain(TABLES)
                 .chain(functions.iter().map(String::as_str)),
             None,
         );

@@ -15,6 +15,7 @@ mod members;
 mod methods;
 mod operators;
 mod paths;
+mod tables;
 mod text;
 mod unknowns;
 
