@@ -38,4 +38,5 @@ mod several_closings;
 mod support;
 mod tables;
 mod translations;
+mod whole;
 mod worked;
