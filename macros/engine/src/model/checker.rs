@@ -14,7 +14,6 @@ use crate::syntax::tree;
 
 use super::checks::evaluate::Evaluator;
 use super::expressions::formulas::Elsewhere;
-use super::expressions::whole::Centre;
 use super::items::coordinates::Coordinates;
 use super::joint_kinds::JointKind;
 use super::report::Report;
@@ -149,7 +148,6 @@ pub(super) enum Meaning {
     Constraint(ConstraintId),
     Part(ScopeId),
     Parts(Rc<[ScopeId]>),
-    Centre(Rc<Centre>),
 }
 
 /// Something that is worked out when it is first asked for.

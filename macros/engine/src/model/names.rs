@@ -55,9 +55,6 @@ pub(super) const MATRICES: [&str; 4] = ["mass_matrix", "bias", "constraint", "ja
 /// Values between points of constant arrays. Their names stay free for items.
 pub(super) const TABLES: [&str; 2] = ["table", "smooth_table"];
 
-/// Quantities of many bodies. Their names stay free for items.
-pub(super) const WHOLE: [&str; 4] = ["total_mass", "centre_of_mass", "linear_momentum", "angular_momentum"];
-
 /// Types that a user may name.
 pub(super) const TYPES: [&str; 7] = ["Scalar", "Vec3", "Pose", "Rotation", "Twist", "Wrench", "Jacobian"];
 

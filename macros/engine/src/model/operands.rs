@@ -23,7 +23,6 @@ impl ExprNode {
             | ExprNode::Power(_)
             | ExprNode::Kinetic
             | ExprNode::Potential
-            | ExprNode::Whole { .. }
             | ExprNode::MassMatrix(_)
             | ExprNode::Bias(_)
             | ExprNode::Residual { .. }

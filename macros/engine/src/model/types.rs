@@ -638,11 +638,6 @@ pub enum ExprNode {
     /// Total, J.
     Kinetic,
     Potential,
-    /// Of these bodies, or of all.
-    Whole {
-        bodies: Option<Rc<[BodyId]>>,
-        quantity: Whole,
-    },
     /// Components of a world vector in a frame's axes.
     Express {
         frame: Frame,
@@ -767,21 +762,6 @@ pub enum Order {
     Position,
     Rate,
     Acceleration,
-}
-
-/// A quantity of several bodies together, in world axes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Whole {
-    /// kg
-    Mass,
-    /// Of the centre of mass, m, m/s, m/s^2.
-    Position,
-    Velocity,
-    Acceleration,
-    /// kg m/s
-    LinearMomentum,
-    /// About the centre of mass, kg m^2/s; that of rotors, whose axes nobody knows, is left out.
-    AngularMomentum,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

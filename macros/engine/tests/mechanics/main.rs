@@ -38,5 +38,4 @@ mod several_closings;
 mod support;
 mod tables;
 mod translations;
-mod whole;
 mod worked;

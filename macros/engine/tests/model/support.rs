@@ -110,7 +110,6 @@ impl Writer<'_> {
             ExprNode::Power(id) => format!("Power({})", self.place(&self.0.forces[*id].place)),
             ExprNode::Kinetic => "Kinetic".into(),
             ExprNode::Potential => "Potential".into(),
-            ExprNode::Whole { bodies, quantity } => format!("{quantity:?}({bodies:?})"),
             ExprNode::Express { frame, vector } => {
                 format!("Express({}, {})", self.frame(frame), self.expr(vector))
             }

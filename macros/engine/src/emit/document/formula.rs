@@ -4,9 +4,7 @@
 
 use crate::emit::layout::Layout;
 use crate::emit::print::literals;
-use crate::model::types::{
-    BodyId, BodyRef, Comparison, Coordinate, Expr, ExprNode, Frame, FrameQuantity, Order, Whole,
-};
+use crate::model::types::{BodyRef, Comparison, Coordinate, Expr, ExprNode, Frame, FrameQuantity, Order};
 
 /// As many nodes are written.
 const MOST: usize = 60;
@@ -62,7 +60,6 @@ impl Writer<'_> {
                 format!("{}{order}", layout.coordinate(Coordinate { joint: *joint, index: *index }))
             }
             ExprNode::OfFrame(frame, quantity) => format!("{}.{}", self.frame(frame), quantity_name(*quantity)),
-            ExprNode::Whole { bodies, quantity } => self.whole(bodies.as_deref(), *quantity),
             ExprNode::Vec3(list) => format!("[{}]", self.list(list)),
             ExprNode::Array(list) => format!("[{}]", self.list(list)),
             ExprNode::Index(array, index) => format!("{}[{index}]", self.write(array, Level::Unary)),
@@ -104,21 +101,6 @@ impl Writer<'_> {
         (text, Level::Unary)
     }
 
-    fn whole(&self, bodies: Option<&[BodyId]>, quantity: Whole) -> String {
-        let names = bodies.unwrap_or_default().iter().map(|body| self.body(BodyRef::Body(*body)));
-        let names: Vec<String> = names.collect();
-        let list = if names.is_empty() { String::new() } else { format!("[{}]", names.join(", ")) };
-        let (name, member) = match quantity {
-            Whole::Mass => ("total_mass", ""),
-            Whole::Position => ("centre_of_mass", ".position"),
-            Whole::Velocity => ("centre_of_mass", ".velocity"),
-            Whole::Acceleration => ("centre_of_mass", ".acceleration"),
-            Whole::LinearMomentum => ("linear_momentum", ""),
-            Whole::AngularMomentum => ("angular_momentum", ""),
-        };
-        format!("{name}({list}){member}")
-    }
-
     fn pair(&mut self, a: &Expr, operator: &str, b: &Expr, binds: Level, right: Level) -> (String, Level) {
         let left = if binds == Level::Compare { right } else { binds };
         let (a, b) = (self.write(a, left), self.write(b, right));
@@ -130,19 +112,15 @@ impl Writer<'_> {
         list.join(", ")
     }
 
-    fn body(&self, body: BodyRef) -> String {
-        match body {
+    /// A body, or a point of it.
+    fn frame(&self, frame: &Frame) -> String {
+        let name = match frame.body {
             BodyRef::Ground => "ground".to_string(),
             BodyRef::Body(body) => {
                 let body = self.layout.model.bodies.get(body.0);
                 body.map_or_else(|| "..".to_string(), |body| self.layout.name(&body.place))
             }
-        }
-    }
-
-    /// A body, or a point of it.
-    fn frame(&self, frame: &Frame) -> String {
-        let name = self.body(frame.body);
+        };
         if frame.steps.is_empty() { name } else { format!("{name}.at(..)") }
     }
 }

@@ -21,4 +21,3 @@ pub(super) mod parts;
 pub(super) mod poses;
 pub(super) mod reactions;
 pub(super) mod state_space;
-pub(super) mod whole;

@@ -5,7 +5,7 @@
 use std::collections::HashSet;
 use std::rc::Rc;
 
-use crate::model::types::{Expr, ExprNode, JointId, Model, Order, Whole};
+use crate::model::types::{Expr, ExprNode, JointId, Model, Order};
 
 /// What expressions ask for.
 #[derive(Default)]
@@ -29,10 +29,6 @@ impl Dependencies {
                     use crate::model::types::FrameQuantity::{Acceleration, AngularAcceleration};
                     needs.frames = true;
                     needs.accelerations |= matches!(quantity, Acceleration | AngularAcceleration);
-                }
-                ExprNode::Whole { quantity, .. } => {
-                    needs.frames |= *quantity != Whole::Mass;
-                    needs.accelerations |= *quantity == Whole::Acceleration;
                 }
                 ExprNode::Power(_) | ExprNode::Express { .. } => needs.frames = true,
                 ExprNode::Coordinate { order: Order::Acceleration, .. } => needs.accelerations = true,

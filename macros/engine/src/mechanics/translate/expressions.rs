@@ -114,7 +114,6 @@ impl Equations<'_> {
             ExprNode::Power(force) => Value::Scalar(self.power(*force)),
             ExprNode::Kinetic => Value::Scalar(self.kinetic()),
             ExprNode::Potential => Value::Scalar(self.potential()),
-            ExprNode::Whole { bodies, quantity } => self.whole(bodies.as_deref(), *quantity),
             ExprNode::Derivative { of, by, accelerated } => {
                 let of = self.known(of);
                 self.derivative(&of, *by, *accelerated)

@@ -7,7 +7,7 @@ use syn::spanned::Spanned;
 use syn::{Expr, ExprCall};
 
 use crate::model::checker::{Checker, Context, Meaning};
-use crate::model::names::{CONSTRUCTORS, FUNCTIONS, MANIPULATIONS, SPECIAL_FUNCTIONS, TABLES, WHOLE};
+use crate::model::names::{CONSTRUCTORS, FUNCTIONS, MANIPULATIONS, SPECIAL_FUNCTIONS, TABLES};
 use crate::model::typed::{Class, Typed, Uses, type_text};
 use crate::model::types::{Expr as Checked, ExprNode, Function, Type};
 
@@ -30,11 +30,6 @@ impl<'a> Checker<'a, '_> {
         if let Some((name, function)) = name.and_then(|name| Some((name, self.function_of(context.scope, name)?))) {
             let arguments: Vec<&Expr> = call.args.iter().collect();
             return self.expanded_call(function, name, &arguments, call.span(), context);
-        }
-        if let Some(name) = name.filter(|name| WHOLE.iter().any(|known| *name == known))
-            && self.module_called(name).is_none()
-        {
-            return self.whole(name, call, context);
         }
         self.call_of_language(call, context).map(Meaning::Value)
     }
@@ -223,7 +218,6 @@ impl<'a> Checker<'a, '_> {
             "interpolate" | "interp" | "interp1" | "lookup" => {
                 pow("write `table(x, XS, YS)` or `smooth_table(x, XS, YS)`")
             }
-            "center_of_mass" | "com" => pow("write `centre_of_mass().position`"),
             "if_else" | "ifelse" | "cond" => pow("write `select(condition, a, b)`"),
             _ => None,
         };
@@ -252,7 +246,6 @@ impl<'a> Checker<'a, '_> {
                 .chain(CONSTRUCTORS)
                 .chain(MANIPULATIONS)
                 .chain(TABLES)
-                .chain(WHOLE)
                 .chain(functions.iter().map(String::as_str)),
             None,
         );

@@ -53,7 +53,6 @@ impl<'a> Checker<'a, '_> {
             Meaning::Joint(joint) => self.joint_member(joint, &field.base, member),
             Meaning::Coordinate(joint, index) => self.coordinate_member(joint, index, &field.base, member),
             Meaning::Frame(frame) => self.frame_member(frame, &field.base, member),
-            Meaning::Centre(centre) => self.centre_member(&centre, member),
             Meaning::Force(force) => self.force_member(force, &field.base, member),
             Meaning::Constraint(_) => {
                 self.report.error(member.span(), format!("a constraint has no `{member}`"));

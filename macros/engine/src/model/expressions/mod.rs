@@ -18,7 +18,6 @@ mod paths;
 mod tables;
 mod text;
 mod unknowns;
-pub(super) mod whole;
 
 use proc_macro2::Span;
 use syn::spanned::Spanned;
@@ -122,9 +121,6 @@ impl<'a> Checker<'a, '_> {
             Meaning::Coordinate(joint, index) => return self.coordinate(joint, index, expr),
             Meaning::Joint(joint) => return self.joint_value(joint, expr),
             Meaning::Frame(_) => ("a frame", "take `.position`, `.velocity`, `.pose`, .. of it".to_string()),
-            Meaning::Centre(_) => {
-                ("a centre of mass", "take `.position`, `.velocity` or `.acceleration` of it".to_string())
-            }
             Meaning::Force(_) => ("a force", "take `.power` of it".to_string()),
             Meaning::Constraint(_) => ("a constraint", "name it in `solve (..) from ..`".to_string()),
             Meaning::Part(_) => ("a part", "take something inside it".to_string()),
@@ -171,7 +167,6 @@ impl<'a> Checker<'a, '_> {
             Meaning::Value(value) => type_text(&value.expr.ty),
             Meaning::Joint(_) => "a joint".into(),
             Meaning::Coordinate(..) => "a coordinate".into(),
-            Meaning::Centre(_) => "a centre of mass".into(),
             Meaning::Force(_) => "a force".into(),
             Meaning::Constraint(_) => "a constraint".into(),
             Meaning::Part(_) | Meaning::Parts(_) => "a part".into(),

@@ -151,7 +151,6 @@ impl Expressions {
             }
             ExprNode::Power(_) => quantity::POWER.into(),
             ExprNode::Kinetic | ExprNode::Potential => quantity::ENERGY.into(),
-            ExprNode::Whole { quantity, .. } => quantity::of_whole(*quantity).into(),
             ExprNode::Express { frame, vector } => {
                 self.frame(frame);
                 self.found(vector)

@@ -4,7 +4,7 @@
 //! computes.
 
 use crate::model::joint_kinds::JointKind;
-use crate::model::types::{FrameQuantity, Order, Whole};
+use crate::model::types::{FrameQuantity, Order};
 
 use super::dimension::Unit;
 
@@ -37,8 +37,6 @@ pub(super) const FORCE: Quantity = quantity("a force", "N", [1, 1, -2]);
 pub(super) const TORQUE: Quantity = quantity("a torque", "N m", [2, 1, -2]);
 pub(super) const ENERGY: Quantity = quantity("an energy", "J", [2, 1, -2]);
 pub(super) const POWER: Quantity = quantity("a power", "W", [2, 1, -3]);
-pub(super) const LINEAR_MOMENTUM: Quantity = quantity("a linear momentum", "kg m/s", [1, 1, -1]);
-pub(super) const ANGULAR_MOMENTUM: Quantity = quantity("an angular momentum", "kg m^2/s", [2, 1, -1]);
 pub(super) const PITCH: Quantity = quantity("a pitch", "m/rad", [1, 0, 0]);
 pub(super) const STABILISING_RATE: Quantity = quantity("the stabilisation's `rate`", "1/s", [0, 0, -1]);
 pub(super) const STABILISING_POSITION: Quantity = quantity("the stabilisation's `position`", "1/s^2", [0, 0, -2]);
@@ -86,18 +84,6 @@ impl OfCoordinate {
             Order::Rate => self.rate,
             Order::Acceleration => self.acceleration,
         }
-    }
-}
-
-/// Of several bodies.
-pub(super) fn of_whole(quantity: Whole) -> Quantity {
-    match quantity {
-        Whole::Mass => MASS,
-        Whole::Position => LENGTH,
-        Whole::Velocity => VELOCITY,
-        Whole::Acceleration => ACCELERATION,
-        Whole::LinearMomentum => LINEAR_MOMENTUM,
-        Whole::AngularMomentum => ANGULAR_MOMENTUM,
     }
 }
 

@@ -6,7 +6,7 @@
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use crate::model::types::{Expr, ExprNode, ForceKind, FrameQuantity, Function, Model, Order, Whole};
+use crate::model::types::{Expr, ExprNode, ForceKind, FrameQuantity, Function, Model, Order};
 
 /// How an expression depends on velocities and inputs.
 #[derive(Clone, Copy)]
@@ -76,12 +76,6 @@ fn shape_of(node: &ExprNode, known: &mut Known) -> Shape {
             FrameQuantity::Position | FrameQuantity::Rotation | FrameQuantity::Pose => of(0, false),
             FrameQuantity::Velocity | FrameQuantity::AngularVelocity | FrameQuantity::Twist => of(1, true),
             FrameQuantity::Acceleration | FrameQuantity::AngularAcceleration => OTHER,
-        },
-        ExprNode::Whole { quantity, .. } => match quantity {
-            Whole::Mass => Shape { constant: true, degree: 0, vanishes: false },
-            Whole::Position => of(0, false),
-            Whole::Velocity | Whole::LinearMomentum | Whole::AngularMomentum => of(1, true),
-            Whole::Acceleration => OTHER,
         },
         ExprNode::Express { vector, .. } => Shape { constant: false, ..shape(vector, known) },
         ExprNode::Vec3(parts) => sum(parts, known),

@@ -7,9 +7,7 @@ use std::rc::Rc;
 
 use crate::contracts::function::FunctionKind;
 use crate::contracts::symbol::Symbol;
-use crate::model::types::{
-    BodyId, BodyRef, Expr, ExprNode, Frame, FrameQuantity, FrameStep, Model, Output, Type, Whole,
-};
+use crate::model::types::{BodyRef, Expr, ExprNode, Frame, FrameQuantity, FrameStep, Model, Output, Type};
 use crate::symbolic::doubled::Doubled;
 
 use super::{At, Judged, Law, Sum, judged};
@@ -25,18 +23,15 @@ pub(super) struct Shown<'m> {
     pub(super) quantities: Vec<(usize, &'m Frame, FrameQuantity)>,
     /// In world axes.
     jacobians: Vec<(usize, &'m Frame)>,
-    /// Of these bodies, or of all.
-    wholes: Vec<(usize, Option<&'m [BodyId]>, Whole)>,
 }
 
 impl<'m> Shown<'m> {
     pub(super) fn new(model: &'m Model, freedoms: usize) -> Shown<'m> {
-        let mut shown = Shown { quantities: Vec::new(), jacobians: Vec::new(), wholes: Vec::new() };
+        let mut shown = Shown { quantities: Vec::new(), jacobians: Vec::new() };
         let mut place = 0;
         for output in &model.outputs {
             match &*output.value.node {
                 ExprNode::OfFrame(frame, quantity) => shown.quantities.push((place, frame, *quantity)),
-                ExprNode::Whole { bodies, quantity } => shown.wholes.push((place, bodies.as_deref(), *quantity)),
                 ExprNode::Jacobian { frame, axes } if axes.body == BodyRef::Ground && axes.steps.is_empty() => {
                     shown.jacobians.push((place, frame));
                 }
@@ -45,22 +40,6 @@ impl<'m> Shown<'m> {
             place += width(&output.value.ty, freedoms);
         }
         shown
-    }
-
-    /// First numbers of positions and of the velocities of the same points.
-    fn moving(&self) -> Vec<(usize, usize)> {
-        let mut pairs = Vec::new();
-        for &(position, frame, _) in self.quantities.iter().filter(|q| q.2 == FrameQuantity::Position) {
-            let speed = |q: &&(usize, &Frame, FrameQuantity)| {
-                matches!(q.2, FrameQuantity::Velocity | FrameQuantity::Twist) && is_same(q.1, frame)
-            };
-            pairs.extend(self.quantities.iter().find(speed).map(|&(velocity, ..)| (position, velocity)));
-        }
-        for &(position, bodies, _) in self.wholes.iter().filter(|whole| whole.2 == Whole::Position) {
-            let speed = self.wholes.iter().find(|whole| whole.1 == bodies && whole.2 == Whole::Velocity);
-            pairs.extend(speed.map(|&(velocity, ..)| (position, velocity)));
-        }
-        pairs
     }
 }
 
@@ -127,18 +106,22 @@ impl At<'_, '_> {
             return Some(None);
         }
         let values = self.values(outputs)?;
-        let moving = shown.moving();
-        if moving.is_empty() {
-            return Some(None);
-        }
-        let mut sum = Sum::default();
+        let (mut sum, mut any) = (Sum::default(), false);
         let (mut of_positions, mut of_velocities) = (vec![0.0; values.len()], vec![0.0; values.len()]);
-        for (position, velocity) in moving {
+        for &(position, frame, _) in shown.quantities.iter().filter(|q| q.2 == FrameQuantity::Position) {
+            let speed = |q: &&(usize, &Frame, FrameQuantity)| {
+                matches!(q.2, FrameQuantity::Velocity | FrameQuantity::Twist) && is_same(q.1, frame)
+            };
+            let Some(&(velocity, ..)) = shown.quantities.iter().find(speed) else { continue };
+            any = true;
             for (k, weight) in self.weights(3).into_iter().enumerate() {
                 sum.product(&[values[velocity + k], Doubled::new(weight)]);
                 of_positions[position + k] = weight;
                 of_velocities[velocity + k] = weight;
             }
+        }
+        if !any {
+            return Some(None);
         }
         let (symbols, v) = (self.symbols(), self.velocities());
         let slopes = self.trace(outputs)?.slopes::<Doubled>(&of_positions, symbols);
