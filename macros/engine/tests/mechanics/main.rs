@@ -36,5 +36,6 @@ mod reactions;
 mod scaling;
 mod several_closings;
 mod support;
+mod systems;
 mod translations;
 mod worked;
