@@ -40,10 +40,12 @@ impl<'a> Checker<'a, '_> {
         if let Some(symbol) = self.scopes[context.scope].symbol(&text) {
             return self.symbol(&symbol, name);
         }
-        let is_function = FUNCTIONS.iter().any(|(function, ..)| *function == text)
-            || SYSTEM_QUANTITIES.iter().any(|(function, _)| *function == text)
-            || SPECIAL_FUNCTIONS.contains(&text.as_str());
-        if is_function {
+        if SYSTEM_QUANTITIES.iter().any(|(function, _)| *function == text) {
+            let help = format!("write `{text}()` for the whole model, or `{text}([body, part])`");
+            self.report.help(span, format!("`{text}` is a function"), help);
+            return None;
+        }
+        if FUNCTIONS.iter().any(|(function, ..)| *function == text) || SPECIAL_FUNCTIONS.contains(&text.as_str()) {
             self.report.help(span, format!("`{text}` is a function"), format!("write `{text}(..)`"));
             return None;
         }
