@@ -50,13 +50,19 @@ fn twice_of(g: &mut Graph, inertia: &Inertia, (angular, linear): LinkVelocity) -
 
 /// Parts of the first moment of all mass in world axes.
 pub(crate) fn first_moment(g: &mut Graph, tree: &Tree) -> Vec<Vector> {
+    first_moment_about(g, tree, None)
+}
+
+/// The same of what a link carries, about its origin in its axes.
+pub(crate) fn first_moment_about(g: &mut Graph, tree: &Tree, carrier: Option<usize>) -> Vec<Vector> {
     let mut masses: Vec<Scalar> = tree.links.iter().map(|link| link.inertia.mass).collect();
     let mut parts: Vec<Vec<(Rotation, Vector)>> = Vec::with_capacity(tree.links.len());
     for link in &tree.links {
         parts.push(vec![(Rotation::IDENTITY, g.vector(link.inertia.first))]);
     }
     let mut ground = vec![(Rotation::IDENTITY, g.vector(tree.ground.unwrap_or(Inertia::ZERO).first))];
-    for (index, link) in tree.links.iter().enumerate().rev() {
+    let carried = carrier.map_or(0, |carrier| carrier + 1);
+    for (index, link) in tree.links.iter().enumerate().skip(carried).rev() {
         let own = std::mem::take(&mut parts[index]);
         let inwards = outgoing(g, link, own, masses[index]);
         match link.parent {
@@ -67,7 +73,8 @@ pub(crate) fn first_moment(g: &mut Graph, tree: &Tree) -> Vec<Vector> {
             None => ground.extend(inwards),
         }
     }
-    ground.into_iter().map(|(rotation, v)| g.rotate(rotation, v)).collect()
+    let sum = carrier.map_or(ground, |carrier| std::mem::take(&mut parts[carrier]));
+    sum.into_iter().map(|(rotation, v)| g.rotate(rotation, v)).collect()
 }
 
 /// A subtree's parts as the parent sees them.

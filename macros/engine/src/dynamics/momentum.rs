@@ -19,9 +19,7 @@ use super::velocities::LinkVelocity;
 /// Momentum of each link and all that it carries: angular about the link's origin, linear.
 pub(crate) fn carried(g: &mut Graph, tree: &Tree, moving: &[LinkVelocity]) -> Vec<Wrench> {
     let mut momenta: Vec<Wrench> = Vec::with_capacity(tree.links.len());
-    for (link, &(angular, linear)) in tree.links.iter().zip(moving) {
-        // As the wrench that accelerates the link from rest to its velocity in a second.
-        let motion = LinkMotion { angular: Vector::ZERO, angular_rate: angular, linear_rate: linear };
+    for (link, motion) in tree.links.iter().zip(from_rest(moving)) {
         momenta.push(inertial_wrench(g, link, &motion));
     }
     for index in (0..tree.links.len()).rev() {
@@ -49,4 +47,26 @@ pub(crate) fn swept(g: &mut Graph, tree: &Tree, moving: &[LinkVelocity], momenta
         }
     }
     list
+}
+
+/// Accelerations from rest to these velocities in a second: the wrenches that they take are the momenta.
+pub(crate) fn from_rest(moving: &[LinkVelocity]) -> Vec<LinkMotion> {
+    let motion = |&(angular, linear)| LinkMotion { angular: Vector::ZERO, angular_rate: angular, linear_rate: linear };
+    moving.iter().map(motion).collect()
+}
+
+/// The wrench that moves so all that a link carries, about its origin in its axes; that of the whole tree about the world's
+/// origin in world axes.
+pub(crate) fn moved_whole(g: &mut Graph, tree: &Tree, motions: &[LinkMotion], carrier: Option<usize>) -> Wrench {
+    let mut wrenches: Vec<Wrench> = Vec::with_capacity(tree.links.len());
+    for (link, motion) in tree.links.iter().zip(motions) {
+        wrenches.push(inertial_wrench(g, link, motion));
+    }
+    let mut ground = Wrench::ZERO;
+    for index in (carrier.map_or(0, |carrier| carrier + 1)..tree.links.len()).rev() {
+        let passed = to_parent(g, tree, index, &wrenches[index]);
+        let into = tree.links[index].parent.map_or(&mut ground, |parent| &mut wrenches[parent]);
+        *into = into.add(g, &passed);
+    }
+    carrier.map_or(ground, |carrier| wrenches[carrier])
 }

@@ -96,6 +96,7 @@ impl<'a> Checker<'a, '_> {
             self.report.error(span, "this model has no constraints");
         }
         let held = self.held(&bodies, &joints, &topology, &constraints, &loops.drives);
+        self.check_weightless(&bodies);
         let massless = self.check_massless(&bodies, &joints, &topology.tree, &held);
         if massless && !self.report.failed() {
             self.check_mass_matrix(&bodies, &joints, &topology.tree, &held);

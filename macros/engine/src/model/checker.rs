@@ -13,6 +13,7 @@ use crate::invariant::index_vec::{IndexVec, id};
 use crate::syntax::tree;
 
 use super::checks::evaluate::Evaluator;
+use super::expressions::bodies::Selected;
 use super::expressions::formulas::Elsewhere;
 use super::items::coordinates::Coordinates;
 use super::joint_kinds::JointKind;
@@ -326,6 +327,8 @@ pub(super) struct Checker<'a, 'd> {
     pub(super) absolute: IndexVec<BodyId, Option<JointId>>,
     /// Where coordinates, rates, .. of joints are named.
     pub(super) coordinate_uses: Vec<(JointId, Span)>,
+    /// Where several bodies are asked about as one.
+    pub(super) selected: Vec<Selected>,
     pub(super) tasks: Vec<Task<'a>>,
     pub(super) evaluator: Evaluator,
     /// What has become part of something else, such as the mass in `rod(mass, ..)`, with the unit that it should have.
@@ -383,6 +386,7 @@ impl<'a, 'd> Checker<'a, 'd> {
             coordinates: None,
             absolute: IndexVec::new(),
             coordinate_uses: Vec::new(),
+            selected: Vec::new(),
             tasks: Vec::new(),
             evaluator: Evaluator::default(),
             quantities: Vec::new(),

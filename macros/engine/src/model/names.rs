@@ -8,7 +8,7 @@ use crate::rust_keywords::is_keyword;
 use crate::syntax::tree::Fields;
 
 use super::joint_kinds::JointKind;
-use super::types::{Function, Orientation};
+use super::types::{Function, Orientation, SystemQuantity};
 
 /// Constants, the world frame, and time: values that every expression may name.
 pub(super) const VALUES: [&str; 6] = ["ground", "X", "Y", "Z", "PI", "t"];
@@ -46,6 +46,14 @@ pub(super) const SPECIAL_FUNCTIONS: [&str; 3] = ["select", "kinetic", "potential
 
 /// Functions that make rotations and poses. Their names stay free for items: a call is never mistaken for one.
 pub(super) const CONSTRUCTORS: [&str; 4] = ["identity", "rotation", "roll_pitch_yaw", "pose"];
+
+/// Quantities of several bodies as one: `centre_of_mass()`, `linear_momentum([torso, legs])`. Their names stay free for items.
+pub(super) const SYSTEM_QUANTITIES: [(&str, SystemQuantity); 4] = [
+    ("total_mass", SystemQuantity::TotalMass),
+    ("centre_of_mass", SystemQuantity::CentreOfMass),
+    ("linear_momentum", SystemQuantity::LinearMomentum),
+    ("angular_momentum", SystemQuantity::AngularMomentum),
+];
 
 /// Functions of whole expressions, and matrices of which entries are taken: `diff(x, t)`, `mass_matrix[a, b]`. Their names stay
 /// free for items.

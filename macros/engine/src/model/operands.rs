@@ -23,6 +23,7 @@ impl ExprNode {
             | ExprNode::Power(_)
             | ExprNode::Kinetic
             | ExprNode::Potential
+            | ExprNode::OfBodies(..)
             | ExprNode::MassMatrix(_)
             | ExprNode::Bias(_)
             | ExprNode::Residual { .. }

@@ -12,6 +12,8 @@ use super::types::{Expr, ExprNode, Frame, Type};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Class {
     Parameter,
+    /// Of bodies, which may follow from parameters.
+    Mass,
     Time,
     /// What another model says: known where equations are derived, and not while the model is checked.
     Formula,
@@ -29,8 +31,9 @@ pub(super) enum Class {
     Load,
 }
 
-const CLASSES: [Class; 10] = [
+const CLASSES: [Class; 11] = [
     Class::Parameter,
+    Class::Mass,
     Class::Time,
     Class::Formula,
     Class::Input,
@@ -135,9 +138,9 @@ impl Allowed {
         match self {
             Allowed::Constants => false,
             Allowed::Parameters => class == Class::Parameter,
-            Allowed::Time => matches!(class, Class::Parameter | Class::Time | Class::Formula),
+            Allowed::Time => matches!(class, Class::Parameter | Class::Mass | Class::Time | Class::Formula),
             Allowed::Positions | Allowed::Constraint => {
-                matches!(class, Class::Parameter | Class::Time | Class::Formula | Class::Position)
+                matches!(class, Class::Parameter | Class::Mass | Class::Time | Class::Formula | Class::Position)
             }
             Allowed::Forces => !matches!(class, Class::Acceleration | Class::Load),
             Allowed::Springs => !matches!(class, Class::Potential | Class::Acceleration | Class::Load),
@@ -150,6 +153,9 @@ impl Allowed {
             (_, Class::Formula) => {
                 "is a formula of another model; it may stand in drives, constraints, `solve`, `assume`, forces, states, outputs, and the \
                  `let` that they use"
+            }
+            (Allowed::Constants | Allowed::Parameters, Class::Mass) => {
+                "is known when all bodies are; only literals, `const` and `param` may stand here"
             }
             (Allowed::Springs, Class::Potential) => "holds this spring's energy, so the spring can't follow from it",
             (Allowed::Forces | Allowed::Springs, Class::Acceleration) => {

@@ -638,6 +638,8 @@ pub enum ExprNode {
     /// Total, J.
     Kinetic,
     Potential,
+    /// Of several bodies as one, in world axes.
+    OfBodies(Selection, SystemQuantity),
     /// Components of a world vector in a frame's axes.
     Express {
         frame: Frame,
@@ -774,6 +776,21 @@ pub enum FrameQuantity {
     Twist,
     Acceleration,
     AngularAcceleration,
+}
+
+/// Bodies that are looked at together; `None`: all of the model.
+pub type Selection = Option<Rc<[BodyId]>>;
+
+/// What a system of bodies has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SystemQuantity {
+    TotalMass,
+    CentreOfMass,
+    CentreOfMassVelocity,
+    CentreOfMassAcceleration,
+    LinearMomentum,
+    /// About the centre of mass of these bodies.
+    AngularMomentum,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

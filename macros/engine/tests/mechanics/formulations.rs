@@ -74,11 +74,30 @@ fn expressions_load_the_bodies() {
             "constraint along = dot(b.at(X).position - a.at([0, 1, 0]).position, [1, 2, 3]) - 1.4;",
             "constraint seen = dot(b.express([0, 0, 1]), [1, 2, 0.5]) - 0.3 + 0.1 * sin(t);",
             "constraint mixed = b.at([0.3, 1, 0.1]).position.y + 0.5 * two - 0.2 * one - 0.4;",
+            "constraint balanced = dot(centre_of_mass(), [1, 2, 0.5]) - 0.7;",
+            "constraint tip = centre_of_mass([b]).y - 0.4 + total_mass() * 0.01 * sin(t);",
             "constraint gear = two - 2 * one - 0.1;",
             "constraint cam = two - 0.5 * sin(one);",
             "constraint rod: Rod { between: [ground.at([2, 0, 0]), b.at(Y)], length: 2.0 }",
         ],
         |constraint| agrees(constraint, &format!("{BODIES} {HINGES} {constraint}"), &[]),
+    );
+}
+
+/// Several bodies as one, in a loop and under a constraint.
+#[test]
+fn several_bodies_as_one() {
+    let told = "output whole = [total_mass() * X, centre_of_mass(), linear_momentum(), angular_momentum()];
+        output moving = [centre_of_mass().velocity, centre_of_mass().acceleration];
+        output outer = [centre_of_mass([b]), linear_momentum([b]), angular_momentum([b]), centre_of_mass([b]).acceleration];";
+    each(
+        &[
+            "constraint rod: Rod { between: [ground.at([2, 0, 0]), b.at(Y)], length: 2.0 }",
+            "constraint balanced = dot(centre_of_mass(), [1, 2, 0.5]) - 0.7;",
+        ],
+        |constraint| {
+            agrees(constraint, &format!("{BODIES} {HINGES} {constraint} {told}"), &["whole", "moving", "outer"])
+        },
     );
 }
 

@@ -36,6 +36,7 @@ mod reactions;
 mod scaling;
 mod several_closings;
 mod support;
+mod systems;
 mod tables;
 mod translations;
 mod worked;

@@ -110,6 +110,11 @@ impl Writer<'_> {
             ExprNode::Power(id) => format!("Power({})", self.place(&self.0.forces[*id].place)),
             ExprNode::Kinetic => "Kinetic".into(),
             ExprNode::Potential => "Potential".into(),
+            ExprNode::OfBodies(bodies, quantity) => {
+                let place = |id: &BodyId| self.place(&self.0.bodies[*id].place);
+                let names: Vec<String> = bodies.iter().flat_map(|list| list.iter()).map(place).collect();
+                format!("{quantity:?}({})", names.join(", "))
+            }
             ExprNode::Express { frame, vector } => {
                 format!("Express({}, {})", self.frame(frame), self.expr(vector))
             }

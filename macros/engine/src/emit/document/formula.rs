@@ -4,7 +4,9 @@
 
 use crate::emit::layout::Layout;
 use crate::emit::print::literals;
-use crate::model::types::{BodyRef, Comparison, Coordinate, Expr, ExprNode, Frame, FrameQuantity, Order};
+use crate::model::types::{
+    BodyId, BodyRef, Comparison, Coordinate, Expr, ExprNode, Frame, FrameQuantity, Order, Selection, SystemQuantity,
+};
 
 /// As many nodes are written.
 const MOST: usize = 60;
@@ -60,6 +62,7 @@ impl Writer<'_> {
                 format!("{}{order}", layout.coordinate(Coordinate { joint: *joint, index: *index }))
             }
             ExprNode::OfFrame(frame, quantity) => format!("{}.{}", self.frame(frame), quantity_name(*quantity)),
+            ExprNode::OfBodies(bodies, quantity) => self.of_bodies(bodies, *quantity),
             ExprNode::Vec3(list) => format!("[{}]", self.list(list)),
             ExprNode::Array(list) => format!("[{}]", self.list(list)),
             ExprNode::Index(array, index) => format!("{}[{index}]", self.write(array, Level::Unary)),
@@ -110,6 +113,21 @@ impl Writer<'_> {
     fn list(&mut self, list: &[Expr]) -> String {
         let list: Vec<String> = list.iter().map(|expr| self.write(expr, Level::Or)).collect();
         list.join(", ")
+    }
+
+    /// Several bodies as one, as the language writes it.
+    fn of_bodies(&self, bodies: &Selection, quantity: SystemQuantity) -> String {
+        let place = |id: &BodyId| self.layout.name(&self.layout.model.bodies[*id].place);
+        let list = bodies.as_ref().map(|list| format!("[{}]", list.iter().map(place).collect::<Vec<_>>().join(", ")));
+        let (name, member) = match quantity {
+            SystemQuantity::TotalMass => ("total_mass", ""),
+            SystemQuantity::CentreOfMass => ("centre_of_mass", ""),
+            SystemQuantity::CentreOfMassVelocity => ("centre_of_mass", ".velocity"),
+            SystemQuantity::CentreOfMassAcceleration => ("centre_of_mass", ".acceleration"),
+            SystemQuantity::LinearMomentum => ("linear_momentum", ""),
+            SystemQuantity::AngularMomentum => ("angular_momentum", ""),
+        };
+        format!("{name}({}){member}", list.unwrap_or_default())
     }
 
     /// A body, or a point of it.

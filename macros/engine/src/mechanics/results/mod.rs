@@ -21,3 +21,4 @@ pub(super) mod parts;
 pub(super) mod poses;
 pub(super) mod reactions;
 pub(super) mod state_space;
+pub(super) mod systems;

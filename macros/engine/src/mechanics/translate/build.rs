@@ -149,7 +149,7 @@ impl Equations<'_> {
     }
 
     /// Adds a body's moments to its link.
-    fn load(&mut self, tree: &mut Tree, body: &Body, place: FixedFrame) {
+    pub(in crate::mechanics) fn load(&mut self, tree: &mut Tree, body: &Body, place: FixedFrame) {
         let mass = self.scalar(&body.mass);
         let com = self.vector(&body.com);
         let com = self.g.components(com);

@@ -5,7 +5,7 @@
 use std::collections::HashSet;
 use std::rc::Rc;
 
-use crate::model::types::{Expr, ExprNode, JointId, Model, Order};
+use crate::model::types::{Expr, ExprNode, JointId, Model, Order, SystemQuantity};
 
 /// What expressions ask for.
 #[derive(Default)]
@@ -29,6 +29,10 @@ impl Dependencies {
                     use crate::model::types::FrameQuantity::{Acceleration, AngularAcceleration};
                     needs.frames = true;
                     needs.accelerations |= matches!(quantity, Acceleration | AngularAcceleration);
+                }
+                ExprNode::OfBodies(_, quantity) => {
+                    needs.frames = true;
+                    needs.accelerations |= *quantity == SystemQuantity::CentreOfMassAcceleration;
                 }
                 ExprNode::Power(_) | ExprNode::Express { .. } => needs.frames = true,
                 ExprNode::Coordinate { order: Order::Acceleration, .. } => needs.accelerations = true,

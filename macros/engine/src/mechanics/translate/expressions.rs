@@ -114,6 +114,7 @@ impl Equations<'_> {
             ExprNode::Power(force) => Value::Scalar(self.power(*force)),
             ExprNode::Kinetic => Value::Scalar(self.kinetic()),
             ExprNode::Potential => Value::Scalar(self.potential()),
+            ExprNode::OfBodies(bodies, quantity) => self.of_bodies(bodies, *quantity),
             ExprNode::Derivative { of, by, accelerated } => {
                 let of = self.known(of);
                 self.derivative(&of, *by, *accelerated)

@@ -15,7 +15,9 @@ use crate::mechanics::loops::constraints::{coordinate_name, path, row_called, ro
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::loops::structure::{Means, Role, Structure};
 use crate::model::site::Sited;
-use crate::model::types::{Coordinate, Expr, ExprNode, ForceKind, LoopClosure, Model, Order, TwoRoots, Variable};
+use crate::model::types::{
+    Coordinate, Expr, ExprNode, ForceKind, LoopClosure, Model, Order, SystemQuantity, TwoRoots, Variable,
+};
 use crate::solve;
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::{BlockKind, Scalar};
@@ -372,7 +374,8 @@ fn reads_positions(expr: &Expr) -> bool {
             | ExprNode::Time
             | ExprNode::Param(_)
             | ExprNode::Input(_)
-            | ExprNode::State(_) => {}
+            | ExprNode::State(_)
+            | ExprNode::OfBodies(_, SystemQuantity::TotalMass) => {}
             node if node.operands().is_empty() => return true,
             ExprNode::Express { .. } => return true,
             node => stack.extend(node.operands()),

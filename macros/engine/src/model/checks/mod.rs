@@ -7,3 +7,4 @@ mod massless;
 pub(super) mod matrix3;
 pub(crate) mod placement;
 pub(super) mod spatial;
+mod weightless;

@@ -7,7 +7,7 @@ use syn::spanned::Spanned;
 use syn::{Expr, ExprCall};
 
 use crate::model::checker::{Checker, Context, Meaning};
-use crate::model::names::{CONSTRUCTORS, FUNCTIONS, MANIPULATIONS, SPECIAL_FUNCTIONS, TABLES};
+use crate::model::names::{CONSTRUCTORS, FUNCTIONS, MANIPULATIONS, SPECIAL_FUNCTIONS, SYSTEM_QUANTITIES, TABLES};
 use crate::model::typed::{Class, Typed, Uses, type_text};
 use crate::model::types::{Expr as Checked, ExprNode, Function, Type};
 
@@ -70,6 +70,9 @@ impl<'a> Checker<'a, '_> {
         let Some((_, function, count)) = found else {
             if let Some(module) = self.module_called(name) {
                 return self.formula(name, module, call, context);
+            }
+            if let Some((_, quantity)) = SYSTEM_QUANTITIES.iter().find(|(known, _)| *known == text) {
+                return self.of_bodies(name, *quantity, &arguments, at, context);
             }
             self.unknown_function(name, context);
             // What stands between the parentheses may hold mistakes of its own.
@@ -203,6 +206,9 @@ impl<'a> Checker<'a, '_> {
             "sign" | "sgn" => pow("write `signum(x)`"),
             "degrees" | "rad" | "radians" | "to_radians" => pow("write `deg(30.0)`"),
             "length" | "magnitude" => pow("write `norm(v)`"),
+            "mass" => pow("write `total_mass()`"),
+            "com" | "center_of_mass" => pow("write `centre_of_mass()`"),
+            "momentum" => pow("write `linear_momentum()` or `angular_momentum()`"),
             "energy" => pow("write `kinetic() + potential()`"),
             "vec3" | "vec" | "vector" => pow("a vector is written `[x, y, z]`"),
             "pow2" | "square" | "sqr" => pow("write `powi(x, 2)`"),
@@ -243,6 +249,7 @@ impl<'a> Checker<'a, '_> {
                 .iter()
                 .map(|(known, ..)| *known)
                 .chain(SPECIAL_FUNCTIONS)
+                .chain(SYSTEM_QUANTITIES.iter().map(|(known, _)| *known))
                 .chain(CONSTRUCTORS)
                 .chain(MANIPULATIONS)
                 .chain(TABLES)

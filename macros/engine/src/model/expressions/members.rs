@@ -11,6 +11,7 @@ use crate::model::joint_kinds::JointKind;
 use crate::model::typed::{Class, FrameValue, Typed, Uses, type_text};
 use crate::model::types::{BodyRef, ExprNode, ForceId, FrameQuantity, JointId, Type};
 
+use super::bodies::is_centre_of_mass;
 use super::coerce::{component_of, convert};
 use super::paths::plain_frame;
 use super::source_text;
@@ -154,6 +155,9 @@ impl<'a> Checker<'a, '_> {
 
     fn value_member(&mut self, value: Typed, member: &Ident) -> Option<Meaning> {
         let name = member.to_string();
+        if let Some(moving) = self.centre_member(&value, member) {
+            return Some(Meaning::Value(moving));
+        }
         if let (Some(index), Some(vector)) =
             (["x", "y", "z"].iter().position(|known| *known == name), convert(&value, &Type::Vec3))
         {
@@ -164,6 +168,7 @@ impl<'a> Checker<'a, '_> {
             }));
         }
         let offered: &[&str] = match &value.expr.ty {
+            Type::Vec3 if is_centre_of_mass(&value) => &["x", "y", "z", "position", "velocity", "acceleration"],
             Type::Vec3 => &["x", "y", "z"],
             Type::Pose => &["position", "rotation"],
             Type::Twist => &["linear", "angular"],

@@ -4,6 +4,7 @@
 //! error has been reported, so that one mistake is reported once.
 
 mod arrays;
+pub(super) mod bodies;
 mod broadcast;
 mod calls;
 mod coerce;

@@ -9,7 +9,7 @@ use syn::spanned::Spanned;
 use crate::diagnostics::nearest;
 use crate::model::checker::{Checker, Context, Meaning, ScopeId, Symbol};
 use crate::model::expand::article;
-use crate::model::names::{FUNCTIONS, SPECIAL_FUNCTIONS, VALUES};
+use crate::model::names::{FUNCTIONS, SPECIAL_FUNCTIONS, SYSTEM_QUANTITIES, VALUES};
 use crate::model::typed::{Class, FrameValue, Typed, Uses};
 use crate::model::types::{BodyRef, ExprNode, Frame, Type};
 
@@ -39,6 +39,11 @@ impl<'a> Checker<'a, '_> {
         }
         if let Some(symbol) = self.scopes[context.scope].symbol(&text) {
             return self.symbol(&symbol, name);
+        }
+        if SYSTEM_QUANTITIES.iter().any(|(function, _)| *function == text) {
+            let help = format!("write `{text}()` for the whole model, or `{text}([body, part])`");
+            self.report.help(span, format!("`{text}` is a function"), help);
+            return None;
         }
         if FUNCTIONS.iter().any(|(function, ..)| *function == text) || SPECIAL_FUNCTIONS.contains(&text.as_str()) {
             self.report.help(span, format!("`{text}` is a function"), format!("write `{text}(..)`"));

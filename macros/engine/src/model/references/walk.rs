@@ -10,7 +10,9 @@ use proc_macro2::{Ident, Span};
 use syn::{Expr, Member, Type};
 
 use crate::model::docs;
-use crate::model::names::{CONSTRUCTORS, FUNCTIONS, MANIPULATIONS, MATRICES, SPECIAL_FUNCTIONS, VALUES};
+use crate::model::names::{
+    CONSTRUCTORS, FUNCTIONS, MANIPULATIONS, MATRICES, SPECIAL_FUNCTIONS, SYSTEM_QUANTITIES, VALUES,
+};
 use crate::syntax::tree::{self, Fields, ItemKind, Solution, UNREADABLE};
 
 use super::words::{self, JOINT};
@@ -430,6 +432,7 @@ fn single(expr: &Expr) -> Option<&Ident> {
 fn is_of_the_language(name: &str) -> bool {
     VALUES.contains(&name)
         || FUNCTIONS.iter().any(|function| function.0 == name)
+        || SYSTEM_QUANTITIES.iter().any(|function| function.0 == name)
         || SPECIAL_FUNCTIONS.contains(&name)
         || MATRICES.contains(&name)
 }

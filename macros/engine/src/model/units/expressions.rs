@@ -151,6 +151,7 @@ impl Expressions {
             }
             ExprNode::Power(_) => quantity::POWER.into(),
             ExprNode::Kinetic | ExprNode::Potential => quantity::ENERGY.into(),
+            ExprNode::OfBodies(_, what) => quantity::of_system(*what).into(),
             ExprNode::Express { frame, vector } => {
                 self.frame(frame);
                 self.found(vector)

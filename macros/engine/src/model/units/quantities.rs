@@ -4,7 +4,7 @@
 //! computes.
 
 use crate::model::joint_kinds::JointKind;
-use crate::model::types::{FrameQuantity, Order};
+use crate::model::types::{FrameQuantity, Order, SystemQuantity};
 
 use super::dimension::Unit;
 
@@ -35,6 +35,8 @@ pub(super) const ACCELERATION: Quantity = quantity("an acceleration", "m/s^2", [
 pub(super) const ANGULAR_ACCELERATION: Quantity = quantity("an angular acceleration", "rad/s^2", [0, 0, -2]);
 pub(super) const FORCE: Quantity = quantity("a force", "N", [1, 1, -2]);
 pub(super) const TORQUE: Quantity = quantity("a torque", "N m", [2, 1, -2]);
+pub(super) const MOMENTUM: Quantity = quantity("a momentum", "kg m/s", [1, 1, -1]);
+pub(super) const ANGULAR_MOMENTUM: Quantity = quantity("an angular momentum", "kg m^2/s", [2, 1, -1]);
 pub(super) const ENERGY: Quantity = quantity("an energy", "J", [2, 1, -2]);
 pub(super) const POWER: Quantity = quantity("a power", "W", [2, 1, -3]);
 pub(super) const PITCH: Quantity = quantity("a pitch", "m/rad", [1, 0, 0]);
@@ -96,5 +98,17 @@ pub(super) fn of_frame(quantity: FrameQuantity) -> Option<Quantity> {
         FrameQuantity::Acceleration => Some(ACCELERATION),
         FrameQuantity::AngularAcceleration => Some(ANGULAR_ACCELERATION),
         FrameQuantity::Rotation | FrameQuantity::Pose | FrameQuantity::Twist => None,
+    }
+}
+
+/// Of several bodies as one.
+pub(super) fn of_system(quantity: SystemQuantity) -> Quantity {
+    match quantity {
+        SystemQuantity::TotalMass => MASS,
+        SystemQuantity::CentreOfMass => LENGTH,
+        SystemQuantity::CentreOfMassVelocity => VELOCITY,
+        SystemQuantity::CentreOfMassAcceleration => ACCELERATION,
+        SystemQuantity::LinearMomentum => MOMENTUM,
+        SystemQuantity::AngularMomentum => ANGULAR_MOMENTUM,
     }
 }

@@ -6,7 +6,7 @@
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use crate::model::types::{Expr, ExprNode, ForceKind, FrameQuantity, Function, Model, Order};
+use crate::model::types::{Expr, ExprNode, ForceKind, FrameQuantity, Function, Model, Order, SystemQuantity};
 
 /// How an expression depends on velocities and inputs.
 #[derive(Clone, Copy)]
@@ -76,6 +76,14 @@ fn shape_of(node: &ExprNode, known: &mut Known) -> Shape {
             FrameQuantity::Position | FrameQuantity::Rotation | FrameQuantity::Pose => of(0, false),
             FrameQuantity::Velocity | FrameQuantity::AngularVelocity | FrameQuantity::Twist => of(1, true),
             FrameQuantity::Acceleration | FrameQuantity::AngularAcceleration => OTHER,
+        },
+        ExprNode::OfBodies(_, quantity) => match quantity {
+            SystemQuantity::TotalMass => Shape { constant: true, degree: 0, vanishes: false },
+            SystemQuantity::CentreOfMass => of(0, false),
+            SystemQuantity::CentreOfMassVelocity | SystemQuantity::LinearMomentum | SystemQuantity::AngularMomentum => {
+                of(1, true)
+            }
+            SystemQuantity::CentreOfMassAcceleration => OTHER,
         },
         ExprNode::Express { vector, .. } => Shape { constant: false, ..shape(vector, known) },
         ExprNode::Vec3(parts) => sum(parts, known),
