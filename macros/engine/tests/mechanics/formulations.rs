@@ -74,7 +74,6 @@ fn expressions_load_the_bodies() {
             "constraint along = dot(b.at(X).position - a.at([0, 1, 0]).position, [1, 2, 3]) - 1.4;",
             "constraint seen = dot(b.express([0, 0, 1]), [1, 2, 0.5]) - 0.3 + 0.1 * sin(t);",
             "constraint mixed = b.at([0.3, 1, 0.1]).position.y + 0.5 * two - 0.2 * one - 0.4;",
-            "constraint balanced = dot(centre_of_mass(), [1, 2, 0.5]) - 0.7;",
             "constraint tip = centre_of_mass([b]).y - 0.4 + total_mass() * 0.01 * sin(t);",
             "constraint gear = two - 2 * one - 0.1;",
             "constraint cam = two - 0.5 * sin(one);",

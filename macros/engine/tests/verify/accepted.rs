@@ -139,3 +139,32 @@ fn entries_that_are_zero_where_the_loop_is_closed() {
     );
     assert_eq!(compiled.unchecked, []);
 }
+
+/// Several bodies as one go through all stages: in outputs, their linearisation, forces, states, and under a constraint.
+#[test]
+fn several_bodies_as_one() {
+    for constraints in ["Reduced", "Multipliers"] {
+        compiled(&format!(
+            "pub mod m {{
+                param mass = 1.2;
+                param target = 0.4;
+                input push;
+                world {{ gravity: [0.3, -9.0, 1.0] }}
+                body a {{ mass: mass, com: [0.5, 0.1, 0.2], inertia: inertia(0.5, 0.6, 0.7, 0.02, -0.03, 0.01) }}
+                body b {{ mass: 0.7, com: [1.1, -0.2, 0.1], inertia: inertia(0.3, 0.2, 0.4, 0.01, 0.02, -0.01) }}
+                joint one: Universal {{ parent: ground.at([0.1, 0.2, 0]), child: a, axes: [[1, 0.3, -0.2], [0.3, -1, 0]] }}
+                joint two: Revolute {{ parent: a.at([1, 0.2, 0]).rotated([1, 1, 0], 0.4), child: b.at([0.1, 0, 0.2]), axis: Z }}
+                constraint balanced = dot(centre_of_mass(), [1, 2, 0.5]) - target;
+                state gone: rate = linear_momentum([b]).x, start: 0.0;
+                force brake: Force {{ at: b, value: push * X - 0.3 * angular_momentum(), axes: ground }}
+                output mass = total_mass();
+                output centre = centre_of_mass([a, b]);
+                output moving = [centre_of_mass().velocity, centre_of_mass().acceleration];
+                output heavier = diff(total_mass(), mass);
+                output momenta = [linear_momentum(), angular_momentum()];
+                formulation {{ constraints: {constraints} }}
+                emit forward_dynamics, linearize, report;
+            }}"
+        ));
+    }
+}
