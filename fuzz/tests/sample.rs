@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use multibody_fuzz::campaign::{Chains, Family, Loops, Plan, run};
+use multibody_fuzz::campaign::{Chains, Family, Limbs, Loops, Plan, Tally, run};
 use multibody_fuzz::{differentiated, grammar_campaign, manipulated};
 
 fn plan(models: usize, seed: u64) -> Plan {
@@ -11,15 +11,25 @@ fn plan(models: usize, seed: u64) -> Plan {
 }
 
 #[track_caller]
-fn passes(family: &dyn Family, models: usize, seed: u64) {
+fn passes(family: &dyn Family, models: usize, seed: u64) -> Tally {
     let tally = run(family, plan(models, seed));
+    println!("{tally} compared");
     assert!(tally.models > 0 && tally.numbers > 0);
     assert_eq!(tally.failures(), 0, "{:#?}\n{}", tally.classes, tally.reports.join("\n"));
+    // However many models the time is enough for, some are asked for functions in other forms.
+    assert!(6 * tally.at > tally.models && 6 * tally.triangles > tally.models, "{tally}");
+    tally
 }
 
 #[test]
 fn chains_and_trees() {
     passes(&Chains, 80, 1);
+}
+
+#[test]
+fn limbs_that_are_alike() {
+    let tally = passes(&Limbs, 40, 1);
+    assert!(2 * tally.packs > tally.models, "{tally}");
 }
 
 #[test]
