@@ -1,6 +1,7 @@
 //! Many models in a row, and what became of them.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
@@ -29,10 +30,23 @@ pub struct Tally {
     pub models: usize,
     /// Numbers compared.
     pub numbers: usize,
+    /// Models that have a function behind `Model::at`, whose numbers were compared.
+    pub at: usize,
+    /// Models that have a mass matrix as a triangle.
+    pub triangles: usize,
+    /// Models that have limbs in packs.
+    pub packs: usize,
     /// Refusals and failures by class.
     pub classes: BTreeMap<String, Vec<u64>>,
     /// Minimised failures as text.
     pub reports: Vec<String>,
+}
+
+impl fmt::Display for Tally {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Tally { models, numbers, at, triangles, packs, .. } = self;
+        write!(f, "{models} models ({at} with `at`, {triangles} with triangles, {packs} with packs), {numbers} numbers")
+    }
 }
 
 impl Tally {
@@ -68,6 +82,23 @@ impl Family for Chains {
     fn excuses(&self, mechanism: &Mechanism, seed: u64, said: &[String]) -> bool {
         let singular = |text: &String| text.contains("mass or inertia") || text.contains("singular");
         said.iter().all(singular) && tree::is_singular(mechanism, seed)
+    }
+}
+
+/// Limbs that are alike, in packs.
+pub struct Limbs;
+
+impl Family for Limbs {
+    fn draw(&self, seed: u64) -> Mechanism {
+        Mechanism::limbed(&mut Random::new(seed))
+    }
+
+    fn check(&self, mechanism: &Mechanism, seed: u64) -> Verdict {
+        tree::check(mechanism, seed)
+    }
+
+    fn excuses(&self, mechanism: &Mechanism, seed: u64, said: &[String]) -> bool {
+        Chains.excuses(mechanism, seed, said)
     }
 }
 
@@ -112,8 +143,11 @@ pub fn run(family: &dyn Family, plan: Plan) -> Tally {
         };
         let mut class = verdict.class();
         match &verdict {
-            Verdict::Right(numbers) => {
-                tally.numbers += numbers;
+            Verdict::Right(compared) => {
+                tally.numbers += compared.numbers;
+                tally.at += usize::from(compared.at > 0);
+                tally.triangles += usize::from(compared.triangles > 0);
+                tally.packs += usize::from(compared.packs);
                 continue;
             }
             Verdict::Refused(said) if family.excuses(&mechanism, seed, said) => class = format!("true {class}"),

@@ -18,16 +18,17 @@ use multibody_engine::mechanics::loops::structure::Means;
 use multibody_engine::model::types::{Coordinate, JointId};
 use nalgebra::{DMatrix, DVector};
 
-use crate::campaign::{Chains, Family, Loops};
+use crate::campaign::{Chains, Family, Limbs, Loops};
 use crate::corpus;
 use crate::oracle::Verdict;
-use crate::programs::{Failure, Programs, Values};
+use crate::programs::{Failure, Programs, Values, Way};
 
 /// What it takes.
 pub const USAGE: &str = "[--record FOLDER] [--exact NAME..]";
 
 /// Seeds of random mechanisms.
 const CHAINS: std::ops::Range<u64> = 1..61;
+const LIMBS: std::ops::Range<u64> = 1..17;
 const LOOPS: std::ops::Range<u64> = 35..61;
 
 /// Of the numbers of a function, relative to the largest. Another formula for the same rounds otherwise.
@@ -80,6 +81,7 @@ fn root() -> PathBuf {
 /// Families by seed, models of the project by file and name.
 fn names() -> Vec<String> {
     let mut names: Vec<String> = CHAINS.map(|seed| format!("chains::{seed}")).collect();
+    names.extend(LIMBS.map(|seed| format!("limbs::{seed}")));
     names.extend(LOOPS.map(|seed| format!("loops::{seed}")));
     for (file, call) in corpus::PLACES.iter().flat_map(|place| corpus::calls_of(&root(), place)) {
         names.extend(corpus::models(call).iter().map(|model| format!("{file}::{}", model.name)));
@@ -93,6 +95,7 @@ fn judge(name: &str, record: Option<&Path>) -> Judged {
     let (group, item) = name.rsplit_once("::").expect("a name with a group");
     let found = match (group, item.parse()) {
         ("chains", Ok(seed)) => drawn(&Chains, seed),
+        ("limbs", Ok(seed)) => drawn(&Limbs, seed),
         ("loops", Ok(seed)) => drawn(&Loops, seed),
         _ => catch_unwind(AssertUnwindSafe(|| declared(group, item))).unwrap_or(Found::bare("panic".into())),
     };
@@ -190,18 +193,21 @@ fn declared(file: &str, name: &str) -> Found {
             point.velocities = Some(point.admitted());
         }
         let beside = Spot { noise: NOISE, velocities: point.velocities.clone(), ..point };
-        for function in &programs.compiled.functions {
+        let whole = programs.compiled.functions.iter().map(|function| (Way::Model, function.kind));
+        let behind = programs.behind().iter().map(|function| (Way::At, function.kind));
+        for (way, kind) in whole.chain(behind) {
             // Beside what the state is, equations with multipliers have values that depend on the axes they are written in.
             let independent = [
                 FunctionKind::ForwardDynamics,
                 FunctionKind::MassMatrix,
+                FunctionKind::MassMatrixLower,
                 FunctionKind::KineticEnergy,
                 FunctionKind::PotentialEnergy,
             ];
-            if held && !independent.contains(&function.kind) {
+            if held && !independent.contains(&kind) {
                 continue;
             }
-            let run = |spot: &Spot<'_>| programs.run(function.kind, spot).expect("a function that is there");
+            let run = |spot: &Spot<'_>| programs.run_by(way, kind, spot).expect("a function that is there");
             let (mut list, other) = (run(&point), run(&beside));
             let size = size(&list);
             for (value, other) in list.iter_mut().zip(other) {
@@ -209,7 +215,7 @@ fn declared(file: &str, name: &str) -> Found {
                     *value = f64::NAN;
                 }
             }
-            if held && function.kind == FunctionKind::ForwardDynamics {
+            if held && kind == FunctionKind::ForwardDynamics {
                 list.truncate(free);
             }
             numbers.push(list);

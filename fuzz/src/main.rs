@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-use multibody_fuzz::campaign::{Chains, Family, Loops, Plan, Tally, run};
+use multibody_fuzz::campaign::{Chains, Family, Limbs, Loops, Plan, Tally, run};
 use multibody_fuzz::{differentiated, grammar_campaign, jury, manipulated, written};
 
 fn number(arguments: &[String], name: &str, default: u64) -> u64 {
@@ -16,7 +16,7 @@ fn show(what: &str, tally: &Tally, start: Instant) -> bool {
         println!("{report}");
     }
     let time = start.elapsed().as_secs_f64();
-    println!("{what}: {} models, {} numbers compared, {time:.1} s", tally.models, tally.numbers);
+    println!("{what}: {tally} compared, {time:.1} s");
     for (class, seeds) in &tally.classes {
         println!("  {:5}  {class}  (seeds {:?})", seeds.len(), &seeds[..seeds.len().min(6)]);
     }
@@ -103,9 +103,12 @@ fn main() -> ExitCode {
     }
     let family: Box<dyn Family> = match arguments.first().map(String::as_str) {
         Some("chains") => Box::new(Chains),
+        Some("limbs") => Box::new(Limbs),
         Some("loops") => Box::new(Loops),
         _ => {
-            println!("chains|loops|grammar|broken|manipulated|rustc [--models N] [--seed S] [--shown K] [--seconds T]");
+            println!(
+                "chains|limbs|loops|grammar|broken|manipulated|rustc [--models N] [--seed S] [--shown K] [--seconds T]"
+            );
             println!("jury {}", jury::USAGE);
             println!("written {}", written::USAGE);
             return ExitCode::FAILURE;

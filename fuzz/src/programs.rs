@@ -7,8 +7,8 @@ use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::mechanics::loops::structure::Structure;
 use multibody_engine::model::types::{JointId, Model};
-use multibody_engine::optimize::Refusal;
-use multibody_engine::optimize::program::Compiled;
+use multibody_engine::optimize::program::{Compiled, Function};
+use multibody_engine::optimize::{Refusal, packs};
 use multibody_engine::{Trouble, compile, model, syntax};
 
 use crate::interpreter;
@@ -30,8 +30,19 @@ pub enum Failure {
     Refused(Vec<String>),
     /// The engine's own check of what it has compiled says no.
     Engine(Refusal),
+    /// Its optimiser has made something wrong, and the check has put the derived equations in its place.
+    GivenBack,
     /// The engine broke.
     Panic,
+}
+
+/// Whose method a function is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// That of `Model`.
+    Model,
+    /// That of what `Model::at` gives.
+    At,
 }
 
 /// Where the values of symbols come from.
@@ -59,6 +70,7 @@ impl Programs {
     /// Compiles a checked model.
     pub(crate) fn of(model: Model) -> Result<Programs, Failure> {
         match compile(&model) {
+            Ok((_, compiled)) if !compiled.sound => Err(Failure::GivenBack),
             Ok((structure, compiled)) => Ok(Programs { model, structure, compiled }),
             Err(trouble) => Err(match trouble {
                 Trouble::Complaints(list) => Failure::Refused(list.into_iter().map(|c| c.message).collect()),
@@ -74,9 +86,30 @@ impl Programs {
         self.model.joints.get(id.0).map(|joint| joint.place.field.to_string()).unwrap_or_default()
     }
 
-    /// Results of a function, if the model has it.
+    /// Functions that go on from what `Model::at` computes.
+    pub fn behind(&self) -> &[Function] {
+        self.compiled.at.as_ref().map_or(&[], |at| &at.functions)
+    }
+
+    /// Whether limbs are computed together anywhere.
+    pub fn has_packs(&self) -> bool {
+        let at = self.compiled.at.iter().map(|at| &at.program);
+        let functions = self.compiled.functions.iter().chain(self.behind()).map(|function| &function.program);
+        at.chain(functions).any(|program| packs::operations(program).is_some())
+    }
+
+    /// Results of a method of `Model`, if the model has it.
     pub fn run(&self, kind: FunctionKind, values: &dyn Values) -> Option<Vec<f64>> {
-        let function = self.compiled.functions.iter().find(|f| f.kind == kind)?;
+        self.run_by(Way::Model, kind, values)
+    }
+
+    /// Results of a method of either, if there is one.
+    pub fn run_by(&self, way: Way, kind: FunctionKind, values: &dyn Values) -> Option<Vec<f64>> {
+        let functions = match way {
+            Way::Model => &self.compiled.functions,
+            Way::At => self.behind(),
+        };
+        let function = functions.iter().find(|f| f.kind == kind)?;
         let symbols = |symbol: Symbol| {
             let joint = match symbol {
                 Symbol::Position { joint, .. }
@@ -89,13 +122,24 @@ impl Programs {
             values.value(symbol, joint.as_deref())
         };
         let none = |_| f64::NAN;
-        let fields = interpreter::run(&self.compiled.prelude, &symbols, &none);
-        Some(interpreter::run(&function.program, &symbols, &|field| fields[field.0]))
+        let mut fields = interpreter::run(&self.compiled.prelude, &symbols, &none);
+        let Some(at) = self.compiled.at.as_ref().filter(|_| way == Way::At) else {
+            return Some(interpreter::run(&function.program, &symbols, &|field| fields[field.0]));
+        };
+        let stored = interpreter::run(&at.program, &symbols, &|field| fields[field.0]);
+        fields.extend(stored);
+        // What `Model::at` takes is not there for the methods of what it gives.
+        let late = |symbol: Symbol| match symbol {
+            Symbol::Time | Symbol::Position { .. } | Symbol::State { .. } | Symbol::Guess { .. } => f64::NAN,
+            other => symbols(other),
+        };
+        Some(interpreter::run(&function.program, &late, &|field| fields[field.0]))
     }
 
     /// The greatest ratio of two literals of a function: what comes of a division by rounding is far from all others.
     pub fn extremes(&self) -> (f64, f64) {
-        let all = self.compiled.functions.iter().flat_map(|f| f.program.literals());
+        let functions = self.compiled.functions.iter().chain(self.behind());
+        let all = functions.flat_map(|f| f.program.literals());
         let sizes = all.chain(self.compiled.prelude.literals()).map(f64::abs).filter(|x| *x > 0.0);
         sizes.fold((f64::INFINITY, 0.0), |(low, high), x| (low.min(x), high.max(x)))
     }

@@ -1,8 +1,10 @@
 //! A bounded, seeded sample of the long runs (see `ARCHITECTURE.md`, "How it is proven").
 
+use std::ops::Range;
 use std::time::Duration;
 
-use multibody_fuzz::campaign::{Chains, Family, Loops, Plan, run};
+use multibody_fuzz::campaign::{Chains, Family, Limbs, Loops, Plan, Tally, run};
+use multibody_fuzz::mechanism::Mechanism;
 use multibody_fuzz::{differentiated, grammar_campaign, manipulated};
 
 fn plan(models: usize, seed: u64) -> Plan {
@@ -11,15 +13,52 @@ fn plan(models: usize, seed: u64) -> Plan {
 }
 
 #[track_caller]
-fn passes(family: &dyn Family, models: usize, seed: u64) {
+fn passes(family: &dyn Family, models: usize, seed: u64) -> Tally {
     let tally = run(family, plan(models, seed));
+    println!("{tally} compared");
     assert!(tally.models > 0 && tally.numbers > 0);
     assert_eq!(tally.failures(), 0, "{:#?}\n{}", tally.classes, tally.reports.join("\n"));
+    tally
+}
+
+/// Whatever is asked for in another form is compared, unless the model is refused.
+#[track_caller]
+fn passes_in_all_forms(family: &dyn Family, models: usize, seed: u64) -> Tally {
+    let tally = passes(family, models, seed);
+    let refused: usize = tally.classes.values().map(Vec::len).sum();
+    let [at, triangles] = asked(family, seed..seed + tally.models as u64);
+    assert!(
+        tally.at + refused >= at && tally.triangles + refused >= triangles,
+        "{tally}; {at} and {triangles} asked for"
+    );
+    tally
+}
+
+/// How many models ask for functions behind `Model::at`, and for triangles.
+fn asked(family: &dyn Family, seeds: Range<u64>) -> [usize; 2] {
+    let drawn: Vec<Mechanism> = seeds.map(|seed| family.draw(seed)).collect();
+    let of = |has: fn(&Mechanism) -> bool| drawn.iter().filter(|mechanism| has(mechanism)).count();
+    [of(|m| !m.at.is_empty()), of(|m| m.emit.contains(&"mass_matrix_lower"))]
 }
 
 #[test]
 fn chains_and_trees() {
-    passes(&Chains, 80, 1);
+    passes_in_all_forms(&Chains, 80, 1);
+}
+
+#[test]
+fn limbs_that_are_alike() {
+    // Packs in more than half of them, however many the time is enough for.
+    let tally = passes_in_all_forms(&Limbs, 40, 2);
+    assert!(2 * tally.packs > tally.models, "{tally}");
+}
+
+#[test]
+fn other_forms_are_drawn_often() {
+    for family in [&Chains as &dyn Family, &Limbs, &Loops] {
+        let asked = asked(family, 1..101);
+        assert!(asked.iter().all(|&count| count > 25), "{asked:?}");
+    }
 }
 
 #[test]

@@ -31,7 +31,32 @@ impl Mechanism {
             }
         }
         m.outputs = random.chance(30) && m.freedoms() <= 10;
+        m.ask_twice(random);
         m
+    }
+
+    /// What is asked for in other forms too: the mass matrix as a triangle, functions behind what a position decides.
+    pub fn ask_twice(&mut self, random: &mut Random) {
+        if random.chance(35) {
+            self.emit.push("mass_matrix_lower");
+        }
+        if !random.chance(40) {
+            return;
+        }
+        let impulse = self.emit.contains(&"impulse");
+        let of_word = |word: &&'static str| match *word {
+            "energy" => vec!["kinetic_energy", "potential_energy"],
+            "derivatives" => vec!["forward_derivatives", "inverse_derivatives"],
+            // An impulse is divided by the mass matrix as momenta are: then one function does for both.
+            "momentum" if impulse => vec!["momentum", "momentum_rate"],
+            "momentum" => vec!["momentum", "momentum_rate", "velocity"],
+            word => vec![word],
+        };
+        let outputs = self.outputs.then_some("outputs");
+        let all: Vec<&str> = self.emit.iter().flat_map(of_word).chain(outputs).collect();
+        // What is left to a function alone is another program than what several share.
+        let some: Vec<&str> = all.iter().copied().filter(|_| random.chance(60)).collect();
+        self.at = if some.is_empty() { all } else { some };
     }
 
     /// Parameters and gravity.

@@ -36,6 +36,7 @@ impl Mechanism {
                 }
                 m.outputs = random.chance(70);
                 m.formulate(random);
+                m.ask_twice(random);
                 return m;
             }
         }

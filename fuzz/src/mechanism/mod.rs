@@ -5,6 +5,7 @@
 
 pub mod draw;
 pub mod expression;
+pub mod limbs;
 pub mod loops;
 pub mod numbers;
 pub mod shrink;
@@ -29,8 +30,12 @@ pub struct Mechanism {
     pub rods: Vec<Rod>,
     /// `f0`, `f1`, ..
     pub forces: Vec<Force>,
-    /// The words of `emit`, and what the formulation says.
+    /// The words of `emit`.
     pub emit: Vec<&'static str>,
+    /// Functions that go on from a position.
+    pub at: Vec<&'static str>,
+    /// Whether limbs that are alike are computed together.
+    pub packs: bool,
     /// Items that are written at the end as they are.
     pub tail: String,
     /// Whether outputs are written, and looked at.

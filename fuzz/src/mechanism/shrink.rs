@@ -42,6 +42,13 @@ impl Mechanism {
                 true
             });
         }
+        for k in 0..self.at.len() {
+            offer(&|m| {
+                m.at.remove(k);
+                true
+            });
+        }
+        offer(&|m| std::mem::take(&mut m.packs));
         for k in 0..self.emit.len() {
             offer(&|m| {
                 m.emit.remove(k);

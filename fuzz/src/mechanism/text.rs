@@ -85,8 +85,14 @@ impl Mechanism {
             }
         }
         out.push_str(&self.tail);
+        if self.packs {
+            writeln!(out, "    formulation {{ packs: Four }}")?;
+        }
         if !self.emit.is_empty() {
             writeln!(out, "    emit {};", self.emit.join(", "))?;
+        }
+        if !self.at.is_empty() {
+            writeln!(out, "    emit at {{ functions: [{}] }};", self.at.join(", "))?;
         }
         Ok(())
     }

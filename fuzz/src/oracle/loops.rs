@@ -6,7 +6,7 @@ use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics::loops::structure::Means;
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use super::{At, Findings, Verdict};
 use crate::algebra::{V3, apply, dot, extremes, least, norm, quaternion, transposed};
@@ -14,7 +14,7 @@ use crate::closed::{accelerations, jacobian, settled, state, turns_beside};
 use crate::mechanism::Mechanism;
 use crate::mechanism::expression::Point;
 use crate::plain::{Motion, Plain, displaced, split};
-use crate::programs::{Failure, Programs, Values};
+use crate::programs::{Programs, Values, Way};
 use crate::random::Random;
 
 const TOLERANCE: f64 = 1e-7;
@@ -23,16 +23,17 @@ const TOLERANCE: f64 = 1e-7;
 pub fn check(mechanism: &Mechanism, seed: u64) -> Verdict {
     let programs = match Programs::new(&mechanism.text()) {
         Ok(programs) => programs,
-        Err(Failure::Panic) => return Verdict::Panic,
-        Err(Failure::Engine(refusal)) => return Verdict::Engine(refusal),
-        Err(Failure::Refused(list)) => return Verdict::Refused(list),
+        Err(failure) => return failure.into(),
     };
     let mut random = Random::new(seed);
-    let mut findings = Findings::default();
+    let mut findings = Findings::new(&programs);
     for _ in 0..8 {
         let Some(point) = state(mechanism, &mut random) else { continue };
-        look(mechanism, &programs, &point, &mut findings);
-        if findings.compared > 400 {
+        for way in [Way::Model, Way::At] {
+            findings.way = way;
+            look(mechanism, &programs, &point, &mut findings);
+        }
+        if findings.compared.numbers - findings.compared.at > 400 {
             break;
         }
     }
@@ -183,11 +184,13 @@ fn look(m: &Mechanism, programs: &Programs, point: &Point, findings: &mut Findin
     let values = Anywhere { tree: At::new(&point), bodies: &plain.bodies, quaternions, guesses };
     let fastest = found.accelerations.iter().fold(10.0_f64, |r, x| r.max(x.abs()));
     let reach = 1.0 + plain.bodies.iter().fold(0.0_f64, |r, b| r.max(norm(b.place)));
+    let way = findings.way;
+    let run = |kind| programs.run_by(way, kind, &values);
     let [kinetic, potential] = plain.energies();
-    if let Some(got) = programs.run(FunctionKind::KineticEnergy, &values) {
+    if let Some(got) = run(FunctionKind::KineticEnergy) {
         findings.compare("kinetic energy", &got, &[kinetic], kinetic, TOLERANCE);
     }
-    if let Some(got) = programs.run(FunctionKind::PotentialEnergy, &values) {
+    if let Some(got) = run(FunctionKind::PotentialEnergy) {
         findings.compare("potential energy", &got, &[potential], potential.abs() + kinetic + 1.0, TOLERANCE);
     }
     let equations = programs.structure.independent.len();
@@ -201,21 +204,25 @@ fn look(m: &Mechanism, programs: &Programs, point: &Point, findings: &mut Findin
         let state: Vec<(usize, usize)> =
             programs.structure.state.iter().filter_map(|c| Some((joint(c.joint.0)?, c.index))).collect();
         let want: Vec<f64> = state.iter().map(|&(j, k)| point.a[j][k]).collect();
-        if let Some(got) = programs.run(FunctionKind::ForwardDynamics, &values) {
+        if let Some(got) = run(FunctionKind::ForwardDynamics) {
             let got = &got[..want.len().min(got.len())];
             findings.compare("forward dynamics", got, &want, fastest / ratio, TOLERANCE);
         }
-        if let Some(got) = programs.run(FunctionKind::MassMatrix, &values) {
-            let v: Vec<f64> = state.iter().map(|&(j, k)| point.v[j][k]).collect();
-            let twice: f64 = got
-                .chunks(v.len().max(1))
-                .zip(&v)
-                .map(|(row, x)| x * row.iter().zip(&v).map(|(m, y)| m * y).sum::<f64>())
-                .sum();
-            findings.compare("mass matrix (energy)", &[0.5 * twice], &[kinetic], kinetic, TOLERANCE);
+        let v: Vec<f64> = state.iter().map(|&(j, k)| point.v[j][k]).collect();
+        let whole = run(FunctionKind::MassMatrix).map(|got| DMatrix::from_row_slice(v.len(), v.len(), &got));
+        if let Some(matrix) = &whole {
+            findings.compare("mass matrix (energy)", &[energy(matrix, &v)], &[kinetic], kinetic, TOLERANCE);
+        }
+        if let Some(got) = run(FunctionKind::MassMatrixLower) {
+            let energy = energy(&full(&got, v.len()), &v);
+            findings.compare("lower triangle (energy)", &[energy], &[kinetic], kinetic, TOLERANCE);
+            findings.compared.triangles += 1;
+            if let Some(whole) = &whole {
+                findings.compare_lower(&got, whole, whole.amax(), TOLERANCE);
+            }
         }
         if m.tail.contains("Reduced")
-            && let Some(got) = programs.run(FunctionKind::InverseDynamics, &values)
+            && let Some(got) = run(FunctionKind::InverseDynamics)
         {
             let zero = vec![0.0; got.len()];
             findings.compare("inverse dynamics (left)", &got, &zero, plain.efforts().1 / ratio, TOLERANCE);
@@ -226,6 +233,20 @@ fn look(m: &Mechanism, programs: &Programs, point: &Point, findings: &mut Findin
     }
 }
 
+/// The kinetic energy by a mass matrix.
+fn energy(matrix: &DMatrix<f64>, v: &[f64]) -> f64 {
+    let v = DVector::from_column_slice(v);
+    0.5 * v.dot(&(matrix * &v))
+}
+
+/// The symmetric matrix of a triangle's rows.
+fn full(packed: &[f64], size: usize) -> DMatrix<f64> {
+    DMatrix::from_fn(size, size, |row, column| {
+        let (below, left) = (row.max(column), row.min(column));
+        packed.get(below * (below + 1) / 2 + left).copied().unwrap_or(f64::NAN)
+    })
+}
+
 fn outputs(
     m: &Mechanism,
     programs: &Programs,
@@ -234,7 +255,7 @@ fn outputs(
     (reach, fastest): (f64, f64),
     findings: &mut Findings,
 ) {
-    let Some(got) = programs.run(FunctionKind::Outputs, values) else { return };
+    let Some(got) = programs.run_by(findings.way, FunctionKind::Outputs, values) else { return };
     // What has a fixed width stands before and behind the Jacobians.
     let freedoms = programs.structure.freedoms();
     let mut rest = &got[..];

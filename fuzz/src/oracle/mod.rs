@@ -7,23 +7,50 @@ use std::fmt;
 
 use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::optimize::Refusal;
+use nalgebra::DMatrix;
 
 use crate::mechanism::expression::Point;
-use crate::programs::Values;
+use crate::programs::{Failure, Programs, Values, Way};
 
 /// What became of a model.
 #[derive(Clone, Debug)]
 pub enum Verdict {
-    /// Everything agrees; so many numbers were compared.
-    Right(usize),
+    /// Everything agrees.
+    Right(Compared),
     /// The compiler says no.
     Refused(Vec<String>),
     /// The compiler says that it has made an error: no reason excuses it.
     Engine(Refusal),
+    /// The compiler has told what its optimiser made from the derived equations, and taken these.
+    GivenBack,
     /// A panic.
     Panic,
     /// What, by how much, and where.
     Wrong(Vec<Fault>),
+}
+
+/// What has been looked at.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Compared {
+    /// All numbers.
+    pub numbers: usize,
+    /// Those of functions that go on from what `Model::at` computes.
+    pub at: usize,
+    /// Those of lower triangles.
+    pub triangles: usize,
+    /// Whether limbs were computed together.
+    pub packs: bool,
+}
+
+impl From<Failure> for Verdict {
+    fn from(failure: Failure) -> Verdict {
+        match failure {
+            Failure::Refused(list) => Verdict::Refused(list),
+            Failure::Engine(refusal) => Verdict::Engine(refusal),
+            Failure::GivenBack => Verdict::GivenBack,
+            Failure::Panic => Verdict::Panic,
+        }
+    }
 }
 
 /// Numbers that don't agree.
@@ -53,6 +80,7 @@ impl Verdict {
                 format!("refused: {}", class.chars().map(digits).collect::<String>())
             }
             Verdict::Engine(refusal) => format!("engine: {refusal:?}"),
+            Verdict::GivenBack => "engine: what the optimiser made was given back".into(),
             Verdict::Panic => "panic".into(),
             Verdict::Wrong(list) => {
                 let text = list.first().map_or("", |fault| fault.what.as_str());
@@ -65,9 +93,10 @@ impl Verdict {
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Verdict::Right(count) => write!(f, "right ({count} numbers)"),
+            Verdict::Right(compared) => write!(f, "right ({} numbers)", compared.numbers),
             Verdict::Refused(list) => write!(f, "refused: {}", list.join("; ")),
             Verdict::Engine(refusal) => write!(f, "the engine's own check: {refusal:?}"),
+            Verdict::GivenBack => write!(f, "the engine's own check has given back what the optimiser made"),
             Verdict::Panic => write!(f, "panic"),
             Verdict::Wrong(list) => {
                 for fault in list.iter().take(4) {
@@ -79,20 +108,34 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// Faults so far, and how many numbers were compared.
-#[derive(Default)]
+/// Faults so far, and what was compared.
 pub struct Findings {
     faults: Vec<Fault>,
-    compared: usize,
+    compared: Compared,
+    /// Whose methods are looked at.
+    way: Way,
 }
 
 impl Findings {
+    /// Nothing yet.
+    pub fn new(programs: &Programs) -> Findings {
+        let compared = Compared { packs: programs.has_packs(), ..Compared::default() };
+        Findings { faults: Vec::new(), compared, way: Way::Model }
+    }
+
     /// Two lists, whose errors count in terms of `size`.
     pub fn compare(&mut self, what: &str, got: &[f64], want: &[f64], size: f64, tolerance: f64) {
-        self.compared += got.len();
+        self.compared.numbers += got.len();
+        let what = match self.way {
+            Way::Model => what.to_owned(),
+            Way::At => {
+                self.compared.at += got.len();
+                format!("at: {what}")
+            }
+        };
         if got.len() != want.len() {
             let detail = format!("{} numbers for {}", got.len(), want.len());
-            self.faults.push(Fault { what: what.into(), error: f64::INFINITY, detail });
+            self.faults.push(Fault { what, error: f64::INFINITY, detail });
             return;
         }
         let mut worst = (0.0_f64, 0);
@@ -106,8 +149,15 @@ impl Findings {
         if worst.0 > tolerance {
             let k = worst.1;
             let detail = format!("number {k} of {}: {:e} for {:e}", got.len(), got[k], want[k]);
-            self.faults.push(Fault { what: what.into(), error: worst.0, detail });
+            self.faults.push(Fault { what, error: worst.0, detail });
         }
+    }
+
+    /// What is on and below the diagonal of a matrix, row by row.
+    pub fn compare_lower(&mut self, got: &[f64], want: &DMatrix<f64>, size: f64, tolerance: f64) {
+        self.compared.triangles += got.len();
+        let rows = (0..want.nrows()).flat_map(|row| (0..=row).map(move |column| want[(row, column)]));
+        self.compare("lower triangle of the mass matrix", got, &rows.collect::<Vec<f64>>(), size, tolerance);
     }
 
     /// What became of it.

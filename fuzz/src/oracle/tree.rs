@@ -8,7 +8,7 @@ use crate::algebra::{V3, norm};
 use crate::mechanism::Mechanism;
 use crate::mechanism::expression::Point;
 use crate::plain::{Plain, displaced, split};
-use crate::programs::{Failure, Programs};
+use crate::programs::{Programs, Way};
 use crate::random::Random;
 
 /// Relative to the sizes that sums are made of.
@@ -18,15 +18,16 @@ const TOLERANCE: f64 = 1e-9;
 pub fn check(mechanism: &Mechanism, seed: u64) -> Verdict {
     let programs = match Programs::new(&mechanism.text()) {
         Ok(programs) => programs,
-        Err(Failure::Panic) => return Verdict::Panic,
-        Err(Failure::Engine(refusal)) => return Verdict::Engine(refusal),
-        Err(Failure::Refused(list)) => return Verdict::Refused(list),
+        Err(failure) => return failure.into(),
     };
     let mut random = Random::new(seed);
-    let mut findings = Findings::default();
+    let mut findings = Findings::new(&programs);
     for _ in 0..3 {
         let point = mechanism.point(&mut random);
-        Sight { mechanism, programs: &programs, point }.all(&mut findings);
+        for way in [Way::Model, Way::At] {
+            findings.way = way;
+            Sight { mechanism, programs: &programs, way, point: point.clone() }.all(&mut findings);
+        }
     }
     findings.verdict()
 }
@@ -46,12 +47,13 @@ pub fn is_singular(mechanism: &Mechanism, seed: u64) -> bool {
 struct Sight<'a> {
     mechanism: &'a Mechanism,
     programs: &'a Programs,
+    way: Way,
     point: Point,
 }
 
 impl Sight<'_> {
     fn run(&self, kind: FunctionKind, point: &Point) -> Option<Vec<f64>> {
-        self.programs.run(kind, &At::new(point))
+        self.programs.run_by(self.way, kind, &At::new(point))
     }
 
     fn at(&self, v: &[Vec<f64>], a: &[Vec<f64>]) -> Point {
@@ -71,6 +73,9 @@ impl Sight<'_> {
         }
         if let Some(got) = self.run(FunctionKind::MassMatrix, point) {
             findings.compare("mass matrix", &got, &flat, largest, TOLERANCE);
+        }
+        if let Some(got) = self.run(FunctionKind::MassMatrixLower, point) {
+            findings.compare_lower(&got, &matrix, largest, TOLERANCE);
         }
         let rest = self.at(&point.v, &none);
         let (bias, bias_size) = Plain::new(m, &rest).efforts();
@@ -187,7 +192,7 @@ impl Sight<'_> {
         let list: Vec<f64> = momenta.iter().copied().collect();
         let mut at = At::new(&self.point);
         at.momenta = split(m, &list);
-        let run = |kind| self.programs.run(kind, &at);
+        let run = |kind| self.programs.run_by(self.way, kind, &at);
         let ratio = || {
             let eigen = matrix.clone().symmetric_eigenvalues();
             eigen.amax() / eigen.iter().fold(f64::INFINITY, |m, x| m.min(x.abs()))

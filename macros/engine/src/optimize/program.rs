@@ -297,8 +297,8 @@ pub struct Compiled {
     pub checks: Checks,
     /// What `System::without_inertia` looks at: entries row by row. It reads fields.
     pub inertia: Inertia<Program>,
-    /// Whether every rewrite passed the identity test. Where one didn't, the function stands as it was derived: right, but
-    /// more expensive than need be. The tests see to it that this never happens.
+    /// Whether every rewrite passed the identity test, and every program the check of stage `verify`. Where one didn't, the
+    /// function stands as it was derived: right, but more expensive than need be. The tests see to it that this never happens.
     pub sound: bool,
     /// What stage `verify` could not compare with its derived equations.
     pub unchecked: Vec<Unchecked>,
