@@ -49,12 +49,26 @@ pub enum Break {
     Pitch,
     /// Stiffness and damping change places.
     SpringData,
+    /// `Model::at`: later work reads another one of the values that are stored.
+    StoredSlot,
+    /// `Model::at`: what depends on velocities counts as known with the position.
+    EarlyVelocity,
+    /// Packs: a member that is minus what its lane gives is taken as it is.
+    LaneSign,
+    /// Packs: a scalar is put into the lane next to its own.
+    LaneIndex,
+    /// Packs: a sum over several limbs forgets what the second one has in it.
+    LostShare,
+    /// Assembly modes: the sign of a part of the point where three spheres meet.
+    MeetingSign,
+    /// Assembly modes: two square roots have one side in common, so half of the modes are lost.
+    LostSide,
     /// Arguments of functions are printed in the wrong order.
     PrintedArguments,
 }
 
 impl Break {
-    pub const ALL: [Break; 23] = [
+    pub const ALL: [Break; 30] = [
         Break::LeverSign,
         Break::CentrifugalSign,
         Break::HandedSign,
@@ -77,6 +91,13 @@ impl Break {
         Break::AxisTurn,
         Break::Pitch,
         Break::SpringData,
+        Break::StoredSlot,
+        Break::EarlyVelocity,
+        Break::LaneSign,
+        Break::LaneIndex,
+        Break::LostShare,
+        Break::MeetingSign,
+        Break::LostSide,
         Break::PrintedArguments,
     ];
 }

@@ -239,7 +239,8 @@ fn at(members: &[Member<'_>], found: &Together, (fields, names): (&schedule::Fie
     let mut fields = fields.clone();
     for (number, &(_, id)) in position.roots.iter().enumerate() {
         let print = position.nodes[id].print;
-        fields.insert(print.canonical(), (FieldId(names.len() + number), print));
+        let slot = if broken(Break::StoredSlot) { (number + 1) % position.roots.len() } else { number };
+        fields.insert(print.canonical(), (FieldId(names.len() + slot), print));
     }
     let names: Vec<String> = names.iter().chain(&stored).cloned().collect();
     let costs = found.costs();

@@ -20,6 +20,7 @@ mod worth;
 
 use std::collections::{BTreeSet, HashSet};
 
+use crate::invariant::injection::{Break, broken};
 use crate::mechanics::limbs::Limbs;
 
 use likeness::{Likeness, Owner};
@@ -175,6 +176,9 @@ fn part(program: &mut Program, limbs: &Limbs) -> bool {
             let name = program.locals[local.0].trim_start_matches("minus_").to_owned();
             let heading = program.headings.get(local.0).cloned().flatten();
             take_parts(&likeness, value, &mut |part| {
+                if broken(Break::LostShare) && parts.len() == 1 {
+                    return Expression::Literal(0.0);
+                }
                 let mut number = 1;
                 while names.contains(&format!("{name}_part_{number}")) {
                     number += 1;

@@ -14,6 +14,7 @@ use std::ops::{Mul, Range};
 
 use crate::contracts::cost::Cost;
 use crate::contracts::symbol::Symbol;
+use crate::invariant::injection::{Break, broken};
 use crate::symbolic::fingerprint::Print;
 use crate::symbolic::graph::{BlockKind, SymbolId};
 use crate::symbolic::number::Number;
@@ -248,7 +249,8 @@ fn union(dags: &[&Dag], symbols: &[Symbol]) -> Dag {
 fn is_early(dag: &Dag, inside: &[bool], id: Id) -> bool {
     let stage = dag.nodes[id].stage;
     let inside = inside.get(id).copied().unwrap_or(false);
-    stage > Stage::Parameter && stage <= Stage::Position && !inside && !dag.is_mask(id)
+    let last = if broken(Break::EarlyVelocity) { Stage::Velocity } else { Stage::Position };
+    stage > Stage::Parameter && stage <= last && !inside && !dag.is_mask(id)
 }
 
 /// Values that change in the rounds of an iteration, and have no meaning outside.

@@ -2,11 +2,13 @@
 //!
 //! In: the derivation and what was compiled of it. Out: what is wrong, what is not clear. Each program is run behind that of
 //! `Model::at`, and compared with the equations that it was made from, as any function is. These may be derived in another way
-//! than those of the method of `Model` that has the same name: then both are evaluated with 31 digits, and must agree.
+//! than those of the method of `Model` that has the same name: then both are evaluated with 31 digits, and must agree. What is
+//! computed at a position may read nothing that is known later, which no comparison at one state shows.
 
 use crate::contracts::function::FunctionKind;
 use crate::mechanics::Derivation;
-use crate::optimize::program::{Compiled, Doubt, Part, Unchecked};
+use crate::optimize::program::{At, Compiled, Doubt, Expression, Part, Unchecked};
+use crate::optimize::stage::Stage;
 use crate::symbolic::doubled::Doubled;
 use crate::symbolic::graph::SymbolId;
 
@@ -31,6 +33,10 @@ pub(super) fn check(
     has_residual: impl Fn(FunctionKind) -> bool,
 ) {
     let Some(at) = &compiled.at else { return };
+    // At one state the program has the same values, whatever it reads.
+    if !is_early(at) {
+        found.wrong_at = at.functions.first().map(|function| function.kind);
+    }
     for function in &at.functions {
         let results = of(derivation, function);
         let tape = Tape::new(&derivation.graph, results);
@@ -50,6 +56,17 @@ pub(super) fn check(
             Verdict::Unclear(doubt) => open(found, function.kind, doubt),
         }
     }
+}
+
+/// Whether `Model::at` reads nothing that is known later than the position.
+fn is_early(at: &At) -> bool {
+    let mut early = true;
+    for expression in at.program.expressions() {
+        expression.each_leaf(&mut |leaf| {
+            early &= !matches!(leaf, Expression::Symbol(symbol) if Stage::of(*symbol) > Stage::Position);
+        });
+    }
+    early
 }
 
 fn open(found: &mut Found, kind: FunctionKind, doubt: Doubt) {

@@ -1,7 +1,7 @@
 //! Models that use every stage that is broken, with all that they may emit, and with forward dynamics alone.
 
 /// Name and text.
-pub(crate) const MODELS: [(&str, &str); 12] = [
+pub(crate) const MODELS: [(&str, &str); 15] = [
     (
         "double_pendulum",
         "mod double_pendulum {
@@ -202,6 +202,67 @@ pub(crate) const MODELS: [(&str, &str); 12] = [
             solve (x, y, z) from (first, second, third) { z < 0.0 }
             formulation { constraints: Reduced }
             emit forward_dynamics;
+        }",
+    ),
+    (
+        "spider",
+        "mod leg {
+            port hip: Frame;
+            param side = 1.0;
+            body thigh { mass: 0.4, com: [0.12, 0.03 * side, -0.02], inertia: diag(0.002, 0.004, 0.005) }
+            body shin { mass: 0.3, com: [0.17, -0.02 * side, 0.01], inertia: diag(0.001, 0.003, 0.003) }
+            joint lift: Revolute { parent: hip, child: thigh, axis: [0.1 * side, 1.0, 0.2 * side] }
+            joint knee: Revolute { parent: thigh.at([0.3, 0.02 * side, -0.01]), child: shin, axis: Y }
+        }
+        mod spider {
+            formulation { packs: Four }
+            const HIPS: [Vec3; 4] = [[0.31, 0.22, 0.03], [0.31, -0.22, 0.03], [-0.28, 0.19, 0.05], [-0.28, -0.19, 0.05]];
+            const SIDES: [Scalar; 4] = [1.0, -1.0, 1.0, -1.0];
+            world { gravity: [0.3, -0.2, -9.7] }
+            body trunk { mass: 2.1, com: [0.02, -0.01, 0.03], inertia: diag(0.031, 0.043, 0.059) }
+            joint float: Free { parent: ground, child: trunk }
+            part legs: [leg; 4] = |i| leg { hip: trunk.at(HIPS[i]).rotated(X, 0.1 * SIDES[i]), side: SIDES[i] };
+            emit forward_dynamics, inverse_dynamics;
+            emit at { functions: [forward_dynamics, inverse_dynamics] };
+        }",
+    ),
+    (
+        "pair_at",
+        "mod pair_at {
+            param l = 0.7;
+            world { gravity: -9.81 * Y }
+            body upper { mass: 2.0, com: -0.4 * l * Y + 0.1 * Z, inertia: inertia(0.1, 0.05, 0.12, 0.01, 0.02, -0.01) }
+            body lower { mass: 1.3, com: 0.1 * X - 0.2 * Y, inertia: diag(0.1, 0.03, 0.11) }
+            joint shoulder: Universal { parent: ground, child: upper, axes: [[1.0, 2.0, 2.0], [2.0, 1.0, -2.0]] }
+            joint elbow: Revolute { parent: upper.at(-l * Y), child: lower, axis: [0.6, 0.0, 0.8] }
+            emit forward_dynamics, inverse_dynamics, mass_matrix;
+            emit at { functions: [forward_dynamics, inverse_dynamics, mass_matrix] };
+        }",
+    ),
+    (
+        "three_two_one",
+        "mod leg {
+            port base: Frame;
+            port tip: Frame;
+            body cylinder { mass: 0.1, com: 0.5 * Z, inertia: diag(0.00625, 0.00625, 0.001) }
+            body piston { mass: 0.1, com: -0.5 * Z, inertia: diag(0.00625, 0.00625, 0.001) }
+            joint gimbal: Universal { parent: base, child: cylinder, axes: [X, Y] }
+            joint stroke: Prismatic { parent: cylinder.at(0.9 * Z), child: piston, axis: Z }
+            #[cut]
+            joint ball: Ball { parent: piston, child: tip }
+            solve (gimbal, stroke) from ball { stroke > -0.9, cos(gimbal.second) > 0.0 }
+        }
+        mod three_two_one {
+            param FEET: [Vec3; 6] = [
+                [-2.12, 1.374, 0.07], [-2.38, 1.024, -0.13], [-2.18, -1.224, 0.21], [-2.02, -1.474, -0.05],
+                [0.13, -0.25, 0.11], [0.09, 0.45, -0.17],
+            ];
+            param PINS: [Vec3; 3] = [[0.17, 0.595, -0.43], [-0.57, -0.15, -0.41], [0.53, -0.345, -0.32]];
+            let ends = [PINS[0], PINS[1], PINS[0], PINS[2], PINS[0], PINS[1]];
+            body plate { mass: 1.5, inertia: diag(0.08, 0.07, 0.09), coordinates: Absolute(RollPitchYaw) }
+            part legs: [leg; 6] = |i| leg { base: ground.at(FEET[i]).rotated([1.0, 2.0, 0.3], 0.3), tip: plate.at(ends[i]) };
+            formulation { constraints: Multipliers }
+            emit assembly_modes { given: legs.stroke, find: plate.pose };
         }",
     ),
 ];

@@ -21,7 +21,7 @@ use crate::mechanics::loops::reduction::{Map, Reduction};
 use crate::mechanics::loops::structure::{Closed, Means, Modes, Role, Structure};
 use crate::model::site::Sited;
 use crate::model::types::{Coordinate, JointId, Kinematics};
-use crate::solve::placement::{Placed, Placement, Unplaced};
+use crate::solve::placement::{Alternative, Placed, Placement, Unplaced};
 use crate::solve::{KinematicLoop, Segment};
 use crate::symbolic::evaluate::{Evaluator, Real};
 use crate::symbolic::graph::{Scalar, SymbolId};
@@ -77,7 +77,7 @@ impl Equations<'_> {
             complain(message, "ask for `kinematics`, which finds the pose that is near by Newton's method")
         })?;
         let modes = Modes { sides: placement.sides(), roots: placement.roots(), choices: placement.choices() };
-        if !self.is_found(&placed, modes) {
+        if !self.is_found(&placed, modes) || !self.is_told_apart(&placed, &alternative, modes) {
             let message =
                 "the formulas of the assembly modes do not find the configurations that close the loops".to_owned();
             return Err(complain(
@@ -219,6 +219,13 @@ impl Equations<'_> {
         }
         let all = seen.len() + chain.len() == unknowns.len() && cycles.len() == chain.len();
         if all { Ok(cycles) } else { Err("each leg has to hold the body by one distance".to_owned()) }
+    }
+
+    /// Whether every side is in what it tells apart: modes that share one are counted twice, and others are lost, which the
+    /// configurations that are found need not show.
+    fn is_told_apart(&self, placed: &Placed, alternative: &Alternative, modes: Modes) -> bool {
+        let sides = &alternative.sides[..modes.sides + modes.choices];
+        sides.iter().all(|&side| placed.values.iter().any(|&value| self.g.depends_on(value, &[side])))
     }
 
     /// Whether the configurations that close the loops are among the modes.

@@ -6,6 +6,7 @@
 
 use std::collections::{HashMap, HashSet};
 
+use crate::invariant::injection::{Break, broken};
 use crate::optimize::program::{Expression, Local, MEMBERS, Program, Statement};
 
 use super::unify::Signs;
@@ -113,7 +114,7 @@ pub(super) fn ordered(mut program: Program, packs: &[Pack]) -> Program {
                 let own = old[number].as_ref().and_then(|statement| statement.defined().get(which).copied());
                 let Some(own) = own.filter(|own| read.contains(own)) else { continue };
                 members[place] = Some(own);
-                if pack.signs[place] {
+                if pack.signs[place] && !broken(Break::LaneSign) {
                     let name = &program.locals[own.0];
                     let name = name.strip_prefix("minus_").map_or(format!("minus_{name}"), str::to_owned);
                     let heading = program.headings.get(own.0).cloned().flatten();

@@ -11,6 +11,7 @@
 use std::collections::HashMap;
 
 use crate::contracts::call::Call;
+use crate::invariant::injection::{Break, broken};
 use crate::optimize::program::{Expression, Local, MEMBERS};
 
 use super::likeness::Likeness;
@@ -128,7 +129,8 @@ impl Unifier<'_> {
         }
         let mut list = vec![expression.clone(); MEMBERS];
         for &(place, expression) in members {
-            list[place] = expression.clone();
+            let lane = if broken(Break::LaneIndex) { (place + 1) % MEMBERS } else { place };
+            list[lane] = expression.clone();
         }
         Some(Value { expression: Expression::Pack(list), signs: none })
     }

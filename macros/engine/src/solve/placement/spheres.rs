@@ -3,6 +3,7 @@
 //! The first one has three distances from what is beside the body; the second two, and its distance from the first; the third one,
 //! and its distances from both.
 
+use crate::invariant::injection::{Break, broken};
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
 use super::{Alternative, Distance, Pose};
@@ -22,7 +23,8 @@ pub(super) fn pose(g: &mut Graph, groups: &[Vec<Distance>], at: &Alternative) ->
     let own = apart(g, 0, 1);
     let two = meeting(g, [(one, own), sphere(&second[0]), sphere(&second[1])], at.sides[1]);
     let (to_one, to_two) = (apart(g, 0, 2), apart(g, 1, 2));
-    let three = meeting(g, [(one, to_one), (two, to_two), sphere(&third[0])], at.sides[2]);
+    let last = if broken(Break::LostSide) { at.sides[1] } else { at.sides[2] };
+    let three = meeting(g, [(one, to_one), (two, to_two), sphere(&third[0])], last);
     Some(Pose::of_points(g, body, [one, two, three], None))
 }
 
@@ -34,7 +36,7 @@ pub(super) fn meeting(g: &mut Graph, spheres: [Sphere; 3], side: Scalar) -> Vect
     let (n2, h2) = plane(g, first, third);
     let normal = g.cross(n1, n2);
     let (a, b) = (g.scale(h1, n2), g.scale(h2, n1));
-    let across = g.sub_vectors(a, b);
+    let across = if broken(Break::MeetingSign) { g.add_vectors(a, b) } else { g.sub_vectors(a, b) };
     let (area, part) = (g.dot(normal, normal), g.dot(across, across));
     let whole = g.mul(first.1, area);
     let gap = g.sub(whole, part);
