@@ -16,7 +16,7 @@ use core::fmt;
 /// What can be written as a row: its scalars in order, each with its name and unit.
 ///
 /// Generated structs of fields implement it, from `Params` to `Output`, and so do `State`, what the fields are made of,
-/// arrays, references, and pairs for two of them side by side.
+/// arrays, and pairs for two of them side by side.
 ///
 /// ```
 /// use multibody::{Columns, multibody};
@@ -27,7 +27,7 @@ use core::fmt;
 ///         body bob { mass: 1.0, com: -Y }
 ///         joint hinge: Revolute { parent: ground, child: bob, axis: Z }
 ///         /// [m]
-///         output tip = position(bob.at(-Y));
+///         output tip = bob.at(-Y).position;
 ///     }
 /// }
 /// let output = pendulum::Model::<f64>::default().outputs(0.0, &pendulum::State::default(), &());

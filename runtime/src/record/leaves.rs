@@ -19,12 +19,6 @@ impl<T> Columns<T> for () {
     fn columns(&self, _: &Column<'_>, _: Visit<'_, T>) {}
 }
 
-impl<T, A: Columns<T>> Columns<T> for &A {
-    fn columns(&self, place: &Column<'_>, f: Visit<'_, T>) {
-        A::columns(self, place, f);
-    }
-}
-
 impl<T, A: Columns<T>, B: Columns<T>> Columns<T> for (A, B) {
     fn columns(&self, place: &Column<'_>, f: Visit<'_, T>) {
         self.0.columns(place, f);
@@ -83,7 +77,7 @@ macro_rules! of_fields {
     ($($name:ident { $($field:ident: $position:literal $rate:literal),+ })+) => {$(
         impl<T: Real> Columns<T> for $name<T> {
             fn columns(&self, place: &Column<'_>, f: Visit<'_, T>) {
-                $(self.$field.columns(&place.coordinate(stringify!($field), [$position, $rate]), f);)+
+                $(Columns::columns(&self.$field, &place.coordinate(stringify!($field), [$position, $rate]), f);)+
             }
         }
     )+};

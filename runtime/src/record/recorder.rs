@@ -19,7 +19,7 @@ use std::marker::PhantomData;
 ///         body bob { mass: 1.0, com: -Y }
 ///         joint hinge: Revolute { parent: ground, child: bob, axis: Z }
 ///         /// [m]
-///         output tip = position(bob.at(-Y));
+///         output tip = bob.at(-Y).position;
 ///     }
 /// }
 /// let model = pendulum::Model::<f64>::default();
