@@ -42,6 +42,7 @@
 //!   them closed.
 //! - [`impact`]: impulses, and impacts with Newton's law, at joints and frames.
 //! - [`mod@equilibrium`]: states of rest and steady motions.
+//! - [`record`]: names, units and values of generated structs, and `Recorder`, which writes them as CSV.
 //! - [`verify`](fn@verify): how well the functions of a model agree, for your tests.
 //! - [`linear`]: small linear systems, with their rank and without a branch.
 //!
@@ -107,6 +108,7 @@ mod opening;
 #[doc(hidden)]
 pub mod pivots;
 pub mod projection;
+pub mod record;
 pub mod rotation;
 mod sampled;
 mod scalar;
@@ -149,6 +151,9 @@ pub use projection::{
     Assembled, AssemblyError, Projected, Projection, ProjectionError, WithBaumgarte, WithProjection, WithRank,
     ambiguity, assemble,
 };
+#[cfg(feature = "std")]
+pub use record::Recorder;
+pub use record::{Column, Columns};
 pub use sampled::{Held, Sampled, sampled};
 pub use scalar::{Four, Packed, Real, all, any};
 pub use simba;

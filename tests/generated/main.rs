@@ -5,6 +5,7 @@ mod fuzz;
 mod interface;
 mod loop_errors;
 mod parameters;
+mod record;
 mod single_precision;
 mod statements;
 

@@ -80,6 +80,7 @@ pub(super) struct Entry {
     /// Declared values, where there are any.
     pub(super) default: Option<Vec<f64>>,
     pub(super) docs: Vec<String>,
+    pub(super) unit: Option<String>,
 }
 
 /// The leaves of one group, in the model's order.
@@ -94,6 +95,7 @@ pub(super) struct Table {
 pub(super) struct Field {
     pub(super) name: Ident,
     pub(super) docs: Vec<String>,
+    pub(super) unit: Option<String>,
     pub(super) kind: FieldKind,
 }
 
@@ -143,27 +145,28 @@ impl<'a> Layout<'a> {
         for param in &model.params {
             let leaf = Leaf::value(&param.ty, dof);
             let docs = document::param(param);
-            layout.add(StructKind::Params, &param.place, leaf, docs);
+            layout.add(StructKind::Params, &param.place, leaf, docs, param.docs.unit.clone());
             layout.default(StructKind::Params, param.default.clone());
         }
         for state in &model.states {
             let docs = document::state(state);
-            layout.add(StructKind::States, &state.place, Leaf::Scalar, docs);
+            layout.add(StructKind::States, &state.place, Leaf::Scalar, docs, state.docs.unit.clone());
             layout.default(StructKind::States, vec![state.start]);
         }
         for input in &model.inputs {
             let leaf = Leaf::value(&input.ty, dof);
             let docs = document::item(&input.docs, "input");
-            layout.add(StructKind::Input, &input.place, leaf, docs);
+            layout.add(StructKind::Input, &input.place, leaf, docs, input.docs.unit.clone());
         }
         for output in &model.outputs {
             let leaf = Leaf::value(&output.value.ty, dof);
             let docs = document::item(&output.docs, "output");
-            layout.add(StructKind::Output, &output.place, leaf, docs);
+            layout.add(StructKind::Output, &output.place, leaf, docs, output.docs.unit.clone());
         }
         if model.shows_poses() {
             for body in model.bodies.iter() {
-                layout.add(StructKind::Poses, &body.place, Leaf::placement(), document::item(&body.docs, "body"));
+                let docs = document::item(&body.docs, "body");
+                layout.add(StructKind::Poses, &body.place, Leaf::placement(), docs, None);
             }
         }
         layout
@@ -183,8 +186,9 @@ impl<'a> Layout<'a> {
                 let field = joints::field(model, &structure.state, id, joint, &piece);
                 let place = Place { instance: joint.place.instance, field };
                 let [of_position, of_velocity] = piece.docs(joint);
-                self.add(StructKind::Position, &place, piece.position.clone(), of_position);
-                let index = self.add(StructKind::Velocity, &place, piece.velocity.clone(), of_velocity);
+                let [unit, rate] = piece.units(joint);
+                self.add(StructKind::Position, &place, piece.position.clone(), of_position, unit);
+                let index = self.add(StructKind::Velocity, &place, piece.velocity.clone(), of_velocity, rate);
                 self.joints[id.0].push((index, piece));
             }
         }
@@ -204,8 +208,8 @@ impl<'a> Layout<'a> {
             for piece in joints::pieces(joint.kind, &joints::held(model, &unknowns, id)) {
                 let field = joints::field(model, &unknowns, id, joint, &piece);
                 let place = Place { instance: joint.place.instance, field };
-                let [docs, _] = piece.docs(joint);
-                let entry = self.add(StructKind::Guess, &place, piece.position.clone(), docs);
+                let ([docs, _], [unit, _]) = (piece.docs(joint), piece.units(joint));
+                let entry = self.add(StructKind::Guess, &place, piece.position.clone(), docs, unit);
                 let mut start = vec![0.0; piece.position.size()];
                 for (known, unknown) in unknowns.iter().enumerate().filter(|(_, unknown)| unknown.joint == id) {
                     let Some(component) = piece.component(false, unknown.index) else { continue };
@@ -238,7 +242,7 @@ impl<'a> Layout<'a> {
         list
     }
 
-    fn add(&mut self, group: StructKind, place: &Place, leaf: Leaf, docs: Vec<String>) -> usize {
+    fn add(&mut self, group: StructKind, place: &Place, leaf: Leaf, docs: Vec<String>, unit: Option<String>) -> usize {
         let table = self.table_mut(group);
         let offset = table.size;
         table.size += leaf.size();
@@ -249,6 +253,7 @@ impl<'a> Layout<'a> {
             offset,
             default: None,
             docs,
+            unit,
         });
         table.entries.len() - 1
     }
@@ -342,6 +347,7 @@ impl<'a> Layout<'a> {
                 Some(Field {
                     name: entry.field.clone(),
                     docs: entry.docs.clone(),
+                    unit: entry.unit.clone(),
                     kind: FieldKind::Leaf(entry.leaf.clone()),
                 })
             } else {
@@ -367,6 +373,7 @@ impl<'a> Layout<'a> {
                 return Some(Field {
                     name: names::field(&instance.field),
                     docs: document::item(&instance.docs, &self.part_doc(part)),
+                    unit: None,
                     kind: FieldKind::Part(part, instance.index.map(|(_, count)| count)),
                 });
             }

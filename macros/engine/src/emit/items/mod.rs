@@ -3,6 +3,7 @@
 mod assembly;
 mod at;
 mod check;
+mod columns;
 mod conversions;
 mod costs;
 mod defaults;
@@ -34,6 +35,7 @@ pub(super) fn all(context: &Context<'_>) -> TokenStream {
         check::item(context),
         state::items(context),
         space::items(context),
+        columns::items(context),
         conversions::items(context),
         model::items(context),
         missing::items(context),

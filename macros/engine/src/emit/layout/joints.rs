@@ -48,6 +48,18 @@ impl Piece {
         };
         document::piece(joint, what, if is_straight { "m" } else { "rad" })
     }
+
+    /// Unit of all scalars of the leaf in `Position` and in `Velocity`; structs of the runtime have units of their own, and
+    /// quaternions none.
+    pub(in crate::emit) fn units(&self, joint: &Joint) -> [Option<String>; 2] {
+        let natural = if joint.kind.is_slide(self.first[1]) { "m" } else { "rad" };
+        let declared = joint.docs.unit.as_deref().filter(|_| !self.is_partial(joint.kind));
+        let unit = declared.unwrap_or(natural);
+        let uniform = |leaf: &Leaf| matches!(leaf, Leaf::Scalar | Leaf::Vec3);
+        let position = uniform(&self.position).then(|| unit.to_owned());
+        let rate = if self.position == Leaf::Quaternion { natural } else { unit };
+        [position, uniform(&self.velocity).then(|| format!("{rate}/s"))]
+    }
 }
 
 /// Names of a joint's velocity coordinates; a rotation by quaternions has none for single ones.

@@ -90,6 +90,11 @@ impl Leaf {
         }
     }
 
+    /// Whether it is the struct of a free body by angles, of its position or of its rates.
+    pub(in crate::emit) fn is_free_by_angles(&self) -> bool {
+        *self == Leaf::Struct(FREE_ROLL_PITCH_YAW)
+    }
+
     /// Number of scalars.
     pub(in crate::emit) fn size(&self) -> usize {
         match self {
