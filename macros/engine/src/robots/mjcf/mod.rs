@@ -46,9 +46,10 @@ pub(super) fn read(text: &str, is_friction_ignored: bool) -> Result<Robot, Mista
         return Err(root.mistake(format!("expected `<mujoco>`, found `<{}>`", root.name())));
     }
     root.only(&["model"])?;
-    let all = document.descendants().filter(roxmltree::Node::is_element).map(|node| Element { node, lines: &lines });
+    let mut all =
+        document.descendants().filter(roxmltree::Node::is_element).map(|node| Element { node, lines: &lines });
     let expanded = ["include", "replicate", "attach", "composite", "flexcomp", "frame"];
-    if let Some(element) = all.into_iter().find(|element| expanded.contains(&element.name())) {
+    if let Some(element) = all.find(|element| expanded.contains(&element.name())) {
         return Err(element.mistake(format!("`<{}>` is not read", element.name())).help(EXPAND));
     }
     let mut reader = Reader {
