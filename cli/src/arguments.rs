@@ -17,7 +17,7 @@ commands
   counts FILE    operations of every function, as derived and as emitted
   equations FILE the equations of each model, for readers: --text (so by default), --latex or --mathml
   expand FILE    the generated code, formatted, with a heading over each paragraph
-  import URDF    a robot's file as a part and a model of the language, for those who want to go on from its text
+  import ROBOT   a robot's file (URDF, MJCF) as a part and a model of the language, for those who want to go on from its text
   diff OLD NEW   what has changed between two files in the operations of functions and in equations
   compare FILE   each model in every choice of coordinates and constraints: sizes, operations of forward dynamics
                  (--all: and of the other functions that it asks for), and which choice to take; --measure compiles

@@ -6,6 +6,7 @@
 
 mod angles;
 mod mistake;
+mod mjcf;
 mod names;
 mod options;
 mod robot;
@@ -22,7 +23,9 @@ use crate::diagnostics::{Diagnostics, nearest};
 use crate::syntax;
 use crate::syntax::tree::{Field, ItemKind, Module, Part, Source};
 
+use mistake::Mistake;
 use options::{Base, Options};
+use robot::Robot;
 use write::{Fault, Written};
 
 /// The text of the file that a literal names, or why there is none.
@@ -33,15 +36,43 @@ pub fn no_file(_: &LitStr) -> Result<String, String> {
     Err("no files are read here".to_owned())
 }
 
-/// The kind of a part that stands in a file of that format, unless the call has a part of this name.
-const URDF: &str = "Urdf";
+/// Of robots' files.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Format {
+    Urdf,
+    Mjcf,
+}
+
+impl Format {
+    /// By the kind of a part that stands in such a file.
+    fn named(kind: &Ident) -> Option<Format> {
+        match kind.to_string().as_str() {
+            "Urdf" => Some(Format::Urdf),
+            "Mjcf" => Some(Format::Mjcf),
+            _ => None,
+        }
+    }
+
+    /// By the root element.
+    fn of(text: &str) -> Format {
+        let document = xml::parse(text);
+        let is_mjcf = document.is_ok_and(|document| document.root_element().has_tag_name("mujoco"));
+        if is_mjcf { Format::Mjcf } else { Format::Urdf }
+    }
+
+    fn read(self, text: &str, is_friction_ignored: bool) -> Result<Robot, Mistake> {
+        match self {
+            Format::Urdf => urdf::read(text, is_friction_ignored),
+            Format::Mjcf => mjcf::read(text, is_friction_ignored),
+        }
+    }
+}
 
 /// Replaces every robot by a part of its own; those with a mistake are reported and taken away.
 pub fn place(source: &mut Source, reader: &Reader, diagnostics: &mut Diagnostics) -> Vec<LitStr> {
     let mut names: Vec<String> = source.modules.iter().map(|module| module.name.to_string()).collect();
-    if names.iter().any(|name| name == URDF) {
-        return Vec::new();
-    }
+    // A part of the user's that is called as a format comes first.
+    let own = names.clone();
     let mut files = Vec::new();
     let mut parts = Vec::new();
     let mut known = HashMap::new();
@@ -50,12 +81,13 @@ pub fn place(source: &mut Source, reader: &Reader, diagnostics: &mut Diagnostics
         let mut lost = Vec::new();
         for (at, item) in module.items.iter_mut().enumerate() {
             let ItemKind::Part(part) = &mut item.kind else { continue };
-            if part.kind != URDF {
+            let Some(format) = Format::named(&part.kind).filter(|_| !own.iter().any(|name| part.kind == name)) else {
                 continue;
-            }
+            };
             let before = diagnostics.errors().len();
-            let placed = options::read(part, diagnostics)
-                .and_then(|options| of_file(part, &owner, &options, reader, &mut names, &mut known, diagnostics));
+            let placed = options::read(part, diagnostics).and_then(|options| {
+                of_file(part, (format, &owner), &options, reader, &mut names, &mut known, diagnostics)
+            });
             match placed {
                 Some(placed) => {
                     files.push(placed.file);
@@ -85,7 +117,7 @@ pub fn import(text: &str, file: &str) -> Result<String, String> {
         },
         Fault::At(_, message, _) => message,
     };
-    let robot = urdf::read(text, false).map_err(|mistake| whole(Fault::Of(mistake)))?;
+    let robot = Format::of(text).read(text, false).map_err(|mistake| whole(Fault::Of(mistake)))?;
     let name = names::module(&robot.name);
     let Written { text, port } = write::part(&robot, &name, file, &Options::plain(file)).map_err(whole)?;
     let mut call = "multibody! {\n".to_owned();
@@ -110,7 +142,7 @@ struct Placed {
 
 fn of_file(
     part: &mut Part,
-    owner: &str,
+    (format, owner): (Format, &str),
     options: &Options,
     reader: &Reader,
     names: &mut Vec<String>,
@@ -131,7 +163,7 @@ fn of_file(
     while names.contains(&name) {
         name.push('_');
     }
-    let robot = urdf::read(&text, options.is_friction_ignored).map_err(Fault::Of);
+    let robot = format.read(&text, options.is_friction_ignored).map_err(Fault::Of);
     let written = robot.and_then(|robot| {
         let Written { text, port } = write::part(&robot, "_", &file, options)?;
         Ok((text, port))

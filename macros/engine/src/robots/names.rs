@@ -46,6 +46,16 @@ impl Names {
         Ok(())
     }
 
+    /// Of a motor or of a joint that closes a loop: files give them the names of others.
+    pub(super) fn own(&mut self, name: &str, at: Place) -> Result<String, Mistake> {
+        let mut own = identifier(name, at)?;
+        if self.taken.contains_key(&own) {
+            own.push('_');
+        }
+        self.take(&own, format!("`{name}`"), Some(at))?;
+        Ok(own)
+    }
+
     /// A name that nothing has yet.
     pub(super) fn free(&mut self, wish: &str) -> String {
         let mut name = wish.to_owned();

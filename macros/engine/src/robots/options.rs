@@ -1,6 +1,6 @@
 //! Stage `robots`: what a part says of its robot.
 //!
-//! In: the fields of `part arm: Urdf { .. };`. Out: options; errors at the user's own tokens.
+//! In: the fields of `part arm: Urdf { .. };`, or `Mjcf`. Out: options; errors at the user's own tokens.
 
 use proc_macro2::{Ident, Span};
 use syn::{Expr, ExprLit, Lit, LitStr, Member};
@@ -57,11 +57,12 @@ impl Options {
 }
 
 const FIELDS: [&str; 9] = ["file", "base", "lock", "drop", "param", "efforts", "angles", "friction", "allow"];
-const FORM: &str = "write `part arm: Urdf { file: \"arm.urdf\", base: ground };`";
 
 /// Nothing if a mistake has been reported.
 pub(super) fn read(part: &Part, diagnostics: &mut Diagnostics) -> Option<Options> {
     let before = diagnostics.errors().len();
+    let end = if part.kind == "Mjcf" { "xml" } else { "urdf" };
+    let form = format!("write `part arm: {} {{ file: \"arm.{end}\", base: ground }};`", part.kind);
     let mut file = None;
     let mut base = None;
     let mut options = Options::plain("");
@@ -81,7 +82,7 @@ pub(super) fn read(part: &Part, diagnostics: &mut Diagnostics) -> Option<Options
         match name.as_str() {
             "file" => match value {
                 Expr::Lit(ExprLit { lit: Lit::Str(text), .. }) => file = Some(text.clone()),
-                _ => diagnostics.error_help(span, "`file` is a path in quotation marks", FORM),
+                _ => diagnostics.error_help(span, "`file` is a path in quotation marks", form.clone()),
             },
             "base" => {
                 base = Some(match word(value) {
@@ -107,7 +108,7 @@ pub(super) fn read(part: &Part, diagnostics: &mut Diagnostics) -> Option<Options
     }
     if !part.fields.broken && diagnostics.errors().len() == before {
         if file.is_none() {
-            diagnostics.error_help(part.name.span(), format!("`{}` needs the field `file`", part.name), FORM);
+            diagnostics.error_help(part.name.span(), format!("`{}` needs the field `file`", part.name), form);
         } else if base.is_none() {
             let help = "write `base: ground` or another frame, or `base: Free` for a robot that floats";
             diagnostics.error_help(part.name.span(), format!("`{}` needs the field `base`", part.name), help);

@@ -19,6 +19,11 @@ impl Number {
     pub(super) fn whole(value: u8) -> Number {
         Number { is_negative: false, digits: format!("{value}.0"), value: f64::from(value) }
     }
+
+    /// What has been computed, with all its digits.
+    pub(super) fn of(value: f64) -> Number {
+        Number { is_negative: value < 0.0, digits: format!("{:?}", value.abs()), value }
+    }
 }
 
 /// Where a frame lies in another one: the position in m, then roll, pitch and yaw in rad, `Rz(yaw) * Ry(pitch) * Rx(roll)`.
@@ -58,6 +63,7 @@ pub(super) enum Kind {
     Revolute,
     Prismatic,
     Planar,
+    Ball,
     Floating,
 }
 
@@ -81,9 +87,43 @@ pub(super) struct Joint {
     pub(super) origin: Origin,
     /// In the child's frame; of any length but zero.
     pub(super) axis: [Number; 3],
+    /// The point of the child's frame that the joint holds, where it is not the origin.
+    pub(super) anchor: Option<[Number; 3]>,
     /// N m s/rad or N s/m; nothing if it is zero.
     pub(super) damping: Option<Number>,
+    /// kg m^2 or kg; nothing if it is zero.
+    pub(super) armature: Option<Number>,
+    pub(super) spring: Option<Spring>,
     pub(super) mimic: Option<Mimic>,
+}
+
+/// `-stiffness * (coordinate - rest)`
+#[derive(Clone, Debug)]
+pub(super) struct Spring {
+    pub(super) stiffness: Number,
+    pub(super) rest: Number,
+}
+
+/// A joint that closes a loop, `Ball` or `Fixed`.
+#[derive(Clone, Debug)]
+pub(super) struct Closure {
+    pub(super) name: String,
+    pub(super) at: Place,
+    pub(super) kind: Kind,
+    pub(super) parent: String,
+    pub(super) child: String,
+    pub(super) in_parent: Origin,
+    pub(super) in_child: Origin,
+}
+
+/// An input that drives a joint.
+#[derive(Clone, Debug)]
+pub(super) struct Motor {
+    pub(super) name: String,
+    pub(super) at: Place,
+    pub(super) joint: String,
+    /// Effort for an input of one.
+    pub(super) gear: Number,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -91,6 +131,8 @@ pub(super) struct Robot {
     pub(super) name: String,
     pub(super) links: Vec<Link>,
     pub(super) joints: Vec<Joint>,
+    pub(super) closures: Vec<Closure>,
+    pub(super) motors: Vec<Motor>,
     /// Elements that carry no mechanics, with how often they stand in the file.
     pub(super) read_over: BTreeMap<String, usize>,
 }

@@ -131,7 +131,20 @@ fn joint(element: Element, is_friction_ignored: bool, robot: &mut Robot) -> Resu
         }),
         None => None,
     };
-    Ok(Joint { name, at: element.place(), kind, parent, child, origin: origin(element)?, axis, damping, mimic })
+    Ok(Joint {
+        name,
+        at: element.place(),
+        kind,
+        parent,
+        child,
+        origin: origin(element)?,
+        axis,
+        anchor: None,
+        damping,
+        armature: None,
+        spring: None,
+        mimic,
+    })
 }
 
 /// Of `<dynamics>`, if it is not zero.

@@ -11,7 +11,7 @@ use super::angles;
 use super::mistake::{Mistake, Place};
 use super::names::{Names, printable};
 use super::options::{Base, Options, Quantity};
-use super::robot::{Inertial, Joint, Kind, Link, Number, Origin, Robot, Tree};
+use super::robot::{Closure, Inertial, Joint, Kind, Link, Motor, Number, Origin, Robot, Spring, Tree};
 
 /// A part's text, and what the module that uses it has to say.
 pub(super) struct Written {
@@ -76,6 +76,8 @@ pub(super) fn part(robot: &Robot, module: &str, file: &str, options: &Options) -
             writer.link(k, link)?;
         }
     }
+    writer.closures()?;
+    writer.motors()?;
     if let Some(unused) = writer.used.iter().position(|used| !used) {
         let Quantity { item, of } = &options.params[unused];
         let known = "`mass`, `com` and `inertia` of links with an inertia, and `damping` of joints that have it";
@@ -155,16 +157,27 @@ impl Writer<'_> {
             self.document(joint.at);
             let (word, axis) = match kind {
                 Kind::Fixed => ("Fixed", None),
+                Kind::Ball => ("Ball", None),
                 Kind::Floating => ("Free", None),
                 Kind::Revolute => ("Revolute", Some(&joint.axis)),
                 Kind::Prismatic => ("Prismatic", Some(&joint.axis)),
                 Kind::Planar => ("Planar", Some(&joint.axis)),
             };
             let axis = axis.map_or_else(String::new, |axis| format!(", axis: {}", direction(axis)));
-            let _ = writeln!(self.items, "joint {name}: {word} {{ parent: {frame}, child: {child}{axis} }}");
+            let armature = joint.armature.as_ref().filter(|_| kind != Kind::Fixed);
+            let armature =
+                armature.map_or_else(String::new, |armature| format!(", armature: {}", angles::signed(armature)));
+            // What is held at zero lies where it lay, wherever its anchor is.
+            let anchor = joint.anchor.as_ref().filter(|_| kind != Kind::Fixed);
+            let anchor = anchor.map_or_else(String::new, |anchor| format!(".at({})", list(anchor)));
+            let _ = writeln!(
+                self.items,
+                "joint {name}: {word} {{ parent: {frame}{anchor}, child: {child}{anchor}{axis}{armature} }}"
+            );
         }
         if kind != Kind::Fixed {
             self.damper(joint, &name)?;
+            self.spring(joint, &name);
             self.motor(above, joint, &name);
         }
         self.mimic(joint, &name, kind)
@@ -179,6 +192,72 @@ impl Writer<'_> {
         let force = self.names.free(&format!("{name}_damper"));
         self.document(joint.at);
         let _ = writeln!(self.items, "force {force}: Damper {{ joint: {name}, damping: {value} }}");
+        Ok(())
+    }
+
+    fn spring(&mut self, joint: &Joint, name: &str) {
+        let Some(Spring { stiffness, rest }) = &joint.spring else { return };
+        let force = self.names.free(&format!("{name}_spring"));
+        self.document(joint.at);
+        let (stiffness, rest) = (angles::signed(stiffness), angles::signed(rest));
+        let _ = writeln!(self.items, "force {force}: Spring {{ joint: {name}, stiffness: {stiffness}, rest: {rest} }}");
+    }
+
+    /// Joints beyond the tree, where both of their links are there.
+    fn closures(&mut self) -> Result<(), Fault> {
+        for closure in &self.robot.closures {
+            let Closure { name, at, kind, parent, child, in_parent, in_child } = closure;
+            let find = |wanted: &String| self.robot.links.iter().position(|link| link.name == *wanted);
+            let lost = |name: &String| {
+                Mistake::at(*at, format!("`{}` names the body `{name}`, which isn't there", closure.name))
+            };
+            let (a, b) = (find(parent).ok_or_else(|| lost(parent))?, find(child).ok_or_else(|| lost(child))?);
+            if !self.kept[a] || !self.kept[b] {
+                continue;
+            }
+            let a = self.frame(self.names.links[a].clone(), in_parent, name);
+            let b = self.frame(self.names.links[b].clone(), in_child, name);
+            let own = self.names.own(name, *at)?;
+            self.document(*at);
+            let word = if *kind == Kind::Fixed { "Fixed" } else { "Ball" };
+            let _ = writeln!(self.items, "joint {own}: {word} {{ parent: {a}, child: {b} }}");
+        }
+        Ok(())
+    }
+
+    /// The motors of the file, where the user asks for no others.
+    fn motors(&mut self) -> Result<(), Fault> {
+        if self.options.is_driven {
+            return Ok(());
+        }
+        for Motor { name, at, joint, gear } in &self.robot.motors {
+            let Some(number) = self.robot.joints.iter().position(|other| other.name == *joint) else {
+                let message = format!("`{name}` drives the joint `{joint}`, which isn't there");
+                return Err(Mistake::at(*at, message).into());
+            };
+            let driven = &self.robot.joints[number];
+            let unit = match driven.kind {
+                Kind::Revolute => "N m",
+                Kind::Prismatic => "N",
+                _ => {
+                    let message = format!("`{name}` drives `{joint}`, which has not one coordinate");
+                    return Err(Mistake::at(*at, message).into());
+                }
+            };
+            let child = self.robot.links.iter().position(|link| link.name == driven.child);
+            if self.locked[number] || !child.is_some_and(|link| self.kept[link]) {
+                continue;
+            }
+            let input = self.names.own(name, *at)?;
+            let force = self.names.free(&format!("{input}_effort"));
+            let (place, joint) = (self.place(*at), &self.names.joints[number]);
+            let unit =
+                if gear.value == 1.0 { format!("[{unit}] ") } else { format!("Times {:?} {unit}, ", gear.value) };
+            let factor = if gear.value == 1.0 { String::new() } else { format!("{} * ", angles::signed(gear)) };
+            let _ = writeln!(self.params, "/// {unit}{place}\ninput {input}: Scalar;");
+            let _ =
+                writeln!(self.items, "/// {place}\nforce {force}: Effort {{ joint: {joint}, value: {factor}{input} }}");
+        }
         Ok(())
     }
 

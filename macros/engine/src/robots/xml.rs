@@ -176,10 +176,10 @@ impl<'a, 'input> Element<'a, 'input> {
 
     /// So many numbers with blanks between.
     pub(super) fn numbers<const N: usize>(self, name: &str) -> Result<Option<[Number; N]>, Mistake> {
-        let Some(text) = self.attribute(name) else { return Ok(None) };
-        let numbers: Result<Vec<Number>, Mistake> =
-            text.split_ascii_whitespace().map(|word| self.read(name, word)).collect();
-        let numbers = numbers?;
+        if self.attribute(name).is_none() {
+            return Ok(None);
+        }
+        let numbers = self.list(name)?;
         let found = numbers.len();
         let wrong = |_| {
             self.mistake(format!(
@@ -189,6 +189,12 @@ impl<'a, 'input> Element<'a, 'input> {
             ))
         };
         numbers.try_into().map(Some).map_err(wrong)
+    }
+
+    /// All numbers, none if there is no such attribute.
+    pub(super) fn list(self, name: &str) -> Result<Vec<Number>, Mistake> {
+        let words = self.attribute(name).unwrap_or_default().split_ascii_whitespace();
+        words.map(|word| self.read(name, word)).collect()
     }
 
     pub(super) fn number(self, name: &str) -> Result<Option<Number>, Mistake> {

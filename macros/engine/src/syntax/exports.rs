@@ -15,8 +15,8 @@ use syn::Visibility;
 use super::imports::{Bundle, VERSION};
 use super::tree::{Export, ItemKind, Module};
 
-/// The kind of a part that stands in a robot's file (see the stage `robots`).
-const ROBOT: &str = "Urdf";
+/// The kinds of parts that stand in robots' files (see the stage `robots`).
+const ROBOTS: [&str; 2] = ["Urdf", "Mjcf"];
 
 /// Of all modules of a call.
 pub(super) fn of(modules: &[Module], bundles: &[Bundle]) -> Vec<Export> {
@@ -58,7 +58,7 @@ fn is_part(module: &Module) -> bool {
 
 /// Whether a part of it stands in a robot's file: the path is that of the file which names it.
 fn reads_robot(module: &Module, places: &HashMap<String, usize>) -> bool {
-    let is_robot = |kind: &Ident| kind == ROBOT && !places.contains_key(ROBOT);
+    let is_robot = |kind: &Ident| ROBOTS.iter().any(|robot| kind == robot && !places.contains_key(*robot));
     module.items.iter().any(|item| matches!(&item.kind, ItemKind::Part(part) if is_robot(&part.kind)))
 }
 

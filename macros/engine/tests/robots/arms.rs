@@ -1,4 +1,4 @@
-//! Four arms as URDF, against the same typed in.
+//! Four arms as URDF and MJCF, against the same typed in.
 
 use std::fs;
 use std::path::Path;
@@ -40,6 +40,16 @@ fn call(more: &str) -> String {
 fn arms_are_what_was_typed_in() {
     for name in ["double_pendulum", "cart5", "puma560", "panda"] {
         let robot = model_of(&call(""), &read(&format!("data/robots/{name}.urdf")));
+        assert_same(&typed_in(name), &robot, true);
+    }
+}
+
+/// The same from MJCF, where orientations are quaternions and bodies stand within one another.
+#[test]
+fn arms_of_mjcf_are_what_was_typed_in() {
+    for name in ["double_pendulum", "cart5", "puma560", "panda"] {
+        let call = call("").replace("Urdf", "Mjcf");
+        let robot = model_of(&call, &read(&format!("data/robots/{name}.xml")));
         assert_same(&typed_in(name), &robot, true);
     }
 }

@@ -4,6 +4,8 @@ mod arms;
 #[path = "../common/interpreter.rs"]
 mod interpreter;
 mod malformed;
+mod mjcf;
+mod mjcf_trees;
 mod options;
 mod recursion;
 mod support;

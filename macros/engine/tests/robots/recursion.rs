@@ -10,10 +10,10 @@ use roxmltree::{Document, Node};
 
 use crate::support::{functions, model_of, value};
 
-type Vector = [f64; 3];
-type Matrix = [Vector; 3];
+pub(crate) type Vector = [f64; 3];
+pub(crate) type Matrix = [Vector; 3];
 
-fn add(a: Vector, b: Vector) -> Vector {
+pub(crate) fn add(a: Vector, b: Vector) -> Vector {
     [0, 1, 2].map(|i| a[i] + b[i])
 }
 
@@ -29,21 +29,21 @@ fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn apply(m: &Matrix, a: Vector) -> Vector {
+pub(crate) fn apply(m: &Matrix, a: Vector) -> Vector {
     m.map(|row| dot(row, a))
 }
 
-fn transposed(m: &Matrix) -> Matrix {
+pub(crate) fn transposed(m: &Matrix) -> Matrix {
     [0, 1, 2].map(|i| [0, 1, 2].map(|j| m[j][i]))
 }
 
-fn product(a: &Matrix, b: &Matrix) -> Matrix {
+pub(crate) fn product(a: &Matrix, b: &Matrix) -> Matrix {
     let columns = transposed(b);
     a.map(|row| columns.map(|column| dot(row, column)))
 }
 
 /// Rodrigues' formula.
-fn turn(axis: Vector, angle: f64) -> Matrix {
+pub(crate) fn turn(axis: Vector, angle: f64) -> Matrix {
     let [x, y, z] = scaled(axis, 1.0 / dot(axis, axis).sqrt());
     let (s, c) = angle.sin_cos();
     let v = 1.0 - c;
@@ -60,19 +60,19 @@ fn rpy([roll, pitch, yaw]: Vector) -> Matrix {
 }
 
 /// A link with the joint that it hangs on.
-struct Link {
-    name: String,
-    parent: Option<usize>,
-    joint: String,
-    kind: String,
-    at: Vector,
-    turned: Matrix,
-    axis: Vector,
-    damping: f64,
-    mass: f64,
-    com: Vector,
+pub(crate) struct Link {
+    pub(crate) name: String,
+    pub(crate) parent: Option<usize>,
+    pub(crate) joint: String,
+    pub(crate) kind: String,
+    pub(crate) at: Vector,
+    pub(crate) turned: Matrix,
+    pub(crate) axis: Vector,
+    pub(crate) damping: f64,
+    pub(crate) mass: f64,
+    pub(crate) com: Vector,
     /// About the centre of mass, in the link's axes.
-    inertia: Matrix,
+    pub(crate) inertia: Matrix,
 }
 
 fn numbers<const N: usize>(node: Option<Node>, name: &str) -> [f64; N] {
@@ -145,7 +145,7 @@ struct Motion {
 }
 
 /// Mass matrix and bias for coordinates in the order of `joints`.
-fn recursion(
+pub(crate) fn recursion(
     links: &[Link],
     joints: &[String],
     base: &(Vector, Matrix),
@@ -214,7 +214,7 @@ fn recursion(
 }
 
 /// Numbers with few digits, as files have them.
-struct Draw(u64);
+pub(crate) struct Draw(pub(crate) u64);
 
 impl Draw {
     fn next(&mut self) -> u64 {
@@ -222,11 +222,11 @@ impl Draw {
         self.0 >> 33
     }
 
-    fn below(&mut self, bound: u64) -> u64 {
+    pub(crate) fn below(&mut self, bound: u64) -> u64 {
         self.next() % bound
     }
 
-    fn number(&mut self) -> f64 {
+    pub(crate) fn number(&mut self) -> f64 {
         (self.below(4001) as f64 - 2000.0) / 1000.0
     }
 
