@@ -321,6 +321,70 @@ pub mod cart_pole {
             Self { q, v }
         }
     }
+    impl<T: Real> ::multibody::Columns<T> for Params<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(&self.g, &place.field("g", "m/s^2"), f);
+            ::multibody::Columns::columns(&self.mc, &place.field("mc", "kg"), f);
+            ::multibody::Columns::columns(&self.mp, &place.field("mp", "kg"), f);
+            ::multibody::Columns::columns(&self.l, &place.field("l", "m"), f);
+        }
+    }
+    impl<T: Real> ::multibody::Columns<T> for Position<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(&self.track, &place.field("track", "m"), f);
+            ::multibody::Columns::columns(&self.hinge, &place.field("hinge", "rad"), f);
+        }
+    }
+    impl<T: Real> ::multibody::Columns<T> for Velocity<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(&self.track, &place.field("track", "m/s"), f);
+            ::multibody::Columns::columns(
+                &self.hinge,
+                &place.field("hinge", "rad/s"),
+                f,
+            );
+        }
+    }
+    impl<T: Real> ::multibody::Columns<T> for Input<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(&self.push, &place.field("push", "N"), f);
+        }
+    }
+    impl<T: Real> ::multibody::Columns<T> for Output<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(&self.tip, &place.field("tip", "m"), f);
+        }
+    }
+    impl<T: Real> ::multibody::Columns<T> for State<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(&self.q, &place.field("q", ""), f);
+            ::multibody::Columns::columns(&self.v, &place.field("v", ""), f);
+        }
+    }
     impl<T: Real> From<Velocity<T>> for ::multibody::nalgebra::SVector<T, 2> {
         fn from(velocity: Velocity<T>) -> Self {
             Self::from([velocity.track, velocity.hinge])

@@ -228,6 +228,74 @@ pub(crate) mod engine {
             Self { q, v }
         }
     }
+    impl<T: Real> ::multibody::Columns<T> for Params<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(
+                &self.load,
+                &place.field("load", "N m s/rad"),
+                f,
+            );
+        }
+    }
+    impl<T: Real> ::multibody::Columns<T> for Position<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(&self.shaft, &place.field("shaft", "rad"), f);
+        }
+    }
+    impl<T: Real> ::multibody::Columns<T> for Velocity<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(
+                &self.shaft,
+                &place.field("shaft", "rad/s"),
+                f,
+            );
+        }
+    }
+    impl<T: Real> ::multibody::Columns<T> for Input<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(&self.gas, &place.field("gas", "N"), f);
+        }
+    }
+    impl<T: Real> ::multibody::Columns<T> for Output<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(
+                &self.bearing,
+                &place.field("bearing", "N"),
+                f,
+            );
+            ::multibody::Columns::columns(&self.energy, &place.field("energy", ""), f);
+        }
+    }
+    impl<T: Real> ::multibody::Columns<T> for State<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(&self.q, &place.field("q", ""), f);
+            ::multibody::Columns::columns(&self.v, &place.field("v", ""), f);
+        }
+    }
     impl<T: Real> From<Velocity<T>> for ::multibody::nalgebra::SVector<T, 1> {
         fn from(velocity: Velocity<T>) -> Self {
             Self::from([velocity.shaft])

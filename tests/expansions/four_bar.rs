@@ -223,6 +223,71 @@ pub mod four_bar {
             Self { q, v }
         }
     }
+    impl<T: Real> ::multibody::Columns<T> for Params<T> {
+        fn columns(
+            &self,
+            _: &::multibody::Column<'_>,
+            _: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {}
+    }
+    impl<T: Real> ::multibody::Columns<T> for Position<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(&self.crank, &place.field("crank", "rad"), f);
+        }
+    }
+    impl<T: Real> ::multibody::Columns<T> for Velocity<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(
+                &self.crank,
+                &place.field("crank", "rad/s"),
+                f,
+            );
+        }
+    }
+    impl<T: Real> ::multibody::Columns<T> for Input<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(&self.torque, &place.field("torque", ""), f);
+        }
+    }
+    impl<T: Real> ::multibody::Columns<T> for Output<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(&self.angles, &place.field("angles", ""), f);
+            ::multibody::Columns::columns(&self.rates, &place.field("rates", ""), f);
+            ::multibody::Columns::columns(&self.accels, &place.field("accels", ""), f);
+            ::multibody::Columns::columns(
+                &self.reactions,
+                &place.field("reactions", ""),
+                f,
+            );
+            ::multibody::Columns::columns(&self.energy, &place.field("energy", ""), f);
+        }
+    }
+    impl<T: Real> ::multibody::Columns<T> for State<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(&self.q, &place.field("q", ""), f);
+            ::multibody::Columns::columns(&self.v, &place.field("v", ""), f);
+        }
+    }
     impl<T: Real> From<Velocity<T>> for ::multibody::nalgebra::SVector<T, 1> {
         fn from(velocity: Velocity<T>) -> Self {
             Self::from([velocity.crank])

@@ -319,6 +319,60 @@ pub mod level {
             Self { q, v }
         }
     }
+    impl<T: Real> ::multibody::Columns<T> for Params<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(&self.legs, &place.field("legs", ""), f);
+        }
+    }
+    impl<T: Real> ::multibody::Columns<T> for Position<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(
+                &self.platform,
+                &place.field("platform", "m"),
+                f,
+            );
+        }
+    }
+    impl<T: Real> ::multibody::Columns<T> for Velocity<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(
+                &self.platform,
+                &place.field("platform", "m/s"),
+                f,
+            );
+        }
+    }
+    impl<T: Real> ::multibody::Columns<T> for Input<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(&self.legs, &place.field("legs", ""), f);
+        }
+    }
+    impl<T: Real> ::multibody::Columns<T> for State<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(&self.q, &place.field("q", ""), f);
+            ::multibody::Columns::columns(&self.v, &place.field("v", ""), f);
+        }
+    }
     impl<T: Real> From<Velocity<T>> for ::multibody::nalgebra::SVector<T, 3> {
         fn from(velocity: Velocity<T>) -> Self {
             Self::from([velocity.platform.x, velocity.platform.y, velocity.platform.z])
@@ -2247,6 +2301,17 @@ pub mod level {
                 }
             }
         }
+        impl<T: Real> ::multibody::Columns<T> for Params<T> {
+            fn columns(
+                &self,
+                place: &::multibody::Column<'_>,
+                f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+            ) {
+                ::multibody::Columns::columns(&self.k, &place.field("k", "N/m"), f);
+                ::multibody::Columns::columns(&self.c, &place.field("c", "N s/m"), f);
+                ::multibody::Columns::columns(&self.s0, &place.field("s0", "m"), f);
+            }
+        }
         /// Inputs of one part `leg`, held over a step. The default is zero.
         #[repr(C)]
         #[derive(Clone, Copy, Debug, PartialEq)]
@@ -2257,6 +2322,19 @@ pub mod level {
         impl<T: Real> Default for Input<T> {
             fn default() -> Self {
                 Self { thrust: T::lit(0.0) }
+            }
+        }
+        impl<T: Real> ::multibody::Columns<T> for Input<T> {
+            fn columns(
+                &self,
+                place: &::multibody::Column<'_>,
+                f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+            ) {
+                ::multibody::Columns::columns(
+                    &self.thrust,
+                    &place.field("thrust", "N"),
+                    f,
+                );
             }
         }
     }

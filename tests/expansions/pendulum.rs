@@ -227,6 +227,49 @@ pub mod pendulum {
             Self { q, v }
         }
     }
+    impl<T: Real> ::multibody::Columns<T> for Params<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(&self.g, &place.field("g", "m/s^2"), f);
+            ::multibody::Columns::columns(&self.m, &place.field("m", "kg"), f);
+            ::multibody::Columns::columns(&self.l, &place.field("l", "m"), f);
+        }
+    }
+    impl<T: Real> ::multibody::Columns<T> for Position<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(&self.hinge, &place.field("hinge", "rad"), f);
+        }
+    }
+    impl<T: Real> ::multibody::Columns<T> for Velocity<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(
+                &self.hinge,
+                &place.field("hinge", "rad/s"),
+                f,
+            );
+        }
+    }
+    impl<T: Real> ::multibody::Columns<T> for State<T> {
+        fn columns(
+            &self,
+            place: &::multibody::Column<'_>,
+            f: &mut dyn FnMut(&::multibody::Column<'_>, T),
+        ) {
+            ::multibody::Columns::columns(&self.q, &place.field("q", ""), f);
+            ::multibody::Columns::columns(&self.v, &place.field("v", ""), f);
+        }
+    }
     impl<T: Real> From<Velocity<T>> for ::multibody::nalgebra::SVector<T, 1> {
         fn from(velocity: Velocity<T>) -> Self {
             Self::from([velocity.hinge])
