@@ -1,7 +1,9 @@
 //! Emitted programs in a scalar, statement by statement, by the runtime that generated code calls.
 //!
 //! Sums and products go from left to right, as they are printed; sines of one group go through one call, systems through the
-//! runtime's own solvers.
+//! runtime's own solvers. These are generic over the size, which is known here only as the program runs: a system is filled up with
+//! zeros to the next size that is compiled. Rows of zeros are never chosen before others, change no other number and
+//! don't count in the rank, so solutions have the bits that the size itself gives; the threshold of the rank grows with the size.
 
 use multibody::Real;
 use multibody::linear::{solve, solve_symmetric_measured};
@@ -32,12 +34,12 @@ struct Machine<'a, T> {
     reads: &'a Reads<'a, T>,
 }
 
-/// A call of what is generic over a size.
+/// A call of what is generic over a size, with the first of these sizes that is large enough.
 macro_rules! sized {
     ($n:expr, $of:ident $arguments:tt, $($size:literal)*) => {
         match $n {
-            $($size => $of::<T, $size> $arguments,)*
-            n => panic!("{n} in one call"),
+            $(n if n <= $size => $of::<T, $size> $arguments,)*
+            n => panic!("{n} in one call: add a size"),
         }
     };
 }
@@ -71,14 +73,9 @@ impl<T: Real> Machine<'_, T> {
             }
             Statement::Solve { size, symmetric, groups, matrix, rhs, measures, results } => {
                 let [matrix, rhs, measures] = [matrix, rhs, measures].map(|list| self.values(list));
-                let x = match symmetric {
-                    true => {
-                        sized!(*size, symmetric_system(&matrix, &rhs, &measures, groups), 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 18 20 24 30 36 42)
-                    }
-                    false => {
-                        sized!(*size, system(&matrix, &rhs), 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 18 20 24 30 36 42)
-                    }
-                };
+                debug_assert_eq!(rhs.len(), *size);
+                let x =
+                    if *symmetric { solved_symmetric(&matrix, &rhs, &measures, groups) } else { solved(&matrix, &rhs) };
                 results.iter().zip(x).for_each(|(&local, x)| self.set(local, x));
             }
             Statement::Iterate { count, unknowns, start, body, next, residual } => {
@@ -181,20 +178,67 @@ fn together<T: Real, const N: usize>(angles: &[T]) -> Vec<(T, T)> {
     T::sin_cos_all::<N>(std::array::from_fn(|k| angles[k])).to_vec()
 }
 
-fn square<T: Real, const N: usize>(matrix: &[T]) -> [[T; N]; N] {
-    std::array::from_fn(|i| std::array::from_fn(|j| matrix[i * N + j]))
+/// Filled up with zeros.
+fn square<T: Real, const N: usize>(matrix: &[T], size: usize) -> [[T; N]; N] {
+    let entry = |i: usize, j: usize| if i.max(j) < size { matrix[i * size + j] } else { T::lit(0.0) };
+    std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
+}
+
+/// The same.
+fn column<T: Real, const N: usize>(list: &[T]) -> [T; N] {
+    std::array::from_fn(|k| list.get(k).copied().unwrap_or(T::lit(0.0)))
 }
 
 /// The unknowns, then the rank.
+fn solved<T: Real>(matrix: &[T], rhs: &[T]) -> Vec<T> {
+    sized!(rhs.len(), system(matrix, rhs), 1 2 3 4 5 6 7 8 9 10 11 12 14 16 20 24 32 48 64 96 128)
+}
+
+fn solved_symmetric<T: Real>(matrix: &[T], rhs: &[T], measures: &[T], groups: &[usize]) -> Vec<T> {
+    sized!(rhs.len(), symmetric_system(matrix, rhs, measures, groups), 1 2 3 4 5 6 7 8 9 10 11 12 14 16 20 24 32 48 64 96 128)
+}
+
 fn system<T: Real, const N: usize>(matrix: &[T], rhs: &[T]) -> Vec<T> {
-    let (x, rank) = solve::<T, N>(square(matrix), std::array::from_fn(|k| rhs[k]));
-    x.into_iter().chain([rank]).collect()
+    let size = rhs.len();
+    let (x, rank) = solve::<T, N>(square(matrix, size), column(rhs));
+    x.into_iter().take(size).chain([rank]).collect()
 }
 
 fn symmetric_system<T: Real, const N: usize>(matrix: &[T], rhs: &[T], measures: &[T], groups: &[usize]) -> Vec<T> {
-    let matrix = square::<T, N>(matrix);
-    let measures = std::array::from_fn(|k| if measures.is_empty() { matrix[k][k] } else { measures[k] });
-    let groups = std::array::from_fn(|k| if groups.is_empty() { k } else { groups[k] });
-    let (x, rank) = solve_symmetric_measured(matrix, std::array::from_fn(|k| rhs[k]), measures, &groups);
-    x.into_iter().chain([rank]).collect()
+    let size = rhs.len();
+    let matrix = square::<T, N>(matrix, size);
+    let measures = if measures.is_empty() { std::array::from_fn(|k| matrix[k][k]) } else { column(measures) };
+    // What is zero is never the greatest of a group, whichever it is in.
+    let groups = std::array::from_fn(|k| groups.get(k).copied().unwrap_or(k));
+    let (x, rank) = solve_symmetric_measured(matrix, column(rhs), measures, &groups);
+    x.into_iter().take(size).chain([rank]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use multibody::linear::{solve, solve_symmetric};
+    use multibody_tests::support::random::Random;
+
+    use super::{solved, solved_symmetric};
+
+    /// Filled up, a system has the solution that the runtime gives it in its own size, to the last bit.
+    #[test]
+    fn zeros_change_no_bit() {
+        const N: usize = 17;
+        let mut random = Random::new(17);
+        for rank in [N, N - 3] {
+            let rows: [[f64; N]; N] = std::array::from_fn(|_| std::array::from_fn(|_| random.unit()));
+            // The last rows repeat the first ones where the rank is less.
+            let row = |i: usize| if i < rank { rows[i] } else { rows[i - rank] };
+            let rows: [[f64; N]; N] = std::array::from_fn(row);
+            let gram: [[f64; N]; N] = rows.map(|a| rows.map(|b| a.iter().zip(b).fold(0.0, |sum, (x, y)| sum + x * y)));
+            let rhs: [f64; N] = std::array::from_fn(|k| rows[k][0] + rows[k][1]);
+            let (x, full) = solve(rows, rhs);
+            assert_eq!(full, rank as f64);
+            assert_eq!(solved(rows.as_flattened(), &rhs), [&x[..], &[full]].concat());
+            let (x, full) = solve_symmetric(gram, rhs);
+            assert_eq!(full, rank as f64);
+            assert_eq!(solved_symmetric(gram.as_flattened(), &rhs, &[], &[]), [&x[..], &[full]].concat());
+        }
+    }
 }
