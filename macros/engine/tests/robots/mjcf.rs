@@ -53,14 +53,14 @@ fn joints_are_coupled_and_driven() {
 fn loops_are_closed_where_the_bodies_are() {
     let three = CHAIN.replace(
         "</body></body>",
-        "</body></body><body name='c' pos='1.2 0.4 0' quat='1 0 0 0'><joint name='l' axis='0 3 4'/>{I}</body>",
+        "</body></body><body name='c' pos='1.2 0.4 0' quat='1 0 0 0'><joint name='l' type='ball'/>{I}</body>",
     );
     let file = format!(
         "<worldbody>{three}</worldbody><equality><connect body1='b' body2='c' anchor='0.1 0.25 0.5'/></equality>"
     );
     // (0.8, 0.2, 0.1) + (0.1, 0.25, 0.5) - (1.2, 0.4, 0)
     let items = format!(
-        "{TYPED} body c {{ {{B}} }} joint l: Revolute {{ parent: ground.at([1.2, 0.4, 0.0]), child: c, axis: [0, 3, 4] }} \
+        "{TYPED} body c {{ {{B}} }} joint l: Ball {{ parent: ground.at([1.2, 0.4, 0.0]), child: c }} \
          joint n: Ball {{ parent: b.at([0.1, 0.25, 0.5]), child: c.at([-0.3, 0.05, 0.6]) }}"
     );
     let typed = model_of(&format!("mod typed {{ {} emit mass_matrix, bias; }}", items.replace("{B}", BODY)), "");
