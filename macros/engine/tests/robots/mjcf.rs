@@ -53,14 +53,14 @@ fn joints_are_coupled_and_driven() {
 fn loops_are_closed_where_the_bodies_are() {
     let three = CHAIN.replace(
         "</body></body>",
-        "</body></body><body name='c' pos='1.2 0.4 0' quat='1 0 0 0'><joint name='l' axis='0 3 4'/>{I}</body>",
+        "</body></body><body name='c' pos='1.2 0.4 0' quat='1 0 0 0'><joint name='l' type='ball'/>{I}</body>",
     );
     let file = format!(
         "<worldbody>{three}</worldbody><equality><connect body1='b' body2='c' anchor='0.1 0.25 0.5'/></equality>"
     );
     // (0.8, 0.2, 0.1) + (0.1, 0.25, 0.5) - (1.2, 0.4, 0)
     let items = format!(
-        "{TYPED} body c {{ {{B}} }} joint l: Revolute {{ parent: ground.at([1.2, 0.4, 0.0]), child: c, axis: [0, 3, 4] }} \
+        "{TYPED} body c {{ {{B}} }} joint l: Ball {{ parent: ground.at([1.2, 0.4, 0.0]), child: c }} \
          joint n: Ball {{ parent: b.at([0.1, 0.25, 0.5]), child: c.at([-0.3, 0.05, 0.6]) }}"
     );
     let typed = model_of(&format!("mod typed {{ {} emit mass_matrix, bias; }}", items.replace("{B}", BODY)), "");
@@ -69,8 +69,35 @@ fn loops_are_closed_where_the_bodies_are() {
     assert_same(&typed, &robot, false);
 }
 
+/// The numbers of a line of the text that a file is written as.
+fn numbers(text: &str, item: &str) -> Vec<f64> {
+    let line = text.lines().find(|line| line.trim().starts_with(item)).unwrap();
+    let words = line[line.find(':').unwrap()..].split(|c: char| !(c.is_ascii_digit() || ".-e".contains(c)));
+    words.filter_map(|word| word.parse().ok()).collect()
+}
+
+/// A body that is turned by a quarter about Z: what lies off it along the world's X is along its own -Y.
+#[test]
+fn loops_are_closed_in_the_axes_of_both_bodies() {
+    let file = format!(
+        "<mujoco><worldbody><body name='a' pos='1 2 3'><joint name='j'/>{INERTIAL}</body>\
+         <body name='b' pos='0.5 2 3' euler='0 0 90'><joint name='k'/>{INERTIAL}</body></worldbody>\
+         <equality><connect name='c' body1='a' body2='b' anchor='0.25 0 0.5'/><weld name='w' body1='a' body2='b'/></equality></mujoco>"
+    );
+    let text = multibody_engine::robots::import(&file, "r.xml").unwrap();
+    // Off `b` by (0.75, 0, 0.5) in the world; `b` off `a` by (-0.5, 0, 0), turned.
+    for (item, wanted) in [
+        ("joint c: Ball", vec![0.25, 0.0, 0.5, 0.0, -0.75, 0.5]),
+        ("joint w: Fixed", vec![-0.5, 0.0, 0.0, std::f64::consts::FRAC_PI_2]),
+    ] {
+        let found = numbers(&text, item);
+        assert_eq!(found.len(), wanted.len(), "{text}");
+        assert!(found.iter().zip(&wanted).all(|(x, y)| (x - y).abs() < 1e-12), "{found:?} of {text}");
+    }
+}
+
 /// A file, then what is said of it. `{J}` is the line of a joint in a body of a good file.
-const MISTAKES: [(&str, &str); 30] = include!("mjcf_mistakes.txt");
+const MISTAKES: [(&str, &str); 31] = include!("mjcf_mistakes.txt");
 
 #[test]
 fn every_mistake_is_told_once() {

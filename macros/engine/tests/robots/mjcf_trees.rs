@@ -179,7 +179,7 @@ impl Tree {
 fn drawn(seed: u64) -> Tree {
     let mut tree = Tree {
         draw: Draw(seed),
-        is_degree: seed % 2 == 0,
+        is_degree: seed.is_multiple_of(2),
         sequence: ["xyz", "ZYX", "zXy"][seed as usize % 3],
         links: Vec::new(),
         text: String::new(),

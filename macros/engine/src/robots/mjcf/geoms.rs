@@ -75,16 +75,19 @@ pub(super) fn solid(geom: &Said, compiler: &Compiler) -> Result<Option<Solid>, M
         let mistake = mistake("a mesh would give mass, and meshes are not read");
         return Err(mistake.help("give the body an `<inertial>`, or the geom `mass=\"0\"`"));
     }
+    if kind == "sphere" && geom.holder("fromto").is_some() {
+        return Err(mistake("a sphere has no `fromto`"));
+    }
     let size = geom.list("size")?;
     let (length, pose) = match geom.numbers::<6>("fromto")? {
-        Some(ends) if kind != "sphere" => {
+        Some(ends) => {
             let [a, b] = [0, 3].map(|at| [0, 1, 2].map(|k| ends[at + k].value));
             let along = [0, 1, 2].map(|k| b[k] - a[k]);
             let unit = turns::unit(along).ok_or_else(|| mistake("the two ends of `fromto` are one point"))?;
             let middle = [0, 1, 2].map(|k| (a[k] + b[k]) / 2.0);
             (Some(turns::dot(along, along).sqrt() / 2.0), Pose { position: middle, turn: turns::from_z(unit) })
         }
-        _ => (None, compiler.pose(geom)?),
+        None => (None, compiler.pose(geom)?),
     };
     // With `fromto` the first size is that across, the length is told by the ends.
     let wanted = match (kind, length) {

@@ -211,18 +211,18 @@ impl<'a, 'input> Reader<'a, 'input> {
             "hinge" => Kind::Revolute,
             "slide" => Kind::Prismatic,
             "ball" => Kind::Ball,
-            "free" => return Ok(Joint { kind: Kind::Floating, ..joint }),
+            "free" => Kind::Floating,
             other => {
                 let mistake = element.mistake(format!("`{other}` is no type of joint"));
                 return Err(mistake.help("hinge, slide, ball and free are known"));
             }
         };
-        // A slide is the same wherever it is held.
-        joint.anchor = said
-            .numbers::<3>("pos")?
-            .filter(|pos| joint.kind != Kind::Prismatic && pos.iter().any(|number| number.value != 0.0));
+        // A slide is the same wherever it is held, a free joint holds nothing.
+        joint.anchor = said.numbers::<3>("pos")?.filter(|pos| {
+            !matches!(joint.kind, Kind::Prismatic | Kind::Floating) && pos.iter().any(|number| number.value != 0.0)
+        });
         joint.axis = said.numbers::<3>("axis")?.unwrap_or_else(|| [0, 0, 1].map(Number::whole));
-        if joint.kind == Kind::Ball {
+        if matches!(joint.kind, Kind::Ball | Kind::Floating) {
             for name in ["damping", "armature", "stiffness"] {
                 said.zero(name, "the joint has several coordinates")?;
             }
