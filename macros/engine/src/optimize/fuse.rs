@@ -9,7 +9,8 @@
 //! sum, and to the rounding of one of them in a fused one. What is equal for all values is one node long before, entries of
 //! symmetric matrices are one value read twice, and ranks are judged beside the size of the terms; but a root of a a - b b is zero where a
 //! and b happen to be equal, and of a rounding below zero it is none. So what leads to the argument of a function with a bounded domain, by sums,
-//! products, quotients and the locals in them (`Guarded`), keeps plain sums, but for those whose terms are squares and the like. Values that are read more than once, or have
+//! products, quotients and the locals in them (`Guarded`), keeps plain sums, but for those whose terms are squares and the like. The way may begin
+//! in `Model::at` and end in a function of what it stores: [`bounded_fields`] says which stored values these are. Values that are read more than once, or have
 //! a name, keep their statement: a product that is computed anyway is added as any other value. Chains are as long as those of
 //! sums, and shorter in time by one product.
 //!
@@ -26,19 +27,30 @@ use std::collections::{HashMap, HashSet};
 
 use crate::contracts::call::Call;
 
-use super::program::{Expression, Local, Program, Statement};
+use super::program::{Expression, FieldId, Local, Program, Statement};
 use super::schedule::negated;
 
-/// Fuses what can be fused in all statements and results.
-pub fn fuse(program: &mut Program) {
-    let guarded = Guarded::of(program);
+/// Fuses what can be fused in all statements and results. The results of these numbers lead to the argument of a function with a
+/// bounded domain in a program that runs later.
+pub fn fuse(program: &mut Program, bounded: &[usize]) {
+    let guarded = Guarded::of(program, bounded);
     program.statements.iter_mut().for_each(|statement| fuse_in(statement, &guarded));
-    program.results.iter_mut().for_each(|result| replace(result, false));
+    for (number, result) in program.results.iter_mut().enumerate() {
+        replace(result, bounded.contains(&number));
+    }
+}
+
+/// Fields that lead to the argument of a function with a bounded domain. Fused or not, a program gives the same ones: what is on
+/// the way is fused only where it can't be negative.
+pub fn bounded_fields(program: &Program) -> HashSet<FieldId> {
+    Guarded::of(program, &[]).fields
 }
 
 fn fuse_in(statement: &mut Statement, guarded: &Guarded) {
     match statement {
-        Statement::Let { local, value } | Statement::Pack { local, value } => replace(value, guarded.0.contains(local)),
+        Statement::Let { local, value } | Statement::Pack { local, value } => {
+            replace(value, guarded.locals.contains(local))
+        }
         Statement::Iterate { start, body, next, residual, .. } => {
             start.iter_mut().chain(next).for_each(|value| replace(value, false));
             replace(&mut residual.1, false);
@@ -53,27 +65,34 @@ fn replace(expression: &mut Expression, guarded: bool) {
     *expression = fused(plain, guarded);
 }
 
-/// Locals on the way to an argument of a function with a bounded domain.
-struct Guarded(HashSet<Local>);
+/// What is on the way to an argument of a function with a bounded domain.
+#[derive(Default)]
+struct Guarded {
+    locals: HashSet<Local>,
+    fields: HashSet<FieldId>,
+}
 
 impl Guarded {
-    fn of(program: &Program) -> Guarded {
+    fn of(program: &Program, bounded: &[usize]) -> Guarded {
         let mut values: HashMap<Local, Vec<&Expression>> = HashMap::new();
-        let mut open: Vec<&Expression> = Vec::new();
+        let mut open: Vec<&Expression> = bounded.iter().filter_map(|&number| program.results.get(number)).collect();
         each_value(&program.statements, &mut |local, value| {
             values.entry(local).or_default().push(value);
         });
         for expression in program.expressions() {
             arguments(expression, &mut open);
         }
-        let mut guarded = Guarded(HashSet::new());
+        let mut guarded = Guarded::default();
         while let Some(expression) = open.pop() {
             match expression {
                 Expression::Local(local) => {
-                    if !guarded.0.insert(*local) {
+                    if !guarded.locals.insert(*local) {
                         continue;
                     }
                     open.extend(values.get(local).into_iter().flatten());
+                }
+                Expression::Field(field) => {
+                    guarded.fields.insert(*field);
                 }
                 expression if cannot_be_negative(expression) => {}
                 Expression::Neg(inner) => open.push(inner),

@@ -149,9 +149,9 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>, fused: bool) -> R
     // What stands as it was derived has no packs either, and every operation by itself.
     let form_of = |kind| match plain.functions.contains(&kind) {
         true => Form { ordered: true, ..Form::default() },
-        false => Form { limbs: derivation.limbs.as_ref(), fused, ordered: true },
+        false => Form { limbs: derivation.limbs.as_ref(), fused, bounded: &[], ordered: true },
     };
-    let form = Form { limbs: derivation.limbs.as_ref(), fused, ordered: true };
+    let form = Form { limbs: derivation.limbs.as_ref(), fused, bounded: &[], ordered: true };
     let form = if plain.at { Form { ordered: true, ..Form::default() } } else { form };
     let at = together.map(|found| at(&members, &found, (&fields, &names), form));
     let functions: Vec<Function> = chosen
@@ -234,14 +234,14 @@ fn together(derivation: &Derivation, members: &[Member<'_>], plain: bool, sound:
 /// Programs of what is known at a position, and of what is left of each function.
 fn at(members: &[Member<'_>], found: &Together, (fields, names): (&schedule::Fields, &[String]), form: Form<'_>) -> At {
     let (position, mut late) = found.parts();
-    let program = schedule::schedule_as(&position, fields, names, form);
+    let mut program = schedule::schedule_as(&position, fields, names, form);
     let stored = fields::names_of_roots(&position, &program, names);
-    let mut fields = fields.clone();
+    let mut all_fields = fields.clone();
     for (number, &(_, id)) in position.roots.iter().enumerate() {
         let print = position.nodes[id].print;
-        fields.insert(print.canonical(), (FieldId(names.len() + number), print));
+        all_fields.insert(print.canonical(), (FieldId(names.len() + number), print));
     }
-    let names: Vec<String> = names.iter().chain(&stored).cloned().collect();
+    let all_names: Vec<String> = names.iter().chain(&stored).cloned().collect();
     let costs = found.costs();
     let results = std::mem::take(&mut late.roots);
     let functions = members.iter().enumerate().map(|(number, Member { derived, before, .. })| {
@@ -251,7 +251,7 @@ fn at(members: &[Member<'_>], found: &Together, (fields, names): (&schedule::Fie
         Function {
             kind: derived.kind,
             parts: candidate.parts.clone(),
-            program: with_results_broken(schedule::schedule_as(&late, &fields, &names, form)),
+            program: with_results_broken(schedule::schedule_as(&late, &all_fields, &all_names, form)),
             before: before[way],
             after: costs[number + 1],
             method,
@@ -259,7 +259,14 @@ fn at(members: &[Member<'_>], found: &Together, (fields, names): (&schedule::Fie
             rivals: Vec::new(),
         }
     });
-    At { functions: functions.collect(), fields: stored, program, cost: costs[0] }
+    let functions: Vec<Function> = functions.collect();
+    // Which sums must stay plain is known when all their readers are.
+    let read = functions.iter().flat_map(|function| fuse::bounded_fields(&function.program));
+    let bounded: Vec<usize> = read.filter_map(|field| field.0.checked_sub(names.len())).collect();
+    if form.fused && !bounded.is_empty() {
+        program = schedule::schedule_as(&position, fields, names, Form { bounded: &bounded, ..form });
+    }
+    At { functions, fields: stored, program, cost: costs[0] }
 }
 
 /// As it came, but for a break.

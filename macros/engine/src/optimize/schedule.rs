@@ -45,6 +45,8 @@ pub struct Form<'a> {
     pub limbs: Option<&'a Limbs>,
     /// Products are fused to sums.
     pub fused: bool,
+    /// Numbers of results that a later program hands to functions with a bounded domain: see [`fuse`].
+    pub bounded: &'a [usize],
     /// Long programs get an order of their own: not where they are run once.
     pub ordered: bool,
 }
@@ -60,7 +62,7 @@ pub fn schedule_as(dag: &Dag, fields: &Fields, names: &[String], form: Form<'_>)
         program = packs::pack(program, limbs);
     }
     if form.fused {
-        fuse::fuse(&mut program);
+        fuse::fuse(&mut program, form.bounded);
     }
     program.statements = together::gather(program.statements);
     if form.ordered {

@@ -1,9 +1,13 @@
 //! Products that are added to something: which ones are fused, in what order, and what becomes of errors.
 
-use multibody_engine::optimize::fuse::fuse;
-use multibody_engine::optimize::program::{Expression, Local, Program, Statement};
+use multibody_engine::contracts::symbol::Symbol;
+use multibody_engine::mechanics;
+use multibody_engine::optimize::fuse::{bounded_fields, fuse};
+use multibody_engine::optimize::program::{Expression, FieldId, Local, Program, Statement};
+use multibody_engine::optimize::{Plain, compile_with};
 use multibody_engine::symbolic::doubled::Doubled;
 
+use crate::corpus;
 use crate::interpreter;
 use crate::rng::Rng;
 use crate::together::{local, number, set};
@@ -22,7 +26,7 @@ fn neg(x: Expression) -> Expression {
 
 fn fused(value: Expression) -> Expression {
     let mut program = Program { results: vec![value], ..Program::default() };
-    fuse(&mut program);
+    fuse(&mut program, &[]);
     program.results.remove(0)
 }
 
@@ -85,7 +89,7 @@ fn roots_of_what_cancels_stay_numbers() {
         results: vec![root(difference.clone()), local(5), difference.clone(), six],
         ..Program::default()
     };
-    fuse(&mut program);
+    fuse(&mut program, &[]);
     let run = interpreter::run(&program, &|_| f64::NAN, &|_| f64::NAN);
     assert_eq!(run[..2], [0.0, 0.0]);
     assert!(run[2] != 0.0, "a rounding of one of the products");
@@ -101,6 +105,78 @@ fn roots_of_what_cancels_stay_numbers() {
         (false, product(&[b.clone(), number(2.0), b.clone()])),
     ]);
     assert_eq!(fused(root(squares.clone())), root(fused(squares)));
+}
+
+/// What a later program hands to a root, by way of a product and a choice, is known of the fields that it reads.
+#[test]
+fn fields_that_roots_read_are_known() {
+    use multibody_engine::contracts::call::Call;
+    let field = |number| Expression::Field(FieldId(number));
+    let root = |x: Expression| Expression::Call(Call::Sqrt, vec![x]);
+    let square = product(&[field(3), field(3)]);
+    let mut program = Program {
+        locals: vec!["x0".to_owned()],
+        statements: vec![set(0, Expression::Call(Call::Max, vec![number(-1.0), product(&[field(1), number(0.5)])]))],
+        results: vec![root(Expression::Sum(vec![(false, local(0)), (false, square)])), field(2), field(1)],
+        ..Program::default()
+    };
+    let found = bounded_fields(&program);
+    assert_eq!(found, [FieldId(1)].into(), "a square is never negative");
+    fuse(&mut program, &[]);
+    assert_eq!(bounded_fields(&program), found);
+
+    // Of two results that are alike the one that such a field holds stays plain, with the locals in it.
+    let value = Expression::Sum(vec![(false, product(&[local(1), local(1)])), (true, product(&[local(2), local(2)]))]);
+    let twice = product(&[number(2.0), local(0)]);
+    let mut program = Program {
+        locals: (0..3).map(|k| format!("x{k}")).collect(),
+        statements: vec![set(0, value.clone())],
+        results: vec![value.clone(), twice.clone()],
+        ..Program::default()
+    };
+    fuse(&mut program, &[1]);
+    assert_eq!(program.results, [fused(value.clone()), twice]);
+    let Statement::Let { value: kept, .. } = &program.statements[0] else { unreachable!() };
+    assert_eq!(*kept, value);
+}
+
+/// The determinant x y - z w is stored at a position, and a function of velocities takes the root of it and a square. Where
+/// x, y are z, w and all is at rest the root is zero, whatever x and y are.
+#[test]
+fn roots_of_what_is_stored_stay_numbers() {
+    let model = corpus::model(
+        "pub mod stored {
+            body a { mass: 1.3 }
+            body b { mass: 0.7 }
+            joint x: Prismatic { parent: ground, child: a, axis: [1, 2, 0.5] }
+            joint y: Prismatic { parent: a, child: b, axis: [0.3, -1, 0.4] }
+            body c { mass: 0.5 }
+            body d { mass: 0.4 }
+            joint z: Prismatic { parent: b, child: c, axis: [0.2, 1, 2] }
+            joint w: Prismatic { parent: c, child: d, axis: [1, -0.2, 0.7] }
+            output root = sqrt(x.travel * y.travel - z.travel * w.travel + x.rate * x.rate);
+            output energy = kinetic();
+            emit mass_matrix, at { functions: [outputs, mass_matrix] };
+        }",
+    );
+    let (_, derivation) = mechanics::of(&model).unwrap_or_else(|_| panic!("a derivation"));
+    let compiled = compile_with(&derivation, Plain::default(), true).unwrap();
+    let at = compiled.at.as_ref().unwrap();
+    let outputs = &at.functions[0].program;
+    assert!(!bounded_fields(outputs).is_empty(), "nothing that is stored leads to the root: {at:#?}");
+    let mut rng = Rng::new(0x0dd);
+    for _ in 0..200 {
+        let pair = [rng.real(-1.5, 1.5), rng.real(-1.5, 1.5)];
+        let symbol = |symbol| match symbol {
+            Symbol::Position { joint, .. } => pair[joint.0 % 2],
+            _ => 0.0,
+        };
+        let mut fields = interpreter::run(&compiled.prelude, &symbol, &|_| f64::NAN);
+        let stored = interpreter::run(&at.program, &symbol, &|field| fields[field.0]);
+        fields.extend(stored);
+        let root = interpreter::run(outputs, &symbol, &|field| fields[field.0])[0];
+        assert_eq!(root, 0.0, "at {pair:?}");
+    }
 }
 
 /// Random sums of products against 31 digits: each is within the rounding of its partial sums and of one product, and beside the plain
@@ -123,7 +199,7 @@ fn errors_are_those_of_partial_sums() {
         };
         let plain = program(Expression::Sum(terms.collect()));
         let mut fused = plain.clone();
-        fuse(&mut fused);
+        fuse(&mut fused, &[]);
         assert_ne!(plain.results, fused.results);
         let run = |program: &Program| interpreter::run(program, &|_| f64::NAN, &|_| f64::NAN)[0];
         let signed = |k: usize| if signs[k] { -values[2 * k] } else { values[2 * k] };
@@ -157,7 +233,7 @@ fn statements_keep_their_locals() {
         residual: (Local(4), value.clone()),
     };
     let mut program = Program { statements: vec![set(5, value.clone()), iterate], ..Program::default() };
-    fuse(&mut program);
+    fuse(&mut program, &[]);
     let expressions: Vec<&Expression> = program.expressions().collect();
     assert_eq!(expressions.len(), 5);
     assert!(expressions.iter().all(|expression| **expression == fused(value.clone())));
