@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 /// In the order in which they would be published.
-const PACKAGES: [&str; 4] = ["multibody-engine", "multibody-macros", "multibody", "multibody-cli"];
+const PACKAGES: [&str; 5] = ["multibody-engine", "multibody-macros", "multibody", "multibody-parts", "multibody-cli"];
 
 const FILES: [&str; 4] = ["Cargo.toml", "README.md", "LICENSE-MIT", "LICENSE-APACHE"];
 

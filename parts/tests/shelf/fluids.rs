@@ -81,8 +81,8 @@ fn floats_float_and_stones_sink() {
         close("lift", model.outputs(0.0, &x, &()).lift, 9810.0 * 1e-3 * share, 1e-12);
     }
     // From rest, against drag with the square of speed: v tanh(g t / v).
-    let weight = 2.0 * 9.81 - 1025.0 * 9.81 * 8e-4;
-    let last = (weight / (0.5 * 1025.0 * 0.02)).sqrt();
+    let weight: f64 = 2.0 * 9.81 - 1025.0 * 9.81 * 8e-4;
+    let last: f64 = (weight / (0.5 * 1025.0 * 0.02)).sqrt();
     let end = after(&model, &pool::State::default(), &(), 0.4, 4000);
     close("stone", end.v.s, -last * (weight / 2.0 * 0.4 / last).tanh(), 1e-8);
 }

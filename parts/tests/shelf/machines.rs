@@ -1,6 +1,7 @@
 //! Machines of parts alone, and their balance of energy: what is stored and lost is what was there and what was supplied.
 
-use multibody::{multibody, nalgebra::vector};
+use multibody::multibody;
+use multibody::nalgebra::Vector3;
 
 use super::{after, close};
 
@@ -16,7 +17,7 @@ multibody! {
         body drum { mass: 3, inertia: diag(0.02, 0.03, 0.02) }
         joint axle: Revolute { parent: ground, child: drum, axis: Y }
         part gear: gear { housing: ground.rotated(X, 1.1), shaft: axle, ratio: 30, mass: 0.3, inertia: 4e-5 };
-        part controller: pid { wanted: 10.0 * wanted, measured: axle.angle, proportional: 20, integral: 6, derivative: 4, filter: 0.01 };
+        part controller: pid { wanted: 10.0 * wanted, measured: axle.angle, proportional: 20, integral: 6, derivative: 2, filter: 0.05 };
         part motor: inductive_motor { shaft: gear.spin, supply: controller.command, constant: 0.06, resistance: 0.7, inductance: 0.002 };
         part bearing: stribeck_friction { joint: axle, coulomb: 0.4, breakaway: 0.6, stribeck: 0.2, passage: 0.02 };
         // A rope of the drum lifts the load.
@@ -106,18 +107,18 @@ multibody! {
 /// Stored and lost, less supplied, over a run.
 macro_rules! balanced {
     ($what:expr, $model:expr, $start:expr, $input:expr, $time:expr, $steps:expr) => {{
-        let (model, start, input, parts) = ($model, $start, $input, 10);
+        let (model, start, input, steps) = ($model, $start, $input, $steps / 10);
         let sum = |t: f64, x| {
             let y = model.outputs(t, x, &input);
             y.stored + y.gone
         };
         let (first, mut x) = (sum(0.0, &start), start);
         let kept = model.outputs(0.0, &start, &input).stored;
-        let (mut size, step) = (first.abs().max(1.0), $time / parts as f64);
+        let (mut size, step) = (first.abs().max(1.0), $time / 10.0);
         let mut moved: f64 = 0.0;
-        for part in 0..parts {
-            let t = step * part as f64;
-            x = multibody::Rk4::integrate(&model, t, &x, &input, step / $steps as f64, $steps, |_, _| ()).unwrap();
+        for part in 0..10 {
+            let t = step * f64::from(part);
+            x = multibody::Rk4::integrate(&model, t, &x, &input, step / f64::from(steps), steps, |_, _| ()).unwrap();
             let y = model.outputs(t + step, &x, &input);
             size = size.max(y.stored.abs());
             moved = moved.max((y.stored - kept).abs());
@@ -133,7 +134,7 @@ macro_rules! balanced {
 fn an_electric_drive_balances() {
     let input = electric_drive::Input { wanted: 0.5 };
     let model = electric_drive::Model::<f64>::default();
-    let x = balanced!("drive", model, electric_drive::State::default(), input, 3.0, 30_000);
+    let x = balanced!("drive", model, electric_drive::State::default(), input, 3.0, 150_000);
     close("height", 0.1 * electric_drive::Model::default().outputs(3.0, &x, &input).angle, 0.5, 0.2);
 }
 
@@ -145,7 +146,7 @@ fn a_quarter_car_balances() {
 #[test]
 fn a_quadrotor_balances() {
     let mut x = quadrotor::State::<f64>::default();
-    x.v.free.angular = vector![0.3, -0.2, 0.5];
+    x.v.free.angular = Vector3::new(0.3, -0.2, 0.5);
     let input = quadrotor::Input { wanted: [480.0, 470.0, 490.0, 475.0] };
     balanced!("quadrotor", quadrotor::Model::<f64>::default(), x, input, 1.0, 2_000);
 }

@@ -10,11 +10,11 @@ mod tyres;
 use multibody::{Rk4, System};
 
 /// The state after some time at constant input.
-fn after<S: System<Scalar = f64>>(system: &S, start: &S::State, input: &S::Input, time: f64, steps: usize) -> S::State
+fn after<S: System<Scalar = f64>>(system: &S, start: &S::State, input: &S::Input, time: f64, steps: u32) -> S::State
 where
     S::State: Copy,
 {
-    let step = time / steps as f64;
+    let step = time / f64::from(steps);
     Rk4::integrate(system, 0.0, start, input, step, steps, |_, _| ()).expect("the motion is finite")
 }
 

@@ -154,9 +154,9 @@ fn roots_of_what_is_stored_stay_numbers() {
             body d { mass: 0.4 }
             joint z: Prismatic { parent: b, child: c, axis: [0.2, 1, 2] }
             joint w: Prismatic { parent: c, child: d, axis: [1, -0.2, 0.7] }
-            output root = sqrt(x.position * y.position - z.position * w.position + x.rate * x.rate);
+            output root = sqrt(x.travel * y.travel - z.travel * w.travel + x.rate * x.rate);
             output energy = kinetic();
-            emit outputs, mass_matrix, at { functions: [outputs, mass_matrix] };
+            emit mass_matrix, at { functions: [outputs, mass_matrix] };
         }",
     );
     let (_, derivation) = mechanics::of(&model).unwrap_or_else(|_| panic!("a derivation"));
