@@ -5,6 +5,22 @@ use super::super::robot::Number;
 use super::super::xml::Element;
 use crate::diagnostics::nearest;
 
+/// Actuators, whose defaults are one set in every class: what one of them says holds for all.
+const ACTUATORS: [&str; 12] = [
+    "general",
+    "position",
+    "velocity",
+    "intvelocity",
+    "damper",
+    "cylinder",
+    "muscle",
+    "adhesion",
+    "dcmotor",
+    "pid",
+    "orientation",
+    "plugin",
+];
+
 /// The class of what names none.
 const MAIN: &str = "main";
 
@@ -48,6 +64,13 @@ impl<'a, 'input> Classes<'a, 'input> {
         for child in element.children() {
             match child.name() {
                 "default" => self.enter(child, Some(number))?,
+                "equality" if child.attribute("active").is_some_and(|text| text != "true") => {
+                    return Err(child.mistake("`active` of `<equality>` in `<default>` is not supported"));
+                }
+                name if ACTUATORS.contains(&name) && child.attribute("gear").is_some() => {
+                    let mistake = child.mistake(format!("`gear` of `<{name}>` in `<default>` is not supported"));
+                    return Err(mistake.help("it would be that of motors too: give it to `<motor>`"));
+                }
                 _ => self.list[number].elements.push(child),
             }
         }
