@@ -12,6 +12,9 @@ use crate::support::{functions, model_of, value};
 
 const IDENTITY: Matrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
+/// Name, armature, stiffness and rest of a joint.
+type Sprung = (String, f64, f64, f64);
+
 struct Tree {
     draw: Draw,
     is_degree: bool,
@@ -19,7 +22,7 @@ struct Tree {
     links: Vec<Link>,
     text: String,
     /// Of each joint: its name, armature, stiffness and rest.
-    joints: Vec<(String, f64, f64, f64)>,
+    joints: Vec<Sprung>,
 }
 
 fn words(numbers: &[f64]) -> String {
@@ -204,7 +207,7 @@ fn trees_are_what_they_were_drawn_from() {
         let tree = drawn(seed);
         let model = model_of(call, &tree.text);
         let ids = (0..model.joints.len()).map(JointId);
-        let moving: Vec<(JointId, &(String, f64, f64, f64))> = ids
+        let moving: Vec<(JointId, &Sprung)> = ids
             .filter_map(|id| {
                 let name = model.joints[id].place.field.to_string();
                 Some((id, tree.joints.iter().find(|joint| name.ends_with(&joint.0))?))
