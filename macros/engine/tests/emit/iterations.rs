@@ -176,6 +176,16 @@ const RUNTIME: &str = concat!(
         fn zip<F: FnMut(T, T) -> T>(&self, other: &T, f: &mut F) -> T { f(*self, *other) }
         fn fold<A, F: FnMut(A, T) -> A>(&self, start: A, f: &mut F) -> A { f(start, *self) }
     }
+    pub struct Column<'a>(pub &'a str);
+    impl Column<'_> {
+        pub fn field(&self, name: &'static str, _unit: &'static str) -> Column<'_> { Column(name) }
+    }
+    pub trait Columns<T> {
+        fn columns(&self, place: &Column<'_>, f: &mut dyn FnMut(&Column<'_>, T));
+    }
+    impl<T: Real> Columns<T> for T {
+        fn columns(&self, place: &Column<'_>, f: &mut dyn FnMut(&Column<'_>, T)) { f(place, *self) }
+    }
     pub trait Configuration<T>: Copy {
         type Velocity: Copy;
         fn displace(&self, d: &Self::Velocity) -> Self;
