@@ -4,8 +4,8 @@ multibody::multibody! {
     /// A gear with losses and without inertia: the torque `n m` on the shaft, of which a share is lost on the way.
     ///
     /// The share that arrives is `efficiency` where the motor drives, and its inverse where the shaft drives the motor, with a smooth
-    /// passage over the power `passage`: `n m e^tanh(P / P0)`. Feed a motor with `supply` and the speed `gearbox.motor_rate`
-    /// by an equation of your own, or use `gear`, whose motor side is a body.
+    /// passage over the power `passage`: `n m e^tanh(P / P0)`. A motor of your own reads its speed from
+    /// `gearbox.motor_rate`; `gear` has a body on the side of the motor.
     pub mod gearbox {
         /// [rad] what it turns
         port shaft: Joint;

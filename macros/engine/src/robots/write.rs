@@ -178,7 +178,7 @@ impl Writer<'_> {
         if kind != Kind::Fixed {
             self.damper(joint, &name)?;
             self.spring(joint, &name);
-            self.motor(above, joint, &name);
+            self.effort(above, joint, &name);
         }
         self.mimic(joint, &name, kind)
     }
@@ -244,8 +244,7 @@ impl Writer<'_> {
                     return Err(Mistake::at(*at, message).into());
                 }
             };
-            let child = self.robot.links.iter().position(|link| link.name == driven.child);
-            if self.locked[number] || !child.is_some_and(|link| self.kept[link]) {
+            if !self.moves(number) {
                 continue;
             }
             let input = self.names.own(name, *at)?;
@@ -261,17 +260,22 @@ impl Writer<'_> {
         Ok(())
     }
 
+    /// Whether a joint is there and not locked.
+    fn moves(&self, joint: usize) -> bool {
+        let child = self.robot.links.iter().position(|link| link.name == self.robot.joints[joint].child);
+        !self.locked[joint] && child.is_some_and(|link| self.kept[link])
+    }
+
     /// One array of inputs for the joints that an effort can drive, in the order of the file.
     fn inputs(&mut self) {
-        let is_driven = |(k, joint): (usize, &Joint)| {
-            let child = self.robot.links.iter().position(|link| link.name == joint.child);
-            let is_there = child.is_some_and(|link| self.kept[link]) && !self.locked[k] && joint.mimic.is_none();
-            (is_there && matches!(joint.kind, Kind::Revolute | Kind::Prismatic)).then_some(k)
-        };
         if !self.options.is_driven {
             return;
         }
-        let driven: Vec<usize> = self.robot.joints.iter().enumerate().filter_map(is_driven).collect();
+        let is_driven = |&number: &usize| {
+            let joint = &self.robot.joints[number];
+            self.moves(number) && joint.mimic.is_none() && matches!(joint.kind, Kind::Revolute | Kind::Prismatic)
+        };
+        let driven: Vec<usize> = (0..self.robot.joints.len()).filter(is_driven).collect();
         if driven.is_empty() {
             return;
         }
@@ -290,7 +294,8 @@ impl Writer<'_> {
         }
     }
 
-    fn motor(&mut self, number: usize, joint: &Joint, name: &str) {
+    /// What its input exerts on a joint.
+    fn effort(&mut self, number: usize, joint: &Joint, name: &str) {
         let Some(effort) = self.efforts[number].take() else { return };
         let force = self.names.free(&format!("{name}_motor"));
         self.document(joint.at);

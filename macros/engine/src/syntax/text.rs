@@ -21,7 +21,8 @@ pub(crate) fn text(tokens: TokenStream) -> String {
                     Delimiter::Parenthesis => ("( ", ") "),
                     Delimiter::Brace => ("{ ", "} "),
                     Delimiter::Bracket => ("[ ", "] "),
-                    Delimiter::None => ("", ""),
+                    // What a macro has put in holds together without a bracket.
+                    Delimiter::None => ("\u{ab} ", "\u{bb} "),
                 };
                 text += opening;
                 open.push((std::mem::replace(&mut tokens, group.stream().into_iter()), closing));

@@ -102,7 +102,6 @@ impl<'a> Checker<'a, '_> {
     }
 
     fn selected(&mut self, x: &Typed, xs: &[Typed], ys: &[Typed], pieces: &[Piece], at: Span) -> Option<Typed> {
-        let last = xs.len() - 1;
         let masks: Option<Vec<Typed>> = xs
             .iter()
             .map(|point| {
@@ -121,7 +120,6 @@ impl<'a> Checker<'a, '_> {
         for power in (0..pieces[0].len()).rev() {
             let inner = pieces.iter().map(|piece| piece[power].clone());
             let all: Vec<Typed> = std::iter::once(zero.clone()).chain(inner).chain([zero.clone()]).collect();
-            debug_assert_eq!(all.len(), last + 2);
             let chosen = self.choice(&masks, &all, at)?;
             let factor = match sum {
                 Some(sum) => self.of_two(ExprNode::Add, &chosen, &sum, at)?,
@@ -137,8 +135,8 @@ impl<'a> Checker<'a, '_> {
 
     /// The one of `values` before whose mask `x` lies; the last if it lies before none.
     fn choice(&mut self, masks: &[Typed], values: &[Typed], at: Span) -> Option<Typed> {
-        let Some(middle) = masks.get(masks.len() / 2) else { return values.first().cloned() };
         let cut = masks.len() / 2;
+        let Some(middle) = masks.get(cut) else { return values.first().cloned() };
         let left = self.choice(&masks[..cut], &values[..=cut], at)?;
         let right = self.choice(&masks[cut + 1..], &values[cut + 1..], at)?;
         let node = ExprNode::Select(middle.expr.clone(), left.expr.clone(), right.expr.clone());
