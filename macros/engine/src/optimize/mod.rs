@@ -363,18 +363,30 @@ fn rounds(count: usize) -> impl Iterator<Item = Pass> {
 const LARGE: usize = 40_000;
 
 /// All rewrites. Each pass pays by its own count, not always by the whole: what costs more than what went in is given
-/// back as it came, and so is what would not have the same value: then the answer is `false`, and a pass has an
-/// error.
+/// back as it came. What would not have the same value is done again without the passes that change it, and the answer is
+/// `false`: such a pass has an error, or drops what cancels up to rounding and not exactly.
 pub fn simplify(dag: &mut Dag) -> bool {
+    let before = dag.clone();
     flatten::flatten(dag);
-    let derived = dag.clone();
-    let expected = dag.root_prints();
+    let mut derived = dag.clone();
+    let expected = before.root_prints();
     let count = if dag.order().len() > LARGE { 1 } else { ROUNDS };
     for (_, rewrite) in rounds(count) {
         rewrite(dag);
     }
     let sound = dag.is_sound(&expected);
-    if !sound || dag.cost().0.weight() > derived.cost().0.weight() {
+    if !sound {
+        derived = before;
+        dag.clone_from(&derived);
+        for (_, rewrite) in rounds(count) {
+            let last = dag.clone();
+            rewrite(dag);
+            if !dag.is_sound(&expected) {
+                *dag = last;
+            }
+        }
+    }
+    if dag.cost().0.weight() > derived.cost().0.weight() {
         *dag = derived;
     }
     sound

@@ -287,6 +287,8 @@ pub struct Graph {
     pub(super) shunned: u128,
     /// Large numbers whose square roots are literals.
     pub(super) radicands: Vec<u128>,
+    /// Sine and cosine of literal angles that are no exact numbers, but whose points are; see [`Graph::literal_sin_cos`].
+    pub(super) exact_points: HashMap<Print, [Number; 2]>,
     names: PlaceMap<Name>,
     vector_names: PlaceMap<Name>,
     heading: Option<Arc<str>>,
@@ -319,6 +321,7 @@ impl Graph {
             reads: Default::default(),
             shunned: 0,
             radicands: Vec::new(),
+            exact_points: HashMap::new(),
             names: PlaceMap::default(),
             vector_names: PlaceMap::default(),
             heading: None,

@@ -393,6 +393,7 @@ impl Graph {
         }
         let values: Option<Vec<Number>> = arguments.iter().map(|&a| self.literal(a)).collect();
         let value = elementary::call(call, &values?)?;
+        self.keep_point(value, call, arguments);
         Some(self.number(value))
     }
 

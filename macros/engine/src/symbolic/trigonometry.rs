@@ -29,6 +29,7 @@ impl Graph {
         if let (Some(c), Some(s)) = (self.literal(cos), self.literal(sin))
             && let Some(angle) = super::elementary::call(Call::Atan2, &[s, c])
         {
+            self.keep_point(angle, Call::Atan2, &[sin, cos]);
             return self.number(angle);
         }
         // atan2 is odd in the sine.
@@ -132,7 +133,7 @@ impl Graph {
             return sin;
         }
         if let Some(n) = self.literal(angle) {
-            return self.number(sin_cos(n).0);
+            return self.number(self.literal_sin_cos(n)[0]);
         }
         match self.quarter_turns(angle) {
             (Scalar::ZERO, 0 | 2) => Scalar::ZERO,
@@ -154,7 +155,7 @@ impl Graph {
             return cos;
         }
         if let Some(n) = self.literal(angle) {
-            return self.number(sin_cos(n).1);
+            return self.number(self.literal_sin_cos(n)[1]);
         }
         match self.quarter_turns(angle) {
             (Scalar::ZERO, 1 | 3) => Scalar::ZERO,
@@ -198,7 +199,55 @@ impl Graph {
             Some((c, s, times)) => Point { cos: self.print(c), sin: self.print(s) }.times(times.into()),
             None => multiple(self.print(unit), factor, |unit| Point::drawn(0xA9_61E5, unit)),
         };
-        units.terms.iter().map(point).fold(literal_point(units.constant).0, Add::add)
+        let constant = match self.exact_point(units.constant) {
+            Some([sin, cos]) => Point { cos: cos.print(), sin: sin.print() },
+            None => literal_point(units.constant).0,
+        };
+        units.terms.iter().map(point).fold(constant, Add::add)
+    }
+
+    /// Sine and cosine of a literal angle. The angle acos(1 / 3) is no exact number, but its cosine is one, and so is its sine,
+    /// as long as the angle itself is asked for; of what is added to it only the hash is known.
+    fn literal_sin_cos(&self, angle: Number) -> [Number; 2] {
+        self.exact_point(angle).unwrap_or_else(|| sin_cos(angle).into())
+    }
+
+    fn exact_point(&self, angle: Number) -> Option<[Number; 2]> {
+        let key = angle.print().canonical();
+        let &[sin, cos] = self.exact_points.get(&key)?;
+        Some([if key == angle.print() { sin } else { -sin }, cos])
+    }
+
+    /// Remembers where an angle lies that a function of literals gives, if these and the root beside them are exact.
+    pub(super) fn keep_point(&mut self, angle: Number, call: Call, arguments: &[Scalar]) {
+        if angle.is_exact() {
+            return;
+        }
+        let [sin, cos] = match (call, arguments) {
+            (Call::Asin, &[sin]) => [sin, self.other_side(sin)],
+            (Call::Acos, &[cos]) => [self.other_side(cos), cos],
+            (Call::Atan, &[slope]) => self.direction(slope, Scalar::ONE),
+            (Call::Atan2, &[sin, cos]) => self.direction(sin, cos),
+            _ => return,
+        };
+        let (Some(sin), Some(cos)) = (self.literal(sin), self.literal(cos)) else { return };
+        if sin.is_exact() && cos.is_exact() {
+            let key = angle.print().canonical();
+            self.exact_points.insert(key, [if key == angle.print() { sin } else { -sin }, cos]);
+        }
+    }
+
+    /// The other side of a right triangle with a hypotenuse of one.
+    fn other_side(&mut self, side: Scalar) -> Scalar {
+        let square = self.mul(side, side);
+        let other = self.sub(Scalar::ONE, square);
+        self.sqrt(other)
+    }
+
+    /// Sine and cosine of the angle of a point off the origin.
+    fn direction(&mut self, y: Scalar, x: Scalar) -> [Scalar; 2] {
+        let length = self.length([y, x, Scalar::ZERO]);
+        [y, x].map(|part| self.div(part, length))
     }
 }
 

@@ -105,3 +105,25 @@ fn a_fault_is_one_error_that_names_the_stage() {
     assert!(output.contains("the stage `symbolic` (lower.rs:"), "{output}");
     assert!(output.contains("has failed for `pointer`") && output.contains("please report it with the model"));
 }
+
+/// The others go on.
+#[test]
+fn a_broken_pass_is_left_out() {
+    for (name, text) in models::MODELS {
+        let (_, derivation) = mechanics::of(&corpus::model(text)).expect("equations");
+        let compiled = with(Some(Break::FactoredSign), || optimize::compile(&derivation)).expect("programs");
+        if compiled.sound {
+            continue;
+        }
+        let whole = optimize::compile(&derivation).expect("programs");
+        let work = |compiled: &optimize::program::Compiled| -> u32 {
+            compiled.functions.iter().map(|function| function.after.weight()).sum()
+        };
+        let derived: u32 = whole.functions.iter().map(|function| function.before.weight()).sum();
+        println!("{name}: {} as derived, {} without the pass, {} with it", derived, work(&compiled), work(&whole));
+        // Of what all passes save, most is saved.
+        assert!(2 * (derived - work(&compiled)) > derived - work(&whole), "{name}");
+        return;
+    }
+    panic!("no model has a factor");
+}

@@ -223,6 +223,37 @@ fn typed_frames_keep_a_plane() {
     }
 }
 
+/// What cancels beside angles that are no exact numbers: by exact points (acos of a number, directions), or up to rounding and
+/// without a proof (exp), where terms stay.
+#[test]
+fn angles_without_an_exact_number() {
+    let bodies = "
+        body b0 { mass: 1.0, com: [0.1, 0.2, 0.3], inertia: diag(0.1, 0.12, 0.15) }
+        body b1 { mass: 1.0, com: 0.3 * Y, inertia: diag(0.1, 0.12, 0.15) }";
+    for angle in
+        ["acos(1 / 3)", "-acos(1 / 3)", "asin(2 / 7)", "atan(-3)", "atan2(1, -2)", "exp(0.3)", "acos(1 / 3) + PI / 5"]
+    {
+        let text = format!(
+            "world {{ gravity: -9 * [1, 2, 2] / 3 }} {bodies}
+            joint j0: Revolute {{ parent: ground.rotated(X + Y, {angle}), child: b0, axis: Z }}
+            joint j1: Revolute {{ parent: b0.at(X).rotated([1, 2, 2], {angle}), child: b1, axis: Z }}
+            emit forward_dynamics, inverse_dynamics, mass_matrix, bias, energy;"
+        );
+        judge(&text, 2, 7);
+    }
+    for (axis, slide) in [("[1, 2, 3]", "[3, 0, -1]"), ("[1, 2, 2]", "[2, 1, -2]"), ("[0.3, -0.7, 0.2]", "[7, 3, 0]")] {
+        let text = format!(
+            "{bodies}
+            body b2 {{ mass: 1, inertia: diag(0.1, 0.1, 0.1) }}
+            joint j0: Revolute {{ parent: ground, child: b0, axis: Z }}
+            joint j1: PinSlot {{ parent: b0, child: b1, axis: {axis}, slide: {slide} }}
+            joint j2: Revolute {{ parent: b1, child: b2, axis: X }}
+            emit derivatives, forward_dynamics, mass_matrix, energy;"
+        );
+        assert!(compiled(&text).sound, "{text}");
+    }
+}
+
 /// `CHAINS` chooses how many.
 #[test]
 fn chains_hold_no_dust() {

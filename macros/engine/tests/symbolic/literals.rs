@@ -60,6 +60,35 @@ fn angles_that_have_no_exact_point() {
     }
 }
 
+/// An angle that is no exact number by its point, which is one.
+#[test]
+fn points_of_angles_that_functions_give() {
+    let mut g = Graph::new();
+    let [third, minus, two] = [(1, 3), (-2, 7), (2, 1)].map(|(n, d)| g.number(Number::ratio(n, d)));
+    let side = |g: &mut Graph, n: i64, d: i64| {
+        let square = g.number(Number::ratio(n, d));
+        g.sqrt(square)
+    };
+    let angle = g.call(Call::Acos, &[third]);
+    let root = side(&mut g, 8, 9);
+    assert_eq!([g.cos(angle), g.sin(angle), g.cos(-angle), g.sin(-angle)], [third, root, third, -root]);
+    let angle = g.call(Call::Asin, &[minus]);
+    let root = side(&mut g, 45, 49);
+    assert_eq!([g.cos(angle), g.sin(angle)], [root, minus]);
+    let angle = g.call(Call::Atan, &[two]);
+    let (cos, sin) = (side(&mut g, 1, 5), side(&mut g, 4, 5));
+    assert_eq!([g.cos(angle), g.sin(angle)], [cos, sin]);
+    let (y, x) = (g.decimal(-1.5), g.decimal(-3.0));
+    let angle = g.call(Call::Atan2, &[y, x]);
+    assert_eq!([g.cos(angle), g.sin(angle)], [-sin, -cos]);
+    // Beside a coordinate: the sines of the sum are those of the addition theorem.
+    let q = g.symbol();
+    let sum = g.add(q, angle);
+    let (whole, [cq, sq]) = (g.sin(sum), [g.cos(q), g.sin(q)]);
+    let terms = [g.mul(sq, -sin), g.mul(cq, -cos)];
+    assert_eq!(whole, g.sum(&terms));
+}
+
 #[test]
 fn calls_of_literals() {
     let mut g = Graph::new();
