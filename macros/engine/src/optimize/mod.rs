@@ -214,7 +214,7 @@ fn with_numbers(derivation: &Derivation) -> (Vec<Symbol>, Vec<String>) {
 /// What choices between candidates compare where limbs go into packs: what is left of them there.
 fn packed_weight(dag: &Dag, symbols: &[Symbol], limbs: &Limbs) -> u32 {
     let fields::StoredFields { fields, names, .. } = fields::gather(&[dag], symbols);
-    let form = Form { limbs: Some(limbs), fused: false, ordered: false };
+    let form = Form { limbs: Some(limbs), fused: false, bounded: &[], ordered: false };
     packs::weight(&schedule::schedule_as(dag, &fields, &names, form))
 }
 

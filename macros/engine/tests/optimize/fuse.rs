@@ -107,6 +107,35 @@ fn roots_of_what_cancels_stay_numbers() {
     assert_eq!(fused(root(squares.clone())), root(fused(squares)));
 }
 
+/// What a pack is filled with, where a root is taken of the pack.
+#[test]
+fn ways_go_through_packs() {
+    use multibody_engine::contracts::call::Call;
+    let [a, b] = [0, 1].map(local);
+    let difference = Expression::Sum(vec![(false, product(&[a.clone(), a])), (true, product(&[b.clone(), b]))]);
+    let mut program = Program {
+        locals: (0..5).map(|k| format!("x{k}")).collect(),
+        statements: vec![
+            set(0, number(0.1)),
+            set(1, number(0.1)),
+            set(2, difference.clone()),
+            set(3, difference.clone()),
+            Statement::Pack {
+                local: Local(4),
+                value: Expression::Pack(vec![local(2), local(2), number(1.0), local(0)]),
+            },
+        ],
+        results: vec![Expression::Call(Call::Sqrt, vec![local(4)])],
+        ..Program::default()
+    };
+    fuse(&mut program, &[]);
+    let value = |number: usize| match &program.statements[number] {
+        Statement::Let { value, .. } => value.clone(),
+        _ => unreachable!(),
+    };
+    assert_eq!([value(2), value(3)], [difference.clone(), fused(difference)]);
+}
+
 /// What a later program hands to a root, by way of a product and a choice, is known of the fields that it reads.
 #[test]
 fn fields_that_roots_read_are_known() {
