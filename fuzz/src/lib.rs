@@ -5,7 +5,7 @@
 //! `Model::at`, with limbs in packs or without (`mechanism::limbs`). A failure is made as small as it
 //! gets (`mechanism::shrink`) and printed as text. `jury` runs models for `cargo xtask mutants`,
 //! `written` puts equations for readers down as they are printed, `differentiated` compares `diff` with differences, `manipulated` random
-//! expressions that take others apart with what they are made of.
+//! expressions that take others apart with what they are made of. `robots` breaks files of robots.
 
 pub mod algebra;
 pub mod campaign;
@@ -20,6 +20,7 @@ pub mod oracle;
 pub mod plain;
 pub mod programs;
 pub mod random;
+pub mod robots;
 pub mod written;
 
 #[path = "../../macros/engine/tests/common/corpus.rs"]

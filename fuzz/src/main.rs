@@ -4,7 +4,7 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use multibody_fuzz::campaign::{Chains, Family, Limbs, Loops, Plan, Tally, run};
-use multibody_fuzz::{differentiated, grammar_campaign, jury, manipulated, written};
+use multibody_fuzz::{differentiated, grammar_campaign, jury, manipulated, robots, written};
 
 fn number(arguments: &[String], name: &str, default: u64) -> u64 {
     let at = arguments.iter().position(|word| word == name);
@@ -89,6 +89,7 @@ fn main() -> ExitCode {
         Some("grammar") => Some(grammar_campaign::run(plan, false).0),
         Some("broken") => Some(grammar_campaign::run(plan, true).0),
         Some("manipulated") => Some(manipulated::run(plan)),
+        Some("robots") => Some(robots::run(plan)),
         Some("rustc") => match grammar_campaign::through_rustc(plan, "long") {
             Ok(tally) => Some(tally),
             Err(error) => {
@@ -107,7 +108,7 @@ fn main() -> ExitCode {
         Some("loops") => Box::new(Loops),
         _ => {
             println!(
-                "chains|limbs|loops|grammar|broken|manipulated|rustc [--models N] [--seed S] [--shown K] [--seconds T]"
+                "chains|limbs|loops|grammar|broken|manipulated|robots|rustc [--models N] [--seed S] [--shown K] [--seconds T]"
             );
             println!("jury {}", jury::USAGE);
             println!("written {}", written::USAGE);

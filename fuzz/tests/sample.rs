@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use multibody_fuzz::campaign::{Chains, Family, Limbs, Loops, Plan, Tally, run};
 use multibody_fuzz::mechanism::Mechanism;
-use multibody_fuzz::{differentiated, grammar_campaign, manipulated};
+use multibody_fuzz::{differentiated, grammar_campaign, manipulated, robots};
 
 fn plan(models: usize, seed: u64) -> Plan {
     // On a slow machine fewer are looked at; none is judged less strictly.
@@ -92,4 +92,13 @@ fn broken_calls() {
     let (tally, _) = grammar_campaign::run(plan(300, 1), true);
     assert!(tally.models > 10);
     assert_eq!(tally.failures(), 0, "{:#?}\n{}", tally.classes, tally.reports.join("\n"));
+}
+
+/// Files of robots that are broken.
+#[test]
+fn broken_files_of_robots() {
+    let tally = robots::run(Plan { time: Duration::from_secs(8), ..plan(600, 1) });
+    assert_eq!(tally.failures(), 0, "{:#?}\n{}", tally.classes, tally.reports.join("\n"));
+    // Not all are refused: what is read is not only the first mistake.
+    assert!(tally.models > 50 && 20 * tally.numbers > tally.models, "{} of {} are read", tally.numbers, tally.models);
 }

@@ -10,6 +10,9 @@ use crate::model::names::{module_refusal, refusal};
 use super::mistake::{Mistake, Place};
 use super::robot::Robot;
 
+/// Words that braces stand behind at the head of an item: no body can be called so.
+const HEADS: [&str; 2] = ["world", "formulation"];
+
 pub(super) struct Names {
     pub(super) links: Vec<String>,
     pub(super) joints: Vec<String>,
@@ -84,7 +87,7 @@ fn identifier(name: &str, at: Place) -> Result<String, Mistake> {
     if text.starts_with(|c: char| c.is_ascii_digit()) {
         text.insert(0, '_');
     }
-    if refusal(&text).is_some() {
+    if refusal(&text).is_some() || HEADS.contains(&text.as_str()) {
         text.push('_');
     }
     Ok(text)

@@ -104,16 +104,29 @@ pub(super) struct Spring {
     pub(super) rest: Number,
 }
 
-/// A joint that closes a loop, `Ball` or `Fixed`.
+/// A joint that closes a loop.
 #[derive(Clone, Debug)]
 pub(super) struct Closure {
     pub(super) name: String,
     pub(super) at: Place,
     pub(super) kind: Kind,
+    /// In the frame of the joint; of any length but zero. `Fixed` and `Ball` have none.
+    pub(super) axis: Option<[Number; 3]>,
     pub(super) parent: String,
     pub(super) child: String,
     pub(super) in_parent: Origin,
     pub(super) in_child: Origin,
+}
+
+/// `ratio` times the coordinates on the way to one link is the sum of those on the way to another one, both from the nearest link
+/// that carries both.
+#[derive(Clone, Debug)]
+pub(super) struct Coupling {
+    pub(super) name: String,
+    pub(super) at: Place,
+    pub(super) ratio: Number,
+    pub(super) predecessor: String,
+    pub(super) successor: String,
 }
 
 /// An input that drives a joint.
@@ -132,6 +145,7 @@ pub(super) struct Robot {
     pub(super) links: Vec<Link>,
     pub(super) joints: Vec<Joint>,
     pub(super) closures: Vec<Closure>,
+    pub(super) couplings: Vec<Coupling>,
     pub(super) motors: Vec<Motor>,
     /// Elements that carry no mechanics, with how often they stand in the file.
     pub(super) read_over: BTreeMap<String, usize>,
@@ -211,4 +225,22 @@ pub(super) struct Tree {
     pub(super) parents: Vec<usize>,
     /// Links, parents first.
     pub(super) order: Vec<usize>,
+}
+
+impl Tree {
+    /// The joints that a link hangs on, from the link to the root.
+    fn path(&self, link: usize) -> Vec<usize> {
+        let above = |joint: &usize| self.above[self.parents[*joint]];
+        std::iter::successors(self.above[link], above).collect()
+    }
+
+    /// The joints on the way to each of two links from the nearest link that carries both.
+    pub(super) fn ways(&self, a: usize, b: usize) -> [Vec<usize>; 2] {
+        let [mut a, mut b] = [self.path(a), self.path(b)];
+        while a.last().is_some() && a.last() == b.last() {
+            a.pop();
+            b.pop();
+        }
+        [a, b]
+    }
 }

@@ -3,6 +3,8 @@
 //! In: the text of a file. Out: its robot, or the first mistake. What has no mechanics is counted and read over; all else that
 //! is not known is a mistake, since a model without it would be another robot.
 
+mod loops;
+
 use super::mistake::Mistake;
 use super::robot::{Inertial, Joint, Kind, Link, Mimic, Number, Origin, Robot};
 use super::xml::{self, Element, Lines};
@@ -44,9 +46,18 @@ pub(super) fn read(text: &str, is_friction_ignored: bool) -> Result<Robot, Mista
                 let joint = joint(element, is_friction_ignored, &mut robot)?;
                 robot.joints.push(joint);
             }
+            "loop" => {
+                let closure = loops::closure(element, &mut robot)?;
+                robot.closures.push(closure);
+            }
+            "coupling" => {
+                let coupling = loops::coupling(element)?;
+                robot.couplings.push(coupling);
+            }
             _ => over(element, root, &mut robot)?,
         }
     }
+    loops::distinct(&robot)?;
     Ok(robot)
 }
 
@@ -87,7 +98,8 @@ fn inertial(element: Element) -> Result<Inertial, Mistake> {
 }
 
 fn joint(element: Element, is_friction_ignored: bool, robot: &mut Robot) -> Result<Joint, Mistake> {
-    let name = element.only(&["name", "type"])?.wanted("name")?.to_owned();
+    let name = element.only(&["name", "type", "independent"])?.wanted("name")?.to_owned();
+    loops::independent(element, robot)?;
     let kind = match element.wanted("type")? {
         "revolute" | "continuous" => Kind::Revolute,
         "prismatic" => Kind::Prismatic,
@@ -106,18 +118,7 @@ fn joint(element: Element, is_friction_ignored: bool, robot: &mut Robot) -> Resu
     }
     let parent = element.wanted_child("parent")?.only(&["link"])?.wanted("link")?.to_owned();
     let child = element.wanted_child("child")?.only(&["link"])?.wanted("link")?.to_owned();
-    let axis = match element.child("axis")? {
-        Some(axis) => {
-            let numbers =
-                axis.only(&["xyz"])?.numbers::<3>("xyz")?.ok_or_else(|| axis.mistake("`<axis>` has no `xyz`"))?;
-            let has_axis = !matches!(kind, Kind::Fixed | Kind::Floating);
-            if has_axis && numbers.iter().all(|number| number.value == 0.0) {
-                return Err(axis.mistake("the axis is zero"));
-            }
-            numbers
-        }
-        None => [1, 0, 0].map(Number::whole),
-    };
+    let axis = axis(element, kind)?;
     let damping = match element.child("dynamics")? {
         Some(dynamics) => damping(dynamics, kind, is_friction_ignored)?,
         None => None,
@@ -145,6 +146,17 @@ fn joint(element: Element, is_friction_ignored: bool, robot: &mut Robot) -> Resu
         spring: None,
         mimic,
     })
+}
+
+/// Of `<axis>`, along X if there is none.
+fn axis(element: Element, kind: Kind) -> Result<[Number; 3], Mistake> {
+    let Some(axis) = element.child("axis")? else { return Ok([1, 0, 0].map(Number::whole)) };
+    let numbers = axis.only(&["xyz"])?.numbers::<3>("xyz")?.ok_or_else(|| axis.mistake("`<axis>` has no `xyz`"))?;
+    let has_axis = !matches!(kind, Kind::Fixed | Kind::Floating);
+    if has_axis && numbers.iter().all(|number| number.value == 0.0) {
+        return Err(axis.mistake("the axis is zero"));
+    }
+    Ok(numbers)
 }
 
 /// Of `<dynamics>`, if it is not zero.

@@ -3,6 +3,8 @@
 //! In: a robot and what the user says of it. Out: the text of a part with one port, an item to a line, each with the place in
 //! the file in its documentation. Numbers keep the digits that the file has.
 
+mod ties;
+
 use std::fmt::Write;
 
 use proc_macro2::Ident;
@@ -11,7 +13,7 @@ use super::angles;
 use super::mistake::{Mistake, Place};
 use super::names::{Names, printable};
 use super::options::{Base, Options, Quantity};
-use super::robot::{Closure, Inertial, Joint, Kind, Link, Motor, Number, Origin, Robot, Spring, Tree};
+use super::robot::{Inertial, Joint, Kind, Link, Motor, Number, Origin, Robot, Spring, Tree};
 
 /// A part's text, and what the module that uses it has to say.
 pub(super) struct Written {
@@ -77,6 +79,7 @@ pub(super) fn part(robot: &Robot, module: &str, file: &str, options: &Options) -
         }
     }
     writer.closures()?;
+    writer.couplings()?;
     writer.motors()?;
     if let Some(unused) = writer.used.iter().position(|used| !used) {
         let Quantity { item, of } = &options.params[unused];
@@ -155,15 +158,8 @@ impl Writer<'_> {
         } else {
             self.body(k, link)?;
             self.document(joint.at);
-            let (word, axis) = match kind {
-                Kind::Fixed => ("Fixed", None),
-                Kind::Ball => ("Ball", None),
-                Kind::Floating => ("Free", None),
-                Kind::Revolute => ("Revolute", Some(&joint.axis)),
-                Kind::Prismatic => ("Prismatic", Some(&joint.axis)),
-                Kind::Planar => ("Planar", Some(&joint.axis)),
-            };
-            let axis = axis.map_or_else(String::new, |axis| format!(", axis: {}", direction(axis)));
+            let has_axis = matches!(kind, Kind::Revolute | Kind::Prismatic | Kind::Planar);
+            let (word, axis) = (word(kind), along(Some(&joint.axis).filter(|_| has_axis)));
             let armature = joint.armature.as_ref().filter(|_| kind != Kind::Fixed);
             let armature =
                 armature.map_or_else(String::new, |armature| format!(", armature: {}", angles::signed(armature)));
@@ -201,28 +197,6 @@ impl Writer<'_> {
         self.document(joint.at);
         let (stiffness, rest) = (angles::signed(stiffness), angles::signed(rest));
         let _ = writeln!(self.items, "force {force}: Spring {{ joint: {name}, stiffness: {stiffness}, rest: {rest} }}");
-    }
-
-    /// Joints beyond the tree, where both of their links are there.
-    fn closures(&mut self) -> Result<(), Fault> {
-        for closure in &self.robot.closures {
-            let Closure { name, at, kind, parent, child, in_parent, in_child } = closure;
-            let find = |wanted: &String| self.robot.links.iter().position(|link| link.name == *wanted);
-            let lost = |name: &String| {
-                Mistake::at(*at, format!("`{}` names the body `{name}`, which isn't there", closure.name))
-            };
-            let (a, b) = (find(parent).ok_or_else(|| lost(parent))?, find(child).ok_or_else(|| lost(child))?);
-            if !self.kept[a] || !self.kept[b] {
-                continue;
-            }
-            let a = self.frame(self.names.links[a].clone(), in_parent, name);
-            let b = self.frame(self.names.links[b].clone(), in_child, name);
-            let own = self.names.own(name, *at)?;
-            self.document(*at);
-            let word = if *kind == Kind::Fixed { "Fixed" } else { "Ball" };
-            let _ = writeln!(self.items, "joint {own}: {word} {{ parent: {a}, child: {b} }}");
-        }
-        Ok(())
     }
 
     /// The motors of the file, where the user asks for no others.
@@ -300,39 +274,6 @@ impl Writer<'_> {
         let force = self.names.free(&format!("{name}_motor"));
         self.document(joint.at);
         let _ = writeln!(self.items, "force {force}: Effort {{ joint: {name}, value: {effort} }}");
-    }
-
-    fn mimic(&mut self, joint: &Joint, name: &str, kind: Kind) -> Result<(), Fault> {
-        let Some(mimic) = &joint.mimic else { return Ok(()) };
-        let find = |found: &Joint| found.name == mimic.joint;
-        let Some(other) = self.robot.joints.iter().position(find) else {
-            let message = format!("joint `{}` mimics `{}`, which isn't there", joint.name, mimic.joint);
-            return Err(Mistake::at(mimic.at, message).into());
-        };
-        let leader = &self.robot.joints[other];
-        if leader.name == joint.name {
-            return Err(Mistake::at(mimic.at, format!("joint `{}` mimics itself", joint.name)).into());
-        }
-        if kind == Kind::Fixed {
-            return Ok(());
-        }
-        let is_there = self.robot.links.iter().position(|link| link.name == leader.child).is_some_and(|k| self.kept[k]);
-        if self.locked[other] || !is_there {
-            let message = format!("joint `{}` mimics `{}`, which is locked or dropped", joint.name, leader.name);
-            return Err(Mistake::at(mimic.at, message).help("lock or drop it too").into());
-        }
-        let own = coordinate(kind, &joint.name, mimic.at)?;
-        let leading = coordinate(leader.kind, &leader.name, mimic.at)?;
-        let constraint = self.names.free(&format!("{name}_mimic"));
-        let leader = self.names.joints[other].clone();
-        let (multiplier, offset) = (angles::signed(&mimic.multiplier), angles::signed(&mimic.offset));
-        let offset = if mimic.offset.value == 0.0 { String::new() } else { format!(" - ({offset})") };
-        self.document(mimic.at);
-        let _ = writeln!(
-            self.items,
-            "constraint {constraint} = {name}.{own} - ({multiplier}) * {leader}.{leading}{offset};"
-        );
-        Ok(())
     }
 
     fn body(&mut self, k: usize, link: &Link) -> Result<(), Fault> {
@@ -444,6 +385,23 @@ fn list(numbers: &[Number; 3]) -> String {
     format!("[{}]", numbers.iter().map(angles::signed).collect::<Vec<_>>().join(", "))
 }
 
+/// The kind of a joint in the language.
+fn word(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Fixed => "Fixed",
+        Kind::Ball => "Ball",
+        Kind::Floating => "Free",
+        Kind::Revolute => "Revolute",
+        Kind::Prismatic => "Prismatic",
+        Kind::Planar => "Planar",
+    }
+}
+
+/// The field of a joint that has an axis.
+fn along(axis: Option<&[Number; 3]>) -> String {
+    axis.map_or_else(String::new, |axis| format!(", axis: {}", direction(axis)))
+}
+
 /// Unit vectors have names.
 fn direction(axis: &[Number; 3]) -> String {
     let values = [axis[0].value, axis[1].value, axis[2].value];
@@ -457,12 +415,4 @@ fn direction(axis: &[Number; 3]) -> String {
         }
     }
     list(axis)
-}
-
-fn coordinate(kind: Kind, joint: &str, at: Place) -> Result<&'static str, Mistake> {
-    match kind {
-        Kind::Revolute => Ok("angle"),
-        Kind::Prismatic => Ok("travel"),
-        _ => Err(Mistake::at(at, format!("joint `{joint}` has not one coordinate: it neither mimics nor is mimicked"))),
-    }
 }

@@ -1,6 +1,7 @@
 //! Robots from their files: what they are, and what is said of files that hold none.
 
 mod arms;
+mod files;
 #[path = "../common/interpreter.rs"]
 mod interpreter;
 mod malformed;
@@ -9,3 +10,5 @@ mod mjcf_trees;
 mod options;
 mod recursion;
 mod support;
+mod ties;
+mod urdf_plus;

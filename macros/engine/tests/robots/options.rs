@@ -157,10 +157,16 @@ fn names_become_identifiers() {
         link("ground", ""),
         joint("type", "revolute", ["a-1", "1/b"], ""),
         joint("ground", "revolute", ["1/b", "ground"], ""),
+        // Heads of items that have no name.
+        link("world", ""),
+        link("formulation", ""),
+        joint("solve", "revolute", ["1/b", "world"], ""),
+        joint("force", "revolute", ["1/b", "formulation"], ""),
     ]
     .concat();
     let call = "mod robot { part r: Urdf { file: \"r\", base: ground }; part s: [Urdf; 2] = |i| Urdf { file: \"r\", base: ground.at(i * X) }; \
-        output a = r.a_1.position; output b = s[1]._1_b.position; output c = r.ground_.position; output d = r.type_.angle + s[0].ground__joint.angle; }";
+        output a = r.a_1.position; output b = s[1]._1_b.position; output c = r.ground_.position; output d = r.type_.angle + s[0].ground__joint.angle; \
+        output e = r.world_.position + s[0].formulation_.position; output f = r.solve.angle + r.force.angle; }";
     let (models, said) = checked(call.parse().unwrap(), &format!("<robot>{file}</robot>"));
     assert_eq!(said, Vec::<String>::new());
     // One file with the same fields is one part.

@@ -17,15 +17,15 @@ pub(crate) fn add(a: Vector, b: Vector) -> Vector {
     [0, 1, 2].map(|i| a[i] + b[i])
 }
 
-fn scaled(a: Vector, factor: f64) -> Vector {
+pub(crate) fn scaled(a: Vector, factor: f64) -> Vector {
     a.map(|x| x * factor)
 }
 
-fn cross(a: Vector, b: Vector) -> Vector {
+pub(crate) fn cross(a: Vector, b: Vector) -> Vector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-fn dot(a: Vector, b: Vector) -> f64 {
+pub(crate) fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
@@ -54,7 +54,7 @@ pub(crate) fn turn(axis: Vector, angle: f64) -> Matrix {
     ]
 }
 
-fn rpy([roll, pitch, yaw]: Vector) -> Matrix {
+pub(crate) fn rpy([roll, pitch, yaw]: Vector) -> Matrix {
     let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     product(&turn(z, yaw), &product(&turn(y, pitch), &turn(x, roll)))
 }
@@ -75,18 +75,18 @@ pub(crate) struct Link {
     pub(crate) inertia: Matrix,
 }
 
-fn numbers<const N: usize>(node: Option<Node>, name: &str) -> [f64; N] {
+pub(crate) fn numbers<const N: usize>(node: Option<Node>, name: &str) -> [f64; N] {
     let text = node.and_then(|node| node.attribute(name)).unwrap_or("0 0 0");
     let list: Vec<f64> = text.split_whitespace().map(|word| word.parse().unwrap()).collect();
     list.try_into().unwrap()
 }
 
-fn child<'a, 'b>(node: Node<'a, 'b>, name: &str) -> Option<Node<'a, 'b>> {
+pub(crate) fn child<'a, 'b>(node: Node<'a, 'b>, name: &str) -> Option<Node<'a, 'b>> {
     node.children().find(|child| child.has_tag_name(name))
 }
 
 /// Parents first.
-fn links(text: &str) -> Vec<Link> {
+pub(crate) fn links(text: &str) -> Vec<Link> {
     let document = Document::parse(text).unwrap();
     let all = |tag| document.root_element().children().filter(move |node| node.has_tag_name(tag));
     let of_joint = |joint: &Node, end| child(*joint, end).unwrap().attribute("link").unwrap().to_owned();
@@ -134,26 +134,43 @@ fn links(text: &str) -> Vec<Link> {
 
 /// How a link moves while no coordinate accelerates, in the ground's axes.
 #[derive(Clone)]
-struct Motion {
-    place: Vector,
-    turned: Matrix,
-    omega: Vector,
-    alpha: Vector,
-    acceleration: Vector,
+pub(crate) struct Motion {
+    pub(crate) place: Vector,
+    pub(crate) turned: Matrix,
+    pub(crate) omega: Vector,
+    pub(crate) alpha: Vector,
+    /// Of the place, with that which holds against gravity.
+    pub(crate) acceleration: Vector,
     /// Joints on the way to it: coordinate, axis, place, whether it turns.
     above: Vec<(usize, Vector, Vector, bool)>,
 }
 
-/// Mass matrix and bias for coordinates in the order of `joints`.
-pub(crate) fn recursion(
+impl Motion {
+    /// What each coordinate's rate gives a point of the link: coordinate, velocity, angular velocity.
+    pub(crate) fn columns(&self, point: Vector) -> Vec<(usize, Vector, Vector)> {
+        let columns = self.above.iter().map(|&(number, axis, place, turns)| match turns {
+            true => (number, cross(axis, add(point, scaled(place, -1.0))), axis),
+            false => (number, axis, [0.0; 3]),
+        });
+        columns.collect()
+    }
+
+    /// Of a point that is off the place by this much.
+    pub(crate) fn acceleration_at(&self, arm: Vector) -> Vector {
+        let centrifugal = cross(self.omega, cross(self.omega, arm));
+        add(self.acceleration, add(cross(self.alpha, arm), centrifugal))
+    }
+}
+
+/// Of all links. A `floating` root lies where the base is: its coordinates are the rates of its place in the ground's axes and its
+/// angular velocity in its own.
+pub(crate) fn motions(
     links: &[Link],
     joints: &[String],
     base: &(Vector, Matrix),
     gravity: Vector,
     [q, v]: [&[f64]; 2],
-) -> (Vec<Vec<f64>>, Vec<f64>) {
-    let count = joints.len();
-    let (mut matrix, mut bias) = (vec![vec![0.0; count]; count], vec![0.0; count]);
+) -> Vec<Motion> {
     let mut motions: Vec<Motion> = Vec::new();
     for link in links {
         let zero = [0.0; 3];
@@ -169,8 +186,14 @@ pub(crate) fn recursion(
         let mut own = parent.clone();
         own.turned = product(&parent.turned, &link.turned);
         let mut way = apply(&parent.turned, link.at);
-        if link.kind != "fixed" {
-            let number = joints.iter().position(|joint| *joint == link.joint).unwrap();
+        let number = || joints.iter().position(|joint| *joint == link.joint).unwrap();
+        if link.kind == "floating" {
+            let (first, axes) = (number(), transposed(&own.turned));
+            own.omega = apply(&own.turned, [3, 4, 5].map(|k| v[first + k]));
+            own.above.extend((0..3).map(|k| (first + k, [0, 1, 2].map(|i| f64::from(i == k)), own.place, false)));
+            own.above.extend((0..3).map(|k| (first + 3 + k, axes[k], own.place, true)));
+        } else if link.kind != "fixed" {
+            let number = number();
             let unit = scaled(link.axis, 1.0 / dot(link.axis, link.axis).sqrt());
             let axis = apply(&own.turned, unit);
             let turns = link.kind != "prismatic";
@@ -180,27 +203,40 @@ pub(crate) fn recursion(
                 own.alpha = add(parent.alpha, cross(parent.omega, scaled(axis, v[number])));
             } else {
                 way = add(way, scaled(axis, q[number]));
-                own.acceleration = add(own.acceleration, scaled(cross(parent.omega, axis), 2.0 * v[number]));
             }
             own.above.push((number, axis, add(parent.place, way), turns));
-            bias[number] += link.damping * v[number];
         }
         own.place = add(parent.place, way);
-        let centrifugal = cross(parent.omega, cross(parent.omega, way));
-        own.acceleration = add(own.acceleration, add(cross(parent.alpha, way), centrifugal));
+        own.acceleration = parent.acceleration_at(way);
+        if link.kind == "prismatic" {
+            let &(number, axis, ..) = own.above.last().unwrap();
+            own.acceleration = add(own.acceleration, scaled(cross(parent.omega, axis), 2.0 * v[number]));
+        }
+        motions.push(own);
+    }
+    motions
+}
 
+/// Mass matrix and bias for coordinates in the order of `joints`.
+pub(crate) fn recursion(
+    links: &[Link],
+    joints: &[String],
+    base: &(Vector, Matrix),
+    gravity: Vector,
+    [q, v]: [&[f64]; 2],
+) -> (Vec<Vec<f64>>, Vec<f64>) {
+    let count = joints.len();
+    let (mut matrix, mut bias) = (vec![vec![0.0; count]; count], vec![0.0; count]);
+    for (link, own) in links.iter().zip(motions(links, joints, base, gravity, [q, v])) {
+        if let Some(number) = joints.iter().position(|joint| *joint == link.joint) {
+            bias[number] += link.damping * v[number];
+        }
         let arm = apply(&own.turned, link.com);
-        let centre = add(own.place, arm);
-        let centrifugal = cross(own.omega, cross(own.omega, arm));
-        let acceleration = add(own.acceleration, add(cross(own.alpha, arm), centrifugal));
         let inertia = product(&own.turned, &product(&link.inertia, &transposed(&own.turned)));
         let gyroscopic = cross(own.omega, apply(&inertia, own.omega));
-        let (force, moment) = (scaled(acceleration, link.mass), add(apply(&inertia, own.alpha), gyroscopic));
-        let columns = own.above.iter().map(|&(number, axis, place, turns)| match turns {
-            true => (number, cross(axis, add(centre, scaled(place, -1.0))), axis),
-            false => (number, axis, [0.0; 3]),
-        });
-        let columns: Vec<(usize, Vector, Vector)> = columns.collect();
+        let force = scaled(own.acceleration_at(arm), link.mass);
+        let moment = add(apply(&inertia, own.alpha), gyroscopic);
+        let columns = own.columns(add(own.place, arm));
         for &(row, linear, angular) in &columns {
             bias[row] += dot(linear, force) + dot(angular, moment);
             for &(column, other_linear, other_angular) in &columns {
@@ -208,7 +244,6 @@ pub(crate) fn recursion(
                     link.mass * dot(linear, other_linear) + dot(angular, apply(&inertia, other_angular));
             }
         }
-        motions.push(own);
     }
     (matrix, bias)
 }

@@ -8,7 +8,7 @@ use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::model::types::Model;
 use multibody_engine::optimize::program::Compiled;
-use multibody_engine::{model, parse_reading};
+use multibody_engine::{Trouble, model, parse_reading};
 use proc_macro2::TokenStream;
 
 use crate::interpreter;
@@ -36,6 +36,10 @@ pub(crate) fn model_of(call: &str, file: &str) -> Model {
 pub(crate) fn compiled(model: &Model) -> Compiled {
     match compile(model) {
         Ok((_, compiled)) => compiled,
+        Err(Trouble::Complaints(complaints)) => {
+            let said: Vec<&str> = complaints.iter().map(|complaint| complaint.message.as_str()).collect();
+            panic!("`{}` is refused: {said:#?}", model.name)
+        }
         Err(_) => panic!("`{}` is refused", model.name),
     }
 }
@@ -51,10 +55,15 @@ pub(crate) fn value(symbol: Symbol) -> f64 {
 
 /// All functions at one state, parameters at their defaults, and their operations.
 pub(crate) fn functions(model: &Model) -> HashMap<FunctionKind, (Vec<f64>, String)> {
+    evaluated(model, &value)
+}
+
+/// The same at a state of the caller's.
+pub(crate) fn evaluated(model: &Model, state: &dyn Fn(Symbol) -> f64) -> HashMap<FunctionKind, (Vec<f64>, String)> {
     let compiled = compiled(model);
     let symbols = |symbol| match symbol {
         Symbol::Param { param, element } => model.params[param].default[element],
-        other => value(other),
+        other => state(other),
     };
     let fields = interpreter::run(&compiled.prelude, &symbols, &|_| unreachable!("fields come from parameters"));
     let functions = compiled.functions.iter().map(|function| {
@@ -66,7 +75,12 @@ pub(crate) fn functions(model: &Model) -> HashMap<FunctionKind, (Vec<f64>, Strin
 
 /// Functions of two models that are one mechanism.
 pub(crate) fn assert_same(a: &Model, b: &Model, are_counts_equal: bool) {
-    let [a_values, b_values] = [a, b].map(functions);
+    assert_same_at(&value, a, b, are_counts_equal);
+}
+
+/// The same at a state of the caller's.
+pub(crate) fn assert_same_at(state: &dyn Fn(Symbol) -> f64, a: &Model, b: &Model, are_counts_equal: bool) {
+    let [a_values, b_values] = [a, b].map(|model| evaluated(model, state));
     assert!(a_values.len() > 1 && a_values.len() == b_values.len());
     for (kind, (values, count)) in &a_values {
         let (others, other_count) = &b_values[kind];

@@ -62,7 +62,8 @@ impl<'a, 'input> Reader<'a, 'input> {
         let number = self.robot.closures.len() + 1;
         let name = element.attribute("name").map_or_else(|| format!("{}_{number}", element.name()), str::to_owned);
         let at = element.place();
-        self.robot.closures.push(Closure { name, at, kind, parent: first, child: second, in_parent, in_child });
+        let axis = None;
+        self.robot.closures.push(Closure { name, at, kind, axis, parent: first, child: second, in_parent, in_child });
         Ok(())
     }
 
