@@ -562,6 +562,7 @@ pub enum Request {
     Impulse,
     /// Momenta, their rates, velocities from momenta.
     Momentum,
+    CentroidalMomentumMatrix,
     /// Where all bodies are.
     Poses,
     /// Outputs by groups.
