@@ -53,6 +53,8 @@ pub struct Model {
     pub krate: Path,
     /// Whether products are fused to sums: the feature `fma` of the runtime.
     pub fused: bool,
+    /// Whether serde writes and reads its structs: the feature `serde` of the runtime.
+    pub serialised: bool,
     pub part_types: IndexVec<PartTypeId, PartType>,
     pub instances: IndexVec<InstanceId, Instance>,
     pub params: IndexVec<ParamId, Param>,
