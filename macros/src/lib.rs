@@ -36,6 +36,17 @@ pub fn multibody(input: TokenStream) -> TokenStream {
     multibody_engine::expand_at(input.into(), &place, &read).into()
 }
 
+/// The same for a runtime with its feature `serde`: generated structs are written and read by serde.
+///
+/// # Errors
+///
+/// Those of [`multibody!`].
+#[proc_macro]
+pub fn multibody_with_serde(input: TokenStream) -> TokenStream {
+    let place = place(input.clone());
+    multibody_engine::expand_serialised_at(input.into(), &place, &read).into()
+}
+
 /// Where the call ends in its crate: the last token is the user's own, whatever macros the call went through.
 fn place(input: TokenStream) -> String {
     let Some(last) = input.into_iter().last() else { return String::new() };

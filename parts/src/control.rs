@@ -52,4 +52,24 @@ multibody::multibody! {
         state value: rate = slope, start: 0.0;
         state slope: rate = frequency * frequency * (signal - value) - 2.0 * damping * frequency * slope, start: 0.0;
     }
+    /// Feedback of the state of two joints: `command = feed - k1 (q1 - w1) - k2 (q2 - w2) - d1 q1' - d2 q2'`, a row of `u = -K x`.
+    ///
+    /// The gains come from poles or from weights, by `linearize` at the point of rest. B. D. O. Anderson and J. B. Moore, Optimal
+    /// Control: Linear Quadratic Methods, 1990, section 2.
+    pub mod state_feedback {
+        port first: Joint;
+        port second: Joint;
+        /// where the joints are to rest
+        port wanted_first: Scalar;
+        port wanted_second: Scalar;
+        /// what holds them there
+        param feed = 0.0;
+        /// of the positions, in the order of the joints
+        param gains: [Scalar; 2] = [0.0, 0.0];
+        /// of the rates
+        param rate_gains: [Scalar; 2] = [0.0, 0.0];
+        let of_positions = gains[0] * (first - wanted_first) + gains[1] * (second - wanted_second);
+        let of_rates = rate_gains[0] * first.rate + rate_gains[1] * second.rate;
+        let command = feed - of_positions - of_rates;
+    }
 }

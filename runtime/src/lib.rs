@@ -70,6 +70,7 @@
 //! - `fma`: products that are added to something are one instruction with one rounding, in what [`multibody!`] generates, where
 //!   the target has it ([`Real::mul_add`]): faster, a little more accurate, and with other last bits. `reproducible` keeps its bits and leaves
 //!   this feature without effect.
+//! - `serde`: generated structs are written and read by serde under the names of their fields, without heap: see [`generated`](crate::generated#storing).
 //! - `num-dual`: [`Real`] for the dual numbers of the crate `num-dual`, for derivatives.
 
 #![cfg_attr(not(feature = "std"), no_std)]
@@ -112,6 +113,9 @@ pub mod record;
 pub mod rotation;
 mod sampled;
 mod scalar;
+#[cfg(feature = "serde")]
+#[doc(hidden)]
+pub mod serial;
 mod shake;
 mod simulate;
 mod system;
@@ -141,8 +145,13 @@ pub use integrators::{
 };
 pub use linearization::Linearization;
 pub use lower_triangle::LowerTriangle;
+#[cfg(not(feature = "serde"))]
 #[doc(hidden)]
 pub use multibody_macros::multibody as __multibody;
+// Which macro is called is decided here, so that what it emits never asks for impls that this build of the crate lacks.
+#[cfg(feature = "serde")]
+#[doc(hidden)]
+pub use multibody_macros::multibody_with_serde as __multibody;
 pub use nalgebra;
 #[doc(hidden)]
 pub use opening::Gauge;
@@ -156,6 +165,8 @@ pub use record::Recorder;
 pub use record::{Column, Columns};
 pub use sampled::{Held, Sampled, sampled};
 pub use scalar::{Four, Packed, Real, all, any};
+#[cfg(feature = "serde")]
+pub use serde;
 pub use simba;
 pub use simulate::{simulate, simulate_lanes, simulate_stiff};
 pub use system::{ExtraOf, Margin, PositionOf, StateSpace, System, VelocityOf};

@@ -448,6 +448,9 @@ pub mod emit {
     /// `momentum`, `momentum_rate` and `velocity`.
     pub struct momentum;
 
+    /// Angular momentum about the centre of mass and linear momentum, by the velocities.
+    pub struct centroidal_momentum_matrix;
+
     /// Where all bodies are: positions and rotations of their frames.
     pub struct poses;
 

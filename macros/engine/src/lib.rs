@@ -73,6 +73,16 @@ pub fn expand_at(tokens: TokenStream, place: &str, reader: &robots::Reader) -> T
     expand_by(tokens, place, syntax::parse, reader, emit::emit, followed)
 }
 
+/// The same for a runtime with its feature `serde`.
+pub fn expand_serialised_at(tokens: TokenStream, place: &str, reader: &robots::Reader) -> TokenStream {
+    let followed = if emit::references::for_an_editor() { Followed::Always } else { Followed::Sound };
+    expand_by(tokens, place, parse_serialised, reader, emit::emit, followed)
+}
+
+fn parse_serialised(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Source {
+    Source { serialised: true, ..syntax::parse(tokens, diagnostics) }
+}
+
 /// The same for readers: paragraphs of statements have headings, as the attribute `#[doc = "// .."]`, and what editors alone
 /// follow is left out.
 pub fn commented(tokens: TokenStream) -> TokenStream {

@@ -5,7 +5,7 @@ use multibody::multibody;
 use super::{after, close};
 
 multibody! {
-    use multibody_parts::{low_pass, pid, second_order, servo};
+    use multibody_parts::{low_pass, pid, second_order, servo, state_feedback};
 
     /// A mass that a controller moves, a signal that filters follow.
     pub mod loops {
@@ -22,6 +22,47 @@ multibody! {
         joint y: Prismatic { parent: ground, child: other, axis: Y }
         part servo: servo { joint: y, wanted: sin(3 * t), wanted_rate: 3 * cos(3 * t), stiffness: 50, damping: 8 };
         force pull: Effort { joint: y, value: servo.command }
+    }
+
+    /// Two carts with a spring between them, of which the first is pushed.
+    pub mod carts {
+        body one { mass: 2 }
+        body two { mass: 0.5 }
+        joint x: Prismatic { parent: ground, child: one, axis: [2, -1, 2] }
+        joint y: Prismatic { parent: ground.at(X), child: two, axis: [2, -1, 2] }
+        let stretch = y.travel - x.travel;
+        force pull: Effort { joint: x, value: 8 * stretch }
+        force back: Effort { joint: y, value: -8 * stretch }
+        part feedback: state_feedback {
+            first: x, second: y, wanted_first: 0.3, wanted_second: 0.3, feed: 0.0, gains: [30, -7.5], rate_gains: [12, 1.5]
+        };
+        force push: Effort { joint: x, value: feedback.command }
+        output command = feedback.command;
+    }
+}
+
+/// `x' = (A - B K) x`, by the series of the exponential.
+#[test]
+fn state_feedback_is_a_row_of_gains() {
+    let model = carts::Model::<f64>::default();
+    let mut x = carts::State::<f64>::default();
+    (x.q.x, x.q.y, x.v.x, x.v.y) = (0.1, -0.2, 0.4, 0.7);
+    let command = -30.0 * (0.1 - 0.3) + 7.5 * (-0.2 - 0.3) - 12.0 * 0.4 - 1.5 * 0.7;
+    close("command", model.outputs(0.0, &x, &()).command, command, 1e-14);
+    let closed = |[x, y, u, v]: [f64; 4]| {
+        let command = -30.0 * x + 7.5 * y - 12.0 * u - 1.5 * v;
+        [u, v, (8.0 * (y - x) + command) / 2.0, -16.0 * (y - x)]
+    };
+    let t = 0.8;
+    let (mut term, mut sum) = ([0.1 - 0.3, -0.2 - 0.3, 0.4, 0.7], [0.1 - 0.3, -0.2 - 0.3, 0.4, 0.7]);
+    for k in 1..80 {
+        term = closed(term).map(|rate| rate * t / f64::from(k));
+        sum = [0, 1, 2, 3].map(|i| sum[i] + term[i]);
+    }
+    let end = after(&model, &x, &(), t, 8000);
+    let found = [end.q.x - 0.3, end.q.y - 0.3, end.v.x, end.v.y];
+    for (found, wanted) in found.into_iter().zip(sum) {
+        close("state", found, wanted, 1e-10);
     }
 }
 

@@ -67,6 +67,10 @@ pub enum FunctionKind {
     MomentumRate,
     /// Velocities that belong to momenta.
     MomentumVelocity,
+    /// Angular momentum about the centre of mass, then linear momentum, by velocity: 6 x DOF, row by row.
+    CentroidalMomentumMatrix,
+    /// The two themselves, for laws alone.
+    CentroidalMomentum,
     /// Of each body the position of its frame's origin, then its rotation row by row, in the order of declaration.
     Poses,
     /// Output after output, flattened: `Vec3` 3, `Rotation` 9 row by row, `Pose` x, y, z, w, i, j, k, `Twist` and
@@ -271,7 +275,7 @@ pub struct FunctionRow {
 
 impl FunctionKind {
     /// All of them in the order in which they are derived; the first kinematics and the first group of outputs for all.
-    pub const ALL: [FunctionKind; 30] = [
+    pub const ALL: [FunctionKind; 32] = [
         FunctionKind::ForwardDynamics,
         FunctionKind::InverseDynamics,
         FunctionKind::MassMatrix,
@@ -295,6 +299,8 @@ impl FunctionKind {
         FunctionKind::Momentum,
         FunctionKind::MomentumRate,
         FunctionKind::MomentumVelocity,
+        FunctionKind::CentroidalMomentumMatrix,
+        FunctionKind::CentroidalMomentum,
         FunctionKind::Poses,
         FunctionKind::Outputs,
         FunctionKind::OutputGroup(0),
@@ -552,6 +558,23 @@ impl FunctionKind {
                 Arguments { momentum: true, ..Arguments::POSITION },
                 |_| Shape::Velocity,
                 |_| "Velocities `M^-1 * momentum` that belong to momenta.",
+            ),
+            FunctionKind::CentroidalMomentumMatrix => row(
+                by(R::CentroidalMomentumMatrix, "centroidal_momentum_matrix", "CentroidalMomentumMatrix"),
+                "centroidal_momentum_matrix",
+                Arguments::POSITION,
+                |s| Shape::Matrix(6, s.dof),
+                |_| {
+                    "Centroidal momentum matrix: three rows of angular momentum about the centre of mass, then three of linear \
+                     momentum, of the whole model in the world's axes, by the velocities."
+                },
+            ),
+            FunctionKind::CentroidalMomentum => row(
+                Asked::Found,
+                "centroidal_momentum",
+                Arguments::TIMED_STATE,
+                |_| Shape::Vector(6),
+                |_| "Angular momentum about the centre of mass, then linear momentum.",
             ),
             FunctionKind::Poses => row(
                 by(R::Poses, "poses", "Poses"),

@@ -50,7 +50,7 @@ pub(super) fn named(g: &mut Graph, matrix: &[Vec<Scalar>]) {
 }
 
 /// Moments of each link's subtree about the link's origin.
-pub(super) fn composites(g: &mut Graph, tree: &Tree) -> Vec<Inertia> {
+pub(crate) fn composites(g: &mut Graph, tree: &Tree) -> Vec<Inertia> {
     let mut composites: Vec<Inertia> = tree.links.iter().map(|link| link.inertia).collect();
     for index in (0..tree.links.len()).rev() {
         let link = &tree.links[index];
@@ -80,7 +80,7 @@ pub(super) fn composites(g: &mut Graph, tree: &Tree) -> Vec<Inertia> {
 }
 
 /// The wrench that gives a body at rest this unit acceleration (angular, linear).
-pub(super) fn unit_wrench(g: &mut Graph, inertia: &Inertia, twist: &[Scalar; 6]) -> Wrench {
+pub(crate) fn unit_wrench(g: &mut Graph, inertia: &Inertia, twist: &[Scalar; 6]) -> Wrench {
     let angular = g.vector([twist[0], twist[1], twist[2]]);
     let linear = g.vector([twist[3], twist[4], twist[5]]);
     let first = g.vector(inertia.first);

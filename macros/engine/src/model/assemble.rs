@@ -151,6 +151,7 @@ impl<'a> Checker<'a, '_> {
             attrs: module.attrs.iter().filter(|attr| !docs::is_derive(attr)).cloned().collect(),
             krate: self.source.krate.clone().unwrap_or_else(runtime),
             fused: self.source.fused,
+            serialised: self.source.serialised,
             part_types: self.part_types.clone(),
             instances: self.instances.clone(),
             params: IndexVec::new(),

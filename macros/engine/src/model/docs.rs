@@ -86,8 +86,7 @@ pub(super) fn refuse_derive(attr: &Attribute, report: &mut Report<'_>) {
     report.help(
         attr.path().span(),
         "generated structs take no attributes: they have `Clone`, `Copy`, `Debug`, `Default` and `PartialEq`",
-        "to store a state convert its `q` and `v` into vectors, `SVector::from(state.q)`, which serde can write with \
-         nalgebra's feature `serde-serialize`; of `Params` and `Input` write the fields",
+        "to store them turn on the feature `serde` of `multibody`: then all of them have `Serialize` and `Deserialize` too",
     );
 }
 

@@ -53,6 +53,8 @@ pub struct Model {
     pub krate: Path,
     /// Whether products are fused to sums: the feature `fma` of the runtime.
     pub fused: bool,
+    /// Whether serde writes and reads its structs: the feature `serde` of the runtime.
+    pub serialised: bool,
     pub part_types: IndexVec<PartTypeId, PartType>,
     pub instances: IndexVec<InstanceId, Instance>,
     pub params: IndexVec<ParamId, Param>,
@@ -562,6 +564,7 @@ pub enum Request {
     Impulse,
     /// Momenta, their rates, velocities from momenta.
     Momentum,
+    CentroidalMomentumMatrix,
     /// Where all bodies are.
     Poses,
     /// Outputs by groups.

@@ -21,8 +21,15 @@ pub(super) fn source(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Sour
     let runtime = runtime(&mut cursor, diagnostics);
     let fused = runtime.is_some() && fused(&mut cursor);
     let handed = if runtime.is_some() { imports::handed(&mut cursor, diagnostics) } else { Handed::default() };
-    let mut source =
-        Source { krate: None, fused, modules: Vec::new(), exports: Vec::new(), lost: handed.lost, pending: None };
+    let mut source = Source {
+        krate: None,
+        fused,
+        serialised: false,
+        modules: Vec::new(),
+        exports: Vec::new(),
+        lost: handed.lost,
+        pending: None,
+    };
     let errors = diagnostics.errors().len();
     beginning(&mut source, &mut cursor, diagnostics);
     source.krate = source.krate.or(runtime);

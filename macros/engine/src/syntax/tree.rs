@@ -38,6 +38,8 @@ pub struct Source {
     pub krate: Option<Path>,
     /// `@fused`, which the runtime's macro says with its feature `fma`.
     pub fused: bool,
+    /// Whether serde writes and reads generated structs, which the runtime asks for with its feature `serde`.
+    pub serialised: bool,
     /// Models and parts in source order; a module with ports is a part. Behind those of the call stand those that it uses.
     pub modules: Vec<Module>,
     /// Parts of this call that other calls may use.

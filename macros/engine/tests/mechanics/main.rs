@@ -9,6 +9,7 @@ mod analysis;
 mod assembly;
 mod auto;
 mod balance;
+mod centroidal;
 mod closed_forms;
 mod closings;
 mod closures;

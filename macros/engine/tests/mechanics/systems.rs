@@ -4,7 +4,7 @@
 use super::support::*;
 
 /// A part on an oblique hinge, with a part of its own.
-const PARTS: &str = "
+pub(super) const PARTS: &str = "
     mod toe {
         port foot: Frame;
         param heavy = 0.35;
@@ -20,7 +20,7 @@ const PARTS: &str = "
     }";
 
 /// Everything floats but the puck, which stands on the ground like the block.
-const BODIES: &str = "
+pub(super) const BODIES: &str = "
     param hull_mass = 2.0;
     body hull { mass: hull_mass, com: [0.1, 0.05, -0.1], inertia: inertia(0.5, 0.6, 0.7, 0.02, -0.03, 0.01) }
     body boom { mass: 0.4, com: [0.3, 0.1, -0.2], inertia: inertia(0.06, 0.05, 0.04, 0.01, 0.02, -0.01) }
@@ -32,16 +32,16 @@ const BODIES: &str = "
     joint socket: Ball { parent: boom.at([0.2, 0.5, 0.1]).rotated(X, 0.3), child: ball.at([0.0, 0.1, 0.1]) }
     joint glue: Fixed { parent: ball.at(0.2 * X).rotated([1.0, 1.0, 0.0], 0.5), child: tag }";
 
-const GROUNDED: &str = "
+pub(super) const GROUNDED: &str = "
     body puck { mass: 0.7, com: [0.1, 0.02, 0.03], inertia: inertia(0.1, 0.2, 0.15, 0.01, 0.02, -0.03) }
     body block { mass: 1.3, com: [0.4, -0.2, 0.1] }
     joint table: Planar { parent: ground.rotated([1.0, 0.2, 0.0], 0.4), child: puck, axis: [0.2, 0.1, 1.0] }
     joint post: Fixed { parent: ground.at([1.0, 2.0, 3.0]).rotated(X, 0.3), child: block }";
 
 /// Name in expressions, mass, centre of mass, inertia.
-type Body = (&'static str, f64, [f64; 3], [f64; 6]);
+pub(super) type Body = (&'static str, f64, [f64; 3], [f64; 6]);
 
-const LIST: [Body; 9] = [
+pub(super) const LIST: [Body; 9] = [
     ("hull", 2.0, [0.1, 0.05, -0.1], [0.5, 0.6, 0.7, 0.02, -0.03, 0.01]),
     ("boom", 0.4, [0.3, 0.1, -0.2], [0.06, 0.05, 0.04, 0.01, 0.02, -0.01]),
     ("ball", 0.6, [0.0, 0.1, 0.05], [0.03, 0.05, 0.04, 0.005, 0.004, -0.006]),
@@ -79,15 +79,15 @@ fn asked(number: usize, list: &str) -> String {
     )
 }
 
-fn vector(list: &[f64]) -> [f64; 3] {
+pub(super) fn vector(list: &[f64]) -> [f64; 3] {
     std::array::from_fn(|k| list[k])
 }
 
-fn cross(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
+pub(super) fn cross(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3])
 }
 
-fn scaled(factor: f64, v: &[f64; 3]) -> [f64; 3] {
+pub(super) fn scaled(factor: f64, v: &[f64; 3]) -> [f64; 3] {
     v.map(|x| factor * x)
 }
 

@@ -142,6 +142,7 @@ fn every_break_of_a_function_alone_is_told() {
         ("residual", &[FunctionKind::Residual]),
         ("derivatives", &[FunctionKind::ForwardDerivatives, FunctionKind::InverseDerivatives]),
         ("impulse", &[FunctionKind::Impulse]),
+        ("centroidal_momentum_matrix", &[FunctionKind::CentroidalMomentumMatrix]),
         ("momentum", &[FunctionKind::Momentum, FunctionKind::MomentumRate, FunctionKind::MomentumVelocity]),
     ];
     for text in MODELS {

@@ -23,12 +23,15 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
     };
     let methods =
         FunctionKind::ALL.into_iter().filter(|kind| is_missing(*kind)).filter_map(|kind| match kind.row().asked {
-            // Groups have a name only where they are declared; for a triangle and poses nothing is added to models
-            // without them.
+            // Groups have a name only where they are declared; for a triangle, poses and the like nothing is
+            // added to models without them.
             Asked::By { .. }
                 if matches!(
                     kind,
-                    FunctionKind::OutputGroup(_) | FunctionKind::MassMatrixLower | FunctionKind::Poses
+                    FunctionKind::OutputGroup(_)
+                        | FunctionKind::MassMatrixLower
+                        | FunctionKind::CentroidalMomentumMatrix
+                        | FunctionKind::Poses
                 ) =>
             {
                 None

@@ -14,6 +14,7 @@ mod missing;
 mod model;
 mod parts;
 pub(super) mod separable;
+mod serialised;
 mod singular;
 mod space;
 mod state;
@@ -37,6 +38,7 @@ pub(super) fn all(context: &Context<'_>) -> TokenStream {
         space::items(context),
         columns::items(context),
         conversions::items(context),
+        serialised::items(context),
         model::items(context),
         missing::items(context),
         system::item(context),

@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::{columns, defaults, differentiable, space, structs};
+use super::{columns, defaults, differentiable, serialised, space, structs};
 use crate::emit::layout::StructKind;
 use crate::emit::{Context, document, names};
 use crate::model::types::PartTypeId;
@@ -25,6 +25,7 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
             items.extend(structs::declare(layout, group, owner));
             items.extend(defaults::implement(layout, group, owner));
             items.extend(columns::implement(layout, group, owner));
+            items.extend(serialised::implement(layout, group, owner));
             items.extend(match group {
                 StructKind::Velocity | StructKind::States => space::tangent(layout, group, owner),
                 StructKind::Input if differentiable::moves_inputs(context) => space::tangent(layout, group, owner),

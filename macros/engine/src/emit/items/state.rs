@@ -9,6 +9,7 @@ use crate::emit::layout::StructKind;
 use crate::emit::methods::results;
 use crate::emit::{Context, document, names};
 
+use super::serialised;
 use super::structs::compares_by_hand;
 
 /// Expands to `pub struct State<T = f64> { pub q: Position<T>, pub v: Velocity<T> }` and its impls, and to the others.
@@ -64,7 +65,7 @@ fn state(context: &Context<'_>) -> TokenStream {
         docs += " Its guess is then one that closes the loops, if the macro found any with these joints at zero and \
                  parameters at their defaults, and else one near by.";
     }
-    declare("State", &docs, &fields, compares_by_hand(layout, StructKind::Position))
+    declare(context, "State", &docs, &fields, compares_by_hand(layout, StructKind::Position))
 }
 
 fn derivative(context: &Context<'_>) -> Option<TokenStream> {
@@ -92,7 +93,7 @@ fn derivative(context: &Context<'_>) -> Option<TokenStream> {
         }
         None => return None,
     };
-    Some(declare("Derivative", &docs, &fields, false))
+    Some(declare(context, "Derivative", &docs, &fields, false))
 }
 
 /// What `close` gives.
@@ -103,7 +104,7 @@ fn closed(context: &Context<'_>) -> Option<TokenStream> {
         Field::scalar("residual", "the greatest residual that is left"),
     ];
     let by_hand = compares_by_hand(&context.layout, StructKind::Position);
-    Some(declare("Closed", "A state with its loops closed by Newton's method.", &fields, by_hand))
+    Some(declare(context, "Closed", "A state with its loops closed by Newton's method.", &fields, by_hand))
 }
 
 /// What inverse dynamics gives where inputs are looked for.
@@ -114,7 +115,13 @@ fn solved(context: &Context<'_>) -> Option<TokenStream> {
         Field::scalar("rank", "rank of their equations"),
     ];
     let by_hand = compares_by_hand(&context.layout, StructKind::Input);
-    Some(declare("Solved", "What inverse dynamics gives: the inputs that produce the motion.", &fields, by_hand))
+    Some(declare(
+        context,
+        "Solved",
+        "What inverse dynamics gives: the inputs that produce the motion.",
+        &fields,
+        by_hand,
+    ))
 }
 
 /// What an impulse does where equations keep multipliers.
@@ -127,11 +134,17 @@ fn jump(context: &Context<'_>) -> Option<TokenStream> {
         Field::vector(context, "multipliers", rows, text),
         Field::scalar("rank", "rank of the equations for the multipliers"),
     ];
-    Some(declare("Jump", "What an impulse does: the jump of the velocities, and what holds the loops.", &fields, false))
+    Some(declare(
+        context,
+        "Jump",
+        "What an impulse does: the jump of the velocities, and what holds the loops.",
+        &fields,
+        false,
+    ))
 }
 
-/// Expands to a struct with its `Default` and, if need be, `PartialEq`.
-fn declare(name: &str, docs: &str, fields: &[Field], by_hand: bool) -> TokenStream {
+/// Expands to a struct with its `Default`, if need be `PartialEq`, and what serde needs.
+fn declare(context: &Context<'_>, name: &str, docs: &str, fields: &[Field], by_hand: bool) -> TokenStream {
     let docs = document::attributes(&[docs.to_string()]);
     let name = names::ident(name);
     let list = fields.iter().map(|Field { name, ty, docs, .. }| {
@@ -139,6 +152,10 @@ fn declare(name: &str, docs: &str, fields: &[Field], by_hand: bool) -> TokenStre
         quote!(#docs pub #name: #ty,)
     });
     let starts = fields.iter().map(|Field { name, start, .. }| quote!(#name: #start));
+    let serialised = {
+        let names: Vec<Ident> = fields.iter().map(|field| field.name.clone()).collect();
+        serialised::of(&context.layout, &name, &names)
+    };
     let derived = (!by_hand).then(|| quote!(, PartialEq));
     let comparison = by_hand.then(|| {
         let names = fields.iter().map(|field| &field.name);
@@ -164,5 +181,6 @@ fn declare(name: &str, docs: &str, fields: &[Field], by_hand: bool) -> TokenStre
             }
         }
         #comparison
+        #serialised
     }
 }

@@ -81,6 +81,8 @@ impl Deriving<'_> {
             FunctionKind::Momentum => (of_state("momentum"), "momentum"),
             FunctionKind::MomentumRate => (of_state("momentum_rate"), "momentum_rate"),
             FunctionKind::MomentumVelocity => (of_state("rate"), "rate"),
+            FunctionKind::CentroidalMomentumMatrix => (Vec::new(), "centroidal"),
+            FunctionKind::CentroidalMomentum => (Vec::new(), "momentum"),
             FunctionKind::Poses => {
                 let one = |body: &Body| {
                     let name = names::path(model, &body.place);

@@ -71,6 +71,7 @@ pub(super) struct Recipe {
 
 const AT_ROOT: &str = "composite rigid body, wrenches at the root";
 const LINKS: &str = "sum over links";
+const UNIT_VELOCITIES: &str = "composite rigid body under unit velocities";
 const FIRST_MOMENT: &str = "first moment of mass, springs";
 const WITHOUT_CHOICE: &[Option<SharedAxes>] = &[None];
 
@@ -176,6 +177,13 @@ fn recipe(kind: FunctionKind, solves_inputs: bool) -> Recipe {
         F::MomentumRate => {
             (const { &[Chosen(|d, _| d.momentum_rates())] }, const { &[Chosen(|d, _| d.reduced_momentum_rates())] })
         }
+        F::CentroidalMomentumMatrix => {
+            (const { &[Plain(UNIT_VELOCITIES, centroidal)] }, const { &[PutIn(UNIT_VELOCITIES, centroidal)] })
+        }
+        F::CentroidalMomentum => (
+            const { &[Plain(LINKS, |e| Ok(Results::vector(e.centroidal_momentum())))] },
+            const { &[PutIn(LINKS, |e| Ok(Results::vector(e.centroidal_momentum())))] },
+        ),
         F::Outputs => {
             const SAME: &[Way] = &[Chosen(|d, _| d.outputs(&d.model.outputs.iter().collect::<Vec<_>>()))];
             (SAME, SAME)
@@ -227,6 +235,11 @@ fn lower(entries: Vec<Scalar>) -> Results<Scalar> {
 fn jacobian(e: &mut Equations<'_>, reduction: &Reduction) -> Results<Scalar> {
     let (rows, columns) = (e.scene.structure.rows.len(), e.scene.structure.state.len());
     Results::matrix(rows, columns, e.constraint_jacobian(reduction))
+}
+
+fn centroidal(e: &mut Equations<'_>) -> Found {
+    let columns = e.scene.structure.state.len();
+    Ok(Results::matrix(6, columns, e.centroidal_momentum_matrix()))
 }
 
 fn residual(e: &mut Equations<'_>) -> Found {

@@ -39,6 +39,8 @@ fn partners(asked: &[FunctionKind], solves_inputs: bool) -> Vec<FunctionKind> {
     add(&mut all, needed, F::MassMatrix);
     let needed = has(&all, F::MomentumRate) && !has(&all, F::ForwardDynamics);
     add(&mut all, needed, F::Bias);
+    let needed = has(&all, F::CentroidalMomentumMatrix);
+    add(&mut all, needed, F::CentroidalMomentum);
     // Forward dynamics from the other side.
     let inverse = !solves_inputs && has(&all, F::InverseDynamics);
     let known = inverse || has(&all, F::Residual) || (has(&all, F::MassMatrix) && has(&all, F::Bias));

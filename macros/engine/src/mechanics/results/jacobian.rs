@@ -56,11 +56,15 @@ impl Equations<'_> {
                 }
             }
         }
-        let rows = match self.reduced.clone() {
+        Value::Jacobian(Rc::new(self.by_velocity_of_state(rows)))
+    }
+
+    /// Rows by velocity of the tree, as they are by velocity of the state.
+    pub(super) fn by_velocity_of_state(&mut self, rows: [Vec<Scalar>; 6]) -> [Vec<Scalar>; 6] {
+        match self.reduced.clone() {
             Some(reduction) => self.by_state(&reduction, &rows),
             None => rows,
-        };
-        Value::Jacobian(Rc::new(rows))
+        }
     }
 
     /// Coefficients of the state's velocities, from those of the tree's.

@@ -24,12 +24,12 @@ use crate::model::types::{Body, BodyId, FrameQuantity, Selection, SystemQuantity
 use crate::symbolic::graph::{Rotation, Scalar, Vector};
 
 /// Bodies that are looked at as one.
-struct System {
-    tree: Tree,
+pub(super) struct System {
+    pub(super) tree: Tree,
     /// The outermost link that carries them all.
-    carrier: Option<usize>,
+    pub(super) carrier: Option<usize>,
     /// kg
-    mass: Scalar,
+    pub(super) mass: Scalar,
 }
 
 impl Equations<'_> {
@@ -66,7 +66,7 @@ impl Equations<'_> {
         })
     }
 
-    fn chosen(&self, bodies: &Selection) -> Vec<BodyId> {
+    pub(super) fn chosen(&self, bodies: &Selection) -> Vec<BodyId> {
         bodies.as_ref().map_or_else(|| self.scene.model.bodies.ids().collect(), |list| list.to_vec())
     }
 
@@ -77,7 +77,7 @@ impl Equations<'_> {
     }
 
     /// The tree of the mechanism with nothing but these bodies on it.
-    fn as_one(&mut self, bodies: &[BodyId]) -> System {
+    pub(super) fn as_one(&mut self, bodies: &[BodyId]) -> System {
         let mechanism = Rc::clone(&self.scene.mechanism);
         let model = self.scene.model;
         let mut tree = mechanism.tree.clone();
@@ -96,7 +96,7 @@ impl Equations<'_> {
     }
 
     /// The centre of mass from the carrier's origin, in its axes.
-    fn centre(&mut self, system: &System) -> Vector {
+    pub(super) fn centre(&mut self, system: &System) -> Vector {
         let parts = first_moment_about(&mut self.g, &system.tree, system.carrier);
         let first = self.g.sum_vectors(&parts);
         let factor = self.g.reciprocal(system.mass);

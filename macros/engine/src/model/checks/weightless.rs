@@ -1,7 +1,7 @@
 //! Stage `model`: systems of bodies without mass.
 //!
 //! In: what expressions ask of several bodies as one. Out: an error for each list whose bodies have no mass at the declared
-//! defaults: their centre of mass is nowhere.
+//! defaults: their centre of mass is nowhere, and their total mass is forgotten.
 
 use crate::model::checker::Checker;
 use crate::model::types::{Bodies, Body};
@@ -18,10 +18,10 @@ impl Checker<'_, '_> {
                 continue;
             }
             let message = match &selected.bodies {
-                None => format!("`{}()` of a model without mass at the declared defaults", selected.name),
+                None => format!("`{}` of a model without mass at the declared defaults", selected.text),
                 Some(_) => "these bodies have no mass at the declared defaults".to_owned(),
             };
-            self.report.help(selected.span, message, "a centre of mass and momenta need a `mass` of some body");
+            self.report.help(selected.span, message, selected.help);
         }
     }
 }

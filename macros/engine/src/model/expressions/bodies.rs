@@ -12,11 +12,19 @@ use crate::model::types::{BodyId, BodyRef, ExprNode, Selection, SystemQuantity, 
 
 use super::{source_text, span};
 
+/// What to do where a centre of mass is nowhere.
+pub(in crate::model) const NO_CENTRE: &str = "a centre of mass and momenta need a `mass` of some body";
+
+/// The same where there is nothing to sum.
+const NO_SUM: &str = "the sum is zero whatever happens: give some body a `mass`, or write `0.0`";
+
 /// Bodies that stand in a list, or in no list at all.
 pub(in crate::model) struct Selected {
     pub(in crate::model) bodies: Selection,
-    /// Of the function.
-    pub(in crate::model) name: String,
+    /// What asks for them, as it stands in the text.
+    pub(in crate::model) text: String,
+    /// What to do where they have no mass.
+    pub(in crate::model) help: &'static str,
     pub(in crate::model) span: Span,
 }
 
@@ -38,7 +46,8 @@ impl<'a> Checker<'a, '_> {
                 return None;
             }
         };
-        self.selected.push(Selected { bodies: bodies.clone(), name: name.to_string(), span });
+        let help = if quantity == SystemQuantity::TotalMass { NO_SUM } else { NO_CENTRE };
+        self.selected.push(Selected { bodies: bodies.clone(), text: format!("{name}()"), help, span });
         let (ty, class) = match quantity {
             SystemQuantity::TotalMass => (Type::Scalar, Class::Mass),
             SystemQuantity::CentreOfMass => (Type::Vec3, Class::Position),

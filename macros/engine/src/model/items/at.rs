@@ -20,7 +20,7 @@ const FIELDS: Known<'static> = Known { required: &["functions"], optional: &[] }
 const FORM: &str = "write `at { functions: [mass_matrix, bias] }`";
 
 /// Methods, with the word of `emit` that gives each; nothing for those that are there without one.
-const FUNCTIONS: [(&str, Option<(Request, &str)>); 21] = [
+const FUNCTIONS: [(&str, Option<(Request, &str)>); 22] = [
     ("forward_dynamics", Some((Request::ForwardDynamics, "forward_dynamics"))),
     ("inverse_dynamics", Some((Request::InverseDynamics, "inverse_dynamics"))),
     ("mass_matrix", Some((Request::MassMatrix, "mass_matrix"))),
@@ -40,6 +40,7 @@ const FUNCTIONS: [(&str, Option<(Request, &str)>); 21] = [
     ("momentum", Some((Request::Momentum, "momentum"))),
     ("momentum_rate", Some((Request::Momentum, "momentum"))),
     ("velocity", Some((Request::Momentum, "momentum"))),
+    ("centroidal_momentum_matrix", Some((Request::CentroidalMomentumMatrix, "centroidal_momentum_matrix"))),
     ("poses", Some((Request::Poses, "poses"))),
     ("outputs", None),
 ];

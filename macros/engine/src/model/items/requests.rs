@@ -11,6 +11,7 @@ use syn::{Expr, Member};
 
 use crate::model::checker::{Checker, Context, Meaning, ScopeId};
 use crate::model::expand::root;
+use crate::model::expressions::bodies::{NO_CENTRE, Selected};
 use crate::model::expressions::source_text;
 use crate::model::topology::Topology;
 use crate::model::typed::MAX_SCALARS;
@@ -20,7 +21,7 @@ use crate::syntax::tree;
 
 use super::fields::{Known, field};
 
-const REQUESTS: [(&str, Request); 19] = [
+const REQUESTS: [(&str, Request); 20] = [
     ("forward_dynamics", Request::ForwardDynamics),
     ("inverse_dynamics", Request::InverseDynamics),
     ("mass_matrix", Request::MassMatrix),
@@ -35,6 +36,7 @@ const REQUESTS: [(&str, Request); 19] = [
     ("linearize", Request::Linearize),
     ("impulse", Request::Impulse),
     ("momentum", Request::Momentum),
+    ("centroidal_momentum_matrix", Request::CentroidalMomentumMatrix),
     ("poses", Request::Poses),
     ("outputs", Request::Outputs),
     ("at", Request::At),
@@ -138,6 +140,9 @@ impl<'a> Checker<'a, '_> {
                 }
                 if *found == Request::Poses {
                     self.check_poses(span);
+                }
+                if *found == Request::CentroidalMomentumMatrix {
+                    self.selected.push(Selected { bodies: None, text: name, help: NO_CENTRE, span });
                 }
                 if *found == Request::Constraints {
                     into.constraints = Some(span);

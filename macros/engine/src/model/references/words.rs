@@ -40,6 +40,7 @@ const EMIT: Room = &[
     ("linearize", &[]),
     ("impulse", &[]),
     ("momentum", &[]),
+    ("centroidal_momentum_matrix", &[]),
     ("poses", &[]),
     ("outputs", &[]),
     ("at", &["functions"]),

@@ -12,6 +12,7 @@ pub(super) const LAWS: &[Law] = &[
     Law { between: "momenta and kinetic energy", judge: |at| at.vis_viva() },
     Law { between: "momenta and velocities from momenta", judge: |at| at.momenta_back() },
     Law { between: "the rates of momenta and momenta", judge: |at| at.momentum_rates() },
+    Law { between: "the centroidal momentum matrix and momenta", judge: |at| at.centroidal_momenta() },
     Law { between: "the impulse and the mass matrix", judge: |at| at.jumps() },
     Law { between: "the impulse and the constraints", judge: |at| at.jumps_of_rows() },
     Law { between: "the least displacement and the constraints", judge: |at| at.displacement_of_rows() },
@@ -106,6 +107,27 @@ impl At<'_, '_> {
             sum.bound = slopes.bound + self.bound(rate, &r) + self.bound(free, &weights);
         }
         judged(&sum, rate, p)
+    }
+
+    /// The centroidal momentum matrix holds the slopes of the momenta by velocities.
+    fn centroidal_momenta(&mut self) -> Judged {
+        let (a, h) = (FunctionKind::CentroidalMomentumMatrix, FunctionKind::CentroidalMomentum);
+        if !self.has(a) || !self.has(h) {
+            return Some(None);
+        }
+        let (n, symbols) = (self.dof(), self.symbols());
+        let (r, by) = (self.weights(6), self.weights(n));
+        let slopes = self.trace(h)?.slopes::<Doubled>(&r, symbols);
+        let (mut sum, mut weights) = (Sum::default(), vec![0.0; 6 * n]);
+        self.by(&slopes, velocity).iter().zip(&by).for_each(|(&x, &by)| sum.product(&[x, Doubled::new(by)]));
+        for (at, &x) in self.values(a)?.iter().enumerate() {
+            weights[at] = -r[at / n] * by[at % n];
+            sum.product(&[-x, Doubled::new(r[at / n]), Doubled::new(by[at % n])]);
+        }
+        if sum.holds() != Some(true) {
+            sum.bound = slopes.bound + self.bound(a, &weights);
+        }
+        judged(&sum, a, h)
     }
 
     /// M times a jump of velocities is the impulse, but for those of the constraints: M d + G^T mu = impulse.
