@@ -22,6 +22,7 @@ use syn::{Expr, LitStr};
 use crate::diagnostics::{Diagnostics, nearest};
 use crate::syntax;
 use crate::syntax::tree::{Field, ItemKind, Module, Part, Source};
+use crate::syntax::{MJCF, URDF};
 
 use mistake::Mistake;
 use options::{Base, Options};
@@ -47,8 +48,8 @@ impl Format {
     /// By the kind of a part that stands in such a file.
     fn named(kind: &Ident) -> Option<Format> {
         match kind.to_string().as_str() {
-            "Urdf" => Some(Format::Urdf),
-            "Mjcf" => Some(Format::Mjcf),
+            URDF => Some(Format::Urdf),
+            MJCF => Some(Format::Mjcf),
             _ => None,
         }
     }
@@ -58,6 +59,14 @@ impl Format {
         let document = xml::parse(text);
         let is_mjcf = document.is_ok_and(|document| document.root_element().has_tag_name("mujoco"));
         if is_mjcf { Format::Mjcf } else { Format::Urdf }
+    }
+
+    /// What files of it are called.
+    fn extension(self) -> &'static str {
+        match self {
+            Format::Urdf => "urdf",
+            Format::Mjcf => "xml",
+        }
     }
 
     fn read(self, text: &str, is_friction_ignored: bool) -> Result<Robot, Mistake> {
@@ -85,7 +94,7 @@ pub fn place(source: &mut Source, reader: &Reader, diagnostics: &mut Diagnostics
                 continue;
             };
             let before = diagnostics.errors().len();
-            let placed = options::read(part, diagnostics).and_then(|options| {
+            let placed = options::read(part, format.extension(), diagnostics).and_then(|options| {
                 of_file(part, (format, &owner), &options, reader, &mut names, &mut known, diagnostics)
             });
             match placed {

@@ -59,10 +59,9 @@ impl Options {
 const FIELDS: [&str; 9] = ["file", "base", "lock", "drop", "param", "efforts", "angles", "friction", "allow"];
 
 /// Nothing if a mistake has been reported.
-pub(super) fn read(part: &Part, diagnostics: &mut Diagnostics) -> Option<Options> {
+pub(super) fn read(part: &Part, extension: &str, diagnostics: &mut Diagnostics) -> Option<Options> {
     let before = diagnostics.errors().len();
-    let end = if part.kind == "Mjcf" { "xml" } else { "urdf" };
-    let form = format!("write `part arm: {} {{ file: \"arm.{end}\", base: ground }};`", part.kind);
+    let form = format!("write `part arm: {} {{ file: \"arm.{extension}\", base: ground }};`", part.kind);
     let mut file = None;
     let mut base = None;
     let mut options = Options::plain("");

@@ -16,7 +16,9 @@ use super::imports::{Bundle, VERSION};
 use super::tree::{Export, ItemKind, Module};
 
 /// The kinds of parts that stand in robots' files (see the stage `robots`).
-const ROBOTS: [&str; 2] = ["Urdf", "Mjcf"];
+pub(crate) const URDF: &str = "Urdf";
+pub(crate) const MJCF: &str = "Mjcf";
+const ROBOTS: [&str; 2] = [URDF, MJCF];
 
 /// Of all modules of a call.
 pub(super) fn of(modules: &[Module], bundles: &[Bundle]) -> Vec<Export> {

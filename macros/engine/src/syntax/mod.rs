@@ -60,6 +60,7 @@ pub mod tree;
 
 use proc_macro2::TokenStream;
 
+pub(crate) use exports::{MJCF, URDF};
 pub(crate) use text::text;
 
 use crate::diagnostics::Diagnostics;

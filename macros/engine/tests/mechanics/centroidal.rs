@@ -122,6 +122,67 @@ fn in_loops_of_all_formulations() {
     }
 }
 
+/// A plate on six struts of two bodies each, whose coordinates all follow from the plate's: the whole with its legs, and its rates.
+#[test]
+fn on_struts() {
+    const NAMES: [[&str; 2]; 6] = [
+        ["legs[0].cylinder", "legs[0].piston"],
+        ["legs[1].cylinder", "legs[1].piston"],
+        ["legs[2].cylinder", "legs[2].piston"],
+        ["legs[3].cylinder", "legs[3].piston"],
+        ["legs[4].cylinder", "legs[4].piston"],
+        ["legs[5].cylinder", "legs[5].piston"],
+    ];
+    let mut bodies: Vec<Body> = vec![("plate", 1.5, [0.01, 0.02, -0.03], [0.08, 0.09, 0.1, 0.0, 0.0, 0.0])];
+    for [cylinder, piston] in NAMES {
+        bodies.push((cylinder, 0.1, [0.0, 0.0, 0.5], [0.006, 0.006, 0.0, 0.0, 0.0, 0.0]));
+        bodies.push((piston, 0.2, [0.0, 0.0, -0.4], [0.005, 0.005, 0.0, 0.0, 0.0, 0.0]));
+    }
+    let leg = "mod leg { port base: Frame; port tip: Frame;
+        body cylinder { mass: 0.1, com: 0.5 * Z, inertia: diag(0.006, 0.006, 0.0) }
+        body piston { mass: 0.2, com: -0.4 * Z, inertia: diag(0.005, 0.005, 0.0) }
+        joint gimbal: Universal { parent: base, child: cylinder, axes: [X, Y] }
+        joint stroke: Prismatic { parent: cylinder.at(1.0 * Z), child: piston, axis: Z }
+        #[cut] joint ball: Ball { parent: piston, child: tip }
+        force actuator: Effort { joint: stroke, value: 2.0 - 0.3 * stroke.rate }
+        solve (gimbal, stroke) from ball { stroke.travel > -1.0, cos(gimbal.second) > 0.0 } }";
+    let plate = "
+        const FEET = [[-2.1, 1.4, 0.0], [-2.4, 1.2, 0.1], [-2.3, -1.2, 0.0], [-2.1, -1.3, 0.0], [0.1, -0.2, 0.0], [0.0, 0.15, 0.2]];
+        const PINS = [[0.2, 0.6, 2.0], [-0.6, 0.2, 2.1], [-0.6, -0.2, 2.0], [0.2, -0.6, 2.0], [0.4, -0.4, 2.2], [0.4, 0.4, 2.0]];
+        world { gravity: -9.81 * Z } formulation { constraints: Reduced }
+        body plate { mass: 1.5, com: [0.01, 0.02, -0.03], inertia: diag(0.08, 0.09, 0.1), coordinates: Absolute(RollPitchYaw) }
+        part legs: [leg; 6] = |i| leg { base: ground.at(FEET[i]), tip: plate.at(PINS[i]) };
+        output momenta = [angular_momentum(), linear_momentum()]; output centre = centre_of_mass();
+        output mass = total_mass(); output velocity = centre_of_mass().velocity;
+        output acceleration = centre_of_mass().acceleration;";
+    let case = case_with(leg, &format!("{plate} {} {MATRIX}", shown(&bodies)));
+    check("struts", &case, &bodies);
+    let point = case.random(2);
+    let outputs = case.outputs(&point);
+    close("mass", &outputs["mass"], &[bodies.iter().map(|body| body.1).sum()], 1e-14);
+    close("momenta", &times_velocities(&case, &point), &outputs["momenta"], 1e-11);
+    let centre = bodies.iter().enumerate().fold([0.0; 3], |sum, (k, body)| {
+        plus(&sum, &scaled(body.1 / outputs["mass"][0], &vector(&outputs[&format!("centre_{k}")])))
+    });
+    close("centre", &outputs["centre"], &centre, 1e-12);
+    // The plate's angles and their rates are the state.
+    let accelerations = case.eval(FunctionKind::ForwardDynamics, &point);
+    let later = |time: f64| {
+        let mut later = point.clone();
+        for (of, acceleration) in case.structure.state.iter().zip(&accelerations) {
+            let position = Symbol::Position { joint: of.joint, component: of.index };
+            let velocity = Symbol::Velocity { joint: of.joint, component: of.index };
+            let (q, v) = (point.get(position), point.get(velocity));
+            later.set(position, q + time * (v + 0.5 * time * acceleration));
+            later.set(velocity, v + time * acceleration);
+        }
+        later
+    };
+    let rate = |name: &str| case.derivative(|time| case.output(name, &later(time)));
+    close("velocity", &rate("centre"), &outputs["velocity"], 1e-7);
+    close("acceleration", &rate("velocity"), &outputs["acceleration"], 1e-6);
+}
+
 /// With the velocities of the state it gives the momenta of expressions, but for what moves in time by itself.
 #[test]
 fn times_velocities_it_is_the_momenta() {

@@ -99,6 +99,20 @@ fn straight_tables_are_straight() {
     }
 }
 
+/// However far beyond the ends; what is not a number stays so.
+#[test]
+fn the_ends_hold_at_infinity() {
+    for curve in ["table", "smooth_table"] {
+        let case = table(curve, "[-2.5, -0.75, 0.0, 4.0]", "[1.0, 3.25, -2.0, 6.5]");
+        for (x, value) in [(f64::INFINITY, 6.5), (f64::NEG_INFINITY, 1.0), (1e300, 6.5), (-1e300, 1.0)] {
+            assert_eq!(at(&case, x), [value, 0.0], "{curve} at {x}");
+        }
+        let mut point = case.random(1);
+        point.set(Symbol::Input { input: InputId(0), element: 0 }, f64::NAN);
+        assert!(case.output("of_input", &point)[0].is_nan(), "{curve}");
+    }
+}
+
 /// A value of the user's own that is called so comes first.
 #[test]
 fn a_function_of_the_users_comes_first() {

@@ -84,7 +84,7 @@ fn state(layout: &Layout<'_>) -> Flat {
 impl Flat {
     fn items(&self, layout: &Layout<'_>) -> TokenStream {
         let mut tokens = self.to_vector(layout);
-        tokens.extend(if self.has_quaternion { self.normalised(layout) } else { self.from_vector(layout) });
+        tokens.extend(if self.has_quaternion { self.normalised(layout) } else { self.of_vector(layout) });
         tokens
     }
 
@@ -102,7 +102,7 @@ impl Flat {
     }
 
     /// Expands to `impl<T: Real> From<SVector<T, 2>> for Velocity<T> { .. }`.
-    fn from_vector(&self, layout: &Layout<'_>) -> TokenStream {
+    fn of_vector(&self, layout: &Layout<'_>) -> TokenStream {
         let Flat { name, scalars, value, .. } = self;
         let vector = results::vector_type(layout, scalars.len());
         quote! {

@@ -114,8 +114,9 @@ impl<'a> Checker<'a, '_> {
         let ends = |column: &[Typed]| -> Vec<Typed> { std::iter::once(&column[0]).chain(column).cloned().collect() };
         let start = self.choice(&masks, &ends(xs), at)?;
         let mut value = self.choice(&masks, &ends(ys), at)?;
-        let way = self.of_two(ExprNode::Sub, x, &start, at)?;
         let zero = Typed::number(0.0, at);
+        let way = self.of_two(ExprNode::Sub, x, &start, at)?;
+        let way = self.within(x, xs, &masks, &way, at)?;
         let mut sum: Option<Typed> = None;
         for power in (0..pieces[0].len()).rev() {
             let inner = pieces.iter().map(|piece| piece[power].clone());
@@ -131,6 +132,19 @@ impl<'a> Checker<'a, '_> {
             value = self.of_two(ExprNode::Add, &value, &sum, at)?;
         }
         Some(value)
+    }
+
+    /// The way from a piece's left end, and zero beyond the ends: no slope there would take an infinite one. What is not a number is
+    /// beyond neither.
+    fn within(&mut self, x: &Typed, xs: &[Typed], masks: &[Typed], way: &Typed, at: Span) -> Option<Typed> {
+        let (Some(before), Some(last)) = (masks.first(), xs.last()) else { return Some(way.clone()) };
+        let zero = Typed::number(0.0, at);
+        let node = ExprNode::Compare(Comparison::Less, last.expr.clone(), x.expr.clone());
+        let behind = self.build(node, Type::Bool, at, &[last, x])?;
+        let node = ExprNode::Select(behind.expr.clone(), zero.expr.clone(), way.expr.clone());
+        let way = self.build(node, Type::Scalar, at, &[&behind, &zero, way])?;
+        let node = ExprNode::Select(before.expr.clone(), zero.expr.clone(), way.expr.clone());
+        self.build(node, Type::Scalar, at, &[before, &zero, &way])
     }
 
     /// The one of `values` before whose mask `x` lies; the last if it lies before none.
