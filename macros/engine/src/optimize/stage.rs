@@ -33,8 +33,7 @@ impl Stage {
             | Symbol::Guess { .. }
             | Symbol::Alternative { .. }
             | Symbol::Unknown { .. }
-            | Symbol::UnknownPoint { .. }
-            | Symbol::Number { .. } => Stage::Position,
+            | Symbol::UnknownPoint { .. } => Stage::Position,
             Symbol::Velocity { .. } => Stage::Velocity,
             Symbol::Input { .. } | Symbol::Multiplier { .. } | Symbol::Rate { .. } => Stage::Input,
             Symbol::Impulse { .. } | Symbol::Momentum { .. } => Stage::Input,

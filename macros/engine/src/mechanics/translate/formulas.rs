@@ -194,8 +194,7 @@ fn variable(model: &Model, symbol: Symbol) -> Option<Variable> {
         | Symbol::Rate { .. }
         | Symbol::Guess { .. }
         | Symbol::Unknown { .. }
-        | Symbol::UnknownPoint { .. }
-        | Symbol::Number { .. } => None,
+        | Symbol::UnknownPoint { .. } => None,
     }
 }
 
