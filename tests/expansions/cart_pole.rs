@@ -385,6 +385,17 @@ pub mod cart_pole {
             ::multibody::Columns::columns(&self.v, &place.field("v", ""), f);
         }
     }
+    impl<T: Real> From<Params<T>> for ::multibody::nalgebra::SVector<T, 4> {
+        fn from(params: Params<T>) -> Self {
+            Self::from([params.g, params.mc, params.mp, params.l])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 4>> for Params<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 4>) -> Self {
+            let [[g, mc, mp, l]] = vector.data.0;
+            Params { g, mc, mp, l }
+        }
+    }
     impl<T: Real> From<Velocity<T>> for ::multibody::nalgebra::SVector<T, 2> {
         fn from(velocity: Velocity<T>) -> Self {
             Self::from([velocity.track, velocity.hinge])
@@ -405,6 +416,37 @@ pub mod cart_pole {
         fn from(vector: ::multibody::nalgebra::SVector<T, 2>) -> Self {
             let [[track, hinge]] = vector.data.0;
             Position { track, hinge }
+        }
+    }
+    impl<T: Real> From<Input<T>> for ::multibody::nalgebra::SVector<T, 1> {
+        fn from(input: Input<T>) -> Self {
+            Self::from([input.push])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 1>> for Input<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 1>) -> Self {
+            let [[push]] = vector.data.0;
+            Input { push }
+        }
+    }
+    impl<T: Real> From<State<T>> for ::multibody::nalgebra::SVector<T, 4> {
+        fn from(state: State<T>) -> Self {
+            Self::from([state.q.track, state.q.hinge, state.v.track, state.v.hinge])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 4>> for State<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 4>) -> Self {
+            let [[q_track, q_hinge, v_track, v_hinge]] = vector.data.0;
+            State {
+                q: Position {
+                    track: q_track,
+                    hinge: q_hinge,
+                },
+                v: Velocity {
+                    track: v_track,
+                    hinge: v_hinge,
+                },
+            }
         }
     }
     /// The equations of motion of `cart_pole`. It holds the 12 values that depend on parameters alone.

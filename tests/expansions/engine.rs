@@ -296,6 +296,17 @@ pub(crate) mod engine {
             ::multibody::Columns::columns(&self.v, &place.field("v", ""), f);
         }
     }
+    impl<T: Real> From<Params<T>> for ::multibody::nalgebra::SVector<T, 1> {
+        fn from(params: Params<T>) -> Self {
+            Self::from([params.load])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 1>> for Params<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 1>) -> Self {
+            let [[load]] = vector.data.0;
+            Params { load }
+        }
+    }
     impl<T: Real> From<Velocity<T>> for ::multibody::nalgebra::SVector<T, 1> {
         fn from(velocity: Velocity<T>) -> Self {
             Self::from([velocity.shaft])
@@ -316,6 +327,31 @@ pub(crate) mod engine {
         fn from(vector: ::multibody::nalgebra::SVector<T, 1>) -> Self {
             let [[shaft]] = vector.data.0;
             Position { shaft }
+        }
+    }
+    impl<T: Real> From<Input<T>> for ::multibody::nalgebra::SVector<T, 1> {
+        fn from(input: Input<T>) -> Self {
+            Self::from([input.gas])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 1>> for Input<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 1>) -> Self {
+            let [[gas]] = vector.data.0;
+            Input { gas }
+        }
+    }
+    impl<T: Real> From<State<T>> for ::multibody::nalgebra::SVector<T, 2> {
+        fn from(state: State<T>) -> Self {
+            Self::from([state.q.shaft, state.v.shaft])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 2>> for State<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 2>) -> Self {
+            let [[q_shaft, v_shaft]] = vector.data.0;
+            State {
+                q: Position { shaft: q_shaft },
+                v: Velocity { shaft: v_shaft },
+            }
         }
     }
     /// The equations of motion of `engine`. It holds the one value that depends on parameters alone.

@@ -310,6 +310,31 @@ pub mod four_bar {
             Position { crank }
         }
     }
+    impl<T: Real> From<Input<T>> for ::multibody::nalgebra::SVector<T, 1> {
+        fn from(input: Input<T>) -> Self {
+            Self::from([input.torque])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 1>> for Input<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 1>) -> Self {
+            let [[torque]] = vector.data.0;
+            Input { torque }
+        }
+    }
+    impl<T: Real> From<State<T>> for ::multibody::nalgebra::SVector<T, 2> {
+        fn from(state: State<T>) -> Self {
+            Self::from([state.q.crank, state.v.crank])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 2>> for State<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 2>) -> Self {
+            let [[q_crank, v_crank]] = vector.data.0;
+            State {
+                q: Position { crank: q_crank },
+                v: Velocity { crank: v_crank },
+            }
+        }
+    }
     /// The equations of motion of `four_bar`. It takes no space: nothing depends on parameters.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq)]

@@ -316,6 +316,17 @@ pub mod free_body {
             ::multibody::Columns::columns(&self.v, &place.field("v", ""), f);
         }
     }
+    impl<T: Real> From<Params<T>> for ::multibody::nalgebra::SVector<T, 4> {
+        fn from(params: Params<T>) -> Self {
+            Self::from([params.m, params.i[0], params.i[1], params.i[2]])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 4>> for Params<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 4>) -> Self {
+            let [[m, i_0, i_1, i_2]] = vector.data.0;
+            Params { m, i: [i_0, i_1, i_2] }
+        }
+    }
     impl<T: Real> From<Velocity<T>> for ::multibody::nalgebra::SVector<T, 6> {
         fn from(velocity: Velocity<T>) -> Self {
             Self::from([
@@ -380,6 +391,66 @@ pub mod free_body {
                         free_orientation_j,
                         free_orientation_k,
                     ),
+                },
+            }
+        }
+    }
+    impl<T: Real> From<State<T>> for ::multibody::nalgebra::SVector<T, 13> {
+        fn from(state: State<T>) -> Self {
+            Self::from([
+                state.q.free.position.x,
+                state.q.free.position.y,
+                state.q.free.position.z,
+                state.q.free.orientation.w,
+                state.q.free.orientation.i,
+                state.q.free.orientation.j,
+                state.q.free.orientation.k,
+                state.v.free.linear.x,
+                state.v.free.linear.y,
+                state.v.free.linear.z,
+                state.v.free.angular.x,
+                state.v.free.angular.y,
+                state.v.free.angular.z,
+            ])
+        }
+    }
+    impl<T: Real> State<T> {
+        /// From a vector of all coordinates in order, quaternions as w, x, y, z; they are normalised.
+        #[must_use]
+        pub fn normalized(vector: ::multibody::nalgebra::SVector<T, 13>) -> Self {
+            let [[q_free_position_x, q_free_position_y, q_free_position_z,
+            q_free_orientation_w, q_free_orientation_i, q_free_orientation_j,
+            q_free_orientation_k, v_free_linear_x, v_free_linear_y, v_free_linear_z,
+            v_free_angular_x, v_free_angular_y, v_free_angular_z]] = vector.data.0;
+            State {
+                q: Position {
+                    free: ::multibody::Pose {
+                        position: ::multibody::nalgebra::Vector3::from([
+                            q_free_position_x,
+                            q_free_position_y,
+                            q_free_position_z,
+                        ]),
+                        orientation: ::multibody::rotation::normalized(
+                            q_free_orientation_w,
+                            q_free_orientation_i,
+                            q_free_orientation_j,
+                            q_free_orientation_k,
+                        ),
+                    },
+                },
+                v: Velocity {
+                    free: ::multibody::Twist {
+                        linear: ::multibody::nalgebra::Vector3::from([
+                            v_free_linear_x,
+                            v_free_linear_y,
+                            v_free_linear_z,
+                        ]),
+                        angular: ::multibody::nalgebra::Vector3::from([
+                            v_free_angular_x,
+                            v_free_angular_y,
+                            v_free_angular_z,
+                        ]),
+                    },
                 },
             }
         }

@@ -373,6 +373,71 @@ pub mod level {
             ::multibody::Columns::columns(&self.v, &place.field("v", ""), f);
         }
     }
+    impl<T: Real> From<Params<T>> for ::multibody::nalgebra::SVector<T, 18> {
+        fn from(params: Params<T>) -> Self {
+            Self::from([
+                params.legs[0].k,
+                params.legs[0].c,
+                params.legs[0].s0,
+                params.legs[1].k,
+                params.legs[1].c,
+                params.legs[1].s0,
+                params.legs[2].k,
+                params.legs[2].c,
+                params.legs[2].s0,
+                params.legs[3].k,
+                params.legs[3].c,
+                params.legs[3].s0,
+                params.legs[4].k,
+                params.legs[4].c,
+                params.legs[4].s0,
+                params.legs[5].k,
+                params.legs[5].c,
+                params.legs[5].s0,
+            ])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 18>> for Params<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 18>) -> Self {
+            let [[legs_0_k, legs_0_c, legs_0_s0, legs_1_k, legs_1_c, legs_1_s0, legs_2_k,
+            legs_2_c, legs_2_s0, legs_3_k, legs_3_c, legs_3_s0, legs_4_k, legs_4_c,
+            legs_4_s0, legs_5_k, legs_5_c, legs_5_s0]] = vector.data.0;
+            Params {
+                legs: [
+                    leg::Params {
+                        k: legs_0_k,
+                        c: legs_0_c,
+                        s0: legs_0_s0,
+                    },
+                    leg::Params {
+                        k: legs_1_k,
+                        c: legs_1_c,
+                        s0: legs_1_s0,
+                    },
+                    leg::Params {
+                        k: legs_2_k,
+                        c: legs_2_c,
+                        s0: legs_2_s0,
+                    },
+                    leg::Params {
+                        k: legs_3_k,
+                        c: legs_3_c,
+                        s0: legs_3_s0,
+                    },
+                    leg::Params {
+                        k: legs_4_k,
+                        c: legs_4_c,
+                        s0: legs_4_s0,
+                    },
+                    leg::Params {
+                        k: legs_5_k,
+                        c: legs_5_c,
+                        s0: legs_5_s0,
+                    },
+                ],
+            }
+        }
+    }
     impl<T: Real> From<Velocity<T>> for ::multibody::nalgebra::SVector<T, 3> {
         fn from(velocity: Velocity<T>) -> Self {
             Self::from([velocity.platform.x, velocity.platform.y, velocity.platform.z])
@@ -404,6 +469,80 @@ pub mod level {
                     platform_y,
                     platform_z,
                 ]),
+            }
+        }
+    }
+    impl<T: Real> From<Input<T>> for ::multibody::nalgebra::SVector<T, 6> {
+        fn from(input: Input<T>) -> Self {
+            Self::from([
+                input.legs[0].thrust,
+                input.legs[1].thrust,
+                input.legs[2].thrust,
+                input.legs[3].thrust,
+                input.legs[4].thrust,
+                input.legs[5].thrust,
+            ])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 6>> for Input<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 6>) -> Self {
+            let [[legs_0_thrust, legs_1_thrust, legs_2_thrust, legs_3_thrust,
+            legs_4_thrust, legs_5_thrust]] = vector.data.0;
+            Input {
+                legs: [
+                    leg::Input {
+                        thrust: legs_0_thrust,
+                    },
+                    leg::Input {
+                        thrust: legs_1_thrust,
+                    },
+                    leg::Input {
+                        thrust: legs_2_thrust,
+                    },
+                    leg::Input {
+                        thrust: legs_3_thrust,
+                    },
+                    leg::Input {
+                        thrust: legs_4_thrust,
+                    },
+                    leg::Input {
+                        thrust: legs_5_thrust,
+                    },
+                ],
+            }
+        }
+    }
+    impl<T: Real> From<State<T>> for ::multibody::nalgebra::SVector<T, 6> {
+        fn from(state: State<T>) -> Self {
+            Self::from([
+                state.q.platform.x,
+                state.q.platform.y,
+                state.q.platform.z,
+                state.v.platform.x,
+                state.v.platform.y,
+                state.v.platform.z,
+            ])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 6>> for State<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 6>) -> Self {
+            let [[q_platform_x, q_platform_y, q_platform_z, v_platform_x, v_platform_y,
+            v_platform_z]] = vector.data.0;
+            State {
+                q: Position {
+                    platform: ::multibody::nalgebra::Vector3::from([
+                        q_platform_x,
+                        q_platform_y,
+                        q_platform_z,
+                    ]),
+                },
+                v: Velocity {
+                    platform: ::multibody::nalgebra::Vector3::from([
+                        v_platform_x,
+                        v_platform_y,
+                        v_platform_z,
+                    ]),
+                },
             }
         }
     }

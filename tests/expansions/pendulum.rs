@@ -270,6 +270,17 @@ pub mod pendulum {
             ::multibody::Columns::columns(&self.v, &place.field("v", ""), f);
         }
     }
+    impl<T: Real> From<Params<T>> for ::multibody::nalgebra::SVector<T, 3> {
+        fn from(params: Params<T>) -> Self {
+            Self::from([params.g, params.m, params.l])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 3>> for Params<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 3>) -> Self {
+            let [[g, m, l]] = vector.data.0;
+            Params { g, m, l }
+        }
+    }
     impl<T: Real> From<Velocity<T>> for ::multibody::nalgebra::SVector<T, 1> {
         fn from(velocity: Velocity<T>) -> Self {
             Self::from([velocity.hinge])
@@ -290,6 +301,20 @@ pub mod pendulum {
         fn from(vector: ::multibody::nalgebra::SVector<T, 1>) -> Self {
             let [[hinge]] = vector.data.0;
             Position { hinge }
+        }
+    }
+    impl<T: Real> From<State<T>> for ::multibody::nalgebra::SVector<T, 2> {
+        fn from(state: State<T>) -> Self {
+            Self::from([state.q.hinge, state.v.hinge])
+        }
+    }
+    impl<T: Real> From<::multibody::nalgebra::SVector<T, 2>> for State<T> {
+        fn from(vector: ::multibody::nalgebra::SVector<T, 2>) -> Self {
+            let [[q_hinge, v_hinge]] = vector.data.0;
+            State {
+                q: Position { hinge: q_hinge },
+                v: Velocity { hinge: v_hinge },
+            }
         }
     }
     /// The equations of motion of `pendulum`. It holds the 5 values that depend on parameters alone.
