@@ -61,6 +61,7 @@ pub fn empty(module: &str) -> Model {
         attrs: vec![parse_quote!(#[doc = " A model made by hand."])],
         krate: parse_quote!(::multibody),
         fused: false,
+        serialised: false,
         part_types: IndexVec::new(),
         instances: IndexVec::from(vec![Instance {
             parent: None,
