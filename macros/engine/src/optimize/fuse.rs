@@ -14,8 +14,8 @@
 //! a name, keep their statement: a product that is computed anyway is added as any other value. Chains are as long as those of
 //! sums, and shorter in time by one product.
 //!
-//! What packs are filled with stays plain: these are leaves, but for signs, and the way goes through them. So do parameters' work, tests of parameters and the matrix of
-//! `without_inertia`, which are run once.
+//! What packs are filled with stays plain: these are leaves, but for signs. So do parameters' work, tests of parameters and the matrix of
+//! `without_inertia`, which are run once. The way to a root goes through packs.
 //!
 //! Measured, before sums that roots read were exempt (f64, `target-cpu=native` on AMD EPYC of family 25, level 3, interleaved minima in one process), time with over without, both in
 //! the order of [`super::order`]: panda inverse dynamics 0.89, mass matrix 0.99, forward dynamics 0.97, its derivatives 0.86; four legs on a floating body,

@@ -218,9 +218,10 @@ impl Graph {
         Some([if key == angle.print() { sin } else { -sin }, cos])
     }
 
-    /// Remembers where an angle lies that a function of literals gives, if these and the root beside them are exact.
+    /// Remembers where an angle lies that a function of literals gives, if these and the root beside them are exact. What rounds to
+    /// quarter turns means them: what rounding has left of a zero is none.
     pub(super) fn keep_point(&mut self, angle: Number, call: Call, arguments: &[Scalar]) {
-        if angle.is_exact() {
+        if angle.is_exact() || quarters(angle).is_some() {
             return;
         }
         let [sin, cos] = match (call, arguments) {

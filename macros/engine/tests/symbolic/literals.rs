@@ -81,6 +81,14 @@ fn points_of_angles_that_functions_give() {
     let (y, x) = (g.decimal(-1.5), g.decimal(-3.0));
     let angle = g.call(Call::Atan2, &[y, x]);
     assert_eq!([g.cos(angle), g.sin(angle)], [-sin, -cos]);
+    // The rest of a zero, as it is typed.
+    for rest in [6.123_233_995_736_766e-17, 5e-17, 1e-17] {
+        let rest = g.decimal(rest);
+        for angle in [g.call(Call::Atan2, &[Scalar::ONE, rest]), g.call(Call::Acos, &[rest])] {
+            assert_eq!([g.cos(angle), g.sin(angle)], [Scalar::ZERO, Scalar::ONE]);
+        }
+    }
+    let angle = g.call(Call::Atan2, &[y, x]);
     // Beside a coordinate: the sines of the sum are those of the addition theorem.
     let q = g.symbol();
     let sum = g.add(q, angle);
