@@ -170,8 +170,7 @@ impl<'m> Changing<'m> {
             each_node([of], &mut |inner| {
                 if let Some(body) = self.moments(&inner.node) {
                     let message = format!(
-                        "the mass of `{}` follows a state, so this is the rate of a state, not known where forces and states are \
-                         evaluated",
+                        "the mass of `{}` follows a state, whose rate stands in no force, no state and no other derivative",
                         body.place.field
                     );
                     mistakes.push(Mistake { at: expr.span, message, help: RATE });
