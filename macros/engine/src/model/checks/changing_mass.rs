@@ -27,7 +27,7 @@ struct Mistake {
 const EARLY: &str = "only positions, parameters and time decide positions: a state's rate may jump";
 
 const CENTRE: &str = "`linear_momentum(..) / total_mass(..)` is the mean velocity of what is there, `diff(centre_of_mass(..), t)` the rate \
-                      of the place; both are for outputs and `diff(linear_momentum(..), t)` too";
+                      of the place";
 
 const RATE: &str = "write the rate of its state in its place";
 
