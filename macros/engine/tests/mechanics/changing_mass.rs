@@ -114,7 +114,9 @@ impl Pair {
     /// Some point, and the same with the states' values as parameters.
     fn points(&self, seed: u64) -> (Point, Point) {
         let (mut point, mut random) = (self.states.random(seed), Random(seed));
-        if let Some(closed) = self.states.structure.closed.get(seed as usize % self.states.structure.closed.len().max(1)) {
+        if let Some(closed) =
+            self.states.structure.closed.get(seed as usize % self.states.structure.closed.len().max(1))
+        {
             for &symbol in &self.states.derivation.symbols {
                 let Symbol::Position { joint, component } = symbol else { continue };
                 if let Some(&x) = closed.positions.get(joint.0).and_then(|list| list.get(component)) {
@@ -123,7 +125,9 @@ impl Pair {
             }
         }
         for (index, guessed) in self.states.structure.guessed().into_iter().enumerate() {
-            if let Some(x) = self.states.structure.closed.first().and_then(|closed| closed.value(&self.states.model, guessed)) {
+            if let Some(x) =
+                self.states.structure.closed.first().and_then(|closed| closed.value(&self.states.model, guessed))
+            {
                 point.set(Symbol::Guess { index }, x);
             }
         }
@@ -190,7 +194,11 @@ impl Pair {
         let (from, to) = (2 * rows * dof, 2 * rows * dof + rows * states);
         close(what, &found[..from], &expected[..from], 1e3 * ROUNDING);
         close(what, &found[to..], &expected[to..], 1e3 * ROUNDING);
-        let of = if kind == FunctionKind::ForwardDerivatives { FunctionKind::ForwardDynamics } else { FunctionKind::InverseDynamics };
+        let of = if kind == FunctionKind::ForwardDerivatives {
+            FunctionKind::ForwardDynamics
+        } else {
+            FunctionKind::InverseDynamics
+        };
         for (column, id) in self.contents().into_iter().enumerate() {
             let symbol = Symbol::Param { param: id, element: 0 };
             let slopes = self.params.derivative(|h| {
@@ -235,10 +243,13 @@ fn loops_in_every_formulation() {
 #[test]
 fn bodies_on_struts() {
     for constraints in ["Reduced", "Multipliers"] {
-        let items = format!("formulation {{ constraints: {constraints} }} {PLATE} emit forward_dynamics, mass_matrix, energy;");
+        let items =
+            format!("formulation {{ constraints: {constraints} }} {PLATE} emit forward_dynamics, mass_matrix, energy;");
         Pair::new(LEG, &items).agrees(constraints);
     }
-    let items = format!("formulation {{ constraints: Reduced }} {PLATE} emit forward_dynamics, inverse_dynamics {{ solve_for: legs.thrust }};");
+    let items = format!(
+        "formulation {{ constraints: Reduced }} {PLATE} emit forward_dynamics, inverse_dynamics {{ solve_for: legs.thrust }};"
+    );
     Pair::new(LEG, &items).agrees("struts");
 }
 
@@ -246,10 +257,13 @@ fn bodies_on_struts() {
 #[test]
 fn rates_of_energies_and_momenta() {
     let text = |name: &str| {
-        format!("input push; world {{ gravity: [1.0, -9.0, 2.0] }} {PAIR} {ARM} {OUTPUTS} emit forward_dynamics;
+        format!(
+            "input push; world {{ gravity: [1.0, -9.0, 2.0] }} {PAIR} {ARM} {OUTPUTS} emit forward_dynamics;
             output by_state = diff(kinetic() + potential(), fuel); output moving = diff(centre_of_mass(), t);
             output growing = diff(total_mass(), t); output pushed = diff(linear_momentum(), t);
-            output feeding = diff(kinetic() + potential(), t);").replace('@', name)
+            output feeding = diff(kinetic() + potential(), t);"
+        )
+        .replace('@', name)
     };
     let (states, params) = (case(&text("fuel")), case(&text("content")));
     for seed in 1..4 {
@@ -271,8 +285,10 @@ fn rates_of_energies_and_momenta() {
 /// A derivative by time asks for rates of those states alone that it reads.
 #[test]
 fn a_rate_of_a_position_in_the_rate_of_a_state() {
-    let case = case("body b { mass: 1.0, com: X } joint j: Revolute { parent: ground, child: b, axis: Z }
-        state s: rate = diff(centre_of_mass(), t).x, start: 0.0; output speed = centre_of_mass().velocity;");
+    let case = case(
+        "body b { mass: 1.0, com: X } joint j: Revolute { parent: ground, child: b, axis: Z }
+        state s: rate = diff(centre_of_mass(), t).x, start: 0.0; output speed = centre_of_mass().velocity;",
+    );
     let point = case.random(1);
     let rates = case.eval(FunctionKind::ForwardDynamics, &point);
     close("rate", &rates[1..], &case.output("speed", &point)[..1], ROUNDING);

@@ -43,7 +43,8 @@ impl Deriving<'_> {
         if self.model.asked_at(Request::Impulse).is_some()
             && let Some(body) = model.bodies.iter().find(|body| !body.states().is_empty())
         {
-            let message = format!("`impulse` knows no states, and the inertia of `{}` follows one", path(model, &body.place));
+            let message =
+                format!("`impulse` knows no states, and the inertia of `{}` follows one", path(model, &body.place));
             let help = "`mass_matrix` and `forward_dynamics` take the state: at rest, without forces, accelerations are the jump";
             complaints.push(self.complaint(Request::Impulse, &message, help));
         }

@@ -196,15 +196,14 @@ impl<'m> Changing<'m> {
     fn centres<'e>(&self, exprs: impl IntoIterator<Item = &'e Expr>) -> Vec<Mistake> {
         let mut mistakes = Vec::new();
         each_node(exprs, &mut |expr| {
-            let ExprNode::OfBodies(
-                of,
-                SystemQuantity::CentreOfMassVelocity | SystemQuantity::CentreOfMassAcceleration,
-            ) = &*expr.node
+            let ExprNode::OfBodies(of, SystemQuantity::CentreOfMassVelocity | SystemQuantity::CentreOfMassAcceleration) =
+                &*expr.node
             else {
                 return;
             };
             let chosen = self.chosen(of);
-            let rests = |body: &&&Body| !body.com.follows_states() && (chosen.len() == 1 || !body.mass.follows_states());
+            let rests =
+                |body: &&&Body| !body.com.follows_states() && (chosen.len() == 1 || !body.mass.follows_states());
             let Some(body) = chosen.iter().find(|body| !rests(body)) else { return };
             let message = format!(
                 "the mass of `{}` follows a state: the centre of mass has a velocity by its momentum, and another one by its place",

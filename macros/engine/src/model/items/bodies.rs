@@ -37,12 +37,10 @@ impl<'a> Checker<'a, '_> {
             self.not_negative(&mass, &format!("the mass of `{name}`"))
         });
         let com = match field(fields, "com") {
-            Some(expr) => {
-                self.vector(expr, context, Allowed::Inertia).and_then(|com| {
-                    self.begin_states(&com.expr);
-                    self.finite(&com).map(|()| com)
-                })
-            }
+            Some(expr) => self.vector(expr, context, Allowed::Inertia).and_then(|com| {
+                self.begin_states(&com.expr);
+                self.finite(&com).map(|()| com)
+            }),
             None => Some(Typed::vector([0.0; 3], name.span())),
         };
         let inertia = match field(fields, "inertia") {
@@ -61,14 +59,7 @@ impl<'a> Checker<'a, '_> {
         let (mass, com) = (mass?.expr, com?.expr);
         let inertia = inertia?.filter(|tensor| !is_zero(tensor));
         self.check_followed(name, &mass, &com, inertia.as_deref().map_or(&[][..], |tensor| &tensor[..]))?;
-        Some(Body {
-            place: slot.place.clone(),
-            mass,
-            com,
-            inertia,
-            docs: attributes.docs,
-            span: name.span(),
-        })
+        Some(Body { place: slot.place.clone(), mass, com, inertia, docs: attributes.docs, span: name.span() })
     }
 
     /// `#[cut]` stands on joints.
