@@ -72,7 +72,7 @@ impl Point {
 
     /// All of the one with the parameter.
     fn frozen(&self) -> Vec<f64> {
-        let model = frozen::Model::new(&frozen::Params { content: self.fuel });
+        let model = frozen::Model::new(&frozen::Params { content: self.fuel, ..Default::default() });
         let state = frozen::State { q: SVector::from(self.q).into(), v: SVector::from(self.v).into() };
         let input = frozen::Input { push: self.input[0], burn: self.input[1] };
         let accel = SVector::<f64, 3>::from(self.a).into();
@@ -233,4 +233,14 @@ fn energy_leaves_with_the_mass() {
     let (change, fed) = (stored(&end) - stored(&start), end.x.fed);
     println!("{change} {fed}");
     assert!((change - fed).abs() < 1e-9 * change.abs().max(1.0) && change.abs() > 0.1);
+}
+
+/// Masses are looked at where states start.
+#[test]
+fn parameters_are_checked_where_states_start() {
+    let check = |dry: f64| tank::Params { dry }.check();
+    assert_eq!(check(0.4), Ok(()));
+    assert_eq!(check(-0.7), Ok(()));
+    assert_eq!(check(-0.9).unwrap_err().what, "the mass of `tank` is negative or not finite");
+    assert!(frozen::Params { dry: -0.9, content: 0.8 }.check().is_err());
 }

@@ -9,14 +9,15 @@ macro_rules! arm {
             $(#[$doc])*
             pub mod $name {
                 $($declared)*
+                param dry = 0.4;
                 input push;
                 input burn;
                 world { gravity: [1.0, -9.0, 2.0] }
                 body boom { mass: 1.0, com: [0.3, 0.1, -0.2], inertia: inertia(0.06, 0.05, 0.04, 0.01, 0.02, -0.01) }
                 body tank {
-                    mass: 0.4 + $content,
+                    mass: dry + $content,
                     com: [0.1, 0.05 * $content, -0.1],
-                    inertia: cylinder(0.4 + $content, 0.2 + 0.1 * $content, 0.7, [1.0, 2.0, 0.5])
+                    inertia: cylinder(dry + $content, 0.2 + 0.1 * $content, 0.7, [1.0, 2.0, 0.5])
                 }
                 joint shoulder: Screw { parent: ground, child: boom, axis: [1.0, 2.0, 0.5], pitch: 0.05, armature: 0.07 }
                 joint elbow: Universal {
