@@ -29,12 +29,7 @@ impl Point {
 
     fn state<T: Real>(&self) -> tank::State<T> {
         let of = |list: [f64; 3]| SVector::<T, 3>::from(list.map(T::lit));
-        tank::State {
-            q: of(self.q).into(),
-            v: of(self.v).into(),
-            x: tank::States { fuel: T::lit(self.fuel) },
-            ..Default::default()
-        }
+        tank::State { q: of(self.q).into(), v: of(self.v).into(), x: tank::States { fuel: T::lit(self.fuel) } }
     }
 
     fn input<T: Real>(&self) -> tank::Input<T> {
