@@ -125,7 +125,7 @@ pub(super) enum Allowed {
     Time,
     /// Those and positions: what chooses a position.
     Positions,
-    /// The same, held at zero.
+    /// The same with velocities, held at zero.
     Constraint,
     /// All that is known before forces and accelerations are.
     Forces,
@@ -139,9 +139,10 @@ impl Allowed {
             Allowed::Constants => false,
             Allowed::Parameters => class == Class::Parameter,
             Allowed::Time => matches!(class, Class::Parameter | Class::Mass | Class::Time | Class::Formula),
-            Allowed::Positions | Allowed::Constraint => {
+            Allowed::Positions => {
                 matches!(class, Class::Parameter | Class::Mass | Class::Time | Class::Formula | Class::Position)
             }
+            Allowed::Constraint => class == Class::State || Allowed::Positions.contains(class),
             Allowed::Forces => !matches!(class, Class::Acceleration | Class::Load),
             Allowed::Springs => !matches!(class, Class::Potential | Class::Acceleration | Class::Load),
         }
@@ -171,16 +172,15 @@ impl Allowed {
             (_, Class::Finished) => {
                 "is made of finished equations; it may stand in outputs, forces, states, and the `let` that they use"
             }
-            (Allowed::Constraint, Class::State) => {
-                "is no position: constraints of velocities are not supported yet. A gear or rolling along a line is one of \
-                 positions, such as `x - radius * angle`; elsewhere a stiff damper at the contact comes near"
+            (Allowed::Constraint, Class::Input) => {
+                "is an input, whose rate nobody knows; positions, velocities, parameters and time may stand here. A `state` that follows \
+                 the input has a rate"
             }
-            (Allowed::Positions | Allowed::Constraint, Class::Input) => {
-                "is an input; only positions, parameters and time may stand here"
+            (Allowed::Constraint, _) => {
+                "is no position and no velocity; only these, parameters and time may stand here"
             }
-            (Allowed::Positions | Allowed::Constraint, _) => {
-                "is no position; only positions, parameters and time may stand here"
-            }
+            (Allowed::Positions, Class::Input) => "is an input; only positions, parameters and time may stand here",
+            (Allowed::Positions, _) => "is no position; only positions, parameters and time may stand here",
             (Allowed::Constants, _) => "changes in time; only literals and `const` may stand here",
             _ => "changes in time; only `const` and `param` may stand here",
         }

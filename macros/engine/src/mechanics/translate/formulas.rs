@@ -235,7 +235,9 @@ fn roots(model: &Model) -> Vec<&Expr> {
     }
     for constraint in &model.constraints {
         match &constraint.kind {
-            ConstraintKind::Value(value) | ConstraintKind::Rod { length: value, .. } => roots.push(value),
+            ConstraintKind::Value(value) | ConstraintKind::Rate(value) | ConstraintKind::Rod { length: value, .. } => {
+                roots.push(value);
+            }
         }
     }
     for force in &model.forces {

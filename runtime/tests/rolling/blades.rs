@@ -1,0 +1,143 @@
+//! A sleigh, a disc and a sphere against closed solutions.
+
+use multibody::nalgebra::{Unit, UnitQuaternion, Vector3};
+use multibody::{Dop853, Integrator, Projection, WithProjection, multibody};
+
+multibody! {
+    /// Chaplygin's sleigh: a blade along the body, the centre of mass ahead of it.
+    pub mod sleigh {
+        /// [m]
+        param ahead = 0.3;
+        body sled { mass: 2.0, com: ahead * X, inertia: diag(0.3, 0.3, 0.5) }
+        joint plane: Planar { parent: ground, child: sled, axis: Z }
+        constraint blade = sled.express(sled.velocity).y;
+        output energy = kinetic();
+        emit forward_dynamics, derivatives, constraints, residual, impulse;
+    }
+    /// A thin disc on a plane.
+    pub mod disc {
+        const R = 0.25;
+        world { gravity: -9.81 * Z }
+        body disc { mass: 0.7, inertia: diag(0.011, 0.0219, 0.011) }
+        joint float: Free { parent: ground, child: disc }
+        let axle = disc.at(Y).position - disc.position;
+        let low = (axle * axle.z - Z) * (R / sqrt(1 - axle.z * axle.z));
+        let slip = disc.velocity + cross(disc.angular_velocity, low);
+        constraint touch = disc.position.z + low.z;
+        constraint along = slip.x;
+        constraint across = slip.y;
+        output energy = kinetic() + potential();
+        emit forward_dynamics, derivatives, constraints;
+    }
+    /// A solid sphere on a plane that turns about the vertical through the origin.
+    pub mod sphere {
+        const R = 0.2;
+        /// [rad/s]
+        param turning = 1.7;
+        world { gravity: -9.81 * Z }
+        body ball { mass: 1.3, inertia: diag(0.4 * 1.3 * R * R, 0.4 * 1.3 * R * R, 0.4 * 1.3 * R * R) }
+        joint float: Free { parent: ground, child: ball }
+        let slip = ball.velocity + cross(ball.angular_velocity, -R * Z) - cross(turning * Z, ball.position);
+        constraint touch = ball.position.z - R;
+        constraint along = slip.x;
+        constraint across = slip.y;
+        emit forward_dynamics, constraints;
+    }
+}
+
+/// v = V tanh(s t), w = V / sqrt(J) / cosh(s t), with J = (I + m a^2) / m and s = a V / J.
+#[test]
+fn chaplygins_sleigh() {
+    let params = sleigh::Params { ahead: 0.37 };
+    let model = sleigh::Model::<f64>::new(&params);
+    let (a, mass, inertia) = (0.37, 2.0, 0.5);
+    let j: f64 = (inertia + mass * a * a) / mass;
+    let speed = 1.9;
+    let s = a * speed / j;
+    let state_at = |t: f64, heading: f64| {
+        let (v, w) = (speed * (s * t).tanh(), speed / j.sqrt() / (s * t).cosh());
+        let mut state = sleigh::State::<f64>::default();
+        state.q.plane.angle = heading;
+        state.v.plane.x = v * heading.cos();
+        state.v.plane.y = v * heading.sin();
+        state.v.plane.angle = w;
+        state
+    };
+    let start = state_at(-1.0, 0.8);
+    let system = WithProjection::new(model, Projection::default());
+    let energy = model.outputs(0.0, &start, &()).energy;
+    for t in [-0.5, 0.0, 0.7, 2.5] {
+        let integrator = Integrator::adaptive(Dop853, 1e-13, 1e-13);
+        let end = integrator.integrate(&system, -1.0, t, &start, &(), |_, _| ()).unwrap().0;
+        let wanted = state_at(t, end.q.plane.angle);
+        // The heading is the integral of w, twice the angle whose tangent is exp(s t), over s sqrt(J) / V.
+        let turned = |t: f64| 2.0 * (s * t).exp().atan() * speed / (s * j.sqrt());
+        let heading = 0.8 + turned(t) - turned(-1.0);
+        assert!((end.q.plane.angle - heading).abs() < 1e-11, "{} {heading}", end.q.plane.angle);
+        let apart = [end.v.plane.x - wanted.v.plane.x, end.v.plane.y - wanted.v.plane.y, end.v.plane.angle - wanted.v.plane.angle];
+        assert!(apart.iter().all(|x| x.abs() < 1e-11), "{apart:?}");
+        assert!((model.outputs(0.0, &end, &()).energy / energy - 1.0).abs() < 1e-12);
+    }
+}
+
+/// (C + m r^2) w W cos p - A W^2 sin p cos p + m g r sin p = 0 for the rate W of the heading, the lean p and the whole spin w.
+#[test]
+fn a_disc_on_its_circle() {
+    let model = disc::Model::<f64>::default();
+    let (m, r, a, c, g, lean, heading) = (0.7, 0.25, 0.011, 0.0219, 9.81, 0.6_f64, 2.1);
+    let (sin, cos) = lean.sin_cos();
+    let spin = (a * heading * heading * sin * cos - m * g * r * sin) / ((c + m * r * r) * heading * cos);
+    assert!((spin + 8.320_466_103_334_473).abs() < 1e-14);
+    // The reference has its z axis down: its lean about x is one about -x here, its heading one about -z; y points to the left.
+    for yaw in [0.0, 2.4] {
+        for turned in [0.0, 1.1, 7.0] {
+            let about = |axis: Vector3<f64>, angle: f64| UnitQuaternion::from_axis_angle(&Unit::new_normalize(axis), angle);
+            let upright = about(Vector3::z(), yaw) * about(Vector3::x(), lean);
+            let mut state = disc::State::<f64>::default();
+            let axle = upright * Vector3::y();
+            // Angular velocity: heading about -z, and spin about the axle such that the whole share along it is -w.
+            let vertical = Vector3::z() * -heading;
+            let along = spin * -1.0;
+            let omega = vertical + axle * (along - vertical.dot(&axle));
+            let low = (axle * axle.z - Vector3::z()) * (r / (1.0 - axle.z * axle.z).sqrt());
+            state.q.float.position = Vector3::new(0.3, -0.4, -low.z);
+            state.q.float.orientation = upright * about(Vector3::y(), turned);
+            state.v.float.linear = low.cross(&omega);
+            state.v.float.angular = state.q.float.orientation.inverse() * omega;
+            assert!(model.constraints(0.0, &state.q).amax() < 1e-15);
+            assert!(model.constraint_rate(0.0, &state).amax() < 1e-14);
+            let found = model.forward_dynamics(0.0, &state, &());
+            // In steady motion all turns about the vertical together: the angular velocity changes by W x w, the velocity too.
+            let change = state.q.float.orientation * found.v.float.angular;
+            let wanted = vertical.cross(&omega);
+            assert!((change - wanted).amax() < 1e-12, "{change} {wanted}");
+            let wanted = vertical.cross(&state.v.float.linear);
+            assert!((found.v.float.linear - wanted).amax() < 1e-12);
+        }
+    }
+}
+
+/// Its centre runs on a circle at two sevenths of the rate of the plane, about a point that the start sets.
+#[test]
+fn a_sphere_on_a_turning_plane() {
+    let model = sphere::Model::<f64>::default();
+    let system = WithProjection::new(model, Projection::default());
+    let (r, turning) = (0.2, 1.7);
+    let mut start = sphere::State::<f64>::default();
+    start.q.float.position = Vector3::new(0.5, 0.2, r);
+    start.q.float.orientation = UnitQuaternion::from_euler_angles(0.3, -0.4, 2.0);
+    start.v.float.linear = Vector3::new(0.3, -0.2, 0.0);
+    // w x (-r z) = plane - v, that is w = z x (plane - v) / -r for the share across z.
+    let plane = Vector3::z().cross(&start.q.float.position) * turning;
+    let omega = Vector3::z().cross(&(plane - start.v.float.linear)) / -r + Vector3::z() * 0.7;
+    start.v.float.angular = start.q.float.orientation.inverse() * omega;
+    assert!(model.constraint_rate(0.0, &start).amax() < 1e-14);
+    let rate = 2.0 / 7.0 * turning;
+    let end = Integrator::adaptive(Dop853, 1e-13, 1e-13).integrate(&system, 0.0, 9.0, &start, &(), |_, _| ()).unwrap().0;
+    // v' = rate z x v.
+    let centre = start.q.float.position + Vector3::z().cross(&start.v.float.linear) / rate;
+    let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), rate * 9.0);
+    let wanted = centre + turn * (start.q.float.position - centre);
+    assert!((end.q.float.position - wanted).amax() < 1e-10, "{} {wanted}", end.q.float.position);
+    assert!((end.v.float.linear - turn * start.v.float.linear).amax() < 1e-10);
+}
