@@ -29,6 +29,48 @@ multibody! {
         output energy = kinetic() + potential();
         emit forward_dynamics, derivatives, constraints;
     }
+    /// Two bodies on oblique axes, each behind a blade, one of which is moved to and fro.
+    pub mod trailer {
+        param tilt = 0.3;
+        world { gravity: [0.1, -0.3, -9.7] }
+        body chassis { mass: 3.0, com: [0.2, 0.1, 0.05], inertia: inertia(0.3, 0.4, 0.5, 0.01, 0.02, -0.03) }
+        joint plane: Planar { parent: ground, child: chassis, axis: [0.2, 0.1, 1.0] }
+        body arm { mass: 0.7, com: [0.1, 0.02, 0.0], inertia: inertia(0.03, 0.02, 0.03, 0.001, 0.002, -0.003) }
+        joint hinge: Revolute { parent: chassis.at([0.5, 0.0, 0.1]).rotated(X, tilt), child: arm, axis: Z }
+        constraint blade = chassis.express(chassis.velocity).y - 0.3 * hinge.rate;
+        constraint nose = arm.express(arm.at([0.3, 0.1, 0.0]).velocity).y + 0.1 * cos(t);
+        output moved = arm.at([0.1, 0.02, 0.0]).acceleration;
+        output turned = arm.angular_acceleration;
+        output turning = arm.angular_velocity;
+        output rotation = arm.rotation;
+        output load = hinge.reaction;
+        emit forward_dynamics, derivatives, constraints, residual, bias, mass_matrix, inverse_dynamics;
+    }
+    /// A slider-crank's rod, by its length, and by the rate of that.
+    pub mod by_length {
+        world { gravity: [0.1, -9.7, 0.3] }
+        body crank { mass: 1.1, com: [0.1, 0.02, 0.03], inertia: inertia(0.03, 0.04, 0.05, 0.001, 0.002, -0.003) }
+        joint turn: Revolute { parent: ground.rotated(X, 0.2), child: crank, axis: [0.1, 0.2, 1.0] }
+        body slider { mass: 0.8, inertia: diag(0.01, 0.01, 0.01) }
+        joint slide: Prismatic { parent: ground.at([0.1, 0.2, 0.1]), child: slider, axis: [1.0, 0.3, -0.2] }
+        let way = crank.at([0.3, 0.1, 0.05]).position - slider.at([0.05, 0.0, 0.02]).position;
+        constraint rod = 0.5 * dot(way, way) - 0.245;
+        output load = turn.reaction;
+        emit forward_dynamics, derivatives, impulse, constraints;
+        formulation { constraints: Multipliers }
+    }
+    pub mod by_rate {
+        world { gravity: [0.1, -9.7, 0.3] }
+        body crank { mass: 1.1, com: [0.1, 0.02, 0.03], inertia: inertia(0.03, 0.04, 0.05, 0.001, 0.002, -0.003) }
+        joint turn: Revolute { parent: ground.rotated(X, 0.2), child: crank, axis: [0.1, 0.2, 1.0] }
+        body slider { mass: 0.8, inertia: diag(0.01, 0.01, 0.01) }
+        joint slide: Prismatic { parent: ground.at([0.1, 0.2, 0.1]), child: slider, axis: [1.0, 0.3, -0.2] }
+        let way = crank.at([0.3, 0.1, 0.05]).position - slider.at([0.05, 0.0, 0.02]).position;
+        constraint rod = dot(way, crank.at([0.3, 0.1, 0.05]).velocity - slider.at([0.05, 0.0, 0.02]).velocity);
+        output load = turn.reaction;
+        emit forward_dynamics, derivatives, impulse, constraints;
+        formulation { constraints: Multipliers }
+    }
     /// A solid sphere on a plane that turns about the vertical through the origin.
     pub mod sphere {
         const R = 0.2;
@@ -140,4 +182,66 @@ fn a_sphere_on_a_turning_plane() {
     let wanted = centre + turn * (start.q.float.position - centre);
     assert!((end.q.float.position - wanted).amax() < 1e-10, "{} {wanted}", end.q.float.position);
     assert!((end.v.float.linear - turn * start.v.float.linear).amax() < 1e-10);
+}
+
+/// Newton and Euler of the arm alone: what the joint does and what the blade does move it.
+#[test]
+fn what_acts_on_bodies_loads_their_joints() {
+    let model = trailer::Model::<f64>::new(&trailer::Params { tilt: 0.43 });
+    for k in 0..8 {
+        let x = f64::from(k);
+        let mut state = trailer::State::<f64>::default();
+        state.q.plane.x = 0.3 - 0.2 * x;
+        state.q.plane.y = 0.1 * x;
+        state.q.plane.angle = 2.0 * x - 5.0;
+        state.q.hinge = 1.3 * x - 2.0;
+        state.v.plane.x = 0.7 - 0.3 * x;
+        state.v.plane.y = -0.4 + 0.2 * x;
+        state.v.plane.angle = 1.1 - 0.7 * x;
+        state.v.hinge = -0.6 + 0.5 * x;
+        let t = 0.37 * x;
+        let found = model.forward_dynamics(t, &state, &());
+        assert_eq!(found.rank, 2.0);
+        let out = model.outputs(t, &state, &());
+        let gravity = Vector3::new(0.1, -0.3, -9.7);
+        let blade = out.rotation * Vector3::y() * -found.multipliers[1];
+        let force = out.load.force + blade + gravity * 0.7;
+        assert!((force - out.moved * 0.7).amax() < 1e-11, "{k}: {force} {}", out.moved * 0.7);
+        // About the centre of mass; the hinge exerts no moment about its axis but what the other blade asks of its rate.
+        let inertia = multibody::nalgebra::Matrix3::new(0.03, 0.001, 0.002, 0.001, 0.02, -0.003, 0.002, -0.003, 0.03);
+        let world = out.rotation.into_inner() * inertia * out.rotation.inverse().into_inner();
+        let com = out.rotation * Vector3::new(0.1, 0.02, 0.0);
+        let at = out.rotation * Vector3::new(0.3, 0.1, 0.0);
+        let moment = out.load.moment - com.cross(&out.load.force) + (at - com).cross(&blade);
+        let wanted = world * out.turned + out.turning.cross(&(world * out.turning));
+        assert!((moment - wanted).amax() < 1e-11, "{k}: {moment} {wanted}");
+        let about = (out.rotation * Vector3::z()).dot(&out.load.moment);
+        assert!((about - 0.3 * found.multipliers[0]).abs() < 1e-11, "{about} {}", found.multipliers[0]);
+    }
+}
+
+/// The rate of a constraint of positions says the same of accelerations, forces and jumps.
+#[test]
+fn a_rate_that_integrates() {
+    let one = by_length::Model::<f64>::default();
+    let other = by_rate::Model::<f64>::default();
+    for k in 0..6 {
+        let mut state = by_length::State::<f64>::default();
+        state.q.turn = 0.9 * f64::from(k) - 2.0;
+        state.q.slide = 0.4 - 0.3 * f64::from(k);
+        state.v.turn = 1.3 - f64::from(k);
+        state.v.slide = 0.2 + 0.7 * f64::from(k);
+        let mut same = by_rate::State::<f64>::default();
+        (same.q.turn, same.q.slide, same.v.turn, same.v.slide) = (state.q.turn, state.q.slide, state.v.turn, state.v.slide);
+        let (a, b) = (one.forward_dynamics(0.0, &state, &()), other.forward_dynamics(0.0, &same, &()));
+        assert!((a.v.turn - b.v.turn).abs() < 1e-12 * (1.0 + a.v.turn.abs()));
+        assert!((a.v.slide - b.v.slide).abs() < 1e-12 * (1.0 + a.v.slide.abs()));
+        assert!((a.multipliers - b.multipliers).amax() < 1e-12 * (1.0 + a.multipliers.amax()));
+        let (c, d) = (one.outputs(0.0, &state, &()).load, other.outputs(0.0, &same, &()).load);
+        assert!((c.force - d.force).amax() + (c.moment - d.moment).amax() < 1e-11 * (1.0 + c.force.amax()));
+        let (c, d) = (one.forward_derivatives(0.0, &state, &()), other.forward_derivatives(0.0, &same, &()));
+        assert!((c.position - d.position).amax() + (c.velocity - d.velocity).amax() < 1e-11 * (1.0 + c.position.amax()));
+        assert!((one.constraint_rate(0.0, &state) - other.constraint_rate(0.0, &same)).amax() < 1e-14);
+        assert_eq!(other.constraints(0.0, &same.q).amax(), 0.0);
+    }
 }

@@ -57,8 +57,8 @@ multibody! {
 }
 use whipple::{Input, Model, Position, State, Velocity};
 
-fn data() -> Value {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/rolling/whipple_nonlinear.json");
+fn data(name: &str) -> Value {
+    let path = format!("{}/../tests/data/rolling/{name}.json", env!("CARGO_MANIFEST_DIR"));
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
@@ -105,7 +105,7 @@ fn apart(found: &[f64], wanted: &[f64]) -> f64 {
 #[test]
 fn accelerations_and_forces_of_contact() {
     let model = Model::<f64>::default();
-    let data = data();
+    let data = data("whipple_nonlinear");
     let samples = data["samples"].as_array().unwrap();
     assert_eq!(samples.len(), 20);
     let (mut worst, mut worst_force) = (0.0_f64, 0.0_f64);
@@ -129,7 +129,7 @@ fn accelerations_and_forces_of_contact() {
 #[test]
 fn a_motion() {
     let model = WithProjection::new(Model::<f64>::default(), Projection::default());
-    let data = data();
+    let data = data("whipple_nonlinear");
     let points = data["trajectory"]["points"].as_array().unwrap();
     let energy = number(&data["trajectory"]["energy"]);
     let mut start = State::default();
@@ -157,4 +157,77 @@ fn a_motion() {
     }
     println!("{worst:.1e}");
     assert!(worst < 1e-10, "{worst:e}");
+}
+
+/// Upright and straight ahead: roll and steer against the linear equations of the benchmark, and their eigenvalues.
+#[cfg(feature = "num-dual")]
+#[test]
+fn small_motions() {
+    use multibody::nalgebra::{Matrix2, Matrix4, SMatrix, SVector};
+    use num_dual::Dual64;
+
+    const ROLL: usize = 4;
+    const STEER: usize = 7;
+    /// The others follow from the constraints, but for the speed of the rear wheel, which stays.
+    const FOLLOW: [usize; 6] = [0, 1, 2, 3, 5, 8];
+    let reference = data("whipple");
+    let matrix = |name: &str| Matrix2::from_fn(|i, j| number(&reference["matrices"][name][i][j]));
+    let [mass, c1, k0, k2] = ["M", "C1", "K0", "K2"].map(matrix);
+    let model = Model::<f64>::default();
+    let dual = Model::<Dual64>::default();
+    let (mut worst, mut worst_root, mut speeds) = (0.0_f64, 0.0_f64, 0);
+    for entry in reference["eigenvalues"].as_array().unwrap() {
+        let speed = number(&entry["v"]);
+        let mut state = State::<f64>::default();
+        state.q.z = -0.3;
+        state.v = Velocity { x: speed, spin_rear: -speed / 0.3, spin_front: -speed / 0.35, ..Velocity::default() };
+        let slopes = model.forward_derivatives(0.0, &state, &Input::default());
+        let jacobian = model.constraint_jacobian(0.0, &state.q);
+        let follow = SMatrix::<f64, 6, 6>::from_fn(|i, j| jacobian[(i, FOLLOW[j])]).try_inverse().unwrap();
+        // How accelerations change along a displacement or a rate that the constraints are kept with.
+        let along = |position: usize, rate: usize| {
+            let seeded = |x: f64, on: bool| Dual64::new(x, if on { 1.0 } else { 0.0 });
+            let mut moved = whipple::State::<Dual64>::default();
+            moved.q.z = seeded(-0.3, false);
+            moved.q.roll = seeded(0.0, position == ROLL);
+            moved.q.steer = seeded(0.0, position == STEER);
+            moved.v.x = seeded(speed, false);
+            moved.v.spin_rear = seeded(-speed / 0.3, false);
+            moved.v.spin_front = seeded(-speed / 0.35, false);
+            moved.v.roll = seeded(0.0, rate == ROLL);
+            moved.v.steer = seeded(0.0, rate == STEER);
+            let gap = dual.constraint_rate(Dual64::from(0.0), &moved).map(|x| x.eps);
+            let following = -(follow * gap);
+            let (mut q, mut v) = (SVector::<f64, 9>::zeros(), SVector::<f64, 9>::zeros());
+            FOLLOW.iter().zip(following.iter()).for_each(|(&k, &x)| v[k] = x);
+            for k in [ROLL, STEER] {
+                q[k] = if position == k { 1.0 } else { 0.0 };
+                v[k] = if rate == k { 1.0 } else { 0.0 };
+            }
+            let change = slopes.position * q + slopes.velocity * v;
+            [change[ROLL], change[STEER]]
+        };
+        let none = usize::MAX;
+        let columns = [along(ROLL, none), along(STEER, none), along(none, ROLL), along(none, STEER)];
+        let inverse = mass.try_inverse().unwrap();
+        let (stiff, damp) = (-inverse * (k0 * 9.81 + k2 * (speed * speed)), -inverse * c1 * speed);
+        let greatest = stiff.amax().max(damp.amax());
+        for (j, column) in columns.iter().enumerate() {
+            for i in 0..2 {
+                let wanted = if j < 2 { stiff[(i, j)] } else { damp[(i, j - 2)] };
+                worst = worst.max((column[i] - wanted).abs() / greatest);
+            }
+        }
+        let a = Matrix4::from_fn(|i, j| if i < 2 { f64::from(j == i + 2) } else { columns[j][i - 2] });
+        let found = a.complex_eigenvalues();
+        for root in entry["eig"].as_array().unwrap() {
+            let [re, im] = [0, 1].map(|k| number(&root[k]));
+            let near = found.iter().map(|x| (x.re - re).hypot(x.im - im)).fold(f64::INFINITY, f64::min);
+            worst_root = worst_root.max(near / (1.0 + re.hypot(im)));
+        }
+        speeds += 1;
+    }
+    println!("rows {worst:.1e}, eigenvalues {worst_root:.1e}");
+    assert_eq!(speeds, 21);
+    assert!(worst < 1e-12 && worst_root < 1e-13, "{worst:e}, {worst_root:e}");
 }

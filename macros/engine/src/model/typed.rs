@@ -173,8 +173,7 @@ impl Allowed {
                 "is made of finished equations; it may stand in outputs, forces, states, and the `let` that they use"
             }
             (Allowed::Constraint, Class::Input) => {
-                "is an input, whose rate nobody knows; positions, velocities, parameters and time may stand here. A `state` that follows \
-                 the input has a rate"
+                "is an input, whose rate nobody knows; positions, velocities, parameters and time may stand here"
             }
             (Allowed::Constraint, _) => {
                 "is no position and no velocity; only these, parameters and time may stand here"

@@ -3,16 +3,19 @@
 //! In: an expression that is affine in velocities. Out: the row A on the tree, e itself and its rate. Whether e is the rate of
 //! some function of positions is nowhere asked: such an equation has no residual of positions, so nothing that moves positions
 //! alone looks at it but by A, which says in which directions they may be moved. Its multiplier does the virtual work
-//! lambda A dq (d'Alembert and Lagrange: the directions are those of A dq = 0, also where b is not zero), so it acts on the
-//! coordinates of the tree by -A^T lambda, whatever bodies the expression speaks of.
+//! -lambda A dq (d'Alembert and Lagrange: the directions are those of A dq = 0, also where b is not zero), on the bodies whose
+//! velocities the expression reads ([`super::expression`]).
 
 use std::collections::HashSet;
+use std::rc::Rc;
 
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::structure::Row;
 use crate::model::site::Sited;
-use crate::model::types::{ConstraintId, ConstraintKind, Coordinate, JointId, LoopClosure, Model};
+use crate::model::types::{
+    ConstraintId, ConstraintKind, Coordinate, Expr, ExprNode, JointId, LoopClosure, Model, SolveHow, SystemQuantity,
+};
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::Scalar;
 
@@ -45,7 +48,37 @@ pub(in crate::mechanics) fn complaints(model: &Model) -> Vec<Complaint> {
         return Vec::new();
     }
     let mut e = Equations::plain(model);
-    rows.into_iter().filter_map(|row| e.misfit(row)).collect()
+    let mut complaints: Vec<Complaint> = rows.iter().filter_map(|&row| e.misfit(row)).collect();
+    for solve in &model.solves {
+        let SolveHow::From { closings, .. } = &solve.how else { continue };
+        for closing in closings.iter().filter(|closing| rows.iter().any(|row| row.closing == closing.what)) {
+            let message = "this is a constraint of velocities: no position follows from it".to_owned();
+            complaints.push(Complaint { at: closing.site(), message, help: None });
+        }
+    }
+    complaints
+}
+
+/// What an expression reads whose part in virtual work is not known.
+fn unknown(value: &Expr) -> Option<(&Expr, String)> {
+    let (mut stack, mut seen) = (vec![value], HashSet::new());
+    while let Some(expr) = stack.pop() {
+        if !seen.insert(Rc::as_ptr(&expr.node)) {
+            continue;
+        }
+        let what = match &*expr.node {
+            ExprNode::State(_) => "a state of the model",
+            ExprNode::OfBodies(_, SystemQuantity::CentreOfMass | SystemQuantity::TotalMass) => continue,
+            ExprNode::OfBodies(..) => "a velocity or momentum of several bodies",
+            ExprNode::Kinetic => "the kinetic energy",
+            _ => {
+                stack.extend(expr.node.operands());
+                continue;
+            }
+        };
+        return Some((expr, format!("a constraint of velocities can't read {what}: velocities of frames and rates of joints may stand here")));
+    }
+    None
 }
 
 impl Equations<'_> {
@@ -78,13 +111,7 @@ impl Equations<'_> {
             let residual = self.row(row);
             return self.implicit_rates(residual, &[]);
         };
-        let mut seeds = self.seeds(2);
-        let model = self.scene.model;
-        for (number, state) in model.states.iter().enumerate() {
-            let symbol = self.scene.symbols.states[number];
-            let change = self.scalar(&state.rate);
-            seeds.push((symbol, change));
-        }
+        let seeds = self.seeds(2);
         (rate, Differentiator::new(&seeds).scalar(&mut self.g, rate))
     }
 
@@ -94,6 +121,11 @@ impl Equations<'_> {
         let LoopClosure::Constraint(id) = row.closing else { return None };
         let constraint = &model.constraints[id];
         let name = &constraint.place.field;
+        if let ConstraintKind::Rate(value) = &constraint.kind
+            && let Some((at, message)) = unknown(value)
+        {
+            return Some(Complaint { at: at.site(), message, help: None });
+        }
         let slopes = self.rate_slopes(row);
         if slopes.is_empty() {
             let message = format!("the constraint `{name}` is of velocities, but none of them has a say in it");

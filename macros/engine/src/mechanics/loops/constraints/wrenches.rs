@@ -15,7 +15,6 @@ use std::rc::Rc;
 
 use crate::dynamics::newton_euler::{Wrench, to_parent};
 use crate::mechanics::equations::Equations;
-use crate::mechanics::loops::structure::Row;
 use crate::mechanics::translate::build::FixedFrame;
 use crate::mechanics::translate::forces::{Loads, Terms};
 use crate::model::types::{ConstraintId, ConstraintKind, JointId, LoopClosure};
@@ -206,13 +205,7 @@ impl Equations<'_> {
                 self.apply(gathered, &view, &ends[0], force, Vector::ZERO);
                 self.apply(gathered, &view, &ends[1], -force, Vector::ZERO);
             }
-            ConstraintKind::Value(_) => self.hold_expression(gathered, id, multiplier),
-            ConstraintKind::Rate(_) => {
-                for (coordinate, slope) in self.rate_slopes(Row { closing: held.closing, index: 0 }) {
-                    let effort = -self.g.mul(multiplier, slope);
-                    gathered.terms.effort(self.freedom(coordinate), effort);
-                }
-            }
+            ConstraintKind::Value(_) | ConstraintKind::Rate(_) => self.hold_expression(gathered, id, multiplier),
         }
     }
 
