@@ -71,6 +71,42 @@ multibody! {
         emit forward_dynamics, derivatives, impulse, constraints;
         formulation { constraints: Multipliers }
     }
+    /// A sled whose blade a loop of four bars steers, in the crank's angle, and with all equations.
+    pub mod in_the_crank {
+        world { gravity: [0.1, -0.2, -9.7] }
+        body sled { mass: 3.0, com: [0.2, 0.1, 0.05], inertia: inertia(0.3, 0.4, 0.5, 0.01, 0.02, -0.03) }
+        joint plane: Planar { parent: ground, child: sled, axis: [0.2, 0.1, 1.0] }
+        body crank { mass: 0.3, com: 0.05 * X, inertia: diag(0.01, 0.01, 0.01) }
+        body coupler { mass: 0.4, com: 0.2 * X, inertia: diag(0.02, 0.03, 0.02) }
+        body rocker { mass: 0.5, com: [0.1, 0.03, 0.0], inertia: diag(0.03, 0.02, 0.04) }
+        joint one: Revolute { parent: sled.rotated(X, 0.3), child: crank, axis: Z }
+        joint two: Revolute { parent: crank.at(0.15 * X), child: coupler, axis: Z }
+        joint three: Revolute { parent: sled.rotated(X, 0.3).at(0.5 * X), child: rocker, axis: Z }
+        #[cut] joint pin: Revolute { parent: coupler.at(0.45 * X), child: rocker.at(0.3 * X), axis: Z }
+        solve (two, three) from pin { sin(three - one - two) > 0.0 }
+        constraint blade = rocker.express(rocker.velocity).y + 0.2 * two.rate - 0.1 * sin(t);
+        output angles = [two, three];
+        output rates = [two.rate, three.rate];
+        output load = three.reaction;
+        emit forward_dynamics, derivatives, constraints;
+        formulation { independent: [plane, one], constraints: Reduced }
+    }
+    pub mod in_all {
+        world { gravity: [0.1, -0.2, -9.7] }
+        body sled { mass: 3.0, com: [0.2, 0.1, 0.05], inertia: inertia(0.3, 0.4, 0.5, 0.01, 0.02, -0.03) }
+        joint plane: Planar { parent: ground, child: sled, axis: [0.2, 0.1, 1.0] }
+        body crank { mass: 0.3, com: 0.05 * X, inertia: diag(0.01, 0.01, 0.01) }
+        body coupler { mass: 0.4, com: 0.2 * X, inertia: diag(0.02, 0.03, 0.02) }
+        body rocker { mass: 0.5, com: [0.1, 0.03, 0.0], inertia: diag(0.03, 0.02, 0.04) }
+        joint one: Revolute { parent: sled.rotated(X, 0.3), child: crank, axis: Z }
+        joint two: Revolute { parent: crank.at(0.15 * X), child: coupler, axis: Z }
+        joint three: Revolute { parent: sled.rotated(X, 0.3).at(0.5 * X), child: rocker, axis: Z }
+        #[cut] joint pin: Revolute { parent: coupler.at(0.45 * X), child: rocker.at(0.3 * X), axis: Z }
+        constraint blade = rocker.express(rocker.velocity).y + 0.2 * two.rate - 0.1 * sin(t);
+        output load = three.reaction;
+        emit forward_dynamics, constraints;
+        formulation { constraints: Multipliers }
+    }
     /// A solid sphere on a plane that turns about the vertical through the origin.
     pub mod sphere {
         const R = 0.2;
@@ -116,7 +152,11 @@ fn chaplygins_sleigh() {
         let turned = |t: f64| 2.0 * (s * t).exp().atan() * speed / (s * j.sqrt());
         let heading = 0.8 + turned(t) - turned(-1.0);
         assert!((end.q.plane.angle - heading).abs() < 1e-11, "{} {heading}", end.q.plane.angle);
-        let apart = [end.v.plane.x - wanted.v.plane.x, end.v.plane.y - wanted.v.plane.y, end.v.plane.angle - wanted.v.plane.angle];
+        let apart = [
+            end.v.plane.x - wanted.v.plane.x,
+            end.v.plane.y - wanted.v.plane.y,
+            end.v.plane.angle - wanted.v.plane.angle,
+        ];
         assert!(apart.iter().all(|x| x.abs() < 1e-11), "{apart:?}");
         assert!((model.outputs(0.0, &end, &()).energy / energy - 1.0).abs() < 1e-12);
     }
@@ -133,7 +173,8 @@ fn a_disc_on_its_circle() {
     // The reference has its z axis down: its lean about x is one about -x here, its heading one about -z; y points to the left.
     for yaw in [0.0, 2.4] {
         for turned in [0.0, 1.1, 7.0] {
-            let about = |axis: Vector3<f64>, angle: f64| UnitQuaternion::from_axis_angle(&Unit::new_normalize(axis), angle);
+            let about =
+                |axis: Vector3<f64>, angle: f64| UnitQuaternion::from_axis_angle(&Unit::new_normalize(axis), angle);
             let upright = about(Vector3::z(), yaw) * about(Vector3::x(), lean);
             let mut state = disc::State::<f64>::default();
             let axle = upright * Vector3::y();
@@ -175,7 +216,8 @@ fn a_sphere_on_a_turning_plane() {
     start.v.float.angular = start.q.float.orientation.inverse() * omega;
     assert!(model.constraint_rate(0.0, &start).amax() < 1e-14);
     let rate = 2.0 / 7.0 * turning;
-    let end = Integrator::adaptive(Dop853, 1e-13, 1e-13).integrate(&system, 0.0, 9.0, &start, &(), |_, _| ()).unwrap().0;
+    let end =
+        Integrator::adaptive(Dop853, 1e-13, 1e-13).integrate(&system, 0.0, 9.0, &start, &(), |_, _| ()).unwrap().0;
     // v' = rate z x v.
     let centre = start.q.float.position + Vector3::z().cross(&start.v.float.linear) / rate;
     let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), rate * 9.0);
@@ -232,7 +274,8 @@ fn a_rate_that_integrates() {
         state.v.turn = 1.3 - f64::from(k);
         state.v.slide = 0.2 + 0.7 * f64::from(k);
         let mut same = by_rate::State::<f64>::default();
-        (same.q.turn, same.q.slide, same.v.turn, same.v.slide) = (state.q.turn, state.q.slide, state.v.turn, state.v.slide);
+        (same.q.turn, same.q.slide, same.v.turn, same.v.slide) =
+            (state.q.turn, state.q.slide, state.v.turn, state.v.slide);
         let (a, b) = (one.forward_dynamics(0.0, &state, &()), other.forward_dynamics(0.0, &same, &()));
         assert!((a.v.turn - b.v.turn).abs() < 1e-12 * (1.0 + a.v.turn.abs()));
         assert!((a.v.slide - b.v.slide).abs() < 1e-12 * (1.0 + a.v.slide.abs()));
@@ -240,8 +283,44 @@ fn a_rate_that_integrates() {
         let (c, d) = (one.outputs(0.0, &state, &()).load, other.outputs(0.0, &same, &()).load);
         assert!((c.force - d.force).amax() + (c.moment - d.moment).amax() < 1e-11 * (1.0 + c.force.amax()));
         let (c, d) = (one.forward_derivatives(0.0, &state, &()), other.forward_derivatives(0.0, &same, &()));
-        assert!((c.position - d.position).amax() + (c.velocity - d.velocity).amax() < 1e-11 * (1.0 + c.position.amax()));
+        assert!(
+            (c.position - d.position).amax() + (c.velocity - d.velocity).amax() < 1e-11 * (1.0 + c.position.amax())
+        );
         assert!((one.constraint_rate(0.0, &state) - other.constraint_rate(0.0, &same)).amax() < 1e-14);
         assert_eq!(other.constraints(0.0, &same.q).amax(), 0.0);
+    }
+}
+
+/// A loop that is solved and one that is held move the same blade.
+#[test]
+fn beside_a_loop() {
+    let reduced = in_the_crank::Model::<f64>::default();
+    let held = in_all::Model::<f64>::default();
+    for k in 0..6 {
+        let x = f64::from(k);
+        let t = 0.4 * x;
+        let mut state = in_the_crank::State::<f64>::default();
+        (state.q.plane.x, state.q.plane.y, state.q.plane.angle, state.q.one) =
+            (0.2 - x, 0.3 * x, 1.9 * x - 4.0, 1.1 * x - 3.0);
+        (state.v.plane.x, state.v.plane.y, state.v.plane.angle, state.v.one) =
+            (0.5 - 0.2 * x, 0.3, 0.7 * x - 1.0, 1.2 - 0.6 * x);
+        let out = reduced.outputs(t, &state, &());
+        let mut all = in_all::State::<f64>::default();
+        (all.q.plane, all.v.plane, all.q.one, all.v.one) = (state.q.plane, state.v.plane, state.q.one, state.v.one);
+        [all.q.two, all.q.three] = out.angles;
+        [all.v.two, all.v.three] = out.rates;
+        assert!(held.constraints(t, &all.q).amax() < 1e-14 && out.angles.iter().all(|x| x.is_finite()));
+        let (a, b) = (reduced.forward_dynamics(t, &state, &()), held.forward_dynamics(t, &all, &()));
+        let apart = [
+            a.v.plane.x - b.v.plane.x,
+            a.v.plane.y - b.v.plane.y,
+            a.v.plane.angle - b.v.plane.angle,
+            a.v.one - b.v.one,
+        ];
+        assert!(apart.iter().all(|x| x.abs() < 1e-10), "{k}: {apart:?}");
+        let last = b.multipliers.len() - 1;
+        assert!((a.multipliers[0] - b.multipliers[last]).abs() < 1e-10 * (1.0 + a.multipliers[0].abs()));
+        let load = held.outputs(t, &all, &()).load;
+        assert!((out.load.force - load.force).amax() < 1e-9, "{} {}", out.load.force, load.force);
     }
 }

@@ -134,7 +134,8 @@ fn a_motion() {
     let energy = number(&data["trajectory"]["energy"]);
     let mut start = State::default();
     start.q = position(&points[0]["q"]);
-    start.v = Velocity { x: 4.6, y: 0.15, roll: 0.5, spin_rear: -4.6 / 0.3, spin_front: -4.6 / 0.35, ..Velocity::default() };
+    start.v =
+        Velocity { x: 4.6, y: 0.15, roll: 0.5, spin_rear: -4.6 / 0.3, spin_front: -4.6 / 0.35, ..Velocity::default() };
     let (mut state, mut t, mut worst) = (start, 0.0, 0.0_f64);
     let integrator = Integrator::adaptive(Dop853, 1e-13, 1e-13);
     for point in points {

@@ -480,8 +480,8 @@ fn find(root: &mut [usize], mut k: usize) -> usize {
 
 /// All equations of a model with their names, in the order of closings.
 pub fn equation_names(model: &Model) -> Vec<(Row, String)> {
-    let rows = closings(model).into_iter().flat_map(|closing| {
-        (0..row_count(model, closing)).map(move |index| Row { closing, index })
-    });
+    let rows = closings(model)
+        .into_iter()
+        .flat_map(|closing| (0..row_count(model, closing)).map(move |index| Row { closing, index }));
     rows.chain(rate_rows(model)).map(|row| (row, row_name(model, row.closing, row.index))).collect()
 }

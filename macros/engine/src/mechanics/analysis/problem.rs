@@ -339,7 +339,8 @@ impl Problem {
     pub(super) fn rates_at(&self, point: &Point, values: &mut Values) -> Linearised {
         let roots = self.rates.iter().flat_map(|rate| rate.slopes.iter().map(|slope| slope.1).chain([rate.rest]));
         self.tape.run_for(values, &point.0, roots);
-        let scaled = |&(column, root): &(usize, usize)| (column, self.tape.value(values, root) * self.columns[column].unit);
+        let scaled =
+            |&(column, root): &(usize, usize)| (column, self.tape.value(values, root) * self.columns[column].unit);
         let rows = self.rates.iter().map(|rate| rate.slopes.iter().map(scaled).collect()).collect();
         let residuals = self.rates.iter().map(|rate| self.tape.value(values, rate.rest)).collect();
         Linearised { residuals, rows }

@@ -64,7 +64,10 @@ pub(super) fn keep(model: &Model, problem: &Problem, structure: &mut Structure) 
     }
     if !names.is_empty() {
         let names = names.join(", ");
-        structure.notes.push(format!("redundant equations of velocities, left out: {names}; they follow from others at {} poses", points.len()));
+        structure.notes.push(format!(
+            "redundant equations of velocities, left out: {names}; they follow from others at {} poses",
+            points.len()
+        ));
     }
     structure.rows.extend(kept.into_iter().map(|number| problem.rates[number].row));
     complaints
@@ -93,7 +96,9 @@ impl Judge<'_> {
     /// The greatest length of its row.
     fn scale(&self, number: usize) -> f64 {
         let mut values = Values::default();
-        let length = |point: &Point| self.problem.rates_at(point, &mut values).rows[number].iter().map(|x| x.1 * x.1).sum::<f64>().sqrt();
+        let length = |point: &Point| {
+            self.problem.rates_at(point, &mut values).rows[number].iter().map(|x| x.1 * x.1).sum::<f64>().sqrt()
+        };
         self.points.iter().map(length).fold(0.0, f64::max)
     }
 
@@ -135,7 +140,8 @@ impl Judge<'_> {
             return Beside::Independent;
         }
         // Drives, and loops that follow time, move on their own: what they ask for is not looked at here.
-        let unknown = problem.is_timed() || problem.columns.iter().any(|column| matches!(self.structure.role(column.coordinate), Role::Driven(_)));
+        let unknown = problem.is_timed()
+            || problem.columns.iter().any(|column| matches!(self.structure.role(column.coordinate), Role::Driven(_)));
         match left.1.abs() <= DEPENDENT * (size + rates.residuals[number].abs()) {
             _ if unknown => Beside::Unknown,
             true => Beside::Follows,

@@ -7,8 +7,8 @@ use std::ops::Range;
 
 use crate::contracts::symbol::Symbol;
 use crate::dynamics::tree::Motion;
-use crate::mechanics::equations::Equations;
 use crate::invariant::fault::OrFault;
+use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::constraints::{Writing, closings, is_length, rates};
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::loops::structure::Row;

@@ -296,7 +296,8 @@ impl Equations<'_> {
         if let Some(read) = &mut self.caches.readings.stand_ins.read {
             read.moving.insert(index, found);
         }
-        let (position, origin) = (self.read_position(place), self.read_position(&FixedFrame { link: place.link, ..FixedFrame::GROUND }));
+        let (position, origin) =
+            (self.read_position(place), self.read_position(&FixedFrame { link: place.link, ..FixedFrame::GROUND }));
         let g = &mut self.g;
         let [velocity, angular] = found.map(|components| g.vector(components));
         let arm = g.sum_vectors(&[position, -origin]);

@@ -29,7 +29,8 @@ pub fn is_rate(model: &Model, row: Row) -> bool {
 
 /// All equations of velocities, in source order.
 pub fn rate_rows(model: &Model) -> Vec<Row> {
-    let rows = (0..model.constraints.len()).map(|k| Row { closing: LoopClosure::Constraint(ConstraintId(k)), index: 0 });
+    let rows =
+        (0..model.constraints.len()).map(|k| Row { closing: LoopClosure::Constraint(ConstraintId(k)), index: 0 });
     rows.filter(|&row| is_rate(model, row)).collect()
 }
 
@@ -76,7 +77,12 @@ fn unknown(value: &Expr) -> Option<(&Expr, String)> {
                 continue;
             }
         };
-        return Some((expr, format!("a constraint of velocities can't read {what}: velocities of frames and rates of joints may stand here")));
+        return Some((
+            expr,
+            format!(
+                "a constraint of velocities can't read {what}: velocities of frames and rates of joints may stand here"
+            ),
+        ));
     }
     None
 }
