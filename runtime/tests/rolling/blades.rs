@@ -44,7 +44,29 @@ multibody! {
         output turning = arm.angular_velocity;
         output rotation = arm.rotation;
         output load = hinge.reaction;
+        output chassis_pose = chassis.pose;
+        output arm_pose = arm.pose;
+        output chassis_twist = chassis.twist;
+        output arm_twist = arm.twist;
         emit forward_dynamics, derivatives, constraints, residual, bias, mass_matrix, inverse_dynamics;
+    }
+    /// The same in absolute coordinates.
+    pub mod apart {
+        param tilt = 0.3;
+        world { gravity: [0.1, -0.3, -9.7] }
+        body chassis { mass: 3.0, com: [0.2, 0.1, 0.05], inertia: inertia(0.3, 0.4, 0.5, 0.01, 0.02, -0.03) }
+        joint plane: Planar { parent: ground, child: chassis, axis: [0.2, 0.1, 1.0] }
+        body arm { mass: 0.7, com: [0.1, 0.02, 0.0], inertia: inertia(0.03, 0.02, 0.03, 0.001, 0.002, -0.003) }
+        joint hinge: Revolute { parent: chassis.at([0.5, 0.0, 0.1]).rotated(X, tilt), child: arm, axis: Z }
+        constraint blade = chassis.express(chassis.velocity).y - 0.3 * hinge.rate;
+        constraint nose = arm.express(arm.at([0.3, 0.1, 0.0]).velocity).y + 0.1 * cos(t);
+        output moved = arm.at([0.1, 0.02, 0.0]).acceleration;
+        output turned = arm.angular_acceleration;
+        output turning = arm.angular_velocity;
+        output rotation = arm.rotation;
+        output load = hinge.reaction;
+        formulation { coordinates: Absolute(Quaternion), constraints: Multipliers }
+        emit forward_dynamics, derivatives, constraints;
     }
     /// A slider-crank's rod, by its length, and by the rate of that.
     pub mod by_length {
@@ -322,5 +344,35 @@ fn beside_a_loop() {
         assert!((a.multipliers[0] - b.multipliers[last]).abs() < 1e-10 * (1.0 + a.multipliers[0].abs()));
         let load = held.outputs(t, &all, &()).load;
         assert!((out.load.force - load.force).amax() < 1e-9, "{} {}", out.load.force, load.force);
+    }
+}
+
+/// Absolute coordinates, in which joints are equations and the rate of the hinge is measured.
+#[test]
+fn in_absolute_coordinates() {
+    let relative = trailer::Model::<f64>::new(&trailer::Params { tilt: 0.43 });
+    let absolute = apart::Model::<f64>::new(&apart::Params { tilt: 0.43 });
+    for k in 0..6 {
+        let x = f64::from(k);
+        let mut state = trailer::State::<f64>::default();
+        (state.q.plane.x, state.q.plane.y, state.q.plane.angle, state.q.hinge) =
+            (0.3 - 0.2 * x, 0.1 * x, 2.0 * x - 5.0, 1.3 * x - 2.0);
+        (state.v.plane.x, state.v.plane.y, state.v.plane.angle, state.v.hinge) =
+            (0.7 - 0.3 * x, 0.2 * x, 1.1 - 0.7 * x, 0.5 * x - 0.6);
+        let t = 0.37 * x;
+        let out = relative.outputs(t, &state, &());
+        let mut other = apart::State::<f64>::default();
+        (other.q.chassis, other.q.arm) = (out.chassis_pose, out.arm_pose);
+        let (chassis, arm) = (out.chassis_twist, out.arm_twist);
+        (other.v.chassis.linear, other.v.arm.linear) = (chassis.linear, arm.linear);
+        other.v.chassis.angular = other.q.chassis.orientation.inverse() * chassis.angular;
+        other.v.arm.angular = other.q.arm.orientation.inverse() * arm.angular;
+        assert!(absolute.constraints(t, &other.q).amax() < 1e-14);
+        let gaps = (absolute.constraint_rate(t, &other), relative.constraint_rate(t, &state));
+        let same = absolute.outputs(t, &other, &());
+        assert!((out.moved - same.moved).amax() < 1e-9, "{k}: {} {} {gaps:?}", out.moved, same.moved);
+        assert!((out.turned - same.turned).amax() < 1e-9);
+        assert!((out.load.force - same.load.force).amax() < 1e-9, "{k}: {} {}", out.load.force, same.load.force);
+        assert!((out.load.moment - same.load.moment).amax() < 1e-9, "{k}: {} {}", out.load.moment, same.load.moment);
     }
 }
