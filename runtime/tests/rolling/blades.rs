@@ -1,7 +1,7 @@
 //! A sleigh, a disc and a sphere against closed solutions.
 
 use multibody::nalgebra::{Unit, UnitQuaternion, Vector3};
-use multibody::{Dop853, Integrator, Projection, WithProjection, multibody};
+use multibody::{Dop853, Integrator, Projection, Twist, WithProjection, constrained_equilibrium, multibody};
 
 multibody! {
     /// Chaplygin's sleigh: a blade along the body, the centre of mass ahead of it.
@@ -141,7 +141,7 @@ multibody! {
         constraint touch = ball.position.z - R;
         constraint along = slip.x;
         constraint across = slip.y;
-        emit forward_dynamics, constraints;
+        emit forward_dynamics, derivatives, constraints;
     }
 }
 
@@ -375,4 +375,18 @@ fn in_absolute_coordinates() {
         assert!((out.load.force - same.load.force).amax() < 1e-9, "{k}: {} {}", out.load.force, same.load.force);
         assert!((out.load.moment - same.load.moment).amax() < 1e-9, "{k}: {} {}", out.load.moment, same.load.moment);
     }
+}
+
+/// On a plane that turns a sphere is nowhere at rest; on one that stands it is.
+#[test]
+fn rest_on_what_moves() {
+    let at = |turning: f64| {
+        let model = sphere::Model::<f64>::new(&sphere::Params { turning });
+        let mut guess = sphere::State::<f64>::default();
+        guess.q.float.position = Vector3::new(0.3, 0.1, 0.2);
+        let free = sphere::Velocity { float: Twist { linear: Vector3::repeat(1.0), angular: Vector3::repeat(1.0) } };
+        constrained_equilibrium(&model, 0.0, &guess, &(), &free)
+    };
+    assert!(at(0.0).is_ok());
+    assert!(at(1.7).is_err());
 }
