@@ -20,7 +20,9 @@ pub(super) enum Class {
     Input,
     /// Coordinates, and where frames are.
     Position,
-    /// Velocities, states, energies, and all that follows from them.
+    /// States of the user's own.
+    Own,
+    /// Velocities, energies, and all that follows from them.
     State,
     /// What is made of finished equations: derivatives, entries of matrices.
     Finished,
@@ -31,13 +33,14 @@ pub(super) enum Class {
     Load,
 }
 
-const CLASSES: [Class; 11] = [
+const CLASSES: [Class; 12] = [
     Class::Parameter,
     Class::Mass,
     Class::Time,
     Class::Formula,
     Class::Input,
     Class::Position,
+    Class::Own,
     Class::State,
     Class::Finished,
     Class::Potential,
@@ -121,6 +124,8 @@ pub(super) enum Allowed {
     Constants,
     /// Those and `param`.
     Parameters,
+    /// Those and states of the user's own: what a body is.
+    Inertia,
     /// Those and time: what a drive may follow.
     Time,
     /// Those and positions: what chooses a position.
@@ -138,6 +143,7 @@ impl Allowed {
         match self {
             Allowed::Constants => false,
             Allowed::Parameters => class == Class::Parameter,
+            Allowed::Inertia => matches!(class, Class::Parameter | Class::Own),
             Allowed::Time => matches!(class, Class::Parameter | Class::Mass | Class::Time | Class::Formula),
             Allowed::Positions => {
                 matches!(class, Class::Parameter | Class::Mass | Class::Time | Class::Formula | Class::Position)
@@ -158,6 +164,15 @@ impl Allowed {
             (Allowed::Constants | Allowed::Parameters, Class::Mass) => {
                 "is known when all bodies are; only literals, `const` and `param` may stand here"
             }
+            (Allowed::Inertia, Class::Mass) => {
+                "is known when all bodies are; only literals, `const`, `param` and `state` may stand here"
+            }
+            (Allowed::Inertia, Class::Input) => {
+                "is an input, which may jump, and mass can't: declare a `state` with the rate at which it leaves or joins"
+            }
+            (Allowed::Inertia, Class::Time) => {
+                "is the time; mass that leaves or joins is counted: declare a `state` with its rate"
+            }
             (Allowed::Springs, Class::Potential) => "holds this spring's energy, so the spring can't follow from it",
             (Allowed::Forces | Allowed::Springs, Class::Acceleration) => {
                 "is an acceleration, not known where forces and states are evaluated"
@@ -171,6 +186,15 @@ impl Allowed {
             (Allowed::Time, _) => "moves with the mechanism; a drive follows time and parameters",
             (_, Class::Finished) => {
                 "is made of finished equations; it may stand in outputs, forces, states, and the `let` that they use"
+            }
+            (Allowed::Inertia, _) => {
+                "moves with the mechanism, and how mass moves then is not known here; only `const`, `param` and `state` may stand here"
+            }
+            (Allowed::Positions, Class::Own) => {
+                "is a state, whose rate may jump; only positions, parameters and time may stand here"
+            }
+            (Allowed::Constraint, Class::Own) => {
+                "is a state, whose rate may jump; only positions, velocities, parameters and time may stand here"
             }
             (Allowed::Constraint, Class::Input) => {
                 "is an input, whose rate nobody knows; positions, velocities, parameters and time may stand here"

@@ -10,6 +10,7 @@ mod assembly;
 mod auto;
 mod balance;
 mod centroidal;
+mod changing_mass;
 mod closed_forms;
 mod closings;
 mod closures;

@@ -101,10 +101,6 @@ fn mistakes() {
              may stand here",
         ),
         (
-            "state s: rate = 1.0, start: 0.0; constraint c = plane.x.rate - s;",
-            "a constraint of velocities can't read a state of the model: velocities of frames and rates of joints may stand here",
-        ),
-        (
             "constraint c = sled.velocity.y; solve (plane.x) from c { plane.x > 0.0 } formulation { constraints: Reduced }",
             "this is a constraint of velocities: no position follows from it",
         ),

@@ -344,7 +344,7 @@ fn parameters(symbols: &Symbols) -> Vec<Option<(usize, usize)>> {
     symbols.table.iter().map(parameter).collect()
 }
 
-/// Parameters near their defaults, orientations that turn nothing, all else zero.
+/// Parameters near their defaults, states where they start, orientations that turn nothing, all else zero.
 fn defaults(model: &Model, symbols: &Symbols, off: f64) -> Vec<f64> {
     let mut random = Random(11);
     let value = |symbol: &Symbol| match *symbol {
@@ -352,6 +352,7 @@ fn defaults(model: &Model, symbols: &Symbols, off: f64) -> Vec<f64> {
             let default = model.params[param].default[element];
             default + off * (1.0 + default.abs()) * random.next()
         }
+        Symbol::State { state } => model.states[state].start,
         Symbol::Position { joint, component } => {
             let joint = &model.joints[joint];
             let turns = has_quaternion(joint) && component == joint.kind.freedoms() - 3;

@@ -68,7 +68,6 @@ fn unknown(value: &Expr) -> Option<(&Expr, String)> {
             continue;
         }
         let what = match &*expr.node {
-            ExprNode::State(_) => "a state of the model",
             ExprNode::OfBodies(_, SystemQuantity::CentreOfMass | SystemQuantity::TotalMass) => continue,
             ExprNode::OfBodies(..) => "a velocity or momentum of several bodies",
             ExprNode::Kinetic => "the kinetic energy",
