@@ -3,7 +3,10 @@
 //! In: scalars, symbols. Out: yes or no. A value in which a symbol cancels was found out when its node was made, so what is
 //! reachable is what matters.
 
-use super::graph::{AnyNode, Graph, Scalar};
+use crate::contracts::call::Call;
+use crate::model::types::ExternalId;
+
+use super::graph::{AnyNode, Graph, Scalar, ScalarNode};
 
 impl Graph {
     /// Whether a scalar depends on any of these symbols.
@@ -21,5 +24,16 @@ impl Graph {
             }
         }
         read
+    }
+
+    /// A function of the user's own Rust of which one of these scalars needs slopes of slopes.
+    pub fn curvature(&self, roots: &[Scalar]) -> Option<ExternalId> {
+        self.reachable(roots).into_iter().find_map(|node| match node {
+            AnyNode::Scalar(index) => match self.node(self.scalar_at(index)) {
+                ScalarNode::Call(Call::ExternalCurvature(function), _) => Some(*function),
+                _ => None,
+            },
+            _ => None,
+        })
     }
 }

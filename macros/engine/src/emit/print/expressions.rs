@@ -4,7 +4,7 @@
 //! operations is the program's own, to the last bit. Signs move to where they read well, which rounds nothing:
 //! `-a + b` is written `b - a`, and `a + (-2 b)` is `a - 2 b`.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use crate::contracts::call::Call;
@@ -12,6 +12,7 @@ use crate::emit::layout::Layout;
 use crate::emit::layout::leaf;
 use crate::emit::names;
 use crate::invariant::injection::{Break, broken};
+use crate::model::types::{External, ExternalId};
 use crate::optimize::program::{Expression, FieldId};
 
 use super::literals;
@@ -149,6 +150,9 @@ impl Names<'_> {
             let write = move |a: &Expression| self.write(a, is_negative(a), least);
             arguments.iter().map(write)
         };
+        if let Some(function) = call.external() {
+            return self.external(function, call, each(Level::Or));
+        }
         if call == Call::Epsilon {
             return quote!(<T as Real>::epsilon());
         }
@@ -177,6 +181,23 @@ impl Names<'_> {
             }
         }
     }
+
+    /// `<crate::Tyre as ::multibody::Function<T, 2>>::value([x, y])`, the type at the user's own token, where rustc says what it
+    /// lacks.
+    fn external(&self, id: ExternalId, call: Call, arguments: impl Iterator<Item = TokenStream>) -> TokenStream {
+        let model = self.layout.model;
+        let (krate, External { path, arguments: parameters, .. }) = (&model.krate, &model.externals[id]);
+        let count = Literal::usize_unsuffixed(parameters.len());
+        let arguments = arguments.map(leaf::element);
+        let function = quote!(<#path as #krate::Function<T, #count>>);
+        match call {
+            Call::ExternalSlope(_, argument) => {
+                let argument = Literal::usize_unsuffixed(argument);
+                quote!(#function::slopes([#(#arguments),*])[#argument])
+            }
+            _ => quote!(#function::value([#(#arguments),*])),
+        }
+    }
 }
 
 /// The function of `Real`; operators have none.
@@ -203,6 +224,7 @@ pub(in crate::emit) fn function(call: Call) -> Option<&'static str> {
         Call::Equal => "eq",
         Call::Select => "select",
         Call::And | Call::Or | Call::Not | Call::Epsilon | Call::Nan => return None,
+        Call::External(_) | Call::ExternalSlope(..) | Call::ExternalCurvature(_) => return None,
     })
 }
 
