@@ -122,7 +122,7 @@ fn each_value<'a>(statements: &'a [Statement], visit: &mut dyn FnMut(Local, &'a 
                 visit(residual.0, &residual.1);
                 each_value(body, visit);
             }
-            Statement::SinCos(_) | Statement::PackSines(_) | Statement::Solve { .. } => {}
+            Statement::SinCos(_) | Statement::PackSines(_) | Statement::Called { .. } | Statement::Solve { .. } => {}
         }
     }
 }

@@ -37,6 +37,10 @@ fn line(item: &Item) -> String {
             let parameters: Vec<String> = f.parameters.iter().map(ToString::to_string).collect();
             format!("let {}({}) {}", f.name, parameters.join(","), text(&f.value))
         }
+        ItemKind::External(f) => {
+            let parameters: Vec<String> = f.parameters.iter().map(ToString::to_string).collect();
+            format!("extern {}({}) {}", f.name, parameters.join(","), f.path)
+        }
         ItemKind::Output(v) => value("output", v),
         ItemKind::State { name, rate, start } => {
             format!("state {name} {} {}", text(rate), text(start))

@@ -247,6 +247,7 @@ fn statements(list: &mut [Statement], visit: &mut dyn FnMut(&mut Expression)) {
             Statement::PackSines(sine) => expression(&mut sine.angle, visit),
             Statement::Members { pack, .. } => expression(pack, visit),
             Statement::SinCos(sines) => sines.iter_mut().for_each(|sine| expression(&mut sine.angle, visit)),
+            Statement::Called { arguments, .. } => arguments.iter_mut().for_each(|e| expression(e, visit)),
             Statement::Solve { size, symmetric, matrix, rhs, .. } => {
                 // Of a symmetric matrix what is right of the diagonal isn't read.
                 let (size, symmetric) = (*size, *symmetric);

@@ -11,6 +11,7 @@ use crate::contracts::call::Call;
 use crate::emit::layout::Layout;
 use crate::emit::layout::leaf;
 use crate::emit::names;
+use crate::invariant::fault::raise;
 use crate::invariant::injection::{Break, broken};
 use crate::model::types::{External, ExternalId};
 use crate::optimize::program::{Expression, FieldId};
@@ -151,7 +152,11 @@ impl Names<'_> {
             arguments.iter().map(write)
         };
         if let Some(function) = call.external() {
-            return self.external(function, call, each(Level::Or));
+            let (function, arguments) = (self.external(function), each(Level::Or).map(leaf::element));
+            return match call {
+                Call::ExternalSlope(..) => raise("slopes are taken together"),
+                _ => quote!(#function::value([#(#arguments),*])),
+            };
         }
         if call == Call::Epsilon {
             return quote!(<T as Real>::epsilon());
@@ -182,21 +187,12 @@ impl Names<'_> {
         }
     }
 
-    /// `<crate::Tyre as ::multibody::Function<T, 2>>::value([x, y])`, the type at the user's own token, where rustc says what it
-    /// lacks.
-    fn external(&self, id: ExternalId, call: Call, arguments: impl Iterator<Item = TokenStream>) -> TokenStream {
+    /// `<crate::Tyre as ::multibody::Function<T, 2>>`, the type at the user's own token, where rustc says what it lacks.
+    pub(in crate::emit) fn external(&self, id: ExternalId) -> TokenStream {
         let model = self.layout.model;
-        let (krate, External { path, arguments: parameters, .. }) = (&model.krate, &model.externals[id]);
-        let count = Literal::usize_unsuffixed(parameters.len());
-        let arguments = arguments.map(leaf::element);
-        let function = quote!(<#path as #krate::Function<T, #count>>);
-        match call {
-            Call::ExternalSlope(_, argument) => {
-                let argument = Literal::usize_unsuffixed(argument);
-                quote!(#function::slopes([#(#arguments),*])[#argument])
-            }
-            _ => quote!(#function::value([#(#arguments),*])),
-        }
+        let (krate, External { path, arguments, .. }) = (&model.krate, &model.externals[id]);
+        let count = Literal::usize_unsuffixed(arguments.len());
+        quote!(<#path as #krate::Function<T, #count>>)
     }
 }
 
