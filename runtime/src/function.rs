@@ -59,6 +59,11 @@ use crate::scalar::Real;
 /// Models are generic over their scalar, so an implementation is for all `T: Real`, and branches by
 /// [`Real::select`]. Second slopes are never asked for: what needs them, such as
 /// `diff` of a `diff`, is refused.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a `multibody::Function<_, {N}>`",
+    label = "this has to be a `multibody::Function<T, {N}>` for every scalar `T`",
+    note = "a model is generic over its scalar: `impl<T: multibody::Real> multibody::Function<T, {N}> for {Self} {{ .. }}`"
+)]
 pub trait Function<T: Real, const N: usize> {
     /// Its value.
     fn value(x: [T; N]) -> T;

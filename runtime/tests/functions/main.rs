@@ -47,8 +47,30 @@ impl<T: Real> Function<T, 3> for Blend {
     }
 }
 
-/// A model twice: `rust` calls Rust, `words` has the same functions in the language.
+/// A model twice: `rust` calls Rust, `words` has the same functions in the language, and so has its part if there is one.
 macro_rules! twice {
+    (@ $part:ident { $($inside:tt)* } $($items:tt)*) => {
+        multibody::multibody! {
+            mod $part {
+                extern grip(slip, load) = crate::Grip;
+                extern blend(x, y, z) = crate::Blend;
+                $($inside)*
+            }
+            pub(crate) mod rust {
+                $($items)*
+            }
+        }
+        multibody::multibody! {
+            mod $part {
+                let grip(slip, load) = 0.9 * load * sin(1.3 * atan(1.7 * slip));
+                let blend(first, second, third) = exp(-0.3 * first * first) + second * third + 0.2 * powi(third, 3);
+                $($inside)*
+            }
+            pub(crate) mod words {
+                $($items)*
+            }
+        }
+    };
     ($($items:tt)*) => {
         multibody::multibody! {
             pub(crate) mod rust {

@@ -46,6 +46,30 @@ mod slopes {
     }
 }
 
+/// Four legs that are alike, in packs.
+mod legs {
+    crate::twice! {
+        @ leg {
+            port hip: Frame;
+            param side = 1.0;
+            input torque;
+            body thigh { mass: 0.6, com: [-0.003, -0.02 * side, -0.03], inertia: diag(0.0044, 0.0047, 0.0008) }
+            body shin { mass: 0.2, com: [0.006, 0.0, -0.1], inertia: diag(0.003, 0.003, 0.0004) }
+            joint roll: Revolute { parent: hip, child: thigh, axis: [1.0, 0.1, 0.0] }
+            joint knee: Revolute { parent: thigh.at(-0.2 * Z), child: shin, axis: Y }
+            force motor: Effort { joint: roll, value: grip(roll.rate, torque) }
+            force stop: Effort { joint: knee, value: -blend(knee, roll, side) - grip(knee.rate, side) }
+            output grip = diff(grip(knee, torque), knee);
+        }
+        formulation { packs: Four }
+        world { gravity: -9.81 * Z }
+        body trunk { mass: 4.7, com: [0.011, 0.002, 0.0005], inertia: diag(0.0168, 0.063, 0.0717) }
+        joint float: Planar { parent: ground, child: trunk, axis: [0.0, 0.6, 0.8] }
+        part legs: [leg; 4] = |i| leg { hip: trunk.at([0.2 - 0.1 * i, 0.1, 0.02 * i]).rotated(Z, 0.3 * i) };
+        emit forward_dynamics, inverse_dynamics, bias, at { functions: [forward_dynamics, bias, outputs] };
+    }
+}
+
 /// A four-bar on an inclined plane, with constraints one way or another.
 macro_rules! bar {
     ($name:ident, $constraints:ident, $($more:tt)*) => {
@@ -310,4 +334,40 @@ fn derivatives_are_those_of_the_function() {
 
 fn assert_near(differences: &[f64], slopes: &[f64]) {
     assert_same("slopes", differences, slopes, 1e-7 / f64::EPSILON);
+}
+
+macro_rules! legs_numbers {
+    ($name:ident, $module:ident) => {
+        fn $name(seed: u64) -> Numbers {
+            use legs::$module::{Input, Model, Params, State, Velocity};
+            let mut drawn = Drawn::new(seed);
+            let mut params = Params::default();
+            params.legs.iter_mut().for_each(|leg| leg.side += 0.3 * drawn.number());
+            let model = Model::new(&params);
+            let mut state = State::default();
+            let mut velocity = || Velocity::from(SVector::<f64, 11>::from_fn(|_, _| drawn.number()));
+            state.q = state.q.displace(&velocity());
+            state.v = velocity();
+            let accel = velocity();
+            let mut input = Input::default();
+            input.legs.iter_mut().for_each(|leg| leg.torque = drawn.number());
+            let at = model.at(&state.q);
+            vec![
+                ("forward dynamics", scalars(&model.forward_dynamics(0.4, &state, &input))),
+                ("inverse dynamics", scalars(&model.inverse_dynamics(0.4, &state, &input, &accel))),
+                ("bias", model.bias(0.4, &state, &input).as_slice().to_vec()),
+                ("outputs", scalars(&model.outputs(0.4, &state, &input))),
+                ("at, forward dynamics", scalars(&at.forward_dynamics(&state.v, &input))),
+                ("at, bias", at.bias(&state.v, &input).as_slice().to_vec()),
+                ("at, outputs", scalars(&at.outputs(&state.v, &input))),
+            ]
+        }
+    };
+}
+legs_numbers!(legs_in_rust, rust);
+legs_numbers!(legs_in_words, words);
+
+#[test]
+fn limbs_in_packs() {
+    (0..20).for_each(|seed| compare(&legs_in_rust(seed), &legs_in_words(seed), 1024.0));
 }

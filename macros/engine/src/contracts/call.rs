@@ -1,7 +1,7 @@
 //! Functions of expressions beyond sums, products, roots and sines, which no rule of the graph looks into. The last ones work
 //! with masks, which are scalars of the graph too.
 
-use crate::model::types::ExternalId;
+pub use crate::model::types::ExternalId;
 
 /// Functions that generated code calls on the scalar trait, with their usual meaning and number of arguments, and those of the
 /// user's own Rust.

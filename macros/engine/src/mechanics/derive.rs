@@ -256,6 +256,8 @@ struct Deriving<'m> {
     modes: Option<Modes>,
     /// What asks for the function that is derived.
     request: Option<Request>,
+    /// Whether something was refused that takes slopes of slopes of functions of Rust.
+    curved: bool,
     /// By candidate of the function that is derived what became of equations with multipliers.
     pivoted: Vec<Pivoted>,
 }
@@ -281,6 +283,7 @@ impl<'m> Deriving<'m> {
             dead_centres: Vec::new(),
             modes: None,
             request: None,
+            curved: false,
             pivoted: Vec::new(),
         }
     }

@@ -6,13 +6,12 @@
 
 use std::sync::Arc;
 
-use crate::contracts::call::Call;
+use crate::contracts::call::{Call, ExternalId};
 use crate::contracts::cost::Cost;
 use crate::contracts::function::FunctionKind;
 use crate::contracts::results::Parts;
 use crate::contracts::symbol::Symbol;
 use crate::mechanics::{Condition, Inertia};
-use crate::model::types::ExternalId;
 
 /// Index into [`Program::locals`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -8,11 +8,10 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-use crate::contracts::call::Call;
+use crate::contracts::call::{Call, ExternalId};
 use crate::contracts::symbol::Symbol;
 use crate::invariant::fault::{OrFault, raise};
 use crate::mechanics::limbs::Limbs;
-use crate::model::types::ExternalId;
 use crate::symbolic::fingerprint::Print;
 use crate::symbolic::graph::{BlockKind, SymbolId};
 use crate::symbolic::number::Number;

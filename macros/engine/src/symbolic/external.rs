@@ -12,8 +12,7 @@
 //! with numbers of its own that follow from the function's place. They are about one, and none is a simple fraction, so neither a slope nor
 //! an argument that is lost or in a wrong place goes unnoticed.
 
-use crate::contracts::call::Call;
-use crate::model::types::ExternalId;
+use crate::contracts::call::{Call, ExternalId};
 
 use super::doubled::Doubled;
 use super::fingerprint::mix;
@@ -82,8 +81,7 @@ pub fn slopes(call: Call, x: &[Doubled]) -> Option<Vec<Doubled>> {
 #[cfg(test)]
 mod tests {
     use super::{slopes, value};
-    use crate::contracts::call::Call;
-    use crate::model::types::ExternalId;
+    use crate::contracts::call::{Call, ExternalId};
     use crate::symbolic::doubled::Doubled;
 
     const PLACES: [[f64; 3]; 3] = [[0.3, -1.2, 2.5], [4.0, 0.0, -0.7], [-31.0, 7.5, 0.01]];

@@ -39,7 +39,7 @@ fn line(item: &Item) -> String {
         }
         ItemKind::External(f) => {
             let parameters: Vec<String> = f.parameters.iter().map(ToString::to_string).collect();
-            format!("extern {}({}) {}", f.name, parameters.join(","), f.path)
+            format!("extern {}({}) {}", f.name, parameters.join(","), text(&f.path))
         }
         ItemKind::Output(v) => value("output", v),
         ItemKind::State { name, rate, start } => {
@@ -114,6 +114,12 @@ fn double_pendulum() {
     let expected: Vec<&str> = expected.lines().map(str::trim).collect();
     let plain: Vec<String> = lines.iter().map(|line| line.replace("doc=\"", "doc=r\"")).collect();
     assert_eq!(plain, expected);
+}
+
+#[test]
+fn functions_of_rust() {
+    let expected = ["extern f(x,y) crate::a::B", "extern g(x) ::c::D<3>", "extern h(x) $crate::E"];
+    assert_eq!(lines("extern f(x, y) = crate::a::B; extern g(x,) = ::c::D<3>; extern h(x) = $crate::E;"), expected);
 }
 
 #[test]

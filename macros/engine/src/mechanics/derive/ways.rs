@@ -230,11 +230,12 @@ impl<'m> Deriving<'m> {
     }
 
     /// Functions of Rust give slopes, and no slopes of these.
-    fn check_slopes(&self, results: &[Scalar]) -> Result<(), Vec<Complaint>> {
+    fn check_slopes(&mut self, results: &[Scalar]) -> Result<(), Vec<Complaint>> {
         if self.model.externals.is_empty() {
             return Ok(());
         }
         let Some(function) = self.graph.curvature(results) else { return Ok(()) };
+        self.curved = true;
         let name = &self.model.externals[function].name;
         let asked = self.request.and_then(|request| self.model.asked_at(request));
         Err(vec![Complaint {

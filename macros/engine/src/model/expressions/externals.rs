@@ -89,9 +89,19 @@ impl<'a> Checker<'a, '_> {
     }
 }
 
+/// A function of Rust that an expression calls.
+pub(super) fn external_in(expr: &Checked) -> Option<ExternalId> {
+    called(expr, true)
+}
+
 /// A function of Rust that has been differentiated in an expression.
 fn slope_of_external(expr: &Checked) -> Option<ExternalId> {
-    let (mut stack, mut seen) = (vec![(expr, false)], HashSet::new());
+    called(expr, false)
+}
+
+/// `inside`: whether a call counts wherever it stands, or inside of a derivative alone.
+fn called(expr: &Checked, inside: bool) -> Option<ExternalId> {
+    let (mut stack, mut seen) = (vec![(expr, inside)], HashSet::new());
     while let Some((expr, inside)) = stack.pop() {
         if !seen.insert((Rc::as_ptr(&expr.node), inside)) {
             continue;
