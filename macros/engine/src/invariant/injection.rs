@@ -1,6 +1,7 @@
 //! Stages broken on purpose: the tests switch one break on at a time and demand that it is told.
 //!
-//! Only builds with the feature `faults` can break anything; in all others every hook is `false` at compile time.
+//! Only the tests inside the library can break anything; everywhere else every hook is `false` at compile time. So these tests, in
+//! `tests/faults`, are the library's own, and no engine has to be compiled for them alone.
 
 /// One line of one stage that is wrong while its break is on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,18 +104,16 @@ impl Break {
 }
 
 /// Whether this line is to be wrong.
-#[cfg(not(feature = "faults"))]
+#[cfg(not(test))]
 #[inline(always)]
 pub(crate) const fn broken(_: Break) -> bool {
     false
 }
 
-#[cfg(feature = "faults")]
-pub(crate) use on::broken;
-#[cfg(feature = "faults")]
-pub use on::with;
+#[cfg(test)]
+pub(crate) use on::{broken, with};
 
-#[cfg(feature = "faults")]
+#[cfg(test)]
 mod on {
     use std::cell::Cell;
 
@@ -129,10 +128,14 @@ mod on {
     }
 
     /// Does this work with a break, or with none.
-    pub fn with<T>(line: Option<Break>, work: impl FnOnce() -> T) -> T {
+    pub(crate) fn with<T>(line: Option<Break>, work: impl FnOnce() -> T) -> T {
         let before = ON.replace(line);
         let result = work();
         ON.set(before);
         result
     }
 }
+
+#[cfg(test)]
+#[path = "../../tests/faults/mod.rs"]
+mod faults;

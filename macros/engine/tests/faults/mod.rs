@@ -1,6 +1,6 @@
 //! Stages broken on purpose, one line at a time: every break is told.
 //!
-//! `cargo test -p multibody-engine --features faults --test faults`; `FAULTS_ONLY=LaneSign,LostSide` tries these alone. A model is
+//! `cargo test -p multibody-engine --lib faults`; `FAULTS_ONLY=LaneSign,LostSide` tries these alone. A model is
 //! told of a break where it is refused, or where a check has found a program wrong and what was derived stands in its place. A
 //! break that changes a model which is accepted without a word must be told by what a test compares, and each of these is named
 //! in [`BY_TESTS`].
@@ -12,9 +12,9 @@ mod models;
 
 use std::collections::BTreeMap;
 
-use multibody_engine::invariant::injection::{Break, with};
-use multibody_engine::model::types::Model;
-use multibody_engine::{Trouble, compile, emit, mechanics, optimize, verify};
+use super::{Break, with};
+use crate::model::types::Model;
+use crate::{Trouble, compile, emit, mechanics, optimize, verify};
 
 /// Breaks that a model alone cannot tell of, and what a test sees of them in the emitted code: text that stands there, and does
 /// not where the stage is broken.
@@ -100,7 +100,7 @@ fn tests_tell() {
 #[test]
 fn a_fault_is_one_error_that_names_the_stage() {
     let tokens = models::MODELS[3].1.parse().expect("tokens");
-    let output = with(Some(Break::LoweredSymbol), || multibody_engine::expand(tokens)).to_string();
+    let output = with(Some(Break::LoweredSymbol), || crate::expand(tokens)).to_string();
     assert_eq!(output.matches("compile_error").count(), 1);
     assert!(output.contains("the stage `symbolic` (lower.rs:"), "{output}");
     assert!(output.contains("has failed for `pointer`") && output.contains("please report it with the model"));
