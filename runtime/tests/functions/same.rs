@@ -161,8 +161,7 @@ macro_rules! arm_numbers {
             state.v.elbow = [(); 3].map(|()| 2.0 * drawn.number()).into();
             state.x.z = drawn.number();
             let input = Input { push: drawn.number() };
-            let accel =
-                Velocity { shoulder: drawn.number(), elbow: [(); 3].map(|()| 2.0 * drawn.number()).into() };
+            let accel = Velocity { shoulder: drawn.number(), elbow: [(); 3].map(|()| 2.0 * drawn.number()).into() };
             let at = model.at(&state.q, &state.x);
             let mut list = vec![
                 ("forward dynamics", rates!(model.forward_dynamics(0.4, &state, &input))),

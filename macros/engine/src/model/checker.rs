@@ -20,8 +20,8 @@ use super::joint_kinds::JointKind;
 use super::report::Report;
 use super::typed::{FrameValue, Typed};
 use super::types::{
-    BodyId, BodyRef, ConstraintId, Docs, Expr, ExternalId, ForceId, InputId, Instance, InstanceId, JointId, ParamId, PartType,
-    PartTypeId, Place, StateId, Type,
+    BodyId, BodyRef, ConstraintId, Docs, Expr, ExternalId, ForceId, InputId, Instance, InstanceId, JointId, ParamId,
+    PartType, PartTypeId, Place, StateId, Type,
 };
 use super::units::Declared;
 use super::units::quantities::Quantity;

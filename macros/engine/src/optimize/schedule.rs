@@ -423,7 +423,8 @@ impl<'a> Scheduler<'a> {
             .enumerate()
             .map(|(place, node)| {
                 let own = node.and_then(|id| self.dag.nodes[id].name.as_ref()).map(|name| name.of_sign(false));
-                let name = own.unwrap_or_else(|| if place == 0 { "called".to_owned() } else { format!("slope_{place}") });
+                let name =
+                    own.unwrap_or_else(|| if place == 0 { "called".to_owned() } else { format!("slope_{place}") });
                 self.local(&if node.is_some() { name } else { format!("_{name}") }, &values)
             })
             .collect();

@@ -100,13 +100,17 @@ mod tests {
     fn slopes_are_those_of_values_and_of_slopes() {
         for function in 0..4 {
             let function = ExternalId(function);
-            let calls = std::iter::once(Call::External(function)).chain((0..3).map(|k| Call::ExternalSlope(function, k)));
+            let calls =
+                std::iter::once(Call::External(function)).chain((0..3).map(|k| Call::ExternalSlope(function, k)));
             for call in calls {
                 for x in &PLACES {
                     let slopes = slopes(call, &x.map(Doubled::new)).expect("it has slopes");
                     for (argument, slope) in slopes.iter().enumerate() {
                         let expected = difference(call, x, argument);
-                        assert!((slope.value() - expected).abs() < 1e-14, "{call:?} by {argument}: {slope:?}, {expected}");
+                        assert!(
+                            (slope.value() - expected).abs() < 1e-14,
+                            "{call:?} by {argument}: {slope:?}, {expected}"
+                        );
                     }
                 }
             }

@@ -304,7 +304,8 @@ impl<'t, T: Arithmetic> Trace<'t, T> {
             }
             _ if call.external().is_some() => {
                 let digits: Vec<Doubled> = values.iter().map(|x| x.digits()).collect();
-                let slopes = external::slopes(call, &digits).or_fault("slopes of slopes are refused before numbers are");
+                let slopes =
+                    external::slopes(call, &digits).or_fault("slopes of slopes are refused before numbers are");
                 for (&edge, partial) in operands.iter().zip(slopes) {
                     add(edge, slope.mul(A::doubled(partial)));
                 }

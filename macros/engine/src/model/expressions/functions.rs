@@ -61,7 +61,10 @@ impl<'a> Checker<'a, '_> {
     /// The names of all functions of a module.
     pub(in crate::model) fn functions_of(&self, scope: ScopeId) -> Vec<String> {
         let names = self.scopes[scope].names.iter();
-        names.filter(|(_, symbol)| matches!(symbol, Symbol::Function(_) | Symbol::External(_))).map(|(name, _)| name.clone()).collect()
+        names
+            .filter(|(_, symbol)| matches!(symbol, Symbol::Function(_) | Symbol::External(_)))
+            .map(|(name, _)| name.clone())
+            .collect()
     }
 
     /// What an argument of the function means in whose value a name stands.

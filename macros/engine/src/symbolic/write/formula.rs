@@ -109,7 +109,7 @@ pub enum Formula {
     Absolute(Box<Formula>),
     Apply(Function, Vec<Formula>),
     /// A function that has a name of the user's.
-    Called(Identifier, Vec<Formula>),
+    Called(Box<Identifier>, Vec<Formula>),
     /// To a power that is no small integer.
     General(Box<Formula>, Box<Formula>),
     Related(Relation, Box<Formula>, Box<Formula>),

@@ -74,12 +74,7 @@ pub struct Apart {
 }
 
 /// Writes values of a graph. `taken` are names that definitions can't have.
-pub fn write(
-    graph: &Graph,
-    wanted: &[Wanted],
-    names: &Names<'_>,
-    taken: &HashSet<String>,
-) -> Writing {
+pub fn write(graph: &Graph, wanted: &[Wanted], names: &Names<'_>, taken: &HashSet<String>) -> Writing {
     let mut lowering = Lowering::new(graph);
     let roots: Vec<Scalar> = wanted.iter().map(|wanted| wanted.value).collect();
     let roots = lowering.run(&roots);

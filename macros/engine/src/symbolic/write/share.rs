@@ -167,7 +167,10 @@ fn most_frequent(list: &[Formula]) -> Option<Common> {
 /// The whole that saves most.
 fn longest(list: &[Formula]) -> Option<Common> {
     fn visit(formula: &Formula, counts: &mut HashMap<String, usize>, order: &mut Vec<(String, Formula, usize)>) {
-        if matches!(formula, Formula::Apply(..) | Formula::Called(..) | Formula::Related(..) | Formula::Not(_) | Formula::Cases(_)) {
+        if matches!(
+            formula,
+            Formula::Apply(..) | Formula::Called(..) | Formula::Related(..) | Formula::Not(_) | Formula::Cases(_)
+        ) {
             return;
         }
         let length = formula.length();
@@ -230,7 +233,9 @@ fn factors_of(first: &Formula, second: &Formula) -> Common {
 
 /// Puts a name in wherever something stands.
 fn replace(formula: &mut Formula, common: &Common, name: &Formula, is_line: bool) {
-    if let Formula::Apply(..) | Formula::Called(..) | Formula::Related(..) | Formula::Not(_) | Formula::Cases(_) = formula {
+    if let Formula::Apply(..) | Formula::Called(..) | Formula::Related(..) | Formula::Not(_) | Formula::Cases(_) =
+        formula
+    {
         return;
     }
     match (&mut *formula, common) {
