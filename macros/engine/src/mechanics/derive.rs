@@ -265,6 +265,10 @@ struct Deriving<'m> {
     dead_centres: Vec<Coordinate>,
     /// How many assembly modes there are.
     modes: Option<Modes>,
+    /// What asks for the function that is derived.
+    request: Option<Request>,
+    /// Whether something was refused that takes slopes of slopes of functions of Rust.
+    curved: bool,
     /// By candidate of the function that is derived what became of equations with multipliers.
     pivoted: Vec<Pivoted>,
 }
@@ -289,6 +293,8 @@ impl<'m> Deriving<'m> {
             notes: Vec::new(),
             dead_centres: Vec::new(),
             modes: None,
+            request: None,
+            curved: false,
             pivoted: Vec::new(),
         }
     }
@@ -313,6 +319,10 @@ impl<'m> Deriving<'m> {
         let (mut functions, mut pivoted) = (Vec::new(), Vec::new());
         for kind in kinds(model, &self.structure) {
             self.pivoted.clear();
+            self.request = match kind.row().asked {
+                Asked::By { request, .. } => Some(request),
+                _ => None,
+            };
             let candidates = self.candidates(kind)?;
             if candidates.is_empty() && kind == FunctionKind::AssemblyCondition {
                 // Where no point tells the modes.

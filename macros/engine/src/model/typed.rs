@@ -11,6 +11,9 @@ use super::types::{Expr, ExprNode, Frame, Type};
 /// What a value may depend on, from early to late.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Class {
+    /// A function of the user's own Rust, whose values nobody knows before the model runs. It comes first, so that it is what is
+    /// told of where nothing of the kind may stand.
+    External,
     Parameter,
     /// Of bodies, which may follow from parameters.
     Mass,
@@ -33,7 +36,8 @@ pub(super) enum Class {
     Load,
 }
 
-const CLASSES: [Class; 12] = [
+const CLASSES: [Class; 13] = [
+    Class::External,
     Class::Parameter,
     Class::Mass,
     Class::Time,
@@ -156,6 +160,10 @@ impl Allowed {
 
     fn why(self, class: Class) -> &'static str {
         match (self, class) {
+            (_, Class::External) => {
+                "is a function of Rust, whose values are not known while the model is checked; it may stand in forces, \
+                 springs, dampers, states, outputs, and the `let` that they use"
+            }
             (Allowed::Constants, Class::Parameter) => "is a `param`; only literals and `const` may stand here",
             (_, Class::Formula) => {
                 "is a formula of another model; it may stand in drives, constraints, `solve`, `assume`, forces, states, outputs, and the \

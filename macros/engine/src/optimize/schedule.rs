@@ -8,7 +8,7 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-use crate::contracts::call::Call;
+use crate::contracts::call::{Call, ExternalId};
 use crate::contracts::symbol::Symbol;
 use crate::invariant::fault::{OrFault, raise};
 use crate::mechanics::limbs::Limbs;
@@ -77,6 +77,9 @@ pub fn schedule_as(dag: &Dag, fields: &Fields, names: &[String], form: Form<'_>)
     program
 }
 
+/// A function with the values of its arguments: a negative one may stand in several nodes.
+type Sloped = (ExternalId, Vec<Print>);
+
 struct Scheduler<'a> {
     dag: &'a Dag,
     fields: &'a Fields,
@@ -89,6 +92,10 @@ struct Scheduler<'a> {
     /// Angles whose sine or cosine is used.
     sines: HashSet<Id>,
     cosines: HashSet<Id>,
+    /// Calls of the user's own functions of which slopes are read: the nodes of their value and of each slope.
+    sloped: HashMap<Sloped, Vec<Option<Id>>>,
+    /// Locals of those that have been written, in the same order.
+    called: HashMap<Sloped, Vec<Local>>,
     hints: Vec<Option<String>>,
     headings: Vec<Option<Arc<str>>>,
     /// Of what is being written.
@@ -119,6 +126,8 @@ impl<'a> Scheduler<'a> {
             angles: HashMap::new(),
             sines: of_kind(dag, &order, |kind| if let Kind::Sin(x) = kind { Some(*x) } else { None }),
             cosines: of_kind(dag, &order, |kind| if let Kind::Cos(x) = kind { Some(*x) } else { None }),
+            sloped: sloped(dag, &order, fields),
+            called: HashMap::new(),
             hints: hints(dag),
             headings: headings(dag),
             heading: None,
@@ -258,6 +267,8 @@ impl<'a> Scheduler<'a> {
             }
         }
         self.angles.retain(|angle, _| !is_inside.contains(angle));
+        let changing: HashSet<Print> = inside.iter().map(|&id| self.dag.nodes[id].print).collect();
+        self.called.retain(|(_, arguments), _| !arguments.iter().any(|argument| changing.contains(argument)));
         let body = std::mem::replace(&mut self.program.statements, outer);
         let unknowns = locals.clone();
         let name = self.output(block, symbols.len()).unwrap_or("residual".to_owned());
@@ -307,6 +318,9 @@ impl<'a> Scheduler<'a> {
             &Kind::Output { block, index } => (self.result(block, index), 1),
             Kind::Sin(angle) => (Expression::Local(self.sin_cos(*angle).0), 1),
             Kind::Cos(angle) => (Expression::Local(self.sin_cos(*angle).1), 1),
+            Kind::Call(call, arguments) if self.is_sloped(*call, arguments) => {
+                (Expression::Local(self.called(*call, arguments)), 1)
+            }
             Kind::Call(call, arguments) => {
                 let arguments: Vec<(Expression, usize)> = arguments.iter().map(|&a| self.signed(a)).collect();
                 let size = arguments.iter().map(|a| a.1).sum();
@@ -396,6 +410,40 @@ impl<'a> Scheduler<'a> {
         self.program.statements.push(Statement::SinCos(vec![sine]));
         self.angles.insert(angle, locals);
         locals
+    }
+
+    fn is_sloped(&self, call: Call, arguments: &[Id]) -> bool {
+        call.external().is_some_and(|function| self.sloped.contains_key(&(function, prints(self.dag, arguments))))
+    }
+
+    /// The local of a value or slope; the call is written when the first of them is asked for.
+    fn called(&mut self, call: Call, arguments: &[Id]) -> Local {
+        let function = call.external().or_fault("only functions of the user's own have slopes that are read");
+        let key = (function, prints(self.dag, arguments));
+        let place = match call {
+            Call::ExternalSlope(_, argument) => 1 + argument,
+            _ => 0,
+        };
+        if let Some(known) = self.called.get(&key) {
+            return known[place];
+        }
+        let arguments: Vec<Expression> = arguments.iter().map(|&id| self.signed(id).0).collect();
+        let values: Vec<&Expression> = arguments.iter().collect();
+        let nodes = self.sloped[&key].clone();
+        let locals: Vec<Local> = nodes
+            .iter()
+            .enumerate()
+            .map(|(place, node)| {
+                let own = node.and_then(|id| self.dag.nodes[id].name.as_ref()).map(|name| name.of_sign(false));
+                let name =
+                    own.unwrap_or_else(|| if place == 0 { "called".to_owned() } else { format!("slope_{place}") });
+                self.local(&if node.is_some() { name } else { format!("_{name}") }, &values)
+            })
+            .collect();
+        let (value, slopes) = (locals[0], locals[1..].to_vec());
+        self.program.statements.push(Statement::Called { function, arguments, value, slopes });
+        self.called.insert(key, locals.clone());
+        locals[place]
     }
 
     /// An operand as it is written, without its sign.
@@ -549,6 +597,31 @@ impl Loop {
 
 fn of_kind(dag: &Dag, order: &[Id], f: impl Fn(&Kind) -> Option<Id>) -> HashSet<Id> {
     order.iter().filter_map(|&id| f(&dag.nodes[id].kind)).collect()
+}
+
+/// Calls of which slopes are read here, and not from fields.
+fn sloped(dag: &Dag, order: &[Id], fields: &Fields) -> HashMap<Sloped, Vec<Option<Id>>> {
+    let mut calls: HashMap<Sloped, Vec<Option<Id>>> = HashMap::new();
+    for &id in order {
+        let node = &dag.nodes[id];
+        let Kind::Call(call, arguments) = &node.kind else { continue };
+        let place = match call {
+            Call::External(_) => 0,
+            Call::ExternalSlope(_, argument) => 1 + argument,
+            _ => continue,
+        };
+        let is_stored = node.stage <= Stage::Parameter && fields.contains_key(&node.print.canonical());
+        if let (Some(function), false) = (call.external(), is_stored) {
+            let key = (function, prints(dag, arguments));
+            calls.entry(key).or_insert_with(|| vec![None; 1 + arguments.len()])[place] = Some(id);
+        }
+    }
+    calls.retain(|_, nodes| nodes[1..].iter().any(Option::is_some));
+    calls
+}
+
+fn prints(dag: &Dag, list: &[Id]) -> Vec<Print> {
+    list.iter().map(|&id| dag.nodes[id].print).collect()
 }
 
 pub(super) fn negated(expression: Expression) -> Expression {

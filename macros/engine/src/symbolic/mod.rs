@@ -13,6 +13,7 @@ pub mod doubled;
 mod echelon;
 mod elementary;
 pub mod evaluate;
+pub mod external;
 pub mod fingerprint;
 pub mod graph;
 pub mod identity;

@@ -240,6 +240,12 @@ impl Equations<'_> {
                 let arguments: Vec<Value> = arguments.iter().map(|e| self.known(e)).collect();
                 super::functions::call(&mut self.g, *function, &arguments)
             }
+            ExprNode::External(function, arguments) => {
+                let arguments: Vec<Scalar> = arguments.iter().map(|e| self.known(e).scalar()).collect();
+                let value = self.g.call(Call::External(*function), &arguments);
+                let name = &self.scene.model.externals[*function].name;
+                Value::Scalar(self.g.label(value, || name.to_string().replace("r#", "")))
+            }
             ExprNode::Compare(comparison, a, b) => {
                 let (a, b) = (self.known(a).scalar(), self.known(b).scalar());
                 Value::Scalar(super::functions::compare(&mut self.g, *comparison, a, b))
