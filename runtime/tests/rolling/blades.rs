@@ -1,7 +1,9 @@
 //! A sleigh, a disc and a sphere against closed solutions.
 
 use multibody::nalgebra::{Unit, UnitQuaternion, Vector3};
-use multibody::{Dop853, Integrator, Projection, Twist, WithProjection, constrained_equilibrium, multibody};
+use multibody::{
+    Dop853, IntegrationError, Integrator, Projection, Twist, WithProjection, constrained_equilibrium, multibody,
+};
 
 multibody! {
     /// Chaplygin's sleigh: a blade along the body, the centre of mass ahead of it.
@@ -389,4 +391,21 @@ fn rest_on_what_moves() {
     };
     assert!(at(0.0).is_ok());
     assert!(at(1.7).is_err());
+}
+
+/// A start that slips is no start.
+#[test]
+fn a_start_that_slips() {
+    let model = sleigh::Model::<f64>::default();
+    let mut start = sleigh::State::<f64>::default();
+    start.q.plane.angle = 0.4;
+    start.v.plane.x = 0.5;
+    let end = Integrator::fixed(Dop853, 0.01).integrate(&model, 0.0, 0.1, &start, &(), |_, _| ());
+    assert!(matches!(end, Err(IntegrationError::OpenLoops { .. })), "{end:?}");
+    // Projected, it keeps what it has along the blade.
+    let kept = Projection::default().project(&model, 0.0, &start).unwrap().state;
+    let wanted = Vector3::new(0.4_f64.cos(), 0.4_f64.sin(), 0.0) * (0.5 * 0.4_f64.cos());
+    let found = Vector3::new(kept.v.plane.x, kept.v.plane.y, kept.v.plane.angle);
+    assert!((found - wanted).amax() < 1e-14 && kept.q == start.q);
+    assert!(Integrator::fixed(Dop853, 0.01).integrate(&model, 0.0, 0.1, &kept, &(), |_, _| ()).is_ok());
 }

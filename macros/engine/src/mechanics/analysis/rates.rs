@@ -77,7 +77,7 @@ fn points(problem: &Problem, structure: &Structure) -> Vec<Point> {
     if !problem.equations.is_empty() {
         return structure.closed.iter().map(|closed| problem.at(&closed.positions)).collect();
     }
-    let mut random = Random(0x0801_1E5);
+    let mut random = Random(0x8011E5);
     (0..POSES).map(|_| problem.start(&mut random, 1.0)).collect()
 }
 
