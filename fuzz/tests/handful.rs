@@ -6,6 +6,23 @@
 #[path = "handful/models.rs"]
 pub mod models;
 
+/// What some of them call.
+#[derive(Debug)]
+pub struct Curve;
+
+impl<T: multibody::Real, const N: usize> multibody::Function<T, N> for Curve {
+    fn value(x: [T; N]) -> T {
+        x.into_iter().fold(T::lit(1.0), |sum, x| sum + multibody::Real::tanh(x))
+    }
+
+    fn slopes(x: [T; N]) -> [T; N] {
+        x.map(|x| {
+            let share = multibody::Real::tanh(x);
+            T::lit(1.0) - share * share
+        })
+    }
+}
+
 /// Small ones, so that they compile in seconds.
 const SEEDS: [u64; 9] = [101, 104, 106, 110, 113, 116, 122, 123, 125];
 

@@ -36,6 +36,7 @@
 //! - [`System`], [`StateSpace`], [`Configuration`], [`Tangent`]: what integrators see of a model, of its state, of its
 //!   position and of its velocity. Generated models implement them; so do wrappers written by hand.
 //! - [`Real`]: the scalar that generated code is generic over: `f32`, `f64`, lanes of them, dual numbers.
+//! - [`Function`]: functions of your own, written in Rust, that models call.
 //! - [`coordinates`]: the coordinates of joints that have several, [`Pose`], [`Placement`], [`Twist`] and [`Wrench`].
 //! - [`rotation`]: unit quaternions that stay of unit length.
 //! - [`Constrained`]: a model whose coordinates obey equations; [`assemble`] closes its loops, and [`projection`] keeps
@@ -94,6 +95,7 @@ mod equation;
 pub mod embedded {}
 pub mod equilibrium;
 mod feedback;
+mod function;
 #[doc = include_str!("../docs/generated.md")]
 pub mod generated {}
 pub mod impact;
@@ -136,6 +138,7 @@ pub use differentiable::{Derivatives, Differentiable, Jacobian};
 pub use equation::Equation;
 pub use equilibrium::{Equilibrium, EquilibriumError, Free, constrained_equilibrium, equilibrium, trim};
 pub use feedback::{Feedback, closed_loop};
+pub use function::{Function, slope_deviation};
 pub use impulsive::Impulsive;
 pub use inertia::{ParamError, inertia_violation, is_held};
 pub use integrators::{

@@ -102,6 +102,9 @@ pub mod name {
 
     /// What is given to a function where it is called.
     pub struct Argument;
+
+    /// A function of your own Rust: a type that implements `multibody::Function`.
+    pub struct Extern;
 }
 
 /// Items whose fields stand in braces.

@@ -60,6 +60,7 @@ impl<T: Real> Machine<'_, T> {
                 self.set(*local, value);
             }
             Statement::SinCos(sines) => self.sines(sines),
+            Statement::Called { .. } => unreachable!("no model here calls functions of Rust"),
             Statement::Pack { local, value } => self.locals[local.0] = self.members(value),
             Statement::PackSines(sine) => {
                 let points = Real::sin_cos_all(self.members(&sine.angle));
@@ -146,6 +147,9 @@ fn function<T: Real>(call: Call, x: &[T]) -> T {
     let mask = |mask: T::Mask| Real::select(mask, T::lit(1.0), zero);
     let is = |x: T| !Real::eq(x, zero);
     match call {
+        Call::External(_) | Call::ExternalSlope(..) | Call::ExternalCurvature(_) => {
+            unreachable!("no model here calls functions of Rust")
+        }
         Call::Epsilon => <T as Real>::epsilon(),
         Call::Nan => T::lit(f64::NAN),
         Call::Tan => Real::tan(x[0]),

@@ -509,7 +509,34 @@ impl Lines {
         }
         let absolute = self.lines.iter().any(|line| line.starts_with("formulation { coordinates: Absolute"));
         self.emit(random, &names, driven, absolute);
+        self.of_rust(random, &names);
         self.push("}".into());
+    }
+
+    /// A function of Rust in outputs and forces. It comes last, so that a call without one is what it would be otherwise.
+    fn of_rust(&mut self, random: &mut Random, names: &Names) {
+        if !random.chance(25) {
+            return;
+        }
+        let name = self.name(random, "e");
+        let count = 1 + random.below(3);
+        self.push(format!("extern {name}({}) = crate::Curve;", ["x", "y", "z"][..count].join(", ")));
+        let call = |random: &mut Random| {
+            let arguments: Vec<String> = (0..count).map(|_| scalar(random, names, Level::Force, 1)).collect();
+            format!("{name}({})", arguments.join(", "))
+        };
+        for _ in 0..=random.below(3) {
+            let value = call(random);
+            let item = match (random.below(4), names.coordinate(random), manipulated::variable(random, names)) {
+                (0, Some(coordinate), _) => {
+                    format!("force {}: Effort {{ joint: {coordinate}, value: {value} }}", self.name(random, "f"))
+                }
+                (1, _, Some(variable)) => format!("output {} = diff({value}, {variable});", self.name(random, "o")),
+                (2, ..) => format!("output {} = {value} + {};", self.name(random, "o"), call(random)),
+                _ => format!("output {} = {value};", self.name(random, "o")),
+            };
+            self.push(item);
+        }
     }
 
     fn use_part(&mut self, random: &mut Random, names: &mut Names, part: &Part) {

@@ -4,6 +4,26 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+/// What models call, with as many arguments as they like.
+const CURVE: &str = "
+/// A function of Rust.
+#[derive(Debug)]
+pub struct Curve;
+
+impl<T: multibody::Real, const N: usize> multibody::Function<T, N> for Curve {
+    fn value(x: [T; N]) -> T {
+        x.into_iter().fold(T::lit(1.0), |sum, x| sum + multibody::Real::tanh(x))
+    }
+
+    fn slopes(x: [T; N]) -> [T; N] {
+        x.map(|x| {
+            let share = multibody::Real::tanh(x);
+            T::lit(1.0) - share * share
+        })
+    }
+}
+";
+
 const HEAD: &str = "//! Random models.\n#![deny(warnings, missing_docs, missing_debug_implementations, unreachable_pub)]\n\
                     #![deny(unused, rust_2018_idioms, unused_qualifications, clippy::all)]\n#![forbid(unsafe_code)]\n";
 
@@ -36,7 +56,7 @@ pub fn build(directory: &Path, models: &[Vec<String>]) -> std::io::Result<Said> 
     if !directory.join("Cargo.lock").exists() && lock.exists() {
         std::fs::copy(lock, directory.join("Cargo.lock"))?;
     }
-    let mut library = HEAD.to_owned();
+    let mut library = format!("{HEAD}{CURVE}");
     for (k, lines) in models.iter().enumerate() {
         writeln!(library, "pub mod model{k};").expect("text is always written");
         let text = format!("//! Model {k}.\nmultibody::multibody! {{\n{}\n}}\n", lines.join("\n"));

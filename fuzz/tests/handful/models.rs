@@ -27,6 +27,9 @@ pub mod seed101 {
         output o15 = dot(aid1(diff(b6.at([0.1, -0.2, 0.3]).angular_velocity, j7.angle), j7.travel = j12.reaction.force.z, j7.angle = j12.reaction.force.z, j7.travel.rate = j12.angle, j7.angle.rate = aid1(max(j7.angle.rate, u5) / (1.5 + powi(select(j7.travel.rate >= deg(30) , j7.travel.rate, j7.travel.rate), 2)), j7.travel = select(t > j12.travel , t, t), j7.angle = K9, j7.travel.rate = b11.position.y, j7.angle.rate = aid1(p4, j7.travel = (f13.power - j12.travel.rate), j7.angle = j12.travel.effort, j7.travel.rate = deg(45), j7.angle.rate = f13.power, u5 = (j12.travel.effort + t), t = t), u5 = j12.angle, t = diff(potential(), j12.angle), p4 = j12.travel), u5 = mass_matrix[j12.travel, j12.travel], t = j12.travel.accel, p4 = t), b11.express(X));
         output o16 = pose(aid1(b6.velocity, j7.travel = potential(), j7.angle = j12.reaction.force.z, j7.travel.rate = j12.travel, j7.angle.rate = diff(j12.angle.rate, j12.angle), u5 = PI / 6 / (1.5 + powi(potential(), 2)), t = t), roll_pitch_yaw(K9, 0.2, PI / 6));
         emit derivatives, residual, linearize, equations;
+        extern e17(x, y, z) = crate::Curve;
+        output o18 = e17(sqrt(1 + powi(b11.position.y, 2)), j12.travel.rate, (b11.angular_velocity).z) + e17(ln(1 + powi(j12.angle.rate, 2)), (j12.angle.rate - b11.position.z), diff(1e-3, j12.travel.rate));
+        output o19 = e17(abs(PI / 6), min(2.5e2, j12.travel), -(K9));
         }
     }
 }
@@ -232,6 +235,9 @@ pub mod seed122 {
         output o18 = [r#match.reaction.moment, b12.rotated([1, 1, 0], deg(40)).at(0.5 * Z).position.y * X];
         assume b12.position.z > -100;
         emit derivatives, linearize;
+        extern e19(x) = crate::Curve;
+        output o20 = diff(e19(norm(b12.twist.linear + 3.0 * X)), p10);
+        output o21 = e19(b12.position.x * t);
         }
     }
 }
@@ -267,6 +273,9 @@ pub mod seed123 {
         output o18 = p2;
         output o19 = cross(u6, b7.at([0.1, -0.2, 0.3]).angular_velocity);
         emit report, equations;
+        extern e20(x, y) = crate::Curve;
+        output o21 = diff(e20(atan2(K1, 2.0), (j10.angle.rate - 1e-3)), j10.angle.rate);
+        output o22 = diff(e20(min(t, j10.angle), sqrt(1 + powi(s13, 2))), u5);
         }
     }
 }

@@ -78,6 +78,10 @@ const REACHED: &[(&str, &str)] = &[
     ("centroidal_momentum_matrix", "of the whole: in macros/engine/tests/mechanics/centroidal.rs"),
     ("poses", "positions and rotations of bodies, as `outputs` has them: in tests/laws/output_groups.rs"),
     ("kinematics_2", "`kinematics`, asked for a second time"),
+    ("value", "of a user's own function, which takes what it takes: in runtime/tests/functions"),
+    ("slopes", "of a user's own function: in runtime/tests/functions"),
+    ("value_and_slopes", "of a user's own function: in runtime/tests/functions"),
+    ("slope_deviation", "for users' tests: in runtime/tests/functions/calls.rs"),
 ];
 
 /// All files below a folder, as one text without comments.

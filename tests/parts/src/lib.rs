@@ -1,6 +1,7 @@
-//! Legs and feet, for models of other crates.
+//! Legs and feet, and brakes, for models of other crates.
 
 #![deny(missing_docs, unreachable_pub, unused)]
 
+pub mod brakes;
 pub mod legs;
 pub mod machines;

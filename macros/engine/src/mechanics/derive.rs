@@ -106,7 +106,12 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
     let checks = deriving.checks()?;
     let inertia = deriving.inertia()?;
     for function in &functions {
-        function.candidates.iter().for_each(|candidate| deriving.label(function.kind, &candidate.1.list));
+        for (_, results) in &function.candidates {
+            deriving.label(function.kind, &results.list);
+            if !results.apart.is_empty() {
+                deriving.label(function.kind, &results.apart);
+            }
+        }
     }
     if let Inertia::Own(entries) = &inertia {
         deriving.label(FunctionKind::MassMatrix, entries);
@@ -116,6 +121,12 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
     // Last, so that nothing of them is found by what is emitted.
     let asked: Vec<FunctionKind> = functions.iter().map(|function| function.kind).collect();
     let witnesses = deriving.witnesses(&asked)?;
+    let limbs = (model.packs == Packs::Four).then(|| {
+        let value = |&(symbol, value): &(Scalar, Scalar)| {
+            Some((deriving.graph.symbol_id(symbol)?, deriving.graph.literal(value)?.value()))
+        };
+        Limbs::of(model).with_numbers(deriving.decided.numbers.iter().filter_map(value).collect())
+    });
     let Deriving { graph, symbols, notes, dead_centres, modes, .. } = deriving;
     let symbol_names = symbols.table.iter().map(|&symbol| names::symbol(model, symbol)).collect();
     let symbols = symbols.table.clone();
@@ -133,7 +144,7 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
         checks,
         inertia,
         witnesses,
-        limbs: (model.packs == Packs::Four).then(|| Limbs::of(model)),
+        limbs,
     })
 }
 
@@ -254,6 +265,10 @@ struct Deriving<'m> {
     dead_centres: Vec<Coordinate>,
     /// How many assembly modes there are.
     modes: Option<Modes>,
+    /// What asks for the function that is derived.
+    request: Option<Request>,
+    /// Whether something was refused that takes slopes of slopes of functions of Rust.
+    curved: bool,
     /// By candidate of the function that is derived what became of equations with multipliers.
     pivoted: Vec<Pivoted>,
 }
@@ -278,6 +293,8 @@ impl<'m> Deriving<'m> {
             notes: Vec::new(),
             dead_centres: Vec::new(),
             modes: None,
+            request: None,
+            curved: false,
             pivoted: Vec::new(),
         }
     }
@@ -302,6 +319,10 @@ impl<'m> Deriving<'m> {
         let (mut functions, mut pivoted) = (Vec::new(), Vec::new());
         for kind in kinds(model, &self.structure) {
             self.pivoted.clear();
+            self.request = match kind.row().asked {
+                Asked::By { request, .. } => Some(request),
+                _ => None,
+            };
             let candidates = self.candidates(kind)?;
             if candidates.is_empty() && kind == FunctionKind::AssemblyCondition {
                 // Where no point tells the modes.
@@ -338,8 +359,10 @@ impl<'m> Deriving<'m> {
             let found = self.maybe(self.way(), |e| {
                 let reduction = e.reduce()?;
                 let Some(platform) = e.platform(&reduction) else { return Ok(None) };
-                let name = inverse::ways(&platform.carrier, platform.assumed()).get(at).map(|way| way.0);
-                Ok(name.zip(e.platform_inputs(&platform, &reduction, at)))
+                let ways = inverse::ways(&platform.carrier, platform.assumed(), e.is_packed());
+                let name = ways.get(at).map(|way| way.0);
+                let results = e.platform_inputs(&platform, &reduction, at).map(|results| e.with_numbers(results));
+                Ok(name.zip(results))
             })?;
             let Some(found) = found else { break };
             candidates.push(found);

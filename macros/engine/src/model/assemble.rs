@@ -3,6 +3,7 @@
 //! In: the expanded scopes and slots. Out: the checked model, if nothing was wrong.
 
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 use proc_macro2::Span;
 use syn::Path;
@@ -154,6 +155,7 @@ impl<'a> Checker<'a, '_> {
             krate: self.source.krate.clone().unwrap_or_else(runtime),
             fused: self.source.fused,
             serialised: self.source.serialised,
+            externals: Rc::new(self.source.externals().map(|function| function.described()).collect()),
             part_types: self.part_types.clone(),
             instances: self.instances.clone(),
             params: IndexVec::new(),

@@ -20,8 +20,8 @@ use super::joint_kinds::JointKind;
 use super::report::Report;
 use super::typed::{FrameValue, Typed};
 use super::types::{
-    BodyId, BodyRef, ConstraintId, Docs, Expr, ForceId, InputId, Instance, InstanceId, JointId, ParamId, PartType,
-    PartTypeId, Place, StateId, Type,
+    BodyId, BodyRef, ConstraintId, Docs, Expr, ExternalId, ForceId, InputId, Instance, InstanceId, JointId, ParamId,
+    PartType, PartTypeId, Place, StateId, Type,
 };
 use super::units::Declared;
 use super::units::quantities::Quantity;
@@ -88,6 +88,8 @@ pub(super) enum Symbol {
     Parts(Rc<[ScopeId]>),
     /// `let name(x) = ..;`
     Function(FunctionId),
+    /// `extern name(x) = ..;`
+    External(ExternalId),
 }
 
 impl Symbol {
@@ -105,6 +107,7 @@ impl Symbol {
             Symbol::Unknown(..) => "solve",
             Symbol::Part(_) | Symbol::Parts(_) => "part",
             Symbol::Function(_) => "let",
+            Symbol::External(_) => "extern",
         }
     }
 }
@@ -308,6 +311,8 @@ pub(super) struct Checker<'a, 'd> {
     pub(super) expanded_calls: usize,
     /// Values of calls for which the function declares a unit.
     pub(super) returned: Vec<Expr>,
+    /// Of values of functions of Rust, declared with these.
+    pub(super) external_units: BTreeMap<ExternalId, Declared>,
     /// Values that read unknowns of systems that are being solved.
     pub(super) opened: Vec<NamedId>,
     pub(super) part_types: IndexVec<PartTypeId, PartType>,
@@ -372,6 +377,7 @@ impl<'a, 'd> Checker<'a, 'd> {
             calls: Vec::new(),
             expanded_calls: 0,
             returned: Vec::new(),
+            external_units: BTreeMap::new(),
             opened: Vec::new(),
             part_types: IndexVec::new(),
             part_modules: IndexVec::new(),

@@ -46,6 +46,7 @@ pub(super) fn declared(kind: &ItemKind) -> Option<(&Ident, &'static str)> {
         ItemKind::Input(value) => (&value.name, "input"),
         ItemKind::Let(value) => (&value.name, "let"),
         ItemKind::Function(function) => (&function.name, "let"),
+        ItemKind::External(function) => (&function.name, "extern"),
         ItemKind::Output(value) => (&value.name, "output"),
         ItemKind::State { name, .. } => (name, "state"),
         ItemKind::Port { name, .. } => (name, "port"),
@@ -138,6 +139,11 @@ impl<'a> Checker<'a, '_> {
                 ItemKind::Function(function) => {
                     let id = self.define(function, scope, unit());
                     self.set_symbol(scope, name, Symbol::Function(id));
+                    continue;
+                }
+                ItemKind::External(function) => {
+                    let id = self.external(function, unit());
+                    self.set_symbol(scope, name, Symbol::External(id));
                     continue;
                 }
                 _ => continue,
@@ -235,6 +241,10 @@ impl<'a> Checker<'a, '_> {
             }
             ItemKind::Function(function) => {
                 self.check_parameters(function, scope);
+                return Subject::None;
+            }
+            ItemKind::External(function) => {
+                self.check_external(function);
                 return Subject::None;
             }
             ItemKind::Param(value) => match binding.and_then(|b| bound(b, name)) {

@@ -46,7 +46,9 @@ impl ExprNode {
             | ExprNode::Neg(inner)
             | ExprNode::Not(inner) => vec![inner],
             ExprNode::Vec3(elements) | ExprNode::RollPitchYaw(elements) => elements.iter().collect(),
-            ExprNode::Array(elements) | ExprNode::Call(_, elements) => elements.iter().collect(),
+            ExprNode::Array(elements) | ExprNode::Call(_, elements) | ExprNode::External(_, elements) => {
+                elements.iter().collect()
+            }
             ExprNode::RotationAbout { axis: a, angle: b }
             | ExprNode::Add(a, b)
             | ExprNode::Sub(a, b)

@@ -11,6 +11,9 @@ use super::types::{Expr, ExprNode, Frame, Type};
 /// What a value may depend on, from early to late.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Class {
+    /// A function of the user's own Rust, whose values nobody knows before the model runs. It comes first, so that it is what is
+    /// told of where nothing of the kind may stand.
+    External,
     Parameter,
     /// Of bodies, which may follow from parameters.
     Mass,
@@ -33,7 +36,8 @@ pub(super) enum Class {
     Load,
 }
 
-const CLASSES: [Class; 12] = [
+const CLASSES: [Class; 13] = [
+    Class::External,
     Class::Parameter,
     Class::Mass,
     Class::Time,
@@ -130,7 +134,7 @@ pub(super) enum Allowed {
     Time,
     /// Those and positions: what chooses a position.
     Positions,
-    /// The same, held at zero.
+    /// The same with velocities, held at zero.
     Constraint,
     /// All that is known before forces and accelerations are.
     Forces,
@@ -145,9 +149,10 @@ impl Allowed {
             Allowed::Parameters => class == Class::Parameter,
             Allowed::Inertia => matches!(class, Class::Parameter | Class::Own),
             Allowed::Time => matches!(class, Class::Parameter | Class::Mass | Class::Time | Class::Formula),
-            Allowed::Positions | Allowed::Constraint => {
+            Allowed::Positions => {
                 matches!(class, Class::Parameter | Class::Mass | Class::Time | Class::Formula | Class::Position)
             }
+            Allowed::Constraint => class == Class::State || Allowed::Positions.contains(class),
             Allowed::Forces => !matches!(class, Class::Acceleration | Class::Load),
             Allowed::Springs => !matches!(class, Class::Potential | Class::Acceleration | Class::Load),
         }
@@ -155,6 +160,10 @@ impl Allowed {
 
     fn why(self, class: Class) -> &'static str {
         match (self, class) {
+            (_, Class::External) => {
+                "is a function of Rust, whose values are not known while the model is checked; it may stand in forces, \
+                 springs, dampers, states, outputs, and the `let` that they use"
+            }
             (Allowed::Constants, Class::Parameter) => "is a `param`; only literals and `const` may stand here",
             (_, Class::Formula) => {
                 "is a formula of another model; it may stand in drives, constraints, `solve`, `assume`, forces, states, outputs, and the \
@@ -189,19 +198,20 @@ impl Allowed {
             (Allowed::Inertia, _) => {
                 "moves with the mechanism, and how mass moves then is not known here; only `const`, `param` and `state` may stand here"
             }
-            (Allowed::Positions | Allowed::Constraint, Class::Own) => {
+            (Allowed::Positions, Class::Own) => {
                 "is a state, whose rate may jump; only positions, parameters and time may stand here"
             }
-            (Allowed::Constraint, Class::State) => {
-                "is no position: constraints of velocities are not supported yet. A gear or rolling along a line is one of \
-                 positions, such as `x - radius * angle`; elsewhere a stiff damper at the contact comes near"
+            (Allowed::Constraint, Class::Own) => {
+                "is a state, whose rate may jump; only positions, velocities, parameters and time may stand here"
             }
-            (Allowed::Positions | Allowed::Constraint, Class::Input) => {
-                "is an input; only positions, parameters and time may stand here"
+            (Allowed::Constraint, Class::Input) => {
+                "is an input, whose rate nobody knows; positions, velocities, parameters and time may stand here"
             }
-            (Allowed::Positions | Allowed::Constraint, _) => {
-                "is no position; only positions, parameters and time may stand here"
+            (Allowed::Constraint, _) => {
+                "is no position and no velocity; only these, parameters and time may stand here"
             }
+            (Allowed::Positions, Class::Input) => "is an input; only positions, parameters and time may stand here",
+            (Allowed::Positions, _) => "is no position; only positions, parameters and time may stand here",
             (Allowed::Constants, _) => "changes in time; only literals and `const` may stand here",
             _ => "changes in time; only `const` and `param` may stand here",
         }

@@ -8,7 +8,7 @@
 
 use std::rc::Rc;
 
-use proc_macro2::{Ident, Span};
+use proc_macro2::{Ident, Span, TokenStream};
 use syn::ext::IdentExt;
 use syn::{Attribute, Path, Visibility};
 
@@ -37,6 +37,8 @@ ids! {
     JointId,
     ForceId,
     ConstraintId,
+    /// Index into [`Model::externals`], the same in all models of one call.
+    ExternalId,
 }
 
 pub type Bodies = IndexVec<BodyId, Body>;
@@ -55,6 +57,8 @@ pub struct Model {
     pub fused: bool,
     /// Whether serde writes and reads its structs: the feature `serde` of the runtime.
     pub serialised: bool,
+    /// Functions of the user's own Rust, of all modules of the call.
+    pub externals: Rc<IndexVec<ExternalId, External>>,
     pub part_types: IndexVec<PartTypeId, PartType>,
     pub instances: IndexVec<InstanceId, Instance>,
     pub params: IndexVec<ParamId, Param>,
@@ -137,6 +141,9 @@ pub struct Constraint {
 pub enum ConstraintKind {
     /// A scalar of positions, parameters and time.
     Value(Expr),
+    /// A scalar that is affine in velocities, such as what a wheel slips: its integral may be no function of positions, and is
+    /// never taken for one.
+    Rate(Expr),
     /// The distance between the origins of two frames is `length` (m).
     Rod { between: Box<[Frame; 2]>, length: Expr },
 }
@@ -300,6 +307,16 @@ impl OutputGroup {
     pub fn outputs(&self) -> impl Iterator<Item = usize> {
         self.fields.iter().flat_map(|field| field.outputs.iter().copied())
     }
+}
+
+/// A function of the user's own Rust: a type with the runtime's trait `Function`.
+#[derive(Clone)]
+pub struct External {
+    pub name: Ident,
+    /// Names of the scalars that it takes.
+    pub arguments: Vec<Ident>,
+    /// Of the type, as written: `crate::..`, `$crate::..` or `::..`.
+    pub path: TokenStream,
 }
 
 /// A module with ports, used by this model at least once.
@@ -721,6 +738,8 @@ pub enum ExprNode {
     Mul(Expr, Expr),
     Div(Expr, Expr),
     Call(Function, Vec<Expr>),
+    /// A function of the user's own Rust.
+    External(ExternalId, Vec<Expr>),
     Compare(Comparison, Expr, Expr),
     And(Expr, Expr),
     Or(Expr, Expr),

@@ -72,6 +72,10 @@ impl Effort {
                     let cost = angles.plus(Cost { sincos: size(sines), ..Cost::default() });
                     self.straight = self.straight.plus(beyond(cost));
                 }
+                Statement::Called { arguments, .. } => {
+                    let cost = of_all(arguments).plus(Cost { other: 1, ..Cost::default() });
+                    self.straight = self.straight.plus(beyond(cost));
+                }
                 Statement::Solve { size, symmetric, matrix, rhs, .. } => {
                     self.straight = self.straight.plus(beyond(of_all(matrix.iter().chain(rhs))));
                     self.systems.push((*size, *symmetric, times));

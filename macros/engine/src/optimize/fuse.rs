@@ -122,7 +122,7 @@ fn each_value<'a>(statements: &'a [Statement], visit: &mut dyn FnMut(Local, &'a 
                 visit(residual.0, &residual.1);
                 each_value(body, visit);
             }
-            Statement::SinCos(_) | Statement::PackSines(_) | Statement::Solve { .. } => {}
+            Statement::SinCos(_) | Statement::PackSines(_) | Statement::Called { .. } | Statement::Solve { .. } => {}
         }
     }
 }
@@ -148,9 +148,10 @@ fn arguments<'a>(expression: &'a Expression, found: &mut Vec<&'a Expression>) {
     }
 }
 
-/// Whether it is NaN for arguments a rounding beside some for which it is not.
+/// Whether it is NaN for arguments a rounding beside some for which it is not. Of functions of the user's own nobody knows.
 const fn is_bounded(call: Call) -> bool {
-    matches!(call, Call::Sqrt | Call::Ln | Call::Powf | Call::Asin | Call::Acos)
+    use Call::{Acos, Asin, External, ExternalSlope, Ln, Powf, Sqrt};
+    matches!(call, Sqrt | Ln | Powf | Asin | Acos | External(_) | ExternalSlope(..))
 }
 
 /// Whether it hands one of its arguments on.

@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use crate::contracts::call::Call;
+use crate::contracts::call::{Call, ExternalId};
 use crate::contracts::cost::Cost;
 use crate::contracts::function::FunctionKind;
 use crate::contracts::results::Parts;
@@ -63,6 +63,14 @@ pub enum Statement {
     Members {
         pack: Expression,
         members: [Option<Local>; MEMBERS],
+    },
+    /// A function of the user's own Rust, of which slopes are read: all of them together, with the value where it is read too.
+    Called {
+        function: ExternalId,
+        arguments: Vec<Expression>,
+        value: Local,
+        /// One by each argument.
+        slopes: Vec<Local>,
     },
     /// A pivoted solution of a linear system in the runtime; `results` are the unknowns, then the rank.
     Solve {
@@ -174,6 +182,7 @@ impl Statement {
             }
             Statement::PackSines(sine) => Box::new(std::iter::once(&sine.angle)),
             Statement::SinCos(sines) => Box::new(sines.iter().map(|sine| &sine.angle)),
+            Statement::Called { arguments, .. } => Box::new(arguments.iter()),
             Statement::Solve { matrix, rhs, measures, .. } => Box::new(matrix.iter().chain(rhs).chain(measures)),
             Statement::Iterate { start, body, next, residual, .. } => {
                 let inside = body.iter().flat_map(Statement::expressions);
@@ -190,6 +199,7 @@ impl Statement {
             }
             Statement::PackSines(sine) => visit(&mut sine.angle),
             Statement::SinCos(sines) => sines.iter_mut().for_each(|sine| visit(&mut sine.angle)),
+            Statement::Called { arguments, .. } => arguments.iter_mut().for_each(visit),
             Statement::Solve { matrix, rhs, measures, .. } => {
                 matrix.iter_mut().chain(rhs).chain(measures).for_each(visit);
             }
@@ -209,6 +219,7 @@ impl Statement {
             Statement::PackSines(sine) => sine.defined().to_vec(),
             Statement::Members { members, .. } => members.iter().copied().flatten().collect(),
             Statement::SinCos(sines) => sines.iter().flat_map(Sine::defined).collect(),
+            Statement::Called { value, slopes, .. } => std::iter::once(*value).chain(slopes.iter().copied()).collect(),
             Statement::Solve { results, .. } => results.clone(),
             Statement::Iterate { unknowns, residual, .. } => unknowns.iter().copied().chain([residual.0]).collect(),
         }

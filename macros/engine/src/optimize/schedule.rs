@@ -8,7 +8,7 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-use crate::contracts::call::Call;
+use crate::contracts::call::{Call, ExternalId};
 use crate::contracts::symbol::Symbol;
 use crate::invariant::fault::{OrFault, raise};
 use crate::mechanics::limbs::Limbs;
@@ -17,6 +17,7 @@ use crate::symbolic::graph::{BlockKind, SymbolId};
 use crate::symbolic::number::Number;
 
 use super::dag::{Block, Dag, Id, Kind, ONE};
+use super::fold;
 use super::fuse;
 use super::hints::{headings, hints};
 use super::names::Names;
@@ -54,11 +55,15 @@ pub struct Form<'a> {
 /// The same in a form.
 pub fn schedule_as(dag: &Dag, fields: &Fields, names: &[String], form: Form<'_>) -> Program {
     let mut scheduler = Scheduler::new(dag, fields, names);
+    scheduler.limbs = form.limbs;
     scheduler.make(dag.roots.iter().map(|root| root.1));
     let results = dag.roots.iter().map(|&root| scheduler.term(root)).collect();
     let mut program = scheduler.program;
     program.results = results;
     if let Some(limbs) = form.limbs {
+        if !limbs.numbers.is_empty() {
+            fold::fold(&mut program);
+        }
         program = packs::pack(program, limbs);
     }
     if form.fused {
@@ -72,6 +77,9 @@ pub fn schedule_as(dag: &Dag, fields: &Fields, names: &[String], form: Form<'_>)
     program
 }
 
+/// A function with the values of its arguments: a negative one may stand in several nodes.
+type Sloped = (ExternalId, Vec<Print>);
+
 struct Scheduler<'a> {
     dag: &'a Dag,
     fields: &'a Fields,
@@ -84,6 +92,10 @@ struct Scheduler<'a> {
     /// Angles whose sine or cosine is used.
     sines: HashSet<Id>,
     cosines: HashSet<Id>,
+    /// Calls of the user's own functions of which slopes are read: the nodes of their value and of each slope.
+    sloped: HashMap<Sloped, Vec<Option<Id>>>,
+    /// Locals of those that have been written, in the same order.
+    called: HashMap<Sloped, Vec<Local>>,
     hints: Vec<Option<String>>,
     headings: Vec<Option<Arc<str>>>,
     /// Of what is being written.
@@ -96,6 +108,8 @@ struct Scheduler<'a> {
     boundary: HashSet<Id>,
     /// Locals of the results of blocks that have been written.
     results: HashMap<usize, Vec<Local>>,
+    /// Whose numbers symbols may stand for.
+    limbs: Option<&'a Limbs>,
     program: Program,
 }
 
@@ -112,6 +126,8 @@ impl<'a> Scheduler<'a> {
             angles: HashMap::new(),
             sines: of_kind(dag, &order, |kind| if let Kind::Sin(x) = kind { Some(*x) } else { None }),
             cosines: of_kind(dag, &order, |kind| if let Kind::Cos(x) = kind { Some(*x) } else { None }),
+            sloped: sloped(dag, &order, fields),
+            called: HashMap::new(),
             hints: hints(dag),
             headings: headings(dag),
             heading: None,
@@ -120,6 +136,7 @@ impl<'a> Scheduler<'a> {
             boundary: loops.iter().flat_map(|l| l.frontier.iter().copied()).collect(),
             loops,
             results: HashMap::new(),
+            limbs: None,
             program: Program::default(),
         }
     }
@@ -250,6 +267,8 @@ impl<'a> Scheduler<'a> {
             }
         }
         self.angles.retain(|angle, _| !is_inside.contains(angle));
+        let changing: HashSet<Print> = inside.iter().map(|&id| self.dag.nodes[id].print).collect();
+        self.called.retain(|(_, arguments), _| !arguments.iter().any(|argument| changing.contains(argument)));
         let body = std::mem::replace(&mut self.program.statements, outer);
         let unknowns = locals.clone();
         let name = self.output(block, symbols.len()).unwrap_or("residual".to_owned());
@@ -278,6 +297,10 @@ impl<'a> Scheduler<'a> {
                 // Outside its iteration an unknown is read only by values that don't change with it.
                 Symbol::Unknown { .. } => (Expression::Literal(1.0), 1),
                 Symbol::UnknownPoint { component, .. } => (Expression::Literal([1.0, 0.0][component]), 1),
+                Symbol::Number { .. } => {
+                    let value = self.limbs.and_then(|limbs| limbs.numbers.get(symbol));
+                    (Expression::Literal(*value.or_fault("a symbol stands for a number of a limb")), 1)
+                }
                 symbol => (Expression::Symbol(symbol), 1),
             },
             Kind::Sum(terms) => self.sum(id, terms),
@@ -295,6 +318,9 @@ impl<'a> Scheduler<'a> {
             &Kind::Output { block, index } => (self.result(block, index), 1),
             Kind::Sin(angle) => (Expression::Local(self.sin_cos(*angle).0), 1),
             Kind::Cos(angle) => (Expression::Local(self.sin_cos(*angle).1), 1),
+            Kind::Call(call, arguments) if self.is_sloped(*call, arguments) => {
+                (Expression::Local(self.called(*call, arguments)), 1)
+            }
             Kind::Call(call, arguments) => {
                 let arguments: Vec<(Expression, usize)> = arguments.iter().map(|&a| self.signed(a)).collect();
                 let size = arguments.iter().map(|a| a.1).sum();
@@ -384,6 +410,40 @@ impl<'a> Scheduler<'a> {
         self.program.statements.push(Statement::SinCos(vec![sine]));
         self.angles.insert(angle, locals);
         locals
+    }
+
+    fn is_sloped(&self, call: Call, arguments: &[Id]) -> bool {
+        call.external().is_some_and(|function| self.sloped.contains_key(&(function, prints(self.dag, arguments))))
+    }
+
+    /// The local of a value or slope; the call is written when the first of them is asked for.
+    fn called(&mut self, call: Call, arguments: &[Id]) -> Local {
+        let function = call.external().or_fault("only functions of the user's own have slopes that are read");
+        let key = (function, prints(self.dag, arguments));
+        let place = match call {
+            Call::ExternalSlope(_, argument) => 1 + argument,
+            _ => 0,
+        };
+        if let Some(known) = self.called.get(&key) {
+            return known[place];
+        }
+        let arguments: Vec<Expression> = arguments.iter().map(|&id| self.signed(id).0).collect();
+        let values: Vec<&Expression> = arguments.iter().collect();
+        let nodes = self.sloped[&key].clone();
+        let locals: Vec<Local> = nodes
+            .iter()
+            .enumerate()
+            .map(|(place, node)| {
+                let own = node.and_then(|id| self.dag.nodes[id].name.as_ref()).map(|name| name.of_sign(false));
+                let name =
+                    own.unwrap_or_else(|| if place == 0 { "called".to_owned() } else { format!("slope_{place}") });
+                self.local(&if node.is_some() { name } else { format!("_{name}") }, &values)
+            })
+            .collect();
+        let (value, slopes) = (locals[0], locals[1..].to_vec());
+        self.program.statements.push(Statement::Called { function, arguments, value, slopes });
+        self.called.insert(key, locals.clone());
+        locals[place]
     }
 
     /// An operand as it is written, without its sign.
@@ -537,6 +597,31 @@ impl Loop {
 
 fn of_kind(dag: &Dag, order: &[Id], f: impl Fn(&Kind) -> Option<Id>) -> HashSet<Id> {
     order.iter().filter_map(|&id| f(&dag.nodes[id].kind)).collect()
+}
+
+/// Calls of which slopes are read here, and not from fields.
+fn sloped(dag: &Dag, order: &[Id], fields: &Fields) -> HashMap<Sloped, Vec<Option<Id>>> {
+    let mut calls: HashMap<Sloped, Vec<Option<Id>>> = HashMap::new();
+    for &id in order {
+        let node = &dag.nodes[id];
+        let Kind::Call(call, arguments) = &node.kind else { continue };
+        let place = match call {
+            Call::External(_) => 0,
+            Call::ExternalSlope(_, argument) => 1 + argument,
+            _ => continue,
+        };
+        let is_stored = node.stage <= Stage::Parameter && fields.contains_key(&node.print.canonical());
+        if let (Some(function), false) = (call.external(), is_stored) {
+            let key = (function, prints(dag, arguments));
+            calls.entry(key).or_insert_with(|| vec![None; 1 + arguments.len()])[place] = Some(id);
+        }
+    }
+    calls.retain(|_, nodes| nodes[1..].iter().any(Option::is_some));
+    calls
+}
+
+fn prints(dag: &Dag, list: &[Id]) -> Vec<Print> {
+    list.iter().map(|&id| dag.nodes[id].print).collect()
 }
 
 pub(super) fn negated(expression: Expression) -> Expression {

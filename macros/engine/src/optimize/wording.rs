@@ -260,6 +260,8 @@ impl<'a> Wording<'a> {
             Call::Or => two("or", Level::Or),
             Call::Max => two("at_least", Level::Sum),
             Call::Min => two("up_to", Level::Sum),
+            // Its name is the user's, and given where it is called.
+            _ if call.external().is_some() => None,
             Call::Atan2 => Some(format!("angle_of_{}", two("and", Level::Product)?)),
             _ => {
                 let [argument] = arguments else { return None };

@@ -3,7 +3,9 @@
 //! In: scalars or vectors, symbols. Out: yes or no. A value in which a symbol cancels was found out when its node was made, so what is
 //! reachable is what matters.
 
-use super::graph::{AnyNode, Graph, Scalar, Vector};
+use crate::contracts::call::{Call, ExternalId};
+
+use super::graph::{AnyNode, Graph, Scalar, ScalarNode, Vector};
 
 impl Graph {
     /// Whether a scalar depends on any of these symbols.
@@ -30,5 +32,28 @@ impl Graph {
             }
         }
         read
+    }
+
+    /// A function of the user's own Rust of which one of these scalars needs slopes of slopes.
+    pub fn curvature(&self, roots: &[Scalar]) -> Option<ExternalId> {
+        self.first_call(roots, |call| match call {
+            Call::ExternalCurvature(function) => Some(function),
+            _ => None,
+        })
+    }
+
+    /// A function of the user's own Rust that one of these scalars calls, or takes a slope of.
+    pub fn external(&self, roots: &[Scalar]) -> Option<ExternalId> {
+        self.first_call(roots, Call::external)
+    }
+
+    fn first_call(&self, roots: &[Scalar], find: impl Fn(Call) -> Option<ExternalId>) -> Option<ExternalId> {
+        self.reachable(roots).into_iter().find_map(|node| match node {
+            AnyNode::Scalar(index) => match self.node(self.scalar_at(index)) {
+                ScalarNode::Call(call, _) => find(*call),
+                _ => None,
+            },
+            _ => None,
+        })
     }
 }

@@ -238,6 +238,23 @@ impl Differentiator {
                 self.choose(g, first, self.of(a), self.of(b))
             }
             (Call::Select, &[mask, a, b]) => self.choose_defined(g, mask, [a, b]),
+            (Call::External(function), _) => {
+                let moving = x.iter().enumerate().filter(|(_, x)| self.of(**x) != Scalar::ZERO);
+                let changes = moving.map(|(k, &argument)| {
+                    let slope = g.call(Call::ExternalSlope(function, k), x);
+                    if let Some(name) = g.name_of(s).map(|name| name.text.clone()) {
+                        g.label(slope, || format!("{name}_slope_{k}"));
+                    }
+                    g.mul(slope, self.of(argument))
+                });
+                let changes: Vec<Scalar> = changes.collect();
+                g.sum(&changes)
+            }
+            (Call::ExternalSlope(function, _) | Call::ExternalCurvature(function), _) => {
+                let changes = x.iter().map(|&x| self.of(x));
+                let operands: Vec<Scalar> = std::iter::once(s).chain(changes).collect();
+                g.call(Call::ExternalCurvature(function), &operands)
+            }
             (call, &[x]) => {
                 let slope = slope(g, s, call, x);
                 g.mul(slope, self.of(x))
@@ -399,6 +416,9 @@ fn slope(g: &mut Graph, s: Scalar, call: Call, x: Scalar) -> Scalar {
             raise("a function with a rule of its own is derived by it")
         }
         Call::Epsilon | Call::Nan => raise("a function of one argument is derived"),
+        Call::External(_) | Call::ExternalSlope(..) | Call::ExternalCurvature(_) => {
+            raise("a function with a rule of its own is derived by it")
+        }
     }
 }
 

@@ -196,7 +196,7 @@ pub(super) fn call(call: Call, arguments: &[Number]) -> Option<Number> {
     };
     let noise = arguments.iter().map(|n| n.noise()).sum::<f64>() + ROUNDING * (d.high.abs() + y.high.abs());
     let noise = slope * noise + 32.0 * ROUNDING * value.high.abs();
-    (value.is_finite() && noise.is_finite()).then(|| Number::opaque(value, noise, 0xCA_0000 + call as u64, arguments))
+    (value.is_finite() && noise.is_finite()).then(|| Number::opaque(value, noise, 0xCA_0000 + call.tag(), arguments))
 }
 
 fn exact(call: Call, arguments: &[Number]) -> Option<Number> {

@@ -9,6 +9,8 @@ use std::collections::HashMap;
 use crate::contracts::call::Call;
 use crate::invariant::fault::OrFault;
 
+use super::doubled::Doubled;
+use super::external;
 use super::graph::{
     AnyNode, BlockId, BlockKind, Graph, Rotation, RotationNode, Scalar, ScalarNode, SymbolId, Vector, VectorNode,
 };
@@ -405,7 +407,10 @@ pub fn call_f64(call: Call, x: &[f64]) -> f64 {
                 *b
             }
         }
-        _ => f64::NAN,
+        (call, x) => {
+            let x: Vec<Doubled> = x.iter().map(|&x| Doubled::new(x)).collect();
+            external::value(call, &x).map_or(f64::NAN, Doubled::value)
+        }
     }
 }
 

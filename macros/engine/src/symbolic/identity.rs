@@ -188,7 +188,7 @@ impl Modular<'_> {
     }
 
     fn opaque(&self, call: Call, arguments: &[u64]) -> u64 {
-        let fold = arguments.iter().fold(mix(self.draw.seed ^ mix(call as u64)), |h, &x| mix(h ^ x));
+        let fold = arguments.iter().fold(mix(self.draw.seed ^ mix(call.tag())), |h, &x| mix(h ^ x));
         field::reduce(fold)
     }
 }

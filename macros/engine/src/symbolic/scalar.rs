@@ -367,7 +367,7 @@ impl Graph {
             return folded.flip_if(sign);
         }
         let prints: Vec<Print> = arguments.iter().map(|&a| self.print(a)).collect();
-        let print = Print::opaque(0xCA_0000 + call as u64, &prints);
+        let print = Print::opaque(0xCA_0000 + call.tag(), &prints);
         let found = match self.find(print) {
             Some(found) => found,
             None => self.insert_scalar(ScalarNode::Call(call, arguments.into()), print),
@@ -377,7 +377,7 @@ impl Graph {
 
     /// A function of literals is a literal; a choice by a condition of literals is made.
     fn fold_call(&mut self, call: Call, arguments: &[Scalar]) -> Option<Scalar> {
-        if matches!(call, Call::Epsilon | Call::Nan) {
+        if matches!(call, Call::Epsilon | Call::Nan) || call.external().is_some() {
             return None;
         }
         if let (Call::Select, &[mask, a, b]) = (call, arguments) {

@@ -12,6 +12,7 @@ use proc_macro2::{Delimiter, Ident, Literal, TokenTree};
 use quote::quote;
 use syn::Visibility;
 
+use super::externals;
 use super::imports::{Bundle, VERSION};
 use super::tree::{Export, ItemKind, Module};
 
@@ -45,7 +46,7 @@ pub(super) fn of(modules: &[Module], bundles: &[Bundle]) -> Vec<Export> {
             None => {
                 let bundles = bundles.iter().filter(|bundle| words.contains(&bundle.local.to_string()));
                 let bundles = bundles.map(|bundle| &bundle.tokens);
-                let modules = needed.iter().map(|index| &modules[*index].tokens);
+                let modules = needed.iter().map(|index| externals::from_elsewhere(&modules[*index]));
                 quote!(#version #name #(#bundles)* #(#modules)*)
             }
         };

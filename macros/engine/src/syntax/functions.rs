@@ -15,7 +15,10 @@ const FORM: &str = "write `let name(x, y) = value;`";
 
 /// What stands behind `let name`.
 pub(super) fn function(name: Ident, head: &Group, cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Function {
-    let read = cursor.enter(head, diagnostics).and_then(|mut inner| parameters(&name, &mut inner, diagnostics));
+    let read = cursor.enter(head, diagnostics).and_then(|mut inner| {
+        let empty = format!("without any it is a value: `let {name} = value;`");
+        parameters(&mut inner, &empty, FORM, diagnostics)
+    });
     if cursor.take("=").is_none() {
         // A head with mistakes has been reported; what comes behind it may belong to the same mistake.
         if read.is_ok() {
@@ -32,18 +35,22 @@ pub(super) fn function(name: Ident, head: &Group, cursor: &mut Cursor, diagnosti
     }
 }
 
-/// `x, y`
-fn parameters(function: &Ident, inner: &mut Cursor, diagnostics: &mut Diagnostics) -> Read<Vec<Ident>> {
+/// `x, y`; `empty` is what helps where there are none, `form` where something else stands.
+pub(super) fn parameters(
+    inner: &mut Cursor,
+    empty: &str,
+    form: &str,
+    diagnostics: &mut Diagnostics,
+) -> Read<Vec<Ident>> {
     if inner.at_end() {
-        let help = format!("without any it is a value: `let {function} = value;`");
-        diagnostics.error_help(inner.last_span(), "a function has arguments", help);
+        diagnostics.error_help(inner.last_span(), "a function has arguments", empty);
         return Err(Reported);
     }
     let mut parameters = Vec::new();
     while !inner.at_end() {
         let Some(name) = inner.ident(0).filter(|name| is_name(name)).cloned() else {
             let message = format!("expected the name of an argument, found {}", inner.found());
-            diagnostics.error_help(inner.span(), message, FORM);
+            diagnostics.error_help(inner.span(), message, form);
             return Err(Reported);
         };
         inner.bump();
@@ -55,7 +62,7 @@ fn parameters(function: &Ident, inner: &mut Cursor, diagnostics: &mut Diagnostic
         }
         if inner.take(",").is_none() && !inner.at_end() {
             let message = format!("expected `,` or `)`, found {}", inner.found());
-            diagnostics.error_help(inner.span(), message, FORM);
+            diagnostics.error_help(inner.span(), message, form);
             return Err(Reported);
         }
     }

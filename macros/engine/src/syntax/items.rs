@@ -10,6 +10,7 @@ use super::attributes::{outer, visibility};
 use super::blocks;
 use super::cursor::{Cursor, Reported};
 use super::expressions::{expression, is_name};
+use super::externals::external;
 use super::fields::{between, fields};
 use super::functions::function;
 use super::keywords::Keyword;
@@ -117,6 +118,7 @@ fn item(keyword: Keyword, cursor: &mut Cursor, diagnostics: &mut Diagnostics) ->
         Keyword::Param => value(keyword, cursor, diagnostics).map(ItemKind::Param),
         Keyword::Input => value(keyword, cursor, diagnostics).map(ItemKind::Input),
         Keyword::Let => binding(cursor, diagnostics),
+        Keyword::Extern => external(cursor, diagnostics).map(ItemKind::External),
         Keyword::Output => value(keyword, cursor, diagnostics).map(ItemKind::Output),
         Keyword::State => state(cursor, diagnostics),
         Keyword::Port => port(cursor, diagnostics),

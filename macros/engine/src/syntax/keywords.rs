@@ -45,6 +45,8 @@ keywords! {
     Input "input" "input name: Scalar;",
     /// A named expression.
     Let "let" "let name = value;",
+    /// A function of the user's own Rust.
+    Extern "extern" "extern name(x, y) = crate::path::Type;",
     /// What surrounds the mechanism.
     World "world" "world { gravity: -9.81 * Z }",
     /// How equations are set up.

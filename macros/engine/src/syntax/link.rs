@@ -1,12 +1,14 @@
 //! Stage `syntax`: one list of modules from those of a call and of the parts that it uses.
 //!
 //! In: the call's own modules, and bundles, in each of which names mean what they meant in its own call. Out: all modules with
-//! names of their own. Names of parts are replaced by them; what is the same part, reached by two ways, is one module.
+//! names of their own. Names of parts are replaced by them; what is the same part, reached by two ways, is one module, but for parts that
+//! call functions of their own crate: of these no text says whether they are the same.
 
 use std::collections::{BTreeSet, HashMap};
 
 use proc_macro2::Ident;
 
+use super::externals;
 use super::imports::Bundle;
 use super::text;
 use super::tree::{Home, ItemKind, Module, Source};
@@ -114,7 +116,9 @@ impl Linker {
             (kind, means)
         });
         let identity = Identity { text: text(module.tokens.clone()), parts: parts.collect() };
-        if let Some(&known) = self.known.get(&identity) {
+        // Two crates may have one text, and functions of their own for it.
+        let is_told = !externals::names_its_crate(&module);
+        if let Some(&known) = self.known.get(&identity).filter(|_| is_told) {
             let known = &mut self.modules[known];
             if wanted.is_some() {
                 known.home = Home::Used;

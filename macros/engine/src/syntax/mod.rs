@@ -9,11 +9,12 @@
 //! call        = ("#![krate(" "::" path ")]")? use* module*
 //! use         = "use" PATH ("as" NAME)? ";", with braces as in Rust
 //! module      = attribute* visibility? "mod" NAME "{" item* "}"
-//! item        = attribute* (value | function | state | port | world | formulation | body | joint | force | constraint
+//! item        = attribute* (value | function | extern | state | port | world | formulation | body | joint | force | constraint
 //!             | drive | solve | assume | part | emit)
 //! value       = ("const" | "param" | "let" | "output") NAME (":" type)? "=" expr ";"
 //!             | "input" NAME (":" type)? ";"
 //! function    = "let" NAME "(" NAME,* ")" "=" expr ";"
+//! extern      = "extern" NAME "(" NAME,* ")" "=" PATH ";"
 //! state       = "state" NAME ":" "rate" "=" expr ("," "start" ":" expr)? ","? ";"
 //! port        = "port" NAME ":" NAME ";"
 //! world       = "world" fields
@@ -44,6 +45,7 @@ mod build;
 mod cursor;
 mod exports;
 mod expressions;
+mod externals;
 mod fields;
 mod functions;
 mod hints;

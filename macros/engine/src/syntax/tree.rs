@@ -50,6 +50,17 @@ pub struct Source {
     pub pending: Option<Pending>,
 }
 
+impl Source {
+    /// Functions of the user's own Rust, of all modules in their order.
+    pub fn externals(&self) -> impl Iterator<Item = &External> {
+        let items = self.modules.iter().flat_map(|module| &module.items);
+        items.filter_map(|item| match &item.kind {
+            ItemKind::External(function) => Some(function),
+            _ => None,
+        })
+    }
+}
+
 /// A part of this call, as tokens that another call reads.
 pub struct Export {
     /// Its place in [`Source::modules`].
@@ -137,6 +148,8 @@ pub enum ItemKind {
     Let(Value),
     /// `let name(x, y) = value;`
     Function(Function),
+    /// `extern name(x, y) = crate::path::Type;`
+    External(External),
     /// `output name: Ty = value;`
     Output(Value),
     /// `state name: rate = value, start: value;`
@@ -255,6 +268,16 @@ pub struct Function {
     pub parameters: Vec<Ident>,
     /// After the `=`.
     pub value: Expr,
+}
+
+/// `name(x, y) = path`, a function of the user's own Rust.
+pub struct External {
+    /// After the keyword.
+    pub name: Ident,
+    /// Between the parentheses: at least one, unless the item was reported and its path is empty.
+    pub parameters: Vec<Ident>,
+    /// After the `=`: of a type, as written.
+    pub path: TokenStream,
 }
 
 /// `{ name: value, .. }`

@@ -5,6 +5,7 @@
 use crate::contracts::call::Call;
 use crate::symbolic::doubled::Doubled;
 use crate::symbolic::evaluate::call_f64;
+use crate::symbolic::external;
 use crate::symbolic::number::Number;
 
 /// What evaluation asks of a number.
@@ -139,10 +140,10 @@ impl Arithmetic for Doubled {
             (Call::Or, [a, b]) => mask(is(a) || is(b)),
             (Call::Not, [a]) => mask(!is(a)),
             (Call::Select, [m, a, b]) => *if is(m) { a } else { b },
-            _ => {
+            _ => external::value(call, x).unwrap_or_else(|| {
                 let highs: Vec<f64> = x.iter().map(|x| x.high).collect();
                 Doubled::new(call_f64(call, &highs))
-            }
+            }),
         }
     }
 }

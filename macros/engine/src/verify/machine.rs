@@ -66,6 +66,14 @@ impl Machine<'_> {
                     self.set(sine.cos, c);
                 }
             }
+            Statement::Called { function, arguments, value, slopes } => {
+                let arguments = self.values(arguments);
+                let slope = |(argument, &local)| (local, Call::ExternalSlope(*function, argument));
+                let calls = slopes.iter().enumerate().map(slope);
+                for (local, call) in std::iter::once((*value, Call::External(*function))).chain(calls) {
+                    self.set(local, call_f64(call, &arguments));
+                }
+            }
             Statement::Pack { local, value } => {
                 let members = self.members(value);
                 self.packs.insert(*local, members);

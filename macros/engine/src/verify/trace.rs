@@ -8,6 +8,7 @@
 use crate::contracts::call::Call;
 use crate::invariant::fault::OrFault;
 use crate::symbolic::doubled::Doubled;
+use crate::symbolic::external;
 use crate::symbolic::graph::SymbolId;
 
 use super::arithmetic::{Arithmetic, slopes};
@@ -300,6 +301,14 @@ impl<'t, T: Arithmetic> Trace<'t, T> {
                 let square = x.mul(*x).add(y.mul(*y)).reciprocal();
                 add(operands[0], slope.mul(x.mul(square)));
                 add(operands[1], slope.mul(y.mul(square)).neg());
+            }
+            _ if call.external().is_some() => {
+                let digits: Vec<Doubled> = values.iter().map(|x| x.digits()).collect();
+                let slopes =
+                    external::slopes(call, &digits).or_fault("slopes of slopes are refused before numbers are");
+                for (&edge, partial) in operands.iter().zip(slopes) {
+                    add(edge, slope.mul(A::doubled(partial)));
+                }
             }
             _ => {
                 let highs: Vec<f64> = values.iter().map(|x| x.high()).collect();

@@ -45,6 +45,13 @@ impl Machine<'_> {
                     self.set(sine.cos, angle.cos());
                 }
             }
+            Statement::Called { function, arguments, value, slopes } => {
+                let arguments: Vec<f64> = arguments.iter().map(|argument| self.value(argument)).collect();
+                self.set(*value, call_f64(Call::External(*function), &arguments));
+                for (k, &slope) in slopes.iter().enumerate() {
+                    self.set(slope, call_f64(Call::ExternalSlope(*function, k), &arguments));
+                }
+            }
             Statement::Pack { local, value } => self.packs[local.0] = Some(self.members(value)),
             Statement::PackSines(sine) => {
                 let angles = self.members(&sine.angle);

@@ -23,6 +23,7 @@ const LANGUAGE: &[&str] = &[
     "param",
     "input",
     "let",
+    "extern",
     "output",
     "state",
     "port",
@@ -126,7 +127,12 @@ fn every_word_that_stands_for_something_leads_there() {
         // Of two models of one name, between which `cfg` chooses, the first is there.
         let models: BTreeSet<String> = source.modules.iter().map(|module| module.name.to_string()).collect();
         let runtime = source.krate.iter().flat_map(|path| &path.segments).map(|segment| segment.ident.to_string());
-        let runtime: BTreeSet<String> = runtime.collect();
+        // Paths of functions of Rust are followed as Rust, and names of their arguments stand for nothing.
+        let of_rust = source.externals().flat_map(|function| {
+            let path = function.path.clone().into_iter().map(|token| token.to_string());
+            function.parameters.iter().map(ToString::to_string).chain(path)
+        });
+        let runtime: BTreeSet<String> = runtime.chain(of_rust).collect();
         let mut strange = BTreeSet::new();
         each_word(call, &mut |word, called, member| {
             let span = word.span();

@@ -62,6 +62,7 @@ pub fn empty(module: &str) -> Model {
         krate: parse_quote!(::multibody),
         fused: false,
         serialised: false,
+        externals: std::rc::Rc::default(),
         part_types: IndexVec::new(),
         instances: IndexVec::from(vec![Instance {
             parent: None,

@@ -34,6 +34,7 @@ mod poses;
 mod random_loops;
 mod random_outputs;
 mod ranks;
+mod rates;
 mod reactions;
 mod scaling;
 mod several_closings;

@@ -186,6 +186,38 @@ fn formulas_of_formulas() {
     );
 }
 
+/// What another model says may follow from functions of Rust, though the question names none: no drive or constraint may rest on it.
+#[test]
+fn formulas_that_call_functions_of_rust_decide_nothing() {
+    let call = |items: &str| {
+        format!(
+            "mod leg {{
+                extern f(x) = crate::F;
+                body tip {{ mass: 1.0, com: -Y }}
+                joint turn: Revolute {{ parent: ground, child: tip, axis: Z }}
+                force spring: Spring {{ joint: turn, stiffness: 2.0 + f(0.2) }}
+             }}
+             mod m {{ body b {{ mass: 1.0 }} joint j: Prismatic {{ parent: ground, child: b, axis: X }} {items} }}"
+        )
+    };
+    let direct = "`f` is a function of Rust, whose values are not known while the model is checked";
+    let indirect = " | this calls `f`, a function of Rust, whose values are not known while the model is derived";
+    let is_said = |items: &str, what: &str| {
+        let said = said(&call(items));
+        assert!(said.len() == 1 && said[0].contains(what), "{items}: {said:?}");
+    };
+    for question in ["potential()", "diff(potential(), turn)"] {
+        is_said(&format!("drive j = leg({question}, turn = t);"), indirect);
+        is_said(&format!("constraint c = j - leg({question}, turn = 0.3);"), indirect);
+        is_said(&format!("let x = leg({question}, turn = 0.3); drive j = 2.0 * x;"), indirect);
+        assert_said(&call(&format!("force f: Effort {{ joint: j, value: leg({question}, turn = j) }}")), &[]);
+    }
+    is_said("drive j = leg(f(turn), turn = t);", direct);
+    assert_said(&call("output y = leg(f(turn) + diff(f(turn), turn), turn = j.rate);"), &[]);
+    assert_said(&call("drive j = leg(tip.position.x, turn = t);"), &[]);
+    is_said("output y = diff(leg(diff(f(turn), turn), turn = j), j);", "slopes of the slopes of `f`");
+}
+
 /// Loops that close for the declared parameters alone, and formulas of the user, which were tested with these.
 #[test]
 fn formulas_keep_what_loops_rest_on() {

@@ -199,3 +199,45 @@ fn parts_that_cannot_be_handed_on() {
     let expected = "leg | the part `leg` is written in version 99 of the language, this call in version 1 | let both crates depend on one version of multibody";
     assert_eq!(said, [expected]);
 }
+
+/// Functions of two crates may have one text, so parts that call those of their own crate are never taken for one.
+#[test]
+fn functions_of_a_crate_go_with_its_parts() {
+    let brake = |path: &str| {
+        format!(
+            "pub mod brake {{
+                extern friction(rate) = {path}::Pad;
+                port hinge: Joint;
+                force drag: Effort {{ joint: hinge, value: friction(hinge.rate) }}
+            }}"
+        )
+    };
+    let pair = "pub mod pair { port hinge: Joint; part inner: brake { hinge: hinge }; }";
+    let model = "mod m {
+        body a { mass: 1.0, inertia: sphere(1.0, 0.1) }
+        joint j: Revolute { parent: ground, child: a, axis: Z }
+        part first: one { hinge: j };
+        part second: other { hinge: j };
+    }";
+    let paths = |crate_path: &str| {
+        let mut shelf = Shelf::new();
+        shelve(&format!("{} {pair}", brake(crate_path)), &mut shelf);
+        let handed = shelf["brake"].to_string();
+        // What another crate has written in the same words.
+        shelf.insert("theirs".to_owned(), shelf["brake"].clone());
+        let (models, said) = checked(&format!("use a::brake as one; use b::theirs as other; {model}"), &shelf);
+        assert!(said.is_empty(), "{said:?}");
+        let functions: Vec<String> = models[0].externals.iter().map(|f| f.path.to_string().replace(' ', "")).collect();
+        let (nested, said) = checked(&format!("use a::brake as one; use b::pair as other; {model}"), &shelf);
+        assert!(said.is_empty(), "{said:?}");
+        (handed, functions, nested[0].externals.len())
+    };
+    let (handed, functions, nested) = paths("crate::brakes");
+    assert!(handed.contains("= $ crate") || handed.contains("= $crate"), "{handed}");
+    assert_eq!(functions, ["$crate::brakes::Pad"; 2]);
+    assert_eq!(nested, 2);
+    let (handed, functions, nested) = paths("::brakes");
+    assert!(!handed.contains('$'), "{handed}");
+    assert_eq!(functions, ["::brakes::Pad"], "a path from outside says all");
+    assert_eq!(nested, 1);
+}

@@ -155,6 +155,7 @@ impl Writer<'_> {
             ExprNode::Mul(a, b) => two("*", a, b),
             ExprNode::Div(a, b) => two("/", a, b),
             ExprNode::Call(f, list) => format!("{f:?}{}", self.list(list)),
+            ExprNode::External(f, list) => format!("extern{}{}", f.0, self.list(list)),
             ExprNode::Compare(c, a, b) => two(&format!("{c:?}"), a, b),
             ExprNode::And(a, b) => two("&&", a, b),
             ExprNode::Or(a, b) => two("||", a, b),

@@ -192,6 +192,7 @@ impl Reader<'_> {
                     }
                 }
                 Statement::Solve { .. }
+                | Statement::Called { .. }
                 | Statement::Pack { .. }
                 | Statement::PackSines(_)
                 | Statement::Members { .. } => self.results(program, statement),

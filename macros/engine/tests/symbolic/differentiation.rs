@@ -2,6 +2,7 @@
 
 use crate::rng::Rng;
 use multibody_engine::contracts::call::Call;
+use multibody_engine::model::types::ExternalId;
 use multibody_engine::symbolic::differentiate::Differentiator;
 use multibody_engine::symbolic::evaluate::{Evaluator, Field, Real, call_f64};
 use multibody_engine::symbolic::graph::{BlockKind, Graph, Rotation, Scalar, SymbolId, Vector};
@@ -395,4 +396,66 @@ fn blocks_that_move_in_all_operands() {
     let value = Evaluator::new(&g, Real { symbols: &symbols }).run(&[slope])[0];
     // (b / a)' = b' / a - b a' / a^2
     assert!((value - (1.0 / 3.0 - 5.0 / 9.0)).abs() < 1e-12, "{value}");
+}
+
+/// Functions of the user's own: the chain rule by their slopes, against differences of the values of what stands for them.
+#[test]
+fn functions_of_rust_follow_the_chain_rule() {
+    let mut g = Graph::new();
+    let x: Vec<Scalar> = (0..3).map(|_| g.symbol()).collect();
+    let (f, h) = (ExternalId(0), ExternalId(1));
+    let sine = g.sin(x[1]);
+    let product = g.mul(x[0], sine);
+    let inner = g.call(Call::External(h), &[product]);
+    // An argument that stands twice, one with a sign, one that is another call.
+    let value = g.call(Call::External(f), &[-x[0], inner, x[0], x[2]]);
+    let again = g.call(Call::External(f), &[-x[0], inner, x[0], x[2]]);
+    assert_eq!(value, again, "equal calls are one");
+    let other = g.call(Call::External(f), &[x[0], inner, -x[0], x[2]]);
+    assert_ne!(value, other);
+    assert_ne!(value, -other);
+    let root = g.mul(value, x[2]);
+    let slopes = g.gradient(root, &x);
+    let back = g.transpose_linear(&[(root, Scalar::ONE)], &x);
+    let at = |x: &[f64; 3], s: Scalar| {
+        let symbols = |id: SymbolId| x[id.0];
+        Evaluator::new(&g, Real { symbols: &symbols }).run(&[s])[0]
+    };
+    for place in [[0.3, -1.2, 0.7], [2.0, 0.4, -3.0]] {
+        for k in 0..3 {
+            let moved = |step: f64| {
+                let mut place = place;
+                place[k] += step;
+                at(&place, root)
+            };
+            let difference = (moved(1e-5) - moved(-1e-5)) / 2e-5;
+            assert!((at(&place, slopes[k]) - difference).abs() < 1e-8, "{k}: {difference}");
+            assert!((at(&place, back[k]) - difference).abs() < 1e-8, "{k}: {difference}");
+        }
+    }
+}
+
+/// Slopes of slopes are there as long as they cancel, and are told where they don't.
+#[test]
+fn slopes_of_slopes_of_functions_of_rust_are_told() {
+    let mut g = Graph::new();
+    let (x, y) = (g.symbol(), g.symbol());
+    let f = g.call(Call::External(ExternalId(3)), &[x, y]);
+    let slope = g.derivative(f, &[(x, Scalar::ONE)]);
+    assert_eq!(g.curvature(&[f, slope]), None);
+    let product = g.mul(slope, y);
+    assert_eq!(g.derivative(product, &[(x, Scalar::ZERO)]), Scalar::ZERO);
+    let twice = g.derivative(product, &[(y, Scalar::ONE)]);
+    assert_eq!(g.curvature(&[twice]), Some(ExternalId(3)));
+    let mixed = [g.derivative(slope, &[(x, Scalar::ONE)]), g.derivative(slope, &[(y, Scalar::ONE)])];
+    let difference = g.sub(mixed[0], mixed[1]);
+    assert_ne!(difference, Scalar::ZERO, "one slope of a slope is not another");
+    let third = g.derivative(mixed[0], &[(x, Scalar::ONE)]);
+    assert_eq!(g.curvature(&[third]), Some(ExternalId(3)));
+    let same = g.derivative(slope, &[(x, Scalar::ONE)]);
+    assert_eq!(g.sub(mixed[0], same), Scalar::ZERO);
+    // No literal makes a number of it.
+    let two = g.integer(2);
+    let of_literals = g.call(Call::External(ExternalId(3)), &[two, two]);
+    assert_eq!(g.literal(of_literals), None);
 }

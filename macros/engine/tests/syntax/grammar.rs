@@ -37,6 +37,10 @@ fn line(item: &Item) -> String {
             let parameters: Vec<String> = f.parameters.iter().map(ToString::to_string).collect();
             format!("let {}({}) {}", f.name, parameters.join(","), text(&f.value))
         }
+        ItemKind::External(f) => {
+            let parameters: Vec<String> = f.parameters.iter().map(ToString::to_string).collect();
+            format!("extern {}({}) {}", f.name, parameters.join(","), text(&f.path))
+        }
         ItemKind::Output(v) => value("output", v),
         ItemKind::State { name, rate, start } => {
             format!("state {name} {} {}", text(rate), text(start))
@@ -110,6 +114,12 @@ fn double_pendulum() {
     let expected: Vec<&str> = expected.lines().map(str::trim).collect();
     let plain: Vec<String> = lines.iter().map(|line| line.replace("doc=\"", "doc=r\"")).collect();
     assert_eq!(plain, expected);
+}
+
+#[test]
+fn functions_of_rust() {
+    let expected = ["extern f(x,y) crate::a::B", "extern g(x) ::c::D<3>", "extern h(x) $crate::E"];
+    assert_eq!(lines("extern f(x, y) = crate::a::B; extern g(x,) = ::c::D<3>; extern h(x) = $crate::E;"), expected);
 }
 
 #[test]

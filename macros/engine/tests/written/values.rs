@@ -23,6 +23,7 @@ pub(crate) fn value(formula: &Formula, known: &Known) -> f64 {
         Formula::Root(x) => of(x).sqrt(),
         Formula::Absolute(x) => of(x).abs(),
         Formula::Apply(function, list) => applied(*function, &list.iter().map(of).collect::<Vec<_>>()),
+        Formula::Called(..) => unreachable!("no model here calls functions of Rust"),
         Formula::Related(..) | Formula::Not(_) => f64::from(u8::from(truth(formula, known))),
         Formula::Cases(parts) => of(&parts[if truth(&parts[0], known) { 1 } else { 2 }]),
     }

@@ -5,10 +5,12 @@
 
 use std::collections::HashMap;
 
+use crate::contracts::call::Call;
 use crate::contracts::symbol::Symbol;
 use crate::emit::layout::Layout;
 use crate::emit::print::expressions::function;
 use crate::emit::print::literals;
+use crate::model::types::External;
 use crate::optimize::program::{Expression, Local, Program, Statement};
 
 /// Characters of a line.
@@ -100,7 +102,10 @@ impl Writer<'_> {
             Expression::Call(call, arguments) => {
                 let arguments: Option<Vec<String>> =
                     arguments.iter().map(|argument| Some(self.write(argument, depth, left)?.0)).collect();
-                let name = function(*call).map_or_else(|| format!("{call:?}").to_lowercase(), str::to_string);
+                let name = match call.external() {
+                    Some(id) => external(&self.layout.model.externals[id], *call),
+                    None => function(*call).map_or_else(|| format!("{call:?}").to_lowercase(), str::to_string),
+                };
                 (format!("{name}({})", arguments?.join(", ")), Level::Atom)
             }
         })
@@ -199,6 +204,14 @@ impl Fraction {
 }
 
 /// A simple fraction as such, a whole number without a point.
+/// As it is called, or `grip.slopes[1]`.
+fn external(function: &External, call: Call) -> String {
+    match call {
+        Call::ExternalSlope(_, argument) => format!("{}.slopes[{argument}]", function.name),
+        _ => function.name.to_string(),
+    }
+}
+
 fn literal(value: f64) -> (String, Level) {
     let whole = |x: f64| x == x.trunc() && x.abs() < 1e9;
     let text = literals::text(value);

@@ -73,6 +73,9 @@ impl Writer<'_> {
             ExprNode::Call(function, list) => {
                 format!("{}({})", format!("{function:?}").to_lowercase(), self.list(list))
             }
+            ExprNode::External(function, list) => {
+                format!("{}({})", model.externals[*function].name, self.list(list))
+            }
             ExprNode::Select(condition, a, b) => {
                 let list = [condition, a, b].map(|expr| self.write(expr, Level::Or));
                 format!("select({})", list.join(", "))

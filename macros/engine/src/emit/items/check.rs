@@ -138,7 +138,7 @@ fn lengths(layout: &Layout<'_>) -> Vec<(Expression, &'static str, String)> {
         ConstraintKind::Rod { length, .. } => {
             Some((adjustable(model, length)?, "not positive", layout.name(&constraint.place)))
         }
-        ConstraintKind::Value(_) => None,
+        ConstraintKind::Value(_) | ConstraintKind::Rate(_) => None,
     });
     let springs = model.forces.iter().filter_map(|force| match &force.kind {
         ForceKind::LineSpring { length: Some(length), .. } => {

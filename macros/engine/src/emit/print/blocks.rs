@@ -287,6 +287,18 @@ impl<'a> Blocks<'a> {
                 quote!(let [#(#names),*] = T::members(#pack);)
             }
             Statement::SinCos(_) => self.sines(&live.sines),
+            Statement::Called { function, arguments, value, slopes } => {
+                let call = self.names.external(*function);
+                let arguments = arguments.iter().map(|argument| leaf::element(self.names.expression(argument)));
+                let slopes = slopes.iter().map(|&local| self.name(local));
+                match self.last_use(*value) {
+                    Some(_) => {
+                        let value = self.name(*value);
+                        quote!(let (#value, [#(#slopes),*]) = #call::value_and_slopes([#(#arguments),*]);)
+                    }
+                    None => quote!(let [#(#slopes),*] = #call::slopes([#(#arguments),*]);),
+                }
+            }
             Statement::Solve { size, symmetric, groups, matrix, rhs, measures, results } => {
                 let sides = [&rhs[..], &measures[..]];
                 self.solve(*size, (*symmetric, groups), matrix, sides, results)

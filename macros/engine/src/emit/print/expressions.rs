@@ -4,14 +4,16 @@
 //! operations is the program's own, to the last bit. Signs move to where they read well, which rounds nothing:
 //! `-a + b` is written `b - a`, and `a + (-2 b)` is `a - 2 b`.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use crate::contracts::call::Call;
 use crate::emit::layout::Layout;
 use crate::emit::layout::leaf;
 use crate::emit::names;
+use crate::invariant::fault::raise;
 use crate::invariant::injection::{Break, broken};
+use crate::model::types::{External, ExternalId};
 use crate::optimize::program::{Expression, FieldId};
 
 use super::literals;
@@ -149,6 +151,13 @@ impl Names<'_> {
             let write = move |a: &Expression| self.write(a, is_negative(a), least);
             arguments.iter().map(write)
         };
+        if let Some(function) = call.external() {
+            let (function, arguments) = (self.external(function), each(Level::Or).map(leaf::element));
+            return match call {
+                Call::ExternalSlope(..) => raise("slopes are taken together"),
+                _ => quote!(#function::value([#(#arguments),*])),
+            };
+        }
         if call == Call::Epsilon {
             return quote!(<T as Real>::epsilon());
         }
@@ -177,6 +186,14 @@ impl Names<'_> {
             }
         }
     }
+
+    /// `<crate::Tyre as ::multibody::Function<T, 2>>`, the type at the user's own token, where rustc says what it lacks.
+    pub(in crate::emit) fn external(&self, id: ExternalId) -> TokenStream {
+        let model = self.layout.model;
+        let (krate, External { path, arguments, .. }) = (&model.krate, &model.externals[id]);
+        let count = Literal::usize_unsuffixed(arguments.len());
+        quote!(<#path as #krate::Function<T, #count>>)
+    }
 }
 
 /// The function of `Real`; operators have none.
@@ -203,6 +220,7 @@ pub(in crate::emit) fn function(call: Call) -> Option<&'static str> {
         Call::Equal => "eq",
         Call::Select => "select",
         Call::And | Call::Or | Call::Not | Call::Epsilon | Call::Nan => return None,
+        Call::External(_) | Call::ExternalSlope(..) | Call::ExternalCurvature(_) => return None,
     })
 }
 

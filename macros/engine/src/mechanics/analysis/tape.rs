@@ -373,6 +373,8 @@ fn call_slope(call: Call, x: &[f64; 3], k: usize, y: f64) -> f64 {
         Call::Min => mask((x[0] < x[1]) == (k == 0)),
         Call::Max => mask((x[0] > x[1]) == (k == 0)),
         Call::Select if k > 0 => mask((x[0] != 0.0) == (k == 1)),
+        // None decides a position.
+        Call::External(_) | Call::ExternalSlope(..) | Call::ExternalCurvature(_) => f64::NAN,
         Call::Epsilon
         | Call::Nan
         | Call::Signum

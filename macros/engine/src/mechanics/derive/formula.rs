@@ -12,7 +12,7 @@ use crate::mechanics::analysis::{Complaint, analyse};
 use crate::mechanics::loops::structure::Structure;
 use crate::mechanics::translate::{formulas, manipulations};
 use crate::model::site::Sited;
-use crate::model::types::Formula;
+use crate::model::types::{ExternalId, Formula};
 use crate::symbolic::graph::{Graph, Scalar, SymbolId};
 
 use super::Deriving;
@@ -25,6 +25,8 @@ pub(in crate::mechanics) struct Solved {
     /// What they read.
     pub reads: Vec<(SymbolId, Symbol)>,
     pub structure: Structure,
+    /// A function of the user's own Rust that it calls, itself or by what it is made of.
+    pub calls: Option<ExternalId>,
 }
 
 /// Why there is none.
@@ -59,7 +61,10 @@ fn solve(formula: &Formula) -> Result<Solved, Unsolved> {
         e.value(of).flatten(&mut e.g, &mut scalars);
         Ok(Results::vector(e.finish(&reduction, &scalars)))
     });
-    let found = found.map_err(|_| Unsolved::Elsewhere)?;
+    let found = found.map_err(|complaints| match complaints.into_iter().next() {
+        Some(complaint) if deriving.curved => Unsolved::Here(Complaint { at: formula.site(), ..complaint }),
+        _ => Unsolved::Elsewhere,
+    })?;
     let (_, results) = found.into_iter().next().or_fault("there is a way to each formula");
     let scalars = results.list;
     let Some(read) = deriving.graph.formula_symbols(&scalars) else {
@@ -68,5 +73,6 @@ fn solve(formula: &Formula) -> Result<Solved, Unsolved> {
         return Err(Unsolved::Here(Complaint { at: formula.site(), message, help }));
     };
     let reads = read.into_iter().map(|id| (id, deriving.symbols.table[id.0])).collect();
-    Ok(Solved { graph: deriving.graph, scalars, reads, structure })
+    let calls = deriving.graph.external(&scalars);
+    Ok(Solved { graph: deriving.graph, scalars, reads, structure, calls })
 }

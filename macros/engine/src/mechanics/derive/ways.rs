@@ -15,6 +15,7 @@ use crate::mechanics::loops::constraints;
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::scene::{Choices, Method, Scene};
 use crate::mechanics::translate::symbols::Symbols;
+use crate::model::site::Sited;
 use crate::model::types::JointId;
 use crate::symbolic::graph::{Graph, Rotation, Scalar};
 use crate::symbolic::lower::Lowering;
@@ -220,10 +221,27 @@ impl<'m> Deriving<'m> {
         self.decided = equations.decided;
         self.pivoted.extend(self.decided.pivoted.take());
         let results = results?;
+        self.check_slopes(&results.list)?;
         // What a way has left unreplaced has no place in the generated structs.
         if unfinished(&self.graph, &results.list) {
             raise("a way leaves no coordinate that is not in the state");
         }
         Ok(exists.then_some((name, results)))
+    }
+
+    /// Functions of Rust give slopes, and no slopes of these.
+    fn check_slopes(&mut self, results: &[Scalar]) -> Result<(), Vec<Complaint>> {
+        if self.model.externals.is_empty() {
+            return Ok(());
+        }
+        let Some(function) = self.graph.curvature(results) else { return Ok(()) };
+        self.curved = true;
+        let name = &self.model.externals[function].name;
+        let asked = self.request.and_then(|request| self.model.asked_at(request));
+        Err(vec![Complaint {
+            at: asked.unwrap_or_else(|| self.model.site()),
+            message: format!("this takes slopes of the slopes of `{name}`, which a function of Rust doesn't give"),
+            help: Some(format!("leave out the `diff` of what `{name}` gives, or let another function of Rust give it")),
+        }])
     }
 }

@@ -92,7 +92,7 @@ fn quantities(model: &Model) -> Vec<Quantity<'_>> {
                 list.extend(between.iter().map(Quantity::Frame));
                 list.push(Quantity::Scalar(length));
             }
-            ConstraintKind::Value(_) => {}
+            ConstraintKind::Value(_) | ConstraintKind::Rate(_) => {}
         }
     }
     for force in &model.forces {

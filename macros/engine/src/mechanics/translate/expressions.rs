@@ -90,7 +90,10 @@ impl Equations<'_> {
             &ExprNode::Coordinate { joint, index, order } => {
                 Value::Scalar(self.coordinate(Coordinate { joint, index }, order))
             }
-            &ExprNode::RelativeAngularVelocity(joint) => Value::Vector(self.relative_angular_velocity(joint)),
+            &ExprNode::RelativeAngularVelocity(joint) => Value::Vector(match self.stands_apart() {
+                true => self.read_relative_angular_velocity(joint),
+                false => self.relative_angular_velocity(joint),
+            }),
             &ExprNode::Effort { joint, index } => {
                 let coordinate = Coordinate { joint, index };
                 Value::Scalar(match self.scene.structure.role(coordinate) {
@@ -236,6 +239,12 @@ impl Equations<'_> {
             ExprNode::Call(function, arguments) => {
                 let arguments: Vec<Value> = arguments.iter().map(|e| self.known(e)).collect();
                 super::functions::call(&mut self.g, *function, &arguments)
+            }
+            ExprNode::External(function, arguments) => {
+                let arguments: Vec<Scalar> = arguments.iter().map(|e| self.known(e).scalar()).collect();
+                let value = self.g.call(Call::External(*function), &arguments);
+                let name = &self.scene.model.externals[*function].name;
+                Value::Scalar(self.g.label(value, || name.to_string().replace("r#", "")))
             }
             ExprNode::Compare(comparison, a, b) => {
                 let (a, b) = (self.known(a).scalar(), self.known(b).scalar());

@@ -55,7 +55,33 @@ impl Equations<'_> {
 
 /// What is wrong with formulas of other models, wherever they stand.
 pub(in crate::mechanics) fn complaints(model: &Model) -> Result<(), Vec<Complaint>> {
-    complaints_of(roots(model))
+    complaints_of(roots(model))?;
+    let complaints = calls_of_rust(model);
+    if complaints.is_empty() { Ok(()) } else { Err(complaints) }
+}
+
+/// Formulas that call functions of the user's own Rust, where they would have to be known while the model is derived. What such a
+/// formula says of itself is told by its class; that the forces of the other model call one, and it follows from them, is known here.
+fn calls_of_rust(model: &Model) -> Vec<Complaint> {
+    let (mut complaints, mut seen, mut stack) = (Vec::new(), HashSet::new(), deciding(model));
+    while let Some(expr) = stack.pop() {
+        if !seen.insert(Rc::as_ptr(&expr.node)) {
+            continue;
+        }
+        stack.extend(expr.node.operands());
+        let ExprNode::Formula { formula, .. } = &*expr.node else { continue };
+        let found = solved(formula);
+        let Some(function) = found.as_ref().as_ref().ok().and_then(|solved| solved.calls) else { continue };
+        complaints.push(Complaint {
+            at: expr.site(),
+            message: format!(
+                "this calls `{}`, a function of Rust, whose values are not known while the model is derived",
+                model.externals[function].name
+            ),
+            help: Some("it may stand in forces, states and outputs".to_owned()),
+        });
+    }
+    complaints
 }
 
 /// The same of some expressions.
@@ -194,7 +220,8 @@ fn variable(model: &Model, symbol: Symbol) -> Option<Variable> {
         | Symbol::Rate { .. }
         | Symbol::Guess { .. }
         | Symbol::Unknown { .. }
-        | Symbol::UnknownPoint { .. } => None,
+        | Symbol::UnknownPoint { .. }
+        | Symbol::Number { .. } => None,
     }
 }
 
@@ -226,7 +253,16 @@ fn place(ty: &Type, scalar: usize) -> String {
 fn roots(model: &Model) -> Vec<&Expr> {
     let mut roots: Vec<&Expr> = model.outputs.iter().map(|output| &output.value).collect();
     roots.extend(model.states.iter().map(|state| &state.rate));
-    roots.extend(model.drives.iter().map(|drive| &drive.value));
+    for force in &model.forces {
+        roots.extend(force.kind.values());
+    }
+    roots.extend(deciding(model));
+    roots
+}
+
+/// Those that decide where the mechanism is.
+fn deciding(model: &Model) -> Vec<&Expr> {
+    let mut roots: Vec<&Expr> = model.drives.iter().map(|drive| &drive.value).collect();
     roots.extend(&model.assumptions);
     for solve in &model.solves {
         match &solve.how {
@@ -235,11 +271,10 @@ fn roots(model: &Model) -> Vec<&Expr> {
     }
     for constraint in &model.constraints {
         match &constraint.kind {
-            ConstraintKind::Value(value) | ConstraintKind::Rod { length: value, .. } => roots.push(value),
+            ConstraintKind::Value(value) | ConstraintKind::Rate(value) | ConstraintKind::Rod { length: value, .. } => {
+                roots.push(value);
+            }
         }
-    }
-    for force in &model.forces {
-        roots.extend(force.kind.values());
     }
     if let Handling::Stabilised { rate, position } = &model.handling {
         roots.extend([rate, position]);

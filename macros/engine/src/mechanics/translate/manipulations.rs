@@ -11,9 +11,9 @@ use std::rc::Rc;
 use crate::invariant::fault::OrFault;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
-use crate::mechanics::loops::constraints::{coordinate_name, path, row_called, rows_of_joint};
+use crate::mechanics::loops::constraints::{coordinate_name, is_rate, path, row_called, rows_of_joint};
 use crate::mechanics::loops::reduction::Reduction;
-use crate::mechanics::loops::structure::{Means, Role, Structure};
+use crate::mechanics::loops::structure::{Means, Role, Row, Structure};
 use crate::model::site::Sited;
 use crate::model::types::{
     Coordinate, Expr, ExprNode, ForceKind, LoopClosure, Model, Order, SystemQuantity, TwoRoots, Variable,
@@ -318,6 +318,11 @@ fn no_row(
         message: format!("no equation of `{name}` keeps a multiplier: they are solved, and nothing is left of them"),
         help: Some("`formulation { constraints: Multipliers }` keeps them".to_owned()),
     };
+    if is_rate(model, Row { closing, index: 0 }) {
+        let message = "this constraint is one of velocities: it has no residual of positions".to_owned();
+        let help = Some("write its expression once more, by a `let` that both use".to_owned());
+        return Some(Complaint { at: expr.site(), message, help });
+    }
     let joint = match closing {
         LoopClosure::Cut(joint) => joint,
         LoopClosure::Constraint(id) => return (!is_kept).then(|| solved(&path(model, &model.constraints[id].place))),

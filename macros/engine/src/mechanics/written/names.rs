@@ -2,7 +2,9 @@
 //!
 //! In: symbols. Out: identifiers such as `legs[2].knee` with a dot for its rate, `anchor` with the index x.
 
+use crate::contracts::call::Call;
 use crate::contracts::symbol::Symbol;
+use crate::invariant::fault::OrFault;
 use crate::mechanics::loops::constraints::{coordinate_name, path};
 use crate::model::types::{Coordinate, JointId, Model, Place, Type};
 use crate::symbolic::write::formula::{Class, Identifier};
@@ -39,6 +41,22 @@ pub(in crate::mechanics) fn identifier(model: &Model, symbol: Symbol) -> Identif
             entry("unknown", format!("{}, {}", index + 1, ["cos", "sin"][component]), Class::Defined)
         }
         Symbol::Unknown { index } => entry("unknown", format!("{}", index + 1), Class::Defined),
+        Symbol::Number { index } => entry("number", format!("{}", index + 1), Class::Defined),
+    }
+}
+
+/// Name of a function of the user's own Rust, with a stroke and the name of an argument where it is its slope by that.
+pub(super) fn external(model: &Model, call: Call) -> Identifier {
+    let id = call.external().or_fault("only functions of Rust have names of users");
+    let function = &model.externals[id];
+    let name = named(function.name.to_string(), Class::Defined);
+    match call {
+        Call::ExternalSlope(_, argument) => Identifier {
+            text: format!("{}'", name.text),
+            index: function.arguments.get(argument).map(ToString::to_string),
+            ..name
+        },
+        _ => name,
     }
 }
 

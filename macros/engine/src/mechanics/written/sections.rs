@@ -6,6 +6,7 @@
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
+use crate::contracts::call::Call;
 use crate::invariant::fault::OrFault;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
@@ -17,12 +18,12 @@ use crate::mechanics::translate::forces::LoadCase;
 use crate::model::types::{Coordinate, JointId, Type};
 use crate::symbolic::graph::{Graph, Scalar, ScalarNode, SymbolId};
 use crate::symbolic::write::formula::{Class, Equation, Formula, Function, Identifier};
-use crate::symbolic::write::{self, Wanted, Writing};
+use crate::symbolic::write::{self, Names, Wanted, Writing};
 
 use super::domains::Conditions;
 use super::following::{Following, Named};
 use super::letters::{Letters, plain};
-use super::names::identifier;
+use super::names::{external, identifier};
 use super::order::in_reading_order;
 use super::solved::{Solved, solved};
 use super::{Line, Page, Section, Subject, apart, domains, rows};
@@ -91,9 +92,10 @@ impl Sections {
             let index = (output.value.ty != Type::Scalar).then(String::new);
             plain(Identifier { index, ..named_by(path(model, &output.place)) })
         });
+        let functions = model.externals.iter().map(|function| plain(named_by(function.name.to_string())));
         let is_own = |name: &Identifier| matches!(name.class, Class::Defined | Class::Multiplier);
         let of_users = symbols.iter().map(|(name, _)| name).filter(|name| !is_own(name)).cloned();
-        let of_users: Vec<Identifier> = of_users.chain(outputs).collect();
+        let of_users: Vec<Identifier> = of_users.chain(outputs).chain(functions).collect();
         let mut taken = symbols.iter().map(|(name, _)| name).chain(&of_users).map(|name| name.text.clone()).collect();
         let letters = Letters::new(&of_users, &mut taken);
         for (name, _) in symbols.iter_mut().filter(|(name, _)| name.class == Class::Multiplier) {
@@ -117,7 +119,9 @@ impl Sections {
         let radicands = drafts.iter().filter_map(|draft| draft.radicand);
         wanted.extend(radicands.map(|value| Wanted { value, collect: Vec::new() }));
         let symbol = |id: SymbolId| self.identifiers.get(&id).cloned().or_fault("every symbol of a page has a name");
-        let mut writing = write::write(&e.g, &wanted, &symbol, &self.taken);
+        let external = |call: Call| plain(external(e.scene.model, call));
+        let names = Names { symbol: &symbol, external: &external };
+        let mut writing = write::write(&e.g, &wanted, &names, &self.taken);
         let mut said = self.name_what_is_solved(&mut writing, drafts.len());
         let mut radicands = writing.formulas.split_off(drafts.len()).into_iter();
         let hidden: Vec<Identifier> = writing
@@ -361,7 +365,9 @@ impl Sections {
         let values = domains::chosen(e, reduction);
         let wanted: Vec<Wanted> = values.iter().map(|&(_, value)| Wanted { value, collect: Vec::new() }).collect();
         let symbol = |id: SymbolId| self.identifiers.get(&id).cloned().or_fault("every symbol of a page has a name");
-        let writing = write::write(&e.g, &wanted, &symbol, &self.taken);
+        let external = |call: Call| plain(external(e.scene.model, call));
+        let names = Names { symbol: &symbol, external: &external };
+        let writing = write::write(&e.g, &wanted, &names, &self.taken);
         let mut conditions = Conditions::new();
         // What is too long for one formula is said in the model.
         if writing.definitions.is_empty() {
@@ -408,14 +414,13 @@ impl Sections {
         let structure = Rc::clone(&e.scene.structure);
         let mut drafts = Vec::new();
         for &row in &structure.rows {
-            let residual = e.row(row);
+            let residual = e.rate_expression(row).unwrap_or_else(|| e.row(row));
             let residual = e.put_in_stand_ins(&[residual])[0];
             let name = self.letters.entry("Phi", row_name(e.scene.model, row.closing, row.index));
             drafts.push(Draft::new(Subject::Constraint(row), Formula::Name(name), residual));
         }
         for (k, &row) in structure.rows.iter().enumerate() {
-            let residual = e.row(row);
-            let (rate, _) = e.implicit_rates(residual, &[]);
+            let (rate, _) = e.row_rates(row);
             let rate = e.put_in_stand_ins(&[rate])[0];
             for (j, &coordinate) in structure.state.iter().enumerate() {
                 let velocity = e.coordinate_symbols(coordinate)[1];

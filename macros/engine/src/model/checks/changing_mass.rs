@@ -75,7 +75,7 @@ impl Checker<'_, '_> {
             return;
         }
         let held = constraints.iter().filter_map(|constraint| match &constraint.kind {
-            ConstraintKind::Value(value) => Some(value),
+            ConstraintKind::Value(value) | ConstraintKind::Rate(value) => Some(value),
             ConstraintKind::Rod { .. } => None,
         });
         let solved = solves.iter().flat_map(|solve| match &solve.how {

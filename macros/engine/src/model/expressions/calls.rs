@@ -31,6 +31,10 @@ impl<'a> Checker<'a, '_> {
             let arguments: Vec<&Expr> = call.args.iter().collect();
             return self.expanded_call(function, name, &arguments, call.span(), context);
         }
+        if let Some((name, external)) = name.and_then(|name| Some((name, self.external_of(context.scope, name)?))) {
+            let arguments: Vec<&Expr> = call.args.iter().collect();
+            return self.external_call(external, name, &arguments, call.span(), context).map(Meaning::Value);
+        }
         self.call_of_language(call, context).map(Meaning::Value)
     }
 

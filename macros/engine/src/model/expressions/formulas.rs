@@ -22,6 +22,7 @@ use crate::model::typed::{Class, Typed, Uses, type_text};
 use crate::model::types::{ExprNode, Formula, Given, Handling, Type, Variable};
 use crate::model::units::{Units, Wanted};
 
+use super::externals::external_in;
 use super::{source_text, span};
 
 /// What each call asks another model for, by its address: in an array of parts one call stands many times.
@@ -35,6 +36,8 @@ pub(in crate::model) struct Asked {
     variables: Rc<[(Vec<Variable>, Type)]>,
     /// Their units in the model that is asked.
     units: Rc<[Option<Wanted>]>,
+    /// A function of Rust that the question calls.
+    calls: Option<String>,
 }
 
 impl<'a> Checker<'a, '_> {
@@ -94,6 +97,9 @@ impl<'a> Checker<'a, '_> {
         let parts: Vec<&Typed> = values.iter().collect();
         let mut value = self.build(node, ty, call.span(), &parts)?;
         value.uses.merge(&Uses::of(Class::Formula, name.to_string(), name.span()));
+        if let Some(function) = asked.calls {
+            value.uses.add(Class::External, function, name.span());
+        }
         Some(value)
     }
 
@@ -172,8 +178,9 @@ impl<'a> Checker<'a, '_> {
         let written = given.iter().zip(&variables);
         let wanted = written.map(|(pair, (variables, _))| units.wanted(source_text(&pair.left), variables)).collect();
         units.tell(self.report);
+        let calls = external_in(&value.expr).map(|function| model.externals[function].name.to_string());
         let formula = Formula { model, of: value.expr, unit, solved: Kept::default() };
-        Some(Asked { formula: Rc::new(formula), variables: variables.into(), units: wanted })
+        Some(Asked { formula: Rc::new(formula), variables: variables.into(), units: wanted, calls })
     }
 
     /// A number, a vector or several of them, of what is known without forces.

@@ -53,10 +53,18 @@ impl<'a> Checker<'a, '_> {
         }
     }
 
+    /// Whether a module has a function of the user's own of this name, in the language or in Rust.
+    pub(in crate::model) fn has_function(&self, scope: ScopeId, name: &Ident) -> bool {
+        self.function_of(scope, name).is_some() || self.external_of(scope, name).is_some()
+    }
+
     /// The names of all functions of a module.
     pub(in crate::model) fn functions_of(&self, scope: ScopeId) -> Vec<String> {
         let names = self.scopes[scope].names.iter();
-        names.filter(|(_, symbol)| matches!(symbol, Symbol::Function(_))).map(|(name, _)| name.clone()).collect()
+        names
+            .filter(|(_, symbol)| matches!(symbol, Symbol::Function(_) | Symbol::External(_)))
+            .map(|(name, _)| name.clone())
+            .collect()
     }
 
     /// What an argument of the function means in whose value a name stands.

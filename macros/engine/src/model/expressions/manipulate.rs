@@ -38,6 +38,9 @@ impl<'a> Checker<'a, '_> {
             self.report.error(span, message);
             return None;
         }
+        if !self.has_slopes(&of.expr, name) {
+            return None;
+        }
         let ty = of.expr.ty.clone();
         let node = ExprNode::Derivative { of: of.expr.clone(), by, accelerated };
         let mut value = self.build(node, ty, at, &[&of])?;

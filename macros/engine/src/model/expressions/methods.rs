@@ -31,6 +31,10 @@ impl<'a> Checker<'a, '_> {
         let base = self.meaning(&call.receiver, context)?;
         let arguments: Vec<&Expr> = call.args.iter().collect();
         match base {
+            Meaning::Part(part) if self.external_of(part, &call.method).is_some() => {
+                let function = self.external_of(part, &call.method)?;
+                self.external_call(function, &call.method, &arguments, call.span(), context).map(Meaning::Value)
+            }
             Meaning::Part(part) if self.function_of(part, &call.method).is_some() => {
                 let function = self.function_of(part, &call.method)?;
                 self.expanded_call(function, &call.method, &arguments, call.span(), context)

@@ -8,6 +8,7 @@ pub(super) mod bodies;
 mod broadcast;
 mod calls;
 mod coerce;
+mod externals;
 pub(super) mod formulas;
 mod functions;
 mod joints;

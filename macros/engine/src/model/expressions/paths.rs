@@ -138,7 +138,7 @@ impl<'a> Checker<'a, '_> {
             Symbol::Force(id) => Some(Meaning::Force(*id)),
             Symbol::Constraint(id) => Some(Meaning::Constraint(*id)),
             Symbol::Unknown(system, place) => self.unknown(*system, *place, site).map(Meaning::Value),
-            Symbol::Function(_) => {
+            Symbol::Function(_) | Symbol::External(_) => {
                 self.report.help(span, format!("`{site}` is a function"), format!("write `{site}(..)`"));
                 None
             }

@@ -62,7 +62,7 @@ impl<'a> Checker<'a, '_> {
         let at = call.span();
         let name = source_text(&call.func);
         if let Written::Path(path) = &*call.func
-            && path.path.get_ident().is_some_and(|name| self.function_of(context.scope, name).is_some())
+            && path.path.get_ident().is_some_and(|name| self.has_function(context.scope, name))
         {
             let message = format!("`{name}` is a function of this model: its value is no inertia");
             self.report.help(call.func.span(), message, "a shape needs its name for itself: rename the function");

@@ -37,6 +37,7 @@ pub(super) fn declared(module: &tree::Module) -> Vec<Declared> {
             ItemKind::Input(value) => add(&value.name, "name", "Input"),
             ItemKind::Let(value) => add(&value.name, "name", "Let"),
             ItemKind::Function(function) => add(&function.name, "name", "Function"),
+            ItemKind::External(function) => add(&function.name, "name", "Extern"),
             ItemKind::Output(value) => add(&value.name, "name", "Output"),
             ItemKind::State { name, .. } => add(name, "name", "State"),
             ItemKind::Port { name, .. } => add(name, "name", "Port"),
@@ -90,6 +91,7 @@ impl<'a> Known<'a> {
                     ItemKind::Part(part) => &part.name,
                     ItemKind::Let(value) => &value.name,
                     ItemKind::Function(function) => &function.name,
+                    ItemKind::External(function) => &function.name,
                     _ => continue,
                 };
                 names.entry(name.to_string()).or_default().get_or_insert(&item.kind);
@@ -112,7 +114,7 @@ impl<'a> Known<'a> {
     /// Whether the first item of this name in a module is a function.
     fn is_function(&self, module: usize, name: &Ident) -> bool {
         let item = self.names.get(module).and_then(|names| names.get(&name.to_string()));
-        matches!(item, Some(Some(ItemKind::Function(_))))
+        matches!(item, Some(Some(ItemKind::Function(_) | ItemKind::External(_))))
     }
 
     /// The model that a function's name stands for, if it is none of the language.
@@ -182,6 +184,8 @@ impl<'a> Walk<'a> {
             ItemKind::Function(function) => {
                 self.within(&function.parameters, "Argument", |walk| walk.expr(&function.value));
             }
+            // Its path is followed as Rust, where the function is called; names of its arguments stand for nothing.
+            ItemKind::External(_) => {}
             ItemKind::State { rate, start, .. } => {
                 self.expr(rate);
                 self.all(start);

@@ -84,6 +84,7 @@ const NAME: Room = &[
     ("Index", &[]),
     ("Function", &[]),
     ("Argument", &[]),
+    ("Extern", &[]),
 ];
 
 /// The rooms whose words stand here.

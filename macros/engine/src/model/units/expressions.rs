@@ -202,6 +202,8 @@ impl Expressions {
             ExprNode::Mul(a, b) => self.factor(a, 0.5).combined(self.factor(b, 0.5), Unit::times),
             ExprNode::Div(a, b) => self.factor(a, 0.5).combined(self.factor(b, 2.0), Unit::over),
             ExprNode::Call(function, arguments) => self.call(*function, arguments),
+            // Of any units; what comes back has the one that is declared with the function.
+            ExprNode::External(..) => Value::Any,
             ExprNode::Compare(_, a, b) => {
                 self.one_unit(a, b, "a comparison");
                 Value::Any

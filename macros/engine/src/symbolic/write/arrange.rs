@@ -7,9 +7,9 @@ use std::collections::BTreeMap;
 
 use crate::contracts::call::Call;
 use crate::invariant::fault::raise;
-use crate::symbolic::graph::SymbolId;
 use crate::symbolic::number::Number;
 
+use super::Names;
 use super::coefficient::{self, Quotient};
 use super::formula::{Class, Formula, Function, Identifier, Relation};
 use super::polynomial::{Atom, AtomId, Atoms, Head, Monomial, Polynomial, times};
@@ -20,7 +20,7 @@ const MOST_TERMS_TRIED: usize = 10;
 /// What turns polynomials into formulas.
 pub(super) struct Arranger<'a> {
     pub atoms: &'a Atoms,
-    pub symbol: &'a dyn Fn(SymbolId) -> Identifier,
+    pub names: &'a Names<'a>,
     /// Of values with equations of their own.
     pub defined: &'a [Identifier],
 }
@@ -216,7 +216,7 @@ impl Arranger<'_> {
 
     fn rank(&self, atom: AtomId) -> (u8, AtomId, usize) {
         match self.atoms.get(atom) {
-            Atom::Symbol(id) => (of_class((self.symbol)(*id).class), 0, id.0),
+            Atom::Symbol(id) => (of_class((self.names.symbol)(*id).class), 0, id.0),
             Atom::Defined(number) => (of_class(Class::Defined), 0, *number),
             Atom::Of(Head::Sine | Head::Cosine, _) => (8, atom, 0),
             Atom::Of(Head::Inverse | Head::Bracket, _) => (12, atom, 0),
@@ -226,7 +226,7 @@ impl Arranger<'_> {
 
     fn factor(&self, atom: AtomId, exponent: i32) -> Formula {
         let base = match self.atoms.get(atom) {
-            Atom::Symbol(id) => Formula::Name((self.symbol)(*id)),
+            Atom::Symbol(id) => Formula::Name((self.names.symbol)(*id)),
             Atom::Defined(number) => Formula::Name(self.defined[*number].clone()),
             Atom::Of(head, arguments) => self.applied(*head, arguments.iter().map(|p| self.formula(p)).collect()),
         };
@@ -249,6 +249,9 @@ impl Arranger<'_> {
             Head::Root | Head::Call(Call::Sqrt) => Formula::Root(first(&mut list)),
             Head::Inverse => Formula::Fraction(Box::new(Formula::integer(1)), first(&mut list)),
             Head::Bracket => *first(&mut list),
+            Head::Call(call) if call.external().is_some() => {
+                Formula::Called(Box::new((self.names.external)(call)), list)
+            }
             Head::Call(call) => match call {
                 Call::Tan => apply(Function::Tan, list),
                 Call::Asin => apply(Function::Asin, list),
@@ -277,6 +280,9 @@ impl Arranger<'_> {
                 Call::And => related(Relation::And, list),
                 Call::Or => related(Relation::Or, list),
                 Call::Not => Formula::Not(first(&mut list)),
+                Call::External(_) | Call::ExternalSlope(..) | Call::ExternalCurvature(_) => {
+                    raise("functions of the user's own have names")
+                }
                 Call::Select => {
                     let [condition, yes] = [*first(&mut list), *first(&mut list)];
                     Formula::Cases(Box::new([condition, yes, *first(&mut list)]))

@@ -108,6 +108,8 @@ pub enum Formula {
     Root(Box<Formula>),
     Absolute(Box<Formula>),
     Apply(Function, Vec<Formula>),
+    /// A function that has a name of the user's.
+    Called(Box<Identifier>, Vec<Formula>),
     /// To a power that is no small integer.
     General(Box<Formula>, Box<Formula>),
     Related(Relation, Box<Formula>, Box<Formula>),
@@ -138,6 +140,10 @@ impl Formula {
             }
             Formula::Sum(terms) => terms.iter_mut().for_each(|(_, term)| term.each_name_mut(visit)),
             Formula::Product(list) | Formula::Apply(_, list) => list.iter_mut().for_each(|x| x.each_name_mut(visit)),
+            Formula::Called(function, list) => {
+                visit(function);
+                list.iter_mut().for_each(|x| x.each_name_mut(visit));
+            }
             Formula::Fraction(a, b) | Formula::General(a, b) | Formula::Related(_, a, b) => {
                 [a, b].into_iter().for_each(|x| x.each_name_mut(visit))
             }
@@ -159,7 +165,7 @@ impl Formula {
                 factors.iter().map(Formula::length).sum::<usize>() + bracketed
             }
             Formula::Fraction(a, b) | Formula::General(a, b) | Formula::Related(_, a, b) => 1 + a.length() + b.length(),
-            Formula::Apply(_, list) => 1 + list.iter().map(Formula::length).sum::<usize>(),
+            Formula::Apply(_, list) | Formula::Called(_, list) => 1 + list.iter().map(Formula::length).sum::<usize>(),
             Formula::Cases(parts) => 2 + parts.iter().map(Formula::length).sum::<usize>(),
         }
     }
@@ -190,7 +196,7 @@ impl Formula {
                 visit(x)
             }
             Formula::Sum(terms) => terms.iter().for_each(|(_, term)| visit(term)),
-            Formula::Product(list) | Formula::Apply(_, list) => list.iter().for_each(visit),
+            Formula::Product(list) | Formula::Apply(_, list) | Formula::Called(_, list) => list.iter().for_each(visit),
             Formula::Fraction(a, b) | Formula::General(a, b) | Formula::Related(_, a, b) => {
                 [a, b].into_iter().for_each(|x| visit(x))
             }

@@ -185,14 +185,11 @@ fn put(text: &mut String, formula: &Formula) {
                 Function::Atan2 | Function::Signum => text.push_str(&format!("\\operatorname{{{}}}", function.word())),
                 _ => text.push_str(&format!("\\{}", function.word())),
             }
-            text.push_str("\\left(");
-            for (k, argument) in list.iter().enumerate() {
-                if k > 0 {
-                    text.push_str(", ");
-                }
-                put(text, argument);
-            }
-            text.push_str("\\right)");
+            arguments(text, list);
+        }
+        Formula::Called(function, list) => {
+            text.push_str(&name(function));
+            arguments(text, list);
         }
         Formula::Related(relation, a, b) => {
             let side = |x: &Formula| matches!(x, Formula::Related(..));
@@ -229,6 +226,17 @@ fn starts_with_digit(formula: &Formula) -> bool {
         Formula::Power(x, _) | Formula::General(x, _) => starts_with_digit(x),
         _ => false,
     }
+}
+
+fn arguments(text: &mut String, list: &[Formula]) {
+    text.push_str("\\left(");
+    for (k, argument) in list.iter().enumerate() {
+        if k > 0 {
+            text.push_str(", ");
+        }
+        put(text, argument);
+    }
+    text.push_str("\\right)");
 }
 
 fn bracketed(text: &mut String, formula: &Formula, brackets: bool) {

@@ -69,7 +69,7 @@ fn escaped(text: &str) -> String {
 
 /// The sign between factors. It has no width, so words beside each other need a space.
 fn times(before: &Formula, after: &Formula) -> &'static str {
-    let is_function = matches!(after, Formula::Apply(..));
+    let is_function = matches!(after, Formula::Apply(..) | Formula::Called(..));
     let is_bracket = matches!(after, Formula::Sum(_) | Formula::Minus(_) | Formula::Related(..));
     match () {
         () if starts_with_digit(after) => "<mo>·</mo>",
@@ -87,7 +87,7 @@ fn is_word(factor: &Formula) -> bool {
             !is_letter || index.chars().count() > 1
         }
         Formula::Power(x, _) => is_word(x),
-        Formula::Apply(..) => true,
+        Formula::Apply(..) | Formula::Called(..) => true,
         _ => false,
     }
 }
@@ -99,6 +99,7 @@ fn one(formula: &Formula) -> String {
         Formula::General(..) | Formula::Root(_) | Formula::Absolute(_) | Formula::Cases(_) => true,
         Formula::Apply(function, _) => matches!(function, Function::Epsilon | Function::Undefined),
         Formula::Minus(_) | Formula::Sum(_) | Formula::Product(_) | Formula::Related(..) | Formula::Not(_) => false,
+        Formula::Called(..) => false,
     };
     if is_one { row(formula) } else { format!("<mrow>{}</mrow>", row(formula)) }
 }
@@ -144,12 +145,12 @@ fn put(text: &mut String, formula: &Formula) {
                 [Formula::Name(argument)] => {
                     text.push_str(&format!("<mo rspace=\".17em\">\u{2061}</mo>{}", name(argument)));
                 }
-                list => {
-                    let arguments: Vec<String> = list.iter().map(row).collect();
-                    let arguments = arguments.join("<mo>,</mo>");
-                    text.push_str(&format!("<mo>\u{2061}</mo><mrow><mo>(</mo>{arguments}<mo>)</mo></mrow>"));
-                }
+                list => arguments(text, list),
             }
+        }
+        Formula::Called(function, list) => {
+            text.push_str(&name(function));
+            arguments(text, list);
         }
         Formula::Related(relation, a, b) => {
             let side = |x: &Formula| matches!(x, Formula::Related(..));
@@ -178,6 +179,12 @@ fn put(text: &mut String, formula: &Formula) {
             ));
         }
     }
+}
+
+fn arguments(text: &mut String, list: &[Formula]) {
+    let arguments: Vec<String> = list.iter().map(row).collect();
+    let arguments = arguments.join("<mo>,</mo>");
+    text.push_str(&format!("<mo>\u{2061}</mo><mrow><mo>(</mo>{arguments}<mo>)</mo></mrow>"));
 }
 
 fn starts_with_digit(formula: &Formula) -> bool {

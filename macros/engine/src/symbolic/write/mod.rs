@@ -22,6 +22,8 @@ pub mod text;
 
 use std::collections::HashSet;
 
+use crate::contracts::call::Call;
+
 use super::graph::{Graph, Scalar, SymbolId};
 use super::lower::Lowering;
 
@@ -42,6 +44,13 @@ pub struct Wanted {
     pub value: Scalar,
     /// Symbols whose coefficients stand together, in this order.
     pub collect: Vec<Scalar>,
+}
+
+/// What users call things.
+pub struct Names<'a> {
+    pub symbol: &'a dyn Fn(SymbolId) -> Identifier,
+    /// Functions of their own Rust, and slopes of these.
+    pub external: &'a dyn Fn(Call) -> Identifier,
 }
 
 /// Values as formulas.
@@ -65,12 +74,7 @@ pub struct Apart {
 }
 
 /// Writes values of a graph. `taken` are names that definitions can't have.
-pub fn write(
-    graph: &Graph,
-    wanted: &[Wanted],
-    symbol: &dyn Fn(SymbolId) -> Identifier,
-    taken: &HashSet<String>,
-) -> Writing {
+pub fn write(graph: &Graph, wanted: &[Wanted], names: &Names<'_>, taken: &HashSet<String>) -> Writing {
     let mut lowering = Lowering::new(graph);
     let roots: Vec<Scalar> = wanted.iter().map(|wanted| wanted.value).collect();
     let roots = lowering.run(&roots);
@@ -79,7 +83,7 @@ pub fn write(
     let written = bounds.iter().map(|&most| {
         let mut composer = Composer::new(lowered, most);
         let values = composer.compose(&roots);
-        finish(graph, composer, &values, wanted, symbol, taken)
+        finish(graph, composer, &values, wanted, names, taken)
     });
     written.min_by_key(weight).unwrap_or_default()
 }
@@ -103,7 +107,7 @@ fn finish(
     composer: Composer<'_>,
     values: &[Polynomial],
     wanted: &[Wanted],
-    symbol: &dyn Fn(SymbolId) -> Identifier,
+    names: &Names<'_>,
     taken: &HashSet<String>,
 ) -> Writing {
     let Composer { mut atoms, definitions, .. } = composer;
@@ -117,7 +121,7 @@ fn finish(
     let mut readers = vec![None; definitions.len()];
     values.iter().enumerate().for_each(|(reader, p)| mark(&atoms, p, &apart, reader, &mut readers));
     let mut taken = taken.clone();
-    let names: Vec<Identifier> = definitions
+    let defined: Vec<Identifier> = definitions
         .iter()
         .zip(&readers)
         .map(|(definition, reader)| {
@@ -130,10 +134,10 @@ fn finish(
         .iter()
         .map(|wanted| symbols(graph, &wanted.collect).into_iter().map(|id| atoms.symbol(id)).collect())
         .collect();
-    let arranger = Arranger { atoms: &atoms, symbol, defined: &names };
+    let arranger = Arranger { atoms: &atoms, names, defined: &defined };
     let formulas = values.iter().zip(&lists).map(|(p, by)| arranger.collected(p, by)).collect();
     let labels = definitions.into_iter().map(|definition| definition.name);
-    let told = apart.iter().zip(&names).zip(labels).zip(readers);
+    let told = apart.iter().zip(&defined).zip(labels).zip(readers);
     let definitions = told.filter_map(|(((value, name), label), reader)| {
         let value = value.as_ref().map(|p| arranger.formula(p));
         Some(Apart { name: name.clone(), label, reader: reader?, value })

@@ -126,7 +126,7 @@ fn in_order(formula: &mut Formula) {
                 Class::Rate | Class::Acceleration | Class::Multiplier => 6,
             },
             Formula::Power(base, _) => rank(base),
-            Formula::Apply(..) => 5,
+            Formula::Apply(..) | Formula::Called(..) => 5,
             Formula::Sum(_) => 7,
             _ => 4,
         }
@@ -167,7 +167,10 @@ fn most_frequent(list: &[Formula]) -> Option<Common> {
 /// The whole that saves most.
 fn longest(list: &[Formula]) -> Option<Common> {
     fn visit(formula: &Formula, counts: &mut HashMap<String, usize>, order: &mut Vec<(String, Formula, usize)>) {
-        if matches!(formula, Formula::Apply(..) | Formula::Related(..) | Formula::Not(_) | Formula::Cases(_)) {
+        if matches!(
+            formula,
+            Formula::Apply(..) | Formula::Called(..) | Formula::Related(..) | Formula::Not(_) | Formula::Cases(_)
+        ) {
             return;
         }
         let length = formula.length();
@@ -196,7 +199,7 @@ fn longest(list: &[Formula]) -> Option<Common> {
 fn each_common(formula: &Formula, is_line: bool, visit: &mut dyn FnMut(Common)) {
     match formula {
         Formula::Number(_) | Formula::Pi | Formula::Name(_) | Formula::Minus(_) => {}
-        Formula::Apply(..) | Formula::Related(..) | Formula::Not(_) | Formula::Cases(_) => return,
+        Formula::Apply(..) | Formula::Called(..) | Formula::Related(..) | Formula::Not(_) | Formula::Cases(_) => return,
         Formula::Sum(terms) => {
             for (i, first) in terms.iter().enumerate() {
                 for second in &terms[i + 1..] {
@@ -230,7 +233,9 @@ fn factors_of(first: &Formula, second: &Formula) -> Common {
 
 /// Puts a name in wherever something stands.
 fn replace(formula: &mut Formula, common: &Common, name: &Formula, is_line: bool) {
-    if let Formula::Apply(..) | Formula::Related(..) | Formula::Not(_) | Formula::Cases(_) = formula {
+    if let Formula::Apply(..) | Formula::Called(..) | Formula::Related(..) | Formula::Not(_) | Formula::Cases(_) =
+        formula
+    {
         return;
     }
     match (&mut *formula, common) {
@@ -278,7 +283,7 @@ fn each_part_mut(formula: &mut Formula, visit: &mut dyn FnMut(&mut Formula)) {
             visit(x)
         }
         Formula::Sum(terms) => terms.iter_mut().for_each(|(_, term)| visit(term)),
-        Formula::Product(list) | Formula::Apply(_, list) => list.iter_mut().for_each(visit),
+        Formula::Product(list) | Formula::Apply(_, list) | Formula::Called(_, list) => list.iter_mut().for_each(visit),
         Formula::Fraction(a, b) | Formula::General(a, b) | Formula::Related(_, a, b) => {
             visit(a);
             visit(b);

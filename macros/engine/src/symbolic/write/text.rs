@@ -106,6 +106,7 @@ fn bare(text: &mut String, formula: &Formula) {
         Formula::Absolute(x) => call(text, "abs", [&**x]),
         // What takes no arguments is told from names by its empty brackets.
         Formula::Apply(function, list) => call(text, function.word(), list),
+        Formula::Called(function, list) => call(text, &name(function), list),
         Formula::Related(relation, a, b) => {
             put(text, a, Around::Sum);
             text.push_str(match relation {
