@@ -55,7 +55,7 @@
 /// |---|---|---|---|
 /// | `new` |  | 6 add |  |
 /// | `forward_dynamics` | struts, condensed | 151 add, 165 mul, 9 div, 6 sqrt | 173 add, 225 mul, 9 div, 6 sqrt |
-/// | `inverse_dynamics` | struts, moments about a point of the pins' plane | 184 add, 200 mul, 7 div, 6 sqrt, 3 other | 219 add, 219 mul, 7 div, 6 sqrt, 3 other |
+/// | `inverse_dynamics` | struts, moments about a point of the pins' plane | 154 add, 164 mul, 7 div, 6 sqrt, 3 other | 187 add, 183 mul, 7 div, 6 sqrt, 3 other |
 /// | `dead_centres` | closed forms | 34 add, 31 mul, 12 sqrt | 48 add, 31 mul, 12 sqrt |
 /// | `margins` | closed forms, determinants | 64 add, 69 mul, 12 sqrt | 78 add, 69 mul, 12 sqrt |
 ///
@@ -878,7 +878,7 @@ pub mod level {
         ///
         /// Method: struts, moments about a point of the pins' plane.
         ///
-        /// Operations: 184 add, 200 mul, 7 div, 6 sqrt, 3 other; as derived, before optimisation: 219 add, 219 mul, 7 div, 6 sqrt, 3 other.
+        /// Operations: 154 add, 164 mul, 7 div, 6 sqrt, 3 other; as derived, before optimisation: 187 add, 183 mul, 7 div, 6 sqrt, 3 other.
         #[must_use]
         pub fn inverse_dynamics(
             &self,
@@ -889,244 +889,155 @@ pub mod level {
         ) -> Solved<T> {
             let q = &state.q;
             let v = &state.v;
-            // Closed form of legs_0_stroke.
+            // Strut legs_0.
             let legs_0_line_y = q.platform.y - T::lit(0.779);
             let legs_0_line_x = T::lit(2.29) + q.platform.x;
-            let legs_0_line_x_times_0_732 = T::lit(0.7316888688738209) * legs_0_line_x;
-            let legs_0_stroke_with_legs_0_line_y = legs_0_line_x_times_0_732
-                - T::lit(0.6816387600233341) * legs_0_line_y;
-            let legs_0_line_x_times_0_682 = T::lit(0.6816387600233341) * legs_0_line_x;
-            let legs_0_stroke_with_legs_0_line_x = T::lit(0.7316888688738209)
-                * legs_0_line_y + legs_0_line_x_times_0_682;
-            let minus_legs_0_gimbal_first_b = q.platform.z - T::lit(0.4);
-            let legs_0_gimbal_first_b_squared = minus_legs_0_gimbal_first_b
-                * minus_legs_0_gimbal_first_b;
-            let root_legs_0_stroke = Real::sqrt(
-                legs_0_stroke_with_legs_0_line_y * legs_0_stroke_with_legs_0_line_y
-                    + legs_0_stroke_with_legs_0_line_x * legs_0_stroke_with_legs_0_line_x
-                    + legs_0_gimbal_first_b_squared,
+            let legs_0_line_z = q.platform.z - T::lit(0.4);
+            let legs_0_line_z_squared = legs_0_line_z * legs_0_line_z;
+            let legs_0_line_x_squared_plus_z_squared = legs_0_line_x * legs_0_line_x
+                + legs_0_line_z_squared;
+            let legs_0_length = Real::sqrt(
+                legs_0_line_y * legs_0_line_y + legs_0_line_x_squared_plus_z_squared,
             );
-            // Strut legs_0.
-            let slope_legs_0_stroke_inv = T::lit(1.0) / root_legs_0_stroke;
-            let slope_legs_0_stroke_inv_times_0_0625 = T::lit(0.0625)
-                * slope_legs_0_stroke_inv;
-            let legs_0_swell = slope_legs_0_stroke_inv_times_0_0625 - T::lit(0.1);
+            let legs_0_length_inv = T::lit(1.0) / legs_0_length;
+            let legs_0_length_inv_times_0_0625 = T::lit(0.0625) * legs_0_length_inv;
+            let legs_0_swell = legs_0_length_inv_times_0_0625 - T::lit(0.1);
             // Results.
-            let legs_thrust_with_platform_z_accel = accel.platform.z
-                * minus_legs_0_gimbal_first_b;
+            let platform_z_accel_times_legs_0_line_z = accel.platform.z * legs_0_line_z;
             let legs_thrust_with_platform_x_accel = accel.platform.x * legs_0_line_x
-                + legs_thrust_with_platform_z_accel;
+                + platform_z_accel_times_legs_0_line_z;
             let legs_thrust_with_platform_x_rate = T::lit(0.05)
                 * (v.platform.x * v.platform.x + v.platform.y * v.platform.y
                     + v.platform.z * v.platform.z);
-            // Velocities of what follows.
-            let platform_x_rate_times_0_732 = T::lit(0.7316888688738209) * v.platform.x;
-            let platform_y_rate_times_0_682 = T::lit(0.6816387600233341) * v.platform.y;
-            let platform_x_rate_times_0_682 = T::lit(0.6816387600233341) * v.platform.x;
-            let platform_y_rate_times_0_732 = T::lit(0.7316888688738209) * v.platform.y;
-            let legs_stroke_gap_rate_with_platform_z_rate = v.platform.z
-                * minus_legs_0_gimbal_first_b;
-            let legs_0_stroke_rate = slope_legs_0_stroke_inv
-                * (legs_0_stroke_with_legs_0_line_y
-                    * (platform_x_rate_times_0_732 - platform_y_rate_times_0_682)
-                    + legs_0_stroke_with_legs_0_line_x
-                        * (platform_x_rate_times_0_682 + platform_y_rate_times_0_732)
-                    + legs_stroke_gap_rate_with_platform_z_rate);
-            let legs_0_bend = slope_legs_0_stroke_inv_times_0_0625 + legs_0_swell;
-            let slope_legs_0_stroke_inv_squared = slope_legs_0_stroke_inv
-                * slope_legs_0_stroke_inv;
-            let legs_0_mu = slope_legs_0_stroke_inv * legs_0_swell;
-            let legs_3_line_y = T::lit(0.779) + q.platform.y;
-            // Closed form of legs_3_stroke.
-            let legs_3_stroke_with_legs_3_line_y = legs_0_line_x_times_0_732
-                + T::lit(0.6816387600233341) * legs_3_line_y;
-            let legs_3_stroke_with_legs_0_line_x = legs_0_line_x_times_0_682
-                - T::lit(0.7316888688738209) * legs_3_line_y;
-            let root_legs_3_stroke = Real::sqrt(
-                legs_0_gimbal_first_b_squared
-                    + legs_3_stroke_with_legs_3_line_y * legs_3_stroke_with_legs_3_line_y
-                    + legs_3_stroke_with_legs_0_line_x * legs_3_stroke_with_legs_0_line_x,
-            );
+            // Strut legs_0.
+            let platform_z_rate_times_legs_0_line_z = v.platform.z * legs_0_line_z;
+            let legs_line_by_rate_with_platform_x_rate = v.platform.x * legs_0_line_x
+                + platform_z_rate_times_legs_0_line_z;
+            let legs_0_length_rate = legs_0_length_inv
+                * (v.platform.y * legs_0_line_y
+                    + legs_line_by_rate_with_platform_x_rate);
+            let legs_0_bend = legs_0_length_inv_times_0_0625 + legs_0_swell;
+            let legs_0_length_inv_squared = legs_0_length_inv * legs_0_length_inv;
+            let legs_0_mu = legs_0_length_inv * legs_0_swell;
             // Strut legs_3.
-            let slope_legs_3_stroke_inv = T::lit(1.0) / root_legs_3_stroke;
-            let slope_legs_3_stroke_inv_times_0_0625 = T::lit(0.0625)
-                * slope_legs_3_stroke_inv;
-            let legs_3_swell = slope_legs_3_stroke_inv_times_0_0625 - T::lit(0.1);
-            let legs_3_mu = slope_legs_3_stroke_inv * legs_3_swell;
+            let legs_3_line_y = T::lit(0.779) + q.platform.y;
+            let legs_3_length = Real::sqrt(
+                legs_3_line_y * legs_3_line_y + legs_0_line_x_squared_plus_z_squared,
+            );
+            let legs_3_length_inv = T::lit(1.0) / legs_3_length;
+            let legs_3_length_inv_times_0_0625 = T::lit(0.0625) * legs_3_length_inv;
+            let legs_3_swell = legs_3_length_inv_times_0_0625 - T::lit(0.1);
+            let legs_3_mu = legs_3_length_inv * legs_3_swell;
             let legs_0_mu_plus_legs_3_mu = legs_0_mu + legs_3_mu;
+            // Strut legs_1.
             let legs_1_line_y = q.platform.y - T::lit(1.074);
             let legs_1_line_x = T::lit(1.78) + q.platform.x;
-            // Closed form of legs_1_stroke.
-            let legs_1_line_x_times_0_853 = T::lit(0.8525245220595058) * legs_1_line_x;
-            let legs_1_stroke_with_legs_1_line_y = legs_1_line_x_times_0_853
-                - T::lit(0.5226872289306592) * legs_1_line_y;
-            let legs_1_line_x_times_0_523 = T::lit(0.5226872289306592) * legs_1_line_x;
-            let legs_1_stroke_with_legs_1_line_x = T::lit(0.8525245220595058)
-                * legs_1_line_y + legs_1_line_x_times_0_523;
-            let root_legs_1_stroke = Real::sqrt(
-                legs_0_gimbal_first_b_squared
-                    + legs_1_stroke_with_legs_1_line_y * legs_1_stroke_with_legs_1_line_y
-                    + legs_1_stroke_with_legs_1_line_x * legs_1_stroke_with_legs_1_line_x,
+            let legs_length_squared_with_legs_0_line_z = legs_0_line_z_squared
+                + legs_1_line_x * legs_1_line_x;
+            let legs_1_length = Real::sqrt(
+                legs_1_line_y * legs_1_line_y + legs_length_squared_with_legs_0_line_z,
             );
-            // Strut legs_1.
-            let slope_legs_1_stroke_inv = T::lit(1.0) / root_legs_1_stroke;
-            let slope_legs_1_stroke_inv_times_0_0625 = T::lit(0.0625)
-                * slope_legs_1_stroke_inv;
-            let legs_1_swell = slope_legs_1_stroke_inv_times_0_0625 - T::lit(0.1);
-            let legs_1_mu = slope_legs_1_stroke_inv * legs_1_swell;
-            let legs_2_line_y = T::lit(1.074) + q.platform.y;
-            // Closed form of legs_2_stroke.
-            let legs_2_stroke_with_legs_2_line_y = legs_1_line_x_times_0_853
-                + T::lit(0.5226872289306592) * legs_2_line_y;
-            let legs_2_stroke_with_legs_1_line_x = legs_1_line_x_times_0_523
-                - T::lit(0.8525245220595058) * legs_2_line_y;
-            let root_legs_2_stroke = Real::sqrt(
-                legs_0_gimbal_first_b_squared
-                    + legs_2_stroke_with_legs_2_line_y * legs_2_stroke_with_legs_2_line_y
-                    + legs_2_stroke_with_legs_1_line_x * legs_2_stroke_with_legs_1_line_x,
-            );
+            let legs_1_length_inv = T::lit(1.0) / legs_1_length;
+            let legs_1_length_inv_times_0_0625 = T::lit(0.0625) * legs_1_length_inv;
+            let legs_1_swell = legs_1_length_inv_times_0_0625 - T::lit(0.1);
+            let legs_1_mu = legs_1_length_inv * legs_1_swell;
             // Strut legs_2.
-            let slope_legs_2_stroke_inv = T::lit(1.0) / root_legs_2_stroke;
-            let slope_legs_2_stroke_inv_times_0_0625 = T::lit(0.0625)
-                * slope_legs_2_stroke_inv;
-            let legs_2_swell = slope_legs_2_stroke_inv_times_0_0625 - T::lit(0.1);
-            let legs_2_mu = slope_legs_2_stroke_inv * legs_2_swell;
+            let legs_2_line_y = T::lit(1.074) + q.platform.y;
+            let legs_2_length = Real::sqrt(
+                legs_2_line_y * legs_2_line_y + legs_length_squared_with_legs_0_line_z,
+            );
+            let legs_2_length_inv = T::lit(1.0) / legs_2_length;
+            let legs_2_length_inv_times_0_0625 = T::lit(0.0625) * legs_2_length_inv;
+            let legs_2_swell = legs_2_length_inv_times_0_0625 - T::lit(0.1);
+            let legs_2_mu = legs_2_length_inv * legs_2_swell;
             let legs_1_mu_plus_legs_2_mu = legs_1_mu + legs_2_mu;
+            // Strut legs_4.
             let legs_4_line_y = q.platform.y - T::lit(0.295);
             let legs_4_line_x = T::lit(43.0 / 100.0) + q.platform.x;
-            // Closed form of legs_4_stroke.
-            let legs_4_line_x_times_0_958 = T::lit(0.9577872375530903) * legs_4_line_x;
-            let legs_4_stroke_with_legs_4_line_y = T::lit(0.2874780123425445)
-                * legs_4_line_y + legs_4_line_x_times_0_958;
-            let legs_4_line_x_times_0_287 = T::lit(0.2874780123425445) * legs_4_line_x;
-            let legs_4_stroke_with_legs_4_line_x = legs_4_line_x_times_0_287
-                - T::lit(0.9577872375530903) * legs_4_line_y;
-            let root_legs_4_stroke = Real::sqrt(
-                legs_0_gimbal_first_b_squared
-                    + legs_4_stroke_with_legs_4_line_y * legs_4_stroke_with_legs_4_line_y
-                    + legs_4_stroke_with_legs_4_line_x * legs_4_stroke_with_legs_4_line_x,
+            let legs_length_squared_with_legs_4_line_x = legs_0_line_z_squared
+                + legs_4_line_x * legs_4_line_x;
+            let legs_4_length = Real::sqrt(
+                legs_4_line_y * legs_4_line_y + legs_length_squared_with_legs_4_line_x,
             );
-            // Strut legs_4.
-            let slope_legs_4_stroke_inv = T::lit(1.0) / root_legs_4_stroke;
-            let slope_legs_4_stroke_inv_times_0_0625 = T::lit(0.0625)
-                * slope_legs_4_stroke_inv;
-            let legs_4_swell = slope_legs_4_stroke_inv_times_0_0625 - T::lit(0.1);
-            let legs_4_mu = slope_legs_4_stroke_inv * legs_4_swell;
-            let legs_5_line_y = T::lit(0.295) + q.platform.y;
-            // Closed form of legs_5_stroke.
-            let legs_5_stroke_with_legs_5_line_y = legs_4_line_x_times_0_958
-                - T::lit(0.2874780123425445) * legs_5_line_y;
-            let legs_5_stroke_with_legs_4_line_x = legs_4_line_x_times_0_287
-                + T::lit(0.9577872375530903) * legs_5_line_y;
-            let root_legs_5_stroke = Real::sqrt(
-                legs_0_gimbal_first_b_squared
-                    + legs_5_stroke_with_legs_5_line_y * legs_5_stroke_with_legs_5_line_y
-                    + legs_5_stroke_with_legs_4_line_x * legs_5_stroke_with_legs_4_line_x,
-            );
+            let legs_4_length_inv = T::lit(1.0) / legs_4_length;
+            let legs_4_length_inv_times_0_0625 = T::lit(0.0625) * legs_4_length_inv;
+            let legs_4_swell = legs_4_length_inv_times_0_0625 - T::lit(0.1);
+            let legs_4_mu = legs_4_length_inv * legs_4_swell;
             // Strut legs_5.
-            let slope_legs_5_stroke_inv = T::lit(1.0) / root_legs_5_stroke;
-            let slope_legs_5_stroke_inv_times_0_0625 = T::lit(0.0625)
-                * slope_legs_5_stroke_inv;
-            let legs_5_swell = slope_legs_5_stroke_inv_times_0_0625 - T::lit(0.1);
-            let legs_5_mu = slope_legs_5_stroke_inv * legs_5_swell;
+            let legs_5_line_y = T::lit(0.295) + q.platform.y;
+            let legs_5_length = Real::sqrt(
+                legs_5_line_y * legs_5_line_y + legs_length_squared_with_legs_4_line_x,
+            );
+            let legs_5_length_inv = T::lit(1.0) / legs_5_length;
+            let legs_5_length_inv_times_0_0625 = T::lit(0.0625) * legs_5_length_inv;
+            let legs_5_swell = legs_5_length_inv_times_0_0625 - T::lit(0.1);
+            let legs_5_mu = legs_5_length_inv * legs_5_swell;
             let legs_4_mu_plus_legs_5_mu = legs_4_mu + legs_5_mu;
             let legs_tension_with_legs_0_mu = T::lit(2.1) + legs_0_mu_plus_legs_3_mu
                 + legs_1_mu_plus_legs_2_mu + legs_4_mu_plus_legs_5_mu;
-            let minus_legs_0_beta = legs_0_stroke_rate * legs_0_bend
-                * slope_legs_0_stroke_inv_squared;
-            let legs_3_stroke_rate = slope_legs_3_stroke_inv
-                * (legs_stroke_gap_rate_with_platform_z_rate
-                    + legs_3_stroke_with_legs_3_line_y
-                        * (platform_x_rate_times_0_732 + platform_y_rate_times_0_682)
-                    + legs_3_stroke_with_legs_0_line_x
-                        * (platform_x_rate_times_0_682 - platform_y_rate_times_0_732));
+            let minus_legs_0_beta = legs_0_length_rate * legs_0_bend
+                * legs_0_length_inv_squared;
             // Strut legs_3.
-            let legs_3_bend = slope_legs_3_stroke_inv_times_0_0625 + legs_3_swell;
-            let slope_legs_3_stroke_inv_squared = slope_legs_3_stroke_inv
-                * slope_legs_3_stroke_inv;
-            let minus_legs_3_beta = legs_3_stroke_rate * legs_3_bend
-                * slope_legs_3_stroke_inv_squared;
+            let legs_3_length_rate = legs_3_length_inv
+                * (v.platform.y * legs_3_line_y
+                    + legs_line_by_rate_with_platform_x_rate);
+            let legs_3_bend = legs_3_length_inv_times_0_0625 + legs_3_swell;
+            let legs_3_length_inv_squared = legs_3_length_inv * legs_3_length_inv;
+            let minus_legs_3_beta = legs_3_length_rate * legs_3_bend
+                * legs_3_length_inv_squared;
             let minus_legs_0_beta_plus_minus_legs_3_beta = minus_legs_0_beta
                 + minus_legs_3_beta;
-            // Velocities of what follows.
-            let platform_x_rate_times_0_853 = T::lit(0.8525245220595058) * v.platform.x;
-            let platform_y_rate_times_0_523 = T::lit(0.5226872289306592) * v.platform.y;
-            let platform_x_rate_times_0_523 = T::lit(0.5226872289306592) * v.platform.x;
-            let platform_y_rate_times_0_853 = T::lit(0.8525245220595058) * v.platform.y;
-            let legs_1_stroke_rate = slope_legs_1_stroke_inv
-                * (legs_stroke_gap_rate_with_platform_z_rate
-                    + legs_1_stroke_with_legs_1_line_y
-                        * (platform_x_rate_times_0_853 - platform_y_rate_times_0_523)
-                    + legs_1_stroke_with_legs_1_line_x
-                        * (platform_x_rate_times_0_523 + platform_y_rate_times_0_853));
             // Strut legs_1.
-            let legs_1_bend = slope_legs_1_stroke_inv_times_0_0625 + legs_1_swell;
-            let slope_legs_1_stroke_inv_squared = slope_legs_1_stroke_inv
-                * slope_legs_1_stroke_inv;
-            let minus_legs_1_beta = legs_1_stroke_rate * legs_1_bend
-                * slope_legs_1_stroke_inv_squared;
-            let legs_2_stroke_rate = slope_legs_2_stroke_inv
-                * (legs_stroke_gap_rate_with_platform_z_rate
-                    + legs_2_stroke_with_legs_2_line_y
-                        * (platform_x_rate_times_0_853 + platform_y_rate_times_0_523)
-                    + legs_2_stroke_with_legs_1_line_x
-                        * (platform_x_rate_times_0_523 - platform_y_rate_times_0_853));
+            let legs_line_by_rate_with_legs_1_line_x = platform_z_rate_times_legs_0_line_z
+                + v.platform.x * legs_1_line_x;
+            let legs_1_length_rate = legs_1_length_inv
+                * (v.platform.y * legs_1_line_y + legs_line_by_rate_with_legs_1_line_x);
+            let legs_1_bend = legs_1_length_inv_times_0_0625 + legs_1_swell;
+            let legs_1_length_inv_squared = legs_1_length_inv * legs_1_length_inv;
+            let minus_legs_1_beta = legs_1_length_rate * legs_1_bend
+                * legs_1_length_inv_squared;
             // Strut legs_2.
-            let legs_2_bend = slope_legs_2_stroke_inv_times_0_0625 + legs_2_swell;
-            let slope_legs_2_stroke_inv_squared = slope_legs_2_stroke_inv
-                * slope_legs_2_stroke_inv;
-            let minus_legs_2_beta = legs_2_stroke_rate * legs_2_bend
-                * slope_legs_2_stroke_inv_squared;
+            let legs_2_length_rate = legs_2_length_inv
+                * (v.platform.y * legs_2_line_y + legs_line_by_rate_with_legs_1_line_x);
+            let legs_2_bend = legs_2_length_inv_times_0_0625 + legs_2_swell;
+            let legs_2_length_inv_squared = legs_2_length_inv * legs_2_length_inv;
+            let minus_legs_2_beta = legs_2_length_rate * legs_2_bend
+                * legs_2_length_inv_squared;
             let minus_legs_1_beta_plus_minus_legs_2_beta = minus_legs_1_beta
                 + minus_legs_2_beta;
-            // Velocities of what follows.
-            let platform_x_rate_times_0_958 = T::lit(0.9577872375530903) * v.platform.x;
-            let platform_y_rate_times_0_287 = T::lit(0.2874780123425445) * v.platform.y;
-            let platform_x_rate_times_0_287 = T::lit(0.2874780123425445) * v.platform.x;
-            let platform_y_rate_times_0_958 = T::lit(0.9577872375530903) * v.platform.y;
-            let legs_4_stroke_rate = slope_legs_4_stroke_inv
-                * (legs_stroke_gap_rate_with_platform_z_rate
-                    + legs_4_stroke_with_legs_4_line_y
-                        * (platform_x_rate_times_0_958 + platform_y_rate_times_0_287)
-                    + legs_4_stroke_with_legs_4_line_x
-                        * (platform_x_rate_times_0_287 - platform_y_rate_times_0_958));
             // Strut legs_4.
-            let legs_4_bend = slope_legs_4_stroke_inv_times_0_0625 + legs_4_swell;
-            let slope_legs_4_stroke_inv_squared = slope_legs_4_stroke_inv
-                * slope_legs_4_stroke_inv;
-            let minus_legs_4_beta = legs_4_stroke_rate * legs_4_bend
-                * slope_legs_4_stroke_inv_squared;
-            let legs_5_stroke_rate = slope_legs_5_stroke_inv
-                * (legs_stroke_gap_rate_with_platform_z_rate
-                    + legs_5_stroke_with_legs_5_line_y
-                        * (platform_x_rate_times_0_958 - platform_y_rate_times_0_287)
-                    + legs_5_stroke_with_legs_4_line_x
-                        * (platform_x_rate_times_0_287 + platform_y_rate_times_0_958));
+            let legs_line_by_rate_with_legs_4_line_x = platform_z_rate_times_legs_0_line_z
+                + v.platform.x * legs_4_line_x;
+            let legs_4_length_rate = legs_4_length_inv
+                * (v.platform.y * legs_4_line_y + legs_line_by_rate_with_legs_4_line_x);
+            let legs_4_bend = legs_4_length_inv_times_0_0625 + legs_4_swell;
+            let legs_4_length_inv_squared = legs_4_length_inv * legs_4_length_inv;
+            let minus_legs_4_beta = legs_4_length_rate * legs_4_bend
+                * legs_4_length_inv_squared;
             // Strut legs_5.
-            let legs_5_bend = slope_legs_5_stroke_inv_times_0_0625 + legs_5_swell;
-            let slope_legs_5_stroke_inv_squared = slope_legs_5_stroke_inv
-                * slope_legs_5_stroke_inv;
-            let minus_legs_5_beta = legs_5_stroke_rate * legs_5_bend
-                * slope_legs_5_stroke_inv_squared;
+            let legs_5_length_rate = legs_5_length_inv
+                * (v.platform.y * legs_5_line_y + legs_line_by_rate_with_legs_4_line_x);
+            let legs_5_bend = legs_5_length_inv_times_0_0625 + legs_5_swell;
+            let legs_5_length_inv_squared = legs_5_length_inv * legs_5_length_inv;
+            let minus_legs_5_beta = legs_5_length_rate * legs_5_bend
+                * legs_5_length_inv_squared;
             // Balance of the body on its struts.
             let minus_legs_4_beta_plus_minus_legs_5_beta = minus_legs_4_beta
                 + minus_legs_5_beta;
             let minus_mass_struts_beta = minus_legs_0_beta_plus_minus_legs_3_beta
                 + minus_legs_1_beta_plus_minus_legs_2_beta
                 + minus_legs_4_beta_plus_minus_legs_5_beta;
-            let rank_0_with_legs_0_gimbal_first_b = Real::abs(
-                minus_legs_0_gimbal_first_b,
-            );
+            let abs_legs_0_line_z = Real::abs(legs_0_line_z);
             let rank_0_part = T::lit(450.0) * <T as Real>::epsilon();
-            let legs_tension_with_legs_0_gimbal_first_b = Real::select(
-                Real::le(rank_0_with_legs_0_gimbal_first_b, rank_0_part),
+            let legs_tension_with_legs_0_line_z = Real::select(
+                Real::le(abs_legs_0_line_z, rank_0_part),
                 T::lit(0.0),
-                T::lit(1.0) / minus_legs_0_gimbal_first_b,
+                T::lit(1.0) / legs_0_line_z,
             );
             let legs_tension_with_platform_z_accel = (T::lit(20.593965)
                 + accel.platform.z * legs_tension_with_legs_0_mu
                 - v.platform.z * minus_mass_struts_beta)
-                * legs_tension_with_legs_0_gimbal_first_b;
+                * legs_tension_with_legs_0_line_z;
             let legs_tension_with_platform_x_accel = accel.platform.x
                 * legs_tension_with_legs_0_mu - v.platform.x * minus_mass_struts_beta
                 - q.platform.x * legs_tension_with_platform_z_accel;
@@ -1140,7 +1051,7 @@ pub mod level {
             let legs_tension_with_first_struts_mu_x = (accel.platform.z
                 * first_struts_mu_x - T::lit(0.6) * accel.platform.x
                 - v.platform.z * minus_first_struts_beta_x)
-                * legs_tension_with_legs_0_gimbal_first_b;
+                * legs_tension_with_legs_0_line_z;
             let legs_tension_with_platform_x_rate = T::lit(0.32911554192229037)
                 * legs_tension_with_platform_x_accel
                 - T::lit(0.3270066462167689) * legs_tension_with_platform_z_accel
@@ -1158,7 +1069,7 @@ pub mod level {
             let legs_tension_with_first_struts_mu_y = (accel.platform.z
                 * first_struts_mu_y - T::lit(0.6) * accel.platform.y
                 - v.platform.z * minus_first_struts_beta_y)
-                * legs_tension_with_legs_0_gimbal_first_b;
+                * legs_tension_with_legs_0_line_z;
             let legs_tension_with_platform_y_rate = accel.platform.y * first_struts_mu_x
                 - v.platform.y * minus_first_struts_beta_x
                 - accel.platform.x * first_struts_mu_y
@@ -1174,14 +1085,14 @@ pub mod level {
             let minus_legs_0_thrust = (legs_0_swell
                 * (accel.platform.y * legs_0_line_y + legs_thrust_with_platform_x_accel)
                 - legs_thrust_with_platform_x_rate
-                - legs_0_stroke_rate * legs_0_stroke_rate * (legs_0_bend - T::lit(0.05)))
-                * slope_legs_0_stroke_inv_squared
-                + root_legs_0_stroke
+                - legs_0_length_rate * legs_0_length_rate * (legs_0_bend - T::lit(0.05)))
+                * legs_0_length_inv_squared
+                + legs_0_length
                     * (legs_tension_with_mass_struts_beta
                         - legs_tension_with_platform_x_rate)
-                - self.legs_0_c * legs_0_stroke_rate
-                + self.legs_0_k * (self.legs_0_force_factor - root_legs_0_stroke);
-            let legs_thrust_with_legs_1_line_x = legs_thrust_with_platform_z_accel
+                - self.legs_0_c * legs_0_length_rate
+                + self.legs_0_k * (self.legs_0_force_factor - legs_0_length);
+            let legs_thrust_with_legs_1_line_x = platform_z_accel_times_legs_0_line_z
                 + accel.platform.x * legs_1_line_x;
             let legs_tension_with_platform_z_rate = T::lit(0.2601930192065932)
                 * legs_tension_with_first_struts_mu_y
@@ -1195,33 +1106,33 @@ pub mod level {
             let legs_1_thrust = (legs_thrust_with_platform_x_rate
                 - legs_1_swell
                     * (accel.platform.y * legs_1_line_y + legs_thrust_with_legs_1_line_x)
-                + legs_1_stroke_rate * legs_1_stroke_rate * (legs_1_bend - T::lit(0.05)))
-                * slope_legs_1_stroke_inv_squared
-                + root_legs_1_stroke
+                + legs_1_length_rate * legs_1_length_rate * (legs_1_bend - T::lit(0.05)))
+                * legs_1_length_inv_squared
+                + legs_1_length
                     * (legs_tension_with_platform_z_rate - legs_tension_with_platform_x)
-                + self.legs_1_c * legs_1_stroke_rate
-                - self.legs_1_k * (self.legs_1_force_factor - root_legs_1_stroke);
+                + self.legs_1_c * legs_1_length_rate
+                - self.legs_1_k * (self.legs_1_force_factor - legs_1_length);
             let legs_2_thrust = (legs_thrust_with_platform_x_rate
                 - legs_2_swell
                     * (accel.platform.y * legs_2_line_y + legs_thrust_with_legs_1_line_x)
-                + legs_2_stroke_rate * legs_2_stroke_rate * (legs_2_bend - T::lit(0.05)))
-                * slope_legs_2_stroke_inv_squared
-                - root_legs_2_stroke
+                + legs_2_length_rate * legs_2_length_rate * (legs_2_bend - T::lit(0.05)))
+                * legs_2_length_inv_squared
+                - legs_2_length
                     * (legs_tension_with_platform_z_rate + legs_tension_with_platform_x)
-                + self.legs_2_c * legs_2_stroke_rate
-                - self.legs_2_k * (self.legs_2_force_factor - root_legs_2_stroke);
+                + self.legs_2_c * legs_2_length_rate
+                - self.legs_2_k * (self.legs_2_force_factor - legs_2_length);
             let legs_3_thrust = (legs_thrust_with_platform_x_rate
                 - legs_3_swell
                     * (accel.platform.y * legs_3_line_y
                         + legs_thrust_with_platform_x_accel)
-                + legs_3_stroke_rate * legs_3_stroke_rate * (legs_3_bend - T::lit(0.05)))
-                * slope_legs_3_stroke_inv_squared
-                + root_legs_3_stroke
+                + legs_3_length_rate * legs_3_length_rate * (legs_3_bend - T::lit(0.05)))
+                * legs_3_length_inv_squared
+                + legs_3_length
                     * (legs_tension_with_platform_x_rate
                         + legs_tension_with_mass_struts_beta)
-                + self.legs_3_c * legs_3_stroke_rate
-                - self.legs_3_k * (self.legs_3_force_factor - root_legs_3_stroke);
-            let legs_thrust_with_legs_4_line_x = legs_thrust_with_platform_z_accel
+                + self.legs_3_c * legs_3_length_rate
+                - self.legs_3_k * (self.legs_3_force_factor - legs_3_length);
+            let legs_thrust_with_legs_4_line_x = platform_z_accel_times_legs_0_line_z
                 + accel.platform.x * legs_4_line_x;
             let legs_tension_with_platform_y = T::lit(0.23770209988653576)
                 * legs_tension_with_platform_y_accel
@@ -1234,21 +1145,21 @@ pub mod level {
             let legs_4_thrust = (legs_thrust_with_platform_x_rate
                 - legs_4_swell
                     * (accel.platform.y * legs_4_line_y + legs_thrust_with_legs_4_line_x)
-                + legs_4_stroke_rate * legs_4_stroke_rate * (legs_4_bend - T::lit(0.05)))
-                * slope_legs_4_stroke_inv_squared
-                - root_legs_4_stroke
+                + legs_4_length_rate * legs_4_length_rate * (legs_4_bend - T::lit(0.05)))
+                * legs_4_length_inv_squared
+                - legs_4_length
                     * (legs_tension_with_platform_y - legs_tension_with_legs_3_mu)
-                + self.legs_4_c * legs_4_stroke_rate
-                - self.legs_4_k * (self.legs_4_force_factor - root_legs_4_stroke);
+                + self.legs_4_c * legs_4_length_rate
+                - self.legs_4_k * (self.legs_4_force_factor - legs_4_length);
             let legs_5_thrust = (legs_thrust_with_platform_x_rate
                 - legs_5_swell
                     * (accel.platform.y * legs_5_line_y + legs_thrust_with_legs_4_line_x)
-                + legs_5_stroke_rate * legs_5_stroke_rate * (legs_5_bend - T::lit(0.05)))
-                * slope_legs_5_stroke_inv_squared
-                + root_legs_5_stroke
+                + legs_5_length_rate * legs_5_length_rate * (legs_5_bend - T::lit(0.05)))
+                * legs_5_length_inv_squared
+                + legs_5_length
                     * (legs_tension_with_platform_y + legs_tension_with_legs_3_mu)
-                + self.legs_5_c * legs_5_stroke_rate
-                - self.legs_5_k * (self.legs_5_force_factor - root_legs_5_stroke);
+                + self.legs_5_c * legs_5_length_rate
+                - self.legs_5_k * (self.legs_5_force_factor - legs_5_length);
             let mut solved = *input;
             solved.legs[0].thrust = -minus_legs_0_thrust;
             solved.legs[1].thrust = legs_1_thrust;
@@ -1261,7 +1172,7 @@ pub mod level {
                 rank: T::lit(3.0)
                     + T::lit(3.0)
                         * Real::select(
-                            Real::lt(rank_0_part, rank_0_with_legs_0_gimbal_first_b),
+                            Real::lt(rank_0_part, abs_legs_0_line_z),
                             T::lit(1.0),
                             T::lit(0.0),
                         ),
@@ -2516,8 +2427,8 @@ pub mod level {
         },
         ::multibody::Cost {
             function: "inverse_dynamics",
-            add: 184,
-            mul: 200,
+            add: 154,
+            mul: 164,
             div: 7,
             sqrt: 6,
             sincos: 0,
@@ -2555,8 +2466,8 @@ pub mod level {
         },
         ::multibody::Cost {
             function: "inverse_dynamics",
-            add: 219,
-            mul: 219,
+            add: 187,
+            mul: 183,
             div: 7,
             sqrt: 6,
             sincos: 0,

@@ -9,4 +9,5 @@ mod momentum;
 mod output_groups;
 mod packs;
 mod power_balance;
+mod struts_in_packs;
 mod trees;

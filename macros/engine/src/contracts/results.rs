@@ -101,11 +101,13 @@ pub struct Results<S> {
     pub parts: Parts,
     /// All of them, slot after slot.
     pub list: Vec<S>,
+    /// The same with numbers of limbs as symbols, where they are to be optimised so; else empty.
+    pub apart: Vec<S>,
 }
 
 impl<S> Default for Results<S> {
     fn default() -> Self {
-        Results { parts: Parts::default(), list: Vec::new() }
+        Results { parts: Parts::default(), list: Vec::new(), apart: Vec::new() }
     }
 }
 

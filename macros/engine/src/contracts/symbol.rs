@@ -67,4 +67,8 @@ pub enum Symbol {
         index: usize,
         component: usize,
     },
+    /// A number of a limb while it is optimised, kept apart from those of other limbs: a literal in what is printed.
+    Number {
+        index: usize,
+    },
 }

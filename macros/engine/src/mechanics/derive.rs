@@ -106,7 +106,12 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
     let checks = deriving.checks()?;
     let inertia = deriving.inertia()?;
     for function in &functions {
-        function.candidates.iter().for_each(|candidate| deriving.label(function.kind, &candidate.1.list));
+        for (_, results) in &function.candidates {
+            deriving.label(function.kind, &results.list);
+            if !results.apart.is_empty() {
+                deriving.label(function.kind, &results.apart);
+            }
+        }
     }
     if let Inertia::Own(entries) = &inertia {
         deriving.label(FunctionKind::MassMatrix, entries);
@@ -116,6 +121,12 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
     // Last, so that nothing of them is found by what is emitted.
     let asked: Vec<FunctionKind> = functions.iter().map(|function| function.kind).collect();
     let witnesses = deriving.witnesses(&asked)?;
+    let limbs = (model.packs == Packs::Four).then(|| {
+        let value = |&(symbol, value): &(Scalar, Scalar)| {
+            Some((deriving.graph.symbol_id(symbol)?, deriving.graph.literal(value)?.value()))
+        };
+        Limbs::of(model).with_numbers(deriving.decided.numbers.iter().filter_map(value).collect())
+    });
     let Deriving { graph, symbols, notes, dead_centres, modes, .. } = deriving;
     let symbol_names = symbols.table.iter().map(|&symbol| names::symbol(model, symbol)).collect();
     let symbols = symbols.table.clone();
@@ -133,7 +144,7 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
         checks,
         inertia,
         witnesses,
-        limbs: (model.packs == Packs::Four).then(|| Limbs::of(model)),
+        limbs,
     })
 }
 
@@ -348,8 +359,10 @@ impl<'m> Deriving<'m> {
             let found = self.maybe(self.way(), |e| {
                 let reduction = e.reduce()?;
                 let Some(platform) = e.platform(&reduction) else { return Ok(None) };
-                let name = inverse::ways(&platform.carrier, platform.assumed()).get(at).map(|way| way.0);
-                Ok(name.zip(e.platform_inputs(&platform, &reduction, at)))
+                let ways = inverse::ways(&platform.carrier, platform.assumed(), e.is_packed());
+                let name = ways.get(at).map(|way| way.0);
+                let results = e.platform_inputs(&platform, &reduction, at).map(|results| e.with_numbers(results));
+                Ok(name.zip(results))
             })?;
             let Some(found) = found else { break };
             candidates.push(found);

@@ -8,11 +8,14 @@ use std::collections::HashMap;
 
 use crate::contracts::symbol::Symbol;
 use crate::model::types::{BodyRef, JointId, Model};
+use crate::symbolic::graph::SymbolId;
 
 /// Joints of limbs.
 #[derive(Clone, Debug, Default)]
 pub struct Limbs {
     joints: HashMap<JointId, Place>,
+    /// What symbols stand for that are numbers of limbs (see `strut/apart`).
+    pub numbers: HashMap<SymbolId, f64>,
 }
 
 /// A joint of a limb.
@@ -59,6 +62,12 @@ impl Limbs {
             }
         }
         limbs
+    }
+
+    /// With what symbols stand for.
+    #[must_use]
+    pub fn with_numbers(self, numbers: HashMap<SymbolId, f64>) -> Limbs {
+        Limbs { numbers, ..self }
     }
 
     /// Of a symbol that is a coordinate of a limb.

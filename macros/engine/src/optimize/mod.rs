@@ -10,6 +10,7 @@ pub mod effort;
 pub mod factor;
 pub mod fields;
 pub mod flatten;
+mod fold;
 pub mod fuse;
 mod hints;
 mod import;
@@ -28,8 +29,10 @@ mod wording;
 use crate::contracts::cost::Cost;
 use crate::contracts::function::FunctionKind;
 use crate::contracts::results::Parts;
+use crate::contracts::symbol::Symbol;
 use crate::invariant::fault::OrFault;
 use crate::invariant::injection::{Break, broken};
+use crate::mechanics::limbs::Limbs;
 use crate::mechanics::{Derivation, Derived, Inertia};
 use crate::symbolic::graph::Scalar;
 use crate::symbolic::lower::Lowering;
@@ -98,30 +101,44 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>, fused: bool) -> R
     }
     let mut sound = true;
     let mut chosen: Vec<Chosen> = Vec::new();
+    let (symbols, symbol_names) = with_numbers(derivation);
     let mut members: Vec<Member<'_>> = derivation.at.iter().map(|&kind| Member::new(derivation, kind)).collect();
     for function in &derivation.functions {
         let mut member = members.iter_mut().find(|member| member.derived.kind == function.kind);
         let mut best: Option<(u32, Chosen)> = None;
         let mut tried: Vec<Rival> = Vec::new();
         for (candidate, (method, results)) in function.candidates.iter().enumerate() {
-            let mut lowering = Lowering::new(&derivation.graph);
-            let roots = lowering.run(&results.list);
-            if lowering.to.len() > MOST_OPERATIONS {
-                return Err(Refusal::TooLarge(Excess::Operations(function.kind, lowering.to.len())));
-            }
-            let before = lowering.to.cost(&roots);
-            let mut dag = Dag::import(&lowering.to, &roots, &derivation.symbols);
-            dag.symbol_names.clone_from(&derivation.symbol_names);
-            if !plain.functions.contains(&function.kind) {
-                sound &= simplify(&mut dag);
-            }
-            let cost = dag.cost().0;
-            tried.push(Rival { method, cost });
+            let is_plain = plain.functions.contains(&function.kind);
+            let mut import = |list: &[Scalar]| {
+                let mut lowering = Lowering::new(&derivation.graph);
+                let roots = lowering.run(list);
+                if lowering.to.len() > MOST_OPERATIONS {
+                    return Err(Refusal::TooLarge(Excess::Operations(function.kind, lowering.to.len())));
+                }
+                let before = lowering.to.cost(&roots);
+                let mut dag = Dag::import(&lowering.to, &roots, &symbols);
+                dag.symbol_names.clone_from(&symbol_names);
+                if !is_plain {
+                    sound &= simplify(&mut dag);
+                }
+                Ok((dag, before))
+            };
+            let apart = !is_plain && !results.apart.is_empty();
             if let Some(member) = &mut member {
-                member.ways.push(dag.clone());
+                let (dag, before) = import(&results.list)?;
+                member.ways.push(dag);
                 member.before.push(before);
             }
-            let weight = cost.weight();
+            let (dag, before) = match &member {
+                Some(Member { ways, before, .. }) if !apart => (ways[candidate].clone(), before[candidate]),
+                _ => import(if apart { &results.apart } else { &results.list })?,
+            };
+            let cost = dag.cost().0;
+            tried.push(Rival { method, cost });
+            let weight = match &derivation.limbs {
+                Some(limbs) if !is_plain && !limbs.numbers.is_empty() => packed_weight(&dag, &symbols, limbs),
+                _ => cost.weight(),
+            };
             if best.as_ref().is_none_or(|(least, _)| weight < *least) {
                 let (kind, parts, rivals) = (function.kind, results.parts.clone(), Vec::new());
                 best = Some((weight, Chosen { kind, parts, method, candidate, before, dag, rivals }));
@@ -135,13 +152,13 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>, fused: bool) -> R
     }
     let together = (!members.is_empty()).then(|| together(derivation, &members, plain.at, &mut sound));
     let dags: Vec<&Dag> = chosen.iter().map(|c| &c.dag).chain(together.as_ref().map(|found| &found.dag)).collect();
-    let mut gathered = fields::gather(&dags, &derivation.symbols);
+    let mut gathered = fields::gather(&dags, &symbols);
     let inertia = inertia(derivation);
     if let Inertia::Own(dag) = &inertia {
         gathered.take_parameters(dag);
     }
     let fields::StoredFields { mut prelude, fields, names } = gathered;
-    prelude.symbol_names.clone_from(&derivation.symbol_names);
+    prelude.symbol_names.clone_from(&symbol_names);
     if plain.functions.is_empty() {
         sound &= simplify(&mut prelude);
     }
@@ -180,6 +197,26 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>, fused: bool) -> R
         return Err(Refusal::NotFinite);
     }
     Ok(Compiled { fields: names, prelude, prelude_cost, functions, at, checks, inertia, sound, unchecked: Vec::new() })
+}
+
+/// All symbols of the graph with their names, those too that stand for numbers of limbs, which come behind the others.
+fn with_numbers(derivation: &Derivation) -> (Vec<Symbol>, Vec<String>) {
+    let (mut symbols, mut names) = (derivation.symbols.clone(), derivation.symbol_names.clone());
+    let numbers = derivation.limbs.iter().flat_map(|limbs| limbs.numbers.keys());
+    let count = numbers.map(|id| id.0 + 1).max().unwrap_or(0).max(symbols.len());
+    for index in 0..count - symbols.len() {
+        symbols.push(Symbol::Number { index });
+        names.push(format!("number_{index}"));
+    }
+    (symbols, names)
+}
+
+/// What choices between candidates compare where limbs without coordinates go into packs, which have a way of their own to that: what is
+/// left of them there. Elsewhere a pack for each candidate would take more time than all passes.
+fn packed_weight(dag: &Dag, symbols: &[Symbol], limbs: &Limbs) -> u32 {
+    let fields::StoredFields { fields, names, .. } = fields::gather(&[dag], symbols);
+    let form = Form { limbs: Some(limbs), fused: false, bounded: &[], ordered: false };
+    packs::weight(&schedule::schedule_as(dag, &fields, &names, form))
 }
 
 /// A function that is asked for at a position, with all its ways.

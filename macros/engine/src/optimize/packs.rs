@@ -13,6 +13,7 @@
 //! The idea is that of superword-level parallelism (Larsen and Amarasinghe, PLDI 2000), on statements whose likeness is known from the
 //! mechanism, where a compiler looks for neighbours in memory.
 
+mod halves;
 mod likeness;
 mod order;
 mod unify;
@@ -66,6 +67,11 @@ pub fn pack(program: Program, limbs: &Limbs) -> Program {
         return program;
     }
     order::ordered(parted, &found)
+}
+
+/// What a program with packs or without them costs, in additions: for choices between ways to the same function.
+pub fn weight(program: &Program) -> u32 {
+    worth::weight(program)
 }
 
 /// Operations of a program on packs, and on scalars, by one round of iterations; nothing where there are no packs.

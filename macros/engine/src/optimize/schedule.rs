@@ -17,6 +17,7 @@ use crate::symbolic::graph::{BlockKind, SymbolId};
 use crate::symbolic::number::Number;
 
 use super::dag::{Block, Dag, Id, Kind, ONE};
+use super::fold;
 use super::fuse;
 use super::hints::{headings, hints};
 use super::names::Names;
@@ -54,11 +55,15 @@ pub struct Form<'a> {
 /// The same in a form.
 pub fn schedule_as(dag: &Dag, fields: &Fields, names: &[String], form: Form<'_>) -> Program {
     let mut scheduler = Scheduler::new(dag, fields, names);
+    scheduler.limbs = form.limbs;
     scheduler.make(dag.roots.iter().map(|root| root.1));
     let results = dag.roots.iter().map(|&root| scheduler.term(root)).collect();
     let mut program = scheduler.program;
     program.results = results;
     if let Some(limbs) = form.limbs {
+        if !limbs.numbers.is_empty() {
+            fold::fold(&mut program);
+        }
         program = packs::pack(program, limbs);
     }
     if form.fused {
@@ -103,6 +108,8 @@ struct Scheduler<'a> {
     boundary: HashSet<Id>,
     /// Locals of the results of blocks that have been written.
     results: HashMap<usize, Vec<Local>>,
+    /// Whose numbers symbols may stand for.
+    limbs: Option<&'a Limbs>,
     program: Program,
 }
 
@@ -129,6 +136,7 @@ impl<'a> Scheduler<'a> {
             boundary: loops.iter().flat_map(|l| l.frontier.iter().copied()).collect(),
             loops,
             results: HashMap::new(),
+            limbs: None,
             program: Program::default(),
         }
     }
@@ -289,6 +297,10 @@ impl<'a> Scheduler<'a> {
                 // Outside its iteration an unknown is read only by values that don't change with it.
                 Symbol::Unknown { .. } => (Expression::Literal(1.0), 1),
                 Symbol::UnknownPoint { component, .. } => (Expression::Literal([1.0, 0.0][component]), 1),
+                Symbol::Number { .. } => {
+                    let value = self.limbs.and_then(|limbs| limbs.numbers.get(symbol));
+                    (Expression::Literal(*value.or_fault("a symbol stands for a number of a limb")), 1)
+                }
                 symbol => (Expression::Symbol(symbol), 1),
             },
             Kind::Sum(terms) => self.sum(id, terms),

@@ -33,7 +33,8 @@ impl Stage {
             | Symbol::Guess { .. }
             | Symbol::Alternative { .. }
             | Symbol::Unknown { .. }
-            | Symbol::UnknownPoint { .. } => Stage::Position,
+            | Symbol::UnknownPoint { .. }
+            | Symbol::Number { .. } => Stage::Position,
             Symbol::Velocity { .. } => Stage::Velocity,
             Symbol::Input { .. } | Symbol::Multiplier { .. } | Symbol::Rate { .. } => Stage::Input,
             Symbol::Impulse { .. } | Symbol::Momentum { .. } => Stage::Input,

@@ -22,6 +22,7 @@ pub mod linear_algebra;
 pub mod lower;
 pub mod modular;
 pub mod number;
+pub mod pairs;
 pub mod pivoted;
 pub mod radical;
 pub(crate) mod rotations;

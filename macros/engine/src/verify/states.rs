@@ -72,7 +72,7 @@ fn address(symbol: Symbol) -> (usize, usize, usize) {
         Symbol::Rate { row } => (10, row, 0),
         Symbol::Guess { index } => (11, index, 0),
         Symbol::Alternative { component } => (12, component, 0),
-        Symbol::Unknown { .. } | Symbol::UnknownPoint { .. } => (usize::MAX, 0, 0),
+        Symbol::Unknown { .. } | Symbol::UnknownPoint { .. } | Symbol::Number { .. } => (usize::MAX, 0, 0),
     }
 }
 

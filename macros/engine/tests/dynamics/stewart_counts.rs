@@ -186,8 +186,8 @@ impl Machine {
 fn forward(m: &mut Machine, at: usize) -> (&'static str, Vec<Scalar>) {
     let carrier = m.carrier();
     let g = &mut m.g;
-    let (name, gather, reference) = strut::forward::ways(&carrier)[at];
-    let (a, dw) = strut::forward::accelerations(g, &carrier, &m.force, (&reference, gather), false);
+    let (name, way, reference) = strut::forward::ways(&carrier, true)[at];
+    let (a, dw) = strut::forward::accelerations(g, &carrier, &m.force, (&reference, way), false);
     let mut found = motion::coordinates(g, &m.tree, m.platform, &a, &dw).expect("coordinates");
     found.sort_by_key(|f| f.0);
     (name, found.into_iter().map(|f| f.1).collect())
@@ -230,12 +230,12 @@ fn check_forces(m: &Machine, roots: &[Scalar], name: &str) -> f64 {
 /// base.
 fn inverse(geometry: Geometry, above: bool, level: bool) -> (u32, f64) {
     let mut best: Option<(u32, f64)> = None;
-    let count_ways = ways(&Machine::new(level, geometry).carrier(), above).len();
+    let count_ways = ways(&Machine::new(level, geometry).carrier(), above, true).len();
     for at in 0..count_ways {
         let mut m = Machine::new(level, geometry);
         let carrier = m.carrier();
         let g = &mut m.g;
-        let (name, way, reference) = ways(&carrier, above)[at];
+        let (name, way, reference) = ways(&carrier, above, true)[at];
         let view = carrier.view(g, Axes::World, &reference);
         let heights: Vec<Scalar> = (0..6).map(|leg| view.line(g, leg)[2]).filter(|_| above).collect();
         let nonzero = |g: &Graph, s: Scalar| heights.contains(&s) || g.literal(s).is_some_and(|n| !n.is_zero());
@@ -259,7 +259,7 @@ fn inverse(geometry: Geometry, above: bool, level: bool) -> (u32, f64) {
 fn forwards(geometry: Geometry) -> (u32, f64) {
     let data = read("forward");
     let mut best: Option<(u32, f64)> = None;
-    let count_ways = strut::forward::ways(&Machine::new(false, geometry).carrier()).len();
+    let count_ways = strut::forward::ways(&Machine::new(false, geometry).carrier(), true).len();
     for at in 0..count_ways {
         let mut m = Machine::new(false, geometry);
         let (name, roots) = forward(&mut m, at);

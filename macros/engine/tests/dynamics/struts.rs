@@ -273,7 +273,9 @@ fn forwards_is_backwards() {
         let mut first: Option<Vec<f64>> = None;
         let ways = [Axes::Body, Axes::World].into_iter().flat_map(|axes| {
             let arms = [Arms::Pins, Arms::Pin, Arms::Feet].into_iter();
-            arms.flat_map(move |arms| [Gather::Forces, Gather::Moments].map(|gather| Variant { axes, arms, gather }))
+            arms.flat_map(move |arms| {
+                [Gather::Forces, Gather::Moments].map(|gather| Variant { axes, arms, gather, apart: false })
+            })
         });
         let references = [carrier.plane(), legs[0].1, point(&mut b.g, &mut b.rng)];
         for (way, reference) in ways.flat_map(|way| references.map(|reference| (way, reference))) {
@@ -284,14 +286,17 @@ fn forwards_is_backwards() {
             let first = first.get_or_insert_with(|| got.clone());
             let size = first.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
             assert!(first.iter().zip(&got).all(|(x, y)| (x - y).abs() < 1e-10 * size), "{way:?} {first:?} {got:?}");
-            for gather in [forward::Gather::Sums, forward::Gather::Lines] {
+            let gathers = [forward::Gather::Sums, forward::Gather::Lines].into_iter();
+            let ways =
+                gathers.flat_map(|gather| [false, true].map(|pairs| forward::Variant { gather, pairs, apart: false }));
+            for way in ways {
                 b.g.forget();
-                let (a, dw) = accelerations(&mut b.g, &carrier, &found.forces, (&reference, gather), false);
+                let (a, dw) = accelerations(&mut b.g, &carrier, &found.forces, (&reference, way), false);
                 let back = coordinates(&mut b.g, &b.tree, platform, &a, &dw).unwrap();
                 let got = b.evaluate(&back.iter().map(|f| f.1).collect::<Vec<_>>());
                 let want: Vec<Scalar> = back.iter().map(|f| b.tree.acceleration[f.0]).collect();
                 let want = b.evaluate(&want);
-                assert!(got.iter().zip(&want).all(|(x, y)| (x - y).abs() < 1e-9), "{seed} {gather:?} {got:?} {want:?}");
+                assert!(got.iter().zip(&want).all(|(x, y)| (x - y).abs() < 1e-9), "{seed} {way:?} {got:?} {want:?}");
             }
         }
     }

@@ -10,6 +10,9 @@ mod held_loops;
 #[path = "../common/interpreter.rs"]
 mod interpreter;
 mod packs;
+#[allow(dead_code, reason = "other areas use the rest")]
+#[path = "../common/rng.rs"]
+mod rng;
 mod states;
 
 use std::time::Instant;

@@ -1,7 +1,13 @@
 //! Packs of limbs in every model of the project: the check finds nothing wrong with them, and tells of one that is.
 
+use std::collections::HashMap;
+
 use crate::corpus;
 use crate::interpreter;
+use crate::rng::Rng;
+use multibody_engine::contracts::call::Call;
+use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::model::types::{Model, Packs};
 use multibody_engine::optimize::program::{Compiled, Expression, Statement};
 use multibody_engine::{mechanics, optimize, verify};
@@ -37,6 +43,83 @@ fn no_model_of_the_project_is_wrong() {
     }
     assert!(complaints.is_empty(), "{complaints:#?}");
     assert!(packed >= 10 || !only.is_empty(), "{packed}");
+}
+
+/// A platform on six legs whose places are typed, one of them turned, with numbers that some legs have in common and with zeros.
+fn platform(packs: &str) -> Model {
+    corpus::model(&format!(
+        "mod leg {{
+            port base: Frame;
+            port tip: Frame;
+            input thrust;
+            body cylinder {{ mass: 0.3141592653589793, com: 0.5 * Z, inertia: diag(0.00625, 0.00625, 0.0) }}
+            body piston {{ mass: 0.2718281828459045, com: -0.5 * Z, inertia: diag(0.00571, 0.00571, 0.0) }}
+            joint gimbal: Universal {{ parent: base, child: cylinder, axes: [X, Y] }}
+            joint stroke: Prismatic {{ parent: cylinder.at(Z), child: piston, axis: Z }}
+            #[cut]
+            joint ball: Ball {{ parent: piston, child: tip }}
+            force actuator: Effort {{ joint: stroke, value: thrust - 3.1 * (stroke.travel - 0.2) - 0.7 * stroke.rate }}
+            solve (gimbal, stroke) from ball {{ stroke > -1.0, cos(gimbal.second) > 0.0 }}
+        }}
+        pub mod oblique {{
+            formulation {{ constraints: Reduced, packs: {packs} }}
+            const FEET: [Vec3; 6] = [
+                [-2.1234567890123456, 1.3745678901234567, 0.0456789012345678], [-2.38, 1.224, 0.0],
+                [-2.3956789012345678, -1.2246789012345678, -0.0345678901234567], [0.0, -1.374, 0.0213456789012345],
+                [0.0123456789012345, -0.1523456789012345, 0.0], [0.0, 0.1534567890123456, -0.0123456789012345],
+            ];
+            const PINS: [Vec3; 6] = [
+                [0.1723456789012345, 0.5956789012345678, -0.4012345678901234], [-0.6, 0.15, -0.4],
+                [-0.6012345678901234, -0.1512345678901234, -0.4], [0.17, -0.595, -0.3898765432109876],
+                [0.4312345678901234, -0.4451234567890123, -0.4], [0.43, 0.0, -0.4123456789012345],
+            ];
+            world {{ gravity: [0.31, -0.22, -9.7] }}
+            body platform {{
+                mass: 1.5123456789012345, com: [0.02, -0.03, 0.04], inertia: inertia(0.08, 0.09, 0.11, 0.004, -0.003, 0.002),
+                coordinates: Absolute(RollPitchYaw),
+            }}
+            part legs: [leg; 6] = |i| leg {{
+                base: ground.at(FEET[i]).rotated([0.2, -0.1, 1.0], 0.7 * i - 2.0), tip: platform.at(PINS[i]),
+            }};
+            emit forward_dynamics, inverse_dynamics {{ solve_for: legs.thrust }};
+        }}"
+    ))
+}
+
+/// Leg forces and accelerations of a body on struts: all six legs go into packs, and values are those without, near and far from
+/// where the platform is level. Legs are alike however many numbers two of them share.
+#[test]
+fn legs_of_a_platform_are_alike() {
+    let (model, plain) = (platform("Four"), platform("Off"));
+    let [(structure, derivation), (_, other)] =
+        [&model, &plain].map(|model| mechanics::of(model).unwrap_or_else(|_| panic!("a derivation")));
+    let [packed, alone] = [&derivation, &other].map(|derivation| optimize::compile(derivation).unwrap());
+    let found = verify::check(&model, &structure, &derivation, &packed);
+    assert!(found.wrong.is_empty() && found.broken.is_none() && found.unchecked.is_empty(), "{found:?}");
+    let mut rng = Rng::new(20_261_126);
+    for kind in [FunctionKind::ForwardDynamics, FunctionKind::InverseDynamics] {
+        let function = packed.functions.iter().find(|function| function.kind == kind).unwrap();
+        let derived = derivation.functions.iter().find(|derived| derived.kind == kind).unwrap();
+        assert!(!derived.candidates[function.candidate].1.apart.is_empty(), "{kind:?}: {}", function.method);
+        // The length of no leg is left to scalars.
+        let single = |statement: &&Statement| matches!(statement, Statement::Let { .. });
+        let scalars = function.program.statements.iter().filter(single).flat_map(Statement::expressions);
+        assert!(!scalars.chain(&function.program.results).any(has_root), "{kind:?}");
+        for draw in 0..100 {
+            let far = if draw % 2 == 0 { 0.6 } else { 3.0 };
+            let known: HashMap<Symbol, f64> =
+                derivation.symbols.iter().map(|&symbol| (symbol, rng.real(-far, far))).collect();
+            let run = |compiled: &Compiled| {
+                let function = compiled.functions.iter().find(|function| function.kind == kind).unwrap();
+                interpreter::run(&function.program, &|symbol| known[&symbol], &|_| f64::NAN)
+            };
+            let (a, b) = (run(&alone), run(&packed));
+            let size = a.iter().fold(1.0_f64, |most, x| most.max(x.abs()));
+            for (a, b) in a.iter().zip(&b) {
+                assert!((a - b).abs() < 1e-9 * size, "{kind:?}, {draw}: {a:e}, {b:e}");
+            }
+        }
+    }
 }
 
 /// A sign of one member, a member in the place of another, a pack that reads another member.
@@ -90,6 +173,18 @@ fn a_wrong_member_is_noticed() {
         }
     }
     assert!(tried > 20, "{tried}");
+}
+
+/// Whether a root is taken in it.
+fn has_root(value: &Expression) -> bool {
+    match value {
+        Expression::Call(Call::Sqrt, _) => true,
+        Expression::Neg(inner) => has_root(inner),
+        Expression::Sum(terms) => terms.iter().any(|(_, term)| has_root(term)),
+        Expression::Product(list) | Expression::Call(_, list) => list.iter().any(has_root),
+        Expression::Quotient(above, below) => has_root(above) || has_root(below),
+        _ => false,
+    }
 }
 
 /// Whether a function gives other values, with numbers for all that it reads.

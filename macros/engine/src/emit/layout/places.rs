@@ -46,7 +46,7 @@ impl Root {
             Symbol::Momentum { .. } => Root::Momentum,
             Symbol::Alternative { .. } => Root::Alternative,
             Symbol::Guess { .. } => Root::Guess,
-            Symbol::Unknown { .. } | Symbol::UnknownPoint { .. } => return None,
+            Symbol::Unknown { .. } | Symbol::UnknownPoint { .. } | Symbol::Number { .. } => return None,
         })
     }
 
@@ -100,7 +100,9 @@ impl Layout<'_> {
     /// Expands to the path behind its variable: `.legs[2].force`.
     pub(in crate::emit) fn path_of(&self, symbol: Symbol) -> TokenStream {
         let place = match symbol {
-            Symbol::Time | Symbol::Unknown { .. } | Symbol::UnknownPoint { .. } => return TokenStream::new(),
+            Symbol::Time | Symbol::Unknown { .. } | Symbol::UnknownPoint { .. } | Symbol::Number { .. } => {
+                return TokenStream::new();
+            }
             Symbol::Multiplier { row: index } | Symbol::Rate { row: index } => {
                 let index = Literal::usize_unsuffixed(index);
                 return quote!([#index]);

@@ -133,7 +133,7 @@ pub(in crate::emit) fn ty(layout: &Layout<'_>, kind: FunctionKind) -> TokenStrea
 /// Expands to the method's value, from its scalars.
 pub(in crate::emit) fn value(layout: &Layout<'_>, kind: FunctionKind, results: Vec<TokenStream>) -> TokenStream {
     let krate = layout.krate();
-    let results = Results { parts: parts(layout, kind), list: results };
+    let results = Results { parts: parts(layout, kind), list: results, apart: Vec::new() };
     match layout.shape(kind) {
         Shape::Scalar => scalar(&results, Slot::Value),
         Shape::Vector(_) | Shape::Residual | Shape::Margins(_) => vector(layout, &results.list),

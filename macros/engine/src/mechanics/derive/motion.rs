@@ -64,12 +64,12 @@ impl<'m> Deriving<'m> {
             let found = self.maybe(self.way(), |e| {
                 let reduction = e.reduce()?;
                 let Some(platform) = e.platform(&reduction) else { return Ok(None) };
-                let name = forward::ways(&platform.carrier).get(at).map(|way| way.0);
+                let name = forward::ways(&platform.carrier, e.is_packed()).get(at).map(|way| way.0);
                 let Some(accelerations) = e.platform_accelerations(&platform, &reduction, at) else { return Ok(None) };
                 let solved = ConstrainedMotion { accelerations, multipliers: Vec::new(), rank: None };
                 let rates: Vec<Scalar> = model.states.iter().map(|state| e.scalar(&state.rate)).collect();
                 let rates = e.put_in_all(&reduction, &solved, &rates);
-                Ok(name.map(|name| (name, solved.results(rates))))
+                Ok(name.map(|name| (name, e.with_numbers(solved.results(rates)))))
             })?;
             let Some(found) = found else { break };
             candidates.push(found);

@@ -96,7 +96,7 @@ impl Deriving<'_> {
         let mut list = found.into_iter().flat_map(|(_, results)| results.list);
         for ((kind, _), parts) in plain.into_iter().zip(parts) {
             let list = list.by_ref().take(parts.count()).collect();
-            witnesses.push(Witness { kind, results: Results { parts, list } });
+            witnesses.push(Witness { kind, results: Results { parts, list, apart: Vec::new() } });
         }
         Ok(witnesses)
     }

@@ -5,6 +5,7 @@
 //! definitions of dependent coordinates, which can take longer than what follows. A copy holds all that the derivation has
 //! made and what the graph shares at that point, so what follows comes out as if the definitions had been made anew.
 
+use crate::symbolic::graph::Scalar;
 use std::rc::Rc;
 
 use crate::dynamics::elimination::{Order, Pattern};
@@ -40,6 +41,8 @@ pub(in crate::mechanics) struct Decided<'m> {
     poses: Poses,
     /// What became of equations with multipliers in the system that was factorised last.
     pub(in crate::mechanics) pivoted: Option<Pivoted>,
+    /// Symbols that stand for literals of struts, and these (see `mechanics/strut/apart`).
+    pub(in crate::mechanics) numbers: Vec<(Scalar, Scalar)>,
 }
 
 /// In which order systems of one pattern are eliminated, loops closed in some axes, coordinates given in some order.

@@ -15,6 +15,7 @@
 use crate::dynamics::inertia::Inertia;
 use crate::symbolic::graph::{Graph, Scalar};
 use crate::symbolic::linear_algebra::solve_symmetric;
+use crate::symbolic::pairs::solve_in_pairs;
 
 use super::carrier::{Axes, Carrier, spin_matrix};
 use super::triple::{Triple, ZERO, apply, combine, cross, dot, label, minus, scale, sub, total};
@@ -34,13 +35,28 @@ pub enum Gather {
     Lines,
 }
 
-/// What is worth counting: names, ways to add up, reference points.
-pub fn ways(carrier: &Carrier) -> Vec<(&'static str, Gather, Triple)> {
+/// One way to write the equations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Variant {
+    pub gather: Gather,
+    /// Whether unknowns are eliminated two at a time, which takes less time and a few operations more.
+    pub pairs: bool,
+    /// Whether numbers of struts are symbols (see [`super::apart`]).
+    pub apart: bool,
+}
+
+/// What is worth counting: ways with their names and reference points; where struts go into packs, one in which they are alike too.
+pub fn ways(carrier: &Carrier, packs: bool) -> Vec<(&'static str, Variant, Triple)> {
     let plane = carrier.plane();
-    let mut list = vec![("struts, condensed", Gather::Sums, plane)];
+    let way = |gather| Variant { gather, pairs: false, apart: false };
+    let mut list = vec![("struts, condensed", way(Gather::Sums), plane)];
     if let Some(leg) = carrier.legs.first().filter(|leg| leg.pin != plane) {
-        list.push(("struts, condensed, about a pin", Gather::Sums, leg.pin));
-        list.push(("struts, condensed one by one, about a pin", Gather::Lines, leg.pin));
+        list.push(("struts, condensed, about a pin", way(Gather::Sums), leg.pin));
+        list.push(("struts, condensed one by one, about a pin", way(Gather::Lines), leg.pin));
+    }
+    if packs {
+        let alike = Variant { gather: Gather::Lines, pairs: true, apart: true };
+        list.push(("struts, condensed one by one, solved in pairs", alike, plane));
     }
     list
 }
@@ -50,7 +66,7 @@ pub fn accelerations(
     g: &mut Graph,
     carrier: &Carrier,
     forces: &[Scalar],
-    (reference, gather): (&Triple, Gather),
+    (reference, way): (&Triple, Variant),
     held: bool,
 ) -> (Triple, Triple) {
     let still = Carrier { acceleration: ZERO, d_omega: ZERO, ..carrier.clone() };
@@ -71,7 +87,7 @@ pub fn accelerations(
         let along = scale(g, nu, &d);
         g.label(nu, || format!("{}_nu", leg.name));
         label(g, &along, &format!("{}_nu_line", leg.name));
-        match gather {
+        match way.gather {
             Gather::Sums => {
                 let n = [0, 1, 2].map(|i| [0, 1, 2].map(|j| g.mul(along[i], d[j])));
                 take(g, &n, &pin, &mut taken);
@@ -137,6 +153,7 @@ pub fn accelerations(
     g.label(inertia.mass, || "body_and_struts_mass".to_owned());
     g.begin(before);
     let side: Vec<Scalar> = force.into_iter().chain(moment).collect();
+    let solve = if way.pairs { solve_in_pairs } else { solve_symmetric };
     let (at, d_omega) = if held {
         let d_omega = carrier.d_omega;
         let rest: Vec<Scalar> = (0..3)
@@ -146,10 +163,10 @@ pub fn accelerations(
             })
             .collect();
         let block: Vec<Vec<Scalar>> = matrix[..3].iter().map(|row| row[..3].to_vec()).collect();
-        let x = solve_symmetric(g, &block, &[0, 1, 2], &rest);
+        let x = solve(g, &block, &[0, 1, 2], &rest);
         ([x[0], x[1], x[2]], d_omega)
     } else {
-        let x = solve_symmetric(g, &matrix, &ORDER, &side);
+        let x = solve(g, &matrix, &ORDER, &side);
         ([x[0], x[1], x[2]], [x[3], x[4], x[5]])
     };
     // Back to the body's origin and to the world.

@@ -46,15 +46,17 @@ pub struct Variant {
     pub axes: Axes,
     pub arms: Arms,
     pub gather: Gather,
+    /// Whether numbers of struts are symbols (see [`super::apart`]).
+    pub apart: bool,
 }
 
 /// What is worth counting: ways with their names and reference points. `assumed`: some height of a pin above its foot
-/// is known not to vanish, so that columns may be scaled.
-pub fn ways(carrier: &Carrier, assumed: bool) -> Vec<(&'static str, Variant, Triple)> {
+/// is known not to vanish, so that columns may be scaled. Where struts go into `packs`, there is one in which they are alike too.
+pub fn ways(carrier: &Carrier, assumed: bool, packs: bool) -> Vec<(&'static str, Variant, Triple)> {
     let still = carrier.omega == ZERO && carrier.d_omega == ZERO;
     let gather = if still { Gather::Moments } else { Gather::Forces };
     let plane = carrier.plane();
-    let way = |axes, arms| Variant { axes, arms, gather };
+    let way = |axes, arms| Variant { axes, arms, gather, apart: false };
     let mut list = vec![("struts, moments about a pin", way(Axes::Body, Arms::Pin), plane)];
     if let Some(leg) = carrier.legs.first().filter(|leg| leg.pin != plane) {
         list.push(("struts, everything about a pin", way(Axes::Body, Arms::Pins), leg.pin));
@@ -64,6 +66,10 @@ pub fn ways(carrier: &Carrier, assumed: bool) -> Vec<(&'static str, Variant, Tri
     }
     if assumed {
         list.push(("struts in world axes, moments about the feet", way(Axes::World, Arms::Feet), plane));
+    }
+    if packs {
+        let alike = Variant { gather: Gather::Forces, apart: true, ..way(Axes::Body, Arms::Pin) };
+        list.push(("struts one by one, moments about a pin", alike, plane));
     }
     list
 }

@@ -23,8 +23,10 @@
 //! balance along the line, f = -F.e - h2 e'.e'.
 //!
 //! - [`detect`] finds struts in a tree, [`carrier`] gathers those that carry one body, [`motion`] tells how it moves.
+//! - [`apart`] keeps struts alike for packs.
 //! - [`inverse`] finds the actuators' forces, [`forward`] the body's accelerations.
 
+pub mod apart;
 pub mod carrier;
 pub mod detect;
 pub mod forward;

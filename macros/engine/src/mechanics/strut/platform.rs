@@ -11,11 +11,11 @@ use std::rc::Rc;
 use crate::contracts::results::{Results, Slot};
 use crate::dynamics::tree::{Motion, Tree};
 use crate::mechanics::equations::Equations;
-use crate::mechanics::loops::reduction::Reduction;
+use crate::mechanics::loops::reduction::{Map, Reduction};
 use crate::mechanics::loops::structure::{Means, Role};
 use crate::mechanics::translate::forces::LoadCase;
 use crate::model::joint_kinds::Hold;
-use crate::model::types::{Comparison, ExprNode, Joint, LoopClosure};
+use crate::model::types::{Comparison, ExprNode, Joint, LoopClosure, Packs};
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 use crate::symbolic::inputs::Known;
 use crate::symbolic::signs::is_positive;
@@ -23,7 +23,7 @@ use crate::symbolic::signs::is_positive;
 use super::carrier::{Axes, Carrier};
 use super::detect::{Chain, detect};
 use super::triple::Triple;
-use super::{forward, inverse, motion};
+use super::{apart, forward, inverse, motion};
 
 /// A body that stands on struts and on nothing else.
 pub(in crate::mechanics) struct Platform {
@@ -173,15 +173,30 @@ impl Equations<'_> {
         if held && (!translations.iter().all(moves) || turns.iter().any(moves)) {
             return None;
         }
-        let carrier = &platform.carrier;
-        let &(_, gather, reference) = forward::ways(carrier).get(at)?;
-        // Efforts may depend on the slides: their travel is the strut's length.
-        let view = carrier.view(&mut self.g, Axes::Body, &reference);
+        let &(_, way, reference) = forward::ways(&platform.carrier, self.is_packed()).get(at)?;
+        let carrier = &self.carrier(platform, way.apart);
+        let travels = self.travels(platform, carrier, Axes::Body, &reference);
+        let efforts = self.g.substitute(&platform.efforts, &travels);
+        let efforts = self.finish(reduction, &efforts);
+        let g = &mut self.g;
+        let (a, dw) = forward::accelerations(g, carrier, &efforts, (&reference, way), held);
+        let found = motion::coordinates(g, &platform.tree, platform.link, &a, &dw)?;
+        let mut of_tree = vec![None; self.scene.symbols.freedoms];
+        for (freedom, value) in found {
+            let flipped = self.scene.mechanism.flipped.get(freedom) == Some(&true);
+            *of_tree.get_mut(freedom)? = Some(if flipped { -value } else { value });
+        }
+        self.state().into_iter().map(|freedom| of_tree[freedom]).collect()
+    }
+
+    /// What efforts may depend on, the coordinates of the slides and their rates, by the lengths of the struts.
+    fn travels(&mut self, platform: &Platform, carrier: &Carrier, axes: Axes, reference: &Triple) -> Map {
+        let view = carrier.view(&mut self.g, axes, reference);
         let mut travels = Vec::new();
-        for (at, &(slide, zero, positive)) in platform.slides.iter().enumerate() {
+        for (at, (&(slide, zero, positive), leg)) in platform.slides.iter().zip(&carrier.legs).enumerate() {
             let g = &mut self.g;
             let (d, rate) = (view.line(g, at), view.pin_velocity(g, at));
-            let line = carrier.legs.get(at)?.strut.moving(g, d, rate);
+            let line = leg.strut.moving(g, d, rate);
             let sign = |s: Scalar| if positive { s } else { -s };
             let travel = g.sub(sign(line.length), zero);
             let link = &self.scene.mechanism.tree.links[slide];
@@ -190,18 +205,7 @@ impl Equations<'_> {
         }
         let travels: Vec<(Scalar, Scalar)> =
             travels.into_iter().map(|(s, x)| if s.is_negative() { (-s, -x) } else { (s, x) }).collect();
-        let travels = self.map(&travels);
-        let efforts = self.g.substitute(&platform.efforts, &travels);
-        let efforts = self.finish(reduction, &efforts);
-        let g = &mut self.g;
-        let (a, dw) = forward::accelerations(g, carrier, &efforts, (&reference, gather), held);
-        let found = motion::coordinates(g, &platform.tree, platform.link, &a, &dw)?;
-        let mut of_tree = vec![None; self.scene.symbols.freedoms];
-        for (freedom, value) in found {
-            let flipped = self.scene.mechanism.flipped.get(freedom) == Some(&true);
-            *of_tree.get_mut(freedom)? = Some(if flipped { -value } else { value });
-        }
-        self.state().into_iter().map(|freedom| of_tree[freedom]).collect()
+        self.map(&travels)
     }
 
     /// The inputs that produce the motion, then the rank of their system; `at` is the way among [`inverse::ways`].
@@ -230,8 +234,10 @@ impl Equations<'_> {
                 platform.nonzero.contains(&s.positive()) || g.literal(s).is_some_and(|n| !n.is_zero())
             },
         };
-        let &(_, way, reference) = inverse::ways(&platform.carrier, platform.assumed()).get(at)?;
-        let found = inverse::forces(&mut self.g, &platform.carrier, way, &reference, &known)?;
+        let &(_, way, reference) = inverse::ways(&platform.carrier, platform.assumed(), self.is_packed()).get(at)?;
+        let carrier = self.carrier(platform, way.apart);
+        let found = inverse::forces(&mut self.g, &carrier, way, &reference, &known)?;
+        let travels = self.travels(platform, &carrier, way.axes, &reference);
         let mut results = vec![None; inputs.len()];
         for (&effort, &force) in platform.efforts.iter().zip(&found.forces) {
             // Each effort is an input of its own, times a number, plus what is given.
@@ -244,12 +250,34 @@ impl Equations<'_> {
             if self.g.depends_on(given, &inputs) {
                 return None;
             }
+            let given = self.g.substitute(&[given], &travels)[0];
             let given = self.finish(reduction, &[given])[0];
             let rest = self.g.sub(force, given);
             *results.get_mut(at)? = Some(self.g.div(rest, slopes[at]));
         }
         let inputs: Vec<Scalar> = results.into_iter().collect::<Option<_>>()?;
         Some(Results::default().with(Slot::Inputs, inputs).with_scalar(Slot::Rank, found.rank))
+    }
+
+    /// Whether the model asks for packs of limbs.
+    pub(in crate::mechanics) fn is_packed(&self) -> bool {
+        self.scene.model.packs == Packs::Four
+    }
+
+    /// The body on its struts, with symbols for the struts' numbers or not.
+    fn carrier(&mut self, platform: &Platform, apart: bool) -> Carrier {
+        match apart {
+            true => apart::apart(&mut self.g, &platform.carrier, &mut self.decided.numbers),
+            false => platform.carrier.clone(),
+        }
+    }
+
+    /// Results in which symbols stand for numbers, with these put in, and apart from them as they came.
+    pub(in crate::mechanics) fn with_numbers(&mut self, results: Results<Scalar>) -> Results<Scalar> {
+        let numbers = self.map(&self.decided.numbers);
+        let list = self.g.substitute(&results.list, &numbers);
+        let apart = if list == results.list { Vec::new() } else { results.list };
+        Results { list, apart, ..results }
     }
 
     /// Differences that `assume` items say do not vanish.

@@ -220,7 +220,8 @@ fn variable(model: &Model, symbol: Symbol) -> Option<Variable> {
         | Symbol::Rate { .. }
         | Symbol::Guess { .. }
         | Symbol::Unknown { .. }
-        | Symbol::UnknownPoint { .. } => None,
+        | Symbol::UnknownPoint { .. }
+        | Symbol::Number { .. } => None,
     }
 }
 

@@ -52,6 +52,7 @@ pub(in crate::mechanics) fn symbol(model: &Model, symbol: Symbol) -> String {
         Symbol::Guess { index } => format!("guess_{index}"),
         Symbol::Unknown { index } => format!("unknown_{index}"),
         Symbol::UnknownPoint { index, component } => format!("unknown_{index}_{}", ["cos", "sin"][component]),
+        Symbol::Number { index } => format!("number_{index}"),
     }
 }
 

@@ -41,6 +41,7 @@ pub(in crate::mechanics) fn identifier(model: &Model, symbol: Symbol) -> Identif
             entry("unknown", format!("{}, {}", index + 1, ["cos", "sin"][component]), Class::Defined)
         }
         Symbol::Unknown { index } => entry("unknown", format!("{}", index + 1), Class::Defined),
+        Symbol::Number { index } => entry("number", format!("{}", index + 1), Class::Defined),
     }
 }
 

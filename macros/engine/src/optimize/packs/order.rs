@@ -9,6 +9,7 @@ use std::collections::{HashMap, HashSet};
 use crate::invariant::injection::{Break, broken};
 use crate::optimize::program::{Expression, Local, MEMBERS, Program, Statement};
 
+use super::halves;
 use super::unify::Signs;
 
 /// Statements as one.
@@ -101,6 +102,7 @@ pub(super) fn ordered(mut program: Program, packs: &[Pack]) -> Program {
     let mut statements = Vec::with_capacity(order.len());
     let mut minus: HashMap<Local, Local> = HashMap::new();
     let mut taken = Taken::new(&program.locals);
+    let old_defined: Vec<Vec<Local>> = program.statements.iter().map(Statement::defined).collect();
     let mut old: Vec<Option<Statement>> = std::mem::take(&mut program.statements).into_iter().map(Some).collect();
     for unit in order {
         let Some(pack) = unit.checked_sub(count).map(|number| &packs[number]) else {
@@ -128,6 +130,16 @@ pub(super) fn ordered(mut program: Program, packs: &[Pack]) -> Program {
             if members.iter().any(Option::is_some) {
                 statements.push(Statement::Members { pack: Expression::Local(local), members });
             }
+        }
+    }
+    let places: HashMap<Local, usize> = packs
+        .iter()
+        .flat_map(Pack::members)
+        .flat_map(|(place, number)| old_defined[number].iter().map(move |&local| (local, place)))
+        .collect();
+    for statement in &mut statements {
+        if let Statement::Let { value, .. } = statement {
+            halves::halve(value, &places);
         }
     }
     let signed = |local: Local| match minus.get(&local) {

@@ -42,6 +42,20 @@ pub(super) fn pays(before: &Program, parted: &Program, packs: &[Pack]) -> bool {
     outlook.total() * 100 > all * SHARE
 }
 
+/// Operations, and what it takes to fill packs and to empty them.
+pub(super) fn weight(program: &Program) -> u32 {
+    let mut filled: HashMap<String, i32> = HashMap::new();
+    let mut sum: i32 = program.results.iter().map(of_expression).sum();
+    for statement in &program.statements {
+        filled.extend(gathers(statement));
+        sum += match statement {
+            Statement::Members { members, .. } => members.iter().flatten().count() as i32 * TAKE,
+            other => of_statement(other),
+        };
+    }
+    (sum + filled.values().sum::<i32>()).unsigned_abs()
+}
+
 struct Outlook<'a> {
     program: &'a Program,
     packs: &'a [Pack],
@@ -52,6 +66,8 @@ struct Outlook<'a> {
     gives: HashMap<Local, usize>,
     /// Locals that packs read: of packs, and scalars that they are filled with.
     read: HashSet<Local>,
+    /// Members that are only added to others of their pack.
+    summed: HashSet<Local>,
     /// How many packs read a pack of scalars.
     shared: HashMap<String, i32>,
 }
@@ -72,7 +88,8 @@ impl<'a> Outlook<'a> {
                 *shared.entry(key).or_insert(0) += 1;
             }
         }
-        Outlook { program, packs, of, readers: readers(program), gives, read, shared }
+        let summed = summed(program, packs);
+        Outlook { program, packs, of, readers: readers(program), gives, read, summed, shared }
     }
 
     /// Operations that packs save.
@@ -87,11 +104,12 @@ impl<'a> Outlook<'a> {
         let locals =
             self.packs[number].members().flat_map(|(_, statement)| self.program.statements[statement].defined());
         let is_read = |local: &Local| {
+            let is_taken = |reader: &usize| match self.of.get(reader) {
+                Some(&pack) => Some(pack) == dropped,
+                None => !self.summed.contains(local),
+            };
             // Packs may be filled with members of another.
-            self.read.contains(local)
-                || self.readers.get(local).is_some_and(|list| {
-                    list.iter().any(|reader| self.of.get(reader).is_none_or(|&pack| Some(pack) == dropped))
-                })
+            self.read.contains(local) || self.readers.get(local).is_some_and(|list| list.iter().any(is_taken))
         };
         locals.filter(is_read).count() as i32
     }
@@ -120,6 +138,47 @@ impl<'a> Outlook<'a> {
         let each = (0..self.packs.len()).map(|number| self.saved(number) - self.taken(number, None) * TAKE);
         each.sum::<i32>() - filled.values().sum::<i32>()
     }
+}
+
+/// Members that nothing reads but sums of several members of their pack, which is all: these are added up in halves of the
+/// pack, with no more instructions than there are sums of two.
+fn summed(program: &Program, packs: &[Pack]) -> HashSet<Local> {
+    let mut pack_of: HashMap<Local, usize> = HashMap::new();
+    for (number, pack) in packs.iter().enumerate() {
+        let defined = pack.members().flat_map(|(_, statement)| program.statements[statement].defined());
+        pack_of.extend(defined.map(|local| (local, number)));
+    }
+    let mut found: HashSet<Local> = pack_of.keys().copied().collect();
+    let packed: HashSet<usize> = packs.iter().flat_map(Pack::members).map(|(_, statement)| statement).collect();
+    let scalar = program.statements.iter().enumerate().filter(|(number, _)| !packed.contains(number));
+    let values = scalar.flat_map(|(_, statement)| {
+        let is_let = matches!(statement, Statement::Let { .. });
+        statement.expressions().map(move |value| (value, is_let))
+    });
+    for (value, is_let) in values.chain(program.results.iter().map(|result| (result, false))) {
+        let mut bare: HashMap<usize, Vec<Local>> = HashMap::new();
+        if let (Expression::Sum(terms), true) = (value, is_let) {
+            for (_, term) in terms {
+                if let Expression::Local(local) = term
+                    && let Some(&pack) = pack_of.get(local)
+                {
+                    bare.entry(pack).or_default().push(*local);
+                }
+            }
+        }
+        let added: HashSet<Local> = bare.into_values().filter(|list| list.len() > 1).flatten().collect();
+        let mut reads = 0;
+        value.each_local(&mut |local| {
+            reads += usize::from(added.contains(&local));
+            if !added.contains(&local) {
+                found.remove(&local);
+            }
+        });
+        if reads > added.len() {
+            found.retain(|local| !added.contains(local));
+        }
+    }
+    found
 }
 
 /// Packs that are made of scalars in a statement, and what each takes.
