@@ -249,7 +249,9 @@ impl Arranger<'_> {
             Head::Root | Head::Call(Call::Sqrt) => Formula::Root(first(&mut list)),
             Head::Inverse => Formula::Fraction(Box::new(Formula::integer(1)), first(&mut list)),
             Head::Bracket => *first(&mut list),
-            Head::Call(call) if call.external().is_some() => Formula::Called(Box::new((self.names.external)(call)), list),
+            Head::Call(call) if call.external().is_some() => {
+                Formula::Called(Box::new((self.names.external)(call)), list)
+            }
             Head::Call(call) => match call {
                 Call::Tan => apply(Function::Tan, list),
                 Call::Asin => apply(Function::Asin, list),
