@@ -137,7 +137,7 @@ pub mod item {
 
     /// `body name { .. }`: a rigid body or a point mass.
     pub struct Body {
-        /// `[kg]` May be zero, for a frame between two joints.
+        /// `[kg]` May be zero, for a frame between two joints, and may follow states of the model.
         pub mass: Scalar,
         /// `[m]` The centre of mass in the body's frame; its origin if left out.
         pub com: Vec3,

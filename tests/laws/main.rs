@@ -1,6 +1,7 @@
 //! What holds whatever the numbers: conservation, power, impulses, two descriptions of one mechanism.
 
 mod at;
+mod changing_mass;
 mod impulse;
 mod iterated;
 mod limbs;

@@ -25,3 +25,4 @@ pub mod small;
 pub mod state_space;
 pub mod stewart;
 pub mod stiff;
+pub mod tanks;

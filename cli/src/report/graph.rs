@@ -87,7 +87,7 @@ impl Graph {
                 }
                 // The drive of a measured coordinate is told at its joint.
                 ConstraintKind::Value(_) if constraint.drive.is_some() => {}
-                ConstraintKind::Value(value) => {
+                ConstraintKind::Value(value) | ConstraintKind::Rate(value) => {
                     let reads = Reads::of([value]);
                     let on_joints = reads.joints.iter().filter_map(|joint| joints[joint.0]);
                     let ends: Vec<usize> =

@@ -211,7 +211,13 @@ impl Lines {
     /// A body on a joint.
     fn link(&mut self, random: &mut Random, names: &mut Names, parent: &str, kinds: usize) {
         let (body, joint) = (self.name(random, "b"), self.name(random, "j"));
-        let mass = positive(random, names, Level::Parameter);
+        let mut mass = positive(random, names, Level::Parameter);
+        if random.chance(10) {
+            let state = self.name(random, "s");
+            let rate = scalar(random, names, Level::Force, 1);
+            self.push(format!("state {state}: rate = {rate}, start: {};", positive(random, names, Level::Constant)));
+            mass = format!("({mass} + {state})");
+        }
         let inertia = self.inertia(random, names, &mass);
         let com = if random.chance(60) {
             format!(", com: {}", vector(random, names, Level::Parameter, 1))

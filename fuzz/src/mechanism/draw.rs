@@ -16,6 +16,7 @@ impl Mechanism {
             m.hang(random, kind);
         }
         m.load(random);
+        m.follow(random);
         m.emit = vec!["forward_dynamics", "inverse_dynamics", "mass_matrix", "bias", "energy"];
         if random.chance(20) {
             let keep = random.below(m.emit.len());
@@ -24,7 +25,7 @@ impl Mechanism {
         if random.chance(20) && m.freedoms() <= 8 {
             m.emit.push("derivatives");
         }
-        if random.chance(20) && m.freedoms() > 0 {
+        if random.chance(20) && m.freedoms() > 0 && m.states.is_empty() {
             m.emit.push("impulse");
             if m.joints.iter().all(|joint| joint.kind.quaternion().is_none()) {
                 m.emit.push("momentum");
@@ -33,6 +34,35 @@ impl Mechanism {
         m.outputs = random.chance(30) && m.freedoms() <= 10;
         m.ask_twice(random);
         m
+    }
+
+    /// Lets mass leave some bodies: what they are follows states.
+    pub fn follow(&mut self, random: &mut Random) {
+        if !random.chance(20) {
+            return;
+        }
+        for body in &mut self.bodies {
+            if random.chance(40) {
+                continue;
+            }
+            let state = || Expr::State(self.states.len());
+            body.mass = body.mass.clone().times(state());
+            if let Vector::Parts(parts) = &mut body.com
+                && random.chance(40)
+            {
+                let k = random.below(3);
+                parts[k] = parts[k].clone().times(state());
+            }
+            let scaled = |e: &mut Expr| *e = e.clone().times(state());
+            match &mut body.inertia {
+                Inertia::Diagonal(list) => list.iter_mut().for_each(scaled),
+                Inertia::Full(list) => list.iter_mut().for_each(scaled),
+                // Of the mass.
+                Inertia::Point | Inertia::Rod(..) | Inertia::Cuboid(_) | Inertia::Cylinder(..) | Inertia::Sphere(_) => {
+                }
+            }
+            self.states.push(positive(random));
+        }
     }
 
     /// What is asked for in other forms too: the mass matrix as a triangle, functions behind what a position decides.
@@ -296,6 +326,10 @@ impl Mechanism {
         for default in &self.params {
             let value = default.value(&at);
             at.params.push(if away { value * random.between(0.6, 1.5) } else { value });
+        }
+        for start in &self.states {
+            let value = start.value(&at);
+            at.states.push(if away { value * random.between(0.6, 1.5) } else { value });
         }
         at.inputs = (0..self.inputs).map(|_| 5.0 * random.unit()).collect();
         for joint in &self.joints[..self.bodies.len()] {

@@ -9,6 +9,8 @@ pub enum Expr {
     Param(usize),
     /// `u0`, ..
     Input(usize),
+    /// `s0`, ..
+    State(usize),
     /// `t`
     Time,
     /// A coordinate of a joint.
@@ -56,6 +58,8 @@ pub struct Point {
     pub params: Vec<f64>,
     /// Values of the inputs.
     pub inputs: Vec<f64>,
+    /// Values of the states that bodies follow.
+    pub states: Vec<f64>,
     /// Joint by joint, component by component.
     pub q: Vec<Vec<f64>>,
     /// Rates.
@@ -86,6 +90,7 @@ impl Expr {
             Expr::Number(_, x) => *x,
             Expr::Param(k) => at.params[*k],
             Expr::Input(k) => at.inputs[*k],
+            Expr::State(k) => at.states[*k],
             Expr::Time => at.time,
             Expr::Position(joint, k, _) => at.q[*joint][*k],
             Expr::Rate(joint, k, _) => at.v[*joint][*k],
@@ -115,6 +120,7 @@ impl Expr {
         match self {
             Expr::Number(text, _) => text.clone(),
             Expr::Param(k) => format!("p{k}"),
+            Expr::State(k) => format!("s{k}"),
             Expr::Input(k) => format!("u{k}"),
             Expr::Time => "t".into(),
             Expr::Position(joint, _, name) => format!("j{joint}.{name}"),

@@ -63,6 +63,7 @@ impl Mechanism {
             m.emit.push("forward_dynamics");
         }
         m.packs = true;
+        m.follow(random);
         m.ask_twice(random);
         m
     }

@@ -30,6 +30,7 @@ impl Mechanism {
             };
             if let Some(mut m) = found {
                 m.load(random);
+                m.follow(random);
                 m.emit = vec!["forward_dynamics", "energy"];
                 if random.chance(60) {
                     m.emit.extend(["inverse_dynamics", "mass_matrix"]);

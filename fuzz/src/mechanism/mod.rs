@@ -13,6 +13,9 @@ pub mod text;
 
 pub use expression::{Expr, Vector};
 
+/// Rate of a state for each unit of it.
+pub const FLOW: f64 = -0.25;
+
 /// What a model declares.
 #[derive(Clone, Debug, Default)]
 pub struct Mechanism {
@@ -20,6 +23,8 @@ pub struct Mechanism {
     pub params: Vec<Expr>,
     /// Number of scalar inputs `u0`, `u1`, ..
     pub inputs: usize,
+    /// Where `s0`, `s1`, .. start, which masses follow; their rates are [`FLOW`] times themselves.
+    pub states: Vec<Expr>,
     /// In world axes.
     pub gravity: Option<Vector>,
     /// `b0`, `b1`, ..; body k hangs on joint k.

@@ -69,6 +69,9 @@ impl Mechanism {
         for k in 0..self.params.len() {
             offer(&|m| m.bind(k));
         }
+        for k in 0..self.states.len() {
+            offer(&|m| m.keep(k));
+        }
         for k in 0..self.bodies.len() {
             offer(&|m| {
                 let fresh = Inertia::Diagonal([0.1, 0.1, 0.1].map(Expr::literal));
@@ -198,6 +201,17 @@ impl Mechanism {
         self.expressions(&mut |e| match e {
             Expr::Param(i) if *i == k => *e = default.clone(),
             Expr::Param(i) if *i > k => *i -= 1,
+            _ => {}
+        });
+        true
+    }
+
+    /// A state becomes the number at which it starts.
+    fn keep(&mut self, k: usize) -> bool {
+        let start = self.states.remove(k);
+        self.expressions(&mut |e| match e {
+            Expr::State(i) if *i == k => *e = start.clone(),
+            Expr::State(i) if *i > k => *i -= 1,
             _ => {}
         });
         true

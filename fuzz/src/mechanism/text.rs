@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Force, Frame, Inertia, Kind, Mechanism, Step};
+use super::{FLOW, Force, Frame, Inertia, Kind, Mechanism, Step};
 
 impl Frame {
     /// In the language.
@@ -36,6 +36,9 @@ impl Mechanism {
         }
         for k in 0..self.inputs {
             writeln!(out, "    input u{k};")?;
+        }
+        for (k, start) in self.states.iter().enumerate() {
+            writeln!(out, "    state s{k}: rate = {FLOW:?} * s{k}, start: {};", start.text())?;
         }
         if let Some(gravity) = &self.gravity {
             writeln!(out, "    world {{ gravity: {} }}", gravity.text())?;

@@ -191,6 +191,7 @@ impl Values for At<'_> {
             Symbol::Time => self.point.time,
             Symbol::Param { param, .. } => self.point.params[param.0],
             Symbol::Input { input, .. } => self.point.inputs[input.0],
+            Symbol::State { state } => self.point.states[state.0],
             Symbol::Position { component, .. } => of(&self.point.q, component),
             Symbol::Velocity { component, .. } => of(&self.point.v, component),
             Symbol::Acceleration { component, .. } => of(&self.point.a, component),

@@ -5,8 +5,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{At, Findings, Verdict};
 use crate::algebra::{V3, norm};
-use crate::mechanism::Mechanism;
 use crate::mechanism::expression::Point;
+use crate::mechanism::{FLOW, Mechanism};
 use crate::plain::{Plain, displaced, split};
 use crate::programs::{Programs, Way};
 use crate::random::Random;
@@ -100,10 +100,14 @@ impl Sight<'_> {
     /// Accelerations leave no effort, and the energy grows by the power of the forces.
     fn forward(&self, findings: &mut Findings, got: &[f64], matrix: &DMatrix<f64>) {
         let m = self.mechanism;
-        if got.len() != m.freedoms() || got.iter().any(|x| !x.is_finite()) {
-            findings.compare("forward dynamics", got, &vec![0.0; m.freedoms()], 1e-300, TOLERANCE);
+        let count = m.freedoms() + m.states.len();
+        if got.len() != count || got.iter().any(|x| !x.is_finite()) {
+            findings.compare("forward dynamics", got, &vec![0.0; count], 1e-300, TOLERANCE);
             return;
         }
+        let (got, rates) = got.split_at(m.freedoms());
+        let flows: Vec<f64> = self.point.states.iter().map(|x| FLOW * x).collect();
+        findings.compare("rates of states", rates, &flows, 1.0, TOLERANCE);
         let a = split(m, got);
         let moving = self.at(&self.point.v, &a);
         let (left, size) = Plain::new(m, &moving).efforts();
@@ -135,6 +139,7 @@ impl Sight<'_> {
         let m = self.mechanism;
         let (Some(got), true) = (self.run(FunctionKind::Outputs, &self.point), m.outputs) else { return };
         let a = self.run(FunctionKind::ForwardDynamics, &self.point);
+        let a = a.map(|a| a[..m.freedoms()].to_vec());
         let Some(a) = a.or_else(|| self.accelerations()) else { return };
         let moving = self.at(&self.point.v, &split(m, &a));
         let plain = Plain::new(m, &moving);
@@ -235,20 +240,24 @@ impl Sight<'_> {
             let (Some(got), Some(here)) = (self.run(kind, &self.point), self.run(function, &self.point)) else {
                 continue;
             };
-            let (rows, n, inputs) = (here.len(), self.mechanism.freedoms(), self.mechanism.inputs);
-            let count = rows * (2 * n + inputs);
+            let (rows, n) = (here.len(), self.mechanism.freedoms());
+            let blocks = [n, n, self.mechanism.states.len(), self.mechanism.inputs];
+            let count = rows * blocks.iter().sum::<usize>();
             if got.len() != count {
                 findings.compare(what, &got, &vec![0.0; count], 1.0, 0.0);
                 continue;
             }
             let size = here.iter().chain(&got).fold(1.0_f64, |m, x| m.max(x.abs()));
-            for column in 0..2 * n + inputs {
-                let (block, k) = (column / n.max(1), column % n.max(1));
-                let (start, width) = if column >= 2 * n { (rows * 2 * n, inputs) } else { (rows * n * block, n) };
-                let k = if column >= 2 * n { column - 2 * n } else { k };
-                let exact: Vec<f64> = (0..rows).map(|row| got[start + row * width + k]).collect();
+            let mut start = 0;
+            let columns = blocks.into_iter().enumerate().flat_map(|(block, width)| {
+                start += width;
+                let first = rows * (start - width);
+                (0..width).map(move |k| (block, width, k, first))
+            });
+            for (block, width, k, first) in columns {
+                let exact: Vec<f64> = (0..rows).map(|row| got[first + row * width + k]).collect();
                 let slope = |h: f64| -> Option<Vec<f64>> {
-                    let side = |h: f64| self.run(function, &self.beside(column, h));
+                    let side = |h: f64| self.run(function, &self.beside(block, k, h));
                     Some(side(h)?.iter().zip(side(-h)?).map(|(a, b)| (a - b) / (2.0 * h)).collect())
                 };
                 let (Some(coarse), Some(fine)) = (slope(2e-5), slope(1e-5)) else { return };
@@ -259,18 +268,16 @@ impl Sight<'_> {
         }
     }
 
-    /// The point with one of its displacements, velocities or inputs changed.
-    fn beside(&self, column: usize, h: f64) -> Point {
-        let n = self.mechanism.freedoms();
+    /// The point with one of its displacements, velocities, states or inputs changed.
+    fn beside(&self, block: usize, place: usize, h: f64) -> Point {
         let mut point = self.point.clone();
-        let unit: Vec<f64> = (0..n).map(|k| f64::from(u8::from(k == column % n.max(1)))).collect();
+        let unit: Vec<f64> = (0..self.mechanism.freedoms()).map(|k| f64::from(u8::from(k == place))).collect();
         let along = split(self.mechanism, &unit);
-        if column < n {
-            point.q = displaced(self.mechanism, &point.q, &along, h);
-        } else if column < 2 * n {
-            point.v.iter_mut().zip(&along).for_each(|(v, d)| v.iter_mut().zip(d).for_each(|(v, d)| *v += h * d));
-        } else {
-            point.inputs[column - 2 * n] += h;
+        match block {
+            0 => point.q = displaced(self.mechanism, &point.q, &along, h),
+            1 => point.v.iter_mut().zip(&along).for_each(|(v, d)| v.iter_mut().zip(d).for_each(|(v, d)| *v += h * d)),
+            2 => point.states[place] += h,
+            _ => point.inputs[place] += h,
         }
         point
     }

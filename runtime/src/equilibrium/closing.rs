@@ -37,7 +37,9 @@ pub(super) struct Loops<'a, S>(pub(super) &'a S);
 impl<S: Constrained> Closing<S> for Loops<'_, S> {
     const LOOPS: bool = true;
     fn gap(&self, t: S::Scalar, state: &S::State) -> S::Scalar {
-        greatest(&self.0.constraints(t, &state.split().0))
+        // At rest nothing is left of rates but what moves by itself: a plate that turns below a wheel.
+        let open = greatest(&self.0.constraints(t, &state.split().0));
+        open.max(greatest(&self.0.constraint_rate(t, state)))
     }
     fn correction(&self, t: S::Scalar, state: &S::State, weights: &VelocityOf<S>) -> VelocityOf<S> {
         let (q, _, _) = state.split();

@@ -113,7 +113,7 @@ fn ends(model: &Model, closing: LoopClosure) -> Option<[&Frame; 2]> {
     match closing {
         LoopClosure::Constraint(id) => match &model.constraints[id].kind {
             ConstraintKind::Rod { between, .. } => Some([&between[0], &between[1]]),
-            ConstraintKind::Value(_) => None,
+            ConstraintKind::Value(_) | ConstraintKind::Rate(_) => None,
         },
         LoopClosure::Cut(id) => Some([&model.joints[id].parent, &model.joints[id].child]),
     }

@@ -18,6 +18,7 @@ mod pinned;
 mod problem;
 mod rank;
 mod ranked;
+mod rates;
 mod reduction;
 mod relations;
 mod scales;
@@ -32,7 +33,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use crate::model::site::{Site, Sited};
 use crate::model::types::{Coordinate, DriveTarget, Handling, JointId, LoopClosure, Model};
 
-use super::loops::constraints::{closings, coordinate_name, row_count, row_name, turns};
+use super::loops::constraints::{self, closings, coordinate_name, rate_rows, row_count, row_name, turns};
 use super::loops::groups;
 use super::loops::structure::{Means, Role, Row, Step, Structure};
 use super::translate::formulas;
@@ -67,6 +68,10 @@ pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
     if model.cuts.is_empty() && model.constraints.is_empty() && model.drives.is_empty() {
         return Ok(structure);
     }
+    let quadratic = constraints::rates::complaints(model);
+    if !quadratic.is_empty() {
+        return Err(quadratic);
+    }
     let uncounted = turns::complaints(model);
     if !uncounted.is_empty() {
         return Err(uncounted);
@@ -86,6 +91,7 @@ pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
     if let Some(problem) = &problem {
         structure.closed = closed::closed(problem, &analysis.samples, &structure);
         structure.measure(problem, &analysis.samples);
+        analysis.complaints.extend(rates::keep(model, problem, &mut structure));
         match springs::meeting(model, problem, &structure) {
             Ok(held) => structure.meeting = held,
             Err(complaints) => analysis.complaints.extend(complaints),
@@ -474,8 +480,8 @@ fn find(root: &mut [usize], mut k: usize) -> usize {
 
 /// All equations of a model with their names, in the order of closings.
 pub fn equation_names(model: &Model) -> Vec<(Row, String)> {
-    let rows = closings(model).into_iter().flat_map(|closing| {
-        (0..row_count(model, closing)).map(move |index| (Row { closing, index }, row_name(model, closing, index)))
-    });
-    rows.collect()
+    let rows = closings(model)
+        .into_iter()
+        .flat_map(|closing| (0..row_count(model, closing)).map(move |index| Row { closing, index }));
+    rows.chain(rate_rows(model)).map(|row| (row, row_name(model, row.closing, row.index))).collect()
 }

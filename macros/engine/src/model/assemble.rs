@@ -96,6 +96,8 @@ impl<'a> Checker<'a, '_> {
         {
             self.report.error(span, "this model has no constraints");
         }
+        self.check_changing(&bodies, &constraints, &loops.solves, &loops.drives, &collected.assumptions);
+        self.check_changing_values(&bodies, &collected.states, &collected.forces, &collected.outputs);
         let held = self.held(&bodies, &joints, &topology, &constraints, &loops.drives);
         self.check_weightless(&bodies);
         let massless = self.check_massless(&bodies, &joints, &topology.tree, &held);

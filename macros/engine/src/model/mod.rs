@@ -9,6 +9,7 @@ mod arborescence;
 mod assemble;
 pub mod assumed;
 mod broken;
+mod changing;
 mod checker;
 pub(crate) mod checks;
 mod docs;

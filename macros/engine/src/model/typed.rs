@@ -23,7 +23,9 @@ pub(super) enum Class {
     Input,
     /// Coordinates, and where frames are.
     Position,
-    /// Velocities, states, energies, and all that follows from them.
+    /// States of the user's own.
+    Own,
+    /// Velocities, energies, and all that follows from them.
     State,
     /// What is made of finished equations: derivatives, entries of matrices.
     Finished,
@@ -34,7 +36,7 @@ pub(super) enum Class {
     Load,
 }
 
-const CLASSES: [Class; 12] = [
+const CLASSES: [Class; 13] = [
     Class::External,
     Class::Parameter,
     Class::Mass,
@@ -42,6 +44,7 @@ const CLASSES: [Class; 12] = [
     Class::Formula,
     Class::Input,
     Class::Position,
+    Class::Own,
     Class::State,
     Class::Finished,
     Class::Potential,
@@ -125,11 +128,13 @@ pub(super) enum Allowed {
     Constants,
     /// Those and `param`.
     Parameters,
+    /// Those and states of the user's own: what a body is.
+    Inertia,
     /// Those and time: what a drive may follow.
     Time,
     /// Those and positions: what chooses a position.
     Positions,
-    /// The same, held at zero.
+    /// The same with velocities, held at zero.
     Constraint,
     /// All that is known before forces and accelerations are.
     Forces,
@@ -142,10 +147,12 @@ impl Allowed {
         match self {
             Allowed::Constants => false,
             Allowed::Parameters => class == Class::Parameter,
+            Allowed::Inertia => matches!(class, Class::Parameter | Class::Own),
             Allowed::Time => matches!(class, Class::Parameter | Class::Mass | Class::Time | Class::Formula),
-            Allowed::Positions | Allowed::Constraint => {
+            Allowed::Positions => {
                 matches!(class, Class::Parameter | Class::Mass | Class::Time | Class::Formula | Class::Position)
             }
+            Allowed::Constraint => class == Class::State || Allowed::Positions.contains(class),
             Allowed::Forces => !matches!(class, Class::Acceleration | Class::Load),
             Allowed::Springs => !matches!(class, Class::Potential | Class::Acceleration | Class::Load),
         }
@@ -165,6 +172,15 @@ impl Allowed {
             (Allowed::Constants | Allowed::Parameters, Class::Mass) => {
                 "is known when all bodies are; only literals, `const` and `param` may stand here"
             }
+            (Allowed::Inertia, Class::Mass) => {
+                "is known when all bodies are; only literals, `const`, `param` and `state` may stand here"
+            }
+            (Allowed::Inertia, Class::Input) => {
+                "is an input, which may jump, and mass can't: declare a `state` with the rate at which it leaves or joins"
+            }
+            (Allowed::Inertia, Class::Time) => {
+                "is the time; mass that leaves or joins is counted: declare a `state` with its rate"
+            }
             (Allowed::Springs, Class::Potential) => "holds this spring's energy, so the spring can't follow from it",
             (Allowed::Forces | Allowed::Springs, Class::Acceleration) => {
                 "is an acceleration, not known where forces and states are evaluated"
@@ -179,16 +195,23 @@ impl Allowed {
             (_, Class::Finished) => {
                 "is made of finished equations; it may stand in outputs, forces, states, and the `let` that they use"
             }
-            (Allowed::Constraint, Class::State) => {
-                "is no position: constraints of velocities are not supported yet. A gear or rolling along a line is one of \
-                 positions, such as `x - radius * angle`; elsewhere a stiff damper at the contact comes near"
+            (Allowed::Inertia, _) => {
+                "moves with the mechanism, and how mass moves then is not known here; only `const`, `param` and `state` may stand here"
             }
-            (Allowed::Positions | Allowed::Constraint, Class::Input) => {
-                "is an input; only positions, parameters and time may stand here"
+            (Allowed::Positions, Class::Own) => {
+                "is a state, whose rate may jump; only positions, parameters and time may stand here"
             }
-            (Allowed::Positions | Allowed::Constraint, _) => {
-                "is no position; only positions, parameters and time may stand here"
+            (Allowed::Constraint, Class::Own) => {
+                "is a state, whose rate may jump; only positions, velocities, parameters and time may stand here"
             }
+            (Allowed::Constraint, Class::Input) => {
+                "is an input, whose rate nobody knows; positions, velocities, parameters and time may stand here"
+            }
+            (Allowed::Constraint, _) => {
+                "is no position and no velocity; only these, parameters and time may stand here"
+            }
+            (Allowed::Positions, Class::Input) => "is an input; only positions, parameters and time may stand here",
+            (Allowed::Positions, _) => "is no position; only positions, parameters and time may stand here",
             (Allowed::Constants, _) => "changes in time; only literals and `const` may stand here",
             _ => "changes in time; only `const` and `param` may stand here",
         }

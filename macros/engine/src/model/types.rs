@@ -141,6 +141,9 @@ pub struct Constraint {
 pub enum ConstraintKind {
     /// A scalar of positions, parameters and time.
     Value(Expr),
+    /// A scalar that is affine in velocities, such as what a wheel slips: its integral may be no function of positions, and is
+    /// never taken for one.
+    Rate(Expr),
     /// The distance between the origins of two frames is `length` (m).
     Rod { between: Box<[Frame; 2]>, length: Expr },
 }

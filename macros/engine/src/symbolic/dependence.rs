@@ -1,11 +1,11 @@
 //! Stage `symbolic`: which symbols an expression depends on.
 //!
-//! In: scalars, symbols. Out: yes or no. A value in which a symbol cancels was found out when its node was made, so what is
+//! In: scalars or vectors, symbols. Out: yes or no. A value in which a symbol cancels was found out when its node was made, so what is
 //! reachable is what matters.
 
 use crate::contracts::call::{Call, ExternalId};
 
-use super::graph::{AnyNode, Graph, Scalar, ScalarNode};
+use super::graph::{AnyNode, Graph, Scalar, ScalarNode, Vector};
 
 impl Graph {
     /// Whether a scalar depends on any of these symbols.
@@ -15,8 +15,17 @@ impl Graph {
 
     /// By symbol: whether any of these scalars depends on it.
     pub fn read_by(&self, roots: &[Scalar], symbols: &[Scalar]) -> Vec<bool> {
+        self.read_by_nodes(roots.iter().map(|root| AnyNode::Scalar(root.index())), symbols)
+    }
+
+    /// By symbol: whether any of these vectors depends on it.
+    pub fn read_by_vectors(&self, roots: &[Vector], symbols: &[Scalar]) -> Vec<bool> {
+        self.read_by_nodes(roots.iter().map(|root| AnyNode::Vector(root.index())), symbols)
+    }
+
+    fn read_by_nodes(&self, roots: impl Iterator<Item = AnyNode>, symbols: &[Scalar]) -> Vec<bool> {
         let mut read = vec![false; symbols.len()];
-        for node in self.reachable(roots) {
+        for node in self.reachable_from(roots) {
             let AnyNode::Scalar(index) = node else { continue };
             for (read, symbol) in read.iter_mut().zip(symbols) {
                 *read |= symbol.index() == index && *symbol != Scalar::ZERO;

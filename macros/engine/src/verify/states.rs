@@ -2,13 +2,16 @@
 //!
 //! In: the model, its structure with the closed configurations that the analysis has found, and the symbols of the
 //! derivation. Out: numbers for all symbols, always the same: parameters at their defaults in the first state and near them in others,
+//! states that bodies follow where they start and near that,
 //! coordinates of loops at or near a closed configuration, everything else at random. Parameters that open loops stay at their defaults.
+
+use std::collections::BTreeSet;
 
 use crate::contracts::symbol::Symbol;
 use crate::invariant::fault::OrFault;
 use crate::mechanics::loops::structure::{Means, Structure};
 use crate::mechanics::translate::symbols::has_quaternion;
-use crate::model::types::{Coordinate, Model};
+use crate::model::types::{Coordinate, Model, StateId};
 use crate::symbolic::doubled::Doubled;
 use crate::symbolic::graph::SymbolId;
 
@@ -48,6 +51,8 @@ pub(super) struct States<'m> {
     structure: &'m Structure,
     symbols: &'m [Symbol],
     table: Table,
+    /// That bodies follow.
+    inertial: BTreeSet<StateId>,
 }
 
 /// Places of symbols.
@@ -90,7 +95,7 @@ impl<'m> States<'m> {
             }
             list[item][element] = at;
         }
-        States { model, structure, symbols, table }
+        States { model, structure, symbols, table, inertial: model.inertial_states() }
     }
 
     /// Number of the graph's symbol that stands for this.
@@ -146,13 +151,17 @@ impl<'m> States<'m> {
         let held = |joint: usize, component: usize| {
             configuration.and_then(|c| c.positions.get(joint)?.get(component).copied())
         };
+        let beside = |x: f64, way: f64| x + around * (if x == 0.0 { 0.5 } else { x.abs() }) * way;
         let mut value = |symbol: &Symbol| match *symbol {
             Symbol::Time => 0.4 + 0.4 * random.next(),
             Symbol::Param { param, element } => {
                 let default = self.model.params[param].default[element];
-                let size = if default == 0.0 { 0.5 } else { default.abs() };
-                let way = around * size * random.next();
-                if pinned.contains(&(param.0, element)) { default } else { default + way }
+                let moved = beside(default, random.next());
+                if pinned.contains(&(param.0, element)) { default } else { moved }
+            }
+            // Others would be masses of no body.
+            Symbol::State { state } if self.inertial.contains(&state) => {
+                beside(self.model.states[state].start, random.next())
             }
             Symbol::Position { joint, component } => match held(joint.0, component) {
                 // Equations with multipliers are zero where they are closed, which says nothing of their own values.

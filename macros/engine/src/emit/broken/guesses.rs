@@ -7,7 +7,7 @@
 use std::collections::HashSet;
 
 use crate::mechanics::analysis::driven_by;
-use crate::mechanics::loops::constraints::{closings, row_count};
+use crate::mechanics::loops::constraints::{closings, rate_rows, row_count};
 use crate::mechanics::loops::structure::{Means, Row, Step, Structure};
 use crate::model::types::{Coordinate, Handling, Model};
 
@@ -26,6 +26,7 @@ pub(in crate::emit) fn structure(model: &Model) -> Structure {
         .into_iter()
         .flat_map(|closing| (0..row_count(model, closing)).map(move |index| Row { closing, index }));
     let rows: Vec<Row> = rows.take(MOST).collect();
+    let rates = rate_rows(model).into_iter().take(MOST);
     let mut away: HashSet<Coordinate> = model.drives.iter().flat_map(|drive| driven_by(model, drive.target)).collect();
     let mut steps = Vec::new();
     if reduced {
@@ -49,6 +50,7 @@ pub(in crate::emit) fn structure(model: &Model) -> Structure {
     } else {
         structure.rows = rows;
     }
+    structure.rows.extend(rates);
     structure.steps = steps;
     structure.state.retain(|coordinate| !away.contains(coordinate));
     structure

@@ -164,6 +164,7 @@ pub(super) fn closings(layout: &Layout<'_>) -> Vec<ClosingFact> {
     let constraints = model.constraints.iter().enumerate().map(|(number, constraint)| {
         let (kind, between) = match &constraint.kind {
             ConstraintKind::Value(_) if constraint.drive.is_some() => ("drive", [const { Some(String::new()) }; 2]),
+            ConstraintKind::Rate(_) => ("velocities", [const { Some(String::new()) }; 2]),
             ConstraintKind::Value(_) => ("expression", [const { Some(String::new()) }; 2]),
             ConstraintKind::Rod { between, .. } => ("rod", between.each_ref().map(|frame| carrier(layout, frame))),
         };

@@ -1,7 +1,7 @@
 //! Stage `emit`: `Params::check`: what values other than the declared ones can break, and what the scalar can't hold.
 //!
-//! Numbers of the model are compared with what the scalar makes of them; every parameter must be finite; masses, inertias
-//! and lengths must be such as there are; then come the tests that were derived: pivots of the mass matrix and loops at
+//! Numbers of the model are compared with what the scalar makes of them; every parameter must be finite; masses and inertias,
+//! with states where they start, and lengths must be such as there are; then come the tests that were derived: pivots of the mass matrix and loops at
 //! the default position. A body whose inertia no body can have at the declared values already carries
 //! `#[allow(unphysical_inertia)]`, since the checker refuses it otherwise; its inertia is not checked here.
 
@@ -138,10 +138,11 @@ fn lengths(layout: &Layout<'_>) -> Vec<(Expression, &'static str, String)> {
         ConstraintKind::Rod { length, .. } => {
             Some((adjustable(model, length)?, "not positive", layout.name(&constraint.place)))
         }
-        ConstraintKind::Value(_) => None,
+        ConstraintKind::Value(_) | ConstraintKind::Rate(_) => None,
     });
     let springs = model.forces.iter().filter_map(|force| match &force.kind {
         ForceKind::LineSpring { length: Some(length), .. } => {
+            let length = Some(length).filter(|length| !length.follows_states())?;
             Some((adjustable(model, length)?, "negative", layout.name(&force.place)))
         }
         ForceKind::LineSpring { length: None, .. }

@@ -9,6 +9,7 @@ use crate::contracts::function::FunctionKind;
 use crate::emit::Context;
 use crate::emit::layout::places::Root;
 use crate::emit::methods::functions;
+use crate::mechanics::loops::constraints::is_rate;
 
 /// Expands to `impl<T: Real> Separable for Model<T> {}` where it holds.
 pub(super) fn item(context: &Context<'_>) -> TokenStream {
@@ -18,8 +19,13 @@ pub(super) fn item(context: &Context<'_>) -> TokenStream {
     item.unwrap_or_default()
 }
 
-/// Whether forward dynamics reads no velocity, and the model has no states of its own.
+/// Whether forward dynamics reads no velocity, and the model has no states of its own and no constraints of velocities: methods for
+/// such models close positions alone.
 pub(in crate::emit) fn is_separable(context: &Context<'_>) -> bool {
     let forward = context.function(FunctionKind::ForwardDynamics);
-    !context.layout.has_states() && forward.is_some_and(|f| !functions::roots(&f.program).contains(&Root::Velocity))
+    let model = context.layout.model;
+    let rolls = context.layout.structure.rows.iter().any(|&row| is_rate(model, row));
+    !rolls
+        && !context.layout.has_states()
+        && forward.is_some_and(|f| !functions::roots(&f.program).contains(&Root::Velocity))
 }

@@ -85,6 +85,15 @@ struct Alignment {
     columns: Vec<usize>,
 }
 
+/// An equation of velocities.
+pub(super) struct Rate {
+    pub row: Row,
+    /// (column, root)
+    slopes: Vec<(usize, usize)>,
+    /// What is left of it at rest.
+    rest: usize,
+}
+
 /// A condition of a `solve` item, or what is assumed: not zero where it holds.
 struct Condition {
     root: usize,
@@ -98,6 +107,7 @@ pub(super) struct Problem {
     alignments: Vec<Alignment>,
     conditions: Vec<Condition>,
     assumptions: Vec<Condition>,
+    pub(super) rates: Vec<Rate>,
     movers: Vec<Mover>,
     quaternions: Vec<Quaternion>,
     gimbals: Vec<Gimbal>,
@@ -323,6 +333,22 @@ impl Problem {
             self.gradient(point, equation.root, 1.0 / equation.scale, values)
         });
         Linearised { rows: rows.collect(), residuals }
+    }
+
+    /// Equations of velocities by scaled columns, and what is left of each at rest.
+    pub(super) fn rates_at(&self, point: &Point, values: &mut Values) -> Linearised {
+        let roots = self.rates.iter().flat_map(|rate| rate.slopes.iter().map(|slope| slope.1).chain([rate.rest]));
+        self.tape.run_for(values, &point.0, roots);
+        let scaled =
+            |&(column, root): &(usize, usize)| (column, self.tape.value(values, root) * self.columns[column].unit);
+        let rows = self.rates.iter().map(|rate| rate.slopes.iter().map(scaled).collect()).collect();
+        let residuals = self.rates.iter().map(|rate| self.tape.value(values, rate.rest)).collect();
+        Linearised { residuals, rows }
+    }
+
+    /// Whether time has a say in any equation of positions.
+    pub(super) fn is_timed(&self) -> bool {
+        self.equations.iter().any(|equation| equation.timed)
     }
 
     /// Entries of a row by angular velocities where there were rates of roll, pitch and yaw, if all three are among some columns.

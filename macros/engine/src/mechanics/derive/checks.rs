@@ -1,7 +1,7 @@
 //! Stage `mechanics`: what parameters can break, as tests of numbers.
 //!
 //! In: the model. Out: [`Test`]s for `Params::check`, of parameters alone: at the default position, all coordinates of the
-//! state at zero and time zero, a pivot of the mass matrix must stay above rounding, a loop must have a solution that
+//! state at zero, states that bodies follow where they start, and time zero, a pivot of the mass matrix must stay above rounding, a loop must have a solution that
 //! satisfies the conditions of its `solve`, and what formulas close must be closed. Where a test fails with the declared
 //! parameters already (a loop that can't be closed at zero, a singular position) it says nothing and is left out, and so
 //! is what no parameter changes.
@@ -84,9 +84,13 @@ impl Equations<'_> {
         }
     }
 
-    /// Positions at zero, orientations that turn nothing, time zero.
-    fn default_position(&self) -> Map {
+    /// Positions at zero, orientations that turn nothing, states that bodies follow at their start, time zero.
+    fn default_position(&mut self) -> Map {
         let mut map = Map::new();
+        for id in self.scene.model.inertial_states() {
+            let start = self.g.decimal(self.scene.model.states[id].start);
+            map.extend(self.g.symbol_id(self.scene.symbols.states[id.0]).map(|symbol| (symbol, start)));
+        }
         let mut set = |s: Scalar, value: Scalar| map.extend(self.g.symbol_id(s).map(|id| (id, value)));
         set(self.scene.symbols.time, Scalar::ZERO);
         for (joint, list) in self.scene.model.joints.iter().zip(&self.scene.symbols.positions) {

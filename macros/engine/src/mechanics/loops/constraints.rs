@@ -20,7 +20,7 @@
 //! equation is pitch * sin(travel / pitch - angle): it holds on every turn of the thread, so a motion stays on its own,
 //! and nothing tells on which it began. Solved from a guess such an equation could skip a turn: *Reduced* refuses it.
 //!
-//! A rod is (d . d - length^2) / 2, an expression is itself; where it counts the turns of measured angles, and so does a
+//! Constraints of velocities have no residual ([`rates`]). A rod is (d . d - length^2) / 2, an expression is itself; where it counts the turns of measured angles, and so does a
 //! drive of one, it is taken up to whole turns (`turns`). Cosines vanish on a further branch too, where axes point the
 //! other way: [`Equations::alignments`] tells the branches apart. The axes in which d and the cosines are worked out
 //! don't matter for what the equations say, but for what they cost: [`Writing`].
@@ -30,6 +30,7 @@ pub(in crate::mechanics) mod expression;
 pub(in crate::mechanics) mod measured;
 mod meeting;
 mod names;
+pub(in crate::mechanics) mod rates;
 pub(in crate::mechanics) mod turns;
 mod view;
 mod winding;
@@ -45,6 +46,7 @@ use crate::symbolic::graph::Scalar;
 
 pub use names::{body_name, closing_name, coordinate_name, local_name, parameter_name, place_of, row_name, unfit};
 pub(in crate::mechanics) use names::{path, row_called, rows_of_joint};
+pub use rates::{is_rate, rate_rows};
 pub use wrenches::Held;
 
 /// In which axes a closing is written.
@@ -124,11 +126,12 @@ pub(in crate::mechanics) fn is_component(model: &Model, closing: LoopClosure, in
     hold(model, joint, index) == Some(Hold::Point)
 }
 
-/// Everything that gives equations, in source order: joints, then constraints.
+/// Everything that gives equations of positions, in source order: joints, then constraints.
 pub fn closings(model: &Model) -> Vec<LoopClosure> {
     let cuts = model.cuts.iter().map(|&joint| LoopClosure::Cut(joint));
-    let constraints = (0..model.constraints.len()).map(|k| LoopClosure::Constraint(ConstraintId(k)));
-    cuts.chain(constraints).collect()
+    let of_positions = |id: &ConstraintId| !matches!(model.constraints[*id].kind, ConstraintKind::Rate(_));
+    let constraints = (0..model.constraints.len()).map(ConstraintId).filter(of_positions);
+    cuts.chain(constraints.map(LoopClosure::Constraint)).collect()
 }
 
 /// Whether a cut screw knows its angle up to whole turns only.
@@ -160,6 +163,7 @@ impl Equations<'_> {
                 let constraint = &model.constraints[id];
                 match &constraint.kind {
                     ConstraintKind::Value(_) => vec![self.expression_residual(id)],
+                    ConstraintKind::Rate(_) => vec![Scalar::ZERO],
                     ConstraintKind::Rod { between, length } => {
                         let ends = [self.place(&between[0]), self.place(&between[1])];
                         let length = self.scalar(length);

@@ -268,7 +268,7 @@ impl<'m> Forest<'m> {
             }
             LoopClosure::Constraint(id) => match &self.model.constraints[id].kind {
                 ConstraintKind::Rod { between, .. } => (&between[0], &between[1]),
-                ConstraintKind::Value(_) => return None,
+                ConstraintKind::Value(_) | ConstraintKind::Rate(_) => return None,
             },
         };
         let (from, to) = (self.chain(from), self.chain(to));

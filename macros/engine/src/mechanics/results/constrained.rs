@@ -196,7 +196,7 @@ impl Equations<'_> {
         let mut bias = Vec::with_capacity(structure.rows.len());
         for &row in &structure.rows {
             let residual = self.row(row);
-            let (rate, second) = self.implicit_rates(residual, &[]);
+            let (rate, second) = self.row_rates(row);
             let rate = self.finish(reduction, &[rate])[0];
             let mut columns = Vec::with_capacity(state.len());
             // A loop concerns few coordinates of a large mechanism.
@@ -335,8 +335,7 @@ impl Equations<'_> {
         let structure = Rc::clone(&self.scene.structure);
         let mut rates = Vec::with_capacity(structure.rows.len());
         for &row in &structure.rows {
-            let residual = self.row(row);
-            rates.push(self.implicit_rates(residual, &[]).0);
+            rates.push(self.row_rates(row).0);
         }
         self.finish(reduction, &rates)
     }
@@ -378,10 +377,13 @@ impl Equations<'_> {
         self.scene.structure.rows.iter().copied().zip(self.scene.symbols.multipliers.iter().copied()).collect()
     }
 
-    /// Dynamic rows with the multipliers' forces, then the equations.
+    /// Dynamic rows with the multipliers' forces, then the equations, of positions or of velocities.
     pub(in crate::mechanics) fn residual(&mut self, reduction: &Reduction) -> Results<Scalar> {
         let efforts = self.reduced_efforts(reduction, LoadCase::HeldOpen);
-        Results::velocity(efforts).with_any(Slot::Gaps, self.constraints(reduction))
+        let structure = Rc::clone(&self.scene.structure);
+        let rows = structure.rows.iter();
+        let gaps: Vec<Scalar> = rows.map(|&row| self.rate_expression(row).unwrap_or_else(|| self.row(row))).collect();
+        Results::velocity(efforts).with_any(Slot::Gaps, self.finish(reduction, &gaps))
     }
 
     /// Whether coordinates follow from others, or equations keep multipliers.

@@ -81,8 +81,7 @@ impl Equations<'_> {
             .collect();
         let mut rates = Vec::with_capacity(rows.len());
         for &row in rows {
-            let residual = self.row(row);
-            let rate = self.implicit_rates(residual, &[]).0;
+            let rate = self.row_rates(row).0;
             rates.extend(self.g.substitute(&[rate], &map));
         }
         let efforts = self.inverse_dynamics(LoadCase::Held);

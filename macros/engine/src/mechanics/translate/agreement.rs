@@ -2,7 +2,8 @@
 //!
 //! In: the checked model. Out: nothing, or a fault. What is wrong in the translation is wrong in all functions alike, so no law
 //! between them tells of it. The numeric checks of the model have an evaluator of their own, which knows no graph; its values
-//! are compared with those on the graph, with parameters off their defaults, each by a part of its own. Compared are inertial
+//! are compared with those on the graph, with parameters off their defaults, each by a part of its own, and so with states that
+//! bodies follow. Compared are inertial
 //! parameters, armatures, gravity, frames with their turns, directions of joints as far as they are written, pitches, lengths of
 //! rods and what forces are given.
 
@@ -12,7 +13,7 @@ use crate::invariant::fault::{OrFault, raise};
 use crate::mechanics::equations::Equations;
 use crate::model::checks::evaluate::{Evaluator as Checker, Value};
 use crate::model::checks::placement;
-use crate::model::types::{ConstraintKind, Directions, Expr, ForceKind, Frame, Joint, Model, ParamId, Type};
+use crate::model::types::{ConstraintKind, Directions, Expr, ForceKind, Frame, Joint, Model, ParamId, StateId, Type};
 use crate::symbolic::evaluate::{Evaluator, Real};
 use crate::symbolic::graph::{Scalar, SymbolId};
 use crate::symbolic::rotations;
@@ -57,6 +58,7 @@ pub(in crate::mechanics) fn check(model: &Model) {
     let table = &equations.scene.symbols.table;
     let value = |id: SymbolId| match table.get(id.0) {
         Some(&Symbol::Param { param, element }) => drawn(model, param, element),
+        Some(&Symbol::State { state }) => begun(model, state),
         // No value of parameters alone reads another symbol, but branches that are not taken may.
         _ => f64::NAN,
     };
@@ -90,7 +92,7 @@ fn quantities(model: &Model) -> Vec<Quantity<'_>> {
                 list.extend(between.iter().map(Quantity::Frame));
                 list.push(Quantity::Scalar(length));
             }
-            ConstraintKind::Value(_) => {}
+            ConstraintKind::Value(_) | ConstraintKind::Rate(_) => {}
         }
     }
     for force in &model.forces {
@@ -205,14 +207,26 @@ fn checker(model: &Model, digits: f64) -> Checker {
         let scalars: Vec<f64> = (0..param.ty.scalars()).map(|element| drawn(model, id, element)).collect();
         checker.set_param(id, shaped(&param.ty, &mut scalars.into_iter()));
     }
+    for id in model.inertial_states() {
+        checker.set_start(id, begun(model, id));
+    }
     checker
 }
 
 /// A value near the default, and no other parameter's; none is zero, where a sign or another parameter would not show.
 fn drawn(model: &Model, id: ParamId, element: usize) -> f64 {
     let default = model.params[id].default.get(element).or_fault("a parameter has a default for each of its scalars");
-    let near = if *default == 0.0 { 1e-3 } else { *default };
-    near * (1.0 + 1e-3 * (1.0 + id.0 as f64 + 0.1 * element as f64))
+    beside(*default, 1.0 + id.0 as f64 + 0.1 * element as f64)
+}
+
+/// A value near the start.
+fn begun(model: &Model, id: StateId) -> f64 {
+    beside(model.states[id].start, -1.0 - id.0 as f64)
+}
+
+fn beside(x: f64, parts: f64) -> f64 {
+    let near = if x == 0.0 { 1e-3 } else { x };
+    near * (1.0 + 1e-3 * parts)
 }
 
 fn shaped(ty: &Type, scalars: &mut impl Iterator<Item = f64>) -> Value {

@@ -90,7 +90,10 @@ impl Equations<'_> {
             &ExprNode::Coordinate { joint, index, order } => {
                 Value::Scalar(self.coordinate(Coordinate { joint, index }, order))
             }
-            &ExprNode::RelativeAngularVelocity(joint) => Value::Vector(self.relative_angular_velocity(joint)),
+            &ExprNode::RelativeAngularVelocity(joint) => Value::Vector(match self.stands_apart() {
+                true => self.read_relative_angular_velocity(joint),
+                false => self.relative_angular_velocity(joint),
+            }),
             &ExprNode::Effort { joint, index } => {
                 let coordinate = Coordinate { joint, index };
                 Value::Scalar(match self.scene.structure.role(coordinate) {

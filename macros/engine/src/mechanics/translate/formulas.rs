@@ -271,7 +271,9 @@ fn deciding(model: &Model) -> Vec<&Expr> {
     }
     for constraint in &model.constraints {
         match &constraint.kind {
-            ConstraintKind::Value(value) | ConstraintKind::Rod { length: value, .. } => roots.push(value),
+            ConstraintKind::Value(value) | ConstraintKind::Rate(value) | ConstraintKind::Rod { length: value, .. } => {
+                roots.push(value);
+            }
         }
     }
     if let Handling::Stabilised { rate, position } = &model.handling {

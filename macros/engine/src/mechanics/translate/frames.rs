@@ -104,7 +104,7 @@ impl Equations<'_> {
     }
 
     /// Angular velocity of a frame and velocity of its origin in world axes.
-    pub(super) fn world_velocity(&mut self, place: &FixedFrame) -> (Vector, Vector) {
+    pub(in crate::mechanics) fn world_velocity(&mut self, place: &FixedFrame) -> (Vector, Vector) {
         let motion = self.frame_motion(place, 1);
         (motion.angular, motion.velocity)
     }

@@ -11,9 +11,9 @@ use std::rc::Rc;
 use crate::invariant::fault::OrFault;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
-use crate::mechanics::loops::constraints::{coordinate_name, path, row_called, rows_of_joint};
+use crate::mechanics::loops::constraints::{coordinate_name, is_rate, path, row_called, rows_of_joint};
 use crate::mechanics::loops::reduction::Reduction;
-use crate::mechanics::loops::structure::{Means, Role, Structure};
+use crate::mechanics::loops::structure::{Means, Role, Row, Structure};
 use crate::model::site::Sited;
 use crate::model::types::{
     Coordinate, Expr, ExprNode, ForceKind, LoopClosure, Model, Order, SystemQuantity, TwoRoots, Variable,
@@ -35,7 +35,10 @@ const MOST_WRITTEN: usize = 3;
 impl Equations<'_> {
     /// The derivative of a value.
     pub(super) fn derivative(&mut self, of: &Value, by: Variable, accelerated: bool) -> Value {
-        let seeds = self.seeds_of(by, accelerated);
+        let seeds = match by {
+            Variable::Time => self.seeds_of_time(of, accelerated),
+            other => self.seeds_of(other),
+        };
         let mut along = Differentiator::new(&seeds);
         of.map(&mut self.g, &mut |g, part| match part {
             Part::Scalar(s) => Part::Scalar(along.scalar(g, s)),
@@ -43,10 +46,9 @@ impl Equations<'_> {
         })
     }
 
-    /// What moves with a variable, and how fast.
-    fn seeds_of(&mut self, by: Variable, accelerated: bool) -> Seeds {
+    /// What moves with a variable other than time, and how fast.
+    fn seeds_of(&mut self, by: Variable) -> Seeds {
         match by {
-            Variable::Time => self.seeds_of_time(accelerated),
             Variable::Coordinate(coordinate, Order::Position) => self.seeds_of_displacement(coordinate),
             Variable::Coordinate(coordinate, _) => {
                 let symbol = self.coordinate_symbols(coordinate)[1];
@@ -60,13 +62,24 @@ impl Equations<'_> {
         }
     }
 
-    /// All positions by velocities, own states by their rates; velocities by accelerations where these are read.
-    fn seeds_of_time(&mut self, accelerated: bool) -> Seeds {
+    /// All positions by velocities; own states that are read by their rates, which may be of the rate of something else;
+    /// velocities by accelerations where these are read.
+    fn seeds_of_time(&mut self, of: &Value, accelerated: bool) -> Seeds {
         let mut seeds = self.seeds(1);
         let model = self.scene.model;
-        for (id, state) in model.states.iter().enumerate() {
+        let states = self.scene.symbols.states.clone();
+        let mut read = vec![false; states.len()];
+        of.map(&mut self.g, &mut |g, part| {
+            let by = match part {
+                Part::Scalar(s) => g.read_by(&[s], &states),
+                Part::Vector(v) => g.read_by_vectors(&[v], &states),
+            };
+            read.iter_mut().zip(by).for_each(|(read, by)| *read |= by);
+            part
+        });
+        for (id, state) in model.states.iter().enumerate().filter(|&(id, _)| read[id]) {
             let rate = self.scalar(&state.rate);
-            seeds.push((self.scene.symbols.states[id], rate));
+            seeds.push((states[id], rate));
         }
         if accelerated {
             let velocities = self.scene.symbols.velocities.concat();
@@ -305,6 +318,11 @@ fn no_row(
         message: format!("no equation of `{name}` keeps a multiplier: they are solved, and nothing is left of them"),
         help: Some("`formulation { constraints: Multipliers }` keeps them".to_owned()),
     };
+    if is_rate(model, Row { closing, index: 0 }) {
+        let message = "this constraint is one of velocities: it has no residual of positions".to_owned();
+        let help = Some("write its expression once more, by a `let` that both use".to_owned());
+        return Some(Complaint { at: expr.site(), message, help });
+    }
     let joint = match closing {
         LoopClosure::Cut(joint) => joint,
         LoopClosure::Constraint(id) => return (!is_kept).then(|| solved(&path(model, &model.constraints[id].place))),

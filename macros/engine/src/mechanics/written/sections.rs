@@ -414,14 +414,13 @@ impl Sections {
         let structure = Rc::clone(&e.scene.structure);
         let mut drafts = Vec::new();
         for &row in &structure.rows {
-            let residual = e.row(row);
+            let residual = e.rate_expression(row).unwrap_or_else(|| e.row(row));
             let residual = e.put_in_stand_ins(&[residual])[0];
             let name = self.letters.entry("Phi", row_name(e.scene.model, row.closing, row.index));
             drafts.push(Draft::new(Subject::Constraint(row), Formula::Name(name), residual));
         }
         for (k, &row) in structure.rows.iter().enumerate() {
-            let residual = e.row(row);
-            let (rate, _) = e.implicit_rates(residual, &[]);
+            let (rate, _) = e.row_rates(row);
             let rate = e.put_in_stand_ins(&[rate])[0];
             for (j, &coordinate) in structure.state.iter().enumerate() {
                 let velocity = e.coordinate_symbols(coordinate)[1];

@@ -1,11 +1,11 @@
-//! Stage `model`: typed expressions in f64, at the declared defaults of all params.
+//! Stage `model`: typed expressions in f64, at the declared defaults of all params, and where states start that bodies follow.
 //!
-//! In: expressions of literals and params. Out: their values; nothing for what changes in time.
+//! In: expressions of literals, params and these states. Out: their values; nothing for what changes in time.
 
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use crate::model::types::{Comparison, Expr, ExprNode, Function, ParamId};
+use crate::model::types::{Comparison, Expr, ExprNode, Function, ParamId, StateId};
 
 /// A value at compile time.
 #[derive(Clone, Debug)]
@@ -61,6 +61,8 @@ impl From<Vec<Value>> for Value {
 #[derive(Default)]
 pub(crate) struct Evaluator {
     params: HashMap<usize, Value>,
+    /// Of states that were told.
+    starts: HashMap<usize, f64>,
     /// By address of the node; the node is kept, so that the address stays its own.
     memo: HashMap<*const ExprNode, (Rc<ExprNode>, Option<Value>)>,
     is_cautious: bool,
@@ -85,6 +87,10 @@ impl Evaluator {
 
     pub(crate) fn set_param(&mut self, id: ParamId, default: Value) {
         self.params.insert(id.0, default);
+    }
+
+    pub(crate) fn set_start(&mut self, id: StateId, start: f64) {
+        self.starts.insert(id.0, start);
     }
 
     pub(crate) fn param(&self, id: ParamId) -> Option<&Value> {
@@ -132,6 +138,7 @@ impl Evaluator {
             ExprNode::Number(x) => Some(Value::Scalar(*x)),
             ExprNode::Pi => Some(Value::Scalar(std::f64::consts::PI)),
             ExprNode::Param(id) => self.params.get(&id.0).cloned(),
+            ExprNode::State(id) => self.starts.get(&id.0).copied().map(Value::Scalar),
             ExprNode::Vec3([x, y, z]) => {
                 let (x, y, z) = (self.scalar(x), self.scalar(y), self.scalar(z));
                 Some(Value::Vec3([x?, y?, z?]))

@@ -35,7 +35,7 @@ impl Checker<'_, '_> {
         for constraint in constraints {
             match &constraint.kind {
                 ConstraintKind::Rod { between, .. } => between.iter().for_each(|frame| hold(frame.body)),
-                ConstraintKind::Value(_) => return bodies.iter().map(|_| true).collect(),
+                ConstraintKind::Value(_) | ConstraintKind::Rate(_) => return bodies.iter().map(|_| true).collect(),
             }
         }
         let driven = drives.iter().flat_map(|drive| self.driven(drive.target));

@@ -1,5 +1,6 @@
 //! Room `checks`: what is refused of a model for its values, in numbers at the declared defaults.
 
+mod changing_mass;
 pub(super) mod configuration;
 pub(crate) mod evaluate;
 mod mass_matrix;

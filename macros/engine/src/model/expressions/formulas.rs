@@ -172,6 +172,7 @@ impl<'a> Checker<'a, '_> {
             }
         }
         let value = value.filter(|_| complete)?;
+        self.check_changing_question(&model.bodies, &value.expr);
         let mut units = Units::of_asked(self, &model.constraints);
         let unit = units.question(&value.expr);
         let written = given.iter().zip(&variables);

@@ -28,7 +28,9 @@ impl<'a> Checker<'a, '_> {
         let of = self.taken_apart(name, of, context);
         let by = self.variable(by, context);
         let (of, by) = (of?, by?);
-        let accelerated = by == Variable::Time && of.uses.culprit(Class::State).is_some();
+        // Rates of states may read all that forces do, so they count with accelerations.
+        let moving = [Class::Own, Class::State];
+        let accelerated = by == Variable::Time && moving.into_iter().any(|class| of.uses.culprit(class).is_some());
         if by == Variable::Time
             && let Some((span, subject)) = of.uses.culprit(Class::Input)
         {

@@ -130,7 +130,7 @@ impl<'a> Checker<'a, '_> {
                 let ty = self.input_type(*id)?;
                 value(ExprNode::Input(*id), ty, Class::Input)
             }
-            Symbol::State(id) => value(ExprNode::State(*id), Type::Scalar, Class::State),
+            Symbol::State(id) => value(ExprNode::State(*id), Type::Scalar, Class::Own),
             Symbol::Body(id) => {
                 Some(Meaning::Frame(FrameValue { frame: plain_frame(BodyRef::Body(*id), span), uses: Uses::default() }))
             }

@@ -1,6 +1,6 @@
 //! Stage `model`: bodies.
 //!
-//! In: `body name { .. }`. Out: mass, centre of mass and inertia, possible ones at the declared defaults.
+//! In: `body name { .. }`. Out: mass, centre of mass and inertia, possible ones at the declared defaults and where states start.
 
 use proc_macro2::Ident;
 use syn::Expr;
@@ -32,13 +32,15 @@ impl<'a> Checker<'a, '_> {
         self.check_fields(&format!("the body `{name}`"), name, fields, &FIELDS);
         let context = root(slot.scope);
         let mass = field(fields, "mass").and_then(|expr| {
-            let mass = self.scalar(expr, context, Allowed::Parameters)?;
+            let mass = self.scalar(expr, context, Allowed::Inertia)?;
+            self.begin_states(&mass.expr);
             self.not_negative(&mass, &format!("the mass of `{name}`"))
         });
         let com = match field(fields, "com") {
-            Some(expr) => {
-                self.vector(expr, context, Allowed::Parameters).and_then(|com| self.finite(&com).map(|()| com))
-            }
+            Some(expr) => self.vector(expr, context, Allowed::Inertia).and_then(|com| {
+                self.begin_states(&com.expr);
+                self.finite(&com).map(|()| com)
+            }),
             None => Some(Typed::vector([0.0; 3], name.span())),
         };
         let inertia = match field(fields, "inertia") {
@@ -54,14 +56,10 @@ impl<'a> Checker<'a, '_> {
         if let Some(expr) = field(fields, "coordinates") {
             self.check_coordinates(expr);
         }
-        Some(Body {
-            place: slot.place.clone(),
-            mass: mass?.expr,
-            com: com?.expr,
-            inertia: inertia?.filter(|tensor| !is_zero(tensor)),
-            docs: attributes.docs,
-            span: name.span(),
-        })
+        let (mass, com) = (mass?.expr, com?.expr);
+        let inertia = inertia?.filter(|tensor| !is_zero(tensor));
+        self.check_followed(name, &mass, &com, inertia.as_deref().map_or(&[][..], |tensor| &tensor[..]))?;
+        Some(Body { place: slot.place.clone(), mass, com, inertia, docs: attributes.docs, span: name.span() })
     }
 
     /// `#[cut]` stands on joints.

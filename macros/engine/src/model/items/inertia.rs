@@ -102,9 +102,10 @@ impl<'a> Checker<'a, '_> {
             .map(|(expr, argument)| {
                 let value = match *argument {
                     "axis" => self.axis(expr, context),
-                    "size" => self.vector(expr, context, Allowed::Parameters),
-                    _ => self.scalar(expr, context, Allowed::Parameters),
+                    "size" => self.vector(expr, context, Allowed::Inertia),
+                    _ => self.scalar(expr, context, Allowed::Inertia),
                 }?;
+                self.begin_states(&value.expr);
                 self.finite(&value)?;
                 let quantity = match *argument {
                     "axis" => return Some(value.expr),

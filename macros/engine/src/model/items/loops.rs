@@ -1,6 +1,7 @@
 //! Stage `model`: what is held at zero, and what follows a prescribed course.
 //!
-//! In: `constraint`, `drive`, `assume`. Out: scalars of positions and time, rods, coordinates with their expressions.
+//! In: `constraint`, `drive`, `assume`. Out: scalars of positions and time, or of velocities too, rods, coordinates with their
+//! expressions.
 
 use proc_macro2::Span;
 use syn::spanned::Spanned;
@@ -12,7 +13,7 @@ use crate::model::expand::root;
 use crate::model::expressions::source_text;
 use crate::model::joint_kinds::JointKind;
 use crate::model::topology::Topology;
-use crate::model::typed::{Allowed, FrameValue, new_expr};
+use crate::model::typed::{Allowed, Class, FrameValue, Typed, new_expr};
 use crate::model::types::Expr as Checked;
 use crate::model::types::{
     BodyRef, Constraint, ConstraintKind, Coordinate, Drive, DriveTarget, ExprNode, Joint, JointId, Joints, Order, Type,
@@ -37,7 +38,11 @@ impl<'a> Checker<'a, '_> {
         let (name, kind) = match &slot.item.kind {
             ItemKind::ConstraintValue { name, value } => {
                 let value = self.scalar(value, context, Allowed::Constraint);
-                (name, value.map(|value| ConstraintKind::Value(value.expr)))
+                let kind = |value: Typed| match value.uses.culprit(Class::State) {
+                    Some(_) => ConstraintKind::Rate(value.expr),
+                    None => ConstraintKind::Value(value.expr),
+                };
+                (name, value.map(kind))
             }
             ItemKind::ConstraintKind { name, kind, fields } if kind == "Rod" => {
                 self.check_fields(&format!("the rod `{name}`"), name, fields, &ROD);

@@ -5,6 +5,7 @@
 use syn::spanned::Spanned;
 use syn::{Expr, Type as Written};
 
+use crate::model::changing::states_of;
 use crate::model::checker::{Checker, Context, Meaning, NamedId, NamedRequest, Role, ScopeId, Slot};
 use crate::model::checks::evaluate::Value;
 use crate::model::docs;
@@ -304,14 +305,26 @@ impl<'a> Checker<'a, '_> {
             );
             return None;
         };
+        let start = self.start(start, context)?;
+        Some(State { place: slot.place.clone(), rate: rate?.expr, start, docs: docs::docs(&slot.item.attrs) })
+    }
+
+    fn start(&mut self, start: &Expr, context: Context<'a>) -> Option<f64> {
         let start = self.scalar(start, context, Allowed::Constants)?;
         self.finite(&start)?;
-        Some(State {
-            place: slot.place.clone(),
-            rate: rate?.expr,
-            start: self.evaluator.scalar(&start.expr)?,
-            docs: docs::docs(&slot.item.attrs),
-        })
+        self.evaluator.scalar(&start.expr)
+    }
+
+    /// Tells the evaluator where the states of an expression start. What is wrong with them is said where they are declared.
+    pub(in crate::model) fn begin_states(&mut self, expr: &Checked) {
+        for id in states_of([expr]) {
+            let slot = self.states[id].clone();
+            if let ItemKind::State { start: Some(start), .. } = &slot.item.kind
+                && let Some(start) = self.start(start, root(slot.scope))
+            {
+                self.evaluator.set_start(id, start);
+            }
+        }
     }
 }
 

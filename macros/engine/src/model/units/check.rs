@@ -102,7 +102,7 @@ impl Units {
     pub(super) fn hold<'c>(&mut self, constraints: impl Iterator<Item = Option<&'c Constraint>>) {
         let held = |constraint: &Constraint| match &constraint.kind {
             ConstraintKind::Rod { .. } => Held::Rod,
-            ConstraintKind::Value(value) => {
+            ConstraintKind::Value(value) | ConstraintKind::Rate(value) => {
                 Held::Value(value.clone(), declared(&constraint.place.field.to_string(), &constraint.docs))
             }
         };
@@ -279,7 +279,7 @@ impl Units {
 
     fn constraint(&mut self, constraint: &Constraint) {
         match &constraint.kind {
-            ConstraintKind::Value(value) => {
+            ConstraintKind::Value(value) | ConstraintKind::Rate(value) => {
                 let name = constraint.place.field.to_string();
                 match declared(&name, &constraint.docs) {
                     Some(declared) => {

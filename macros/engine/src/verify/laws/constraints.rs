@@ -2,14 +2,16 @@
 
 use crate::contracts::function::FunctionKind;
 use crate::contracts::symbol::Symbol;
+use crate::mechanics::loops::constraints::is_rate;
 use crate::model::types::Handling;
 use crate::symbolic::doubled::Doubled;
 
-use super::{At, Judged, Law, Sum, judged};
+use super::{At, Judged, Law, Sum, judged, velocity};
 
 pub(super) const LAWS: &[Law] = &[
     Law { between: "the constraints and their Jacobian", judge: |at| at.jacobian() },
     Law { between: "the constraints and their rates", judge: |at| at.rates() },
+    Law { between: "the rates of the constraints and their Jacobian", judge: |at| at.slopes_of_rates() },
     Law { between: "the rates of the constraints and their bias", judge: |at| at.second_rates() },
 ];
 
@@ -20,7 +22,7 @@ impl At<'_, '_> {
         if rows == 0 || !self.has(phi) || !self.has(g) {
             return Some(None);
         }
-        let (n, r, symbols) = (self.dof(), self.weights(rows), self.symbols());
+        let (n, r, symbols) = (self.dof(), self.of_positions(), self.symbols());
         let s = self.weights(n);
         let slopes = self.trace(phi)?.slopes::<Doubled>(&r, symbols);
         let columns = self.displacements(&slopes);
@@ -39,7 +41,42 @@ impl At<'_, '_> {
     }
 
     fn rates(&mut self) -> Judged {
-        self.rate_of(FunctionKind::Constraints, FunctionKind::ConstraintRate)
+        let r = self.of_positions();
+        self.rate_of(FunctionKind::Constraints, FunctionKind::ConstraintRate, &r)
+    }
+
+    /// Rates are linear in velocities, those of velocities alone too: their slopes are the Jacobian.
+    fn slopes_of_rates(&mut self) -> Judged {
+        let (rate, g) = (FunctionKind::ConstraintRate, FunctionKind::ConstraintJacobian);
+        let rows = self.laws.structure.rows.len();
+        if rows == 0 || !self.has(rate) || !self.has(g) {
+            return Some(None);
+        }
+        let (n, r, symbols) = (self.dof(), self.weights(rows), self.symbols());
+        let s = self.weights(n);
+        let slopes = self.trace(rate)?.slopes::<Doubled>(&r, symbols);
+        let columns = self.by(&slopes, velocity);
+        let jacobian = self.values(g)?;
+        let mut sum = Sum::default();
+        let mut weights = vec![0.0; jacobian.len()];
+        for (at, &x) in jacobian.iter().enumerate() {
+            sum.product(&[x, Doubled::new(r[at / n]), Doubled::new(s[at % n])]);
+            weights[at] = r[at / n] * s[at % n];
+        }
+        columns.iter().zip(&s).for_each(|(&x, &s)| sum.product(&[-x, Doubled::new(s)]));
+        if sum.holds() != Some(true) {
+            sum.bound = self.bound(g, &weights) + slopes.bound;
+        }
+        judged(&sum, g, rate)
+    }
+
+    /// Weights of equations, without those of velocities: these have no residual that their Jacobian were a slope of.
+    pub(super) fn of_positions(&mut self) -> Vec<f64> {
+        let structure = self.laws.structure;
+        let mut weights = self.weights(structure.rows.len());
+        let model = self.laws.model;
+        weights.iter_mut().zip(&structure.rows).filter(|(_, row)| is_rate(model, **row)).for_each(|(w, _)| *w = 0.0);
+        weights
     }
 
     fn second_rates(&mut self) -> Judged {
@@ -47,23 +84,24 @@ impl At<'_, '_> {
             // Stabilising terms are in it too.
             return Some(None);
         }
-        self.rate_of(FunctionKind::ConstraintRate, FunctionKind::ConstraintBias)
+        let r = self.weights(self.laws.structure.rows.len());
+        self.rate_of(FunctionKind::ConstraintRate, FunctionKind::ConstraintBias, &r)
     }
 
     /// Slopes by positions and time, times velocities, while these stand.
-    fn rate_of(&mut self, of: FunctionKind, rate: FunctionKind) -> Judged {
+    fn rate_of(&mut self, of: FunctionKind, rate: FunctionKind, r: &[f64]) -> Judged {
         let rows = self.laws.structure.rows.len();
         if rows == 0 || !self.has(of) || !self.has(rate) {
             return Some(None);
         }
-        let (r, v, symbols) = (self.weights(rows), self.velocities(), self.symbols());
-        let slopes = self.trace(of)?.slopes::<Doubled>(&r, symbols);
+        let (v, symbols) = (self.velocities(), self.symbols());
+        let slopes = self.trace(of)?.slopes::<Doubled>(r, symbols);
         let mut sum = Sum::default();
-        self.values(rate)?.iter().zip(&r).for_each(|(&x, &r)| sum.product(&[x, Doubled::new(r)]));
+        self.values(rate)?.iter().zip(r).for_each(|(&x, &r)| sum.product(&[x, Doubled::new(r)]));
         self.displacements(&slopes).iter().zip(&v).for_each(|(&x, &v)| sum.product(&[-x, v]));
         sum.add(-self.slope(&slopes, Symbol::Time));
         if sum.holds() != Some(true) {
-            sum.bound = self.bound(rate, &r) + slopes.bound;
+            sum.bound = self.bound(rate, r) + slopes.bound;
         }
         judged(&sum, rate, of)
     }

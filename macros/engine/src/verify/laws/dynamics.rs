@@ -119,7 +119,7 @@ impl At<'_, '_> {
         if rows == 0 || !self.has(whole) || !self.has(phi) {
             return Some(None);
         }
-        let r = self.weights(rows);
+        let r = self.of_positions();
         let mut weights = vec![0.0; self.place(whole, Slot::Gaps).start];
         weights.extend(&r);
         let mut sum = Sum::default();

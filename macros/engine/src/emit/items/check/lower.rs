@@ -1,7 +1,7 @@
 //! Stage `emit`: expressions of parameters as scalar expressions, for `Params::check`.
 //!
-//! In: a checked expression that depends on parameters at most. Out: its scalars as [`Expression`]s, or nothing where it
-//! depends on anything else. No algebra: what the check computes needs no optimisation.
+//! In: a checked expression of parameters, and of states, which stand where they start. Out: its scalars as [`Expression`]s, or
+//! nothing where it depends on anything else. No algebra: what the check computes needs no optimisation.
 
 use std::f64::consts::PI;
 
@@ -31,6 +31,7 @@ fn lower(model: &Model, expr: &Expr) -> Option<Vec<Expression>> {
             let symbol = |element| Symbol::Param { param: *param, element };
             (0..count).map(|i| Expression::Symbol(symbol(i))).collect()
         }
+        ExprNode::State(state) => vec![Expression::Literal(model.states[*state].start)],
         ExprNode::Vec3(components) => components.iter().map(one).collect::<Option<_>>()?,
         ExprNode::Array(elements) => elements.iter().map(all).collect::<Option<Vec<_>>>()?.concat(),
         ExprNode::Index(array, index) => {

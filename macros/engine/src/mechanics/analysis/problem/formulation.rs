@@ -7,8 +7,9 @@ use std::ops::Range;
 
 use crate::contracts::symbol::Symbol;
 use crate::dynamics::tree::Motion;
+use crate::invariant::fault::OrFault;
 use crate::mechanics::equations::Equations;
-use crate::mechanics::loops::constraints::{Writing, closings, is_length};
+use crate::mechanics::loops::constraints::{Writing, closings, is_length, rates};
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::loops::structure::Row;
 use crate::mechanics::translate::symbols::{Symbols, has_quaternion};
@@ -18,7 +19,7 @@ use crate::symbolic::lower::Lowering;
 
 use super::super::measure::Measure;
 use super::super::tape::Tape;
-use super::{Alignment, Column, Condition, Equation, Gimbal, Mover, Problem, Quaternion, Random, Source};
+use super::{Alignment, Column, Condition, Equation, Gimbal, Mover, Problem, Quaternion, Random, Rate, Source};
 
 /// An equation in symbols.
 struct Draft {
@@ -70,6 +71,7 @@ pub(super) fn formulate(model: &Model, off: f64, writing: Writing) -> Problem {
     let driven: Vec<(usize, usize)> =
         e.driven().into_iter().map(|(symbol, value)| (symbol, roots.push(value))).collect();
     let (movers, quaternions, columns) = columns(model, &e);
+    let rates = e.rate_drafts(&columns, &mut roots);
     let gimbals = gimbals(model, &columns, &movers);
     let positions = e.scene.symbols.positions.iter();
     let positions = positions.map(|list| list.iter().filter_map(|&s| Some(e.g.symbol_id(s)?.0)).collect()).collect();
@@ -109,6 +111,7 @@ pub(super) fn formulate(model: &Model, off: f64, writing: Writing) -> Problem {
         alignments,
         conditions,
         assumptions,
+        rates,
         movers,
         quaternions,
         gimbals,
@@ -152,6 +155,25 @@ impl Equations<'_> {
         (drafts, cosines)
     }
 
+    /// Equations of velocities: the roots of their slopes by column, and of what is left at rest.
+    fn rate_drafts(&mut self, columns: &[Column], roots: &mut Roots) -> Vec<Rate> {
+        let rows = rates::rate_rows(self.scene.model).into_iter();
+        let drafts = rows.map(|row| {
+            let slopes = self.rate_slopes(row).into_iter();
+            let slopes = slopes.filter_map(|(coordinate, slope)| {
+                let column = columns.iter().position(|column| column.coordinate == coordinate)?;
+                Some((column, roots.push(slope)))
+            });
+            let slopes = slopes.collect();
+            let rate = self.rate_expression(row).or_fault("an equation of velocities has an expression");
+            let still = self.scene.symbols.velocities.concat().into_iter().map(|v| (v, Scalar::ZERO));
+            let still = self.map(&still.collect::<Vec<_>>());
+            let rest = self.g.substitute(&[rate], &still)[0];
+            Rate { row, slopes, rest: roots.push(rest) }
+        });
+        drafts.collect()
+    }
+
     /// Unknowns minus the formulas of `solve` items.
     fn formula_drafts(&mut self) -> Vec<Draft> {
         let model = self.scene.model;
@@ -177,7 +199,7 @@ impl Equations<'_> {
         let LoopClosure::Constraint(id) = closing else { return None };
         match &self.scene.model.constraints[id].kind {
             ConstraintKind::Rod { length, .. } => Some(self.scalar(length)),
-            ConstraintKind::Value(_) => None,
+            ConstraintKind::Value(_) | ConstraintKind::Rate(_) => None,
         }
     }
 
@@ -322,7 +344,7 @@ fn parameters(symbols: &Symbols) -> Vec<Option<(usize, usize)>> {
     symbols.table.iter().map(parameter).collect()
 }
 
-/// Parameters near their defaults, orientations that turn nothing, all else zero.
+/// Parameters near their defaults, states where they start, orientations that turn nothing, all else zero.
 fn defaults(model: &Model, symbols: &Symbols, off: f64) -> Vec<f64> {
     let mut random = Random(11);
     let value = |symbol: &Symbol| match *symbol {
@@ -330,6 +352,7 @@ fn defaults(model: &Model, symbols: &Symbols, off: f64) -> Vec<f64> {
             let default = model.params[param].default[element];
             default + off * (1.0 + default.abs()) * random.next()
         }
+        Symbol::State { state } => model.states[state].start,
         Symbol::Position { joint, component } => {
             let joint = &model.joints[joint];
             let turns = has_quaternion(joint) && component == joint.kind.freedoms() - 3;

@@ -6,12 +6,14 @@
 //! in world axes, with f = dphi/do and m the sum of R_j x dphi/dR_j over the columns of R; and dphi = e dq for a coordinate.
 //! The wrench -lambda (f, m) acts on the link, the effort -lambda e on the coordinate, between the two bodies of its joint.
 //! As efforts on the coordinates of the tree all of this is -lambda times the partial derivatives of phi, but only wrenches
-//! on bodies load the joints that carry them.
+//! on bodies load the joints that carry them. Of an expression of velocities it is the same with the velocities v and w of links and
+//! the rates of coordinates that it reads: f = de/dv, m = de/dw.
 
 use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
 use crate::dynamics::newton_euler::Wrench;
+use crate::invariant::fault::raise;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::build::FixedFrame;
 use crate::mechanics::translate::symbols::Symbols;
@@ -36,8 +38,12 @@ pub(in crate::mechanics) struct Readings {
 struct StandIns {
     /// By link: origin and columns of the rotation, in world axes.
     links: BTreeMap<usize, Link>,
+    /// By link: velocity of the origin and angular velocity, in world axes.
+    moving: BTreeMap<usize, [[Scalar; 3]; 2]>,
     /// Measured coordinates, of joints that close loops.
     measured: BTreeMap<Coordinate, Scalar>,
+    /// Their rates.
+    rates: BTreeMap<Coordinate, Scalar>,
     /// What each stands for.
     map: Map,
     /// What is read by the expression at hand; nothing while quantities mean themselves.
@@ -54,6 +60,8 @@ struct Link {
 struct Read {
     links: BTreeMap<usize, Link>,
     coordinates: BTreeMap<Coordinate, Scalar>,
+    moving: BTreeMap<usize, [[Scalar; 3]; 2]>,
+    rates: BTreeMap<Coordinate, Scalar>,
 }
 
 /// What acts per unit of minus the multiplier.
@@ -82,7 +90,11 @@ impl Equations<'_> {
     fn find_slopes(&mut self, id: ConstraintId) -> Slopes {
         let model = self.scene.model;
         let constraint = &model.constraints[id];
-        let ConstraintKind::Value(value) = &constraint.kind else { return Slopes::default() };
+        let value = match &constraint.kind {
+            ConstraintKind::Value(value) => value,
+            ConstraintKind::Rate(value) => return self.find_slopes_of_rate(value),
+            ConstraintKind::Rod { .. } => return Slopes::default(),
+        };
         if let Some(coordinate) = constraint.drive {
             return Slopes { efforts: vec![(coordinate, Scalar::ONE)], ..Slopes::default() };
         }
@@ -105,6 +117,29 @@ impl Equations<'_> {
             let [force, slopes_of @ .., a, b, c] = &vectors[..] else { continue };
             let turns: Vec<Vector> = [a, b, c].into_iter().zip(slopes_of).map(|(&r, &d)| g.cross(r, d)).collect();
             let wrench = Wrench { moment: g.sum_vectors(&turns), force: *force };
+            if (wrench.moment, wrench.force) != (Vector::ZERO, Vector::ZERO) {
+                slopes.wrenches.push((index, wrench));
+            }
+        }
+        slopes
+    }
+
+    /// Of an expression of velocities.
+    fn find_slopes_of_rate(&mut self, value: &Expr) -> Slopes {
+        let (rate, read) = self.read(value);
+        let mut slopes = Slopes::default();
+        for (&coordinate, &symbol) in &read.rates {
+            let slope = self.g.derivative(rate, &[(symbol, Scalar::ONE)]);
+            let slope = self.put_in_stand_ins(&[slope])[0];
+            if slope != Scalar::ZERO {
+                slopes.efforts.push((coordinate, slope));
+            }
+        }
+        for (&index, moving) in &read.moving {
+            let gradient = self.g.gradient(rate, &moving.concat());
+            let gradient = self.put_in_stand_ins(&gradient);
+            let [x, y, z, a, b, c] = gradient[..] else { continue };
+            let wrench = Wrench { moment: self.g.vector([a, b, c]), force: self.g.vector([x, y, z]) };
             if (wrench.moment, wrench.force) != (Vector::ZERO, Vector::ZERO) {
                 slopes.wrenches.push((index, wrench));
             }
@@ -189,6 +224,27 @@ impl Equations<'_> {
         symbol
     }
 
+    /// The rate of a coordinate that an expression reads.
+    pub(in crate::mechanics) fn read_rate(&mut self, coordinate: Coordinate) -> Scalar {
+        let Coordinate { joint, index } = coordinate;
+        let symbol = match Symbols::of(&self.scene.symbols.velocities, joint).get(index) {
+            Some(&symbol) => symbol,
+            None => match self.caches.readings.stand_ins.rates.get(&coordinate) {
+                Some(&symbol) => symbol,
+                None => {
+                    let value = self.meaning_itself(|e| e.measured_rate(coordinate));
+                    let symbol = self.stand_in(value);
+                    self.caches.readings.stand_ins.rates.insert(coordinate, symbol);
+                    symbol
+                }
+            },
+        };
+        if let Some(read) = &mut self.caches.readings.stand_ins.read {
+            read.rates.insert(coordinate, symbol);
+        }
+        symbol
+    }
+
     /// A quantity of a frame that an expression reads.
     pub(in crate::mechanics) fn read_place(&mut self, place: &FixedFrame, quantity: FrameQuantity) -> Value {
         let columns = self.read_columns(place);
@@ -199,9 +255,54 @@ impl Equations<'_> {
                 let position = self.read_position(place);
                 Value::Pose(position, crate::mechanics::translate::orientation::of_rows(&mut self.g, &rows))
             }
-            // Expressions that are held have no other quantity.
-            _ => Value::Vector(self.read_position(place)),
+            FrameQuantity::Velocity => Value::Vector(self.read_motion(place)[0]),
+            FrameQuantity::AngularVelocity => Value::Vector(self.read_motion(place)[1]),
+            FrameQuantity::Twist => {
+                let [velocity, angular] = self.read_motion(place);
+                Value::Pair(velocity, angular)
+            }
+            FrameQuantity::Position => Value::Vector(self.read_position(place)),
+            FrameQuantity::Acceleration | FrameQuantity::AngularAcceleration => {
+                raise("expressions that are held read no accelerations")
+            }
         }
+    }
+
+    /// The angular velocity of a joint's child relative to its parent, in the axes of the child's frame.
+    pub(in crate::mechanics) fn read_relative_angular_velocity(&mut self, joint: JointId) -> Vector {
+        let joint = &self.scene.model.joints[joint];
+        let [parent, child] = [&joint.parent, &joint.child].map(|frame| self.place(frame));
+        let [parent, angular] = [&parent, &child].map(|place| self.read_motion(place)[1]);
+        let difference = self.g.sum_vectors(&[angular, -parent]);
+        self.read_express(&child, difference)
+    }
+
+    /// Velocity of a frame's origin and angular velocity.
+    fn read_motion(&mut self, place: &FixedFrame) -> [Vector; 2] {
+        let Some(index) = place.link else { return [Vector::ZERO; 2] };
+        let found = match self.caches.readings.stand_ins.moving.get(&index) {
+            Some(&found) => found,
+            None => {
+                let origin = FixedFrame { link: place.link, ..FixedFrame::GROUND };
+                let values = self.meaning_itself(|e| {
+                    let (angular, velocity) = e.world_velocity(&origin);
+                    [velocity, angular].map(|v| e.g.components(v))
+                });
+                let found = values.map(|components| components.map(|value| self.stand_in(value)));
+                self.caches.readings.stand_ins.moving.insert(index, found);
+                found
+            }
+        };
+        if let Some(read) = &mut self.caches.readings.stand_ins.read {
+            read.moving.insert(index, found);
+        }
+        let (position, origin) =
+            (self.read_position(place), self.read_position(&FixedFrame { link: place.link, ..FixedFrame::GROUND }));
+        let g = &mut self.g;
+        let [velocity, angular] = found.map(|components| g.vector(components));
+        let arm = g.sum_vectors(&[position, -origin]);
+        let swing = g.cross(angular, arm);
+        [g.add_vectors(velocity, swing), angular]
     }
 
     /// Components of a world vector in the axes of a frame that an expression reads.

@@ -46,6 +46,9 @@ impl Equations<'_> {
         if order == Order::Position && self.stands_apart() {
             return self.read_coordinate(coordinate);
         }
+        if order == Order::Rate && self.stands_apart() {
+            return self.read_rate(coordinate);
+        }
         if self.scene.model.cuts.contains(&joint) {
             return match order {
                 Order::Position => self.measured_position(coordinate),
@@ -220,7 +223,7 @@ impl Equations<'_> {
         }
     }
 
-    fn measured_rate(&mut self, coordinate: Coordinate) -> Scalar {
+    pub(in crate::mechanics) fn measured_rate(&mut self, coordinate: Coordinate) -> Scalar {
         let model = self.scene.model;
         let Some(dual) = self.dual(coordinate) else { return Scalar::ZERO };
         let joint = &model.joints[coordinate.joint];

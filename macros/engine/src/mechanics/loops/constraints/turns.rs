@@ -132,7 +132,7 @@ pub(in crate::mechanics) fn complaints(model: &Model) -> Vec<Complaint> {
         .map(ConstraintId)
         .filter(|id| match &model.constraints[*id].kind {
             ConstraintKind::Value(value) => !measured(model, value).is_empty(),
-            ConstraintKind::Rod { .. } => false,
+            ConstraintKind::Rod { .. } | ConstraintKind::Rate(_) => false,
         })
         .collect();
     if candidates.is_empty() {
@@ -164,7 +164,7 @@ fn complaint(model: &Model, id: ConstraintId, coordinate: Coordinate) -> Complai
     let constraint = &model.constraints[id];
     let found = match &constraint.kind {
         ConstraintKind::Value(value) => measured(model, value).into_iter().find(|one| one.0 == coordinate),
-        ConstraintKind::Rod { .. } => None,
+        ConstraintKind::Rod { .. } | ConstraintKind::Rate(_) => None,
     };
     let at = found.map_or(constraint.site(), |(_, expr)| expr.site());
     let (name, angle) = (row_name(model, LoopClosure::Constraint(id), 0), coordinate_name(model, coordinate));

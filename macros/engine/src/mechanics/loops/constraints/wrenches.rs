@@ -205,7 +205,7 @@ impl Equations<'_> {
                 self.apply(gathered, &view, &ends[0], force, Vector::ZERO);
                 self.apply(gathered, &view, &ends[1], -force, Vector::ZERO);
             }
-            ConstraintKind::Value(_) => self.hold_expression(gathered, id, multiplier),
+            ConstraintKind::Value(_) | ConstraintKind::Rate(_) => self.hold_expression(gathered, id, multiplier),
         }
     }
 

@@ -85,7 +85,7 @@ impl<'m> Shapes<'m> {
                     let ends = between.each_ref().map(|frame| self.end(frame, one.carrier));
                     format!("{} rod {} {}", ends[0], self.entries(length), ends[1])
                 }
-                ConstraintKind::Value(_) => String::new(),
+                ConstraintKind::Value(_) | ConstraintKind::Rate(_) => String::new(),
             }),
         };
         let solved = model.solves.iter().filter_map(|solve| {

@@ -1,0 +1,156 @@
+//! Stage `mechanics`: constraints of velocities, e(q, v, t) = A(q, t) v + b(q, t) = 0.
+//!
+//! In: an expression that is affine in velocities. Out: the row A on the tree, e itself and its rate. Whether e is the rate of
+//! some function of positions is nowhere asked: such an equation has no residual of positions, so nothing that moves positions
+//! alone looks at it but by A, which says in which directions they may be moved. Its multiplier does the virtual work
+//! -lambda A dq (d'Alembert and Lagrange: the directions are those of A dq = 0, also where b is not zero), on the bodies whose
+//! velocities the expression reads ([`super::expression`]).
+
+use std::collections::HashSet;
+use std::rc::Rc;
+
+use crate::mechanics::analysis::Complaint;
+use crate::mechanics::equations::Equations;
+use crate::mechanics::loops::structure::Row;
+use crate::model::site::Sited;
+use crate::model::types::{
+    ConstraintId, ConstraintKind, Coordinate, Expr, ExprNode, JointId, LoopClosure, Model, SolveHow, SystemQuantity,
+};
+use crate::symbolic::differentiate::Differentiator;
+use crate::symbolic::graph::Scalar;
+
+use super::coordinate_name;
+
+/// Whether an equation is one of velocities alone.
+pub fn is_rate(model: &Model, row: Row) -> bool {
+    let LoopClosure::Constraint(id) = row.closing else { return false };
+    matches!(model.constraints[id].kind, ConstraintKind::Rate(_))
+}
+
+/// All equations of velocities, in source order.
+pub fn rate_rows(model: &Model) -> Vec<Row> {
+    let rows =
+        (0..model.constraints.len()).map(|k| Row { closing: LoopClosure::Constraint(ConstraintId(k)), index: 0 });
+    rows.filter(|&row| is_rate(model, row)).collect()
+}
+
+/// Velocity coordinates of the tree.
+pub(in crate::mechanics) fn tree_coordinates(model: &Model) -> Vec<Coordinate> {
+    let joints = (0..model.joints.len()).map(JointId).filter(|joint| !model.cuts.contains(joint));
+    joints
+        .flat_map(|joint| (0..model.joints[joint].kind.freedoms()).map(move |index| Coordinate { joint, index }))
+        .collect()
+}
+
+/// Complaints about expressions that velocities do not enter linearly.
+pub(in crate::mechanics) fn complaints(model: &Model) -> Vec<Complaint> {
+    let rows = rate_rows(model);
+    if rows.is_empty() {
+        return Vec::new();
+    }
+    let mut e = Equations::plain(model);
+    let mut complaints: Vec<Complaint> = rows.iter().filter_map(|&row| e.misfit(row)).collect();
+    for solve in &model.solves {
+        let SolveHow::From { closings, .. } = &solve.how else { continue };
+        for closing in closings.iter().filter(|closing| rows.iter().any(|row| row.closing == closing.what)) {
+            let message = "this is a constraint of velocities: no position follows from it".to_owned();
+            complaints.push(Complaint { at: closing.site(), message, help: None });
+        }
+    }
+    complaints
+}
+
+/// What an expression reads whose part in virtual work is not known.
+fn unknown(value: &Expr) -> Option<(&Expr, String)> {
+    let (mut stack, mut seen) = (vec![value], HashSet::new());
+    while let Some(expr) = stack.pop() {
+        if !seen.insert(Rc::as_ptr(&expr.node)) {
+            continue;
+        }
+        let what = match &*expr.node {
+            ExprNode::OfBodies(_, SystemQuantity::CentreOfMass | SystemQuantity::TotalMass) => continue,
+            ExprNode::OfBodies(..) => "a velocity or momentum of several bodies",
+            ExprNode::Kinetic => "the kinetic energy",
+            _ => {
+                stack.extend(expr.node.operands());
+                continue;
+            }
+        };
+        return Some((
+            expr,
+            format!(
+                "a constraint of velocities can't read {what}: velocities of frames and rates of joints may stand here"
+            ),
+        ));
+    }
+    None
+}
+
+impl Equations<'_> {
+    /// The expression of an equation of velocities, on the tree.
+    pub(in crate::mechanics) fn rate_expression(&mut self, row: Row) -> Option<Scalar> {
+        let LoopClosure::Constraint(id) = row.closing else { return None };
+        let model = self.scene.model;
+        let ConstraintKind::Rate(value) = &model.constraints[id].kind else { return None };
+        Some(self.scalar(value))
+    }
+
+    /// A, by coordinate of the tree, without zeros.
+    pub(in crate::mechanics) fn rate_slopes(&mut self, row: Row) -> Vec<(Coordinate, Scalar)> {
+        let Some(rate) = self.rate_expression(row) else { return Vec::new() };
+        let mut slopes = Vec::new();
+        for coordinate in tree_coordinates(self.scene.model) {
+            let velocity = self.coordinate_symbols(coordinate)[1];
+            let slope = self.g.derivative(rate, &[(velocity, Scalar::ONE)]);
+            if slope != Scalar::ZERO {
+                slopes.push((coordinate, slope));
+            }
+        }
+        slopes
+    }
+
+    /// The rate of an equation, and the rate of that: of positions from their residual, with nothing put in for what follows
+    /// from others; of velocities the expression itself and its derivative.
+    pub(in crate::mechanics) fn row_rates(&mut self, row: Row) -> (Scalar, Scalar) {
+        let Some(rate) = self.rate_expression(row) else {
+            let residual = self.row(row);
+            return self.implicit_rates(residual, &[]);
+        };
+        let seeds = self.seeds(2);
+        (rate, Differentiator::new(&seeds).scalar(&mut self.g, rate))
+    }
+
+    /// What is wrong with an expression of velocities.
+    fn misfit(&mut self, row: Row) -> Option<Complaint> {
+        let model = self.scene.model;
+        let LoopClosure::Constraint(id) = row.closing else { return None };
+        let constraint = &model.constraints[id];
+        let name = &constraint.place.field;
+        if let ConstraintKind::Rate(value) = &constraint.kind
+            && let Some((at, message)) = unknown(value)
+        {
+            return Some(Complaint { at: at.site(), message, help: None });
+        }
+        let slopes = self.rate_slopes(row);
+        if slopes.is_empty() {
+            let message = format!("the constraint `{name}` is of velocities, but none of them has a say in it");
+            return Some(Complaint { at: constraint.site(), message, help: None });
+        }
+        let coordinates = tree_coordinates(model);
+        let velocities: Vec<(usize, Coordinate)> =
+            coordinates.into_iter().map(|at| (self.coordinate_symbols(at)[1].index(), at)).collect();
+        for (coordinate, slope) in slopes {
+            let read: HashSet<usize> = self.g.reachable_scalars(&[slope]).into_iter().collect();
+            let Some(&(_, other)) = velocities.iter().find(|(symbol, _)| read.contains(symbol)) else { continue };
+            let of = |at| format!("`{}.rate`", coordinate_name(model, at));
+            let message = format!(
+                "the constraint `{name}` is not linear in velocities: what stands before {} holds {}",
+                of(coordinate),
+                of(other)
+            );
+            let help = "wheels, blades and gears give equations that are linear in velocities".to_owned();
+            return Some(Complaint { at: constraint.site(), message, help: Some(help) });
+        }
+        None
+    }
+}

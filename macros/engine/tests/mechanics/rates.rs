@@ -1,0 +1,110 @@
+//! What the analysis makes of constraints of velocities.
+
+use multibody_engine::mechanics::analysis::analyse;
+use multibody_engine::mechanics::loops::constraints::row_name;
+use multibody_engine::mechanics::loops::structure::{Row, Structure};
+use multibody_engine::model::types::Model;
+
+use super::support::model_with;
+
+const SLED: &str = "body sled { mass: 2.0, com: [0.1, 0.2, 0.0], inertia: diag(1.0, 1.0, 1.0) }
+     joint plane: Planar { parent: ground, child: sled, axis: [0.1, 0.2, 1.0] }";
+
+fn model(items: &str) -> Model {
+    model_with("", &format!("{SLED} {items}"))
+}
+
+fn sound(model: &Model) -> Structure {
+    analyse(model).unwrap_or_else(|complaints| panic!("{complaints:?}"))
+}
+
+fn names(model: &Model, rows: &[Row]) -> Vec<String> {
+    rows.iter().map(|row| row_name(model, row.closing, row.index)).collect()
+}
+
+fn complaints(items: &str) -> String {
+    let found = analyse(&model(items)).expect_err("a complaint");
+    found.into_iter().map(|complaint| complaint.message).collect::<Vec<_>>().join("; ")
+}
+
+/// A car with two wheels on each axle: those of one axle can't slip sideways for the same reason.
+#[test]
+fn wheels_of_one_axle() {
+    let car = model(
+        "constraint left = sled.express(sled.at(0.7 * Y).velocity).y;
+         constraint right = sled.express(sled.at(-0.7 * Y).velocity).y;
+         constraint front = sled.express(sled.at(1.4 * X).velocity).y - 0.3 * plane.angle.rate;",
+    );
+    let structure = sound(&car);
+    assert_eq!(names(&car, &structure.rows), ["left", "front"]);
+    assert_eq!(names(&car, &structure.dropped), ["right"]);
+    assert!(!structure.redundant && structure.independent.is_empty());
+    assert!(structure.notes.iter().any(|note| note.contains("redundant equations of velocities, left out: `right`")));
+}
+
+/// What depends on others with the declared parameters alone stays, and so does what time may tell apart.
+#[test]
+fn what_may_be_independent_stays() {
+    let shifted = model(
+        "param shift = 0.0;
+         constraint one = sled.express(sled.velocity).y;
+         constraint two = sled.express(sled.at(shift * X).velocity).y;",
+    );
+    let structure = sound(&shifted);
+    assert_eq!(names(&shifted, &structure.rows), ["one", "two"]);
+    assert!(structure.redundant);
+    let driven = model(
+        "drive plane.angle = 0.3 * t;
+         constraint one = sled.express(sled.velocity).y;
+         constraint two = 2.0 * sled.express(sled.velocity).y + 0.1 * plane.angle.rate;",
+    );
+    let structure = sound(&driven);
+    assert_eq!(names(&driven, &structure.rows), ["one", "two"]);
+    assert!(structure.redundant);
+}
+
+/// Rates of a closed loop depend on its equations of positions.
+#[test]
+fn rates_of_what_positions_hold() {
+    let held = model(
+        "constraint rod = plane.x - 0.3 * plane.angle;
+         constraint same = plane.x.rate - 0.3 * plane.angle.rate;
+         constraint blade = sled.express(sled.velocity).y;",
+    );
+    let structure = sound(&held);
+    assert_eq!(names(&held, &structure.dropped), ["same"]);
+    assert!(names(&held, &structure.rows).contains(&"blade".to_owned()));
+}
+
+#[test]
+fn mistakes() {
+    for (items, told) in [
+        (
+            "constraint c = plane.x.rate * plane.y.rate;",
+            "the constraint `c` is not linear in velocities: what stands before `plane.x.rate` holds `plane.y.rate`",
+        ),
+        (
+            "constraint c = sin(plane.angle.rate);",
+            "the constraint `c` is not linear in velocities: what stands before `plane.angle.rate` holds `plane.angle.rate`",
+        ),
+        (
+            "constraint c = plane.x + 0.0 * plane.x.rate;",
+            "the constraint `c` is of velocities, but none of them has a say in it",
+        ),
+        (
+            "constraint one = sled.express(sled.velocity).y; constraint two = 2.0 * sled.express(sled.velocity).y - 0.1;",
+            "the constraint `two` contradicts others: their velocities leave none for it",
+        ),
+        (
+            "constraint c = linear_momentum().x;",
+            "a constraint of velocities can't read a velocity or momentum of several bodies: velocities of frames and rates of joints \
+             may stand here",
+        ),
+        (
+            "constraint c = sled.velocity.y; solve (plane.x) from c { plane.x > 0.0 } formulation { constraints: Reduced }",
+            "this is a constraint of velocities: no position follows from it",
+        ),
+    ] {
+        assert_eq!(complaints(items), told, "{items}");
+    }
+}

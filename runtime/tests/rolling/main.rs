@@ -1,0 +1,4 @@
+//! Constraints of velocities: wheels, blades and spheres that roll.
+
+mod blades;
+mod whipple;

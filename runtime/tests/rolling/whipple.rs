@@ -1,0 +1,234 @@
+//! Whipple's bicycle against data that were computed without any library of the kind: accelerations, forces of contact, a motion.
+//! Source: `tests/data/rolling`, after Meijaard, Papadopoulos, Ruina and Schwab, Proc. R. Soc. A 463 (2007) 1955-1982.
+
+use multibody::{Dop853, Integrator, Projection, WithProjection, multibody};
+use serde_json::Value;
+
+multibody! {
+    /// Whipple's bicycle: x ahead, y to the right, z down; wheels that roll without slip on the plane z = 0.
+    pub mod whipple {
+        const W = 1.02;
+        const C = 0.08;
+        const TILT = PI / 10;
+        const REAR = 0.3;
+        const FRONT = 0.35;
+        world { gravity: 9.81 * Z }
+        body ahead { mass: 0 }
+        body aside { mass: 0 }
+        body below { mass: 0 }
+        body headed { mass: 0 }
+        body leaning { mass: 0 }
+        body frame { mass: 85, com: [0.3, 0, -0.9 + REAR], inertia: inertia(9.2, 11, 2.8, 0, 2.4, 0) }
+        body rear { mass: 2, inertia: diag(0.0603, 0.12, 0.0603) }
+        body fork { mass: 4, com: [0.9 - W - C, 0, -0.7], inertia: inertia(0.05892, 0.06, 0.00708, 0, -0.00756, 0) }
+        body front { mass: 3, inertia: diag(0.1405, 0.28, 0.1405) }
+        joint x: Prismatic { parent: ground, child: ahead, axis: X }
+        joint y: Prismatic { parent: ahead, child: aside, axis: Y }
+        joint z: Prismatic { parent: aside, child: below, axis: Z }
+        joint yaw: Revolute { parent: below, child: headed, axis: Z }
+        joint roll: Revolute { parent: headed, child: leaning, axis: X }
+        joint pitch: Revolute { parent: leaning, child: frame, axis: Y }
+        joint spin_rear: Revolute { parent: frame, child: rear, axis: Y }
+        joint steer: Revolute { parent: frame.at([W + C, 0, REAR]), child: fork, axis: [sin(TILT), 0, cos(TILT)] }
+        joint spin_front: Revolute { parent: fork.at([-C, 0, -FRONT]), child: front, axis: Y }
+        input lean;
+        input turn;
+        input pedal;
+        force on_roll: Effort { joint: roll, value: lean }
+        force on_steer: Effort { joint: steer, value: turn }
+        force on_rear: Effort { joint: spin_rear, value: pedal }
+
+        let rear_axle = frame.at(Y).position - frame.position;
+        let rear_low = (Z - rear_axle * rear_axle.z) * (REAR / sqrt(1 - rear_axle.z * rear_axle.z));
+        let rear_slip = rear.velocity + cross(rear.angular_velocity, rear_low);
+        let front_axle = fork.at(Y).position - fork.position;
+        let front_low = (Z - front_axle * front_axle.z) * (FRONT / sqrt(1 - front_axle.z * front_axle.z));
+        let front_slip = front.velocity + cross(front.angular_velocity, front_low);
+        constraint rear_touch = rear.position.z + rear_low.z;
+        constraint front_touch = front.position.z + front_low.z;
+        constraint rear_along = rear_slip.x;
+        constraint rear_across = rear_slip.y;
+        constraint front_along = front_slip.x;
+        constraint front_across = front_slip.y;
+        output energy = kinetic() + potential();
+        formulation { constraints: Multipliers }
+        emit forward_dynamics, derivatives, constraints;
+    }
+}
+use whipple::{Input, Model, Position, State, Velocity};
+
+fn data(name: &str) -> Value {
+    let path = format!("{}/../tests/data/rolling/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_str().map_or_else(|| value.as_f64().unwrap_or(0.0), |text| text.parse().unwrap())
+}
+
+fn velocity(value: &Value) -> Velocity {
+    let at = |name: &str| number(&value[name]);
+    Velocity {
+        x: at("x"),
+        y: at("y"),
+        z: at("z"),
+        yaw: at("yaw"),
+        roll: at("roll"),
+        pitch: at("pitch"),
+        spin_rear: at("spin_rear"),
+        steer: at("steer"),
+        spin_front: at("spin_front"),
+    }
+}
+
+fn position(value: &Value) -> Position {
+    let Velocity { x, y, z, yaw, roll, pitch, spin_rear, steer, spin_front } = velocity(value);
+    Position { x, y, z, yaw, roll, pitch, spin_rear, steer, spin_front }
+}
+
+fn list(v: &Velocity) -> [f64; 9] {
+    [v.x, v.y, v.z, v.yaw, v.roll, v.pitch, v.spin_rear, v.steer, v.spin_front]
+}
+
+fn sample(sample: &Value) -> (State, Input) {
+    let effort = |name: &str| number(&sample["effort"][name]);
+    let state = State { q: position(&sample["q"]), v: velocity(&sample["v"]) };
+    (state, Input { lean: effort("roll"), turn: effort("steer"), pedal: effort("spin_rear") })
+}
+
+/// A difference over one plus the greatest.
+fn apart(found: &[f64], wanted: &[f64]) -> f64 {
+    let greatest = wanted.iter().fold(1.0_f64, |most, x| most.max(1.0 + x.abs()));
+    found.iter().zip(wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / greatest
+}
+
+#[test]
+fn accelerations_and_forces_of_contact() {
+    let model = Model::<f64>::default();
+    let data = data("whipple_nonlinear");
+    let samples = data["samples"].as_array().unwrap();
+    assert_eq!(samples.len(), 20);
+    let (mut worst, mut worst_force) = (0.0_f64, 0.0_f64);
+    for one in samples {
+        let (state, input) = sample(one);
+        let found = model.forward_dynamics(0.0, &state, &input);
+        assert_eq!(found.rank, 6.0, "{}", one["label"]);
+        assert!(model.constraints(0.0, &state.q).amax() < 1e-13 && model.constraint_rate(0.0, &state).amax() < 1e-12);
+        worst = worst.max(apart(&list(&found.v), &list(&velocity(&one["a"]))));
+        // Equations in the order of the constraints: touch behind, touch ahead, slip along and across behind, then ahead.
+        let [rear_z, front_z, rear_x, rear_y, front_x, front_y] = found.multipliers.data.0[0].map(|m: f64| -m);
+        let wanted = ["force_rear", "force_front"].map(|name| [0, 1, 2].map(|k| number(&one[name][k])));
+        let forces = [rear_x, rear_y, rear_z, front_x, front_y, front_z];
+        worst_force = worst_force.max(apart(&forces, &wanted.concat()));
+    }
+    println!("accelerations {worst:.1e}, forces {worst_force:.1e}");
+    assert!(worst < 1e-11 && worst_force < 1e-11, "{worst:e}, {worst_force:e}");
+}
+
+/// Ten seconds, in which it goes from side to side and comes to run upright.
+#[test]
+fn a_motion() {
+    let model = WithProjection::new(Model::<f64>::default(), Projection::default());
+    let data = data("whipple_nonlinear");
+    let points = data["trajectory"]["points"].as_array().unwrap();
+    let energy = number(&data["trajectory"]["energy"]);
+    let mut start = State::default();
+    start.q = position(&points[0]["q"]);
+    start.v =
+        Velocity { x: 4.6, y: 0.15, roll: 0.5, spin_rear: -4.6 / 0.3, spin_front: -4.6 / 0.35, ..Velocity::default() };
+    let (mut state, mut t, mut worst) = (start, 0.0, 0.0_f64);
+    let integrator = Integrator::adaptive(Dop853, 1e-13, 1e-13);
+    for point in points {
+        let until = number(&point["t"]);
+        if until > t {
+            state = integrator.integrate(&model, t, until, &state, &Input::default(), |_, _| ()).unwrap().0;
+            t = until;
+        }
+        let wanted = list(&{
+            let Position { x, y, z, yaw, roll, pitch, spin_rear, steer, spin_front } = position(&point["q"]);
+            Velocity { x, y, z, yaw, roll, pitch, spin_rear, steer, spin_front }
+        });
+        let Position { x, y, z, yaw, roll, pitch, spin_rear, steer, spin_front } = state.q;
+        worst = worst.max(apart(&[x, y, z, yaw, roll, pitch, spin_rear, steer, spin_front], &wanted));
+        let rates = [state.v.roll, state.v.steer, state.v.spin_rear];
+        worst = worst.max(apart(&rates, &["roll", "steer", "spin_rear"].map(|name| number(&point["rates"][name]))));
+        // The reference counts height from the ground, downwards.
+        let found = Model::<f64>::default().outputs(t, &state, &Input::default()).energy;
+        assert!((found / energy - 1.0).abs() < 1e-12, "{t}: {found} against {energy}");
+    }
+    println!("{worst:.1e}");
+    assert!(worst < 1e-10, "{worst:e}");
+}
+
+/// Upright and straight ahead: roll and steer against the linear equations of the benchmark, and their eigenvalues.
+#[cfg(feature = "num-dual")]
+#[test]
+fn small_motions() {
+    use multibody::nalgebra::{Matrix2, Matrix4, SMatrix, SVector};
+    use num_dual::Dual64;
+
+    const ROLL: usize = 4;
+    const STEER: usize = 7;
+    /// The others follow from the constraints, but for the speed of the rear wheel, which stays.
+    const FOLLOW: [usize; 6] = [0, 1, 2, 3, 5, 8];
+    let reference = data("whipple");
+    let matrix = |name: &str| Matrix2::from_fn(|i, j| number(&reference["matrices"][name][i][j]));
+    let [mass, c1, k0, k2] = ["M", "C1", "K0", "K2"].map(matrix);
+    let model = Model::<f64>::default();
+    let dual = Model::<Dual64>::default();
+    let (mut worst, mut worst_root, mut speeds) = (0.0_f64, 0.0_f64, 0);
+    for entry in reference["eigenvalues"].as_array().unwrap() {
+        let speed = number(&entry["v"]);
+        let mut state = State::<f64>::default();
+        state.q.z = -0.3;
+        state.v = Velocity { x: speed, spin_rear: -speed / 0.3, spin_front: -speed / 0.35, ..Velocity::default() };
+        let slopes = model.forward_derivatives(0.0, &state, &Input::default());
+        let jacobian = model.constraint_jacobian(0.0, &state.q);
+        let follow = SMatrix::<f64, 6, 6>::from_fn(|i, j| jacobian[(i, FOLLOW[j])]).try_inverse().unwrap();
+        // How accelerations change along a displacement or a rate that the constraints are kept with.
+        let along = |position: usize, rate: usize| {
+            let seeded = |x: f64, on: bool| Dual64::new(x, if on { 1.0 } else { 0.0 });
+            let mut moved = whipple::State::<Dual64>::default();
+            moved.q.z = seeded(-0.3, false);
+            moved.q.roll = seeded(0.0, position == ROLL);
+            moved.q.steer = seeded(0.0, position == STEER);
+            moved.v.x = seeded(speed, false);
+            moved.v.spin_rear = seeded(-speed / 0.3, false);
+            moved.v.spin_front = seeded(-speed / 0.35, false);
+            moved.v.roll = seeded(0.0, rate == ROLL);
+            moved.v.steer = seeded(0.0, rate == STEER);
+            let gap = dual.constraint_rate(Dual64::from(0.0), &moved).map(|x| x.eps);
+            let following = -(follow * gap);
+            let (mut q, mut v) = (SVector::<f64, 9>::zeros(), SVector::<f64, 9>::zeros());
+            FOLLOW.iter().zip(following.iter()).for_each(|(&k, &x)| v[k] = x);
+            for k in [ROLL, STEER] {
+                q[k] = if position == k { 1.0 } else { 0.0 };
+                v[k] = if rate == k { 1.0 } else { 0.0 };
+            }
+            let change = slopes.position * q + slopes.velocity * v;
+            [change[ROLL], change[STEER]]
+        };
+        let none = usize::MAX;
+        let columns = [along(ROLL, none), along(STEER, none), along(none, ROLL), along(none, STEER)];
+        let inverse = mass.try_inverse().unwrap();
+        let (stiff, damp) = (-inverse * (k0 * 9.81 + k2 * (speed * speed)), -inverse * c1 * speed);
+        let greatest = stiff.amax().max(damp.amax());
+        for (j, column) in columns.iter().enumerate() {
+            for i in 0..2 {
+                let wanted = if j < 2 { stiff[(i, j)] } else { damp[(i, j - 2)] };
+                worst = worst.max((column[i] - wanted).abs() / greatest);
+            }
+        }
+        let a = Matrix4::from_fn(|i, j| if i < 2 { f64::from(j == i + 2) } else { columns[j][i - 2] });
+        let found = a.complex_eigenvalues();
+        for root in entry["eig"].as_array().unwrap() {
+            let [re, im] = [0, 1].map(|k| number(&root[k]));
+            let near = found.iter().map(|x| (x.re - re).hypot(x.im - im)).fold(f64::INFINITY, f64::min);
+            worst_root = worst_root.max(near / (1.0 + re.hypot(im)));
+        }
+        speeds += 1;
+    }
+    println!("rows {worst:.1e}, eigenvalues {worst_root:.1e}");
+    assert_eq!(speeds, 21);
+    assert!(worst < 1e-12 && worst_root < 1e-13, "{worst:e}, {worst_root:e}");
+}
