@@ -4,7 +4,7 @@
 use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::syntax;
 use multibody_engine::syntax::tree::Use;
-use proc_macro2::{TokenStream, TokenTree};
+use proc_macro2::{Group, TokenStream, TokenTree};
 
 /// The tokens of a call, with those of all parts that it uses from `calls`.
 pub(crate) fn linked(call: &TokenStream, calls: &[TokenStream]) -> Result<TokenStream, Diagnostics> {
@@ -27,8 +27,22 @@ fn link(call: &TokenStream, calls: &[TokenStream], open: &mut Vec<usize>) -> Res
             diagnostics.error_help(first.name.span(), message, "name the file: `--parts FILE`");
             return Err(diagnostics);
         };
-        tokens = pending.resolved(&part);
+        tokens = pending.resolved(&written_out(part));
     }
+}
+
+/// With `crate` for `$crate`, which only rustc reads: here it is the crate of the file that declares the part.
+fn written_out(tokens: TokenStream) -> TokenStream {
+    let is_dollar = |token: &TokenTree| matches!(token, TokenTree::Punct(punct) if punct.as_char() == '$');
+    let inside = |token| match token {
+        TokenTree::Group(group) => {
+            let mut own = Group::new(group.delimiter(), written_out(group.stream()));
+            own.set_span(group.span());
+            TokenTree::Group(own)
+        }
+        token => token,
+    };
+    tokens.into_iter().filter(|token| !is_dollar(token)).map(inside).collect()
 }
 
 /// What the first call that declares a public part of this name says of it.

@@ -362,6 +362,16 @@ error: no file that is read here declares the part `leg`
     assert_eq!(quiet(&["expand", "walking.rs", "--parts", "shelf.rs"]), expected);
 }
 
+/// What such a part calls is named as in its own crate.
+#[test]
+fn parts_of_another_file_call_functions_of_rust() {
+    let code = quiet(&["expand", "braking.rs", "--parts", "brakes.rs"]);
+    let words: String = code.split_whitespace().collect();
+    assert!(words.contains("<crate::brakes::Padas::multibody::Function<T,1"), "{code}");
+    let equations = quiet(&["equations", "braking.rs", "--parts", "brakes.rs"]);
+    assert!(equations.contains("friction(turn"), "{equations}");
+}
+
 /// What is imported is a model of the language, and the one that the file is.
 #[test]
 fn robots_are_imported_as_text() {

@@ -37,7 +37,7 @@ use crate::scalar::Real;
 /// }
 ///
 /// # fn main() {
-/// let model = sledge::Model::new(&sledge::Params {});
+/// let model = sledge::Model::default();
 /// let mut state = sledge::State::default();
 /// state.v.slide = 0.02;
 /// let acceleration = model.forward_dynamics(0.0, &state, &()).slide;

@@ -22,6 +22,9 @@ impl Code {
         compiled: &Compiled,
         functions: &[String],
     ) -> Result<Code, String> {
+        if !model.externals.is_empty() {
+            return Err(format!("`{}` may call functions of Rust, which a program of its own has not", model.name));
+        }
         // Conditional compilation, visibility and the library's name are those of the user's crate.
         model.attrs.clear();
         model.vis = parse_quote!(pub);
