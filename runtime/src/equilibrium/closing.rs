@@ -7,7 +7,7 @@ use crate::{Constrained, Real, StateSpace, System, Tangent, VelocityOf};
 pub(super) trait Closing<S: System> {
     /// Whether there are any loops.
     const LOOPS: bool;
-    /// The greatest residual of a position.
+    /// The greatest residual of a position, and of what equations ask of velocities at rest.
     fn gap(&self, t: S::Scalar, state: &S::State) -> S::Scalar;
     /// The displacement that closes the loops.
     fn correction(&self, t: S::Scalar, state: &S::State, weights: &VelocityOf<S>) -> VelocityOf<S>;

@@ -12,6 +12,7 @@ mod closable;
 mod closed;
 mod closures;
 mod configurations;
+mod leaving;
 mod linear;
 mod measure;
 mod pinned;
@@ -63,6 +64,10 @@ pub struct Complaint {
 /// Splits a model's coordinates and equations.
 pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
     formulas::complaints(model)?;
+    let staying = leaving::complaints(model);
+    if !staying.is_empty() {
+        return Err(staying);
+    }
     let mut structure = Structure::open(model);
     structure.groups = groups::find(model);
     if model.cuts.is_empty() && model.constraints.is_empty() && model.drives.is_empty() {
@@ -323,6 +328,17 @@ impl<'m> Analysis<'m> {
                 continue;
             }
             let Some(row) = row_of(problem, group.equations[k]) else { continue };
+            if !problem.is_analytic(group.equations[k]) {
+                // Poses prove nothing of a function in pieces.
+                let name = row_name(self.model, row.closing, row.index);
+                let LoopClosure::Constraint(id) = row.closing else { continue };
+                let message = format!(
+                    "the constraint `{name}` follows from others wherever it was looked at, and is made of pieces"
+                );
+                let help = "whether it does so in all pieces is not known: leave it out, or write it without `min`, `max`, `select` and the like";
+                self.complain(self.model.constraints[id].site(), message, Some(help));
+                continue;
+            }
             names.push(format!("`{}`", row_name(self.model, row.closing, row.index)));
             structure.dropped.push(row);
         }

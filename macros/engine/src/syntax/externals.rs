@@ -104,8 +104,10 @@ fn says_from_where(path: &TokenStream) -> bool {
 pub(super) fn names_its_crate(module: &Module) -> bool {
     module.items.iter().any(|item| match &item.kind {
         ItemKind::External(function) => {
-            let first = function.path.clone().into_iter().next();
-            first.is_some_and(|token| matches!(token, TokenTree::Ident(_)) || is_dollar(&token))
+            let says = |token| {
+                matches!(&token, TokenTree::Ident(word) if word == "crate" || word == "$crate") || is_dollar(&token)
+            };
+            function.path.clone().into_iter().any(says)
         }
         _ => false,
     })
@@ -130,19 +132,21 @@ pub(super) fn from_elsewhere(module: &Module) -> TokenStream {
 
 /// Paths stand behind the `=` of an `extern`.
 fn in_items(items: TokenStream) -> TokenStream {
-    let (mut tokens, mut is_extern, mut begins) = (TokenStream::new(), false, false);
+    // Wherever it stands in a path: arguments of types are paths too.
+    let (mut tokens, mut is_extern, mut is_path, mut dollar_before) = (TokenStream::new(), false, false, false);
     for token in items {
         match &token {
             TokenTree::Ident(word) if word == "extern" => is_extern = true,
-            TokenTree::Ident(word) if begins && word == "crate" => {
+            TokenTree::Ident(word) if is_path && !dollar_before && word == "crate" => {
                 let mut dollar = Punct::new('$', Spacing::Alone);
                 dollar.set_span(word.span());
                 tokens.extend([TokenTree::Punct(dollar)]);
             }
-            TokenTree::Punct(punct) if punct.as_char() == ';' => is_extern = false,
+            TokenTree::Punct(punct) if punct.as_char() == ';' => (is_extern, is_path) = (false, false),
+            TokenTree::Punct(punct) if punct.as_char() == '=' => is_path = is_extern,
             _ => {}
         }
-        begins = is_extern && matches!(&token, TokenTree::Punct(punct) if punct.as_char() == '=');
+        dollar_before = is_dollar(&token);
         tokens.extend([token]);
     }
     tokens

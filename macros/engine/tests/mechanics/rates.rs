@@ -42,25 +42,21 @@ fn wheels_of_one_axle() {
     assert!(structure.notes.iter().any(|note| note.contains("redundant equations of velocities, left out: `right`")));
 }
 
-/// What depends on others with the declared parameters alone stays, and so does what time may tell apart.
+/// Rows that are independent at some time, or with a velocity that is driven, stay.
 #[test]
-fn what_may_be_independent_stays() {
-    let shifted = model(
-        "param shift = 0.0;
-         constraint one = sled.express(sled.velocity).y;
-         constraint two = sled.express(sled.at(shift * X).velocity).y;",
+fn what_is_independent_at_other_times_stays() {
+    for more in ["sin(t) * plane.y.rate", "0.3 * sin(t) * plane.angle.rate - 0.1"] {
+        let timed = model(&format!("constraint one = plane.x.rate; constraint two = plane.x.rate + {more};"));
+        let structure = sound(&timed);
+        assert_eq!(names(&timed, &structure.rows), ["one", "two"], "{more}");
+        assert!(!structure.redundant && structure.dropped.is_empty());
+    }
+    let steered = model(
+        "let h = 0.3 * sin(t);
+         constraint steer = cos(h) * plane.y.rate - sin(h) * plane.x.rate;
+         constraint rail = plane.y.rate;",
     );
-    let structure = sound(&shifted);
-    assert_eq!(names(&shifted, &structure.rows), ["one", "two"]);
-    assert!(structure.redundant);
-    let driven = model(
-        "drive plane.angle = 0.3 * t;
-         constraint one = sled.express(sled.velocity).y;
-         constraint two = 2.0 * sled.express(sled.velocity).y + 0.1 * plane.angle.rate;",
-    );
-    let structure = sound(&driven);
-    assert_eq!(names(&driven, &structure.rows), ["one", "two"]);
-    assert!(structure.redundant);
+    assert_eq!(names(&steered, &sound(&steered).rows), ["steer", "rail"]);
 }
 
 /// Rates of a closed loop depend on its equations of positions.
@@ -104,7 +100,35 @@ fn mistakes() {
             "constraint c = sled.velocity.y; solve (plane.x) from c { plane.x > 0.0 } formulation { constraints: Reduced }",
             "this is a constraint of velocities: no position follows from it",
         ),
+        (
+            "constraint c = plane.y.rate + 0.3 * signum(plane.x.rate);",
+            "the constraint `c` is not linear in velocities: it reads `plane.x.rate` in a function in pieces",
+        ),
+        (
+            "drive plane.angle = 0.3 * t; constraint c = plane.angle.rate - 0.5;",
+            "the constraint `c` is of velocities, but none that is free has a say in it",
+        ),
     ] {
         assert_eq!(complaints(items), told, "{items}");
+    }
+}
+
+/// Poses prove nothing where parameters, time, drives or pieces could tell rows apart.
+#[test]
+fn what_may_be_independent_is_refused() {
+    for items in [
+        "param shift = 0.0; constraint one = sled.express(sled.velocity).y; constraint two = sled.express(sled.at(shift * X).velocity).y;",
+        "drive plane.angle = 0.3 * t; constraint one = sled.velocity.y; constraint two = 2.0 * sled.velocity.y + 0.1 * plane.angle.rate;",
+        "constraint one = plane.x.rate; constraint two = plane.x.rate + sin(t);",
+        "constraint one = plane.x.rate; constraint two = plane.x.rate + max(plane.x - 50.0, 0.0) * plane.y.rate;",
+        "constraint one = plane.x.rate; constraint two = plane.x.rate + table(plane.x, [10.0, 11.0], [0.0, 1.0]) * plane.y.rate;",
+        "constraint one = plane.x.rate; constraint two = plane.x.rate + select(t > 9.0, 1.0, 0.0) * plane.y.rate;",
+        "param k = 2.0; constraint one = plane.x.rate; constraint two = plane.x.rate + max(k - 5.0, 0.0) * plane.y.rate;",
+        "constraint one = plane.x - 0.3 * plane.y; constraint two = plane.x.rate - 0.3 * plane.y.rate - 0.1 * sin(t);",
+        "constraint one = plane.x - 0.3 * t; constraint two = plane.x.rate - 0.4;",
+        "constraint one = plane.x; constraint two = plane.x + max(plane.y - 50.0, 0.0) * plane.y;",
+    ] {
+        let told = complaints(items);
+        assert!(told.contains("wherever it was looked at"), "{items}: {told}");
     }
 }

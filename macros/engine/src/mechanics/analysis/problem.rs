@@ -346,9 +346,11 @@ impl Problem {
         Linearised { residuals, rows }
     }
 
-    /// Whether time has a say in any equation of positions.
-    pub(super) fn is_timed(&self) -> bool {
-        self.equations.iter().any(|equation| equation.timed)
+    /// Whether equations of velocities are the same functions everywhere, and at all times.
+    pub(super) fn are_rates_plain(&self) -> bool {
+        let roots = self.rates.iter().flat_map(|rate| rate.slopes.iter().map(|slope| slope.1).chain([rate.rest]));
+        let timed = |root: usize| self.time.is_some_and(|time| self.tape.symbols(root).contains(&time));
+        roots.into_iter().all(|root| self.tape.is_analytic(root) && !timed(root))
     }
 
     /// Entries of a row by angular velocities where there were rates of roll, pitch and yaw, if all three are among some columns.

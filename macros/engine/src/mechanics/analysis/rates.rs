@@ -1,10 +1,10 @@
 //! Stage `mechanics`: which equations of velocities keep multipliers.
 //!
 //! In: the equations as numbers, closed configurations. Out: all of them behind those of positions, but for what depends on
-//! equations before it, of positions or of velocities, in all these configurations, whatever the parameters: rows of analytic
-//! functions that depend on each other at random poses do so everywhere. What they ask of motions that are forced from
-//! outside (a plane that turns, a course in time) must then agree too; where that can't be looked at in numbers they stay, and the
-//! pivoted solve finds the rank.
+//! equations before it, of positions or of velocities, in all these configurations and asks for the same: rows of analytic
+//! functions that depend on each other at random poses, and with other parameters, do so everywhere. Where the functions are in
+//! pieces, follow time or drives, or are what they are for the declared parameters alone, poses prove nothing. Such a row is refused:
+//! rounding would decide which of the rows is kept, and positions are moved by rows of positions alone.
 
 use crate::mechanics::loops::constraints::row_name;
 use crate::mechanics::loops::structure::{Role, Row, Structure};
@@ -21,6 +21,8 @@ const POSES: usize = 9;
 const DEPENDENT: f64 = 1e-9;
 /// Parameters are off their defaults by about this much.
 const OFF: f64 = 0.1;
+/// The latest time that is looked at. [s]
+const LATE: f64 = 7.0;
 
 /// A row of the whole mechanism: slopes, and what is left at rest.
 type Gradient = (Vec<f64>, f64);
@@ -31,54 +33,69 @@ enum Beside {
     Independent,
     Follows,
     Contradicts,
-    /// It depends on others, and what these ask for is not known in numbers.
-    Unknown,
 }
 
 pub(super) fn keep(model: &Model, problem: &Problem, structure: &mut Structure) -> Vec<Complaint> {
-    let (mut kept, mut complaints) = (Vec::new(), Vec::new());
-    let mut names = Vec::new();
+    if problem.rates.is_empty() {
+        return Vec::new();
+    }
+    let (mut kept, mut names, mut complaints) = (Vec::new(), Vec::new(), Vec::new());
     let points = points(problem, structure);
-    let moved = Problem::with(model, OFF);
     let before = structure.clone();
     let judge = Judge { problem, structure: &before, points: &points };
+    let proof = judge.is_proof();
     for (number, rate) in problem.rates.iter().enumerate() {
-        let name = || row_name(model, rate.row.closing, rate.row.index);
-        let declared = judge.at_all(problem, number, &kept);
-        let all = |list: &[Beside]| !list.is_empty() && list.iter().all(|&one| one == Beside::Follows);
-        if all(&declared) && all(&judge.at_all(&moved, number, &kept)) {
-            names.push(format!("`{}`", name()));
+        let name = row_name(model, rate.row.closing, rate.row.index);
+        let found = judge.at_all(problem, number, &kept);
+        if found.contains(&Beside::Independent) {
+            structure.scales.insert(rate.row, judge.scale(number));
+            kept.push(number);
+            continue;
+        }
+        let robust =
+            || judge.at_all(&Problem::with(model, OFF), number, &kept).iter().all(|&one| one == Beside::Follows);
+        if proof && found.iter().all(|&one| one == Beside::Follows) && robust() {
+            names.push(format!("`{name}`"));
             structure.dropped.push(rate.row);
             continue;
         }
-        let stuck = |&one: &Beside| matches!(one, Beside::Follows | Beside::Contradicts);
-        if declared.contains(&Beside::Contradicts) && declared.iter().all(stuck) {
-            let LoopClosure::Constraint(id) = rate.row.closing else { continue };
-            let message = format!("the constraint `{}` contradicts others: their velocities leave none for it", name());
-            complaints.push(Complaint { at: model.constraints[id].site(), message, help: None });
-            continue;
-        }
-        structure.redundant |= declared.iter().any(|&one| one != Beside::Independent);
-        structure.scales.insert(rate.row, judge.scale(number));
-        kept.push(number);
+        let LoopClosure::Constraint(id) = rate.row.closing else { continue };
+        let (message, help) = match () {
+            () if !judge.moves(number) => {
+                (format!("the constraint `{name}` is of velocities, but none that is free has a say in it"), None)
+            }
+            () if proof && found.contains(&Beside::Contradicts) => {
+                (format!("the constraint `{name}` contradicts others: their velocities leave none for it"), None)
+            }
+            () => (
+                format!("the constraint `{name}` follows from others, or contradicts them, wherever it was looked at"),
+                Some(
+                    "whether it does so with any parameters, at any time and in all pieces of its functions is not known: leave it out, or an \
+                      equation that it depends on",
+                ),
+            ),
+        };
+        let help = help.map(str::to_owned);
+        complaints.push(Complaint { at: model.constraints[id].site(), message, help });
     }
     if !names.is_empty() {
         let names = names.join(", ");
-        structure.notes.push(format!(
-            "redundant equations of velocities, left out: {names}; they follow from others at {} poses",
-            points.len()
-        ));
+        let evidence = format!("they follow from others at {} poses", points.len());
+        structure.notes.push(format!("redundant equations of velocities, left out: {names}; {evidence}"));
     }
     structure.rows.extend(kept.into_iter().map(|number| problem.rates[number].row));
     complaints
 }
 
+/// Closed configurations, or random ones, at times of their own.
 fn points(problem: &Problem, structure: &Structure) -> Vec<Point> {
-    if !problem.equations.is_empty() {
-        return structure.closed.iter().map(|closed| problem.at(&closed.positions)).collect();
-    }
     let mut random = Random(0x8011E5);
-    (0..POSES).map(|_| problem.start(&mut random, 1.0)).collect()
+    let mut points: Vec<Point> = structure.closed.iter().map(|closed| problem.at(&closed.positions)).collect();
+    if problem.equations.is_empty() || points.is_empty() {
+        points = (0..POSES).map(|_| problem.start(&mut random, 1.0)).collect();
+    }
+    points.iter_mut().for_each(|point| problem.put_time(point, LATE * random.next().abs()));
+    points
 }
 
 struct Judge<'a> {
@@ -88,9 +105,29 @@ struct Judge<'a> {
 }
 
 impl Judge<'_> {
+    /// Whether what holds at random poses holds everywhere.
+    fn is_proof(&self) -> bool {
+        let problem = self.problem;
+        let positions = 0..problem.equations.len();
+        let driven = |k: usize| matches!(self.structure.role(problem.columns[k].coordinate), Role::Driven(_));
+        let plain = |k: usize| problem.is_analytic(k) && !problem.equations[k].timed;
+        positions.into_iter().all(plain) && problem.are_rates_plain() && !(0..problem.columns.len()).any(driven)
+    }
+
     /// What an equation is beside those of positions and those that are kept, pose by pose.
     fn at_all(&self, problem: &Problem, number: usize, kept: &[usize]) -> Vec<Beside> {
         self.points.iter().map(|point| self.beside(problem, point, number, kept)).collect()
+    }
+
+    /// Whether any velocity that no drive gives has a say in it.
+    fn moves(&self, number: usize) -> bool {
+        let mut values = Values::default();
+        self.points.iter().any(|point| {
+            let row = &self.problem.rates_at(point, &mut values).rows[number];
+            let driven =
+                |column: usize| matches!(self.structure.role(self.problem.columns[column].coordinate), Role::Driven(_));
+            row.iter().any(|&(column, entry)| !driven(column) && entry != 0.0)
+        })
     }
 
     /// The greatest length of its row.
@@ -104,7 +141,9 @@ impl Judge<'_> {
 
     fn beside(&self, problem: &Problem, point: &Point, number: usize, kept: &[usize]) -> Beside {
         // Parameters are part of a point: those of the other set are put in.
-        let point = problem.at(&problem.positions(point));
+        let time = problem.time_at(point);
+        let mut point = problem.at(&problem.positions(point));
+        time.into_iter().for_each(|time| problem.put_time(&mut point, time));
         let mut values = Values::default();
         let dense = |row: &[(usize, f64)]| {
             let mut dense = vec![0.0; problem.columns.len()];
@@ -139,11 +178,7 @@ impl Judge<'_> {
         if length(&left.0) > DEPENDENT * size {
             return Beside::Independent;
         }
-        // Drives, and loops that follow time, move on their own: what they ask for is not looked at here.
-        let unknown = problem.is_timed()
-            || problem.columns.iter().any(|column| matches!(self.structure.role(column.coordinate), Role::Driven(_)));
         match left.1.abs() <= DEPENDENT * (size + rates.residuals[number].abs()) {
-            _ if unknown => Beside::Unknown,
             true => Beside::Follows,
             false => Beside::Contradicts,
         }

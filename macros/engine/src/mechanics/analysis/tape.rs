@@ -141,7 +141,9 @@ impl Tape {
     /// Whether a root is the same function wherever it has a value, and not another one in pieces.
     pub(super) fn is_analytic(&self, root: usize) -> bool {
         self.needs[root].iter().all(|&index| match self.nodes[index].op {
-            Op::Call(Call::Min | Call::Max | Call::Select | Call::Nan) | Op::Unknown => false,
+            Op::Call(Call::Min | Call::Max | Call::Select | Call::Abs | Call::Signum | Call::Nan) | Op::Unknown => {
+                false
+            }
             Op::Call(call) => !call.is_comparison(),
             Op::Literal(_) | Op::Symbol(_) | Op::Sum | Op::Product | Op::Reciprocal | Op::Sin | Op::Cos => true,
         })

@@ -5,15 +5,19 @@
 
 use crate::invariant::fault::raise;
 use crate::invariant::index_vec::IndexVec;
+use crate::model::changing::each_node;
 use crate::model::checker::Checker;
 use crate::model::topology::Topology;
-use crate::model::types::{Bodies, BodyId, BodyRef, Constraint, ConstraintKind, Drive, Joint, JointId, Joints};
+use crate::model::types::{
+    Bodies, BodyId, BodyRef, Constraint, ConstraintKind, Drive, ExprNode, Joint, JointId, Joints,
+};
 
 impl Checker<'_, '_> {
     /// Bodies beyond which a loop closes, a constraint holds or a drive moves something. The coordinates up to there obey
     /// more than the equations of motion, so a mass matrix that is singular in them may be well: what is said of the
     /// others stays true, since a motion in which nothing but bodies beyond a joint takes part is not hindered by what
-    /// happens elsewhere. An expression that is held at zero may hold anything.
+    /// happens elsewhere. An expression that is held at zero holds what it
+    /// reads.
     pub(in crate::model) fn held(
         &self,
         bodies: &Bodies,
@@ -35,7 +39,26 @@ impl Checker<'_, '_> {
         for constraint in constraints {
             match &constraint.kind {
                 ConstraintKind::Rod { between, .. } => between.iter().for_each(|frame| hold(frame.body)),
-                ConstraintKind::Value(_) | ConstraintKind::Rate(_) => return bodies.iter().map(|_| true).collect(),
+                ConstraintKind::Value(value) | ConstraintKind::Rate(value) => {
+                    let mut all = false;
+                    each_node([value], &mut |expr| match &*expr.node {
+                        ExprNode::Coordinate { joint, .. } | ExprNode::RelativeAngularVelocity(joint) => {
+                            hold(joints[*joint].parent.body);
+                            hold(joints[*joint].child.body);
+                        }
+                        ExprNode::OfFrame(frame, _)
+                        | ExprNode::Express { frame, .. }
+                        | ExprNode::Jacobian { frame, .. } => {
+                            hold(frame.body);
+                        }
+                        ExprNode::OfBodies(Some(list), _) => list.iter().for_each(|id| hold(BodyRef::Body(*id))),
+                        ExprNode::OfBodies(None, _) => all = true,
+                        _ => {}
+                    });
+                    if all {
+                        return bodies.iter().map(|_| true).collect();
+                    }
+                }
             }
         }
         let driven = drives.iter().flat_map(|drive| self.driven(drive.target));

@@ -139,6 +139,7 @@ impl Equations<'_> {
         let coordinates = tree_coordinates(model);
         let velocities: Vec<(usize, Coordinate)> =
             coordinates.into_iter().map(|at| (self.coordinate_symbols(at)[1].index(), at)).collect();
+        let help = "wheels, blades and gears give equations that are linear in velocities".to_owned();
         for (coordinate, slope) in slopes {
             let read: HashSet<usize> = self.g.reachable_scalars(&[slope]).into_iter().collect();
             let Some(&(_, other)) = velocities.iter().find(|(symbol, _)| read.contains(symbol)) else { continue };
@@ -148,9 +149,22 @@ impl Equations<'_> {
                 of(coordinate),
                 of(other)
             );
-            let help = "wheels, blades and gears give equations that are linear in velocities".to_owned();
             return Some(Complaint { at: constraint.site(), message, help: Some(help) });
         }
-        None
+        // Functions in pieces have slopes of zero: what is left has to read no velocity either.
+        let Some(rate) = self.rate_expression(row) else { return None };
+        let mut terms = vec![rate];
+        for (coordinate, slope) in self.rate_slopes(row) {
+            let velocity = self.coordinate_symbols(coordinate)[1];
+            terms.push(-self.g.mul(slope, velocity));
+        }
+        let rest = self.g.sum(&terms);
+        let read: HashSet<usize> = self.g.reachable_scalars(&[rest]).into_iter().collect();
+        let (_, other) = velocities.into_iter().find(|(symbol, _)| read.contains(symbol))?;
+        let of = coordinate_name(model, other);
+        let message = format!(
+            "the constraint `{name}` is not linear in velocities: it reads `{of}.rate` in a function in pieces"
+        );
+        Some(Complaint { at: constraint.site(), message, help: Some(help) })
     }
 }
