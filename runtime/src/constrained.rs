@@ -58,10 +58,11 @@ pub trait Constrained: System {
     /// One component for each equation.
     type Residual: Tangent<Self::Scalar>;
 
-    /// `Phi(t, q)`, zero where the loops are closed. Each component has the unit of its equation, m or rad.
+    /// `Phi(t, q)`, zero where the loops are closed. Each component has the unit of its equation, m or rad. That of an equation of
+    /// velocities is always zero.
     fn constraints(&self, t: Self::Scalar, q: &PositionOf<Self>) -> Self::Residual;
 
-    /// `G v + dPhi/dt`: the rate of [`Constrained::constraints`] along a motion.
+    /// `G v + dPhi/dt`: the rate of [`Constrained::constraints`] along a motion, and the left side of equations of velocities.
     fn constraint_rate(&self, t: Self::Scalar, state: &Self::State) -> Self::Residual;
 
     /// Whether a fall of the equations' rank says that motions cross there. It doesn't where equations follow from others

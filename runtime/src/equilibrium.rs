@@ -137,7 +137,8 @@ where
     Search::run(system, &Turned, &Open, t, guess, *input, free)
 }
 
-/// The same as [`equilibrium`] for a model with constraints: they are closed, too.
+/// The same as [`equilibrium`] for a model with constraints: they are closed, too. Where one moves by itself, as a plane that turns below a
+/// wheel or a rod whose length follows the time, nothing is at rest.
 ///
 /// Each step has two parts: the correction that closes the loops, and a displacement along them, for which the rows of the
 /// derivatives are projected onto displacements that keep the constraints.

@@ -28,10 +28,11 @@ pub enum EquilibriumError {
         /// Steps made.
         iterations: u32,
     },
-    /// The loops could not be closed near the guess, so no state was met that could be at rest:
+    /// The loops could not be closed near the guess, or move by themselves, so no state was met that could be at rest:
     /// [`assemble`](crate::assemble) tells more.
     Open {
-        /// `[m]` or `[rad]` greatest residual of a position that is left, in the best of the states met.
+        /// `[m]` or `[rad]` greatest residual of a position that is left, in the best of the states met, or, per second, of what
+        /// equations ask of velocities at rest.
         gap: f64,
         /// Steps made.
         iterations: u32,

@@ -1,6 +1,6 @@
 //! A sleigh, a disc and a sphere against closed solutions.
 
-use multibody::nalgebra::{Unit, UnitQuaternion, Vector3};
+use multibody::nalgebra::{SVector, Unit, UnitQuaternion, Vector3};
 use multibody::{
     Dop853, IntegrationError, Integrator, Projection, Twist, WithProjection, constrained_equilibrium, multibody,
 };
@@ -312,6 +312,14 @@ fn a_rate_that_integrates() {
         );
         assert!((one.constraint_rate(0.0, &state) - other.constraint_rate(0.0, &same)).amax() < 1e-14);
         assert_eq!(other.constraints(0.0, &same.q).amax(), 0.0);
+        // A blow, and a rate that is given to the rod.
+        let (blow, rate) = (by_length::Velocity { turn: 0.3, slide: -1.1 }, SVector::from([0.2]));
+        let (c, d) = (
+            one.impulse(&state.q, &blow, &rate),
+            other.impulse(&same.q, &by_rate::Velocity { turn: 0.3, slide: -1.1 }, &rate),
+        );
+        assert!((c.v.turn - d.v.turn).abs() + (c.v.slide - d.v.slide).abs() < 1e-12);
+        assert!((other.constraint_jacobian(0.0, &same.q) * SVector::from([d.v.turn, d.v.slide]) - rate).amax() < 1e-12);
     }
 }
 
@@ -401,7 +409,7 @@ fn a_start_that_slips() {
     start.q.plane.angle = 0.4;
     start.v.plane.x = 0.5;
     let end = Integrator::fixed(Dop853, 0.01).integrate(&model, 0.0, 0.1, &start, &(), |_, _| ());
-    assert!(matches!(end, Err(IntegrationError::OpenLoops { .. })), "{end:?}");
+    assert!(matches!(end, Err(IntegrationError::OpenVelocities { .. })), "{end:?}");
     // Projected, it keeps what it has along the blade.
     let kept = Projection::default().project(&model, 0.0, &start).unwrap().state;
     let wanted = Vector3::new(0.4_f64.cos(), 0.4_f64.sin(), 0.0) * (0.5 * 0.4_f64.cos());

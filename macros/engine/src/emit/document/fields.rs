@@ -203,7 +203,6 @@ impl Fraction {
     }
 }
 
-/// A simple fraction as such, a whole number without a point.
 /// As it is called, or `grip.slopes[1]`.
 fn external(function: &External, call: Call) -> String {
     match call {
@@ -212,6 +211,7 @@ fn external(function: &External, call: Call) -> String {
     }
 }
 
+/// A simple fraction as such, a whole number without a point.
 fn literal(value: f64) -> (String, Level) {
     let whole = |x: f64| x == x.trunc() && x.abs() < 1e9;
     let text = literals::text(value);

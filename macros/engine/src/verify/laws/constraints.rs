@@ -71,10 +71,14 @@ impl At<'_, '_> {
     }
 
     /// Weights of equations, without those of velocities: these have no residual that their Jacobian were a slope of.
-    pub(super) fn of_positions(&mut self) -> Vec<f64> {
-        let structure = self.laws.structure;
-        let mut weights = self.weights(structure.rows.len());
-        let model = self.laws.model;
+    fn of_positions(&mut self) -> Vec<f64> {
+        let weights = self.weights(self.laws.structure.rows.len());
+        self.without_rates(weights)
+    }
+
+    /// The same of these.
+    pub(super) fn without_rates(&self, mut weights: Vec<f64>) -> Vec<f64> {
+        let (structure, model) = (self.laws.structure, self.laws.model);
         weights.iter_mut().zip(&structure.rows).filter(|(_, row)| is_rate(model, **row)).for_each(|(w, _)| *w = 0.0);
         weights
     }

@@ -119,14 +119,26 @@ impl At<'_, '_> {
         if rows == 0 || !self.has(whole) || !self.has(phi) {
             return Some(None);
         }
-        let r = self.of_positions();
+        let rate = FunctionKind::ConstraintRate;
+        // Equations of velocities have their left sides there, which are rates.
+        let mut r = self.weights(rows);
+        let positions = self.without_rates(r.clone());
+        let of_velocities: Vec<f64> = r.iter().zip(&positions).map(|(&r, &p)| r - p).collect();
+        let rolls = of_velocities.iter().any(|&r| r != 0.0) && self.has(rate);
+        if !rolls {
+            r.clone_from(&positions);
+        }
         let mut weights = vec![0.0; self.place(whole, Slot::Gaps).start];
         weights.extend(&r);
         let mut sum = Sum::default();
         self.values(whole)?.iter().zip(&weights).for_each(|(&x, &r)| sum.product(&[x, Doubled::new(r)]));
-        self.values(phi)?.iter().zip(&r).for_each(|(&x, &r)| sum.product(&[-x, Doubled::new(r)]));
+        self.values(phi)?.iter().zip(&positions).for_each(|(&x, &r)| sum.product(&[-x, Doubled::new(r)]));
+        if rolls {
+            self.values(rate)?.iter().zip(&of_velocities).for_each(|(&x, &r)| sum.product(&[-x, Doubled::new(r)]));
+        }
         if sum.holds() != Some(true) {
-            sum.bound = self.bound(whole, &weights) + self.bound(phi, &r);
+            sum.bound = self.bound(whole, &weights) + self.bound(phi, &positions);
+            sum.bound += if rolls { self.bound(rate, &of_velocities) } else { 0.0 };
         }
         judged(&sum, whole, phi)
     }

@@ -152,13 +152,20 @@ impl Equations<'_> {
             return Some(Complaint { at: constraint.site(), message, help: Some(help) });
         }
         // Functions in pieces have slopes of zero: what is left has to read no velocity either.
-        let Some(rate) = self.rate_expression(row) else { return None };
+        let rate = self.rate_expression(row)?;
+        let still = self.scene.symbols.velocities.concat().into_iter().map(|v| (v, Scalar::ZERO));
+        let still = self.map(&still.collect::<Vec<_>>());
+        let still = self.g.substitute(&[rate], &still)[0];
         let mut terms = vec![rate];
         for (coordinate, slope) in self.rate_slopes(row) {
             let velocity = self.coordinate_symbols(coordinate)[1];
             terms.push(-self.g.mul(slope, velocity));
         }
         let rest = self.g.sum(&terms);
+        // Equal values are one node.
+        if rest == still {
+            return None;
+        }
         let read: HashSet<usize> = self.g.reachable_scalars(&[rest]).into_iter().collect();
         let (_, other) = velocities.into_iter().find(|(symbol, _)| read.contains(symbol))?;
         let of = coordinate_name(model, other);
