@@ -221,8 +221,7 @@ fn an_even_leak_changes_no_motion() {
 #[test]
 fn energy_leaves_with_the_mass() {
     let model = balanced::Model::<f64>::default();
-    let mut start = balanced::State::default();
-    start.v = SVector::<f64, 3>::from([1.0, -2.0, 0.5]).into();
+    let start = balanced::State { v: SVector::<f64, 3>::from([1.0, -2.0, 0.5]).into(), ..balanced::State::default() };
     let end = Integrator::fixed(DormandPrince, 0.002).integrate(&model, 0.0, 3.0, &start, &(), |_, _| ()).unwrap().0;
     let stored = |state| model.outputs(0.0, state, &()).stored;
     let (change, fed) = (stored(&end) - stored(&start), end.x.fed);

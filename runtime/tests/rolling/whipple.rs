@@ -132,10 +132,17 @@ fn a_motion() {
     let data = data("whipple_nonlinear");
     let points = data["trajectory"]["points"].as_array().unwrap();
     let energy = number(&data["trajectory"]["energy"]);
-    let mut start = State::default();
-    start.q = position(&points[0]["q"]);
-    start.v =
-        Velocity { x: 4.6, y: 0.15, roll: 0.5, spin_rear: -4.6 / 0.3, spin_front: -4.6 / 0.35, ..Velocity::default() };
+    let start = State {
+        q: position(&points[0]["q"]),
+        v: Velocity {
+            x: 4.6,
+            y: 0.15,
+            roll: 0.5,
+            spin_rear: -4.6 / 0.3,
+            spin_front: -4.6 / 0.35,
+            ..Velocity::default()
+        },
+    };
     let (mut state, mut t, mut worst) = (start, 0.0, 0.0_f64);
     let integrator = Integrator::adaptive(Dop853, 1e-13, 1e-13);
     for point in points {
@@ -179,9 +186,10 @@ fn small_motions() {
     let (mut worst, mut worst_root, mut speeds) = (0.0_f64, 0.0_f64, 0);
     for entry in reference["eigenvalues"].as_array().unwrap() {
         let speed = number(&entry["v"]);
-        let mut state = State::<f64>::default();
-        state.q.z = -0.3;
-        state.v = Velocity { x: speed, spin_rear: -speed / 0.3, spin_front: -speed / 0.35, ..Velocity::default() };
+        let state = State {
+            q: Position { z: -0.3, ..Position::default() },
+            v: Velocity { x: speed, spin_rear: -speed / 0.3, spin_front: -speed / 0.35, ..Velocity::default() },
+        };
         let slopes = model.forward_derivatives(0.0, &state, &Input::default());
         let jacobian = model.constraint_jacobian(0.0, &state.q);
         let follow = SMatrix::<f64, 6, 6>::from_fn(|i, j| jacobian[(i, FOLLOW[j])]).try_inverse().unwrap();
