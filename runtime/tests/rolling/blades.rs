@@ -204,7 +204,7 @@ fn a_disc_on_its_circle() {
             let axle = upright * Vector3::y();
             // Angular velocity: heading about -z, and spin about the axle such that the whole share along it is -w.
             let vertical = Vector3::z() * -heading;
-            let along = spin * -1.0;
+            let along = -spin;
             let omega = vertical + axle * (along - vertical.dot(&axle));
             let low = (axle * axle.z - Vector3::z()) * (r / (1.0 - axle.z * axle.z).sqrt());
             state.q.float.position = Vector3::new(0.3, -0.4, -low.z);
