@@ -20,7 +20,7 @@
 //! equation is pitch * sin(travel / pitch - angle): it holds on every turn of the thread, so a motion stays on its own,
 //! and nothing tells on which it began. Solved from a guess such an equation could skip a turn: *Reduced* refuses it.
 //!
-//! Constraints of velocities have no residual ([`rates`]). A rod is (d . d - length^2) / 2, an expression is itself; where it counts the turns of measured angles, and so does a
+//! Constraints of velocities have no residual (`rates`). A rod is (d . d - length^2) / 2, an expression is itself; where it counts the turns of measured angles, and so does a
 //! drive of one, it is taken up to whole turns (`turns`). Cosines vanish on a further branch too, where axes point the
 //! other way: [`Equations::alignments`] tells the branches apart. The axes in which d and the cosines are worked out
 //! don't matter for what the equations say, but for what they cost: [`Writing`].
