@@ -140,7 +140,7 @@ class Server:
         elif "id" in message:
             self.answers[message["id"]] = message
 
-    def ask(self, method, params, timeout=120):
+    def ask(self, method, params, timeout=300):
         self.number += 1
         number = self.number
         self.send({"id": number, "method": method, "params": params})
