@@ -240,4 +240,7 @@ fn functions_of_a_crate_go_with_its_parts() {
     assert!(!handed.contains('$'), "{handed}");
     assert_eq!(functions, ["::brakes::Pad"], "a path from outside says all");
     assert_eq!(nested, 1);
+    let (_, functions, nested) = paths("::brakes::Of::<crate::Kind, crate::Size>");
+    assert_eq!(functions, ["::brakes::Of::<$crate::Kind,$crate::Size>::Pad"; 2], "but for its arguments");
+    assert_eq!(nested, 2);
 }
