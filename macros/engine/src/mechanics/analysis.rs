@@ -328,10 +328,9 @@ impl<'m> Analysis<'m> {
                 continue;
             }
             let Some(row) = row_of(problem, group.equations[k]) else { continue };
-            if !problem.is_analytic(group.equations[k]) {
+            if let (false, LoopClosure::Constraint(id)) = (problem.is_analytic(group.equations[k]), row.closing) {
                 // Poses prove nothing of a function in pieces.
                 let name = row_name(self.model, row.closing, row.index);
-                let LoopClosure::Constraint(id) = row.closing else { continue };
                 let message = format!(
                     "the constraint `{name}` follows from others wherever it was looked at, and is made of pieces"
                 );

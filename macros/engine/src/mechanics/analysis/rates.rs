@@ -6,6 +6,7 @@
 //! pieces, follow time or drives, or are what they are for the declared parameters alone, poses prove nothing. Such a row is refused:
 //! rounding would decide which of the rows is kept, and positions are moved by rows of positions alone.
 
+use crate::invariant::fault::raise;
 use crate::mechanics::loops::constraints::row_name;
 use crate::mechanics::loops::structure::{Role, Row, Structure};
 use crate::model::site::Sited;
@@ -59,7 +60,7 @@ pub(super) fn keep(model: &Model, problem: &Problem, structure: &mut Structure) 
             structure.dropped.push(rate.row);
             continue;
         }
-        let LoopClosure::Constraint(id) = rate.row.closing else { continue };
+        let LoopClosure::Constraint(id) = rate.row.closing else { raise("equations of velocities are constraints") };
         let (message, help) = match () {
             () if !judge.moves(number) => {
                 (format!("the constraint `{name}` is of velocities, but none that is free has a say in it"), None)

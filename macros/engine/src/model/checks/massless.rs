@@ -16,8 +16,7 @@ impl Checker<'_, '_> {
     /// Bodies beyond which a loop closes, a constraint holds or a drive moves something. The coordinates up to there obey
     /// more than the equations of motion, so a mass matrix that is singular in them may be well: what is said of the
     /// others stays true, since a motion in which nothing but bodies beyond a joint takes part is not hindered by what
-    /// happens elsewhere. An expression that is held at zero holds what it
-    /// reads.
+    /// happens elsewhere. An expression that is held at zero holds what it reads.
     pub(in crate::model) fn held(
         &self,
         bodies: &Bodies,

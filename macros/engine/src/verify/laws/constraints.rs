@@ -5,6 +5,7 @@ use crate::contracts::symbol::Symbol;
 use crate::mechanics::loops::constraints::is_rate;
 use crate::model::types::Handling;
 use crate::symbolic::doubled::Doubled;
+use crate::verify::trace::Slopes;
 
 use super::{At, Judged, Law, Sum, judged, velocity};
 
@@ -17,15 +18,26 @@ pub(super) const LAWS: &[Law] = &[
 
 impl At<'_, '_> {
     fn jacobian(&mut self) -> Judged {
-        let (phi, g) = (FunctionKind::Constraints, FunctionKind::ConstraintJacobian);
-        let rows = self.laws.structure.rows.len();
-        if rows == 0 || !self.has(phi) || !self.has(g) {
+        let r = self.of_positions();
+        self.jacobian_of(FunctionKind::Constraints, &r, |at, slopes| at.displacements(slopes))
+    }
+
+    /// Rates are linear in velocities, those of velocities alone too: their slopes are the Jacobian.
+    fn slopes_of_rates(&mut self) -> Judged {
+        let r = self.weights(self.laws.structure.rows.len());
+        self.jacobian_of(FunctionKind::ConstraintRate, &r, |at, slopes| at.by(slopes, velocity))
+    }
+
+    /// The slopes of a sum of equations with these weights, along a random direction.
+    fn jacobian_of(&mut self, of: FunctionKind, r: &[f64], columns: impl Fn(&Self, &Slopes) -> Vec<Doubled>) -> Judged {
+        let g = FunctionKind::ConstraintJacobian;
+        if r.is_empty() || !self.has(of) || !self.has(g) {
             return Some(None);
         }
-        let (n, r, symbols) = (self.dof(), self.of_positions(), self.symbols());
+        let (n, symbols) = (self.dof(), self.symbols());
         let s = self.weights(n);
-        let slopes = self.trace(phi)?.slopes::<Doubled>(&r, symbols);
-        let columns = self.displacements(&slopes);
+        let slopes = self.trace(of)?.slopes::<Doubled>(r, symbols);
+        let columns = columns(self, &slopes);
         let jacobian = self.values(g)?;
         let mut sum = Sum::default();
         let mut weights = vec![0.0; jacobian.len()];
@@ -37,37 +49,12 @@ impl At<'_, '_> {
         if sum.holds() != Some(true) {
             sum.bound = self.bound(g, &weights) + slopes.bound;
         }
-        judged(&sum, g, phi)
+        judged(&sum, g, of)
     }
 
     fn rates(&mut self) -> Judged {
         let r = self.of_positions();
         self.rate_of(FunctionKind::Constraints, FunctionKind::ConstraintRate, &r)
-    }
-
-    /// Rates are linear in velocities, those of velocities alone too: their slopes are the Jacobian.
-    fn slopes_of_rates(&mut self) -> Judged {
-        let (rate, g) = (FunctionKind::ConstraintRate, FunctionKind::ConstraintJacobian);
-        let rows = self.laws.structure.rows.len();
-        if rows == 0 || !self.has(rate) || !self.has(g) {
-            return Some(None);
-        }
-        let (n, r, symbols) = (self.dof(), self.weights(rows), self.symbols());
-        let s = self.weights(n);
-        let slopes = self.trace(rate)?.slopes::<Doubled>(&r, symbols);
-        let columns = self.by(&slopes, velocity);
-        let jacobian = self.values(g)?;
-        let mut sum = Sum::default();
-        let mut weights = vec![0.0; jacobian.len()];
-        for (at, &x) in jacobian.iter().enumerate() {
-            sum.product(&[x, Doubled::new(r[at / n]), Doubled::new(s[at % n])]);
-            weights[at] = r[at / n] * s[at % n];
-        }
-        columns.iter().zip(&s).for_each(|(&x, &s)| sum.product(&[-x, Doubled::new(s)]));
-        if sum.holds() != Some(true) {
-            sum.bound = self.bound(g, &weights) + slopes.bound;
-        }
-        judged(&sum, g, rate)
     }
 
     /// Weights of equations, without those of velocities: these have no residual that their Jacobian were a slope of.
