@@ -6,6 +6,9 @@
 
 use proc_macro2::{Delimiter, Group, Ident, Punct, Spacing, TokenStream, TokenTree};
 
+use syn::parse::{ParseStream, Parser};
+use syn::{Token, TypePath};
+
 use super::cursor::{Cursor, Read, Reported};
 use super::functions::parameters;
 use super::keywords::Keyword;
@@ -75,9 +78,13 @@ fn path(cursor: &mut Cursor, diagnostics: &mut Diagnostics) -> Read<TokenStream>
         diagnostics.error_help(first, message, help);
         return Err(Reported);
     }
-    // Outside of rustc the `$` of a macro is a token of its own.
-    let plain = path.clone().into_iter().filter(|token| !is_dollar(token)).collect();
-    if let Err(error) = syn::parse2::<syn::TypePath>(plain) {
+    // Outside of rustc the `$` of a macro is a token of its own. A path that ends too early is reported where it ends: syn
+    // has no place for the end of its tokens, so they end with a token of the user's.
+    let mut end = Punct::new(';', Spacing::Alone);
+    end.set_span(if cursor.at(";") { cursor.span() } else { cursor.last_span() });
+    let plain = path.clone().into_iter().filter(|token| !is_dollar(token)).chain([end.into()]).collect();
+    let whole = |input: ParseStream| input.parse::<TypePath>().and(input.parse::<Token![;]>());
+    if let Err(error) = whole.parse2(plain) {
         let message = format!("this is no path of a type: {error}");
         diagnostics.error_help(error.span(), message, form(Keyword::Extern));
         return Err(Reported);
