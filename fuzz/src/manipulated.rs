@@ -12,7 +12,7 @@ use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::model::types::{ExprNode, Model, ParamId, StateId, Variable};
 use multibody_engine::optimize::program::Compiled;
-use multibody_engine::{compile, model, syntax};
+use multibody_engine::{compile, model};
 
 use crate::campaign::{Plan, Tally};
 use crate::differentiated::{STEPS, WEIGHTS, symbol};
@@ -63,7 +63,7 @@ fn judged(lines: &[String], seed: u64) -> Option<(usize, Option<String>)> {
     let text = lines.join("\n");
     catch_unwind(AssertUnwindSafe(|| {
         let mut diagnostics = Diagnostics::default();
-        let source = syntax::parse(text.parse().ok()?, &mut diagnostics);
+        let source = multibody_engine::parse(text.parse().ok()?, &mut diagnostics);
         let mut models = model::check(&source, &mut diagnostics).into_iter();
         let (aid, model) = (models.next()?, models.next()?);
         Some(compare(&Outputs::new(aid)?, &Outputs::new(model)?, seed))

@@ -9,7 +9,7 @@ use multibody_engine::mechanics::loops::structure::Structure;
 use multibody_engine::model::types::{JointId, Model};
 use multibody_engine::optimize::program::{Compiled, Function};
 use multibody_engine::optimize::{Refusal, packs};
-use multibody_engine::{Trouble, compile, model, syntax};
+use multibody_engine::{Trouble, compile, model};
 
 use crate::interpreter;
 
@@ -60,7 +60,7 @@ impl Programs {
     fn build(text: &str) -> Result<Programs, Failure> {
         let mut diagnostics = Diagnostics::default();
         let tokens = text.parse().map_err(|_| Failure::Refused(vec!["no tokens".into()]))?;
-        let source = syntax::parse(tokens, &mut diagnostics);
+        let source = multibody_engine::parse(tokens, &mut diagnostics);
         let mut models = model::check(&source, &mut diagnostics);
         let said: Vec<String> = diagnostics.errors().iter().map(|e| e.message.clone()).collect();
         let (Some(model), []) = (models.pop(), &said[..]) else { return Err(Failure::Refused(said)) };

@@ -340,7 +340,7 @@ pub mod force {
 
 /// Kinds of constraints.
 pub mod constraint {
-    use super::ty::{List, Scalar};
+    use super::ty::{Frame, List, Scalar, Vec3};
 
     /// Holds the distance between the origins of two frames.
     pub struct Rod {
@@ -348,6 +348,28 @@ pub mod constraint {
         pub between: List,
         /// `[m]`, positive.
         pub length: Scalar,
+    }
+
+    /// A disc or a ball that rolls on a plane: it has `touch`, `along`, `across`, `contact`, `slip`, `force`.
+    pub struct Rolling {
+        /// With its origin at the centre.
+        pub wheel: Frame,
+        /// Of a thin disc, its axle in axes of `wheel`; a ball has none.
+        pub axis: Vec3,
+        /// `[m]`, positive.
+        pub radius: Scalar,
+        /// Its z axis stands on the plane, to the side of the wheel; the ground's where it is left out.
+        pub on: Frame,
+    }
+
+    /// A blade that runs along its edge: it has `across`, `slip`, `force`.
+    pub struct Skate {
+        /// With its origin where the blade cuts.
+        pub blade: Frame,
+        /// The edge, in axes of `blade`.
+        pub along: Vec3,
+        /// Its z axis stands on the plane; the ground's where it is left out.
+        pub on: Frame,
     }
 }
 

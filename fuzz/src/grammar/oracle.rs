@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::optimize::Refusal;
-use multibody_engine::{Trouble, compile, expand, model, syntax};
+use multibody_engine::{Trouble, compile, expand, model};
 use proc_macro2::TokenStream;
 
 /// What came of it.
@@ -39,7 +39,7 @@ impl Outcome {
 /// Messages with the spans they stand at: whether each stands at a token of the text.
 fn messages(tokens: TokenStream) -> Result<Vec<String>, String> {
     let mut diagnostics = Diagnostics::default();
-    let source = syntax::parse(tokens, &mut diagnostics);
+    let source = multibody_engine::parse(tokens, &mut diagnostics);
     let models = model::check(&source, &mut diagnostics);
     if diagnostics.is_empty() {
         for model in &models {

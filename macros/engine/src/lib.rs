@@ -11,6 +11,7 @@
 //! syntax: diagnostics rust_keywords
 //! model: syntax diagnostics rust_keywords invariant
 //! robots: model::names syntax diagnostics
+//! compounds: syntax diagnostics
 //! contracts: model invariant
 //! symbolic: contracts::call contracts::cost invariant
 //! dynamics: symbolic contracts::call contracts::cost invariant
@@ -30,6 +31,7 @@
 #[cfg(test)]
 extern crate self as multibody_engine;
 
+mod compounds;
 pub mod contracts;
 pub mod diagnostics;
 pub mod dynamics;
@@ -98,10 +100,16 @@ pub fn commented_reading(tokens: TokenStream, reader: &robots::Reader) -> TokenS
     expand_by(tokens, "", syntax::parse, reader, emit::commented, Followed::Never)
 }
 
-/// A call as the stages behind `robots` have it, for tools that show or compare what its models are.
+/// A call as the stages behind `compounds` have it, for tools and tests that go on from there.
+pub fn parse(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Source {
+    parse_reading(tokens, &robots::no_file, diagnostics)
+}
+
+/// The same, with what reads the files that robots stand in.
 pub fn parse_reading(tokens: TokenStream, reader: &robots::Reader, diagnostics: &mut Diagnostics) -> Source {
     let mut source = syntax::parse(tokens, diagnostics);
     robots::place(&mut source, reader, diagnostics);
+    compounds::place(&mut source, diagnostics);
     source
 }
 
@@ -137,6 +145,7 @@ fn expand_by(
     let references = references.and_then(|source| guard("model", || model::references::of(source)).ok());
     let placed = source.and_then(|mut source| {
         let files = guard("robots", || robots::place(&mut source, reader, &mut diagnostics))?;
+        guard("compounds", || compounds::place(&mut source, &mut diagnostics))?;
         Ok((source, files))
     });
     let (source, files) = match placed {

@@ -1,4 +1,5 @@
 //! Constraints of velocities: wheels, blades and spheres that roll.
 
 mod blades;
+mod wheels;
 mod whipple;

@@ -20,6 +20,7 @@ impl ExprNode {
             | ExprNode::OfFrame(..)
             | ExprNode::Jacobian { .. }
             | ExprNode::Reaction { .. }
+            | ExprNode::Multiplier(_)
             | ExprNode::Power(_)
             | ExprNode::Kinetic
             | ExprNode::Potential
@@ -53,6 +54,7 @@ impl ExprNode {
             | ExprNode::Add(a, b)
             | ExprNode::Sub(a, b)
             | ExprNode::Compose(a, b)
+            | ExprNode::Rotated(a, b)
             | ExprNode::Pose(a, b)
             | ExprNode::Mul(a, b)
             | ExprNode::Div(a, b)

@@ -653,6 +653,9 @@ pub enum ExprNode {
         joint: JointId,
         axes: Frame,
     },
+    /// Of the equation of a constraint, in the unit of work over that of the equation, or of its integral where it is one of
+    /// velocities.
+    Multiplier(ConstraintId),
     /// W
     Power(ForceId),
     /// Total, J.
@@ -732,6 +735,8 @@ pub enum ExprNode {
     RollPitchYaw([Expr; 3]),
     /// Two rotations, the right one first applied.
     Compose(Expr, Expr),
+    /// Components of a vector in the axes that a rotation maps to, from those it maps from.
+    Rotated(Expr, Expr),
     /// Position (`Vec3`) and orientation (`Rotation`).
     Pose(Expr, Expr),
     /// Scalar by scalar, scalar by `Vec3` or `Vec3` by scalar.
@@ -823,6 +828,20 @@ pub enum Comparison {
     GreaterEqual,
     Equal,
     NotEqual,
+}
+
+impl Comparison {
+    /// In a sentence, before the other value.
+    pub(crate) fn words(self) -> &'static str {
+        match self {
+            Comparison::Less => "less than",
+            Comparison::LessEqual => "at most",
+            Comparison::Greater => "greater than",
+            Comparison::GreaterEqual => "at least",
+            Comparison::Equal => "equal to",
+            Comparison::NotEqual => "other than",
+        }
+    }
 }
 
 /// Functions of user expressions.

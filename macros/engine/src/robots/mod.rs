@@ -16,7 +16,7 @@ mod xml;
 
 use std::collections::HashMap;
 
-use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
+use proc_macro2::{Ident, Span};
 use syn::{Expr, LitStr};
 
 use crate::diagnostics::{Diagnostics, nearest};
@@ -208,31 +208,11 @@ fn of_file(
     Some(Placed { file: options.file.clone(), module })
 }
 
-/// Reads what has been written, every token of it at the literal.
+/// Reads what has been written.
 fn module(text: &str, span: Span, diagnostics: &mut Diagnostics) -> Option<Module> {
-    let mut mistakes = Diagnostics::default();
-    let tokens = text.parse::<TokenStream>().ok().map(|tokens| at(tokens, span));
-    let module = tokens.and_then(|tokens| syntax::parse(tokens, &mut mistakes).modules.pop());
-    match (module, mistakes.errors().first()) {
-        (Some(module), None) => Some(module),
-        (_, mistake) => {
-            let why = mistake.map_or_else(String::new, |mistake| format!(": {}", mistake.message));
-            diagnostics.error(span, format!("this robot can't be written in the language{why}"));
-            None
-        }
-    }
-}
-
-/// The same tokens at another place.
-fn at(tokens: TokenStream, span: Span) -> TokenStream {
-    let moved = tokens.into_iter().map(|mut token| {
-        if let TokenTree::Group(group) = &token {
-            token = TokenTree::Group(Group::new(group.delimiter(), at(group.stream(), span)));
-        }
-        token.set_span(span);
-        token
-    });
-    moved.collect()
+    let module = syntax::written(text, span);
+    let report = |why| diagnostics.error(span, format!("this robot can't be written in the language: {why}"));
+    module.map_err(report).ok()
 }
 
 fn report(fault: Fault, file: &str, span: Span, diagnostics: &mut Diagnostics) {

@@ -59,11 +59,13 @@ mod numbers;
 mod raw;
 mod text;
 pub mod tree;
+mod written;
 
 use proc_macro2::TokenStream;
 
 pub(crate) use exports::{MJCF, URDF};
 pub(crate) use text::text;
+pub(crate) use written::written;
 
 use crate::diagnostics::Diagnostics;
 

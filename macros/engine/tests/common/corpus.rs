@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use multibody_engine::diagnostics::Diagnostics;
+use multibody_engine::model;
 use multibody_engine::model::types::Model;
-use multibody_engine::{model, syntax};
 use proc_macro2::{TokenStream, TokenTree};
 
 /// Places of models, from the root of the project.
@@ -42,7 +42,7 @@ pub(crate) fn calls_of(root: &Path, place: &str) -> Vec<(String, TokenStream)> {
 /// Models of a call; nothing of one with mistakes.
 pub(crate) fn models(call: TokenStream) -> Vec<Model> {
     let mut diagnostics = Diagnostics::default();
-    let source = syntax::parse(call, &mut diagnostics);
+    let source = multibody_engine::parse(call, &mut diagnostics);
     let models = model::check(&source, &mut diagnostics);
     if diagnostics.is_empty() { models } else { Vec::new() }
 }
@@ -50,7 +50,7 @@ pub(crate) fn models(call: TokenStream) -> Vec<Model> {
 /// The one model of a text without mistakes.
 pub(crate) fn model(text: &str) -> Model {
     let mut diagnostics = Diagnostics::default();
-    let source = syntax::parse(text.parse().unwrap(), &mut diagnostics);
+    let source = multibody_engine::parse(text.parse().unwrap(), &mut diagnostics);
     let mut models = model::check(&source, &mut diagnostics);
     let errors: Vec<&str> = diagnostics.errors().iter().map(|e| e.message.as_str()).collect();
     assert!(errors.is_empty() && models.len() == 1, "{errors:#?}");

@@ -1,7 +1,7 @@
 //! Functions of the user's own: what they come to is what the text comes to that stands in their place.
 
 use multibody_engine::diagnostics::Diagnostics;
-use multibody_engine::{compile, emit, model, syntax};
+use multibody_engine::{compile, emit, model};
 
 /// A rod on a hinge of an oblique axis that carries a slide, with a part beside it; `items` behind.
 fn code(items: &str, of_leg: &str) -> String {
@@ -24,7 +24,7 @@ fn code(items: &str, of_leg: &str) -> String {
         }}"
     );
     let mut diagnostics = Diagnostics::default();
-    let source = syntax::parse(text.parse().expect("tokens"), &mut diagnostics);
+    let source = multibody_engine::parse(text.parse().expect("tokens"), &mut diagnostics);
     let models = model::check(&source, &mut diagnostics);
     let said: Vec<String> = diagnostics.errors().iter().map(|error| error.message.clone()).collect();
     assert!(said.is_empty(), "{said:?}");

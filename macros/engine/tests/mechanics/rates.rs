@@ -4,6 +4,7 @@ use multibody_engine::mechanics::analysis::analyse;
 use multibody_engine::mechanics::loops::constraints::row_name;
 use multibody_engine::mechanics::loops::structure::{Row, Structure};
 use multibody_engine::model::types::Model;
+use multibody_engine::{Trouble, compile};
 
 use super::support::model_with;
 
@@ -131,4 +132,26 @@ fn what_may_be_independent_is_refused() {
         let told = complaints(items);
         assert!(told.contains("wherever it was looked at"), "{items}: {told}");
     }
+}
+
+/// A force that rigid bodies leave open, and one that is nowhere.
+#[test]
+fn multipliers_that_are_not_there() {
+    let said = |items: &str| match compile(&model(items)) {
+        Err(Trouble::Complaints(list)) => list.into_iter().map(|one| one.message).collect::<Vec<_>>().join("; "),
+        _ => String::new(),
+    };
+    let found = said(
+        "constraint left = sled.express(sled.at(0.7 * Y).velocity).y;
+         constraint right = sled.express(sled.at(-0.7 * Y).velocity).y;
+         output load = left.multiplier;
+         output open = right.multiplier;",
+    );
+    let told = "`right` follows from other equations: how they share the load is not determined by rigid bodies, so it has no multiplier";
+    assert_eq!(found, told);
+    let found = said("constraint gear = plane.x - 2.0 * plane.y; output load = gear.multiplier;");
+    assert_eq!(found, "`gear` is a coupling of coordinates that is put in where they are, without a multiplier");
+    let kept = "constraint gear = plane.x - 2.0 * plane.y; output load = gear.multiplier;
+         formulation { constraints: Multipliers }";
+    assert!(compile(&model(kept)).is_ok());
 }

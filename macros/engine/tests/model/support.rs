@@ -2,13 +2,12 @@
 
 use multibody_engine::diagnostics::Diagnostics;
 use multibody_engine::model::{self, types::*};
-use multibody_engine::syntax;
 
 /// Parses and checks one `multibody!` call.
 pub(crate) fn check(text: &str) -> (Vec<Model>, Diagnostics) {
     let mut diagnostics = Diagnostics::default();
     let tokens = text.parse().expect("tokens");
-    let source = syntax::parse(tokens, &mut diagnostics);
+    let source = multibody_engine::parse(tokens, &mut diagnostics);
     let models = model::check(&source, &mut diagnostics);
     (models, diagnostics)
 }
@@ -107,6 +106,7 @@ impl Writer<'_> {
             ExprNode::Reaction { joint, axes } => {
                 format!("Reaction({}, {})", self.joint(*joint), self.frame(axes))
             }
+            ExprNode::Multiplier(id) => format!("{}.multiplier", self.0.constraints[*id].place.field),
             ExprNode::Power(id) => format!("Power({})", self.place(&self.0.forces[*id].place)),
             ExprNode::Kinetic => "Kinetic".into(),
             ExprNode::Potential => "Potential".into(),
@@ -147,6 +147,7 @@ impl Writer<'_> {
             ExprNode::Identity => "Identity".into(),
             ExprNode::RotationAbout { axis, angle } => format!("Rotation{}", self.list([axis, angle])),
             ExprNode::RollPitchYaw(angles) => format!("RollPitchYaw{}", self.list(angles)),
+            ExprNode::Rotated(a, b) => format!("turned{}", self.list([a, b])),
             ExprNode::Compose(a, b) => two("o", a, b),
             ExprNode::Pose(p, r) => format!("Pose{}", self.list([p, r])),
             ExprNode::Neg(a) => format!("-{}", self.expr(a)),

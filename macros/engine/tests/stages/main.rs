@@ -13,7 +13,7 @@ type Table = BTreeMap<String, Vec<String>>;
 
 /// Crates of tokens and places in the user's text, and the stages that may name them.
 const TOKENS: [&str; 5] = ["proc_macro2", "quote", "syn", "span", "Span"];
-const WITH_TOKENS: [&str; 6] = ["diagnostics", "syntax", "robots", "model", "emit", "rust_keywords"];
+const WITH_TOKENS: [&str; 7] = ["diagnostics", "syntax", "robots", "compounds", "model", "emit", "rust_keywords"];
 
 #[test]
 fn no_source_reads_upwards() {

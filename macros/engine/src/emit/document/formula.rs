@@ -90,7 +90,9 @@ impl Writer<'_> {
                 let list = [position, orientation].map(|expr| self.write(expr, Level::Or));
                 format!("pose({})", list.join(", "))
             }
-            ExprNode::Compose(a, b) => return self.pair(a, "*", b, Level::Product, Level::Unary),
+            ExprNode::Compose(a, b) | ExprNode::Rotated(a, b) => {
+                return self.pair(a, "*", b, Level::Product, Level::Unary);
+            }
             ExprNode::Neg(a) => return (format!("-{}", self.write(a, Level::Product)), Level::Product),
             ExprNode::Not(a) => return (format!("!{}", self.write(a, Level::Unary)), Level::Unary),
             ExprNode::Add(a, b) => return self.pair(a, "+", b, Level::Sum, Level::Product),

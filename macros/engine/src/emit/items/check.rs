@@ -13,6 +13,7 @@ use quote::quote;
 
 use crate::contracts::function::FunctionKind;
 use crate::contracts::symbol::Symbol;
+use crate::emit::document::formula;
 use crate::emit::items::system;
 use crate::emit::layout::Layout;
 use crate::emit::layout::places::RESERVED;
@@ -23,7 +24,7 @@ use crate::emit::print::{literals, range};
 use crate::emit::{Context, names};
 use crate::mechanics::Condition;
 use crate::mechanics::loops::constraints::unfit;
-use crate::model::types::{Body, ConstraintKind, Expr, ForceKind, Model, ParamId};
+use crate::model::types::{Body, ConstraintKind, Expr, ExprNode, ForceKind, Model, ParamId};
 use crate::optimize::program::Expression;
 
 /// Expands to `impl<T: Real> Params<T> { pub fn check(&self) -> Result<(), ParamError> { .. } }`.
@@ -109,6 +110,17 @@ pub(super) fn item(context: &Context<'_>) -> TokenStream {
             });
         }
     }
+    for condition in assumed(layout.model) {
+        let what = format!("`{}` does not hold", formula::text(layout, condition));
+        let holds = adjustable(layout.model, condition).map(|condition| print.expression(&condition));
+        checks.extend(holds.map(|holds| {
+            quote! {
+                if !#krate::all(#holds) {
+                    return Err(#krate::ParamError { what: #what });
+                }
+            }
+        }));
+    }
     checks.extend(derived(context));
     checks.extend(iterated(context));
     let params = names::ident("params");
@@ -129,6 +141,18 @@ pub(super) fn item(context: &Context<'_>) -> TokenStream {
             }
         }
     }
+}
+
+/// What is assumed, one by one.
+fn assumed(model: &Model) -> Vec<&Expr> {
+    let (mut all, mut stack) = (Vec::new(), model.assumptions.iter().rev().collect::<Vec<_>>());
+    while let Some(condition) = stack.pop() {
+        match &*condition.node {
+            ExprNode::And(a, b) => stack.extend([b, a]),
+            _ => all.push(condition),
+        }
+    }
+    all
 }
 
 /// Lengths that parameters change: of rods, which are positive, and of springs between points.

@@ -10,12 +10,13 @@ use std::rc::Rc;
 
 use crate::dynamics::kinematics::motions;
 use crate::dynamics::newton_euler::{Wrench, transmitted};
+use crate::invariant::fault::OrFault;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::structure::Row;
 use crate::mechanics::translate::build::FixedFrame;
 use crate::mechanics::translate::forces::LoadCase;
 use crate::mechanics::translate::values::Value;
-use crate::model::types::{Coordinate, ForceKind, JointId, LoopClosure};
+use crate::model::types::{ConstraintId, Coordinate, ForceKind, JointId, LoopClosure};
 use crate::symbolic::graph::{Scalar, Vector};
 
 /// What joints of the tree transmit, at the links' origins in their axes.
@@ -75,6 +76,19 @@ impl Equations<'_> {
             let list: Vec<Vector> = parts.iter().map(|part| part[k]).collect();
             self.g.sum_vectors(&list)
         })
+    }
+
+    /// Of the equation of a constraint; whether it has one is known before anything is derived.
+    pub(in crate::mechanics) fn multiplier(&mut self, constraint: ConstraintId) -> Scalar {
+        if self.derives_forces() {
+            // Forces that depend on multipliers are refused by the checker.
+            return Scalar::ZERO;
+        }
+        self.accelerations();
+        let mut multiplied = self.rows_with_multipliers();
+        multiplied.extend(self.reaction_multipliers().iter().copied());
+        let of = |row: &Row| row.closing == LoopClosure::Constraint(constraint);
+        multiplied.iter().find(|(row, _)| of(row)).or_fault("constraints without a multiplier are refused").1
     }
 
     /// Whether a drive holds a measured coordinate to its course.

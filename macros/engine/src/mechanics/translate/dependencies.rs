@@ -37,6 +37,7 @@ impl Dependencies {
                 ExprNode::Power(_) | ExprNode::Express { .. } => needs.frames = true,
                 ExprNode::Coordinate { order: Order::Acceleration, .. } => needs.accelerations = true,
                 ExprNode::Derivative { accelerated, .. } => needs.accelerations |= *accelerated,
+                ExprNode::Multiplier(_) => needs.accelerations = true,
                 ExprNode::Reaction { joint, .. } => {
                     needs.accelerations = true;
                     needs.reactions.push(*joint);

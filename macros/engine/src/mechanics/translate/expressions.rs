@@ -114,6 +114,7 @@ impl Equations<'_> {
                 let axes = self.place(axes);
                 self.reaction(*joint, &axes)
             }
+            &ExprNode::Multiplier(constraint) => Value::Scalar(self.multiplier(constraint)),
             ExprNode::Power(force) => Value::Scalar(self.power(*force)),
             ExprNode::Kinetic => Value::Scalar(self.kinetic()),
             ExprNode::Potential => Value::Scalar(self.potential()),
@@ -193,6 +194,10 @@ impl Equations<'_> {
                 let [a, b] = [a, b].map(|e| self.known_rotation(e));
                 let rotation = rotations::compose(&mut self.g, a, b);
                 self.rotation_value(rotation)
+            }
+            ExprNode::Rotated(rotation, vector) => {
+                let (rotation, vector) = (self.known_rotation(rotation), self.known_vector(vector));
+                Value::Vector(self.g.rotate(rotation, vector))
             }
             ExprNode::Pose(position, orientation) => {
                 let position = self.known_vector(position);

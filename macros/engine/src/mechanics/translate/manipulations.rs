@@ -11,12 +11,12 @@ use std::rc::Rc;
 use crate::invariant::fault::OrFault;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
-use crate::mechanics::loops::constraints::{coordinate_name, is_rate, path, row_called, rows_of_joint};
+use crate::mechanics::loops::constraints::{coordinate_name, is_rate, path, row_called, row_name, rows_of_joint};
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::loops::structure::{Means, Role, Row, Structure};
 use crate::model::site::Sited;
 use crate::model::types::{
-    Coordinate, Expr, ExprNode, ForceKind, LoopClosure, Model, Order, SystemQuantity, TwoRoots, Variable,
+    ConstraintId, Coordinate, Expr, ExprNode, ForceKind, LoopClosure, Model, Order, SystemQuantity, TwoRoots, Variable,
 };
 use crate::solve;
 use crate::symbolic::differentiate::Differentiator;
@@ -284,6 +284,7 @@ pub(in crate::mechanics) fn complaints_of(model: &Model, structure: &Structure, 
             ExprNode::Residual { closing, component } => {
                 complaints.extend(no_row(model, structure, *closing, component.as_deref(), expr));
             }
+            ExprNode::Multiplier(constraint) => complaints.extend(no_multiplier(model, structure, *constraint, expr)),
             ExprNode::Closed(coordinate) => complaints.extend(not_closed(model, structure, *coordinate, expr)),
             ExprNode::MassMatrix(list) => {
                 complaints.extend(list.iter().filter_map(|coordinate| outside(model, structure, *coordinate, expr)));
@@ -302,6 +303,30 @@ fn is_wrong_row(model: &Model, structure: &Structure, expr: &Expr) -> bool {
         }
         _ => false,
     }
+}
+
+/// A constraint whose force is not known.
+fn no_multiplier(model: &Model, structure: &Structure, constraint: ConstraintId, expr: &Expr) -> Option<Complaint> {
+    let of = |row: &Row| row.closing == LoopClosure::Constraint(constraint);
+    let name = row_name(model, LoopClosure::Constraint(constraint), 0);
+    let linear = |means: &Means| matches!(means, Means::Linear(id) if *id == constraint);
+    let found = structure.steps.iter().find(|step| linear(&step.means));
+    let (message, help) = match (structure.rows.iter().chain(&structure.independent).any(of), found) {
+        (true, None) => return None,
+        (true, Some(_)) => {
+            let message =
+                format!("`{name}` is a coupling of coordinates that is put in where they are, without a multiplier");
+            (message, "read the effort or the reaction of a joint, or write `formulation { constraints: Multipliers }`")
+        }
+        (false, _) => {
+            let message = format!(
+                "`{name}` follows from other equations: how they share the load is not determined by rigid bodies, so it has no \
+                 multiplier"
+            );
+            (message, "leave out what holds the same twice")
+        }
+    };
+    Some(Complaint { at: expr.site(), message, help: Some(help.to_owned()) })
 }
 
 /// An equation that there isn't.

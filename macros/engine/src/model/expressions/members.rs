@@ -9,7 +9,7 @@ use syn::{Expr, ExprField, Member};
 use crate::model::checker::{Checker, Context, Meaning, ScopeId};
 use crate::model::joint_kinds::JointKind;
 use crate::model::typed::{Class, FrameValue, Typed, Uses, type_text};
-use crate::model::types::{BodyRef, ExprNode, ForceId, FrameQuantity, JointId, Type};
+use crate::model::types::{BodyRef, ConstraintId, ExprNode, ForceId, FrameQuantity, JointId, Type};
 
 use super::bodies::is_centre_of_mass;
 use super::coerce::{component_of, convert};
@@ -55,10 +55,7 @@ impl<'a> Checker<'a, '_> {
             Meaning::Coordinate(joint, index) => self.coordinate_member(joint, index, &field.base, member),
             Meaning::Frame(frame) => self.frame_member(frame, &field.base, member),
             Meaning::Force(force) => self.force_member(force, &field.base, member),
-            Meaning::Constraint(_) => {
-                self.report.error(member.span(), format!("a constraint has no `{member}`"));
-                None
-            }
+            Meaning::Constraint(constraint) => self.constraint_member(constraint, &field.base, member),
             Meaning::Value(value) => self.value_member(value, member),
         }
     }
@@ -150,6 +147,18 @@ impl<'a> Checker<'a, '_> {
         }
         let uses = Uses::of(Class::Load, format!("{}.power", source_text(base)), member.span());
         let value = Typed::leaf(ExprNode::Power(force), Type::Scalar, member.span());
+        Some(Meaning::Value(value.with(uses)))
+    }
+
+    fn constraint_member(&mut self, constraint: ConstraintId, base: &Expr, member: &Ident) -> Option<Meaning> {
+        let at = member.span();
+        if member != "multiplier" {
+            let (message, has) = (format!("a constraint has no `{member}`"), "it has `multiplier`");
+            self.report.unknown(at, message, &member.to_string(), ["multiplier"], Some(has.into()));
+            return None;
+        }
+        let uses = Uses::of(Class::Load, format!("{}.multiplier", source_text(base)), at);
+        let value = Typed::leaf(ExprNode::Multiplier(constraint), Type::Scalar, at);
         Some(Meaning::Value(value.with(uses)))
     }
 

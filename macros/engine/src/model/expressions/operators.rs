@@ -172,6 +172,12 @@ impl<'a> Checker<'a, '_> {
             let node = ExprNode::Compose(left.expr.clone(), right.expr.clone());
             return self.build(node, Type::Rotation, at, &[&left, &right]);
         }
+        if left.expr.ty == Type::Rotation
+            && let Some(vector) = convert(&right, &Type::Vec3)
+        {
+            let node = ExprNode::Rotated(left.expr.clone(), vector.expr.clone());
+            return self.build(node, Type::Vec3, at, &[&left, &vector]);
+        }
         self.mismatch("multiply", at, &left, &right, None)
     }
 

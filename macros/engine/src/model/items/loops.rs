@@ -8,6 +8,7 @@ use syn::spanned::Spanned;
 use syn::{Expr, ExprField, Member};
 
 use crate::model::checker::{Checker, Context, Meaning, Slot};
+use crate::model::checks::evaluate::Value;
 use crate::model::docs;
 use crate::model::expand::root;
 use crate::model::expressions::source_text;
@@ -65,8 +66,8 @@ impl<'a> Checker<'a, '_> {
                         kind.span(),
                         format!("unknown kind of constraint `{text}`"),
                         &text,
-                        ["Rod"],
-                        Some("there are `Rod`, and `constraint name = value;`".into()),
+                        ["Rod", "Rolling", "Skate"],
+                        Some("there are `Rod`, `Rolling`, `Skate`, and `constraint name = value;`".into()),
                     );
                 }
                 (name, None)
@@ -111,7 +112,38 @@ impl<'a> Checker<'a, '_> {
 
     /// `assume condition;`
     pub(in crate::model) fn assumption(&mut self, condition: &Expr, context: Context<'a>) -> Option<Checked> {
-        self.typed(condition, context, &Type::Bool, Allowed::Positions).map(|condition| condition.expr)
+        let checked = self.typed(condition, context, &Type::Bool, Allowed::Positions)?.expr;
+        self.check_assumed(condition, &checked);
+        Some(checked)
+    }
+
+    /// What is assumed of parameters alone holds at the declared defaults, and is tested by `Params::check`.
+    fn check_assumed(&mut self, written: &Expr, condition: &Checked) {
+        let written = match written {
+            Expr::Paren(inner) => &*inner.expr,
+            other => other,
+        };
+        let sides = match written {
+            Expr::Binary(both) => Some([&*both.left, &*both.right]),
+            _ => None,
+        };
+        if let (ExprNode::And(a, b), Some([left, right])) = (&*condition.node, sides) {
+            self.check_assumed(left, a);
+            self.check_assumed(right, b);
+            return;
+        }
+        if !matches!(self.evaluator.value(condition), Some(Value::Bool(false))) {
+            return;
+        }
+        if let (ExprNode::Compare(comparison, a, b), Some([left, _])) = (&*condition.node, sides)
+            && let (Some(is), Some(bound)) = (self.evaluator.scalar(a), self.evaluator.scalar(b))
+        {
+            let what = crate::syntax::text(quote::ToTokens::to_token_stream(left)).replace(' ', "");
+            let words = comparison.words();
+            let message = format!("`{what}` must be {words} {bound}, but is {is} at the declared defaults");
+            return self.report.error(a.span, message);
+        }
+        self.report.error(condition.span, "this is assumed, but doesn't hold at the declared defaults");
     }
 
     /// `drive target = value;`

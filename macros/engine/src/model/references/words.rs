@@ -23,7 +23,11 @@ const FORCE: Room = &[
     ("Torque", &["at", "value", "axes"]),
 ];
 
-const CONSTRAINT: Room = &[("Rod", &["between", "length"])];
+const CONSTRAINT: Room = &[
+    ("Rod", &["between", "length"]),
+    ("Rolling", &["wheel", "axis", "radius", "on"]),
+    ("Skate", &["blade", "along", "on"]),
+];
 
 const EMIT: Room = &[
     ("forward_dynamics", &[]),

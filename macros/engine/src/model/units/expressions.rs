@@ -149,6 +149,7 @@ impl Expressions {
                 self.frame(axes);
                 Value::Any
             }
+            ExprNode::Multiplier(_) => Value::Any,
             ExprNode::Power(_) => quantity::POWER.into(),
             ExprNode::Kinetic | ExprNode::Potential => quantity::ENERGY.into(),
             ExprNode::OfBodies(_, what) => quantity::of_system(*what).into(),
@@ -195,6 +196,10 @@ impl Expressions {
             ExprNode::RotationAbout { angle, .. } => self.angles([angle]),
             ExprNode::RollPitchYaw(angles) => self.angles(angles),
             ExprNode::Compose(..) => Value::Any,
+            ExprNode::Rotated(rotation, vector) => {
+                self.of(rotation);
+                self.found(vector)
+            }
             ExprNode::Pose(position, _) => {
                 self.expect(position, quantity::LENGTH);
                 Value::Any

@@ -1,0 +1,262 @@
+//! `Rolling` and `Skate` against closed solutions, laws of motion and equations that are typed in.
+
+use multibody::nalgebra::{Rotation3, UnitQuaternion, Vector3};
+use multibody::{Dop853, Integrator, Projection, WithProjection, multibody};
+
+multibody! {
+    /// A solid ball on a slope that lies obliquely in space, and gravity as oblique.
+    pub mod slope {
+        param pull: Vec3 = [0.3, -1.2, -9.1];
+        param radius = 0.2;
+        world { gravity: pull }
+        body ball { mass: 1.3, inertia: sphere(1.3, 0.2) }
+        joint float: Free { parent: ground, child: ball }
+        let plane = ground.at([0.3, -0.2, 0.7]).rotated([1.0, -2.0, 0.5], 0.4);
+        constraint roll: Rolling { wheel: ball, radius: radius, on: plane }
+        output force = roll.force;
+        output contact = roll.contact;
+        output slip = roll.slip;
+        output axes = plane.rotation;
+        emit forward_dynamics, constraints, energy;
+    }
+    /// A ball on a plate that turns freely about an oblique axis, off its bearing: what moves is what is set free.
+    pub mod table {
+        body plate { mass: 2.0, com: [0.1, -0.05, 0.02], inertia: inertia(0.3, 0.4, 0.5, 0.01, 0.02, -0.03) }
+        joint bearing: Revolute { parent: ground.rotated(X, 0.7), child: plate, axis: Z }
+        body ball { mass: 1.3, inertia: diag(0.02, 0.025, 0.03) }
+        joint float: Free { parent: ground, child: ball }
+        constraint roll: Rolling { wheel: ball, radius: 0.2, on: plate.at(0.1 * Z) }
+        output energy = kinetic();
+        // About the bearing, which stands at the origin.
+        let whole = angular_momentum() + cross(centre_of_mass(), linear_momentum());
+        output turning = dot(whole, ground.rotated(X, 0.7).rotation * Z);
+        output force = roll.force;
+        output contact = roll.contact;
+        output load = bearing.reaction;
+        output ball_acceleration = ball.acceleration;
+        emit forward_dynamics, constraints, derivatives;
+    }
+    /// A thin disc of which neither the axle nor the hub lies along its body's axes, on a plane that does not either.
+    pub mod oblique_disc {
+        world { gravity: [0.0, 9.81 * sin(0.5), -9.81 * cos(0.5)] }
+        body disc { mass: 0.7, inertia: diag(0.011, 0.0219, 0.011) }
+        joint float: Free { parent: ground, child: disc }
+        let road = ground.rotated(X, 0.5).rotated(Z, 2.0);
+        let hub = disc.rotated(Z, 0.8);
+        constraint roll: Rolling { wheel: hub, axis: [3.0 * sin(0.8), 3.0 * cos(0.8), 0.0], radius: 0.25, on: road }
+        output contact = roll.contact;
+        output force = roll.force;
+        emit forward_dynamics, constraints;
+    }
+    pub mod upright_disc {
+        world { gravity: -9.81 * Z }
+        body disc { mass: 0.7, inertia: diag(0.011, 0.0219, 0.011) }
+        joint float: Free { parent: ground, child: disc }
+        constraint roll: Rolling { wheel: disc, axis: Y, radius: 0.25 }
+        output contact = roll.contact;
+        output force = roll.force;
+        output energy = kinetic() + potential();
+        emit forward_dynamics, constraints;
+    }
+    /// A car on four wheels in the plane; a linkage steers both front wheels about one centre.
+    pub mod car {
+        const TRACK = 0.8;
+        const BASE = 1.3;
+        const R = 0.3;
+        body car { mass: 20.0, com: [0.6, 0.03, 0.2], inertia: diag(2.0, 3.0, 4.0) }
+        body left { mass: 1.0, inertia: diag(0.02, 0.03, 0.02) }
+        body right { mass: 1.0, inertia: diag(0.02, 0.03, 0.02) }
+        body left_fork { mass: 0.5, inertia: diag(0.02, 0.03, 0.02) }
+        body right_fork { mass: 0.5, inertia: diag(0.02, 0.03, 0.02) }
+        body left_front { mass: 1.0, inertia: diag(0.02, 0.03, 0.02) }
+        body right_front { mass: 1.0, inertia: diag(0.02, 0.03, 0.02) }
+        joint plane: Planar { parent: ground.at(R * Z), child: car, axis: Z }
+        joint spin_left: Revolute { parent: car.at([0.0, 0.5 * TRACK, 0.0]), child: left, axis: Y }
+        joint spin_right: Revolute { parent: car.at([0.0, -0.5 * TRACK, 0.0]), child: right, axis: Y }
+        joint steer_left: Revolute { parent: car.at([BASE, 0.5 * TRACK, 0.0]), child: left_fork, axis: Z }
+        joint steer_right: Revolute { parent: car.at([BASE, -0.5 * TRACK, 0.0]), child: right_fork, axis: Z }
+        joint roll_left: Revolute { parent: left_fork, child: left_front, axis: Y }
+        joint roll_right: Revolute { parent: right_fork, child: right_front, axis: Y }
+        input push;
+        input turn;
+        force motor: Effort { joint: spin_left, value: push }
+        force wheel: Effort { joint: steer_left, value: turn }
+        // cot(right) - cot(left) = TRACK / BASE, where the left wheel is the inner one.
+        constraint steering = sin(steer_left - steer_right) * BASE - TRACK * sin(steer_left) * sin(steer_right);
+        constraint rear_left: Rolling { wheel: left, axis: Y, radius: R }
+        constraint rear_right: Rolling { wheel: right, axis: Y, radius: R }
+        constraint front_left: Rolling { wheel: left_front, axis: Y, radius: R }
+        constraint front_right: Rolling { wheel: right_front, axis: Y, radius: R }
+        output slips = [rear_left.slip, rear_right.slip, front_left.slip, front_right.slip];
+        output energy = kinetic();
+        emit forward_dynamics, constraints;
+    }
+    /// A snakeboard: a rotor on the board, and both wheel sets steered alike against each other.
+    pub mod snakeboard {
+        const L = 0.4;
+        body board { mass: 3.0, inertia: diag(0.1, 0.1, 0.1) }
+        body rotor { mass: 0.5, inertia: diag(0.13, 0.13, 0.25) }
+        body front { mass: 0.2, inertia: diag(0.01, 0.01, 0.01) }
+        body back { mass: 0.2, inertia: diag(0.01, 0.01, 0.01) }
+        joint plane: Planar { parent: ground, child: board, axis: Z }
+        joint swing: Revolute { parent: board, child: rotor, axis: Z }
+        joint fore: Revolute { parent: board.at(L * X), child: front, axis: Z }
+        joint aft: Revolute { parent: board.at(-L * X), child: back, axis: Z }
+        constraint alike = fore + aft;
+        constraint front_blade: Skate { blade: front, along: 2.0 * X }
+        constraint back_blade: Skate { blade: back, along: X }
+        input twist;
+        input steer;
+        force by_rotor: Effort { joint: swing, value: twist }
+        force by_foot: Effort { joint: fore, value: steer }
+        output energy = kinetic();
+        output forces = [front_blade.force, back_blade.force];
+        output places = [front.position, back.position];
+        emit forward_dynamics, constraints;
+    }
+}
+
+/// A solid ball takes five sevenths of what pulls it down the slope; friction is the rest.
+#[test]
+fn a_ball_on_a_slope() {
+    let params = slope::Params { pull: Vector3::new(0.7, -2.1, -8.3), radius: 0.2 };
+    let model = slope::Model::<f64>::new(&params);
+    let mut state = slope::State::<f64>::default();
+    let axes = model.outputs(0.0, &state, &()).axes;
+    let [x, y, z] = [0, 1, 2].map(|k| axes.matrix().column(k).into_owned());
+    assert!((axes.matrix() - Rotation3::new(Vector3::new(1.0, -2.0, 0.5).normalize() * 0.4).matrix()).amax() < 1e-15);
+    let origin = Vector3::new(0.3, -0.2, 0.7);
+    state.q.float.position = origin + x * 0.4 - y * 1.3 + z * 0.2;
+    state.q.float.orientation = UnitQuaternion::from_euler_angles(0.4, 2.0, -1.0);
+    state.v.float.linear = x * 0.5 + y * 0.8;
+    // The share about the normal is free.
+    let omega = z.cross(&state.v.float.linear) / 0.2 + z * 3.0;
+    state.v.float.angular = state.q.float.orientation.inverse() * omega;
+    let found = model.forward_dynamics(0.0, &state, &());
+    let down = params.pull - z * params.pull.dot(&z);
+    assert!((found.v.float.linear - down * (5.0 / 7.0)).amax() < 1e-13);
+    let out = model.outputs(0.0, &state, &());
+    let wanted = -(z * params.pull.dot(&z) + down * (2.0 / 7.0)) * 1.3;
+    assert!((out.force - wanted).amax() < 1e-13, "{} {wanted}", out.force);
+    assert!((out.contact - (state.q.float.position - z * 0.2)).amax() < 1e-15 && out.slip.amax() < 1e-15);
+    assert!(params.check().is_ok());
+    let why = slope::Params { radius: -0.1, ..params }.check().unwrap_err();
+    assert_eq!(why.what, "`radius > 0.0` does not hold");
+}
+
+/// Nothing does work, and nothing turns both about the bearing's axis; of the ball alone Newton's law.
+#[test]
+fn a_ball_on_a_free_table() {
+    let model = table::Model::<f64>::default();
+    let system = WithProjection::new(model, Projection::default());
+    let mut start = table::State::<f64>::default();
+    let axes = Rotation3::new(Vector3::x() * 0.7) * Rotation3::new(Vector3::z() * 0.9);
+    start.q.bearing = 0.9;
+    start.v.bearing = 1.1;
+    start.q.float.position = axes * Vector3::new(0.3, 0.1, 0.3);
+    start.q.float.orientation = UnitQuaternion::from_euler_angles(0.3, -0.4, 2.0);
+    start.v.float.angular = Vector3::new(0.5, -2.0, 1.0);
+    let start = Projection::default().project(&model, 0.0, &start).unwrap().state;
+    let before = model.outputs(0.0, &start, &());
+    let (end, _) = Integrator::adaptive(Dop853, 1e-13, 1e-13)
+        .integrate(&system, 0.0, 3.0, &start, &(), |t, state| {
+            let out = model.outputs(t, state, &());
+            assert!((out.force - out.ball_acceleration * 1.3).amax() < 1e-12 * (1.0 + out.force.amax()));
+        })
+        .unwrap();
+    let after = model.outputs(3.0, &end, &());
+    assert!((end.q.bearing - start.q.bearing).abs() > 0.5 && (after.contact - before.contact).amax() > 0.1);
+    assert!((after.energy / before.energy - 1.0).abs() < 1e-12, "{} {}", after.energy, before.energy);
+    assert!((after.turning / before.turning - 1.0).abs() < 1e-12, "{} {}", after.turning, before.turning);
+}
+
+/// The same disc in a world that is turned about, with frames that are turned in the body and on the plane.
+#[test]
+fn a_disc_in_oblique_frames() {
+    let (one, other) = (upright_disc::Model::<f64>::default(), oblique_disc::Model::<f64>::default());
+    let turn = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), 0.5);
+    for k in 0..5 {
+        let x = f64::from(k);
+        let mut state = upright_disc::State::<f64>::default();
+        state.q.float.orientation = UnitQuaternion::from_euler_angles(0.9 - 0.4 * x, 1.3 * x, 2.0 - x);
+        state.q.float.position = Vector3::new(0.3 * x, -0.4, 0.2);
+        state.v.float.angular = Vector3::new(0.7, -3.0 + x, 0.4 * x);
+        let state = Projection::default().project(&one, 0.0, &state).unwrap().state;
+        let mut same = oblique_disc::State::<f64>::default();
+        same.q.float.orientation = turn * state.q.float.orientation;
+        same.q.float.position = turn * state.q.float.position;
+        same.v.float.angular = state.v.float.angular;
+        same.v.float.linear = turn * state.v.float.linear;
+        assert!((other.constraints(0.0, &same.q) - one.constraints(0.0, &state.q)).amax() < 1e-14);
+        assert!(other.constraint_rate(0.0, &same).amax() < 1e-13);
+        let (a, b) = (one.forward_dynamics(0.0, &state, &()), other.forward_dynamics(0.0, &same, &()));
+        assert!((turn * a.v.float.linear - b.v.float.linear).amax() < 1e-11 * (1.0 + a.v.float.linear.amax()));
+        assert!((a.v.float.angular - b.v.float.angular).amax() < 1e-11 * (1.0 + a.v.float.angular.amax()));
+        let (a, b) = (one.outputs(0.0, &state, &()), other.outputs(0.0, &same, &()));
+        assert!((turn * a.contact - b.contact).amax() < 1e-13);
+        assert!((turn * a.force - b.force).amax() < 1e-11 * (1.0 + a.force.amax()));
+    }
+}
+
+/// All wheels turn about one centre on the rear axle, and what the motor does is what the car gains.
+#[test]
+fn a_car_about_its_centre() {
+    let model = car::Model::<f64>::default();
+    // Of sixteen equations: four touch where they do anyway, two rear wheels keep one axle, the front wheels one centre.
+    assert_eq!(car::CONSTRAINTS, 7);
+    let system = WithProjection::new(model, Projection::default());
+    let mut start = car::State::<f64>::default();
+    let inner: f64 = 0.5;
+    let outer = 1.0_f64.atan2(1.0 / inner.tan() + 0.8 / 1.3);
+    (start.q.steer_left, start.q.steer_right) = (inner, outer);
+    start.q.plane.angle = 1.1;
+    let centre = 1.3 / inner.tan() + 0.4;
+    let rate = 0.6;
+    (start.v.plane.x, start.v.plane.y) = (rate * centre * 1.1_f64.cos(), rate * centre * 1.1_f64.sin());
+    start.v.plane.angle = rate;
+    start.v.spin_left = rate * (centre - 0.4) / 0.3;
+    start.v.spin_right = rate * (centre + 0.4) / 0.3;
+    start.v.roll_left = rate * (centre - 0.4).hypot(1.3) * (centre - 0.4).signum() / 0.3;
+    start.v.roll_right = rate * (centre + 0.4).hypot(1.3) / 0.3;
+    let out = model.outputs(0.0, &start, &car::Input::default());
+    assert!(model.constraints(0.0, &start.q).amax() < 1e-15);
+    assert!(model.constraint_rate(0.0, &start).amax() < 1e-14);
+    assert!(out.slips.iter().all(|slip| slip.amax() < 1e-14), "{:?}", out.slips);
+    let (push, turn) = (1.3, 0.4);
+    let input = car::Input { push, turn };
+    let (end, _) =
+        Integrator::adaptive(Dop853, 1e-12, 1e-12).integrate(&system, 0.0, 2.0, &start, &input, |_, _| ()).unwrap();
+    let after = model.outputs(0.0, &end, &input);
+    // Those that were left out hold as well.
+    assert!(after.slips.iter().all(|slip| slip.amax() < 1e-10), "{:?}", after.slips);
+    let work = push * (end.q.spin_left - start.q.spin_left) + turn * (end.q.steer_left - start.q.steer_left);
+    assert!((end.q.steer_left - inner).abs() > 0.05);
+    assert!((after.energy - out.energy - work).abs() < 1e-11 * out.energy, "{} {work}", after.energy - out.energy);
+}
+
+/// Work of the rider is what the board gains; forces are across the blades, and about their common centre nothing turns.
+#[test]
+fn a_snakeboard() {
+    let model = snakeboard::Model::<f64>::default();
+    let system = WithProjection::new(model, Projection::default());
+    let mut start = snakeboard::State::<f64>::default();
+    (start.q.plane.angle, start.q.fore) = (0.7, 0.4);
+    start.v.swing = 1.0;
+    let start = Projection::default().project(&model, 0.0, &start).unwrap().state;
+    let input = snakeboard::Input { twist: 0.3, steer: -0.02 };
+    let (end, _) = Integrator::adaptive(Dop853, 1e-13, 1e-13)
+        .integrate(&system, 0.0, 2.0, &start, &input, |t, state| {
+            let out = model.outputs(t, state, &input);
+            for (force, steered) in out.forces.iter().zip([state.q.fore, -state.q.fore]) {
+                let heading = state.q.plane.angle + steered;
+                let along = Vector3::new(heading.cos(), heading.sin(), 0.0);
+                assert!(force.dot(&along).abs() < 1e-13 * (1.0 + force.amax()) && force.z.abs() < 1e-15);
+            }
+        })
+        .unwrap();
+    let [before, after] = [&start, &end].map(|state| model.outputs(0.0, state, &input).energy);
+    let work = input.twist * (end.q.swing - start.q.swing) + input.steer * (end.q.fore - start.q.fore);
+    assert!((after - before - work).abs() < 1e-12 * after.max(1.0), "{} {work}", after - before);
+    let way = (end.q.plane.x - start.q.plane.x).hypot(end.q.plane.y - start.q.plane.y);
+    assert!(way > 0.03, "{way}");
+}
