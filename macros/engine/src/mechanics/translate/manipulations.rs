@@ -316,7 +316,7 @@ fn no_multiplier(model: &Model, structure: &Structure, constraint: ConstraintId,
         (true, Some(_)) => {
             let message =
                 format!("`{name}` is a coupling of coordinates that is put in where they are, without a multiplier");
-            (message, "read the effort or the reaction of a joint, or write `formulation { constraints: Multipliers }`")
+            (message, "read the reaction of a joint that it acts on")
         }
         (false, _) => {
             let message = format!(
