@@ -336,6 +336,32 @@ pub mod force {
         /// In whose axes the value is given.
         pub axes: Frame,
     }
+
+    /// Pushes two bodies apart where they touch, and rubs: it has `force`, `contact`, `gap`, `slip`, `power`, `stored`.
+    pub struct Contact {
+        /// The point, or the centre of the ball or disc.
+        pub at: Frame,
+        /// `[m]`, of the ball or disc; a point has none.
+        pub radius: Scalar,
+        /// Of a thin disc, its axle in axes of `at`.
+        pub axis: Vec3,
+        /// Its z axis stands on the plane, to the side of `at`; the ground's where it is left out.
+        pub on: Frame,
+        /// The centre of another ball in place of a plane.
+        pub ball: Frame,
+        /// `[m]`
+        pub ball_radius: Scalar,
+        /// `[N/m^exponent]`
+        pub stiffness: Scalar,
+        /// `[s/m]`: the force is as many times greater as the depth grows faster.
+        pub damping: Scalar,
+        /// Of the depth, at least 1; 1.5 where it is left out.
+        pub exponent: Scalar,
+        /// Coulomb's coefficient; none where it is left out.
+        pub friction: Scalar,
+        /// `[m/s]`, below which friction is like a damper; 0.01 where it is left out.
+        pub slip_speed: Scalar,
+    }
 }
 
 /// Kinds of constraints.

@@ -1,5 +1,6 @@
-//! Constraints of velocities: wheels, blades and spheres that roll.
+//! Wheels, blades and spheres: constraints of velocities, and contacts that give way.
 
 mod blades;
+mod contacts;
 mod wheels;
 mod whipple;

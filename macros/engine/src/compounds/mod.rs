@@ -6,101 +6,149 @@
 //! apart by the fields that are given. The words reserve no names: a part or model of the user's may be called as one of these.
 
 use proc_macro2::{Ident, Span};
-use syn::Expr;
 
 use crate::diagnostics::{Diagnostics, nearest};
 use crate::syntax::tree::{Field, Fields, Item, ItemKind, Part, Source};
 use crate::syntax::written;
 
 /// A kind of a constraint or force.
-pub(crate) struct Compound {
+struct Compound {
     /// `constraint` or `force`.
-    pub keyword: &'static str,
-    pub kind: &'static str,
-    pub required: &'static [&'static str],
-    /// With what they are where they are left out; without anything they choose the form.
-    pub optional: &'static [(&'static str, Option<&'static str>)],
+    keyword: &'static str,
+    kind: &'static str,
     forms: &'static [Form],
 }
 
 /// One way in which a kind is written.
 struct Form {
-    /// Fields without a value of their own that are given.
-    with: &'static [&'static str],
+    /// The field that chooses it; the last form has none.
+    by: Option<&'static str>,
+    required: &'static [&'static str],
+    /// With what they are where they are left out.
+    optional: &'static [(&'static str, &'static str)],
     /// Of the part.
     name: &'static str,
     text: &'static str,
 }
 
+const ON: (&str, &str) = ("on", "ground");
+
 /// All of them.
-pub(crate) const COMPOUNDS: [Compound; 2] = [
+const COMPOUNDS: [Compound; 3] = [
     Compound {
         keyword: "constraint",
         kind: "Rolling",
-        required: &["wheel", "radius"],
-        optional: &[("axis", None), ("on", Some("ground"))],
         forms: &[
-            Form { with: &[], name: "rolling_ball", text: include_str!("rolling_ball.txt") },
-            Form { with: &["axis"], name: "rolling_disc", text: include_str!("rolling_disc.txt") },
+            Form {
+                by: Some("axis"),
+                required: &["wheel", "axis", "radius"],
+                optional: &[ON],
+                name: "rolling_disc",
+                text: include_str!("rolling_disc.txt"),
+            },
+            Form {
+                by: None,
+                required: &["wheel", "radius"],
+                optional: &[ON],
+                name: "rolling_ball",
+                text: include_str!("rolling_ball.txt"),
+            },
         ],
     },
     Compound {
         keyword: "constraint",
         kind: "Skate",
-        required: &["blade", "along"],
-        optional: &[("on", Some("ground"))],
-        forms: &[Form { with: &[], name: "skate", text: include_str!("skate.txt") }],
+        forms: &[Form {
+            by: None,
+            required: &["blade", "along"],
+            optional: &[ON],
+            name: "skate",
+            text: include_str!("skate.txt"),
+        }],
+    },
+    Compound {
+        keyword: "force",
+        kind: "Contact",
+        forms: &[
+            Form {
+                by: Some("axis"),
+                required: &["at", "axis", "radius", "stiffness", "damping"],
+                optional: &[ON, EXPONENT, FRICTION, SLIP],
+                name: "contact_disc",
+                text: include_str!("contact_disc.txt"),
+            },
+            Form {
+                by: Some("ball"),
+                required: &["at", "radius", "ball", "ball_radius", "stiffness", "damping"],
+                optional: &[EXPONENT, FRICTION, SLIP],
+                name: "contact_balls",
+                text: include_str!("contact_balls.txt"),
+            },
+            Form {
+                by: None,
+                required: &["at", "stiffness", "damping"],
+                optional: &[("radius", "0"), ON, EXPONENT, FRICTION, SLIP],
+                name: "contact_ball",
+                text: include_str!("contact_ball.txt"),
+            },
+        ],
     },
 ];
+
+/// Of Hertz.
+const EXPONENT: (&str, &str) = ("exponent", "1.5");
+const FRICTION: (&str, &str) = ("friction", "0");
+/// m/s
+const SLIP: (&str, &str) = ("slip_speed", "0.01");
+
+impl Form {
+    fn fields(&self) -> impl Iterator<Item = &'static str> + Clone {
+        self.required.iter().copied().chain(self.optional.iter().map(|field| field.0))
+    }
+
+    /// What the part's ports and parameters are.
+    fn bound(&self, fields: &Fields, span: Span) -> Vec<Field> {
+        let given = fields.list.iter().map(|field| Field { name: field.name.clone(), value: field.value.clone() });
+        let left = self.optional.iter().filter(|(name, _)| fields.list.iter().all(|field| field.name != name));
+        let left = left.filter_map(|(name, value)| {
+            Some(Field { name: Ident::new(name, span), value: syn::parse_str(value).ok()? })
+        });
+        given.chain(left).collect()
+    }
+}
 
 impl Compound {
     fn named(keyword: &str, kind: &Ident) -> Option<&'static Compound> {
         COMPOUNDS.iter().find(|compound| compound.keyword == keyword && kind == compound.kind)
     }
 
-    fn fields(&self) -> impl Iterator<Item = &'static str> + Clone {
-        self.required.iter().copied().chain(self.optional.iter().map(|field| field.0))
-    }
-
-    /// Reports fields that don't belong here; the form that the others choose.
+    /// The form that the fields choose, unless they have mistakes, which are reported.
     fn form(&self, name: &Ident, fields: &Fields, diagnostics: &mut Diagnostics) -> Option<&'static Form> {
+        let is_given = |known: &str| fields.list.iter().any(|field| field.name == known);
+        let form = self.forms.iter().find(|form| form.by.is_none_or(is_given))?;
         let errors = diagnostics.errors().len();
         let owner = format!("the {} `{name}`", self.keyword);
         for (k, field) in fields.list.iter().enumerate() {
             let given = field.name.to_string();
             if fields.list[..k].iter().any(|other| other.name == given) {
                 diagnostics.error(field.name.span(), format!("the field `{given}` is given twice"));
-            } else if !self.fields().any(|known| known == given) {
-                let help = match nearest(&given, self.fields()) {
-                    Some(near) => format!("did you mean `{near}`?"),
-                    None => format!("it has `{}`", self.fields().collect::<Vec<_>>().join("`, `")),
+            } else if form.fields().all(|known| known != given) {
+                let mut all = self.forms.iter().flat_map(Form::fields);
+                let has = format!("it has `{}`", form.fields().collect::<Vec<_>>().join("`, `"));
+                let help = match (form.by, nearest(&given, all.clone())) {
+                    (Some(by), _) if all.any(|known| known == given) => format!("with `{by}` {has}"),
+                    (_, Some(near)) => format!("did you mean `{near}`?"),
+                    _ => has,
                 };
                 diagnostics.error_help(field.name.span(), format!("{owner} has no field `{given}`"), help);
             }
         }
-        let is_given = |known: &str| fields.list.iter().any(|field| field.name == known);
-        let missing: Vec<&str> = self.required.iter().copied().filter(|known| !is_given(known)).collect();
+        let missing: Vec<&str> = form.required.iter().copied().filter(|known| !is_given(known)).collect();
         let is_told = fields.broken || diagnostics.errors().len() > errors;
         if let ([_, ..], false) = (missing.as_slice(), is_told) {
             diagnostics.error(name.span(), format!("{owner} needs `{}`", missing.join("`, `")));
         }
-        if fields.broken || diagnostics.errors().len() > errors {
-            return None;
-        }
-        let choosing = self.optional.iter().filter(|field| field.1.is_none() && is_given(field.0));
-        let with: Vec<&str> = choosing.map(|field| field.0).collect();
-        self.forms.iter().find(|form| form.with == with)
-    }
-
-    /// What the part's ports and parameters are.
-    fn bound(&self, fields: &Fields, span: Span) -> Vec<Field> {
-        let given = fields.list.iter().map(|field| Field { name: field.name.clone(), value: field.value.clone() });
-        let is_left = |name: &str| fields.list.iter().all(|field| field.name != name);
-        let left = self.optional.iter().filter_map(|&(name, value)| {
-            let value: Expr = syn::parse_str(value.filter(|_| is_left(name))?).ok()?;
-            Some(Field { name: Ident::new(name, span), value })
-        });
-        given.chain(left).collect()
+        (!fields.broken && diagnostics.errors().len() == errors).then_some(form)
     }
 }
 
@@ -132,7 +180,7 @@ pub(crate) fn place(source: &mut Source, diagnostics: &mut Diagnostics) {
                 count: None,
                 index: None,
                 again: None,
-                fields: Fields { span: fields.span, list: compound.bound(fields, kind.span()), broken: false },
+                fields: Fields { span: fields.span, list: form.bound(fields, kind.span()), broken: false },
             });
             taken.push(called);
             true

@@ -19,7 +19,7 @@ use crate::syntax::tree::{self, ItemKind};
 
 use super::fields::{Known, field};
 
-const KINDS: [&str; 6] = ["Effort", "Spring", "Damper", "SpringDamper", "Force", "Torque"];
+const KINDS: [&str; 7] = ["Effort", "Spring", "Damper", "SpringDamper", "Force", "Torque", "Contact"];
 
 const EFFORT: Known<'static> = Known { required: &["joint", "value"], optional: &[] };
 

@@ -21,6 +21,22 @@ const FORCE: Room = &[
     ("SpringDamper", &["joint", "between", "stiffness", "damping", "rest", "length"]),
     ("Force", &["at", "value", "axes"]),
     ("Torque", &["at", "value", "axes"]),
+    (
+        "Contact",
+        &[
+            "at",
+            "radius",
+            "axis",
+            "on",
+            "ball",
+            "ball_radius",
+            "stiffness",
+            "damping",
+            "exponent",
+            "friction",
+            "slip_speed",
+        ],
+    ),
 ];
 
 const CONSTRAINT: Room = &[
