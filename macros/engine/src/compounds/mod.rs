@@ -134,7 +134,15 @@ impl Compound {
                 diagnostics.error(field.name.span(), format!("the field `{given}` is given twice"));
             } else if form.fields().all(|known| known != given) {
                 let mut all = self.forms.iter().flat_map(Form::fields);
-                let has = format!("it has `{}`", form.fields().collect::<Vec<_>>().join("`, `"));
+                let mut known: Vec<&str> = Vec::new();
+                // What would choose another form is there too, where nothing has chosen this one.
+                let others = self.forms.iter().filter(|_| form.by.is_none()).flat_map(Form::fields);
+                for field in form.fields().chain(others) {
+                    if !known.contains(&field) {
+                        known.push(field);
+                    }
+                }
+                let has = format!("it has `{}`", known.join("`, `"));
                 let help = match (form.by, nearest(&given, all.clone())) {
                     (Some(by), _) if all.any(|known| known == given) => format!("with `{by}` {has}"),
                     (_, Some(near)) => format!("did you mean `{near}`?"),
