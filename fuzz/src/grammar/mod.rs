@@ -510,7 +510,57 @@ impl Lines {
         let absolute = self.lines.iter().any(|line| line.starts_with("formulation { coordinates: Absolute"));
         self.emit(random, &names, driven, absolute);
         self.of_rust(random, &names);
+        self.touching(random, &names);
         self.push("}".into());
+    }
+
+    /// Wheels, blades, contacts and constraints of velocities. They come last, so that a call without one is what it would be otherwise.
+    fn touching(&mut self, random: &mut Random, names: &Names) {
+        if !random.chance(25) {
+            return;
+        }
+        let name = self.name(random, "k");
+        let frame = |random: &mut Random| names.frame(random).unwrap_or_else(|| "ground".into());
+        let size = |random: &mut Random| positive(random, names, Level::Parameter);
+        let on = match random.below(3) {
+            0 => String::new(),
+            1 => ", on: ground.rotated(X, 0.3)".into(),
+            _ => format!(", on: {}", frame(random)),
+        };
+        let axis = *random.pick(&["Y", "[0.3, -2.0, 0.7]", "[1, 2, 2]"]);
+        let (kind, members): (&str, &[&str]) = match random.below(6) {
+            0 => ("Rolling", &["contact", "slip", "force"]),
+            1 => ("Skate", &["slip", "force"]),
+            2 => ("rate", &[]),
+            _ => ("Contact", &["contact", "slip", "force", "power", "gap", "stored"]),
+        };
+        let item = match kind {
+            "Rolling" => {
+                let axle = if random.chance(60) { format!(", axis: {axis}") } else { String::new() };
+                format!("constraint {name}: Rolling {{ wheel: {}{axle}, radius: {}{on} }}", frame(random), size(random))
+            }
+            "Skate" => format!("constraint {name}: Skate {{ blade: {}, along: {axis}{on} }}", frame(random)),
+            "rate" => {
+                let (frame, other) = (frame(random), scalar(random, names, Level::Parameter, 1));
+                format!("constraint {name} = dot({frame}.velocity, {frame}.rotation * {axis}) + {other};")
+            }
+            _ => {
+                let shape = match random.below(3) {
+                    0 => on,
+                    1 => format!(", axis: {axis}, radius: {}{on}", size(random)),
+                    _ => format!(", radius: 0.2, ball: {}, ball_radius: {}", frame(random), size(random)),
+                };
+                let friction = if random.chance(50) { ", friction: 0.4" } else { "" };
+                let at = frame(random);
+                format!("force {name}: Contact {{ at: {at}{shape}, stiffness: 1e3, damping: 0.3{friction} }}")
+            }
+        };
+        self.push(item);
+        for member in members {
+            if random.chance(30) {
+                self.push(format!("output {} = {name}.{member};", self.name(random, "o")));
+            }
+        }
     }
 
     /// A function of Rust in outputs and forces. It comes last, so that a call without one is what it would be otherwise.
