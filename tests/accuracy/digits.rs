@@ -48,6 +48,16 @@ struct Node {
     is_data: bool,
 }
 
+/// Sums of sizes of derivatives of a result times what it is derived by: by how many errors of its own size the result
+/// changes where each of these changes by one of its own.
+#[derive(Clone, Copy)]
+pub(crate) struct Sensitivity {
+    /// By all data.
+    pub(crate) data: f64,
+    /// By results of all operations, and data: what one rounding of each leaves.
+    pub(crate) operations: f64,
+}
+
 /// What the symbols of a graph are.
 pub(crate) type Symbols<'a> = &'a dyn Fn(SymbolId) -> Big;
 
@@ -73,21 +83,22 @@ impl<'a> Tape<'a> {
         self.nodes.borrow()[at].value.clone()
     }
 
-    /// The sum over all data of the size of the derivative of a result times the datum: by how many errors of its own size the
-    /// result changes where every datum changes by one of its own.
-    pub(crate) fn sensitivity(&self, result: Place) -> f64 {
+    /// What errors of its operands do to a result.
+    pub(crate) fn sensitivity(&self, result: Place) -> Sensitivity {
         let nodes = self.nodes.borrow();
         let mut slopes = vec![0.0; result + 1];
         slopes[result] = 1.0;
-        let mut sum = 0.0;
+        let mut sum = Sensitivity { data: 0.0, operations: 0.0 };
         for at in (0..=result).rev() {
             let slope = slopes[at];
             if slope == 0.0 {
                 continue;
             }
             let node = &nodes[at];
+            let share = (slope * node.high).abs();
+            sum.operations += share;
             if node.is_data {
-                sum += (slope * node.high).abs();
+                sum.data += share;
             }
             for (operand, partial) in node.slopes {
                 if partial != 0.0 {
@@ -219,10 +230,8 @@ impl Field for Tape<'_> {
             Call::Less => self.compare(x[0], x[1], |a, b| a < b),
             Call::LessEqual => self.compare(x[0], x[1], |a, b| a <= b),
             Call::Equal => self.compare(x[0], x[1], |a, b| a == b),
-            Call::Min | Call::Max => {
-                let less = self.compare(x[0], x[1], |a, b| a < b);
-                x[usize::from((self.high(less) != 0.0) != (call == Call::Min))]
-            }
+            // Continuous, so nothing is unclear where they are equal.
+            Call::Min | Call::Max => x[usize::from((self.value(x[0]) < self.value(x[1])) != (call == Call::Min))],
             Call::And => mask(is(0) && is(1)),
             Call::Or => mask(is(0) || is(1)),
             Call::Not => mask(!is(0)),

@@ -8,9 +8,21 @@
 //! Algorithms, 2nd ed., sections 1.6 and 25.2, but for that it counts one at least. The median error, of all results at all
 //! states, is at most [`MEDIAN`], the greatest [`GREATEST`] times the condition number.
 //!
+//! What is beside the question is not measured:
+//!
+//! - Parameters that are zero are moved by as much as their neighbours are. A product of inertia of another size than the moments
+//!   beside it leaves a mass matrix that is not positive definite, at which no elimination without pivots is accurate.
+//! - The rank behind a least displacement is no result whose size others are measured by, and where it falls it says so.
+//! - The greater of two numbers is continuous where they are equal, as they are in symmetric limbs; so nothing is unclear.
+//! - What is zero at a state and comes out so is right, and counts.
+//!
+//! A miss is put down to its cause ([`judge::Miss`]): to the data, where medians are no more than the condition number asks for; to the
+//! equations as derived, where no error is more than one rounding of each of their operations may leave; else to the optimiser.
+//!
 //! It takes minutes, and functions are known that miss these bounds, so it is run by hand. `MODEL=puma` looks at the models with
 //! this in their names alone: then no page is written.
-//! `STATES=1000` looks at as many states, with every pass left out in turn; `UPDATE_ACCURACY=1` writes `docs/accuracy.md`:
+//! `STATES=1000` looks at as many states, with every pass left out in turn, which takes 50 minutes of one processor;
+//! `UPDATE_ACCURACY=1` writes `docs/accuracy.md`:
 //!
 //! ```text
 //! STATES=1000 UPDATE_ACCURACY=1 cargo test --release -p multibody-tests --test accuracy -- --ignored
@@ -46,8 +58,10 @@ fn all(only: &str, states: usize, thorough: bool) -> Vec<Figures> {
         let mut found = Vec::new();
         let entries = entries();
         loop {
-            let number = next.fetch_add(1, Ordering::Relaxed);
-            let Some(entry) = entries.get(number) else { return found };
+            let done = next.fetch_add(1, Ordering::Relaxed);
+            // Those that take longest stand last.
+            let Some(number) = entries.len().checked_sub(done + 1) else { return found };
+            let entry = &entries[number];
             if entry.name().contains(only) {
                 found.push((number, judge(entry, states, thorough)));
             }
@@ -73,13 +87,7 @@ fn errors_are_those_of_the_data() {
     if only.is_empty() && std::env::var_os("UPDATE_ACCURACY").is_some() {
         std::fs::write(path("../docs/accuracy.md"), report::written(&figures, states)).unwrap();
     }
-    let missed: Vec<String> = figures.iter().filter(|figures| !figures.within()).map(report::line).collect();
+    let missed: Vec<String> = figures.iter().filter(|figures| figures.miss().is_some()).map(report::line).collect();
     println!("{} functions in {} forms", figures.len(), report::variants(&figures).len());
     assert!(missed.is_empty(), "{missed:#?}");
-}
-
-impl Figures {
-    pub(crate) fn within(&self) -> bool {
-        self.median() <= MEDIAN && self.greatest <= GREATEST
-    }
 }

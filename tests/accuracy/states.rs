@@ -22,6 +22,9 @@ const NEAR: [f64; ATTEMPTS] = [0.3, 0.1, 0.1, 0.03, 0.03, 0.01];
 /// How far coordinates go that no loop holds: all the way round.
 const WIDE: f64 = 3.1;
 
+/// The size of parameters that are zero.
+const ZERO: f64 = 0.5;
+
 /// How far parameters are moved, relative to their size.
 const AROUND: f64 = 0.1;
 
@@ -57,7 +60,7 @@ impl<'m> States<'m> {
         let mut draw = |symbol: &Symbol| match *symbol {
             Symbol::Param { param, element } => {
                 let default = self.model.params[param].default[element];
-                let size = if default == 0.0 { 0.5 } else { default.abs() };
+                let size = size(&self.model.params[param].default, element);
                 let moved = single(default + AROUND * NEAR[attempt] * size * random.unit());
                 if self.structure.pinned.contains(&(param.0, element)) { default } else { moved }
             }
@@ -131,6 +134,13 @@ impl State<'_> {
             self.values[at] = value;
         }
     }
+}
+
+/// What is zero has the size of the greatest element beside it: a product of inertia that is of another size than the moments leaves
+/// no mass matrix that is positive.
+fn size(default: &[f64], element: usize) -> f64 {
+    let greatest = default.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    [default[element].abs(), greatest, ZERO].into_iter().find(|&size| size > 0.0).expect("not all are zero")
 }
 
 /// The nearest number of single precision.
