@@ -80,7 +80,7 @@ pub(crate) fn written(figures: &[Figures], states: usize) -> String {
         let of = |scalar| Worst::of(figures.iter().filter(move |f| f.variant == variant && f.scalar == scalar)).cells();
         writeln!(text, "| {variant} | {} | {} |", of("f64"), of("f32")).unwrap();
     }
-    write!(text, "\n## By model, as emitted\n\n| model | numbers | {heading}\n|---|---|{rule}\n").unwrap();
+    write!(text, "\n## By model, as emitted\n\n| model | numbers | states | {heading}\n|---|---|---|{rule}\n").unwrap();
     for own in figures.chunk_by(|a, b| (&a.model, a.params) == (&b.model, b.params)) {
         let of = |scalar| Worst::of(own.iter().filter(move |f| f.variant == "all" && f.scalar == scalar)).cells();
         let states = own.iter().map(|f| f.states + f.left_out).max().unwrap_or(0);

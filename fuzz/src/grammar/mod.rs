@@ -558,7 +558,8 @@ impl Lines {
         self.push(item);
         for member in members {
             if random.chance(30) {
-                self.push(format!("output {} = {name}.{member};", self.name(random, "o")));
+                let output = self.name(random, "o");
+                self.push(format!("output {output} = {name}.{member};"));
             }
         }
     }

@@ -90,6 +90,8 @@ pub mod seed113 {
         force f15: Effort { joint: j6.angle, value: e14(hypot(j6.angle.rate, t), p1, p1) }
         output o16 = e14(j6.angle / (1.5 + powi(t, 2)), powf(1.1 + powi(l8, 2), 0.5), b3.position.x);
         force f17: Effort { joint: j6.angle, value: e14(select(j6.angle.rate < t , j6.angle.rate, j6.angle.rate), select(PI / 6 <= j4.angle.rate , PI / 6, j6.angle), j6.angle.rate) }
+        force k18: Contact { at: b3.at([0.1, -0.2, 0.3]), on: b3, stiffness: 1e3, damping: 0.3, friction: 0.4 }
+        output o19 = k18.force;
         }
     }
 }
@@ -147,6 +149,8 @@ pub mod seed124 {
         extern e11(x, y, z) = crate::Curve;
         output o12 = e11(sqrt(1 + powi(p3, 2)), dot(Y, X), dot(b7.velocity, b5.at([0.1, -0.2, 0.3]).angular_velocity)) + e11((t - b7.at([0.1, -0.2, 0.3]).position.z), diff(b7.position.y, j10.roll.rate), dot(b5.angular_velocity, b7.angular_velocity));
         output o13 = e11(u4[0], 3, (j10.pitch - j10.roll));
+        force r#arm: Contact { at: b9, radius: 0.2, ball: b9.at([0.1, -0.2, 0.3]), ball_radius: 2.00, stiffness: 1e3, damping: 0.3, friction: 0.4 }
+        output o15 = r#arm.stored;
         }
     }
 }
