@@ -6,6 +6,7 @@
 //! apart by the fields that are given. The words reserve no names: a part or model of the user's may be called as one of these.
 
 use proc_macro2::{Ident, Span};
+use syn::ext::IdentExt;
 
 use crate::diagnostics::{Diagnostics, nearest};
 use crate::syntax::tree::{Field, Fields, Item, ItemKind, Part, Source};
@@ -75,21 +76,21 @@ const COMPOUNDS: [Compound; 3] = [
                 required: &["at", "axis", "radius", "stiffness", "damping"],
                 optional: &[ON, EXPONENT, FRICTION, SLIP],
                 name: "contact_disc",
-                text: include_str!("contact_disc.txt"),
+                text: concat!(include_str!("contact_disc.txt"), include_str!("contact_law.txt")),
             },
             Form {
                 by: Some("ball"),
                 required: &["at", "radius", "ball", "ball_radius", "stiffness", "damping"],
                 optional: &[EXPONENT, FRICTION, SLIP],
                 name: "contact_balls",
-                text: include_str!("contact_balls.txt"),
+                text: concat!(include_str!("contact_balls.txt"), include_str!("contact_law.txt")),
             },
             Form {
                 by: None,
                 required: &["at", "stiffness", "damping"],
                 optional: &[("radius", "0"), ON, EXPONENT, FRICTION, SLIP],
                 name: "contact_ball",
-                text: include_str!("contact_ball.txt"),
+                text: concat!(include_str!("contact_ball.txt"), include_str!("contact_law.txt")),
             },
         ],
     },
@@ -171,7 +172,7 @@ pub(crate) fn place(source: &mut Source, diagnostics: &mut Diagnostics) {
             let Some(compound) = Compound::named(keyword, kind) else { return true };
             let Some(form) = compound.form(name, fields, diagnostics) else { return false };
             // A part for each, so that what is wrong with one is told where it stands.
-            let mut called = format!("{}_{name}", form.name);
+            let mut called = format!("{}_{}", form.name, name.unraw());
             while taken.contains(&called) {
                 called.push('_');
             }

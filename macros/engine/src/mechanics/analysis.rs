@@ -23,6 +23,7 @@ mod rates;
 mod reduction;
 mod relations;
 mod scales;
+mod shared;
 pub mod singular;
 mod springs;
 mod tape;
@@ -97,6 +98,7 @@ pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
         structure.closed = closed::closed(problem, &analysis.samples, &structure);
         structure.measure(problem, &analysis.samples);
         analysis.complaints.extend(rates::keep(model, problem, &mut structure));
+        structure.shared = shared::shared(problem, &structure, &rates::points(problem, &structure));
         match springs::meeting(model, problem, &structure) {
             Ok(held) => structure.meeting = held,
             Err(complaints) => analysis.complaints.extend(complaints),

@@ -104,6 +104,14 @@ pub fn check_all(source: &tree::Source, diagnostics: &mut Diagnostics) -> Vec<Ch
             used.extend(checker.part_modules.iter().map(|(part, ..)| *part));
         }
     }
+    // A model that isn't all of the user's is generated without equations: never without a word.
+    if diagnostics.is_empty()
+        && let Some(untold) = models.iter().find(|checked| checked.state != Soundness::Sound)
+    {
+        let name = &untold.model.name;
+        let message = format!("something in `{name}` can't be worked out while compiling, and nothing says what");
+        diagnostics.error_help(name.span(), message, "this is an error of multibody: please report it with the model");
+    }
     models
 }
 

@@ -60,6 +60,21 @@ fn what_is_independent_at_other_times_stays() {
     assert_eq!(names(&steered, &sound(&steered).rows), ["steer", "rail"]);
 }
 
+/// A wheel in an upright plane can't slip aside.
+#[test]
+fn what_is_zero_whatever_moves() {
+    let wheel = model_with(
+        "",
+        "body wheel { mass: 1.0, inertia: diag(1.0, 1.3, 1.0) }
+         joint plane: Planar { parent: ground, child: wheel, axis: Y }
+         constraint aside = dot(wheel.velocity, Y);
+         constraint along = wheel.velocity.x - 0.3 * plane.angle.rate;",
+    );
+    let structure = sound(&wheel);
+    assert_eq!(names(&wheel, &structure.rows), ["along"]);
+    assert_eq!(names(&wheel, &structure.dropped), ["aside"]);
+}
+
 /// Rates of a closed loop depend on its equations of positions.
 #[test]
 fn rates_of_what_positions_hold() {
@@ -147,8 +162,30 @@ fn multipliers_that_are_not_there() {
          output load = left.multiplier;
          output open = right.multiplier;",
     );
-    let told = "`right` follows from other equations: how they share the load is not determined by rigid bodies, so it has no multiplier";
-    assert_eq!(found, told);
+    let told = |name: &str| {
+        format!("`{name}` depends on other equations: how they share the load is not determined by rigid bodies")
+    };
+    let mut found: Vec<&str> = found.split("; ").collect();
+    found.sort_unstable();
+    assert_eq!(found, [told("left"), told("right")]);
+    // In whatever order.
+    let three = "constraint one = sled.express(sled.at(0.3 * X).velocity).y;
+         constraint two = sled.express(sled.at(0.1 * X).velocity).y;
+         constraint three = sled.express(sled.at(0.2 * X).velocity).y;";
+    assert_eq!(said(&format!("{three} output load = one.multiplier;")), told("one"));
+    // What stands alone beside them is known.
+    let beside = "constraint left = sled.express(sled.at(0.7 * Y).velocity).y;
+         constraint right = sled.express(sled.at(-0.7 * Y).velocity).y;
+         constraint brake = sled.express(sled.velocity).x;
+         output load = brake.multiplier;";
+    assert_eq!(said(beside), "");
+    // Parallel rods, of which all are kept.
+    let rods = "body plate { mass: 1.0, inertia: diag(1.0, 1.0, 1.0) }
+         joint free: Planar { parent: ground, child: plate, axis: Z }
+         constraint one: Rod { between: [ground.at(0.5 * Y), plate.at(0.5 * Y)], length: 1.0 }
+         constraint two: Rod { between: [ground, plate], length: 1.0 }
+         constraint three: Rod { between: [ground.at(-0.5 * Y), plate.at(-0.5 * Y)], length: 1.0 }";
+    assert_eq!(said(&format!("{rods} output load = one.multiplier;")), told("one"));
     let found = said("constraint gear = plane.x - 2.0 * plane.y; output load = gear.multiplier;");
     assert_eq!(found, "`gear` is a coupling of coordinates that is put in where they are, without a multiplier");
     assert!(compile(&model("constraint rack = plane.x - sin(plane.angle); output load = rack.multiplier;")).is_ok());

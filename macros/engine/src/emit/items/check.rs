@@ -24,7 +24,7 @@ use crate::emit::print::{literals, range};
 use crate::emit::{Context, names};
 use crate::mechanics::Condition;
 use crate::mechanics::loops::constraints::unfit;
-use crate::model::types::{Body, ConstraintKind, Expr, ExprNode, ForceKind, Model, ParamId};
+use crate::model::types::{Body, Comparison, ConstraintKind, Expr, ExprNode, ForceKind, Model, ParamId};
 use crate::optimize::program::Expression;
 
 /// Expands to `impl<T: Real> Params<T> { pub fn check(&self) -> Result<(), ParamError> { .. } }`.
@@ -149,6 +149,8 @@ fn assumed(model: &Model) -> Vec<&Expr> {
     while let Some(condition) = stack.pop() {
         match &*condition.node {
             ExprNode::And(a, b) => stack.extend([b, a]),
+            // Numbers are rounded, and not in the same way for every scalar.
+            ExprNode::Compare(Comparison::Equal | Comparison::NotEqual, ..) => {}
             _ => all.push(condition),
         }
     }

@@ -92,6 +92,8 @@ pub(super) struct Rate {
     slopes: Vec<(usize, usize)>,
     /// What is left of it at rest.
     rest: usize,
+    /// It is zero whatever moves.
+    pub is_nothing: bool,
 }
 
 /// A condition of a `solve` item, or what is assumed: not zero where it holds.

@@ -47,6 +47,12 @@ pub(super) fn keep(model: &Model, problem: &Problem, structure: &mut Structure) 
     let proof = judge.is_proof();
     for (number, rate) in problem.rates.iter().enumerate() {
         let name = row_name(model, rate.row.closing, rate.row.index);
+        // What is zero whatever moves, such as the slip aside of a wheel in a plane.
+        if rate.is_nothing {
+            names.push(format!("`{name}`"));
+            structure.dropped.push(rate.row);
+            continue;
+        }
         let found = judge.at_all(problem, number, &kept);
         if found.contains(&Beside::Independent) {
             structure.scales.insert(rate.row, judge.scale(number));
@@ -89,7 +95,7 @@ pub(super) fn keep(model: &Model, problem: &Problem, structure: &mut Structure) 
 }
 
 /// Closed configurations, or random ones, at times of their own.
-fn points(problem: &Problem, structure: &Structure) -> Vec<Point> {
+pub(super) fn points(problem: &Problem, structure: &Structure) -> Vec<Point> {
     let mut random = Random(0x8011E5);
     let mut points: Vec<Point> = structure.closed.iter().map(|closed| problem.at(&closed.positions)).collect();
     if problem.equations.is_empty() || points.is_empty() {

@@ -34,7 +34,9 @@ pub struct Structure {
     pub independent: Vec<Row>,
     /// Equations that follow from the others everywhere.
     pub dropped: Vec<Row>,
-    /// Those among them that hold for parameters like the declared ones only.
+    /// Equations whose forces rigid bodies don't tell, since they depend on others, kept or left out.
+    pub shared: Vec<Row>,
+    /// Those among `dropped` that hold for parameters like the declared ones only.
     pub granted: Vec<Row>,
     /// Parameters, by number and element, that break these when they are not at their defaults.
     pub pinned: Vec<(usize, usize)>,

@@ -311,20 +311,18 @@ fn no_multiplier(model: &Model, structure: &Structure, constraint: ConstraintId,
     let name = row_name(model, LoopClosure::Constraint(constraint), 0);
     let linear = |means: &Means| matches!(means, Means::Linear(id) if *id == constraint);
     let found = structure.steps.iter().find(|step| linear(&step.means));
-    let (message, help) = match (structure.rows.iter().chain(&structure.independent).any(of), found) {
-        (true, None) => return None,
-        (true, Some(_)) => {
-            let message =
-                format!("`{name}` is a coupling of coordinates that is put in where they are, without a multiplier");
-            (message, "read the reaction of a joint that it acts on")
-        }
-        (false, _) => {
-            let message = format!(
-                "`{name}` follows from other equations: how they share the load is not determined by rigid bodies, so it has no \
-                 multiplier"
-            );
-            (message, "leave out what holds the same twice")
-        }
+    let is_held = structure.rows.iter().chain(&structure.independent).any(of);
+    let is_open = structure.shared.iter().any(of) || !is_held;
+    let (message, help) = match found {
+        Some(_) => (
+            format!("`{name}` is a coupling of coordinates that is put in where they are, without a multiplier"),
+            "read the reaction of a joint that it acts on",
+        ),
+        None if is_open => (
+            format!("`{name}` depends on other equations: how they share the load is not determined by rigid bodies"),
+            "read the multipliers of equations that stand alone, or leave out what holds the same twice",
+        ),
+        None => return None,
     };
     Some(Complaint { at: expr.site(), message, help: Some(help.to_owned()) })
 }

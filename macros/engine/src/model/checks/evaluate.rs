@@ -5,7 +5,11 @@
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use crate::model::types::{Comparison, Expr, ExprNode, Function, ParamId, StateId};
+use crate::model::types::{
+    BodyRef, Comparison, Expr, ExprNode, Frame, FrameQuantity, FrameStep, Function, ParamId, StateId,
+};
+
+use super::matrix3::{self, Matrix3};
 
 /// A value at compile time.
 #[derive(Clone, Debug)]
@@ -13,6 +17,8 @@ pub(crate) enum Value {
     Scalar(f64),
     Bool(bool),
     Vec3([f64; 3]),
+    /// Row by row.
+    Rotation(Matrix3),
     Array(Rc<[Value]>),
 }
 
@@ -37,6 +43,7 @@ impl Value {
             Value::Scalar(x) => into.push(*x),
             Value::Bool(b) => into.push(f64::from(u8::from(*b))),
             Value::Vec3(v) => into.extend(v),
+            Value::Rotation(rows) => into.extend(rows.as_flattened()),
             Value::Array(elements) => elements.iter().for_each(|e| e.flatten(into)),
         }
     }
@@ -46,6 +53,7 @@ impl Value {
             Value::Scalar(x) => x.is_finite(),
             Value::Bool(_) => true,
             Value::Vec3(v) => v.iter().all(|x| x.is_finite()),
+            Value::Rotation(rows) => rows.as_flattened().iter().all(|x| x.is_finite()),
             Value::Array(elements) => elements.iter().all(Value::is_finite),
         }
     }
@@ -117,7 +125,7 @@ impl Evaluator {
         let value = match self.compute(&expr.node) {
             Some(Value::Scalar(x)) => Some(Value::Scalar(self.moved(x))),
             Some(Value::Vec3(v)) => Some(Value::Vec3(v.map(|x| self.moved(x)))),
-            other @ (Some(Value::Bool(_) | Value::Array(_)) | None) => other,
+            other @ (Some(Value::Bool(_) | Value::Rotation(_) | Value::Array(_)) | None) => other,
         };
         self.memo.insert(key, (Rc::clone(&expr.node), value.clone()));
         value
@@ -182,6 +190,31 @@ impl Evaluator {
             ExprNode::And(a, b) => Some(Value::Bool(self.truth(a)? && self.truth(b)?)),
             ExprNode::Or(a, b) => Some(Value::Bool(self.truth(a)? || self.truth(b)?)),
             ExprNode::Not(a) => Some(Value::Bool(!self.truth(a)?)),
+            ExprNode::Identity => Some(Value::Rotation(matrix3::IDENTITY)),
+            ExprNode::RotationAbout { axis, angle } => {
+                let (axis, angle) = (self.vector(axis)?, self.scalar(angle)?);
+                Some(Value::Rotation(matrix3::rotation(axis, angle)))
+            }
+            ExprNode::RollPitchYaw([roll, pitch, yaw]) => {
+                let about = |axis: [f64; 3], angle: f64| matrix3::rotation(axis, angle);
+                let (roll, pitch, yaw) = (self.scalar(roll)?, self.scalar(pitch)?, self.scalar(yaw)?);
+                let turned = matrix3::product(&about([0.0, 1.0, 0.0], pitch), &about([1.0, 0.0, 0.0], roll));
+                Some(Value::Rotation(matrix3::product(&about([0.0, 0.0, 1.0], yaw), &turned)))
+            }
+            ExprNode::Compose(a, b) => {
+                let (a, b) = (self.rotation(a)?, self.rotation(b)?);
+                Some(Value::Rotation(matrix3::product(&a, &b)))
+            }
+            ExprNode::Rotated(rotation, vector) => {
+                let (rotation, vector) = (self.rotation(rotation)?, self.vector(vector)?);
+                Some(Value::Vec3(matrix3::times(&rotation, vector)))
+            }
+            ExprNode::OfFrame(frame, FrameQuantity::Position) => Some(Value::Vec3(self.fixed(frame)?.0)),
+            ExprNode::OfFrame(frame, FrameQuantity::Rotation) => Some(Value::Rotation(self.fixed(frame)?.1)),
+            ExprNode::Express { frame, vector } => {
+                let (axes, vector) = (self.fixed(frame)?.1, self.vector(vector)?);
+                Some(Value::Vec3(matrix3::times(&matrix3::transpose(axes), vector)))
+            }
             ExprNode::Select(condition, yes, no) => {
                 if self.truth(condition)? {
                     self.value(yes)
@@ -191,6 +224,42 @@ impl Evaluator {
             }
             _ => None,
         }
+    }
+
+    fn rotation(&mut self, expr: &Expr) -> Option<Matrix3> {
+        match self.value(expr)? {
+            Value::Rotation(rows) => Some(rows),
+            _ => None,
+        }
+    }
+
+    /// Origin and axes of a frame that stands still.
+    fn fixed(&mut self, frame: &Frame) -> Option<([f64; 3], Matrix3)> {
+        if frame.body != BodyRef::Ground {
+            return None;
+        }
+        let (mut origin, mut axes) = ([0.0; 3], matrix3::IDENTITY);
+        for step in &frame.steps {
+            match step {
+                FrameStep::At(offset) => {
+                    origin = matrix3::add(origin, matrix3::times(&axes, self.vector(offset)?));
+                }
+                FrameStep::Rotated(axis, angle) => {
+                    let turn = matrix3::rotation(self.vector(axis)?, self.scalar(angle)?);
+                    axes = matrix3::product(&axes, &turn);
+                }
+                FrameStep::Oriented(rows) => {
+                    let mut turn = matrix3::IDENTITY;
+                    for (row, entries) in turn.iter_mut().zip(rows.iter()) {
+                        for (entry, value) in row.iter_mut().zip(entries) {
+                            *entry = self.scalar(value)?;
+                        }
+                    }
+                    axes = matrix3::product(&axes, &turn);
+                }
+            }
+        }
+        Some((origin, axes))
     }
 
     fn truth(&mut self, expr: &Expr) -> Option<bool> {

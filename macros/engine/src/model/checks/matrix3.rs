@@ -7,7 +7,7 @@ use super::evaluate::dot;
 
 pub(in crate::model) type Vector3 = [f64; 3];
 
-pub(super) type Matrix3 = [[f64; 3]; 3];
+pub(in crate::model) type Matrix3 = [[f64; 3]; 3];
 
 pub(super) const IDENTITY: Matrix3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 

@@ -17,7 +17,8 @@ use crate::model::topology::Topology;
 use crate::model::typed::{Allowed, Class, FrameValue, Typed, new_expr};
 use crate::model::types::Expr as Checked;
 use crate::model::types::{
-    BodyRef, Constraint, ConstraintKind, Coordinate, Drive, DriveTarget, ExprNode, Joint, JointId, Joints, Order, Type,
+    BodyRef, Comparison, Constraint, ConstraintKind, Coordinate, Drive, DriveTarget, ExprNode, Joint, JointId, Joints,
+    Order, Type,
 };
 use crate::syntax::tree::{self, ItemKind};
 
@@ -138,6 +139,10 @@ impl<'a> Checker<'a, '_> {
         if let (ExprNode::Compare(comparison, a, b), Some([left, _])) = (&*condition.node, sides)
             && let (Some(is), Some(bound)) = (self.evaluator.scalar(a), self.evaluator.scalar(b))
         {
+            // Numbers are rounded.
+            if *comparison == Comparison::Equal && (is - bound).abs() <= 1e-9 * (is.abs() + bound.abs()) {
+                return;
+            }
             let what = crate::syntax::text(quote::ToTokens::to_token_stream(left)).replace(' ', "");
             let words = comparison.words();
             let message = format!("`{what}` must be {words} {bound}, but is {is} at the declared defaults");

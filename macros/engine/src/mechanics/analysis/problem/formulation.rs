@@ -164,12 +164,13 @@ impl Equations<'_> {
                 let column = columns.iter().position(|column| column.coordinate == coordinate)?;
                 Some((column, roots.push(slope)))
             });
-            let slopes = slopes.collect();
+            let slopes: Vec<(usize, usize)> = slopes.collect();
             let rate = self.rate_expression(row).or_fault("an equation of velocities has an expression");
             let still = self.scene.symbols.velocities.concat().into_iter().map(|v| (v, Scalar::ZERO));
             let still = self.map(&still.collect::<Vec<_>>());
             let rest = self.g.substitute(&[rate], &still)[0];
-            Rate { row, slopes, rest: roots.push(rest) }
+            let is_nothing = rate == Scalar::ZERO;
+            Rate { row, slopes, rest: roots.push(rest), is_nothing }
         });
         drafts.collect()
     }

@@ -19,7 +19,7 @@ use crate::model::types::{
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::Scalar;
 
-use super::coordinate_name;
+use super::{coordinate_name, row_name};
 
 /// Whether an equation is one of velocities alone.
 pub fn is_rate(model: &Model, row: Row) -> bool {
@@ -125,13 +125,16 @@ impl Equations<'_> {
         let model = self.scene.model;
         let LoopClosure::Constraint(id) = row.closing else { return None };
         let constraint = &model.constraints[id];
-        let name = &constraint.place.field;
+        let name = &row_name(model, row.closing, row.index);
         if let ConstraintKind::Rate(value) = &constraint.kind
             && let Some((at, message)) = unknown(value)
         {
             return Some(Complaint { at: at.site(), message, help: None });
         }
         let slopes = self.rate_slopes(row);
+        if slopes.is_empty() && self.rate_expression(row) == Some(Scalar::ZERO) {
+            return None;
+        }
         if slopes.is_empty() {
             let message = format!("the constraint `{name}` is of velocities, but none of them has a say in it");
             return Some(Complaint { at: constraint.site(), message, help: None });
