@@ -104,8 +104,9 @@ pub fn check_all(source: &tree::Source, diagnostics: &mut Diagnostics) -> Vec<Ch
             used.extend(checker.part_modules.iter().map(|(part, ..)| *part));
         }
     }
-    // A model that isn't all of the user's is generated without equations: never without a word.
+    // A model that isn't all of the user's is generated without equations: never without a word, here or where a part of it is declared.
     if diagnostics.is_empty()
+        && !source.lost
         && let Some(untold) = models.iter().find(|checked| checked.state != Soundness::Sound)
     {
         let name = &untold.model.name;

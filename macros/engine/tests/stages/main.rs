@@ -136,6 +136,10 @@ fn sources() -> Vec<(Vec<String>, String)> {
                 folders.push(path);
                 continue;
             }
+            // Parts of `compounds` are texts in the language.
+            if path.extension().is_none_or(|extension| extension != "rs") {
+                continue;
+            }
             let inside = path.strip_prefix(root()).expect("inside").with_extension("");
             let mut module: Vec<String> =
                 inside.components().map(|part| part.as_os_str().to_string_lossy().into_owned()).collect();
