@@ -155,3 +155,24 @@ const GEARED_DELTA: &str = "pub mod geared_delta {
         formulation { constraints: Reduced }
         emit equations;
     }";
+
+/// An equation of velocities stands where its value is given: with the rates of those of positions.
+#[test]
+fn equations_of_velocities_stand_with_rates() {
+    let text = "pub mod sled {
+        body sled { mass: 1.0, inertia: diag(1.0, 1.0, 1.0) }
+        joint plane: Planar { parent: ground, child: sled, axis: Z }
+        constraint rail = plane.y - sin(plane.x);
+        constraint blade = sled.express(sled.velocity).y;
+        emit forward_dynamics, constraints, report;
+    }";
+    let module = multibody_engine::commented(text.parse().unwrap()).to_string();
+    let before = |name: &str| {
+        let end = module.find(&format!("pub fn {name} (")).unwrap_or_else(|| panic!("no {name}"));
+        let start = module[..end].rfind("pub fn ").map_or(0, |at| at);
+        module[start..end].to_owned()
+    };
+    let (gaps, rates) = (before("constraints"), before("constraint_rate"));
+    assert!(gaps.contains("Phi[rail]") && !gaps.contains("Phi[blade]"), "{gaps}");
+    assert!(rates.contains("Phi[blade]") && !rates.contains("Phi[rail]"), "{rates}");
+}

@@ -5,6 +5,7 @@
 //! line on. A function has the equations of what it gives as plain text, since editors that show documentation know no MathML.
 
 use crate::contracts::function::FunctionKind;
+use crate::mechanics::loops::constraints::is_rate;
 use crate::mechanics::written::{Line, Page, Subject};
 use crate::model::types::Request;
 
@@ -103,7 +104,9 @@ pub(super) fn of_function(layout: &Layout<'_>, kind: FunctionKind) -> Vec<String
         FunctionKind::ForwardDynamics | FunctionKind::InverseDynamics | FunctionKind::Residual => {
             matches!(subject, Subject::Motion(_))
         }
-        FunctionKind::Constraints => matches!(subject, Subject::Constraint(_)),
+        // What is left of equations of velocities is given with the rates of the others.
+        FunctionKind::Constraints => matches!(subject, Subject::Constraint(row) if !is_rate(layout.model, row)),
+        FunctionKind::ConstraintRate => matches!(subject, Subject::Constraint(row) if is_rate(layout.model, row)),
         FunctionKind::ConstraintJacobian => matches!(subject, Subject::Slope(..)),
         FunctionKind::Outputs => matches!(subject, Subject::Output(_)),
         _ => false,
