@@ -35,8 +35,7 @@ fn small_motions(model: &Model, speed: f64) -> Matrix4<f64> {
     let linear = model.linearize(0.0, &riding(speed), &Input::default());
     // Slips of both wheels are the first six outputs; velocities stand behind the nine coordinates.
     let following = SMatrix::<f64, 6, 6>::from_fn(|i, j| linear.c[(i, 9 + FOLLOWS[j])]);
-    // Only at rest is the slip of neither wheel changed by anything.
-    let solve = following.try_inverse().unwrap_or_else(SMatrix::zeros);
+    let solve = following.try_inverse().expect("velocities that both wheels give");
     let column = |given: usize| {
         let mut change = SVector::<f64, 18>::zeros();
         change[given] = 1.0;
@@ -63,13 +62,12 @@ fn bisect(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let model = Model::default();
     let roots = |speed: f64| small_motions(&model, speed).complex_eigenvalues();
-    let least = |speed: f64, is_wave: bool| {
-        let real =
-            roots(speed).iter().filter(|x| (x.im != 0.0) == is_wave).map(|x| x.re).fold(f64::NEG_INFINITY, f64::max);
-        if real.is_finite() { real } else { 1.0 }
+    // How fast the worst motion grows that swings, or that doesn't.
+    let growth = |speed: f64, swings: bool| {
+        roots(speed).iter().filter(|x| (x.im != 0.0) == swings).map(|x| x.re).fold(f64::NEG_INFINITY, f64::max)
     };
-    let weave = bisect(3.0, 5.0, |speed| least(speed, true));
-    let capsize = bisect(5.0, 8.0, |speed| least(speed, false));
+    let weave = bisect(3.0, 5.0, |speed| growth(speed, true));
+    let capsize = bisect(5.0, 8.0, |speed| growth(speed, false));
     println!(
         "Stable by itself from {weave:.6} m/s (weave) to {capsize:.6} m/s (capsize); published 4.292383 and 6.024262."
     );

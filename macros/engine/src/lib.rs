@@ -11,7 +11,7 @@
 //! syntax: diagnostics rust_keywords
 //! model: syntax diagnostics rust_keywords invariant
 //! robots: model::names syntax diagnostics
-//! compounds: syntax diagnostics
+//! compounds: syntax diagnostics invariant
 //! contracts: model invariant
 //! symbolic: contracts::call contracts::cost invariant
 //! dynamics: symbolic contracts::call contracts::cost invariant

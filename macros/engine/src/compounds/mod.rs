@@ -9,6 +9,7 @@ use proc_macro2::{Ident, Span};
 use syn::ext::IdentExt;
 
 use crate::diagnostics::{Diagnostics, nearest};
+use crate::invariant::fault::OrFault;
 use crate::syntax::tree::{Field, Fields, Item, ItemKind, Part, Source};
 use crate::syntax::written;
 
@@ -111,8 +112,9 @@ impl Form {
     fn bound(&self, fields: &Fields, span: Span) -> Vec<Field> {
         let given = fields.list.iter().map(|field| Field { name: field.name.clone(), value: field.value.clone() });
         let left = self.optional.iter().filter(|(name, _)| fields.list.iter().all(|field| field.name != name));
-        let left = left.filter_map(|(name, value)| {
-            Some(Field { name: Ident::new(name, span), value: syn::parse_str(value).ok()? })
+        let left = left.map(|(name, value)| {
+            let value = syn::parse_str(value).ok().or_fault("what a field is by default is an expression");
+            Field { name: Ident::new(name, span), value }
         });
         given.chain(left).collect()
     }

@@ -196,10 +196,11 @@ impl Evaluator {
                 Some(Value::Rotation(matrix3::rotation(axis, angle)))
             }
             ExprNode::RollPitchYaw([roll, pitch, yaw]) => {
-                let about = |axis: [f64; 3], angle: f64| matrix3::rotation(axis, angle);
-                let (roll, pitch, yaw) = (self.scalar(roll)?, self.scalar(pitch)?, self.scalar(yaw)?);
-                let turned = matrix3::product(&about([0.0, 1.0, 0.0], pitch), &about([1.0, 0.0, 0.0], roll));
-                Some(Value::Rotation(matrix3::product(&about([0.0, 0.0, 1.0], yaw), &turned)))
+                let [x, y, z] = matrix3::IDENTITY;
+                let roll = matrix3::rotation(x, self.scalar(roll)?);
+                let pitch = matrix3::rotation(y, self.scalar(pitch)?);
+                let yaw = matrix3::rotation(z, self.scalar(yaw)?);
+                Some(Value::Rotation(matrix3::product(&yaw, &matrix3::product(&pitch, &roll))))
             }
             ExprNode::Compose(a, b) => {
                 let (a, b) = (self.rotation(a)?, self.rotation(b)?);
