@@ -115,6 +115,9 @@ impl System for Controlled {
         let power = torque.dot(&run.arm.v.into());
         (self.plant.forward_dynamics(t, &run.arm, &Input { torque: torque.into() }), power)
     }
+    fn position_rates(&self, _t: f64, run: &Run) -> Velocity {
+        run.arm.v
+    }
 }
 
 fn under_control() -> Result<(), IntegrationError> {

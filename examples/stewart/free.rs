@@ -60,6 +60,9 @@ impl System for Sprung {
         }
         (self.0.forward_dynamics(t, &run.plate, &input), power)
     }
+    fn position_rates(&self, _t: f64, run: &Run) -> reduced::Velocity {
+        run.plate.v
+    }
     /// A wrapper hands on what integrators ask of loops.
     fn margins(&self, t: f64, run: &Run, (): &(), visit: &mut dyn FnMut(Margin<f64>)) -> f64 {
         System::margins(&self.0, t, &run.plate, &reduced::Input::default(), visit)
@@ -79,6 +82,9 @@ impl System for Constraint {
             leg.thrust = thrust(state.q.legs[k].stroke, state.v.legs[k].stroke);
         }
         self.0.derivative(t, state, &input)
+    }
+    fn position_rates(&self, _t: f64, state: &hybrid::State) -> VelocityOf<Self> {
+        state.v
     }
 }
 

@@ -4,9 +4,9 @@ use std::rc::Rc;
 
 use multibody::{
     Canonical, Composition4, Composition6, Constrained, Differentiable, Dop853, DormandPrince, Euler, GaussLegendre4,
-    GaussLegendre6, GeneralisedAlpha, ImplicitMidpoint, Impulsive, Integrator, Radau, Rk4, SemiImplicitEuler,
-    Separable, SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint, System, Verlet, WithBaumgarte, simulate,
-    simulate_stiff,
+    GaussLegendre6, GeneralisedAlpha, ImplicitMidpoint, Impulsive, Integrator, Radau, Rk4, SecondOrder,
+    SemiImplicitEuler, Separable, SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint, System, Verlet,
+    WithBaumgarte, simulate, simulate_stiff,
 };
 
 use crate::bench::{Bench, Effort, Kind, Scene, Series, Steps};
@@ -90,7 +90,7 @@ pub(crate) fn run(name: &'static str, effort: Effort) -> Bench {
 /// A mechanism without loops.
 fn plain<S, R>(scene: Scene, effort: Effort, subject: &Subject<S>, single: &Subject<R>) -> Bench
 where
-    S: Differentiable<Scalar = f64, Input = ()> + Clone + 'static,
+    S: SecondOrder + Differentiable<Scalar = f64, Input = ()> + Clone + 'static,
     R: System<Scalar = f32, Input = ()> + Clone + 'static,
 {
     let mut bench = start(scene, effort, subject);
@@ -158,7 +158,7 @@ fn derivatives(scene: &str) -> f64 {
 }
 
 /// Methods for any system.
-fn general<S: Differentiable<Input = ()> + Clone + 'static>(
+fn general<S: SecondOrder + Differentiable<Input = ()> + Clone + 'static>(
     bench: &mut Bench,
     subject: &Subject<S>,
     handling: &'static str,
@@ -254,9 +254,13 @@ fn looped<S, R, C, D>(
     (double_loop, single_loop): (&Subject<C>, &Subject<D>),
 ) -> Bench
 where
-    S: Differentiable<Scalar = f64, Input = ()> + Clone + 'static,
+    S: SecondOrder + Differentiable<Scalar = f64, Input = ()> + Clone + 'static,
     R: System<Scalar = f32, Input = ()> + Clone + 'static,
-    C: Constrained<Scalar = f64, Input = ()> + Impulsive<Rates = <C as Constrained>::Residual> + Clone + 'static,
+    C: SecondOrder
+        + Constrained<Scalar = f64, Input = ()>
+        + Impulsive<Rates = <C as Constrained>::Residual>
+        + Clone
+        + 'static,
     D: Constrained<Scalar = f32, Input = ()> + Clone + 'static,
 {
     let mut bench = start(scene, effort, double);

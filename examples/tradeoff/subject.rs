@@ -6,8 +6,8 @@ use std::rc::Rc;
 use multibody::nalgebra::SVector;
 use multibody::projection::ByMass;
 use multibody::{
-    Constrained, Impulsive, IntegrationError, Projection, Real, StateSpace, Statistics, System, Tangent, VelocityOf,
-    WithProjection,
+    Constrained, DisplacementOf, Impulsive, IntegrationError, Projection, Real, StateSpace, Statistics, System,
+    Tangent, VelocityOf, WithProjection,
 };
 
 use crate::bench::greater;
@@ -133,12 +133,10 @@ pub(crate) fn doubled<T: Real, const N: usize>(vector: SVector<T, N>) -> SVector
 pub(crate) fn displaced<S: System<Scalar = f64>>(state: &S::State, number: usize, by: f64) -> S::State {
     let (q, v, x) = state.split();
     let mut count = 0;
-    let mut unit = || {
-        VelocityOf::<S>::zero().map(&mut |_| {
-            count += 1;
-            if count == number + 1 { by } else { 0.0 }
-        })
+    let mut component = |_| {
+        count += 1;
+        if count == number + 1 { by } else { 0.0 }
     };
-    let (dq, dv) = (unit(), unit());
+    let (dq, dv) = (DisplacementOf::<S>::zero().map(&mut component), VelocityOf::<S>::zero().map(&mut component));
     state.join(multibody::Configuration::displace(&q, &dq), v.add(&dv), x)
 }

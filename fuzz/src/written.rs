@@ -96,6 +96,8 @@ fn subject(of: &Written, subject: Subject) -> (&'static str, Vec<usize>) {
         Subject::Cosine(_) => ("cosine", vec![]),
         Subject::Sine(_) => ("sine", vec![]),
         Subject::Rate(_) => ("rate", vec![]),
+        Subject::Speed(_) => ("speed", vec![]),
+        Subject::Rolling(_) => ("rolling", vec![]),
         Subject::Driven(..) => ("driven", vec![]),
         Subject::Follows(..) => ("follows", vec![]),
         Subject::Rest(_) => ("rest", vec![]),

@@ -1,8 +1,9 @@
 //! Two properties that symplectic methods rest on: [`Separable`] and [`Canonical`].
 
-use crate::{PositionOf, System, VelocityOf};
+use crate::{PositionOf, SecondOrder, VelocityOf};
 
-/// A system whose accelerations depend on time, position and input alone, not on velocities.
+/// A system whose accelerations depend on time, position and input alone, not on velocities, and whose velocities are the
+/// rates of its coordinates.
 ///
 /// Generated models for which this is so implement it: the mass matrix is constant and so is every damping, which is
 /// none. Explicit symmetric compositions apply to such systems alone.
@@ -10,9 +11,10 @@ use crate::{PositionOf, System, VelocityOf};
     message = "the accelerations of `{Self}` depend on velocities",
     label = "this has to be `Separable`",
     note = "`multibody!` finds by itself where accelerations depend on time, positions and inputs alone: no damping, and a mass matrix that is constant",
-    note = "for any other model take `ImplicitMidpoint`, or `SymplecticMidpoint` with `emit momentum`, or `Rk4`"
+    note = "for any other model take `ImplicitMidpoint`, or `SymplecticMidpoint` with `emit momentum`, or `Rk4`",
+    note = "a model with `speed` items, or with speeds that are eliminated, never is: its velocities are not the rates of coordinates"
 )]
-pub trait Separable: System {}
+pub trait Separable: SecondOrder {}
 
 impl<S: Separable + ?Sized> Separable for &S {}
 
@@ -23,9 +25,10 @@ impl<S: Separable + ?Sized> Separable for &S {}
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not written in momenta",
     label = "this has to be `Canonical`",
-    note = "a model of `multibody!` is with `emit forward_dynamics, momentum`"
+    note = "a model of `multibody!` is with `emit forward_dynamics, momentum`",
+    note = "a model with `speed` items, or with speeds that are eliminated, never is: take `ImplicitMidpoint`, `GaussLegendre4` or `GaussLegendre6`"
 )]
-pub trait Canonical: System {
+pub trait Canonical: SecondOrder {
     /// The momenta `M(q) v` of a state.
     fn momentum(&self, state: &Self::State) -> VelocityOf<Self>;
 

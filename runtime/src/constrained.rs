@@ -1,10 +1,13 @@
 //! What projection and assembly see of a model whose coordinates obey equations: [`Constrained`], and what
 //! `emit kinematics` gives: [`Kinematics`].
 
-use crate::{PositionOf, System, Tangent, VelocityOf};
+use crate::{DisplacementOf, PositionOf, Real, StateSpace, System, Tangent, VelocityOf};
 use nalgebra::SVector;
 
 /// A system whose position has to satisfy `Phi(t, q) = 0`, and its velocity `G v + dPhi/dt = 0` with `G = dPhi/dq`.
+///
+/// Where velocities `u` are not the rates of coordinates, `G v` is `G q'` with `q' = N u + n` here: it is linear in them, too.
+/// Equations of positions are then closed by displacements, and their rates by velocities, each with functions of its own.
 ///
 /// Generated models with loops that are not reduced implement it. Written by hand, for a bead on a vertical ring, whose
 /// force of constraint is part of its equations:
@@ -35,6 +38,7 @@ use nalgebra::SVector;
 ///         let pull = (gravity.dot(&state.q) + state.v.norm_squared()) / state.q.norm_squared();
 ///         (gravity - state.q * pull, ())
 ///     }
+///     fn position_rates(&self, _t: f64, state: &State) -> Vector2<f64> { state.v }
 /// }
 ///
 /// impl Constrained for Bead {
@@ -44,6 +48,10 @@ use nalgebra::SVector;
 ///     fn correction(&self, _t: f64, q: &Vector2<f64>, residual: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
 ///         least_norm(&q.transpose(), &Vector1::new(*residual), weights)
 ///     }
+///     fn velocity_correction(&self, t: f64, state: &State, residual: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
+///         self.correction(t, &state.q, residual, weights)
+///     }
+///     fn constraints_along(&self, t: f64, state: &State, d: &Vector2<f64>) -> f64 { self.constraint_rate_along(t, state, d) }
 /// }
 ///
 /// let (d, rank) = Bead.correction(0.0, &Vector2::new(2.0, 0.0), &0.5, &Vector2::new(1.0, 1.0));
@@ -83,8 +91,34 @@ pub trait Constrained: System {
         t: Self::Scalar,
         q: &PositionOf<Self>,
         residual: &Self::Residual,
+        weights: &DisplacementOf<Self>,
+    ) -> (DisplacementOf<Self>, Self::Scalar);
+
+    /// The change `d` of the velocities that changes [`Constrained::constraint_rate`] by `residual`, for which the sum of
+    /// `d^2 / weight` is least, and the rank of the equations for velocities. A velocity of weight zero is held. All that is
+    /// said of [`Constrained::correction`] holds for it.
+    ///
+    /// Where velocities are the rates of coordinates it is `self.correction(t, &state.q, residual, weights)`.
+    fn velocity_correction(
+        &self,
+        t: Self::Scalar,
+        state: &Self::State,
+        residual: &Self::Residual,
         weights: &VelocityOf<Self>,
     ) -> (VelocityOf<Self>, Self::Scalar);
+
+    /// `G d`: how [`Constrained::constraints`] change along a displacement of the position, to first order.
+    ///
+    /// Where velocities are the rates of coordinates it is `self.constraint_rate_along(t, state, d)`.
+    fn constraints_along(&self, t: Self::Scalar, state: &Self::State, d: &DisplacementOf<Self>) -> Self::Residual;
+
+    /// How [`Constrained::constraint_rate`] changes with a change `d` of the velocities, in which it is linear.
+    #[inline]
+    fn constraint_rate_along(&self, t: Self::Scalar, state: &Self::State, d: &VelocityOf<Self>) -> Self::Residual {
+        let (q, _, x) = state.split();
+        let rate = |v: VelocityOf<Self>| self.constraint_rate(t, &state.join(q, v, x));
+        rate(*d).add_scaled(Self::Scalar::lit(-1.0), &rate(Tangent::zero()))
+    }
 
     /// [`Constrained::correction`] with weights of one by the zeros of `G`, if there is a faster way by them: generated models with
     /// large systems have one. It forms squares of `G`, so equations count as dependent already where they differ by less than
@@ -93,6 +127,16 @@ pub trait Constrained: System {
         &self,
         _t: Self::Scalar,
         _q: &PositionOf<Self>,
+        _residual: &Self::Residual,
+    ) -> Option<(DisplacementOf<Self>, Self::Scalar)> {
+        None
+    }
+
+    /// [`Constrained::velocity_correction`] with weights of one, in the same way.
+    fn least_velocity_correction(
+        &self,
+        _t: Self::Scalar,
+        _state: &Self::State,
         _residual: &Self::Residual,
     ) -> Option<(VelocityOf<Self>, Self::Scalar)> {
         None
@@ -120,9 +164,27 @@ impl<S: Constrained + ?Sized> Constrained for &S {
         t: S::Scalar,
         q: &PositionOf<S>,
         residual: &S::Residual,
+        weights: &DisplacementOf<S>,
+    ) -> (DisplacementOf<S>, S::Scalar) {
+        (**self).correction(t, q, residual, weights)
+    }
+    #[inline]
+    fn velocity_correction(
+        &self,
+        t: S::Scalar,
+        state: &S::State,
+        residual: &S::Residual,
         weights: &VelocityOf<S>,
     ) -> (VelocityOf<S>, S::Scalar) {
-        (**self).correction(t, q, residual, weights)
+        (**self).velocity_correction(t, state, residual, weights)
+    }
+    #[inline]
+    fn constraints_along(&self, t: S::Scalar, state: &S::State, d: &DisplacementOf<S>) -> S::Residual {
+        (**self).constraints_along(t, state, d)
+    }
+    #[inline]
+    fn constraint_rate_along(&self, t: S::Scalar, state: &S::State, d: &VelocityOf<S>) -> S::Residual {
+        (**self).constraint_rate_along(t, state, d)
     }
     #[inline]
     fn least_correction(
@@ -130,8 +192,17 @@ impl<S: Constrained + ?Sized> Constrained for &S {
         t: S::Scalar,
         q: &PositionOf<S>,
         residual: &S::Residual,
-    ) -> Option<(VelocityOf<S>, S::Scalar)> {
+    ) -> Option<(DisplacementOf<S>, S::Scalar)> {
         (**self).least_correction(t, q, residual)
+    }
+    #[inline]
+    fn least_velocity_correction(
+        &self,
+        t: S::Scalar,
+        state: &S::State,
+        residual: &S::Residual,
+    ) -> Option<(VelocityOf<S>, S::Scalar)> {
+        (**self).least_velocity_correction(t, state, residual)
     }
 }
 

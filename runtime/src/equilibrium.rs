@@ -1,7 +1,7 @@
 //! States that stay as they are: [`equilibrium`], at rest, and [`trim`], in a steady motion, with the exact derivatives of
 //! [`Differentiable`].
 //!
-//! Asked for are zero accelerations and zero rates of own states. What may change are the position, as a displacement, own
+//! Asked for are zero accelerations, rates of speeds where velocities are speeds, and zero rates of own states. What may change are the position, as a displacement, own
 //! states, and for a trim velocities and inputs, each component by a weight of its own. Each step is the least one,
 //! weighted, that solves the linearised equations: their rows are made orthogonal one after the other, the least
 //! dependent first (modified Gram-Schmidt with pivots, as in [`linear::least_norm`](crate::linear::least_norm)), so that
@@ -30,6 +30,7 @@
 //! #     type State = State;
 //! #     type Input = f64;
 //! #     fn derivative(&self, _t: f64, x: &State, u: &f64) -> (f64, ()) { (-9.81 * x.q.sin() - x.v + u, ()) }
+//! #     fn position_rates(&self, _t: f64, x: &State) -> f64 { x.v }
 //! # }
 //! # impl Differentiable for Pendulum {
 //! #     type Matrix = [[f64; 1]; 1];
@@ -60,16 +61,17 @@ mod search;
 
 pub use error::EquilibriumError;
 
-use crate::{Constrained, Differentiable, ExtraOf, Real, StateSpace, System, Tangent, VelocityOf};
+use crate::tangent::greatest;
+use crate::{Constrained, Differentiable, DisplacementOf, ExtraOf, Real, StateSpace, System, Tangent, VelocityOf};
 use closing::{Loops, Open};
 use search::{Held, Search, Turned};
 
 /// What may change in the search for a [`trim`]: zero where a component is held, one where it is free, other positive
 /// numbers where it is to change more or less willingly. By default nothing is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Free<V, X, U> {
+pub struct Free<Q, V, X, U> {
     /// Displacements of the position.
-    pub position: V,
+    pub position: Q,
     /// Velocities.
     pub velocity: V,
     /// Own states.
@@ -111,9 +113,12 @@ pub fn equilibrium<S: Differentiable>(
     t: S::Scalar,
     guess: &S::State,
     input: &S::Input,
-    free: &VelocityOf<S>,
+    free: &DisplacementOf<S>,
 ) -> Found<S, ()> {
-    Search::run(system, &Held(input), &Open, t, &resting::<S>(guess), (), &at_rest::<S>(free))
+    let found = Search::run(system, &Held(input), &Open, t, &resting::<S>(guess), (), &at_rest::<S>(free))?;
+    // Where velocities are the rates of coordinates they are zero.
+    let rate = greatest(&system.position_rates(t, &found.state)).greatest();
+    if rate > 0.0 { Err(EquilibriumError::Moving { rate }) } else { Ok(found) }
 }
 
 /// A steady motion near `guess` at the time `t` `[s]`: no accelerations and no rates of own states. What is free, of
@@ -129,7 +134,7 @@ pub fn trim<S: Differentiable>(
     t: S::Scalar,
     guess: &S::State,
     input: &S::Input,
-    free: &Free<VelocityOf<S>, ExtraOf<S>, S::Input>,
+    free: &Free<DisplacementOf<S>, VelocityOf<S>, ExtraOf<S>, S::Input>,
 ) -> Found<S, S::Input>
 where
     S::Input: Tangent<S::Scalar>,
@@ -150,7 +155,7 @@ pub fn constrained_equilibrium<S: Differentiable + Constrained>(
     t: S::Scalar,
     guess: &S::State,
     input: &S::Input,
-    free: &VelocityOf<S>,
+    free: &DisplacementOf<S>,
 ) -> Found<S, ()> {
     Search::run(system, &Held(input), &Loops(system), t, &resting::<S>(guess), (), &at_rest::<S>(free))
 }
@@ -162,15 +167,15 @@ fn resting<S: System>(state: &S::State) -> S::State {
 }
 
 /// Positions and own states are free.
-fn at_rest<S: System>(position: &VelocityOf<S>) -> Free<VelocityOf<S>, ExtraOf<S>, ()> {
+fn at_rest<S: System>(position: &DisplacementOf<S>) -> Free<DisplacementOf<S>, VelocityOf<S>, ExtraOf<S>, ()> {
     let states = ExtraOf::<S>::zero().map(&mut |_| S::Scalar::lit(1.0));
     Free { position: *position, velocity: Tangent::zero(), states, input: () }
 }
 
-impl<T: Real, V: Tangent<T>, X: Tangent<T>, U: Tangent<T>> Tangent<T> for Free<V, X, U> {
+impl<T: Real, Q: Tangent<T>, V: Tangent<T>, X: Tangent<T>, U: Tangent<T>> Tangent<T> for Free<Q, V, X, U> {
     #[inline]
     fn zero() -> Self {
-        Self { position: V::zero(), velocity: V::zero(), states: X::zero(), input: U::zero() }
+        Self { position: Q::zero(), velocity: V::zero(), states: X::zero(), input: U::zero() }
     }
     #[inline]
     fn zip<F: FnMut(T, T) -> T>(&self, other: &Self, f: &mut F) -> Self {

@@ -1,6 +1,7 @@
 //! A law that acts on a system at every stage of a step: [`Feedback`].
 
-use crate::{ExtraOf, Margin, Opening, System, VelocityOf};
+use crate::integrators::SlopeOf;
+use crate::{DisplacementOf, ExtraOf, Margin, Opening, System, VelocityOf};
 
 /// A system whose input is what a law makes of time and state, evaluated at every stage of a step and not held over it.
 ///
@@ -47,6 +48,14 @@ impl<S: System, F: Fn(S::Scalar, &S::State) -> S::Input> System for Feedback<S, 
     #[inline]
     fn derivative(&self, t: S::Scalar, state: &S::State, (): &()) -> (VelocityOf<S>, ExtraOf<S>) {
         self.system.derivative(t, state, &(self.law)(t, state))
+    }
+    #[inline]
+    fn position_rates(&self, t: S::Scalar, state: &S::State) -> DisplacementOf<S> {
+        self.system.position_rates(t, state)
+    }
+    #[inline]
+    fn slope(&self, t: S::Scalar, state: &S::State, (): &()) -> SlopeOf<S> {
+        self.system.slope(t, state, &(self.law)(t, state))
     }
     #[inline]
     fn accepted(&self, t: S::Scalar, state: &S::State, (): &()) -> S::State {

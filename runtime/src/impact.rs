@@ -28,6 +28,7 @@
 //! #     type State = State;
 //! #     type Input = ();
 //! #     fn derivative(&self, _t: f64, _state: &State, (): &()) -> (Vector2<f64>, ()) { (Vector2::new(0.0, -9.81), ()) }
+//! #     fn position_rates(&self, _t: f64, state: &State) -> Vector2<f64> { state.v }
 //! # }
 //! # impl Impulsive for Ball {
 //! #     type Rates = ();

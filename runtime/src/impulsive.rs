@@ -12,6 +12,9 @@ use crate::{PositionOf, System, Tangent, VelocityOf};
 /// G d          = rates
 /// ```
 ///
+/// Where velocities are not the rates of coordinates, `M` is the mass matrix and an impulse the generalised one of these
+/// velocities (times them it is power), and `G` says how they change the rates of the equations.
+///
 /// Impacts take an impulse and no rates; a projection weighted by mass, or a stabilised acceleration, takes rates and no
 /// impulse.
 #[diagnostic::on_unimplemented(

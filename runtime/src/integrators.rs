@@ -23,6 +23,10 @@
 //! | [`SymplecticGauss4`] | 4 | 2 for each iteration | [`Canonical`](crate::Canonical) | no | quintic | the same, more accurate |
 //! | [`SymplecticGauss6`] | 6 | 3 for each iteration | [`Canonical`](crate::Canonical) | no | quintic | the same to rounding |
 //!
+//! All take systems whose velocities are speeds of their own, `q' = N(q) u` ([`System::position_rates`](crate::System::position_rates)),
+//! but [`GeneralisedAlpha`] and those that ask for [`Separable`](crate::Separable) or [`Canonical`](crate::Canonical), which
+//! rest on `q' = v` ([`SecondOrder`](crate::SecondOrder)).
+//!
 //! The error within a step of dense output shrinks with the power of the step that is one above its order; a cubic is of
 //! order 3, a quintic of order 5. States within a step are never better than its ends: with a cubic, those of methods of
 //! second order are of second order throughout.
@@ -87,6 +91,7 @@ pub use lanes::{LaneEnd, LaneEnds};
 pub use method::{Accepted, Attempt, Method};
 pub use problem::{Problem, Step};
 pub use radau::Radau;
+pub(crate) use radau::{Eliminated, Entire, Matrices};
 pub use rk4::Rk4;
 pub use sampling::Samples;
 pub use semi_implicit_euler::SemiImplicitEuler;

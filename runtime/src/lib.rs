@@ -115,6 +115,7 @@ pub mod record;
 pub mod rotation;
 mod sampled;
 mod scalar;
+mod second_order;
 #[cfg(feature = "serde")]
 #[doc(hidden)]
 pub mod serial;
@@ -134,7 +135,7 @@ pub use coordinates::{
     Cylindrical, FreeRollPitchYaw, PinSlot, Placement, Planar, Pose, RollPitchYaw, Twist, Universal, Wrench,
 };
 pub use cost::Cost;
-pub use differentiable::{Derivatives, Differentiable, Jacobian};
+pub use differentiable::{Derivatives, Differentiable, FullJacobian, Jacobian, JacobianMatrix, JacobianOf};
 pub use equation::Equation;
 pub use equilibrium::{Equilibrium, EquilibriumError, Free, constrained_equilibrium, equilibrium, trim};
 pub use feedback::{Feedback, closed_loop};
@@ -143,8 +144,8 @@ pub use impulsive::Impulsive;
 pub use inertia::{ParamError, inertia_violation, is_held};
 pub use integrators::{
     Composition4, Composition6, Dop853, DormandPrince, Euler, GaussLegendre4, GaussLegendre6, GeneralisedAlpha,
-    ImplicitMidpoint, IntegrationError, Integrator, LaneEnd, LaneEnds, Method, Radau, Rk4, SemiImplicitEuler,
-    Statistics, Steps, SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint, Tolerance, Verlet,
+    ImplicitMidpoint, IntegrationError, Integrator, LaneEnd, LaneEnds, Method, Radau, Rk4, SemiImplicitEuler, Slope,
+    SlopeOf, Statistics, Steps, SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint, Tolerance, Verlet,
 };
 pub use linearization::Linearization;
 pub use lower_triangle::LowerTriangle;
@@ -168,11 +169,12 @@ pub use record::Recorder;
 pub use record::{Column, Columns};
 pub use sampled::{Held, Sampled, sampled};
 pub use scalar::{Four, Packed, Real, all, any};
+pub use second_order::SecondOrder;
 #[cfg(feature = "serde")]
 pub use serde;
 pub use simba;
 pub use simulate::{simulate, simulate_lanes, simulate_stiff};
-pub use system::{ExtraOf, Margin, PositionOf, StateSpace, System, VelocityOf};
+pub use system::{DisplacementOf, ExtraOf, Margin, PositionOf, StateSpace, System, VelocityOf};
 pub use tangent::Tangent;
 pub use verify::{Agreement, Verifiable, verify, verify_at};
 

@@ -27,6 +27,7 @@
 //! #         let gravity = Vector2::new(0.0, -9.81);
 //! #         (gravity - state.q * (gravity.dot(&state.q) + state.v.norm_squared()) / state.q.norm_squared(), ())
 //! #     }
+//! #     fn position_rates(&self, _t: f64, state: &State) -> Vector2<f64> { state.v }
 //! # }
 //! # impl Constrained for Model {
 //! #     type Residual = f64;
@@ -35,6 +36,10 @@
 //! #     fn correction(&self, _t: f64, q: &Vector2<f64>, r: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
 //! #         least_norm(&q.transpose(), &Vector1::new(*r), weights)
 //! #     }
+//! #     fn velocity_correction(&self, t: f64, state: &State, r: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
+//! #         self.correction(t, &state.q, r, weights)
+//! #     }
+//! #     fn constraints_along(&self, t: f64, state: &State, d: &Vector2<f64>) -> f64 { self.constraint_rate_along(t, state, d) }
 //! # }
 //! # }
 //! use bead::{Model, State}; // a bead on a ring of radius one, see `Constrained`
@@ -90,18 +95,20 @@ mod rank;
 mod weighting;
 mod wrapper;
 
-pub use assembly::{Assembled, assemble};
+pub use assembly::{Assembled, assemble, assemble_by};
 pub use baumgarte::WithBaumgarte;
 pub(crate) use clarity::TURNED;
 pub use clarity::ambiguity;
 pub use error::{AssemblyError, ProjectionError};
 pub use rank::{WithRank, rank};
-pub use weighting::{ByMass, Plain, Weighting, Weights};
+pub use weighting::{ByMass, Plain, SeparateWeights, Weighting, Weights};
 pub use wrapper::WithProjection;
 
+use crate::system::displacement_by;
 use crate::tangent::greatest;
 use crate::{
-    Configuration, Constrained, Impulsive, PositionOf, Real, StateSpace, System, Tangent, VelocityOf, all, any,
+    Configuration, Constrained, DisplacementOf, Impulsive, PositionOf, Real, SecondOrder, StateSpace, System, Tangent,
+    VelocityOf, all, any,
 };
 use clarity::{is_unclear, noticed};
 
@@ -170,11 +177,12 @@ impl Projection {
 
     /// The same for other weights: the sum of `d^2 / weight` is least, and a coordinate of weight zero is held.
     ///
-    /// With the inverses of masses and moments of inertia as weights, what is heavy moves less.
+    /// With the inverses of masses and moments of inertia as weights, what is heavy moves less. Where velocities are not
+    /// the rates of coordinates, take [`Projection::project_by`] with [`SeparateWeights`].
     ///
     /// # Errors
     /// See [`ProjectionError`].
-    pub fn project_weighted<S: Constrained>(
+    pub fn project_weighted<S: Constrained + SecondOrder>(
         &self,
         system: &S,
         t: S::Scalar,
@@ -262,13 +270,14 @@ impl Projection {
         let iterations = if self.position { self.iterations } else { 0 };
         for _ in 0..iterations {
             let residual = negative(&system.constraints(t, &q));
-            let (d, now) = weighting.fixed_correction(system, t, &q, &residual);
+            let (d, now) = weighting.fixed_correction(system, t, &state.join(q, v, x), &residual);
             q = q.displace(&d);
             rank = now;
         }
         if self.velocity {
-            let rate = negative(&system.constraint_rate(t, &state.join(q, v, x)));
-            let (d, now) = weighting.fixed_correction(system, t, &q, &rate);
+            let open = state.join(q, v, x);
+            let rate = negative(&system.constraint_rate(t, &open));
+            let (d, now) = weighting.fixed_velocity_correction(system, t, &open, &rate);
             v = v.add(&d);
             rank = now;
         }
@@ -299,9 +308,11 @@ impl Projection {
             if all(settled) {
                 break;
             }
-            let (d, now) = weighting.correction(system, t, &q, &negative(&residual));
+            let here = state.join(q, v, x);
+            let (d, now) = weighting.correction(system, t, &here, &negative(&residual));
             rank = Some(now);
-            closed = closed | (!settled & at_rounding(system, t, &state.join(q, v, x), &d, &residual));
+            let rounding = at_rounding::<S>(&q, &d, &residual, || system.constraints_along(t, &here, &d));
+            closed = closed | (!settled & rounding);
             // In the pose itself what is within the tolerance is rounding, and no displacement makes it good.
             let settled = settled | (close & Real::gt(greatest(&d), polishing::<S>(&q, size)));
             closed = closed | (close & settled);
@@ -321,7 +332,7 @@ impl Projection {
         let motion = if self.velocity {
             Motion::of(weighting, system, t, &state, self.tolerance)
         } else {
-            let rank = rank.unwrap_or_else(|| weighting.correction(system, t, &q, &S::Residual::zero()).1);
+            let rank = rank.unwrap_or_else(|| weighting.correction(system, t, &state, &S::Residual::zero()).1);
             Motion { state, rank, rate: S::Scalar::lit(0.0), consistent: !never::<S>() }
         };
         Run { motion, residual: size, closed, unclear, iterations }
@@ -373,12 +384,14 @@ impl<S: Constrained> Motion<S> {
         let mut rank = S::Scalar::lit(0.0);
         let mut consistent = never::<S>();
         for again in [false, true] {
+            let here = state.join(q, v, x);
             let (d, now) = if again {
-                weighting.fixed_correction(system, t, &q, &negative(&rate))
+                weighting.fixed_velocity_correction(system, t, &here, &negative(&rate))
             } else {
-                weighting.correction(system, t, &q, &negative(&rate))
+                weighting.velocity_correction(system, t, &here, &negative(&rate))
             };
-            let at_rounding = at_rounding(system, t, &state.join(q, v, x), &d, &rate);
+            let moved = displacement_by(system, t, &here, &d);
+            let at_rounding = at_rounding::<S>(&q, &moved, &rate, || system.constraint_rate_along(t, &here, &d));
             v = v.zip(&d, &mut |v, d| Real::select(consistent, v, v + d));
             rate = system.constraint_rate(t, &state.join(q, v, x));
             rank = now;
@@ -436,24 +449,21 @@ fn polishing<S: Constrained>(q: &PositionOf<S>, residual: S::Scalar) -> S::Scala
 }
 
 /// Whether the correction `d` for a residual is lost in the rounding of the coordinates, and yet would make up for at
-/// least half of the residual: then the residual is rounding too. Residuals that no displacement changes are not.
+/// least half of the residual, by `change`: then the residual is rounding too. Residuals that no displacement changes are
+/// not. Velocities are compared by what they displace in a second.
 fn at_rounding<S: Constrained>(
-    system: &S,
-    t: S::Scalar,
-    state: &S::State,
-    d: &VelocityOf<S>,
+    q: &PositionOf<S>,
+    d: &DisplacementOf<S>,
     residual: &S::Residual,
+    change: impl FnOnce() -> S::Residual,
 ) -> Mask<S> {
     let one = S::Scalar::lit(1.0);
-    let (q, _, x) = state.split();
     let relative = d.zip(&q.magnitude(), &mut |d, q| d / (one + Real::abs(q)));
     let small = Real::le(greatest(&relative), S::Scalar::lit(ROUNDINGS) * S::Scalar::epsilon());
     if !any(small) {
         return small;
     }
 
-    let rate = |v: VelocityOf<S>| system.constraint_rate(t, &state.join(q, v, x));
-    let change = rate(*d).add_scaled(-one, &rate(Tangent::zero()));
-    let left = greatest(&residual.add(&change));
+    let left = greatest(&residual.add(&change()));
     small & Real::le(left, S::Scalar::lit(0.5) * greatest(residual))
 }

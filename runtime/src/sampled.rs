@@ -6,8 +6,10 @@
 
 use core::marker::PhantomData;
 
+use crate::integrators::SlopeOf;
 use crate::{
-    Differentiable, ExtraOf, Jacobian, Margin, Opening, Real, StateSpace, System, Tangent, VelocityOf, all, any,
+    Differentiable, DisplacementOf, ExtraOf, JacobianOf, Margin, Opening, Real, StateSpace, System, Tangent,
+    VelocityOf, all, any,
 };
 
 /// A sample is due this share of a period before its time: sums of steps are rounded.
@@ -141,6 +143,14 @@ where
         self.system.derivative(t, &held.state, &held.input)
     }
     #[inline]
+    fn position_rates(&self, t: S::Scalar, held: &Self::State) -> DisplacementOf<S> {
+        self.system.position_rates(t, &held.state)
+    }
+    #[inline]
+    fn slope(&self, t: S::Scalar, held: &Self::State, (): &()) -> SlopeOf<S> {
+        self.system.slope(t, &held.state, &held.input)
+    }
+    #[inline]
     fn accepted(&self, t: S::Scalar, held: &Self::State, (): &()) -> Self::State {
         self.renewed(t, Held { state: self.system.accepted(t, &held.state, &held.input), ..*held })
     }
@@ -188,7 +198,7 @@ where
     type Matrix = S::Matrix;
 
     #[inline]
-    fn jacobian(&self, t: S::Scalar, held: &Self::State, (): &()) -> Jacobian<S::Matrix> {
+    fn jacobian(&self, t: S::Scalar, held: &Self::State, (): &()) -> JacobianOf<S> {
         self.system.jacobian(t, &held.state, &held.input)
     }
     #[inline]

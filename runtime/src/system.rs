@@ -4,6 +4,7 @@
 //! says what it is made of. `System` adds the one function that the mechanics decide. A wrapper, such as a controller
 //! around a model, borrows the state of its model and writes that one function.
 
+use crate::integrators::{Slope, SlopeOf};
 use crate::{Configuration, Opening, Real, Tangent};
 
 /// A state made of a position, a velocity, and the model's own states where it has any.
@@ -14,8 +15,9 @@ pub trait StateSpace: Copy {
     /// The scalar.
     type Scalar: Real;
     /// Positions.
-    type Position: Configuration<Self::Scalar, Velocity = Self::Velocity>;
-    /// Velocities, one component for each degree of freedom.
+    type Position: Configuration<Self::Scalar>;
+    /// Velocities, one component for each degree of freedom: the rates of coordinates, or speeds of which
+    /// [`System::position_rates`] makes these rates.
     type Velocity: Tangent<Self::Scalar>;
     /// The states of the user's own differential equations; `()` where there are none.
     type Extra: Tangent<Self::Scalar>;
@@ -42,7 +44,11 @@ pub struct Margin<T> {
 /// The position type of a system.
 pub type PositionOf<S> = <<S as System>::State as StateSpace>::Position;
 
-/// The velocity type of a system.
+/// What displaces the position of a system, and the type of its rate. It has a component for each coordinate, a rotation
+/// three, where velocities may be fewer.
+pub type DisplacementOf<S> = <PositionOf<S> as Configuration<<S as System>::Scalar>>::Velocity;
+
+/// The velocity type of a system: that of [`DisplacementOf`] where velocities are the rates of coordinates.
 pub type VelocityOf<S> = <<S as System>::State as StateSpace>::Velocity;
 
 /// The type of a system's own states, `()` where it has none.
@@ -78,6 +84,7 @@ pub type ExtraOf<S> = <<S as System>::State as StateSpace>::Extra;
 ///     type State = State<T>;
 ///     type Input = T;
 ///     fn derivative(&self, _t: T, _state: &State<T>, force: &T) -> (T, ()) { (*force / self.mass, ()) }
+///     fn position_rates(&self, _t: T, state: &State<T>) -> T { state.v }
 /// }
 ///
 /// /// A proportional-derivative controller around any system with the state and the input of a cart.
@@ -91,6 +98,7 @@ pub type ExtraOf<S> = <<S as System>::State as StateSpace>::Extra;
 ///         let force = -(state.q + T::lit(2.0) * state.v);
 ///         self.plant.derivative(t, state, &force)
 ///     }
+///     fn position_rates(&self, t: T, state: &State<T>) -> T { self.plant.position_rates(t, state) }
 /// }
 ///
 /// let system = Controlled { plant: Cart { mass: 1.0 } };
@@ -120,6 +128,20 @@ pub trait System {
         state: &Self::State,
         input: &Self::Input,
     ) -> (VelocityOf<Self>, ExtraOf<Self>);
+
+    /// The rates of the position at the time `t` `[s]`: `q' = N(q) u + n(q, t)`, linear in the velocities `u`. Where
+    /// velocities are the rates of coordinates, that is the velocity itself, `state.v`.
+    ///
+    /// Of rotations it is the angular velocity about the child's own axes.
+    fn position_rates(&self, t: Self::Scalar, state: &Self::State) -> DisplacementOf<Self>;
+
+    /// [`System::position_rates`] and [`System::derivative`] together: what methods integrate. Written by default as
+    /// these two; systems in which both share work write it anew, with the same values.
+    #[inline]
+    fn slope(&self, t: Self::Scalar, state: &Self::State, input: &Self::Input) -> SlopeOf<Self> {
+        let (v, x) = self.derivative(t, state, input);
+        Slope { q: self.position_rates(t, state), v, x }
+    }
 
     /// Called with the state at the end of every step before anyone sees it: renews what the state holds besides its
     /// coordinates, and brings coordinates back to where they belong. Wrappers of a model that has such things hand the
@@ -203,6 +225,14 @@ impl<S: System + ?Sized> System for &S {
         (**self).derivative(t, state, input)
     }
     #[inline]
+    fn position_rates(&self, t: S::Scalar, state: &S::State) -> DisplacementOf<S> {
+        (**self).position_rates(t, state)
+    }
+    #[inline]
+    fn slope(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> SlopeOf<S> {
+        (**self).slope(t, state, input)
+    }
+    #[inline]
     fn accepted(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> S::State {
         (**self).accepted(t, state, input)
     }
@@ -236,4 +266,18 @@ impl<S: System + ?Sized> System for &S {
     fn without_inertia(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> Option<&'static str> {
         (**self).without_inertia(t, state, input)
     }
+}
+
+/// How a change of the velocities displaces the position in a unit of time: `N(q) d`. Where velocities are the rates of
+/// coordinates, that is `d` to the last bit.
+#[inline]
+pub(crate) fn displacement_by<S: System>(
+    system: &S,
+    t: S::Scalar,
+    state: &S::State,
+    d: &VelocityOf<S>,
+) -> DisplacementOf<S> {
+    let (q, _, x) = state.split();
+    let at = |v: VelocityOf<S>| system.position_rates(t, &state.join(q, v, x));
+    at(*d).add_scaled(S::Scalar::lit(-1.0), &at(Tangent::zero()))
 }

@@ -67,6 +67,9 @@ pub mod name {
     /// A name for an expression, a frame or a joint.
     pub struct Let;
 
+    /// A velocity coordinate of the user's choice, a field of `Velocity`.
+    pub struct Speed;
+
     /// A field of `Output`.
     pub struct Output;
 

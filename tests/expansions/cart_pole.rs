@@ -775,6 +775,9 @@ pub mod cart_pole {
         ) -> (Velocity<T>, ()) {
             (self.forward_dynamics(t, state, input), ())
         }
+        fn position_rates(&self, _t: T, state: &State<T>) -> Velocity<T> {
+            state.v
+        }
         fn without_inertia(
             &self,
             _t: T,

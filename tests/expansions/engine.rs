@@ -955,6 +955,9 @@ pub(crate) mod engine {
         ) -> (Velocity<T>, ()) {
             (self.forward_dynamics(t, state, input), ())
         }
+        fn position_rates(&self, _t: T, state: &State<T>) -> Velocity<T> {
+            state.v
+        }
         fn margins(
             &self,
             t: T,

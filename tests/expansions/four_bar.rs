@@ -1476,6 +1476,9 @@ pub mod four_bar {
         ) -> (Velocity<T>, ()) {
             (self.forward_dynamics(t, state, input), ())
         }
+        fn position_rates(&self, _t: T, state: &State<T>) -> Velocity<T> {
+            state.v
+        }
         fn margins(
             &self,
             t: T,

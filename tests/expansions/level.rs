@@ -1655,6 +1655,9 @@ pub mod level {
         ) -> (Velocity<T>, ()) {
             (self.forward_dynamics(t, state, input), ())
         }
+        fn position_rates(&self, _t: T, state: &State<T>) -> Velocity<T> {
+            state.v
+        }
         fn margins(
             &self,
             t: T,

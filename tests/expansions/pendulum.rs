@@ -575,6 +575,9 @@ pub mod pendulum {
         fn derivative(&self, t: T, state: &State<T>, input: &()) -> (Velocity<T>, ()) {
             (self.forward_dynamics(t, state, input), ())
         }
+        fn position_rates(&self, _t: T, state: &State<T>) -> Velocity<T> {
+            state.v
+        }
         fn without_inertia(
             &self,
             _t: T,

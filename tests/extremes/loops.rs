@@ -174,6 +174,9 @@ fn rows_of_four_bars_reduced() {
                 fn derivative(&self, t: f64, x: &$model::State, (): &()) -> ($model::Velocity, ()) {
                     self.0.derivative(t, x, &())
                 }
+                fn position_rates(&self, _t: f64, x: &$model::State) -> $model::Velocity {
+                    x.v
+                }
                 fn accepted(&self, _t: f64, x: &$model::State, (): &()) -> $model::State {
                     let mut x = *x;
                     x.q.crank -= TAU * (x.q.crank / TAU).round();

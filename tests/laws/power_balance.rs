@@ -20,7 +20,9 @@ mod examples {
 }
 
 use multibody::nalgebra::{SVector, Vector3};
-use multibody::{Configuration, DormandPrince, Projection, RollPitchYaw, StateSpace, System, Tangent, VelocityOf};
+use multibody::{
+    Configuration, DisplacementOf, DormandPrince, Projection, RollPitchYaw, StateSpace, System, Tangent, VelocityOf,
+};
 use multibody_tests::support::compare::worse;
 use multibody_tests::support::data::{array, list, read};
 use multibody_tests::support::random::Random;
@@ -70,6 +72,9 @@ where
     fn derivative(&self, t: f64, state: &Self::State, input: &M::Input) -> (VelocityOf<Self>, f64) {
         (self.model.derivative(t, &state.plant, input).0, (self.power)(t, &state.plant, input))
     }
+    fn position_rates(&self, t: f64, state: &Self::State) -> DisplacementOf<M> {
+        self.model.position_rates(t, &state.plant)
+    }
     fn accepted(&self, t: f64, state: &Self::State, input: &M::Input) -> Self::State {
         Worked { plant: self.model.accepted(t, &state.plant, input), ..*state }
     }
@@ -109,8 +114,8 @@ fn accelerations<S: System<Scalar = f64, State: Default>>(system: &S, input: &S:
     for _ in 0..10 {
         let start = S::State::default();
         let (q, v, own) = start.split();
-        let mut vector = || v.map(&mut |_| random.unit());
-        let state = start.join(q.displace(&vector()), vector(), own);
+        let q = q.displace(&DisplacementOf::<S>::zero().map(&mut |_| random.unit()));
+        let state = start.join(q, v.map(&mut |_| random.unit()), own);
         system.derivative(0.0, &state, input).0.fold((), &mut |(), x| all.push(x));
     }
     all

@@ -4,7 +4,9 @@
 use multibody::linear::Square;
 use multibody::nalgebra::SMatrix;
 use multibody::simba::simd::{SimdValue, WideF64x4};
-use multibody::{Configuration, Derivatives, Differentiable, Real, StateSpace, System, Tangent, VelocityOf};
+use multibody::{
+    Configuration, Derivatives, Differentiable, JacobianMatrix, Real, StateSpace, System, Tangent, VelocityOf,
+};
 use multibody_tests::models::linearised;
 use multibody_tests::support::arm::*;
 use multibody_tests::support::compare::{relative, worse};
@@ -250,8 +252,7 @@ where
     let jacobian = model.jacobian(t, &state, &input);
     let (n, x) = (point.v.len(), point.x.len());
     assert_eq!(<M::Matrix as Square<f64>>::SIZE, n + x);
-    let column =
-        |matrix: &M::Matrix, column: usize| -> Vec<f64> { (0..n + x).map(|row| matrix.get(row, column)).collect() };
+    let column = |entry: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..n + x).map(entry).collect() };
     let (accel, twin_accel): (VelocityOf<M>, VelocityOf<D>) = (filled(&point.a), filled(&point.a));
     let slopes = model.slopes(t, &state, &input, &accel);
     let mut worst = [0.0; 2];
@@ -259,9 +260,9 @@ where
         let (mut got, mut want, mut want_inverse) = (Vec::new(), Vec::new(), Vec::new());
         for at in 0..count {
             got.extend(match kind {
-                0 => column(&jacobian.position, at),
-                1 => column(&jacobian.rates, at),
-                2 => column(&jacobian.rates, n + at),
+                0 => column(&|row| M::Matrix::by_position(&jacobian, row, at)),
+                1 => column(&|row| M::Matrix::by_rates(&jacobian, row, at)),
+                2 => column(&|row| M::Matrix::by_rates(&jacobian, row, n + at)),
                 _ => {
                     let unit: Vec<f64> = (0..count).map(|k| if k == at { 1.0 } else { 0.0 }).collect();
                     let (v, x) = model.input_derivative(t, &state, &input, &filled(&unit));
@@ -280,7 +281,10 @@ where
         worst[1] = worse(worst[1], relative(&slopes[kind], &want_inverse));
     }
     // Columns beyond the degrees of freedom.
-    assert!((n..n + x).all(|at| column(&jacobian.position, at).iter().all(|entry| *entry == 0.0)));
+    assert!(
+        (n..n + x)
+            .all(|at| column(&|row| M::Matrix::by_position(&jacobian, row, at)).iter().all(|entry| *entry == 0.0))
+    );
     worst
 }
 

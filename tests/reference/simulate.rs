@@ -151,6 +151,9 @@ impl System for Arm {
         let v = SVector::<f64, 7>::from(state.v);
         self.0.derivative(t, state, &panda::Input { torque: std::array::from_fn(|i| -FRICTION[i] * v[i]) })
     }
+    fn position_rates(&self, _t: f64, state: &panda::State) -> VelocityOf<Self> {
+        state.v
+    }
 }
 
 #[test]

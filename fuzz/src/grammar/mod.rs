@@ -511,6 +511,7 @@ impl Lines {
         self.emit(random, &names, driven, absolute);
         self.of_rust(random, &names);
         self.touching(random, &names);
+        self.speeds(random, &names);
         self.push("}".into());
     }
 
@@ -561,6 +562,30 @@ impl Lines {
                 let output = self.name(random, "o");
                 self.push(format!("output {output} = {name}.{member};"));
             }
+        }
+    }
+
+    /// Velocities of the user's choice, as many as rates that they read or fewer. They come last, so that a call without one is what it
+    /// would be otherwise.
+    fn speeds(&mut self, random: &mut Random, names: &Names) {
+        if !random.chance(15) {
+            return;
+        }
+        let (Some(a), Some(b)) = (names.coordinate(random), names.coordinate(random)) else { return };
+        let factor = scalar(random, names, Level::Parameter, 1);
+        let first = self.name(random, "u");
+        if a == b || random.chance(30) {
+            self.push(format!("speed {first} = (2 + sin({a})) * {a}.rate + {factor};"));
+            return;
+        }
+        self.push(format!("speed {first} = {a}.rate + {factor} * {b}.rate;"));
+        if random.chance(80) {
+            let second = self.name(random, "u");
+            self.push(format!("speed {second} = (2 - cos({b})) * {b}.rate - 0.1 * {a}.rate;"));
+        }
+        if random.chance(50) {
+            let output = self.name(random, "o");
+            self.push(format!("output {output} = 2 * {first};"));
         }
     }
 

@@ -1,7 +1,7 @@
 //! What closes loops while an equilibrium is searched for: nothing ([`Open`]), or constraints ([`Loops`]).
 
 use crate::tangent::greatest;
-use crate::{Constrained, Real, StateSpace, System, Tangent, VelocityOf};
+use crate::{Constrained, DisplacementOf, Real, StateSpace, System, Tangent, VelocityOf};
 
 /// What closes loops.
 pub(super) trait Closing<S: System> {
@@ -10,9 +10,17 @@ pub(super) trait Closing<S: System> {
     /// The greatest residual of a position, and of what equations ask of velocities at rest.
     fn gap(&self, t: S::Scalar, state: &S::State) -> S::Scalar;
     /// The displacement that closes the loops.
-    fn correction(&self, t: S::Scalar, state: &S::State, weights: &VelocityOf<S>) -> VelocityOf<S>;
+    fn correction(&self, t: S::Scalar, state: &S::State, weights: &DisplacementOf<S>) -> DisplacementOf<S>;
     /// The part of a displacement that opens them.
-    fn across(&self, t: S::Scalar, state: &S::State, d: &VelocityOf<S>, weights: &VelocityOf<S>) -> VelocityOf<S>;
+    fn across(
+        &self,
+        t: S::Scalar,
+        state: &S::State,
+        d: &DisplacementOf<S>,
+        weights: &DisplacementOf<S>,
+    ) -> DisplacementOf<S>;
+    /// The part of a change of velocities, or of accelerations, that opens them, by the least sum of squares.
+    fn rates_across(&self, t: S::Scalar, state: &S::State, d: &VelocityOf<S>) -> VelocityOf<S>;
 }
 
 /// There are no loops.
@@ -23,10 +31,13 @@ impl<S: System> Closing<S> for Open {
     fn gap(&self, _: S::Scalar, _: &S::State) -> S::Scalar {
         S::Scalar::lit(0.0)
     }
-    fn correction(&self, _: S::Scalar, _: &S::State, _: &VelocityOf<S>) -> VelocityOf<S> {
+    fn correction(&self, _: S::Scalar, _: &S::State, _: &DisplacementOf<S>) -> DisplacementOf<S> {
         Tangent::zero()
     }
-    fn across(&self, _: S::Scalar, _: &S::State, _: &VelocityOf<S>, _: &VelocityOf<S>) -> VelocityOf<S> {
+    fn across(&self, _: S::Scalar, _: &S::State, _: &DisplacementOf<S>, _: &DisplacementOf<S>) -> DisplacementOf<S> {
+        Tangent::zero()
+    }
+    fn rates_across(&self, _: S::Scalar, _: &S::State, _: &VelocityOf<S>) -> VelocityOf<S> {
         Tangent::zero()
     }
 }
@@ -41,15 +52,24 @@ impl<S: Constrained> Closing<S> for Loops<'_, S> {
         let open = greatest(&self.0.constraints(t, &state.split().0));
         open.max(greatest(&self.0.constraint_rate(t, state)))
     }
-    fn correction(&self, t: S::Scalar, state: &S::State, weights: &VelocityOf<S>) -> VelocityOf<S> {
+    fn correction(&self, t: S::Scalar, state: &S::State, weights: &DisplacementOf<S>) -> DisplacementOf<S> {
         let (q, _, _) = state.split();
         let minus = self.0.constraints(t, &q).scale(S::Scalar::lit(-1.0));
         self.0.correction(t, &q, &minus, weights).0
     }
-    fn across(&self, t: S::Scalar, state: &S::State, d: &VelocityOf<S>, weights: &VelocityOf<S>) -> VelocityOf<S> {
-        let (q, _, x) = state.split();
-        let rate = |v: VelocityOf<S>| self.0.constraint_rate(t, &state.join(q, v, x));
-        let opened = rate(*d).add_scaled(S::Scalar::lit(-1.0), &rate(Tangent::zero()));
-        self.0.correction(t, &q, &opened, weights).0
+    fn across(
+        &self,
+        t: S::Scalar,
+        state: &S::State,
+        d: &DisplacementOf<S>,
+        weights: &DisplacementOf<S>,
+    ) -> DisplacementOf<S> {
+        let opened = self.0.constraints_along(t, state, d);
+        self.0.correction(t, &state.split().0, &opened, weights).0
+    }
+    fn rates_across(&self, t: S::Scalar, state: &S::State, d: &VelocityOf<S>) -> VelocityOf<S> {
+        let opened = self.0.constraint_rate_along(t, state, d);
+        let ones = d.map(&mut |_| S::Scalar::lit(1.0));
+        self.0.velocity_correction(t, state, &opened, &ones).0
     }
 }

@@ -37,6 +37,11 @@ pub enum EquilibriumError {
         /// Steps made.
         iterations: u32,
     },
+    /// Without velocities positions go on changing, where these are speeds of which rates follow with a share of their own.
+    Moving {
+        /// `[m/s]` or `[rad/s]` greatest rate of a position.
+        rate: f64,
+    },
 }
 
 impl fmt::Display for EquilibriumError {
@@ -50,6 +55,9 @@ impl fmt::Display for EquilibriumError {
             ),
             Self::NotFound { residual, iterations } => {
                 write!(f, "no equilibrium near the guess: {residual:e} is left after {iterations} steps")
+            }
+            Self::Moving { rate } => {
+                write!(f, "nothing is at rest: without velocities positions change at {rate:e} per second")
             }
             Self::Open { gap, iterations } => {
                 write!(f, "the loops do not close near the guess: {gap:e} is left after {iterations} steps")

@@ -7,7 +7,10 @@ use super::{Equilibrium, Found, Free};
 use crate::linear::{Square, residue};
 use crate::shake::shaking;
 use crate::tangent::{greatest, unit, unpack};
-use crate::{Configuration, Differentiable, ExtraOf, Real, StateSpace, System, Tangent, VelocityOf, all, any};
+use crate::{
+    Configuration, Differentiable, DisplacementOf, ExtraOf, JacobianMatrix, Real, StateSpace, System, Tangent,
+    VelocityOf, all, any,
+};
 
 /// An equation holds up to this share of what it could be, unless rounding is greater.
 const TOLERANCE: f64 = 1e-13;
@@ -86,7 +89,7 @@ where
 }
 
 type Mask<S> = <<S as System>::Scalar as Real>::Mask;
-type Unknowns<S, U> = Free<VelocityOf<S>, ExtraOf<S>, U>;
+type Unknowns<S, U> = Free<DisplacementOf<S>, VelocityOf<S>, ExtraOf<S>, U>;
 type Rates<S> = (VelocityOf<S>, ExtraOf<S>);
 type Rows<S, U> =
     <<S as Differentiable>::Matrix as Square<<S as System>::Scalar>>::Array<Row<<S as System>::Scalar, Unknowns<S, U>>>;
@@ -327,7 +330,7 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
             return EquilibriumError::Open { gap: Real::select(open, best.gap, zero).greatest(), iterations };
         }
         // As many as loops close hold by themselves.
-        let equations = S::Matrix::SIZE.saturating_sub(self.loops(&state));
+        let equations = Rates::<S>::zero().len().saturating_sub(self.loops(&state));
         let residual = Real::select(closed | !Real::is_finite(best.residual), zero, best.residual).greatest();
         let rank = Real::select(closed, lit(f64::from(u32::MAX)), best.rank);
         let rank = -(-rank).greatest() as usize;
@@ -371,13 +374,11 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
         if !C::LOOPS {
             return 0;
         }
-        let (zero, one) = (S::Scalar::lit(0.0), S::Scalar::lit(1.0));
-        let none = VelocityOf::<S>::zero();
-        let ones = none.map(&mut |_| one);
+        let zero = S::Scalar::lit(0.0);
         let mut trace = zero;
-        for i in 0..none.len() {
+        for i in 0..VelocityOf::<S>::zero().len() {
             let unit = unit(i);
-            let across = self.closing.across(self.t, state, &unit, &ones);
+            let across = self.closing.rates_across(self.t, state, &unit);
             trace += across.zip(&unit, &mut |a, u| a * u).fold(zero, &mut |sum, a| sum + a);
         }
         (trace.greatest() + 0.5) as usize
@@ -388,8 +389,7 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
         if !C::LOOPS {
             return *rates;
         }
-        let ones = VelocityOf::<S>::zero().map(&mut |_| S::Scalar::lit(1.0));
-        let across = self.closing.across(self.t, state, &rates.0, &ones);
+        let across = self.closing.rates_across(self.t, state, &rates.0);
         (rates.0.add_scaled(S::Scalar::lit(-1.0), &across), rates.1)
     }
 
@@ -465,12 +465,10 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
     fn project(&self, state: &S::State, rows: &mut Rows<S, I::Value>, open: &mut Rows<S, I::Value>) {
         let (zero, one) = (S::Scalar::lit(0.0), S::Scalar::lit(1.0));
         let weights = &self.free.position;
-        let none = VelocityOf::<S>::zero();
-        let ones = none.map(&mut |_| one);
         let all = *rows;
-        for (i, row) in rows.as_mut().iter_mut().enumerate().take(none.len()) {
-            let unit = unit(i);
-            let across = self.closing.across(self.t, state, &unit, &ones);
+        for (i, row) in rows.as_mut().iter_mut().enumerate().take(VelocityOf::<S>::zero().len()) {
+            let unit: VelocityOf<S> = unit(i);
+            let across = self.closing.rates_across(self.t, state, &unit);
             let mut others = all.as_ref().iter();
             row.entries =
                 unit.zip(&across, &mut |u, a| u - a).fold(Unknowns::<S, I::Value>::zero(), &mut |sum, share| {
@@ -486,17 +484,18 @@ impl<'a, S: Differentiable, I: Source<S>, C: Closing<S>> Search<'a, S, I, C> {
         }
     }
 
-    /// The linearised equations, one in each row.
+    /// The linearised equations, one in each row. A matrix that has rows of displacements too leaves as many empty at the
+    /// end.
     fn rows(&self, state: &S::State, value: &I::Value) -> Rows<S, I::Value> {
         let zero = S::Scalar::lit(0.0);
         let jacobian = self.system.jacobian(self.t, state, self.source.input(value));
         let none = Unknowns::<S, I::Value>::zero();
         let mut rows = S::Matrix::array(|i| {
             let mut column = 0;
-            let position = none.position.map(&mut |_| next(&mut column, |j| jacobian.position.get(i, j)));
+            let position = none.position.map(&mut |_| next(&mut column, |j| S::Matrix::by_position(&jacobian, i, j)));
             column = 0;
-            let velocity = none.velocity.map(&mut |_| next(&mut column, |j| jacobian.rates.get(i, j)));
-            let states = none.states.map(&mut |_| next(&mut column, |j| jacobian.rates.get(i, j)));
+            let velocity = none.velocity.map(&mut |_| next(&mut column, |j| S::Matrix::by_rates(&jacobian, i, j)));
+            let states = none.states.map(&mut |_| next(&mut column, |j| S::Matrix::by_rates(&jacobian, i, j)));
             Row { entries: Free { position, velocity, states, input: none.input }, right: zero, square: zero }
         });
         for k in 0..none.input.len() {

@@ -87,10 +87,10 @@ impl<const KICKS: usize, const DRIFTS: usize> Splitting<KICKS, DRIFTS> {
             let drift = drift * step.dt;
             d.v = kicks.next().map_or(d.v, |kick| d.v.add_scaled(kick * step.dt, &accel));
             let v = velocity.add(&d.v);
-            d.q = <PositionOf<S> as Configuration<S::Scalar>>::compose(&d.q, &v.scale(drift));
+            d.q = <PositionOf<S> as Configuration<S::Scalar>>::compose(&d.q, &S::as_displacement(v.scale(drift)));
             elapsed += drift;
             let t = if k + 1 == DRIFTS { step.end } else { step.t + elapsed };
-            accel = problem.slope(t, &step.state.join(start.displace(&d.q), v, own)).v;
+            accel = problem.derivative(t, &step.state.join(start.displace(&d.q), v, own)).0;
         }
         d.v = kicks.next().map_or(d.v, |kick| d.v.add_scaled(kick * step.dt, &accel));
         Attempt::new(d, accel)
@@ -106,7 +106,7 @@ macro_rules! splitting {
 
             #[inline]
             fn begin(&self, problem: &Problem<'_, S>, t: S::Scalar, state: &S::State) -> VelocityOf<S> {
-                problem.slope(t, state).v
+                problem.derivative(t, state).0
             }
 
             #[inline]
@@ -129,7 +129,7 @@ macro_rules! splitting {
                 attempt: &Attempt<S, VelocityOf<S>>,
                 next: &Accepted<S>,
             ) -> VelocityOf<S> {
-                if next.changed { problem.slope(step.end, &next.state).v } else { attempt.details }
+                if next.changed { problem.derivative(step.end, &next.state).0 } else { attempt.details }
             }
 
             $(

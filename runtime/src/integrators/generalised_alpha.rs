@@ -24,8 +24,8 @@ use super::slope::{SlopeOf, displaced};
 use crate::linear::Square;
 use crate::tangent::{greatest, unpack};
 use crate::{
-    Constrained, Differentiable, ExtraOf, Impulsive, Jacobian, PositionOf, Real, StateSpace, System, Tangent,
-    VelocityOf,
+    Constrained, Differentiable, ExtraOf, Impulsive, JacobianMatrix, PositionOf, Real, SecondOrder, StateSpace, System,
+    Tangent, VelocityOf,
 };
 
 /// Derivatives are renewed where a change is more than this share of the one before.
@@ -45,6 +45,8 @@ const STALLED: f64 = 4e5;
 ///
 /// Steps should be of one length: by how much `a` lags behind the accelerations depends on it, so a shorter last step, or
 /// the start anew after an event, costs an order there. A projection after a step does not renew that lag.
+///
+/// Velocities have to be the rates of coordinates ([`SecondOrder`]).
 ///
 /// States within a step are those of a cubic through both ends and the slopes there: of second order, as its ends are.
 ///
@@ -77,6 +79,7 @@ const STALLED: f64 = 4e5;
 ///     type State = State;
 ///     type Input = ();
 ///     fn derivative(&self, _t: f64, x: &State, (): &()) -> (f64, ()) { (-self.frequency.powi(2) * x.q, ()) }
+///     fn position_rates(&self, _t: f64, x: &State) -> f64 { x.v }
 /// }
 ///
 /// impl Differentiable for Oscillator {
@@ -211,10 +214,10 @@ impl<S: Differentiable> Iterating<S> for Newton {
         state: &S::State,
         [own, position, rate]: [S::Scalar; 3],
     ) -> S::Matrix {
-        let Jacobian { position: by_position, rates } = problem.jacobian(t, state);
+        let jacobian = problem.jacobian(t, state);
         S::Matrix::from_fn(|i, j| {
             let diagonal = if i == j { own } else { S::Scalar::lit(0.0) };
-            diagonal - position * by_position.get(i, j) - rate * rates.get(i, j)
+            diagonal - position * S::Matrix::by_position(&jacobian, i, j) - rate * S::Matrix::by_rates(&jacobian, i, j)
         })
     }
     fn solve(&self, operator: &S::Matrix, right: &RatesOf<S>) -> RatesOf<S> {
@@ -252,14 +255,14 @@ impl Coefficients {
     }
 }
 
-impl<S: System, C: Closing<S>, I: Iterating<S>> Method<S> for GeneralisedAlpha<C, I> {
+impl<S: SecondOrder, C: Closing<S>, I: Iterating<S>> Method<S> for GeneralisedAlpha<C, I> {
     const ORDER: u32 = 2;
     type Memory = Lag<RatesOf<S>>;
     type Details = Lag<RatesOf<S>>;
 
     fn begin(&self, problem: &Problem<'_, S>, t: S::Scalar, state: &S::State) -> Lag<RatesOf<S>> {
-        let slope = problem.slope(t, state);
-        Lag { rates: (slope.v, slope.x), lagging: (slope.v, slope.x) }
+        let rates = problem.derivative(t, state);
+        Lag { rates, lagging: rates }
     }
 
     fn attempt(
@@ -277,7 +280,7 @@ impl<S: System, C: Closing<S>, I: Iterating<S>> Method<S> for GeneralisedAlpha<C
         let over = |last: &RatesOf<S>, closing: &VelocityOf<S>| {
             let mean = lagging.scale(lit(0.5 - beta)).add_scaled(lit(beta), last).0;
             let (dv, x) = lagging.scale(lit(1.0 - gamma)).add_scaled(lit(gamma), last).scale(dt);
-            SlopeOf::<S> { q: v.add_scaled(dt, &mean).scale(dt).add(closing), v: dv, x }
+            SlopeOf::<S> { q: S::as_displacement(v.add_scaled(dt, &mean).scale(dt).add(closing)), v: dv, x }
         };
 
         let factors = [lit(1.0 - mass), lit((1.0 - force) * beta) * dt * dt, lit((1.0 - force) * gamma) * dt];
@@ -294,8 +297,8 @@ impl<S: System, C: Closing<S>, I: Iterating<S>> Method<S> for GeneralisedAlpha<C
             let state = displaced(step.state, &over(&last, &closing));
             let (q, _, _) = state.split();
             closing = closing.add(&self.closing.position(system, step.end, &q));
-            let slope = problem.slope(step.end, &state);
-            rates = (slope.v.add(&push), slope.x);
+            let (accel, own) = problem.derivative(step.end, &state);
+            rates = (accel.add(&push), own);
             let left = rates.scale(lit(1.0 - force)).add(&known).add_scaled(lit(mass - 1.0), &last);
             let mut change = self.iteration.solve(&operator, &left);
             // The forces of constraint follow the velocity that they have to close.

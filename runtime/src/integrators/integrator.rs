@@ -45,6 +45,7 @@ pub enum Steps {
 ///     type State = State;
 ///     type Input = ();
 ///     fn derivative(&self, _t: f64, state: &State, (): &()) -> (f64, ()) { (-state.q, ()) }
+///     fn position_rates(&self, _t: f64, state: &State) -> f64 { state.v }
 /// }
 ///
 /// # fn main() -> Result<(), multibody::IntegrationError> {

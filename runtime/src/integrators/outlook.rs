@@ -341,9 +341,10 @@ pub(super) fn cause<S: System>(
     }
     // Where the step began, and about where most methods look within it.
     let (q, v, x) = state.split();
+    let rates = problem.position_rates(t, state);
     let without_inertia = |share: f64| {
         let ahead = dt * S::Scalar::lit(share);
-        let near = state.join(q.displace(&v.scale(ahead)), v, x);
+        let near = state.join(q.displace(&rates.scale(ahead)), v, x);
         problem.without_inertia(t + ahead, &problem.accepted(t + ahead, &near))
     };
     let found = problem.without_inertia(t, state).or_else(|| without_inertia(0.5)).or_else(|| without_inertia(1.0));

@@ -1,8 +1,10 @@
 //! What a method works on: a [`Problem`], and one [`Step`] of it.
 
 use super::control::Tolerance;
-use super::slope::{SlopeOf, displaced, rate_of_displacement, slope};
-use crate::{Canonical, Differentiable, Jacobian, Margin, Opening, Real, System, VelocityOf};
+use super::slope::{SlopeOf, displaced, rate_of_displacement};
+use crate::{
+    Canonical, Differentiable, DisplacementOf, ExtraOf, JacobianOf, Margin, Opening, Real, System, VelocityOf,
+};
 use core::cell::Cell;
 
 /// A system with the input that is held, counting its evaluations.
@@ -50,7 +52,20 @@ impl<'a, S: System> Problem<'a, S> {
     #[inline]
     pub fn slope(&self, t: S::Scalar, state: &S::State) -> SlopeOf<S> {
         self.evaluations.set(self.evaluations.get().saturating_add(1));
-        slope(self.system, t, state, self.input)
+        self.system.slope(t, state, self.input)
+    }
+
+    /// Accelerations and rates of own states alone, which count as an evaluation: see [`System::derivative`].
+    #[inline]
+    pub fn derivative(&self, t: S::Scalar, state: &S::State) -> (VelocityOf<S>, ExtraOf<S>) {
+        self.evaluations.set(self.evaluations.get().saturating_add(1));
+        self.system.derivative(t, state, self.input)
+    }
+
+    /// The rates of the position, which don't count: see [`System::position_rates`].
+    #[inline]
+    pub fn position_rates(&self, t: S::Scalar, state: &S::State) -> DisplacementOf<S> {
+        self.system.position_rates(t, state)
     }
 
     /// The slope at the end of the displacement `d` from `state`, as the rate of that displacement.
@@ -127,9 +142,9 @@ impl<'a, S: System> Problem<'a, S> {
 }
 
 impl<S: Differentiable> Problem<'_, S> {
-    /// Derivatives of the rates of velocities and own states.
+    /// Derivatives of the system: see [`Differentiable::jacobian`].
     #[inline]
-    pub fn jacobian(&self, t: S::Scalar, state: &S::State) -> Jacobian<S::Matrix> {
+    pub fn jacobian(&self, t: S::Scalar, state: &S::State) -> JacobianOf<S> {
         self.jacobians.set(self.jacobians.get().saturating_add(1));
         self.system.jacobian(t, state, self.input)
     }

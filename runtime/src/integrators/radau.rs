@@ -19,8 +19,9 @@ use super::dense::Dense;
 use super::method::{Accepted, Attempt, Method, inherent};
 use super::problem::{Problem, Step};
 use super::slope::{Slope, SlopeOf, magnitude};
-use crate::{Configuration, Differentiable, Jacobian, PositionOf, Real, Tangent};
-use linear::Matrices;
+use crate::{Configuration, Differentiable, JacobianOf, PositionOf, Real, Tangent};
+use linear::MatricesOf;
+pub(crate) use linear::{Eliminated, Entire, Matrices};
 use newton::{Aim, Solution};
 use tableau::{C, E, combination};
 
@@ -46,7 +47,7 @@ pub struct Memory<S: Differentiable> {
     /// The slope at the start of the step, once it has been needed.
     slope: Option<SlopeOf<S>>,
     derivatives: Option<Derivatives<S>>,
-    matrices: Option<Matrices<S>>,
+    matrices: Option<MatricesOf<S>>,
     last: Option<Last<S>>,
     /// How fast the last iteration converged..
     eta: f64,
@@ -58,7 +59,7 @@ pub struct Memory<S: Differentiable> {
 
 /// Derivatives, and whether they are those at the start of the step.
 struct Derivatives<S: Differentiable> {
-    jacobian: Jacobian<S::Matrix>,
+    jacobian: JacobianOf<S>,
     current: bool,
 }
 
@@ -94,14 +95,14 @@ copied! { Memory Derivatives Last Details }
 
 impl<S: Differentiable> Memory<S> {
     /// Derivatives and matrices for a step, new ones if there are none or if they are asked for.
-    fn prepare(&mut self, problem: &Problem<'_, S>, step: &Step<'_, S>, anew: bool) -> Matrices<S> {
+    fn prepare(&mut self, problem: &Problem<'_, S>, step: &Step<'_, S>, anew: bool) -> MatricesOf<S> {
         let kept = self.derivatives.filter(|kept| kept.current || !anew);
         let matrices = self.matrices.filter(|matrices| kept.is_some() && matrices.are_for(step.dt));
         let derivatives =
             kept.unwrap_or_else(|| Derivatives { jacobian: problem.jacobian(step.t, step.state), current: true });
         let matrices = matrices.unwrap_or_else(|| {
             problem.count_factorisation();
-            Matrices::new(&derivatives.jacobian, step.dt)
+            MatricesOf::<S>::new(&derivatives.jacobian, step.dt)
         });
         self.derivatives = Some(derivatives);
         self.matrices = Some(matrices);

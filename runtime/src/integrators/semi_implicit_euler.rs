@@ -2,8 +2,8 @@
 
 use super::method::{Attempt, Method, inherent};
 use super::problem::{Problem, Step};
-use super::slope::SlopeOf;
-use crate::{System, Tangent};
+use super::slope::{Slope, SlopeOf};
+use crate::{StateSpace, System, Tangent};
 
 /// The semi-implicit Euler method: first order, one evaluation. New velocities move the position, so that the energy
 /// of a conservative system stays bounded; the method of games and of hard real time.
@@ -21,9 +21,10 @@ impl<S: System> Method<S> for SemiImplicitEuler {
     }
 
     #[inline]
-    fn attempt(&self, _problem: &Problem<'_, S>, step: &Step<'_, S>, first: &SlopeOf<S>) -> Attempt<S, ()> {
-        let mut slope = *first;
-        slope.q = slope.q.add_scaled(step.dt, &slope.v);
+    fn attempt(&self, problem: &Problem<'_, S>, step: &Step<'_, S>, first: &SlopeOf<S>) -> Attempt<S, ()> {
+        let (q, v, x) = step.state.split();
+        let kicked = step.state.join(q, v.add_scaled(step.dt, &first.v), x);
+        let slope = Slope { q: problem.position_rates(step.t, &kicked), ..*first };
         Attempt::new(slope.scale(step.dt), ())
     }
 }

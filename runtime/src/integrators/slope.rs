@@ -2,13 +2,13 @@
 
 use super::method::Accepted;
 use super::problem::{Problem, Step};
-use crate::{Configuration, ExtraOf, Real, StateSpace, System, Tangent, VelocityOf, all};
+use crate::{Configuration, DisplacementOf, ExtraOf, PositionOf, Real, StateSpace, System, Tangent, VelocityOf, all};
 
 /// Rates of position, velocity and own states, or a displacement of all three.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slope<V, X> {
+pub struct Slope<Q, V, X> {
     /// Of the position.
-    pub q: V,
+    pub q: Q,
     /// Of the velocity.
     pub v: V,
     /// Of own states.
@@ -16,12 +16,19 @@ pub struct Slope<V, X> {
 }
 
 /// The slope of a system.
-pub type SlopeOf<S> = Slope<VelocityOf<S>, ExtraOf<S>>;
+pub type SlopeOf<S> = Slope<DisplacementOf<S>, VelocityOf<S>, ExtraOf<S>>;
 
-impl<T: Real, V: Tangent<T>, X: Tangent<T>> Tangent<T> for Slope<V, X> {
+/// A displacement of a whole state.
+type Displacement<Z> = Slope<
+    <<Z as StateSpace>::Position as Configuration<<Z as StateSpace>::Scalar>>::Velocity,
+    <Z as StateSpace>::Velocity,
+    <Z as StateSpace>::Extra,
+>;
+
+impl<T: Real, Q: Tangent<T>, V: Tangent<T>, X: Tangent<T>> Tangent<T> for Slope<Q, V, X> {
     #[inline]
     fn zero() -> Self {
-        Self { q: V::zero(), v: V::zero(), x: X::zero() }
+        Self { q: Q::zero(), v: V::zero(), x: X::zero() }
     }
     #[inline]
     fn zip<F: FnMut(T, T) -> T>(&self, other: &Self, f: &mut F) -> Self {
@@ -46,35 +53,23 @@ pub(super) fn literals<T: Real, const N: usize>(values: &[f64; N]) -> [T; N] {
     result
 }
 
-/// The slope at a state.
-#[inline]
-pub(super) fn slope<S: System>(system: &S, t: S::Scalar, state: &S::State, input: &S::Input) -> SlopeOf<S> {
-    let (_, velocity, _) = state.split();
-    let (v, x) = system.derivative(t, state, input);
-    Slope { q: velocity, v, x }
-}
-
 /// A slope at the end of the displacement `d`, as the rate of that displacement.
 #[inline]
 pub(super) fn rate_of_displacement<S: System>(d: &SlopeOf<S>, slope: &SlopeOf<S>) -> SlopeOf<S> {
-    let q = <<S::State as StateSpace>::Position as Configuration<S::Scalar>>::dexp_inv(&d.q, &slope.q);
+    let q = <PositionOf<S> as Configuration<S::Scalar>>::dexp_inv(&d.q, &slope.q);
     Slope { q, ..*slope }
 }
 
 /// The state after a displacement.
 #[inline]
-pub(super) fn displaced<Z: StateSpace>(state: &Z, d: &Slope<Z::Velocity, Z::Extra>) -> Z {
+pub(super) fn displaced<Z: StateSpace>(state: &Z, d: &Displacement<Z>) -> Z {
     let (q, v, x) = state.split();
     state.join(q.displace(&d.q), v.add(&d.v), x.add(&d.x))
 }
 
 /// The state after a displacement and what was left over from the one before, with what is left over now.
 #[inline]
-pub(super) fn advanced<Z: StateSpace>(
-    state: &Z,
-    d: &Slope<Z::Velocity, Z::Extra>,
-    rest: &Slope<Z::Velocity, Z::Extra>,
-) -> (Z, Slope<Z::Velocity, Z::Extra>) {
+pub(super) fn advanced<Z: StateSpace>(state: &Z, d: &Displacement<Z>, rest: &Displacement<Z>) -> (Z, Displacement<Z>) {
     use crate::configuration::advanced;
     let (q, v, x) = state.split();
     let (q, rest_q) = q.advance(&d.q, &rest.q);
@@ -87,7 +82,7 @@ pub(super) fn advanced<Z: StateSpace>(
 /// step did, and the rest stays a displacement that is still to come; but where a component has become so small that
 /// the rest is no rounding of it any more, the state is another one, to which nothing is owed.
 #[inline]
-pub(super) fn owed<Z: StateSpace>(next: &Z, rest: &Slope<Z::Velocity, Z::Extra>) -> Slope<Z::Velocity, Z::Extra> {
+pub(super) fn owed<Z: StateSpace>(next: &Z, rest: &Displacement<Z>) -> Displacement<Z> {
     let zero = Z::Scalar::lit(0.0);
     rest.zip(&magnitude(next), &mut |rest, size| {
         Real::select(Real::le(Real::abs(rest), Z::Scalar::epsilon() * Real::abs(size)), rest, zero)
@@ -96,7 +91,7 @@ pub(super) fn owed<Z: StateSpace>(next: &Z, rest: &Slope<Z::Velocity, Z::Extra>)
 
 /// The sizes of a state's coordinates.
 #[inline]
-pub(super) fn magnitude<Z: StateSpace>(state: &Z) -> Slope<Z::Velocity, Z::Extra> {
+pub(super) fn magnitude<Z: StateSpace>(state: &Z) -> Displacement<Z> {
     let (q, v, x) = state.split();
     Slope { q: q.magnitude(), v, x }
 }
@@ -113,8 +108,8 @@ pub(super) fn slope_at_end<S: System>(
     if next.changed {
         return problem.slope(step.end, &next.state);
     }
-    let (_, q, _) = next.state.split(); // compensated summation may have rounded it otherwise
-    Slope { q, ..last() }
+    // Compensated summation may have rounded the state otherwise.
+    Slope { q: problem.position_rates(step.end, &next.state), ..last() }
 }
 
 /// `dt * (weights[0] * slopes[0] + ..)`.

@@ -6,9 +6,11 @@
 //! many start from); which of the two it is shows when the coordinates are shaken a little, by numbers that are the
 //! same in every run. All counts are bounded, and lanes go on alone.
 
-use super::{AssemblyError, Mask, Motion, Weights, at_rounding, closeness, finite, greatest, negative, never};
+use super::{AssemblyError, Mask, Motion, SeparateWeights, at_rounding, closeness, finite, greatest, negative, never};
 use crate::shake::shaking;
-use crate::{Configuration, Constrained, Real, StateSpace, System, Tangent, VelocityOf, all, any};
+use crate::{
+    Configuration, Constrained, DisplacementOf, Real, SecondOrder, StateSpace, System, Tangent, VelocityOf, all, any,
+};
 
 /// Residual at which a loop is closed, unless rounding is greater.
 const TOLERANCE: f64 = 1e-12;
@@ -43,21 +45,40 @@ pub struct Assembled<Z, T = f64> {
 /// `free` says which coordinates may change: one where they may, zero where they are held, in position and in velocity;
 /// other positive numbers make them change more or less willingly. Nothing beyond the constraints is asked for: of all
 /// states the nearest is taken, roughly for positions, exactly for velocities. Loops have several ways to close; the
-/// guess decides which one is found. See the [module](super) for an example.
+/// guess decides which one is found. See the [module](super) for an example. Where velocities are not the rates of
+/// coordinates, take [`assemble_by`].
 ///
 /// # Errors
 /// See [`AssemblyError`]; one is given if any lane fails.
-pub fn assemble<S: Constrained>(
+pub fn assemble<S: Constrained + SecondOrder>(
     system: &S,
     t: S::Scalar,
     guess: &S::State,
     free: &VelocityOf<S>,
 ) -> Result<Assembled<S::State, S::Scalar>, AssemblyError> {
-    let mut search = Search::new(system, t, guess, free)?;
+    assemble_by(system, t, guess, &SeparateWeights { position: S::as_displacement(*free), velocity: *free })
+}
+
+/// The same where velocities are not the rates of coordinates: with what may change in a displacement of the position, and
+/// what in the velocities.
+///
+/// # Errors
+/// See [`AssemblyError`]; one is given if any lane fails.
+pub fn assemble_by<S: Constrained>(
+    system: &S,
+    t: S::Scalar,
+    guess: &S::State,
+    free: &SeparateWeights<DisplacementOf<S>, VelocityOf<S>>,
+) -> Result<Assembled<S::State, S::Scalar>, AssemblyError> {
+    let weight = greatest(&free.velocity);
+    let mut search = Search::new(system, t, guess, &free.position)?;
+    if !all(Real::is_finite(weight)) {
+        return Err(AssemblyError::NotFinite);
+    }
     while search.iterations < ITERATIONS && search.advance() {}
     search.check()?;
 
-    let motion = Motion::of(&Weights(*free), system, t, &search.state, TOLERANCE);
+    let motion = Motion::of(free, system, t, &search.state, TOLERANCE);
     if !all(finite::<S>(&motion.state)) {
         return Err(AssemblyError::NotFinite);
     }
@@ -74,7 +95,7 @@ pub fn assemble<S: Constrained>(
 struct Search<'a, S: Constrained> {
     system: &'a S,
     t: S::Scalar,
-    free: &'a VelocityOf<S>,
+    free: &'a DisplacementOf<S>,
     state: S::State,
     residual: S::Residual,
     closed: Mask<S>,
@@ -92,7 +113,7 @@ struct Search<'a, S: Constrained> {
 }
 
 impl<'a, S: Constrained> Search<'a, S> {
-    fn new(system: &'a S, t: S::Scalar, guess: &S::State, free: &'a VelocityOf<S>) -> Result<Self, AssemblyError> {
+    fn new(system: &'a S, t: S::Scalar, guess: &S::State, free: &'a DisplacementOf<S>) -> Result<Self, AssemblyError> {
         let (q, _, _) = guess.split();
         let residual = system.constraints(t, &q);
         let (size, weight) = (greatest(&residual), greatest(free));
@@ -140,7 +161,8 @@ impl<'a, S: Constrained> Search<'a, S> {
         let d = d.scale(one / Real::max(one, reach));
         let (factor, stalled) = self.damping(&d, active);
 
-        let rounding = stalled & at_rounding(self.system, self.t, &self.state, &d, &self.residual);
+        let rounding = stalled
+            & at_rounding::<S>(&q, &d, &self.residual, || self.system.constraints_along(self.t, &self.state, &d));
         self.closed = self.closed | rounding;
         let stalled = stalled & !rounding;
         self.given_up = self.given_up | (stalled & Real::ge(self.shakes, S::Scalar::lit(SHAKES)));
@@ -159,7 +181,7 @@ impl<'a, S: Constrained> Search<'a, S> {
     }
 
     /// The share of the displacement `d` to take in each active lane, and the lanes in which there is none.
-    fn damping(&self, d: &VelocityOf<S>, active: Mask<S>) -> (S::Scalar, Mask<S>) {
+    fn damping(&self, d: &DisplacementOf<S>, active: Mask<S>) -> (S::Scalar, Mask<S>) {
         let (zero, one) = (S::Scalar::lit(0.0), S::Scalar::lit(1.0));
         let (q, _, _) = self.state.split();
         let now = squares(&self.residual);

@@ -7,11 +7,12 @@
 use super::clarity::ambiguity;
 use super::handed_on::{handed_on, watched};
 use super::{ByMass, Plain, Weighting};
+use crate::integrators::{Slope, SlopeOf};
 use crate::linear::Square;
 use crate::tangent::unit;
 use crate::{
-    Constrained, Differentiable, ExtraOf, Impulsive, Jacobian, PositionOf, Real, StateSpace, System, Tangent,
-    VelocityOf,
+    Constrained, Differentiable, DisplacementOf, ExtraOf, Impulsive, JacobianMatrix, JacobianOf, PositionOf, Real,
+    StateSpace, System, Tangent, VelocityOf,
 };
 
 /// `a dt` in [`WithBaumgarte::for_step`].
@@ -77,6 +78,17 @@ impl<S: Constrained, W: Weighting<S>> WithBaumgarte<S, W> {
     }
 }
 
+impl<S: Constrained, W: Weighting<S>> WithBaumgarte<S, W> {
+    /// What is added to the accelerations.
+    fn closing(&self, t: S::Scalar, state: &S::State) -> VelocityOf<S> {
+        let (q, _, _) = state.split();
+        let rate = S::Scalar::lit(self.rate);
+        let (velocity, position) = (self.system.constraint_rate(t, state), self.system.constraints(t, &q));
+        let wanted = velocity.scale(S::Scalar::lit(-2.0) * rate).add_scaled(-rate * rate, &position);
+        self.weighting.velocity_correction(&self.system, t, state, &wanted).0
+    }
+}
+
 impl<S: Constrained, W: Weighting<S>> System for WithBaumgarte<S, W> {
     type Scalar = S::Scalar;
     type State = S::State;
@@ -84,12 +96,12 @@ impl<S: Constrained, W: Weighting<S>> System for WithBaumgarte<S, W> {
 
     fn derivative(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> (VelocityOf<S>, ExtraOf<S>) {
         let (accel, rates) = self.system.derivative(t, state, input);
-        let (q, _, _) = state.split();
-        let rate = S::Scalar::lit(self.rate);
-        let (velocity, position) = (self.system.constraint_rate(t, state), self.system.constraints(t, &q));
-        let wanted = velocity.scale(S::Scalar::lit(-2.0) * rate).add_scaled(-rate * rate, &position);
-        let (correction, _) = self.weighting.correction(&self.system, t, &q, &wanted);
-        (accel.add(&correction), rates)
+        (accel.add(&self.closing(t, state)), rates)
+    }
+
+    fn slope(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> SlopeOf<S> {
+        let Slope { q, v, x } = self.system.slope(t, state, input);
+        Slope { q, v: v.add(&self.closing(t, state)), x }
     }
 
     #[inline]
@@ -115,35 +127,29 @@ impl<S: Constrained, W: Weighting<S>> System for WithBaumgarte<S, W> {
 impl<S: Constrained + Differentiable, W: Weighting<S>> Differentiable for WithBaumgarte<S, W> {
     type Matrix = S::Matrix;
 
-    fn jacobian(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> Jacobian<S::Matrix> {
-        let Jacobian { position, rates } = self.system.jacobian(t, state, input);
+    fn jacobian(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> JacobianOf<S> {
+        let jacobian = self.system.jacobian(t, state, input);
         let (q, v, x) = state.split();
-        let zero = S::Scalar::lit(0.0);
         let at = |v: VelocityOf<S>| self.system.constraint_rate(t, &state.join(q, v, x));
         let rest = at(Tangent::zero());
-        let size = v.len();
-        // Column by column: what the correction does to a displacement along one coordinate.
-        let mut known = None;
-        let columns = S::Matrix::from_fn(|column, row| {
-            if column >= size || row >= size {
-                return zero;
-            }
-            let answer = match known {
-                Some((of, answer)) if of == column => answer,
-                _ => {
-                    let change = at(unit(column)).add_scaled(S::Scalar::lit(-1.0), &rest);
-                    let answer = self.weighting.correction(&self.system, t, &q, &change).0;
-                    known = Some((column, answer));
-                    answer
-                }
-            };
-            pick(&answer, row)
+        let by_velocity = self.answers(t, state, |column| {
+            (column < v.len()).then(|| at(unit(column)).add_scaled(S::Scalar::lit(-1.0), &rest))
         });
+        // A displacement opens the loops as the velocity does that makes it.
+        let by_position = if S::Matrix::FULL {
+            self.answers(t, state, |column| {
+                let inside = column < DisplacementOf::<S>::zero().len();
+                inside.then(|| self.system.constraints_along(t, state, &unit(column)))
+            })
+        } else {
+            by_velocity
+        };
         let a = S::Scalar::lit(self.rate);
-        Jacobian {
-            position: S::Matrix::from_fn(|i, j| position.get(i, j) - a * a * columns.get(j, i)),
-            rates: S::Matrix::from_fn(|i, j| rates.get(i, j) - S::Scalar::lit(2.0) * a * columns.get(j, i)),
-        }
+        S::Matrix::less(
+            &jacobian,
+            |i, j| a * a * by_position.get(j, i),
+            |i, j| S::Scalar::lit(2.0) * a * by_velocity.get(j, i),
+        )
     }
 
     #[inline]
@@ -155,6 +161,32 @@ impl<S: Constrained + Differentiable, W: Weighting<S>> Differentiable for WithBa
         change: &S::Input,
     ) -> (VelocityOf<S>, ExtraOf<S>) {
         self.system.input_derivative(t, state, input, change)
+    }
+}
+
+impl<S: Constrained + Differentiable, W: Weighting<S>> WithBaumgarte<S, W> {
+    /// The answers of velocities to what a change along each coordinate does to the constraints, one in each row; zero
+    /// where there is no such coordinate.
+    fn answers(&self, t: S::Scalar, state: &S::State, opened: impl Fn(usize) -> Option<S::Residual>) -> S::Matrix {
+        let zero = S::Scalar::lit(0.0);
+        let size = VelocityOf::<S>::zero().len();
+        let mut known = None;
+        S::Matrix::from_fn(|column, row| {
+            if row >= size {
+                return zero;
+            }
+            let answer = match known {
+                Some((of, answer)) if of == column => answer,
+                _ => {
+                    let answer = opened(column).map_or_else(VelocityOf::<S>::zero, |opened| {
+                        self.weighting.velocity_correction(&self.system, t, state, &opened).0
+                    });
+                    known = Some((column, answer));
+                    answer
+                }
+            };
+            pick(&answer, row)
+        })
     }
 }
 

@@ -12,7 +12,7 @@
 //! that distance that rounding is.
 
 use super::{Mask, closeness, greatest, ones};
-use crate::{Configuration, Constrained, PositionOf, Real, StateSpace, Tangent, VelocityOf, any};
+use crate::{Configuration, Constrained, DisplacementOf, PositionOf, Real, StateSpace, Tangent, any};
 
 /// The residual of rounding, as a share of the least tolerance of a projection.
 const ROUNDING: f64 = 0.25;
@@ -71,7 +71,7 @@ pub(super) fn noticed<S: Constrained>(q: &PositionOf<S>) -> S::Scalar {
 }
 
 /// The displacement for a residual of this size, in no direction that a mechanism is likely to be built in.
-fn probe<S: Constrained>(system: &S, t: S::Scalar, q: &PositionOf<S>, size: S::Scalar) -> VelocityOf<S> {
+fn probe<S: Constrained>(system: &S, t: S::Scalar, q: &PositionOf<S>, size: S::Scalar) -> DisplacementOf<S> {
     // Steps of the golden section around a circle, between a half and one and of either sign.
     let (half, one) = (S::Scalar::lit(0.5), S::Scalar::lit(1.0));
     let mut turn = S::Scalar::lit(0.3);

@@ -27,9 +27,27 @@ macro_rules! handed_on {
                 t: S::Scalar,
                 q: &PositionOf<S>,
                 residual: &S::Residual,
+                weights: &DisplacementOf<S>,
+            ) -> (DisplacementOf<S>, S::Scalar) {
+                self.system.correction(t, q, residual, weights)
+            }
+            #[inline]
+            fn velocity_correction(
+                &self,
+                t: S::Scalar,
+                state: &S::State,
+                residual: &S::Residual,
                 weights: &VelocityOf<S>,
             ) -> (VelocityOf<S>, S::Scalar) {
-                self.system.correction(t, q, residual, weights)
+                self.system.velocity_correction(t, state, residual, weights)
+            }
+            #[inline]
+            fn constraints_along(&self, t: S::Scalar, state: &S::State, d: &DisplacementOf<S>) -> S::Residual {
+                self.system.constraints_along(t, state, d)
+            }
+            #[inline]
+            fn constraint_rate_along(&self, t: S::Scalar, state: &S::State, d: &VelocityOf<S>) -> S::Residual {
+                self.system.constraint_rate_along(t, state, d)
             }
             #[inline]
             fn least_correction(
@@ -37,8 +55,17 @@ macro_rules! handed_on {
                 t: S::Scalar,
                 q: &PositionOf<S>,
                 residual: &S::Residual,
-            ) -> Option<(VelocityOf<S>, S::Scalar)> {
+            ) -> Option<(DisplacementOf<S>, S::Scalar)> {
                 self.system.least_correction(t, q, residual)
+            }
+            #[inline]
+            fn least_velocity_correction(
+                &self,
+                t: S::Scalar,
+                state: &S::State,
+                residual: &S::Residual,
+            ) -> Option<(VelocityOf<S>, S::Scalar)> {
+                self.system.least_velocity_correction(t, state, residual)
             }
         }
     };
@@ -63,7 +90,7 @@ macro_rules! handed_on {
             type Matrix = S::Matrix;
 
             #[inline]
-            fn jacobian(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> Jacobian<S::Matrix> {
+            fn jacobian(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> JacobianOf<S> {
                 self.system.jacobian(t, state, input)
             }
             #[inline]
@@ -99,9 +126,13 @@ macro_rules! handed_on {
     };
 }
 
-/// What a wrapper's `System` says of loops: what the system says that it holds.
+/// What a wrapper's `System` says of how positions move and of loops: what the system says that it holds.
 macro_rules! watched {
     () => {
+        #[inline]
+        fn position_rates(&self, t: S::Scalar, state: &S::State) -> DisplacementOf<S> {
+            self.system.position_rates(t, state)
+        }
         #[inline]
         fn horizon(&self, t: S::Scalar, state: &S::State) -> S::Scalar {
             self.system.horizon(t, state)

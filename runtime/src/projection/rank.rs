@@ -2,17 +2,17 @@
 
 use super::handed_on::{handed_on, watched};
 use super::{Plain, Weighting};
+use crate::integrators::SlopeOf;
 use crate::{
-    Canonical, Constrained, Differentiable, ExtraOf, Impulsive, Jacobian, PositionOf, Real, Separable, StateSpace,
-    System, Tangent, VelocityOf,
+    Canonical, Constrained, Differentiable, DisplacementOf, ExtraOf, Impulsive, JacobianOf, PositionOf, Real,
+    Separable, System, Tangent, VelocityOf,
 };
 use core::cell::Cell;
 
 /// How many of the constraints are independent at a position, in each lane: fewer than there are where some repeat
 /// others, fewer still in a singular pose.
 pub fn rank<S: Constrained>(system: &S, t: S::Scalar, state: &S::State) -> S::Scalar {
-    let (q, _, _) = state.split();
-    Plain.correction(system, t, &q, &S::Residual::zero()).1
+    Plain.correction(system, t, state, &S::Residual::zero()).1
 }
 
 /// A system that remembers the least rank of its constraints at the end of any step that was kept, and when that was.
@@ -51,6 +51,10 @@ impl<S: Constrained> System for WithRank<S> {
     #[inline]
     fn derivative(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> (VelocityOf<S>, ExtraOf<S>) {
         self.system.derivative(t, state, input)
+    }
+    #[inline]
+    fn slope(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> SlopeOf<S> {
+        self.system.slope(t, state, input)
     }
 
     #[inline]

@@ -3,10 +3,11 @@
 use super::clarity::{TURNED, ambiguity};
 use super::handed_on::{handed_on, watched};
 use super::{ByMass, Mask, Plain, Projection, Weighting, finite};
+use crate::integrators::SlopeOf;
 use crate::tangent::greatest;
 use crate::{
-    Canonical, Constrained, Differentiable, ExtraOf, Impulsive, Jacobian, PositionOf, Real, Separable, StateSpace,
-    System, Tangent, VelocityOf, all, any,
+    Canonical, Constrained, Differentiable, DisplacementOf, ExtraOf, Impulsive, JacobianOf, PositionOf, Real,
+    Separable, StateSpace, System, Tangent, VelocityOf, all, any,
 };
 
 /// A system whose states are projected at the end of every accepted step, whatever the integrator.
@@ -68,6 +69,10 @@ impl<S: Constrained, W: Weighting<S>> System for WithProjection<S, W> {
     #[inline]
     fn derivative(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> (VelocityOf<S>, ExtraOf<S>) {
         self.system.derivative(t, state, input)
+    }
+    #[inline]
+    fn slope(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> SlopeOf<S> {
+        self.system.slope(t, state, input)
     }
 
     fn accepted(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> S::State {

@@ -45,6 +45,9 @@ impl<T: Real> System for DoublePendulum<T> {
         let [f1, f2] = self.weights(&state.q);
         (self.solve(&state.q, [f1 - s * w2 * w2, f2 + s * w1 * w1]), ())
     }
+    fn position_rates(&self, _t: T, state: &Angles<T>) -> Vector2<T> {
+        state.v
+    }
 }
 
 impl<T: Real> Canonical for DoublePendulum<T> {

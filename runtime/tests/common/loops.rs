@@ -5,7 +5,9 @@
 use core::cell::Cell;
 use multibody::linear::{least_norm, solve_symmetric};
 use multibody::nalgebra::{SMatrix, SVector, Vector2};
-use multibody::{Constrained, ExtraOf, Impulsive, PositionOf, Real, StateSpace, System, Tangent, VelocityOf};
+use multibody::{
+    Constrained, DisplacementOf, ExtraOf, Impulsive, PositionOf, Real, StateSpace, System, Tangent, VelocityOf,
+};
 
 /// Positions and velocities in one vector each.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +61,9 @@ impl<T: Real> System for Rod<T> {
         let pull = (dot(&gravity, &state.q) + bias) / dot(&state.q, &state.q);
         (gravity.add_scaled(-pull, &state.q), ())
     }
+    fn position_rates(&self, _t: T, state: &Coordinates<T, 2>) -> Vector2<T> {
+        state.v
+    }
 }
 
 impl<T: Real> Constrained for Rod<T> {
@@ -73,6 +78,18 @@ impl<T: Real> Constrained for Rod<T> {
     }
     fn correction(&self, _t: T, q: &Vector2<T>, residual: &T, weights: &Vector2<T>) -> (Vector2<T>, T) {
         least_norm(&SMatrix::<T, 1, 2>::from([[q[0]], [q[1]]]), &SVector::from([*residual]), weights)
+    }
+    fn velocity_correction(
+        &self,
+        t: T,
+        state: &Coordinates<T, 2>,
+        residual: &T,
+        weights: &Vector2<T>,
+    ) -> (Vector2<T>, T) {
+        self.correction(t, &state.q, residual, weights)
+    }
+    fn constraints_along(&self, t: T, state: &Coordinates<T, 2>, d: &Vector2<T>) -> T {
+        self.constraint_rate_along(t, state, d)
     }
 }
 
@@ -200,6 +217,9 @@ impl<T: Real, const M: usize> System for FourBar<T, M> {
             core::array::from_fn(|i| (0..M).fold(free[i], |sum, m| sum - g[(m, i)] * multipliers[m] / masses[i]));
         (SVector::from(accel), ())
     }
+    fn position_rates(&self, _t: T, state: &Coordinates<T, 9>) -> SVector<T, 9> {
+        state.v
+    }
 }
 
 impl<T: Real, const M: usize> Constrained for FourBar<T, M> {
@@ -231,6 +251,18 @@ impl<T: Real, const M: usize> Constrained for FourBar<T, M> {
         weights: &SVector<T, 9>,
     ) -> (SVector<T, 9>, T) {
         least_norm(&self.jacobian(q), residual, weights)
+    }
+    fn velocity_correction(
+        &self,
+        t: T,
+        state: &Coordinates<T, 9>,
+        residual: &SVector<T, M>,
+        weights: &SVector<T, 9>,
+    ) -> (SVector<T, 9>, T) {
+        self.correction(t, &state.q, residual, weights)
+    }
+    fn constraints_along(&self, t: T, state: &Coordinates<T, 9>, d: &SVector<T, 9>) -> SVector<T, M> {
+        self.constraint_rate_along(t, state, d)
     }
 }
 
@@ -271,6 +303,9 @@ impl<S: System> System for Watched<S> {
     fn derivative(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> (VelocityOf<S>, ExtraOf<S>) {
         self.system.derivative(t, state, input)
     }
+    fn position_rates(&self, t: S::Scalar, state: &S::State) -> DisplacementOf<S> {
+        self.system.position_rates(t, state)
+    }
 }
 
 impl<S: Constrained> Constrained for Watched<S> {
@@ -288,9 +323,23 @@ impl<S: Constrained> Constrained for Watched<S> {
         t: S::Scalar,
         q: &PositionOf<S>,
         residual: &S::Residual,
+        weights: &DisplacementOf<S>,
+    ) -> (DisplacementOf<S>, S::Scalar) {
+        self.corrections.set(self.corrections.get() + 1);
+        self.system.correction(t, q, residual, weights)
+    }
+    fn velocity_correction(
+        &self,
+        t: S::Scalar,
+        state: &S::State,
+        residual: &S::Residual,
         weights: &VelocityOf<S>,
     ) -> (VelocityOf<S>, S::Scalar) {
         self.corrections.set(self.corrections.get() + 1);
-        self.system.correction(t, q, residual, weights)
+        self.system.velocity_correction(t, state, residual, weights)
+    }
+    fn constraints_along(&self, t: S::Scalar, state: &S::State, d: &DisplacementOf<S>) -> S::Residual {
+        self.evaluations.set(self.evaluations.get() + 2);
+        self.system.constraints_along(t, state, d)
     }
 }

@@ -40,6 +40,9 @@ impl<T: Real> System for Oscillator<T> {
     fn derivative(&self, _t: T, state: &Scalar<T>, input: &T) -> (T, ()) {
         (*input - state.q, ())
     }
+    fn position_rates(&self, _t: T, state: &Scalar<T>) -> T {
+        state.v
+    }
 }
 
 /// A pendulum of length one, with a pivot that is shaken in time.
@@ -56,6 +59,9 @@ impl<T: Real> System for Pendulum<T> {
         let (sin, cos) = Real::sin_cos(state.q);
         let (sin_t, _) = Real::sin_cos(T::lit(3.0) * t);
         (-self.gravity * sin + self.shake * sin_t * cos, ())
+    }
+    fn position_rates(&self, _t: T, state: &Scalar<T>) -> T {
+        state.v
     }
 }
 
@@ -128,6 +134,9 @@ impl<T: Real> System for Body<T> {
             Vector3::new((i.y - i.z) * w.y * w.z / i.x, (i.z - i.x) * w.z * w.x / i.y, (i.x - i.y) * w.x * w.y / i.z);
         (Twist { linear: self.force, angular }, ())
     }
+    fn position_rates(&self, _t: T, state: &Flight<T>) -> Twist<T> {
+        state.v
+    }
 }
 
 /// A motor with its current as a state of its own, on an arm that gravity pulls.
@@ -179,6 +188,9 @@ impl System for Motor {
         let current = (voltage - 2.0 * state.x.current - 0.5 * state.v) / 0.5;
         (torque - state.q.sin(), Currents { current })
     }
+    fn position_rates(&self, _t: f64, state: &Driven<f64>) -> f64 {
+        state.v
+    }
 }
 
 /// Components of a displacement between two states, for errors.
@@ -212,6 +224,9 @@ impl<S: System<Scalar = f64, State = Scalar<f64>>> System for Counted<S> {
         self.evaluations.set(self.evaluations.get() + 1);
         let (a, ()) = self.system.derivative(t, state, input);
         (if t >= self.nan_from { f64::NAN } else { a }, ())
+    }
+    fn position_rates(&self, _t: f64, state: &Scalar<f64>) -> f64 {
+        state.v
     }
 }
 

@@ -19,6 +19,9 @@ impl System for Star {
         let [x, y] = state.q.into();
         (Vector2::new(-x - 2.0 * x * y, -y - x * x + y * y), ())
     }
+    fn position_rates(&self, _t: f64, state: &Coordinates<f64, 2>) -> Vector2<f64> {
+        state.v
+    }
 }
 
 impl Separable for Star {}
@@ -59,6 +62,9 @@ impl System for Compass {
         let w = state.v.angular;
         let moment = efforts.angular - w.cross(&self.inertia.component_mul(&w));
         (Twist { linear: efforts.linear, angular: moment.component_div(&self.inertia) }, ())
+    }
+    fn position_rates(&self, _t: f64, state: &Flight<f64>) -> Twist<f64> {
+        state.v
     }
 }
 

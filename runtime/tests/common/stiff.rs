@@ -38,6 +38,9 @@ macro_rules! one_coordinate {
             fn derivative(&self, t: T, state: &Scalar<T>, input: &T) -> (T, ()) {
                 (self.partials(t, state).0 + *input, ())
             }
+            fn position_rates(&self, _t: T, state: &Scalar<T>) -> T {
+                state.v
+            }
         }
         impl<T: Real> Differentiable for $name<T> {
             type Matrix = [[T; 1]; 1];
@@ -73,6 +76,9 @@ impl System for Decay {
     fn derivative(&self, _t: f64, state: &Driven<f64>, (): &()) -> (f64, Currents<f64>) {
         (state.x.current, Currents { current: self.0 * state.x.current })
     }
+    fn position_rates(&self, _t: f64, state: &Driven<f64>) -> f64 {
+        state.v
+    }
 }
 
 impl Differentiable for Decay {
@@ -98,6 +104,9 @@ impl System for Winding {
         let torque = 0.5 * state.x.current - 0.1 * state.v;
         let current = (voltage - 2.0 * state.x.current - 0.5 * state.v) / self.inductance;
         (torque - state.q.sin(), Currents { current })
+    }
+    fn position_rates(&self, _t: f64, state: &Driven<f64>) -> f64 {
+        state.v
     }
 }
 
@@ -151,6 +160,9 @@ impl<T: Real> System for SpringPendulum<T> {
         let force = self.stiffness * (length - T::lit(1.0)) + self.damping * (e.x * v.x + e.y * v.y);
         (Vector2::new(-force * e.x, -force * e.y - T::lit(9.81)), ())
     }
+    fn position_rates(&self, _t: T, state: &Plane<T>) -> Vector2<T> {
+        state.v
+    }
 }
 
 impl<T: Real> Differentiable for SpringPendulum<T> {
@@ -198,6 +210,9 @@ impl System for Held {
         let moment = moment - spring - state.v.angular * self.damping;
         let linear = free.linear - state.q.position * self.stiffness - state.v.linear * self.damping;
         (Twist { linear, angular: free.angular + moment.component_div(&self.body.inertia) }, ())
+    }
+    fn position_rates(&self, _t: f64, state: &Flight<f64>) -> Twist {
+        state.v
     }
 }
 
@@ -250,6 +265,9 @@ impl<T: Real> System for Rubbing<T> {
     fn derivative(&self, _t: T, state: &Scalar<T>, (): &()) -> (T, ()) {
         (Real::select(Real::gt(state.v, T::lit(0.0)), -self.0, self.0), ())
     }
+    fn position_rates(&self, _t: T, state: &Scalar<T>) -> T {
+        state.v
+    }
 }
 
 impl<T: Real> Differentiable for Rubbing<T> {
@@ -271,6 +289,9 @@ impl<T: Real> System for Pair<T> {
     fn derivative(&self, _t: T, state: &Plane<T>, (): &()) -> (Vector2<T>, ()) {
         let pull = self.0 * (state.q.y - state.q.x - T::lit(1.0)) + self.0 * T::lit(1e-3) * (state.v.y - state.v.x);
         (Vector2::new(pull, -pull), ())
+    }
+    fn position_rates(&self, _t: T, state: &Plane<T>) -> Vector2<T> {
+        state.v
     }
 }
 impl<T: Real> Differentiable for Pair<T> {

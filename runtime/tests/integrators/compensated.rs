@@ -152,6 +152,9 @@ impl System for Reset {
     fn derivative(&self, _t: f64, _state: &Scalar<f64>, (): &()) -> (f64, ()) {
         (0.0, ())
     }
+    fn position_rates(&self, _t: f64, state: &Scalar<f64>) -> f64 {
+        state.v
+    }
     fn accepted(&self, _t: f64, state: &Scalar<f64>, (): &()) -> Scalar<f64> {
         Scalar { q: if state.q > 1e6 { 0.0 } else { state.q }, v: state.v }
     }

@@ -92,6 +92,9 @@ impl System for Stiff {
     fn derivative(&self, _t: f64, state: &Scalar<f64>, (): &()) -> (f64, ()) {
         (-1e8 * state.q - 1e3 * state.v, ())
     }
+    fn position_rates(&self, _t: f64, state: &Scalar<f64>) -> f64 {
+        state.v
+    }
 }
 
 /// Two equal rods in a row with rates that may grow: no step of 1e3 s makes sense.
@@ -107,6 +110,9 @@ impl System for Double {
         let (f, g) = (-sin * x.v[1] * x.v[1] - 19.62 * x.q[0].sin(), sin * x.v[0] * x.v[0] - 9.81 * x.q[1].sin());
         let det = 2.0 - cos * cos;
         (multibody::nalgebra::Vector2::new((f - cos * g) / det, (2.0 * g - cos * f) / det), ())
+    }
+    fn position_rates(&self, _t: f64, x: &Self::State) -> multibody::nalgebra::Vector2<f64> {
+        x.v
     }
 }
 
@@ -193,6 +199,9 @@ impl System for Moved {
     fn derivative(&self, t: f64, state: &Scalar<f64>, force: &f64) -> (f64, ()) {
         OSCILLATOR.derivative(t, state, force)
     }
+    fn position_rates(&self, _t: f64, state: &Scalar<f64>) -> f64 {
+        state.v
+    }
     fn accepted(&self, _t: f64, state: &Scalar<f64>, _force: &f64) -> Scalar<f64> {
         Scalar { q: state.q + self.0, v: state.v }
     }
@@ -211,6 +220,9 @@ impl System for Turned {
     fn derivative(&self, _t: f64, state: &Flight<f64>, _: &f64) -> (Twist, ()) {
         let field = rotate(&state.q.orientation.inverse(), &Vector3::x());
         (Twist { linear: Vector3::zeros(), angular: Vector3::new(0.0, 1.0, 0.5).cross(&field) }, ())
+    }
+    fn position_rates(&self, _t: f64, state: &Flight<f64>) -> Twist {
+        state.v
     }
     fn accepted(&self, _t: f64, state: &Flight<f64>, _: &f64) -> Flight<f64> {
         if self.0 == 0.0 {

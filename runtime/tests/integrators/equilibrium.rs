@@ -23,6 +23,9 @@ impl<T: Real> System for Pendulum<T> {
     fn derivative(&self, _t: T, s: &Scalar<T>, moment: &T) -> (T, ()) {
         (*moment - self.gravity * Real::sin(s.q) - self.friction * s.v, ())
     }
+    fn position_rates(&self, _t: T, s: &Scalar<T>) -> T {
+        s.v
+    }
 }
 
 impl<T: Real> Differentiable for Pendulum<T> {
@@ -120,6 +123,9 @@ impl<T: Real> System for Load<T> {
     type Input = T;
     fn derivative(&self, _t: T, _: &Scalar<T>, force: &T) -> (T, ()) {
         (*force / self.mass - T::lit(9.81), ())
+    }
+    fn position_rates(&self, _t: T, state: &Scalar<T>) -> T {
+        state.v
     }
 }
 
@@ -246,6 +252,9 @@ impl System for Bead {
         let pull = (f.dot(&s.q) + s.v.norm_squared()) / s.q.norm_squared();
         (f - s.q * pull, ())
     }
+    fn position_rates(&self, _t: f64, s: &Plane<f64>) -> Vector2<f64> {
+        s.v
+    }
 }
 
 impl Differentiable for Bead {
@@ -279,6 +288,18 @@ impl Constrained for Bead {
     fn correction(&self, _t: f64, q: &Vector2<f64>, residual: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
         least_norm(&q.transpose(), &Vector1::new(*residual), weights)
     }
+    fn velocity_correction(
+        &self,
+        t: f64,
+        state: &Plane<f64>,
+        residual: &f64,
+        weights: &Vector2<f64>,
+    ) -> (Vector2<f64>, f64) {
+        self.correction(t, &state.q, residual, weights)
+    }
+    fn constraints_along(&self, t: f64, state: &Plane<f64>, d: &Vector2<f64>) -> f64 {
+        self.constraint_rate_along(t, state, d)
+    }
 }
 
 /// At rest where the force points along the radius: towards the point (2, -9.81/k), for weights of any kind.
@@ -307,6 +328,9 @@ fn closed_loop_without_equilibrium() {
             let along = Vector2::new(-s.q.y, s.q.x);
             (along * (2.0 + s.q.x) - s.q * (s.v.norm_squared() / s.q.norm_squared()), ())
         }
+        fn position_rates(&self, _t: f64, s: &Plane<f64>) -> Vector2<f64> {
+            s.v
+        }
     }
     impl Differentiable for Pushed {
         type Matrix = [[f64; 2]; 2];
@@ -328,6 +352,18 @@ fn closed_loop_without_equilibrium() {
         }
         fn correction(&self, t: f64, q: &Vector2<f64>, r: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
             Bead { stiffness: 0.0 }.correction(t, q, r, weights)
+        }
+        fn velocity_correction(
+            &self,
+            t: f64,
+            state: &Plane<f64>,
+            residual: &f64,
+            weights: &Vector2<f64>,
+        ) -> (Vector2<f64>, f64) {
+            self.correction(t, &state.q, residual, weights)
+        }
+        fn constraints_along(&self, t: f64, state: &Plane<f64>, d: &Vector2<f64>) -> f64 {
+            self.constraint_rate_along(t, state, d)
         }
     }
     let guess = Plane { q: Vector2::new(0.6, 0.8), v: Vector2::zeros() };

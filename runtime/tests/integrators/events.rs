@@ -74,6 +74,9 @@ impl System for Ball {
     fn derivative(&self, _t: f64, _state: &Scalar<f64>, (): &()) -> (f64, ()) {
         (-10.0, ())
     }
+    fn position_rates(&self, _t: f64, state: &Scalar<f64>) -> f64 {
+        state.v
+    }
 }
 
 fn bounced(restitution: f64) -> impl Fn(&Event, &Scalar<f64>) -> Action<Scalar<f64>> {
@@ -264,6 +267,9 @@ fn two_balls_meet_the_ground_at_once() {
         type Input = ();
         fn derivative(&self, _t: f64, _state: &Coordinates<f64, 2>, (): &()) -> (Vector2<f64>, ()) {
             (Vector2::new(-10.0, -10.0), ())
+        }
+        fn position_rates(&self, _t: f64, state: &Coordinates<f64, 2>) -> Vector2<f64> {
+            state.v
         }
     }
     for gap in [0.0, 1e-15, 1e-12, -1e-15, -1e-12, 1e-3] {

@@ -70,6 +70,9 @@ impl System for Explosion {
     fn derivative(&self, _t: f64, state: &Scalar<f64>, (): &()) -> (f64, ()) {
         (state.v.powi(3), ())
     }
+    fn position_rates(&self, _t: f64, state: &Scalar<f64>) -> f64 {
+        state.v
+    }
 }
 
 #[test]

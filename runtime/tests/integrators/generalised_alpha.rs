@@ -24,6 +24,9 @@ impl System for Vibration {
     fn derivative(&self, _t: f64, x: &Scalar<f64>, (): &()) -> (f64, ()) {
         (-self.frequency * (self.frequency * x.q + 2.0 * self.damping * x.v), ())
     }
+    fn position_rates(&self, _t: f64, x: &Scalar<f64>) -> f64 {
+        x.v
+    }
 }
 
 impl Differentiable for Vibration {
@@ -258,6 +261,9 @@ impl System for Tied {
         let bias = -(x.v[0] * x.v[0] + x.v[1] * x.v[1]);
         (self.jump(t, &x.q, &self.forces(&x.q), &bias).0, ())
     }
+    fn position_rates(&self, _t: f64, x: &Coordinates<f64, 4>) -> SVector<f64, 4> {
+        x.v
+    }
 }
 
 impl Constrained for Tied {
@@ -270,6 +276,18 @@ impl Constrained for Tied {
     }
     fn correction(&self, _t: f64, q: &SVector<f64, 4>, r: &f64, w: &SVector<f64, 4>) -> (SVector<f64, 4>, f64) {
         least_norm(&Self::row(q), &SVector::from([*r]), w)
+    }
+    fn velocity_correction(
+        &self,
+        t: f64,
+        state: &Coordinates<f64, 4>,
+        residual: &f64,
+        weights: &SVector<f64, 4>,
+    ) -> (SVector<f64, 4>, f64) {
+        self.correction(t, &state.q, residual, weights)
+    }
+    fn constraints_along(&self, t: f64, state: &Coordinates<f64, 4>, d: &SVector<f64, 4>) -> f64 {
+        self.constraint_rate_along(t, state, d)
     }
 }
 

@@ -14,6 +14,7 @@ mod order_symplectic;
 mod own_steps;
 mod radau;
 mod sampled;
+mod speeds;
 mod verify;
 mod without_inertia;
 mod wrappers;

@@ -203,5 +203,8 @@ mod naive {
         fn derivative(&self, t: f64, state: &State, input: &()) -> (Twist, ()) {
             self.0.derivative(t, &common::Flight { q: state.0.0, v: state.1 }, input)
         }
+        fn position_rates(&self, _t: f64, state: &State) -> Twist {
+            state.1
+        }
     }
 }

@@ -179,6 +179,9 @@ impl System for Explosion {
     fn derivative(&self, _t: WideF64x4, x: &Self::State, (): &()) -> (WideF64x4, ()) {
         (WideF64x4::lit(2.0) * x.q * x.q * x.q, ())
     }
+    fn position_rates(&self, _t: WideF64x4, x: &Self::State) -> WideF64x4 {
+        x.v
+    }
 }
 
 /// Two lanes end in a singularity, one is bounded in its steps; the others go on as they would.

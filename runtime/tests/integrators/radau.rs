@@ -8,14 +8,14 @@ use multibody::linear::Square;
 use multibody::nalgebra::{Vector2, Vector3};
 use multibody::simba::simd::WideF64x4;
 use multibody::{
-    Configuration, Differentiable, DormandPrince, IntegrationError, Integrator, Radau, Real, StateSpace, Statistics,
-    System, Tangent, Tolerance, Twist,
+    Configuration, Differentiable, DormandPrince, IntegrationError, Integrator, JacobianMatrix, Radau, Real,
+    SecondOrder, StateSpace, Statistics, System, Tangent, Tolerance, Twist,
 };
 
 /// The derivatives that the other tests rest on, against central differences.
 #[test]
 fn derivatives_of_the_systems() {
-    fn check<S: Differentiable<Scalar = f64>>(system: &S, state: &S::State, input: &S::Input) {
+    fn check<S: Differentiable<Scalar = f64> + SecondOrder>(system: &S, state: &S::State, input: &S::Input) {
         let jacobian = system.jacobian(0.3, state, input);
         let (q, v, x) = state.split();
         let count = v.len();
@@ -26,8 +26,8 @@ fn derivatives_of_the_systems() {
             let (dv, dx) = (v.map(&mut unit), x.map(&mut unit));
             let mut slopes = [[0.0; 16]; 4];
             let states = [
-                state.join(q.displace(&dv), v, x),
-                state.join(q.displace(&dv.scale(-1.0)), v, x),
+                state.join(q.displace(&S::as_displacement(dv)), v, x),
+                state.join(q.displace(&S::as_displacement(dv.scale(-1.0))), v, x),
                 state.join(q, v.add(&dv), x.add(&dx)),
                 state.join(q, v.add_scaled(-1.0, &dv), x.add_scaled(-1.0, &dx)),
             ];
@@ -42,7 +42,8 @@ fn derivatives_of_the_systems() {
             for i in 0..S::Matrix::SIZE {
                 let by_position = if j < count { (right[i] - left[i]) / (2.0 * step) } else { 0.0 };
                 let by_rate = (up[i] - down[i]) / (2.0 * step);
-                for (found, seen) in [(jacobian.position.get(i, j), by_position), (jacobian.rates.get(i, j), by_rate)] {
+                let found = [S::Matrix::by_position(&jacobian, i, j), S::Matrix::by_rates(&jacobian, i, j)];
+                for (found, seen) in found.into_iter().zip([by_position, by_rate]) {
                     assert!((found - seen).abs() < 1e-6 * (1.0 + found.abs()), "{i} {j}: {found} and {seen}");
                 }
             }
@@ -242,6 +243,9 @@ fn fast_winding() {
         type Input = ();
         fn derivative(&self, _t: f64, s: &Scalar<f64>, (): &()) -> (f64, ()) {
             (0.5 * (3.0 - 0.5 * s.v) / 2.0 - 0.1 * s.v - s.q.sin(), ())
+        }
+        fn position_rates(&self, _t: f64, s: &Scalar<f64>) -> f64 {
+            s.v
         }
     }
     let quasi = DormandPrince::integrate(&Quasi, 0.0, &Scalar { q: 0.2, v: 0.0 }, &(), 1e-3, 5000, |_, _| ()).unwrap();

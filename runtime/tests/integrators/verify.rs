@@ -116,6 +116,9 @@ impl System for Liar {
     fn derivative(&self, t: f64, state: &Self::State, input: &Self::Input) -> (VelocityOf<Self>, ExtraOf<Self>) {
         self.model.derivative(t, state, input)
     }
+    fn position_rates(&self, _t: f64, state: &Self::State) -> VelocityOf<Self> {
+        state.v
+    }
 }
 
 impl Verifiable<7> for Liar {

@@ -43,6 +43,9 @@ impl System for Bead {
     fn derivative(&self, _t: f64, _state: &State, (): &()) -> (Vector2<f64>, ()) {
         (Vector2::zeros(), ())
     }
+    fn position_rates(&self, _t: f64, state: &State) -> Vector2<f64> {
+        state.v
+    }
     fn accepted(&self, _t: f64, state: &State, (): &()) -> State {
         self.accepted.set(self.accepted.get() + 1);
         *state
@@ -78,6 +81,18 @@ impl Constrained for Bead {
     }
     fn correction(&self, _t: f64, _q: &Vector2<f64>, residual: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
         least_norm(&Vector2::new(0.0, 1.0).transpose(), &Vector1::new(*residual), weights)
+    }
+    fn velocity_correction(
+        &self,
+        t: f64,
+        state: &State,
+        residual: &f64,
+        weights: &Vector2<f64>,
+    ) -> (Vector2<f64>, f64) {
+        self.correction(t, &state.q, residual, weights)
+    }
+    fn constraints_along(&self, t: f64, state: &State, d: &Vector2<f64>) -> f64 {
+        self.constraint_rate_along(t, state, d)
     }
 }
 

@@ -222,6 +222,9 @@ impl System for Plate {
     fn derivative(&self, _t: f64, _state: &Flight, (): &()) -> (Twist, ()) {
         (Tangent::zero(), ())
     }
+    fn position_rates(&self, _t: f64, state: &Flight) -> Twist {
+        state.v
+    }
 }
 
 impl Plate {
@@ -265,6 +268,12 @@ impl Constrained for Plate {
         let weights = SVector::from([l.x, l.y, l.z, a.x, a.y, a.z]);
         let (d, rank) = least_norm(&Self::jacobian(q), residual, &weights);
         (Twist { linear: Vector3::new(d[0], d[1], d[2]), angular: Vector3::new(d[3], d[4], d[5]) }, rank)
+    }
+    fn velocity_correction(&self, t: f64, state: &Flight, residual: &SVector<f64, 6>, weights: &Twist) -> (Twist, f64) {
+        self.correction(t, &state.q, residual, weights)
+    }
+    fn constraints_along(&self, t: f64, state: &Flight, d: &Twist) -> SVector<f64, 6> {
+        self.constraint_rate_along(t, state, d)
     }
 }
 

@@ -9,7 +9,7 @@ use multibody::integrators::{Action, Direction, Event, Events};
 use multibody::simba::simd::{SimdValue, WideF64x4};
 use multibody::{
     Canonical, Differentiable, Dop853, DormandPrince, Euler, GaussLegendre4, GaussLegendre6, GeneralisedAlpha,
-    ImplicitMidpoint, IntegrationError, Integrator, Method, Projection, Radau, Rk4, SemiImplicitEuler,
+    ImplicitMidpoint, IntegrationError, Integrator, Method, Projection, Radau, Rk4, SecondOrder, SemiImplicitEuler,
     SymplecticGauss4, SymplecticGauss6, SymplecticMidpoint, System, WithProjection, multibody, simulate,
 };
 
@@ -158,7 +158,7 @@ fn plain<S: System<Input = ()>>(name: &str, system: &S, start: &S::State, truth:
 }
 
 /// Those that ask for derivatives.
-fn implicit<S: Differentiable<Input = ()>>(name: &str, system: &S, start: &S::State, truth: (f64, &str)) {
+fn implicit<S: Differentiable<Input = ()> + SecondOrder>(name: &str, system: &S, start: &S::State, truth: (f64, &str)) {
     let radau = Integrator::fixed(Radau, 5e-3);
     ends(&format!("{name}, Radau"), radau, system, start, truth, 0.06);
     let alpha = Integrator::fixed(GeneralisedAlpha::new(0.8), 2e-3);

@@ -132,6 +132,9 @@ impl System for Handled {
             _ => model.derivative(t, state, &()),
         }
     }
+    fn position_rates(&self, _t: f64, state: &kept::State) -> kept::Velocity {
+        state.v
+    }
     fn accepted(&self, t: f64, state: &kept::State, (): &()) -> kept::State {
         let model = &self.model;
         let plain = |projection| WithProjection::new(model, projection).accepted(t, state, &());
@@ -187,6 +190,18 @@ impl Constrained for Handled {
         weights: &kept::Velocity,
     ) -> (kept::Velocity, f64) {
         self.model.correction(t, q, residual, weights)
+    }
+    fn velocity_correction(
+        &self,
+        t: f64,
+        state: &kept::State,
+        residual: &Self::Residual,
+        weights: &kept::Velocity,
+    ) -> (kept::Velocity, f64) {
+        self.correction(t, &state.q, residual, weights)
+    }
+    fn constraints_along(&self, t: f64, state: &kept::State, d: &kept::Velocity) -> Self::Residual {
+        self.constraint_rate_along(t, state, d)
     }
 }
 

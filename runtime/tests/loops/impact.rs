@@ -19,6 +19,9 @@ impl<T: Real, const N: usize> System for Masses<T, N> {
     fn derivative(&self, _t: T, _x: &Coordinates<T, N>, (): &()) -> (SVector<T, N>, ()) {
         (Tangent::zero(), ())
     }
+    fn position_rates(&self, _t: T, x: &Coordinates<T, N>) -> SVector<T, N> {
+        x.v
+    }
 }
 
 impl<T: Real, const N: usize> Impulsive for Masses<T, N> {
@@ -83,6 +86,9 @@ impl System for Rods {
     type Input = ();
     fn derivative(&self, _t: f64, _x: &Coordinates<f64, 2>, (): &()) -> (Vector2<f64>, ()) {
         (Vector2::zeros(), ())
+    }
+    fn position_rates(&self, _t: f64, x: &Coordinates<f64, 2>) -> Vector2<f64> {
+        x.v
     }
 }
 

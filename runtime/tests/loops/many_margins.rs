@@ -43,6 +43,9 @@ impl System for Many {
     fn derivative(&self, _t: f64, _state: &State, (): &()) -> (Vector1<f64>, ()) {
         (Vector1::new(0.0), ())
     }
+    fn position_rates(&self, _t: f64, state: &State) -> Vector1<f64> {
+        state.v
+    }
     fn margins(&self, _t: f64, state: &State, (): &(), visit: &mut dyn FnMut(Margin<f64>)) -> f64 {
         self.asked.set(self.asked.get() + 1);
         for k in 0..MARGINS {

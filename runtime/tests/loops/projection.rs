@@ -238,6 +238,9 @@ impl System for Fold {
     fn derivative(&self, _t: f64, _state: &Scalar<f64>, (): &()) -> (f64, ()) {
         (0.0, ())
     }
+    fn position_rates(&self, _t: f64, state: &Scalar<f64>) -> f64 {
+        state.v
+    }
 }
 
 impl Constrained for Fold {
@@ -251,6 +254,12 @@ impl Constrained for Fold {
     fn correction(&self, _t: f64, q: &f64, residual: &f64, weight: &f64) -> (f64, f64) {
         let (d, rank) = multibody::linear::least_norm(&[[*q]].into(), &[*residual].into(), &[*weight].into());
         (d[0], rank)
+    }
+    fn velocity_correction(&self, t: f64, state: &Scalar<f64>, residual: &f64, weights: &f64) -> (f64, f64) {
+        self.correction(t, &state.q, residual, weights)
+    }
+    fn constraints_along(&self, t: f64, state: &Scalar<f64>, d: &f64) -> f64 {
+        self.constraint_rate_along(t, state, d)
     }
 }
 
@@ -323,6 +332,9 @@ impl System for Lever {
     fn derivative(&self, _t: f64, _state: &Scalar<f64>, (): &()) -> (f64, ()) {
         (0.0, ())
     }
+    fn position_rates(&self, _t: f64, state: &Scalar<f64>) -> f64 {
+        state.v
+    }
 }
 
 impl Constrained for Lever {
@@ -335,6 +347,12 @@ impl Constrained for Lever {
     }
     fn correction(&self, _t: f64, q: &f64, residual: &f64, weight: &f64) -> (f64, f64) {
         (if *weight > 0.0 { residual / (1e7 * q.cos()) } else { 0.0 }, 1.0)
+    }
+    fn velocity_correction(&self, t: f64, state: &Scalar<f64>, residual: &f64, weights: &f64) -> (f64, f64) {
+        self.correction(t, &state.q, residual, weights)
+    }
+    fn constraints_along(&self, t: f64, state: &Scalar<f64>, d: &f64) -> f64 {
+        self.constraint_rate_along(t, state, d)
     }
 }
 

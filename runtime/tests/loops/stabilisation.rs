@@ -245,6 +245,9 @@ impl System for Limited {
     fn derivative(&self, _t: f64, _state: &Scalar<f64>, (): &()) -> (f64, ()) {
         (0.0, ())
     }
+    fn position_rates(&self, _t: f64, state: &Scalar<f64>) -> f64 {
+        state.v
+    }
     fn reached(&self, t: f64, state: &Scalar<f64>) {
         self.ends.borrow_mut().push((t, *state));
     }
@@ -260,6 +263,12 @@ impl Constrained for Limited {
     }
     fn correction(&self, _t: f64, q: &f64, _residual: &f64, _weights: &f64) -> (f64, f64) {
         (0.0, if *q > self.limit { 0.0 } else { 1.0 })
+    }
+    fn velocity_correction(&self, t: f64, state: &Scalar<f64>, residual: &f64, weights: &f64) -> (f64, f64) {
+        self.correction(t, &state.q, residual, weights)
+    }
+    fn constraints_along(&self, t: f64, state: &Scalar<f64>, d: &f64) -> f64 {
+        self.constraint_rate_along(t, state, d)
     }
 }
 

@@ -2,5 +2,6 @@
 
 mod blades;
 mod contacts;
+mod speeds;
 mod wheels;
 mod whipple;

@@ -1,56 +1,75 @@
 //! Whipple's bicycle against data that were computed without any library of the kind: accelerations, forces of contact, a motion.
 //! Source: `tests/data/rolling`, after Meijaard, Papadopoulos, Ruina and Schwab, Proc. R. Soc. A 463 (2007) 1955-1982.
 
-use multibody::{Dop853, Integrator, Projection, WithProjection, multibody};
+use multibody::{Dop853, Integrator, Projection, System, WithProjection, multibody};
 use serde_json::Value;
 
-multibody! {
-    /// Whipple's bicycle: x ahead, y to the right, z down; wheels that roll without slip on the plane z = 0.
-    pub mod whipple {
-        const W = 1.02;
-        const C = 0.08;
-        const TILT = PI / 10;
-        const REAR = 0.3;
-        const FRONT = 0.35;
-        world { gravity: 9.81 * Z }
-        body ahead { mass: 0 }
-        body aside { mass: 0 }
-        body below { mass: 0 }
-        body headed { mass: 0 }
-        body leaning { mass: 0 }
-        body frame { mass: 85, com: [0.3, 0, -0.9 + REAR], inertia: inertia(9.2, 11, 2.8, 0, 2.4, 0) }
-        body rear { mass: 2, inertia: diag(0.0603, 0.12, 0.0603) }
-        body fork { mass: 4, com: [0.9 - W - C, 0, -0.7], inertia: inertia(0.05892, 0.06, 0.00708, 0, -0.00756, 0) }
-        body front { mass: 3, inertia: diag(0.1405, 0.28, 0.1405) }
-        joint x: Prismatic { parent: ground, child: ahead, axis: X }
-        joint y: Prismatic { parent: ahead, child: aside, axis: Y }
-        joint z: Prismatic { parent: aside, child: below, axis: Z }
-        joint yaw: Revolute { parent: below, child: headed, axis: Z }
-        joint roll: Revolute { parent: headed, child: leaning, axis: X }
-        joint pitch: Revolute { parent: leaning, child: frame, axis: Y }
-        joint spin_rear: Revolute { parent: frame, child: rear, axis: Y }
-        joint steer: Revolute { parent: frame.at([W + C, 0, REAR]), child: fork, axis: [sin(TILT), 0, cos(TILT)] }
-        joint spin_front: Revolute { parent: fork.at([-C, 0, -FRONT]), child: front, axis: Y }
-        input lean;
-        input turn;
-        input pedal;
-        force on_roll: Effort { joint: roll, value: lean }
-        force on_steer: Effort { joint: steer, value: turn }
-        force on_rear: Effort { joint: spin_rear, value: pedal }
+/// Whipple's bicycle: x ahead, y to the right, z down; wheels that roll without slip on the plane z = 0.
+macro_rules! bicycle {
+    ($name:ident, { $($more:tt)* }) => {
+        multibody! {
+            pub mod $name {
+                const W = 1.02;
+                const C = 0.08;
+                const TILT = PI / 10;
+                const REAR = 0.3;
+                const FRONT = 0.35;
+                world { gravity: 9.81 * Z }
+                body ahead { mass: 0 }
+                body aside { mass: 0 }
+                body below { mass: 0 }
+                body headed { mass: 0 }
+                body leaning { mass: 0 }
+                body frame { mass: 85, com: [0.3, 0, -0.9 + REAR], inertia: inertia(9.2, 11, 2.8, 0, 2.4, 0) }
+                body rear { mass: 2, inertia: diag(0.0603, 0.12, 0.0603) }
+                body fork { mass: 4, com: [0.9 - W - C, 0, -0.7], inertia: inertia(0.05892, 0.06, 0.00708, 0, -0.00756, 0) }
+                body front { mass: 3, inertia: diag(0.1405, 0.28, 0.1405) }
+                joint x: Prismatic { parent: ground, child: ahead, axis: X }
+                joint y: Prismatic { parent: ahead, child: aside, axis: Y }
+                joint z: Prismatic { parent: aside, child: below, axis: Z }
+                joint yaw: Revolute { parent: below, child: headed, axis: Z }
+                joint roll: Revolute { parent: headed, child: leaning, axis: X }
+                joint pitch: Revolute { parent: leaning, child: frame, axis: Y }
+                joint spin_rear: Revolute { parent: frame, child: rear, axis: Y }
+                joint steer: Revolute { parent: frame.at([W + C, 0, REAR]), child: fork, axis: [sin(TILT), 0, cos(TILT)] }
+                joint spin_front: Revolute { parent: fork.at([-C, 0, -FRONT]), child: front, axis: Y }
+                input lean;
+                input turn;
+                input pedal;
+                force on_roll: Effort { joint: roll, value: lean }
+                force on_steer: Effort { joint: steer, value: turn }
+                force on_rear: Effort { joint: spin_rear, value: pedal }
 
-        // The plane's z axis points to the side of the wheels.
-        let road = ground.rotated(X, PI);
-        constraint rear_tyre: Rolling { wheel: rear, axis: Y, radius: REAR, on: road }
-        constraint front_tyre: Rolling { wheel: front, axis: Y, radius: FRONT, on: road }
-        output rear_force = rear_tyre.force;
-        output front_force = front_tyre.force;
-        output contacts = [rear_tyre.contact, front_tyre.contact];
-        output slips = [rear_tyre.slip, front_tyre.slip];
-        output energy = kinetic() + potential();
-        formulation { constraints: Multipliers }
-        emit forward_dynamics, derivatives, constraints;
-    }
+                // The plane's z axis points to the side of the wheels.
+                let road = ground.rotated(X, PI);
+                constraint rear_tyre: Rolling { wheel: rear, axis: Y, radius: REAR, on: road }
+                constraint front_tyre: Rolling { wheel: front, axis: Y, radius: FRONT, on: road }
+                output rear_force = rear_tyre.force;
+                output front_force = front_tyre.force;
+                output contacts = [rear_tyre.contact, front_tyre.contact];
+                output slips = [rear_tyre.slip, front_tyre.slip];
+                output energy = kinetic() + potential();
+                $($more)*
+            }
+        }
+    };
 }
+
+bicycle!(whipple, {
+    formulation { constraints: Multipliers }
+    emit forward_dynamics, derivatives, constraints;
+});
+// Three velocities, and the height and the pitch by Newton's method.
+bicycle!(reduced, {
+    output at = [x.rate, y.rate, z.rate, yaw.rate, roll.rate, pitch.rate, spin_rear.rate, steer.rate, spin_front.rate];
+    output moved = [
+        x.accel, y.accel, z.accel, yaw.accel, roll.accel, pitch.accel,
+        spin_rear.accel, steer.accel, spin_front.accel
+    ];
+    output place = [x, y, z, yaw, roll, pitch, spin_rear, steer, spin_front];
+    formulation { constraints: Reduced, independent: [roll, steer, spin_rear] }
+    emit forward_dynamics, mass_matrix, bias, derivatives, energy;
+});
 use whipple::{Input, Model, Position, State, Velocity};
 
 fn data(name: &str) -> Value {
@@ -158,6 +177,67 @@ fn a_motion() {
         // The reference counts height from the ground, downwards.
         let found = Model::<f64>::default().outputs(t, &state, &Input::default()).energy;
         assert!((found / energy - 1.0).abs() < 1e-12, "{t}: {found} against {energy}");
+    }
+    println!("{worst:.1e}");
+    assert!(worst < 1e-10, "{worst:e}");
+}
+
+/// The same state, in the velocities that are left.
+fn reduced_state(position: Position, rates: &Velocity) -> reduced::State {
+    let Position { x, y, z, yaw, roll, pitch, spin_rear, steer, spin_front } = position;
+    reduced::State {
+        q: reduced::Position { x, y, yaw, roll, spin_rear, steer, spin_front },
+        v: reduced::Velocity { roll: rates.roll, spin_rear: rates.spin_rear, steer: rates.steer },
+        guess: reduced::Guess { z, pitch },
+    }
+}
+
+/// Accelerations, forces of contact and rates without multipliers.
+#[test]
+fn three_velocities() {
+    let model = reduced::Model::<f64>::default();
+    let data = data("whipple_nonlinear");
+    let (mut worst, mut worst_force) = (0.0_f64, 0.0_f64);
+    for one in data["samples"].as_array().unwrap() {
+        let (State { q, v }, input) = sample(one);
+        let input = reduced::Input { lean: input.lean, turn: input.turn, pedal: input.pedal };
+        let state = model.accepted(0.0, &reduced_state(q, &v), &input);
+        let outputs = model.outputs(0.0, &state, &input);
+        let places = [q.x, q.y, q.z, q.yaw, q.roll, q.pitch, q.spin_rear, q.steer, q.spin_front];
+        assert!(apart(&outputs.place, &places) < 1e-13, "{}", one["label"]);
+        assert!(apart(&outputs.at, &list(&v)) < 1e-12, "{}", one["label"]);
+        worst = worst.max(apart(&outputs.moved, &list(&velocity(&one["a"]))));
+        let wanted = ["force_rear", "force_front"].map(|name| [0, 1, 2].map(|k| number(&one[name][k])));
+        let forces: Vec<f64> = outputs.rear_force.iter().chain(&outputs.front_force).copied().collect();
+        worst_force = worst_force.max(apart(&forces, &wanted.concat()));
+    }
+    println!("accelerations {worst:.1e}, forces {worst_force:.1e}");
+    assert!(worst < 1e-11 && worst_force < 1e-11, "{worst:e}, {worst_force:e}");
+}
+
+/// Ten seconds in them, without a projection.
+#[test]
+fn a_motion_in_three_velocities() {
+    let model = reduced::Model::<f64>::default();
+    let data = data("whipple_nonlinear");
+    let points = data["trajectory"]["points"].as_array().unwrap();
+    let energy = number(&data["trajectory"]["energy"]);
+    let rates = Velocity { roll: 0.5, spin_rear: -4.6 / 0.3, ..Velocity::default() };
+    let (mut state, mut t, mut worst) = (reduced_state(position(&points[0]["q"]), &rates), 0.0, 0.0_f64);
+    let integrator = Integrator::adaptive(Dop853, 1e-13, 1e-13);
+    for point in points {
+        let until = number(&point["t"]);
+        if until > t {
+            state = integrator.integrate(&model, t, until, &state, &reduced::Input::default(), |_, _| ()).unwrap().0;
+            t = until;
+        }
+        let Position { x, y, z, yaw, roll, pitch, spin_rear, steer, spin_front } = position(&point["q"]);
+        let outputs = model.outputs(t, &state, &reduced::Input::default());
+        worst = worst.max(apart(&outputs.place, &[x, y, z, yaw, roll, pitch, spin_rear, steer, spin_front]));
+        let rates = [state.v.roll, state.v.steer, state.v.spin_rear];
+        worst = worst.max(apart(&rates, &["roll", "steer", "spin_rear"].map(|name| number(&point["rates"][name]))));
+        assert!((outputs.energy / energy - 1.0).abs() < 1e-12, "{t}: {} against {energy}", outputs.energy);
+        assert!(outputs.slips.iter().all(|slip| slip.amax() < 1e-11));
     }
     println!("{worst:.1e}");
     assert!(worst < 1e-10, "{worst:e}");

@@ -41,6 +41,9 @@ impl<S: System> System for Bounded<'_, S> {
         self.count();
         self.system.derivative(t, state, input)
     }
+    fn position_rates(&self, t: S::Scalar, state: &S::State) -> DisplacementOf<S> {
+        self.system.position_rates(t, state)
+    }
     fn accepted(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> S::State {
         self.count();
         self.system.accepted(t, state, input)
@@ -84,25 +87,48 @@ impl<S: Constrained> Constrained for Bounded<'_, S> {
         t: S::Scalar,
         q: &PositionOf<S>,
         residual: &S::Residual,
+        weights: &DisplacementOf<S>,
+    ) -> (DisplacementOf<S>, S::Scalar) {
+        self.count();
+        self.system.correction(t, q, residual, weights)
+    }
+    fn velocity_correction(
+        &self,
+        t: S::Scalar,
+        state: &S::State,
+        residual: &S::Residual,
         weights: &VelocityOf<S>,
     ) -> (VelocityOf<S>, S::Scalar) {
         self.count();
-        self.system.correction(t, q, residual, weights)
+        self.system.velocity_correction(t, state, residual, weights)
+    }
+    fn constraints_along(&self, t: S::Scalar, state: &S::State, d: &DisplacementOf<S>) -> S::Residual {
+        self.count();
+        self.system.constraints_along(t, state, d)
     }
     fn least_correction(
         &self,
         t: S::Scalar,
         q: &PositionOf<S>,
         residual: &S::Residual,
-    ) -> Option<(VelocityOf<S>, S::Scalar)> {
+    ) -> Option<(DisplacementOf<S>, S::Scalar)> {
         self.count();
         self.system.least_correction(t, q, residual)
+    }
+    fn least_velocity_correction(
+        &self,
+        t: S::Scalar,
+        state: &S::State,
+        residual: &S::Residual,
+    ) -> Option<(VelocityOf<S>, S::Scalar)> {
+        self.count();
+        self.system.least_velocity_correction(t, state, residual)
     }
 }
 
 impl<S: Differentiable> Differentiable for Bounded<'_, S> {
     type Matrix = S::Matrix;
-    fn jacobian(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> Jacobian<S::Matrix> {
+    fn jacobian(&self, t: S::Scalar, state: &S::State, input: &S::Input) -> JacobianOf<S> {
         self.count();
         self.system.jacobian(t, state, input)
     }

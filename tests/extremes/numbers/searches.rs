@@ -32,7 +32,7 @@ pub(super) fn at_rest<S: Differentiable<Scalar: Drawn, Input: Tangent<S::Scalar>
     (state, input): (&S::State, &S::Input),
     n: &Numbers,
 ) {
-    let some: VelocityOf<S> = n.vector();
+    let some: DisplacementOf<S> = n.vector();
     for free in [some, some.map(&mut |_| S::Scalar::lit(1.0))] {
         system.reset();
         let found = equilibrium(system, n.scalar(), state, input, &free);
@@ -42,7 +42,7 @@ pub(super) fn at_rest<S: Differentiable<Scalar: Drawn, Input: Tangent<S::Scalar>
     let found = trim(system, n.scalar(), state, input, &n.vector());
     assert!(found.is_err() || found.is_ok_and(|found| finite(&found.state)));
     let (t, change) = (n.scalar(), n.vector());
-    black_box(system.jacobian(t, state, input).rates);
+    black_box(system.jacobian(t, state, input));
     black_box(system.input_derivative(t, state, input, &change).0.len());
 }
 
@@ -51,7 +51,7 @@ pub(super) fn at_rest_with_loops<S: Differentiable<Scalar: Drawn> + Constrained>
     (state, input): (&S::State, &S::Input),
     n: &Numbers,
 ) {
-    let some: VelocityOf<S> = n.vector();
+    let some: DisplacementOf<S> = n.vector();
     for free in [some, some.map(&mut |_| S::Scalar::lit(1.0))] {
         system.reset();
         let found = constrained_equilibrium(system, n.scalar(), state, input, &free);
@@ -60,7 +60,11 @@ pub(super) fn at_rest_with_loops<S: Differentiable<Scalar: Drawn> + Constrained>
 }
 
 /// Projection, assembly and their wrappers.
-pub(super) fn closed<S: Constrained<Scalar: Drawn>>(system: &Bounded<S>, start: (&S::State, &S::Input), n: &Numbers) {
+pub(super) fn closed<S: Constrained<Scalar: Drawn> + SecondOrder>(
+    system: &Bounded<S>,
+    start: (&S::State, &S::Input),
+    n: &Numbers,
+) {
     let (state, _) = start;
     let (q, _, _) = state.split();
     system.reset();
@@ -68,7 +72,7 @@ pub(super) fn closed<S: Constrained<Scalar: Drawn>>(system: &Bounded<S>, start: 
     black_box(system.constraint_rate(n.scalar(), state).len());
     black_box(system.correction(n.scalar(), &q, &n.vector(), &n.vector()).1);
     black_box(system.least_correction(n.scalar(), &q, &n.vector()).is_some());
-    black_box(Plain.fixed_correction(system, n.scalar(), &q, &n.vector()).1);
+    black_box(Plain.fixed_correction(system, n.scalar(), state, &n.vector()).1);
     black_box(rank(system, n.scalar(), state));
     let halves = [(true, false), (false, true), (true, true)];
     let (position, velocity) = halves[(n.setting().abs() % 3.0) as usize];
@@ -106,7 +110,7 @@ pub(super) fn closed<S: Constrained<Scalar: Drawn>>(system: &Bounded<S>, start: 
 /// The same by mass.
 pub(super) fn closed_by_mass<S>(system: &Bounded<S>, start: (&S::State, &S::Input), n: &Numbers)
 where
-    S: Constrained<Scalar: Drawn> + Impulsive<Rates = <S as Constrained>::Residual>,
+    S: Constrained<Scalar: Drawn> + SecondOrder + Impulsive<Rates = <S as Constrained>::Residual>,
 {
     let (state, _) = start;
     for projection in [Projection { tolerance: n.setting(), ..Projection::default() }, Projection::default()] {
@@ -124,7 +128,7 @@ where
 
 pub(super) fn closed_implicitly<S>(system: &Bounded<S>, start: (&S::State, &S::Input), n: &Numbers)
 where
-    S: Constrained<Scalar: Drawn> + Differentiable + Impulsive<Rates = <S as Constrained>::Residual>,
+    S: Constrained<Scalar: Drawn> + SecondOrder + Differentiable + Impulsive<Rates = <S as Constrained>::Residual>,
 {
     method(GeneralisedAlpha::new(n.setting()).constrained(), (system, system), start, n);
     method(Radau, (&WithProjection::new(system, Projection::default()), system), start, n);

@@ -126,7 +126,7 @@ pub(super) fn method<S, R, M>(
 }
 
 /// Those that ask for nothing but rates.
-pub(super) fn any<S: System<Scalar: Drawn>>(system: &Bounded<S>, start: (&S::State, &S::Input), n: &Numbers) {
+pub(super) fn any<S: SecondOrder<Scalar: Drawn>>(system: &Bounded<S>, start: (&S::State, &S::Input), n: &Numbers) {
     let systems = (system, system);
     method(Euler, systems, start, n);
     method(SemiImplicitEuler, systems, start, n);
@@ -145,7 +145,7 @@ pub(super) fn any<S: System<Scalar: Drawn>>(system: &Bounded<S>, start: (&S::Sta
     let _ = black_box(outcome.is_ok());
 }
 
-pub(super) fn differentiable<S: Differentiable<Scalar: Drawn>>(
+pub(super) fn differentiable<S: Differentiable<Scalar: Drawn> + SecondOrder>(
     system: &Bounded<S>,
     start: (&S::State, &S::Input),
     n: &Numbers,

@@ -59,6 +59,10 @@ pub enum FunctionKind {
     Linearization,
     /// The jump of the velocities; with constraints the multipliers and the rank of their system.
     Impulse,
+    /// Rates of positions, where velocities are others.
+    PositionRates,
+    /// Of these R x displacements of the position, R x velocities, R x own states, R x scalars of inputs, each row by row.
+    RateDerivatives,
     /// The least displacement that the constraint equations demand, DOF of it, then their rank.
     Displacement,
     /// Momenta, by velocity coordinate.
@@ -87,6 +91,8 @@ pub enum Asked {
     By { request: Request, word: &'static str, missing: &'static str },
     /// Equations that keep a multiplier.
     Equations,
+    /// Velocities that are no rates of positions.
+    Speeds,
     /// Loops that Newton's method closes.
     Guesses,
     /// Outputs of the model.
@@ -136,6 +142,10 @@ impl Arguments {
 #[derive(Clone, Copy, Default)]
 pub struct Sizes {
     pub dof: usize,
+    /// Components of a displacement of the position.
+    pub displacements: usize,
+    /// Whether velocities are no rates of positions.
+    pub speeds: bool,
     /// Equations that keep a multiplier.
     pub rows: usize,
     /// Scalars of own states, inputs, outputs.
@@ -159,7 +169,7 @@ pub struct Sizes {
 impl Sizes {
     /// Whether forward dynamics gives more than accelerations.
     pub fn has_derivative(&self) -> bool {
-        self.states > 0 || self.rows > 0 || self.guesses > 0
+        self.speeds || self.states > 0 || self.rows > 0 || self.guesses > 0
     }
 }
 
@@ -173,7 +183,9 @@ pub enum Shape {
     /// Of a symmetric matrix of so many rows what is on and below the diagonal, row by row.
     Lower(usize),
     Velocity,
-    /// Accelerations, rates of own states, multipliers, rank, residual: those that there are.
+    /// Of positions.
+    Rates,
+    /// Accelerations, rates of own states, rates of positions where velocities are others, multipliers, rank, residual: those that there are.
     Derivative,
     /// Inputs, then the rank of their system.
     Solved(usize),
@@ -218,7 +230,12 @@ impl Shape {
             Shape::Matrix(rows, columns) => one(Form::Matrix(rows, columns)),
             Shape::Lower(rows) => one(Form::Vector(triangle(rows))),
             Shape::Velocity => velocity(),
-            Shape::Derivative => residual(multipliers(any(velocity(), Slot::States, sizes.states))),
+            Shape::Rates => one(Form::Vector(sizes.displacements)),
+            Shape::Derivative => {
+                let moved = if sizes.speeds { sizes.displacements } else { 0 };
+                let states = any(velocity(), Slot::States, sizes.states);
+                residual(multipliers(any(states, Slot::Rates, moved)))
+            }
             Shape::Solved(inputs) => {
                 Parts::default().with(Slot::Inputs, Form::Vector(inputs)).with(Slot::Rank, Form::Scalar)
             }
@@ -236,7 +253,7 @@ impl Shape {
                 Parts::default().with(Slot::Positions, Form::Vector(found)).with(Slot::Residual, Form::Scalar)
             }
             Shape::Derivatives(results) => [
-                (Slot::ByPosition, sizes.dof),
+                (Slot::ByPosition, sizes.displacements),
                 (Slot::ByVelocity, sizes.dof),
                 (Slot::ByState, sizes.states),
                 (Slot::ByInput, sizes.inputs),
@@ -275,7 +292,7 @@ pub struct FunctionRow {
 
 impl FunctionKind {
     /// All of them in the order in which they are derived; the first kinematics and the first group of outputs for all.
-    pub const ALL: [FunctionKind; 32] = [
+    pub const ALL: [FunctionKind; 34] = [
         FunctionKind::ForwardDynamics,
         FunctionKind::InverseDynamics,
         FunctionKind::MassMatrix,
@@ -308,6 +325,8 @@ impl FunctionKind {
         FunctionKind::Margins,
         FunctionKind::Granted,
         FunctionKind::Displacement,
+        FunctionKind::PositionRates,
+        FunctionKind::RateDerivatives,
     ];
 
     /// Name of its method.
@@ -402,6 +421,20 @@ impl FunctionKind {
                 |s| Shape::Matrix(s.rows, s.dof),
                 |_| "The Jacobian `G` of the constraint equations by the velocities.",
             ),
+            FunctionKind::PositionRates => row(
+                Asked::Speeds,
+                "position_rates",
+                Arguments::TIMED_STATE,
+                |_| Shape::Rates,
+                |_| "Rates of positions: the velocities of all coordinates, which follow from those of the state.",
+            ),
+            FunctionKind::RateDerivatives => row(
+                Asked::Speeds,
+                "rate_derivatives",
+                Arguments::TIMED_STATE,
+                |s| Shape::Derivatives(s.displacements),
+                |_| "Partial derivatives of `position_rates`; those of a rotation are components of its angular velocity along its own axes.",
+            ),
             FunctionKind::ConstraintRate => row(
                 Asked::Equations,
                 "constraint_rate",
@@ -488,7 +521,7 @@ impl FunctionKind {
                 by(R::Linearize, "linearize", "Linearize"),
                 "linearize",
                 Arguments::ALL,
-                |s| Shape::Linearization(2 * s.dof + s.states),
+                |s| Shape::Linearization(s.displacements + s.dof + s.states),
                 |s| match (s.states, s.outputs) {
                     (0, 0) => {
                         "The equations linearised: `x' = A x + B u`, where `x` are changes of the position, as displacements, and of \

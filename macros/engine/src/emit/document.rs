@@ -22,7 +22,7 @@ use crate::contracts::cost::Cost;
 use crate::contracts::function::FunctionKind;
 use crate::mechanics::loops::structure::Modes;
 use crate::model::joint_kinds::JointKind;
-use crate::model::types::{Docs, Joint, Param, PartTypeId, State};
+use crate::model::types::{Docs, Joint, Param, PartTypeId, Speed, State};
 use crate::optimize::packs;
 use crate::optimize::program::{At, Compiled, Function};
 
@@ -76,6 +76,11 @@ pub(super) fn state(state: &State) -> Vec<String> {
     let mut lines = item(&state.docs, "state");
     lines.extend([String::new(), format!("Starts at `{}`", values(&[state.start]))]);
     lines
+}
+
+/// Of a speed of the user's choice in `Velocity`.
+pub(super) fn speed(speed: &Speed) -> Vec<String> {
+    item(&speed.docs, "speed")
 }
 
 /// `1.0`, or `[1.0, 2.0]`; long lists are cut.
@@ -134,6 +139,7 @@ pub(super) fn group(layout: &Layout<'_>, group: StructKind, owner: Option<PartTy
         StructKind::Velocity => {
             format!("Velocities of {of}; accelerations and efforts have the same components.")
         }
+        StructKind::Rates => format!("Rates of the positions of {of}, and their displacements."),
         StructKind::States => format!("States of {of} beside its coordinates, or their rates."),
         StructKind::Input => format!("Inputs of {of}, held over a step. The default is zero."),
         StructKind::Guess => {
@@ -144,7 +150,7 @@ pub(super) fn group(layout: &Layout<'_>, group: StructKind, owner: Option<PartTy
     };
     let mut lines = vec![line];
     let size = layout.table(group).size;
-    if owner.is_none() && matches!(group, StructKind::Position | StructKind::Velocity) {
+    if owner.is_none() && matches!(group, StructKind::Position | StructKind::Velocity | StructKind::Rates) {
         lines.extend([String::new(), format!("Components in order of declaration: {size}.")]);
     }
     lines

@@ -29,6 +29,8 @@ pub(super) enum StructKind {
     Params,
     Position,
     Velocity,
+    /// Rates of positions, where velocities are others.
+    Rates,
     States,
     /// Where Newton's method starts to close loops.
     Guess,
@@ -39,10 +41,11 @@ pub(super) enum StructKind {
 }
 
 impl StructKind {
-    pub(super) const ALL: [StructKind; 8] = [
+    pub(super) const ALL: [StructKind; 9] = [
         StructKind::Params,
         StructKind::Position,
         StructKind::Velocity,
+        StructKind::Rates,
         StructKind::States,
         StructKind::Guess,
         StructKind::Input,
@@ -56,6 +59,7 @@ impl StructKind {
             StructKind::Params => "Params",
             StructKind::Position => "Position",
             StructKind::Velocity => "Velocity",
+            StructKind::Rates => "Rates",
             StructKind::States => "States",
             StructKind::Guess => "Guess",
             StructKind::Input => "Input",
@@ -112,6 +116,7 @@ pub(super) struct Layout<'a> {
     params: Table,
     position: Table,
     velocity: Table,
+    rates: Table,
     states: Table,
     guess: Table,
     input: Table,
@@ -119,8 +124,10 @@ pub(super) struct Layout<'a> {
     poses: Table,
     /// By the number of an unknown in the guess: its leaf there, and the component.
     guessed: Vec<(usize, usize)>,
-    /// By joint: numbers of its leaves in `position` and `velocity`, and what of the joint they hold.
+    /// By joint: numbers of its leaves in `position`, and what of the joint they hold.
     joints: Vec<Vec<(usize, Piece)>>,
+    /// The same in `velocity`; behind joints speeds of the user's choice, which are scalars.
+    velocities: Vec<Vec<(usize, Piece)>>,
 }
 
 impl<'a> Layout<'a> {
@@ -131,6 +138,7 @@ impl<'a> Layout<'a> {
             params: Table::default(),
             position: Table::default(),
             velocity: Table::default(),
+            rates: Table::default(),
             states: Table::default(),
             guess: Table::default(),
             guessed: Vec::new(),
@@ -138,8 +146,10 @@ impl<'a> Layout<'a> {
             output: Table::default(),
             poses: Table::default(),
             joints: Vec::new(),
+            velocities: Vec::new(),
         };
         layout.add_joints();
+        layout.add_velocities();
         layout.add_guess();
         let dof = layout.dof();
         for param in &model.params {
@@ -187,9 +197,38 @@ impl<'a> Layout<'a> {
                 let place = Place { instance: joint.place.instance, field };
                 let [of_position, of_velocity] = piece.docs(joint);
                 let [unit, rate] = piece.units(joint);
-                self.add(StructKind::Position, &place, piece.position.clone(), of_position, unit);
-                let index = self.add(StructKind::Velocity, &place, piece.velocity.clone(), of_velocity, rate);
+                let index = self.add(StructKind::Position, &place, piece.position.clone(), of_position, unit);
+                if structure.has_speeds() {
+                    self.add(StructKind::Rates, &place, piece.velocity.clone(), of_velocity, rate);
+                }
                 self.joints[id.0].push((index, piece));
+            }
+        }
+    }
+
+    /// In the order of velocity coordinates, those of one joint together.
+    fn add_velocities(&mut self) {
+        let (model, structure) = (self.model, self.structure);
+        let speeds = structure.speeds();
+        self.velocities = (0..model.joints.len() + model.speeds.len()).map(|_| Vec::new()).collect();
+        for coordinate in speeds {
+            let id = coordinate.joint;
+            if !self.velocities[id.0].is_empty() {
+                continue;
+            }
+            if let Some(speed) = model.speed(id) {
+                let (docs, unit) = (document::speed(speed), speed.docs.unit.clone());
+                let index = self.add(StructKind::Velocity, &speed.place, Leaf::Scalar, docs, unit);
+                self.velocities[id.0].push((index, Piece::of_speed()));
+                continue;
+            }
+            let joint = &model.joints[id];
+            for piece in joints::velocity_pieces(joint.kind, &joints::held(model, speeds, id)) {
+                let field = joints::field(model, speeds, id, joint, &piece);
+                let place = Place { instance: joint.place.instance, field };
+                let ([_, docs], [_, rate]) = (piece.docs(joint), piece.units(joint));
+                let index = self.add(StructKind::Velocity, &place, piece.velocity.clone(), docs, rate);
+                self.velocities[id.0].push((index, piece));
             }
         }
     }
@@ -269,6 +308,7 @@ impl<'a> Layout<'a> {
             StructKind::Params => &self.params,
             StructKind::Position => &self.position,
             StructKind::Velocity => &self.velocity,
+            StructKind::Rates => &self.rates,
             StructKind::States => &self.states,
             StructKind::Guess => &self.guess,
             StructKind::Input => &self.input,
@@ -282,12 +322,18 @@ impl<'a> Layout<'a> {
             StructKind::Params => &mut self.params,
             StructKind::Position => &mut self.position,
             StructKind::Velocity => &mut self.velocity,
+            StructKind::Rates => &mut self.rates,
             StructKind::States => &mut self.states,
             StructKind::Guess => &mut self.guess,
             StructKind::Input => &mut self.input,
             StructKind::Output => &mut self.output,
             StructKind::Poses => &mut self.poses,
         }
+    }
+
+    /// What displaces a position, and is its rate: the velocity, if that is the rates of all coordinates.
+    pub(super) fn displacement(&self) -> StructKind {
+        if self.structure.has_speeds() { StructKind::Rates } else { StructKind::Velocity }
     }
 
     /// Number of velocity coordinates.
@@ -302,7 +348,8 @@ impl<'a> Layout<'a> {
     /// The leaf in `Position` or `Velocity` that holds a component of a joint, and its number there.
     pub(super) fn joint(&self, group: StructKind, joint: JointId, component: usize) -> Option<(&Entry, usize)> {
         let is_velocity = group == StructKind::Velocity;
-        let mut pieces = self.joints.get(joint.0)?.iter();
+        let lists = if is_velocity { &self.velocities } else { &self.joints };
+        let mut pieces = lists.get(joint.0)?.iter();
         let (index, component) =
             pieces.find_map(|(index, piece)| Some((*index, piece.component(is_velocity, component)?)))?;
         Some((self.table(group).entries.get(index)?, component))

@@ -104,7 +104,7 @@ fn counts(kind: FunctionKind, is_forward: bool) -> bool {
     match kind.row().asked {
         _ if is_forward => kind == FunctionKind::ForwardDynamics,
         Asked::By { .. } | Asked::Outputs => true,
-        Asked::Equations | Asked::Guesses | Asked::Found => false,
+        Asked::Equations | Asked::Speeds | Asked::Guesses | Asked::Found => false,
     }
 }
 

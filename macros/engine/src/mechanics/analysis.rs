@@ -12,6 +12,7 @@ mod closable;
 mod closed;
 mod closures;
 mod configurations;
+mod integrability;
 mod leaving;
 mod linear;
 mod measure;
@@ -25,6 +26,7 @@ mod relations;
 mod scales;
 mod shared;
 pub mod singular;
+mod speeds;
 mod springs;
 mod tape;
 mod teeth;
@@ -71,7 +73,7 @@ pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
     }
     let mut structure = Structure::open(model);
     structure.groups = groups::find(model);
-    if model.cuts.is_empty() && model.constraints.is_empty() && model.drives.is_empty() {
+    if model.cuts.is_empty() && model.constraints.is_empty() && model.drives.is_empty() && model.speeds.is_empty() {
         return Ok(structure);
     }
     let quadratic = constraints::rates::complaints(model);
@@ -85,7 +87,7 @@ pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
     let mut analysis =
         Analysis { model, complaints: Vec::new(), driven: HashMap::new(), steps: Vec::new(), samples: Vec::new() };
     analysis.drive();
-    let looped = !model.cuts.is_empty() || !model.constraints.is_empty();
+    let looped = !model.cuts.is_empty() || !model.constraints.is_empty() || !model.speeds.is_empty();
     let problem = looped.then(|| Problem::new(model));
     if let Some(problem) = &problem {
         analysis.run(problem, &mut structure);
@@ -98,7 +100,14 @@ pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
         structure.closed = closed::closed(problem, &analysis.samples, &structure);
         structure.measure(problem, &analysis.samples);
         analysis.complaints.extend(rates::keep(model, problem, &mut structure));
-        structure.shared = shared::shared(problem, &structure, &rates::points(problem, &structure));
+        if analysis.complaints.is_empty() {
+            analysis.complaints.extend(speeds::choose(model, problem, &mut structure));
+        }
+        if analysis.complaints.is_empty() {
+            let notes = integrability::notes(model, problem, &structure);
+            structure.notes.extend(notes);
+        }
+        structure.shared = shared::shared(model, problem, &structure);
         match springs::meeting(model, problem, &structure) {
             Ok(held) => structure.meeting = held,
             Err(complaints) => analysis.complaints.extend(complaints),

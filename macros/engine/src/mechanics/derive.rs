@@ -238,6 +238,11 @@ fn kinds(model: &Model, structure: &Structure) -> Vec<FunctionKind> {
         (FunctionKind::MomentumVelocity, _) if model.emit.contains(&Request::Impulse) => Vec::new(),
         (_, Asked::By { request, .. }) => vec![kind; usize::from(model.emit.contains(&request))],
         (_, Asked::Equations) => vec![kind; usize::from(!structure.rows.is_empty())],
+        (FunctionKind::RateDerivatives, _) if !model.emit.contains(&Request::Derivatives) => Vec::new(),
+        (_, Asked::Speeds) => {
+            let forward = model.emit.contains(&Request::ForwardDynamics);
+            vec![kind; usize::from(structure.has_speeds() && forward)]
+        }
         (_, Asked::Guesses) => vec![kind; usize::from(structure.guesses() > 0)],
         (_, Asked::Outputs) => vec![kind; usize::from(!model.outputs.is_empty())],
         (_, Asked::Found) => Vec::new(),
@@ -373,14 +378,15 @@ impl<'m> Deriving<'m> {
     /// Whether loops are solved in a way that ends in dead centres.
     fn may_reach_dead_centres(&self) -> bool {
         let dependent = |c: &Coordinate| matches!(self.structure.role(*c), Role::Dependent(_));
-        self.structure.guesses() > 0 || self.dead_centres.iter().any(dependent)
+        self.structure.guesses() > 0 || self.structure.has_speeds() || self.dead_centres.iter().any(dependent)
     }
 
     /// Whether every coordinate is in the state and no equation keeps a multiplier.
     fn is_open(&self) -> bool {
         let roles = self.structure.roles.iter().flatten();
         let is_exact = self.model.small.is_empty();
-        is_exact && self.structure.rows.is_empty() && roles.copied().all(|role| role == Role::State)
+        let plain = is_exact && !self.structure.has_speeds();
+        plain && self.structure.rows.is_empty() && roles.copied().all(|role| role == Role::State)
     }
 
     /// Derivatives, substitutions and entries are of what is in the state.

@@ -20,7 +20,7 @@ use super::items::solves::SolveItem;
 use super::topology::Topology;
 use super::types::{
     Bodies, Body, Constraint, Coordinate, Drive, Expr, Force, Handling, Input, Joint, Joints, Kinematics, Model,
-    Output, Packs, Param, ROUNDS, Request, Solve, State, Type,
+    Output, Packs, Param, ROUNDS, Request, Solve, Speed, State, Type,
 };
 use super::units::Units;
 
@@ -32,6 +32,7 @@ pub(super) struct Collected<'a> {
     pub(super) joints: Vec<Option<Joint>>,
     pub(super) forces: Vec<Option<Force>>,
     pub(super) outputs: Vec<Option<Output>>,
+    pub(super) speeds: Vec<Option<Speed>>,
     pub(super) constraints: Vec<Option<Constraint>>,
     pub(super) assumptions: Vec<Option<Expr>>,
     pub(super) gravity: Option<Expr>,
@@ -129,6 +130,7 @@ impl<'a> Checker<'a, '_> {
             handling: collected.handling.unwrap_or_default(),
             rounds: collected.rounds.unwrap_or(ROUNDS),
             packs: collected.packs.unwrap_or_default(),
+            speeds: all(collected.speeds)?,
             independent: loops.independent,
             skipped,
             small: loops.small,
@@ -172,6 +174,7 @@ impl<'a> Checker<'a, '_> {
             handling: Handling::default(),
             rounds: ROUNDS,
             packs: Packs::default(),
+            speeds: Vec::new(),
             independent: Vec::new(),
             skipped: Vec::new(),
             small: Vec::new(),
@@ -218,6 +221,8 @@ impl<'a> Checker<'a, '_> {
             Subject::Named(id) => {
                 if let ItemKind::Output(_) = task.item.kind {
                     into.outputs.push(self.finish_output(id, task.item));
+                } else if let ItemKind::Speed(_) = task.item.kind {
+                    into.speeds.push(self.finish_speed(id, task.item));
                 } else {
                     let site = self.named[id].name.span();
                     self.named_meaning(id, site);

@@ -73,7 +73,7 @@ pub(super) enum Symbol {
     Pending(&'static str),
     /// Reported already; the keyword is for messages.
     Opaque(&'static str),
-    /// `const`, `let`, `output`, a param set from outside, a bound port.
+    /// `const`, `let`, `speed`, `output`, a param set from outside, a bound port.
     Named(NamedId, &'static str),
     Param(ParamId),
     Input(InputId),
@@ -192,6 +192,8 @@ impl Named<'_> {
 pub(super) enum Role {
     Const,
     Let,
+    /// A velocity coordinate; in expressions what it stands for.
+    Speed,
     Output,
     BoundParam,
     Port,

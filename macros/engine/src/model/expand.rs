@@ -48,6 +48,7 @@ pub(super) fn declared(kind: &ItemKind) -> Option<(&Ident, &'static str)> {
         ItemKind::Function(function) => (&function.name, "let"),
         ItemKind::External(function) => (&function.name, "extern"),
         ItemKind::Output(value) => (&value.name, "output"),
+        ItemKind::Speed(value) => (&value.name, "speed"),
         ItemKind::State { name, .. } => (name, "state"),
         ItemKind::Port { name, .. } => (name, "port"),
         ItemKind::Body { name, .. } => (name, "body"),
@@ -136,6 +137,7 @@ impl<'a> Checker<'a, '_> {
             let (value, role) = match &item.kind {
                 ItemKind::Const(value) => (value, Role::Const),
                 ItemKind::Let(value) => (value, Role::Let),
+                ItemKind::Speed(value) => (value, Role::Speed),
                 ItemKind::Function(function) => {
                     let id = self.define(function, scope, unit());
                     self.set_symbol(scope, name, Symbol::Function(id));
@@ -233,7 +235,7 @@ impl<'a> Checker<'a, '_> {
                 let id = self.scopes[scope].outputs.get(&name.to_string());
                 return id.filter(|_| own).map_or(Subject::None, |id| Subject::Named(*id));
             }
-            ItemKind::Const(_) | ItemKind::Let(_) => {
+            ItemKind::Const(_) | ItemKind::Let(_) | ItemKind::Speed(_) => {
                 return match self.scopes[scope].names.get(&name.to_string()) {
                     Some(Symbol::Named(id, _)) if own => Subject::Named(*id),
                     _ => Subject::None,

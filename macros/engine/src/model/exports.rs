@@ -66,6 +66,7 @@ fn shown(item: &tree::Item) -> Option<Shown> {
         ItemKind::Body { name, .. } => of("body", name, None, None),
         ItemKind::Joint { name, kind, .. } => of("joint", name, Some(kind), None),
         ItemKind::Part(part) => of("part", &part.name, Some(&part.kind), None),
+        ItemKind::Speed(value) => of("speed", &value.name, None, None),
         ItemKind::Output(value) => of("output", &value.name, None, None),
         _ => return None,
     };

@@ -6,7 +6,7 @@ use proc_macro2::Span;
 
 use super::types::{
     AtFunction, Closing, Constraint, Drive, Expr, Force, Formula, Given, Joint, Kinematics, Model, Request, Solve,
-    SolveFor,
+    SolveFor, Speed,
 };
 
 /// Where something of the model is written.
@@ -40,7 +40,7 @@ impl Sited for Formula {
     }
 }
 
-sited!(AtFunction, Closing, Constraint, Drive, Expr, Force, Given, Joint, Kinematics, Solve, SolveFor);
+sited!(AtFunction, Closing, Constraint, Drive, Expr, Force, Given, Joint, Kinematics, Solve, SolveFor, Speed);
 
 /// Its name.
 impl Sited for Model {

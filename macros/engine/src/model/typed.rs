@@ -136,6 +136,8 @@ pub(super) enum Allowed {
     Positions,
     /// The same with velocities, held at zero.
     Constraint,
+    /// The same for a velocity coordinate of the user's choice.
+    Speed,
     /// All that is known before forces and accelerations are.
     Forces,
     /// Those, without the potential energy: a spring's is part of it.
@@ -152,7 +154,7 @@ impl Allowed {
             Allowed::Positions => {
                 matches!(class, Class::Parameter | Class::Mass | Class::Time | Class::Formula | Class::Position)
             }
-            Allowed::Constraint => class == Class::State || Allowed::Positions.contains(class),
+            Allowed::Constraint | Allowed::Speed => class == Class::State || Allowed::Positions.contains(class),
             Allowed::Forces => !matches!(class, Class::Acceleration | Class::Load),
             Allowed::Springs => !matches!(class, Class::Potential | Class::Acceleration | Class::Load),
         }
@@ -201,13 +203,13 @@ impl Allowed {
             (Allowed::Positions, Class::Own) => {
                 "is a state, whose rate may jump; only positions, parameters and time may stand here"
             }
-            (Allowed::Constraint, Class::Own) => {
+            (Allowed::Constraint | Allowed::Speed, Class::Own) => {
                 "is a state, whose rate may jump; only positions, velocities, parameters and time may stand here"
             }
-            (Allowed::Constraint, Class::Input) => {
+            (Allowed::Constraint | Allowed::Speed, Class::Input) => {
                 "is an input, whose rate nobody knows; positions, velocities, parameters and time may stand here"
             }
-            (Allowed::Constraint, _) => {
+            (Allowed::Constraint | Allowed::Speed, _) => {
                 "is no position and no velocity; only these, parameters and time may stand here"
             }
             (Allowed::Positions, Class::Input) => "is an input; only positions, parameters and time may stand here",

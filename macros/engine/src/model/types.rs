@@ -81,6 +81,8 @@ pub struct Model {
     /// Of Newton's method.
     pub rounds: usize,
     pub packs: Packs,
+    /// Velocity coordinates of the user's choice, in source order.
+    pub speeds: Vec<Speed>,
     /// Coordinates that `formulation { independent: [..] }` names.
     pub independent: Vec<Coordinate>,
     /// Said in the report: items that another choice of coordinates has made void, such as a `#[cut]` in the tree.
@@ -112,6 +114,16 @@ impl Model {
         self.emit.contains(&Request::Poses) && !self.bodies.is_empty()
     }
 
+    /// The velocity coordinate that stands for a speed: ids of joints go on behind those of the joints.
+    pub fn coordinate_of(&self, speed: usize) -> Coordinate {
+        Coordinate { joint: JointId(self.joints.len() + speed), index: 0 }
+    }
+
+    /// The speed that a velocity coordinate stands for, if it is not the rate of a joint's.
+    pub fn speed(&self, joint: JointId) -> Option<&Speed> {
+        joint.0.checked_sub(self.joints.len()).and_then(|number| self.speeds.get(number))
+    }
+
     /// The frames of all bodies, in the order of declaration.
     pub fn body_frames(&self) -> Vec<Frame> {
         let frame = |(id, body): (BodyId, &Body)| Frame { body: BodyRef::Body(id), steps: Vec::new(), span: body.span };
@@ -124,6 +136,17 @@ impl Model {
 pub struct Coordinate {
     pub joint: JointId,
     pub index: usize,
+}
+
+/// A velocity coordinate of the user's choice: a scalar that is affine in velocities.
+///
+/// Behind the checks of the model it is known as a coordinate without a position: that with the number of [`Model::coordinate_of`].
+#[derive(Clone)]
+pub struct Speed {
+    pub place: Place,
+    pub value: Expr,
+    pub docs: Docs,
+    pub span: Span,
 }
 
 /// What is held at zero besides the closing joints.

@@ -124,7 +124,7 @@ impl Adjoints {
                 }
             }
             ScalarNode::Output(id, k) => {
-                if let BlockKind::Solve { size, .. } | BlockKind::Eliminate { size } = g.block(id).kind {
+                if let BlockKind::Solve { size, .. } | BlockKind::Eliminate { size, .. } = g.block(id).kind {
                     let (_, weights) = self.block.get_or_insert_with(|| (id, vec![Scalar::ZERO; size]));
                     // The rank is constant but where it jumps.
                     if let Some(weight) = weights.get_mut(k) {

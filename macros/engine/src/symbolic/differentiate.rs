@@ -171,7 +171,9 @@ impl Differentiator {
     /// iterates knows the equation that is solved, and differentiates that.
     fn block_rule(&self, g: &mut Graph, id: BlockId, k: usize) -> Scalar {
         let block = g.block(id).clone();
-        let (BlockKind::Solve { size, .. } | BlockKind::Eliminate { size }) = block.kind else { return Scalar::ZERO };
+        let (BlockKind::Solve { size, .. } | BlockKind::Eliminate { size, .. }) = block.kind else {
+            return Scalar::ZERO;
+        };
         if k >= size || block.operands.iter().all(|&s| self.of(s) == Scalar::ZERO) {
             return Scalar::ZERO;
         }

@@ -139,7 +139,7 @@ impl<'g, F: Field> Evaluator<'g, F> {
     fn block(&mut self, id: BlockId) -> Vec<F::Value> {
         let block = self.graph.block(id);
         match &block.kind {
-            &(BlockKind::Solve { size, .. } | BlockKind::Eliminate { size }) => {
+            &(BlockKind::Solve { size, .. } | BlockKind::Eliminate { size, .. }) => {
                 let symmetric = matches!(block.kind, BlockKind::Solve { symmetric: true, .. });
                 let values: Vec<F::Value> = block.operands.iter().map(|&s| self.scalar(s)).collect();
                 let (matrix, rest) = values.split_at(size * size);

@@ -140,8 +140,9 @@ pub enum BlockKind {
     /// each stands for itself.
     Solve { size: usize, symmetric: bool, groups: Box<[usize]> },
     /// The solution of A x = b where nobody asks for the rank. Operands and unknowns as above. It is written out when vectors
-    /// become scalars ([`super::sparse_factors`]), unless it is too large; systems of one matrix share what is done to that.
-    Eliminate { size: usize },
+    /// become scalars ([`super::sparse_factors`]), unless it is too large; systems of one matrix share what is done to that. Where the
+    /// matrix is singular it is finite, or, if `strict`, no number.
+    Eliminate { size: usize, strict: bool },
     /// x = next(x), a fixed number of times. Operands: starting values (one per unknown), then next values, which depend
     /// on the symbols `unknowns` and on other nodes, then the size of the residual, a scalar that depends on them too.
     /// Results: the unknowns after the last round, then the residual of the values with which that round began. The

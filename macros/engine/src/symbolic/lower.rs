@@ -14,6 +14,7 @@ use super::graph::{
     AnyNode, BlockId, BlockKind, Graph, Name, PlaceMap, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode,
 };
 use super::sparse_factors::{Purpose, SparseFactors, expressions};
+use crate::contracts::call::Call;
 
 /// A system that would make a function larger than so many expressions is not written out, but solved by the runtime: one of
 /// about twenty unknowns in which each equation reads all.
@@ -28,7 +29,8 @@ pub struct Lowering<'g> {
     matrices: PlaceMap<[[Scalar; 3]; 3]>,
     blocks: HashMap<BlockId, Vec<Scalar>>,
     /// By their matrices.
-    factors: HashMap<Box<[Scalar]>, SparseFactors>,
+    /// By matrix, and whether its solutions have to be no numbers where it is singular.
+    factors: HashMap<(bool, Box<[Scalar]>), SparseFactors>,
 }
 
 impl<'g> Lowering<'g> {
@@ -120,7 +122,7 @@ impl<'g> Lowering<'g> {
                 }
                 let operands: Vec<Scalar> = block.operands.iter().map(|&s| self.scalar(s)).collect();
                 let outputs = match block.kind {
-                    BlockKind::Eliminate { size } => self.eliminate(size, &operands),
+                    BlockKind::Eliminate { size, strict } => self.eliminate(size, strict, &operands),
                     _ => self.to.block_outputs(block.kind.clone(), &operands),
                 };
                 let output = outputs[*k];
@@ -135,19 +137,22 @@ impl<'g> Lowering<'g> {
         }
     }
 
-    fn eliminate(&mut self, size: usize, operands: &[Scalar]) -> Vec<Scalar> {
+    fn eliminate(&mut self, size: usize, strict: bool, operands: &[Scalar]) -> Vec<Scalar> {
         let (matrix, side) = operands.split_at(size * size);
         let to = &mut self.to;
-        if !self.factors.contains_key(matrix) {
+        let key = (strict, matrix.into());
+        if !self.factors.contains_key(&key) {
             if to.len() + expressions(size, matrix) > MOST_WRITTEN {
                 let kind = BlockKind::Solve { size, symmetric: false, groups: Box::default() };
                 let mut unknowns = to.block_outputs(kind, operands);
-                unknowns.truncate(size);
-                return unknowns;
+                let rank = unknowns.split_off(size);
+                return if strict { known(to, size, &rank, unknowns) } else { unknowns };
             }
-            self.factors.insert(matrix.into(), SparseFactors::of(to, size, matrix, Purpose::Solutions));
+            let purpose = if strict { Purpose::Regular } else { Purpose::Solutions };
+            let factors = SparseFactors::of(to, size, matrix, purpose);
+            self.factors.insert(key.clone(), factors);
         }
-        self.factors[matrix].solve(to, side)
+        self.factors[&key].solve(to, side)
     }
 
     fn dot(&mut self, a: &[Scalar; 3], b: &[Scalar; 3]) -> Scalar {
@@ -265,4 +270,12 @@ impl Graph {
         }
         copy
     }
+}
+
+/// Unknowns where the rank is full, else no numbers.
+fn known(g: &mut Graph, size: usize, rank: &[Scalar], unknowns: Vec<Scalar>) -> Vec<Scalar> {
+    let (full, none) = (g.integer(size as i64), g.call(Call::Nan, &[]));
+    let short = rank.first().map(|&rank| g.call(Call::Less, &[rank, full]));
+    let unknown = |x: Scalar| short.map_or(x, |short| g.call(Call::Select, &[short, none, x]));
+    unknowns.into_iter().map(unknown).collect()
 }

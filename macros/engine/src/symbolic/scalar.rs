@@ -401,7 +401,7 @@ impl Graph {
     pub fn block_outputs(&mut self, kind: BlockKind, operands: &[Scalar]) -> Vec<Scalar> {
         let count = match &kind {
             BlockKind::Solve { size, .. } => size + 1,
-            BlockKind::Eliminate { size } => *size,
+            BlockKind::Eliminate { size, .. } => *size,
             BlockKind::Iterate { unknowns, .. } => unknowns.len() + 1,
         };
         let tag = match &kind {
@@ -427,7 +427,7 @@ impl Graph {
         }
         // Nothing on the right is answered by nothing, whatever the rank.
         let nothing = match kind {
-            BlockKind::Solve { size, .. } | BlockKind::Eliminate { size }
+            BlockKind::Solve { size, .. } | BlockKind::Eliminate { size, .. }
                 if operands[size * size..].iter().take(size).all(|&b| b == Scalar::ZERO) =>
             {
                 size

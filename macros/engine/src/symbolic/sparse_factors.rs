@@ -99,6 +99,8 @@ pub struct SparseFactors {
 pub enum Purpose {
     /// Solutions, in any units: a pivot counts wherever its own digits are there.
     Solutions,
+    /// The same, and where a pivot is lost there is none: it is no number.
+    Regular,
     /// The rank too. There pivots are measured beside their rows as well, so entries that are rounding as they are given don't count,
     /// and by the size of the matrix.
     Rank,
@@ -417,7 +419,8 @@ impl Work<'_> {
     fn inverse(&mut self, column: usize, row: usize) -> Inverse {
         let pivot = self.rows[row].entries[column];
         if pivot == Scalar::ZERO {
-            return Inverse { guarded: Scalar::ZERO, plain: None };
+            let none = if self.purpose == Purpose::Regular { self.g.call(Call::Nan, &[]) } else { Scalar::ZERO };
+            return Inverse { guarded: none, plain: None };
         }
         if let Some(number) = self.g.literal(pivot) {
             // Of the quotient by what has cancelled nothing is known.
@@ -461,6 +464,10 @@ impl Work<'_> {
         let zero = self.g.call(Call::Min, &[unit, Scalar::ZERO]);
         let nothing = self.g.mul(least, zero);
         let plain = self.g.reciprocal(pivot);
+        if self.purpose == Purpose::Regular {
+            let none = self.g.call(Call::Nan, &[]);
+            return Inverse { guarded: self.g.call(Call::Select, &[mask, none, plain]), plain: None };
+        }
         let guarded = self.g.call(Call::Select, &[mask, nothing, plain]);
         Inverse { guarded, plain: Some((mask, plain)) }
     }

@@ -136,6 +136,7 @@ fn item(keyword: Keyword, cursor: &mut Cursor, diagnostics: &mut Diagnostics) ->
             fields,
         }),
         Keyword::Constraint => blocks::constraint(cursor, diagnostics),
+        Keyword::Speed => value(keyword, cursor, diagnostics).map(ItemKind::Speed),
         Keyword::Drive => Some(drive(cursor, diagnostics)),
         Keyword::Solve => blocks::solve(cursor, diagnostics),
         Keyword::Simplify => simplify(cursor, diagnostics),

@@ -59,6 +59,8 @@ keywords! {
     Force "force" "force name: Effort { joint: elbow, value: 1.0 }",
     /// An expression held at zero, or a rod.
     Constraint "constraint" "constraint name = value;",
+    /// A velocity coordinate of the user's choice.
+    Speed "speed" "speed name = value;",
     /// A coordinate that follows an expression.
     Drive "drive" "drive joint.angle = value;",
     /// Closed form of coordinates.

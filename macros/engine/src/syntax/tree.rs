@@ -152,6 +152,8 @@ pub enum ItemKind {
     External(External),
     /// `output name: Ty = value;`
     Output(Value),
+    /// `speed name = value;`
+    Speed(Value),
     /// `state name: rate = value, start: value;`
     State {
         /// After the keyword.

@@ -337,7 +337,7 @@ impl Writer<'_> {
                 self.system(Work::Solve { size: *size, symmetric: *symmetric, groups: groups.clone() }, &block.operands)
             }
             // By complete pivoting, whatever it is compared with does.
-            BlockKind::Eliminate { size } => {
+            BlockKind::Eliminate { size, .. } => {
                 self.system(Work::Solve { size: *size, symmetric: false, groups: [].into() }, &block.operands)
             }
             BlockKind::Iterate { unknowns, count } => self.iterate(unknowns, *count, &block.operands),

@@ -209,6 +209,7 @@ const RUNTIME: &str = concat!(
         type Scalar; type State: StateSpace; type Input;
         fn derivative(&self, t: Self::Scalar, state: &Self::State, input: &Self::Input)
             -> (<Self::State as StateSpace>::Velocity, <Self::State as StateSpace>::Extra);
+        fn position_rates(&self, t: Self::Scalar, state: &Self::State) -> <Self::State as StateSpace>::Velocity;
     }
     pub mod nalgebra {
         pub struct Data<T, const N: usize>(pub [[T; N]; 1]);

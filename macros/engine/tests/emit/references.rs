@@ -25,6 +25,7 @@ const LANGUAGE: &[&str] = &[
     "let",
     "extern",
     "output",
+    "speed",
     "state",
     "port",
     "world",

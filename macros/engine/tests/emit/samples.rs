@@ -85,6 +85,7 @@ pub fn empty(module: &str) -> Model {
         handling: Handling::default(),
         rounds: 6,
         packs: Packs::default(),
+        speeds: Vec::new(),
         independent: Vec::new(),
         skipped: Vec::new(),
         small: Vec::new(),

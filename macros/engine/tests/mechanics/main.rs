@@ -19,6 +19,7 @@ mod expressions;
 mod forces;
 mod formulations;
 mod groups;
+mod integrability;
 #[path = "../common/interpreter.rs"]
 mod interpreter;
 mod iterated;
@@ -38,6 +39,7 @@ mod rates;
 mod reactions;
 mod scaling;
 mod several_closings;
+mod speeds;
 mod support;
 mod systems;
 mod tables;

@@ -9,9 +9,9 @@ use multibody_engine::mechanics::Derivation;
 use multibody_engine::mechanics::loops::structure::Structure;
 use multibody_engine::model::check;
 use multibody_engine::model::types::{Joint, Model};
+use multibody_engine::parse;
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
 use multibody_engine::symbolic::graph::SymbolId;
-use multibody_engine::syntax::parse;
 
 /// A model with its equations.
 pub(crate) struct Case {

@@ -122,7 +122,7 @@ fn what_hangs_together_loosely_is_cheap() {
         for _ in 0..sides {
             let side: Vec<Scalar> = (0..n).map(|_| g.symbol()).collect();
             let operands: Vec<Scalar> = matrix.iter().chain(&side).copied().collect();
-            roots.extend(g.block_outputs(BlockKind::Eliminate { size: n }, &operands));
+            roots.extend(g.block_outputs(BlockKind::Eliminate { size: n, strict: false }, &operands));
         }
         let mut lowering = Lowering::new(&g);
         let roots = lowering.run(&roots);
@@ -160,7 +160,7 @@ fn orthogonal_columns_need_no_pivots() {
         }
         let side: Vec<Scalar> = others[8..8 + size].to_vec();
         let operands: Vec<Scalar> = matrix.iter().chain(&side).copied().collect();
-        let roots = g.block_outputs(BlockKind::Eliminate { size }, &operands);
+        let roots = g.block_outputs(BlockKind::Eliminate { size, strict: false }, &operands);
         let mut lowering = Lowering::new(&g);
         let lowered = lowering.run(&roots);
         let cost = lowering.to.cost(&lowered);
@@ -341,7 +341,7 @@ fn dense_systems_are_solved_by_the_runtime() {
         for _ in 0..2 {
             let side: Vec<Scalar> = (0..size).map(|_| g.symbol()).collect();
             let operands: Vec<Scalar> = matrix.iter().chain(&side).copied().collect();
-            roots.extend(g.block_outputs(BlockKind::Eliminate { size }, &operands));
+            roots.extend(g.block_outputs(BlockKind::Eliminate { size, strict: false }, &operands));
         }
         let mut lowering = Lowering::new(&g);
         let lowered = lowering.run(&roots);
@@ -374,7 +374,7 @@ fn derivatives_in_any_units() {
         let side: Vec<Scalar> = (0..n).map(|_| g.symbol()).collect();
         let weights: Vec<Scalar> = (0..n).map(|_| g.symbol()).collect();
         let operands: Vec<Scalar> = entries.iter().chain(&side).copied().collect();
-        let unknowns = g.block_outputs(BlockKind::Eliminate { size: n }, &operands);
+        let unknowns = g.block_outputs(BlockKind::Eliminate { size: n, strict: false }, &operands);
         let weighted: Vec<(Scalar, Scalar)> = unknowns.iter().copied().zip(weights.iter().copied()).collect();
         let mut roots = g.transpose_vectors(&weighted, &[], &entries);
         let terms: Vec<Scalar> = weighted.iter().map(|&(x, w)| g.mul(x, w)).collect();

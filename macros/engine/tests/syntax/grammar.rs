@@ -42,6 +42,7 @@ fn line(item: &Item) -> String {
             format!("extern {}({}) {}", f.name, parameters.join(","), text(&f.path))
         }
         ItemKind::Output(v) => value("output", v),
+        ItemKind::Speed(v) => value("speed", v),
         ItemKind::State { name, rate, start } => {
             format!("state {name} {} {}", text(rate), text(start))
         }

@@ -16,7 +16,7 @@ use super::variables::Variables;
 use crate::integrators::method::Attempt;
 use crate::integrators::problem::{Problem, Step};
 use crate::integrators::slope::SlopeOf;
-use crate::{Configuration, PositionOf, Real, StateSpace, System, Tangent, VelocityOf, all, any};
+use crate::{Configuration, DisplacementOf, PositionOf, Real, StateSpace, System, Tangent, VelocityOf, all, any};
 
 /// Greatest number of sweeps over all stages. Where a step is short enough to be of use, a quarter of them will do.
 const MOST: u32 = 60;
@@ -54,7 +54,7 @@ impl<const STAGES: usize, const HISTORY: usize> Tableau<f64, STAGES, HISTORY> {
         t: S::Scalar,
         state: &S::State,
     ) -> Stages<S, STAGES, HISTORY> {
-        let (_, q, _) = state.split();
+        let q = V::position_rates(problem.system, t, state);
         let (v, x) = V::rates(problem, t, state);
         let slope = SlopeOf::<S> { q, v, x };
         let second = V::of(problem.system, state);
@@ -203,9 +203,9 @@ impl<T: Real, const STAGES: usize, const HISTORY: usize> Tableau<T, STAGES, HIST
         step: &Step<'_, S>,
         start: &Start<S>,
         slopes: &[SlopeOf<S>; STAGES],
-    ) -> [(VelocityOf<S>, PositionOf<S>); STAGES] {
+    ) -> [(DisplacementOf<S>, PositionOf<S>); STAGES] {
         let rates = part(slopes, |slope| slope.q);
-        let half: VelocityOf<S> = self.sum(&rates).scale(T::lit(0.5) * step.dt);
+        let half: DisplacementOf<S> = self.sum(&rates).scale(T::lit(0.5) * step.dt);
         let middle = start.q.displace(&half);
         let mut result = [(half, middle); STAGES];
         for ((offset, q), d) in result.iter_mut().zip(self.offsets(step.dt, &rates)) {
@@ -233,14 +233,17 @@ impl<T: Real, const STAGES: usize, const HISTORY: usize> Tableau<T, STAGES, HIST
         step: &Step<'_, S>,
         start: &Start<S>,
         slopes: &mut [SlopeOf<S>; STAGES],
-        positions: &mut [(VelocityOf<S>, PositionOf<S>); STAGES],
+        positions: &mut [(DisplacementOf<S>, PositionOf<S>); STAGES],
     ) {
         let (_, _, own) = start.state.split();
         let mut velocities = self.vectors(step.dt, &start.w, &part(slopes, |slope| slope.v));
         let own = self.vectors(step.dt, &own, &part(slopes, |slope| slope.x));
-        for ((slope, velocity), (offset, q)) in slopes.iter_mut().zip(&mut velocities).zip(positions.iter()) {
+        let values = velocities.iter_mut().zip(&own).zip(positions.iter());
+        for ((slope, ((velocity, x), (offset, q))), node) in slopes.iter_mut().zip(values).zip(&self.nodes) {
             *velocity = V::velocity(problem.system, q, velocity);
-            slope.q = <PositionOf<S> as Configuration<T>>::dexp_inv(offset, velocity);
+            let state = start.state.join(*q, *velocity, *x);
+            let rates = V::position_rates(problem.system, step.t + *node * step.dt, &state);
+            slope.q = <PositionOf<S> as Configuration<T>>::dexp_inv(offset, &rates);
         }
         *positions = self.positions(step, start, slopes);
         let states = positions.iter().zip(&velocities).zip(&own);

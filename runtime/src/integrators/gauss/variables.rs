@@ -1,7 +1,7 @@
 //! What a Gauss method integrates beside positions: velocities or momenta.
 
 use crate::integrators::problem::Problem;
-use crate::{Canonical, ExtraOf, PositionOf, Real, System, Tangent, VelocityOf};
+use crate::{Canonical, DisplacementOf, ExtraOf, PositionOf, Real, StateSpace, System, Tangent, VelocityOf};
 
 /// The second half of the variables, `w`.
 pub(super) trait Variables<S: System> {
@@ -10,6 +10,9 @@ pub(super) trait Variables<S: System> {
 
     /// The velocities that belong to them at a position.
     fn velocity(system: &S, q: &PositionOf<S>, w: &VelocityOf<S>) -> VelocityOf<S>;
+
+    /// The rates of the position at a state.
+    fn position_rates(system: &S, t: S::Scalar, state: &S::State) -> DisplacementOf<S>;
 
     /// The change of velocities from `v`, where `w` at the end, at the position `q`, differs from that at the start by
     /// `change`.
@@ -31,12 +34,15 @@ pub(super) struct Velocities;
 impl<S: System> Variables<S> for Velocities {
     #[inline]
     fn of(_system: &S, state: &S::State) -> VelocityOf<S> {
-        use crate::StateSpace;
         state.split().1
     }
     #[inline]
     fn velocity(_system: &S, _q: &PositionOf<S>, w: &VelocityOf<S>) -> VelocityOf<S> {
         *w
+    }
+    #[inline]
+    fn position_rates(system: &S, t: S::Scalar, state: &S::State) -> DisplacementOf<S> {
+        system.position_rates(t, state)
     }
     /// With the digits that the sum has no place for.
     #[inline]
@@ -51,8 +57,7 @@ impl<S: System> Variables<S> for Velocities {
     }
     #[inline]
     fn rates(problem: &Problem<'_, S>, t: S::Scalar, state: &S::State) -> (VelocityOf<S>, ExtraOf<S>) {
-        let slope = problem.slope(t, state);
-        (slope.v, slope.x)
+        problem.derivative(t, state)
     }
 }
 
@@ -69,6 +74,10 @@ impl<S: Canonical> Variables<S> for Momenta {
         system.velocity(q, w)
     }
     #[inline]
+    fn position_rates(_system: &S, _t: S::Scalar, state: &S::State) -> DisplacementOf<S> {
+        S::as_displacement(state.split().1)
+    }
+    #[inline]
     fn change(
         system: &S,
         v: &VelocityOf<S>,
@@ -80,7 +89,7 @@ impl<S: Canonical> Variables<S> for Momenta {
     }
     #[inline]
     fn rates(problem: &Problem<'_, S>, t: S::Scalar, state: &S::State) -> (VelocityOf<S>, ExtraOf<S>) {
-        let own = if ExtraOf::<S>::zero().is_empty() { ExtraOf::<S>::zero() } else { problem.slope(t, state).x };
+        let own = if ExtraOf::<S>::zero().is_empty() { ExtraOf::<S>::zero() } else { problem.derivative(t, state).1 };
         (problem.momentum_rate(t, state), own)
     }
 }

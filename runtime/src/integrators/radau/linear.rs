@@ -1,6 +1,7 @@
-//! The linear systems of the simplified Newton iteration, reduced to velocities and own states: [`Matrices`].
+//! The linear systems of the simplified Newton iteration: [`Matrices`], reduced to velocities and own states where the
+//! velocities are the rates of coordinates ([`Eliminated`]), or of all that a state is made of ([`Entire`]).
 //!
-//! With `y = (v, x)` and the displacement `d` of the position, the slope at the start has the derivative
+//! Of the former: with `y = (v, x)` and the displacement `d` of the position, the slope at the start has the derivative
 //! `J = [0, P; Jp, Jr]`, where `P` takes the velocities out of `y`. A system `(g - h J) (d, y) = (a, b)`, with `g` real or
 //! complex, gives `d = (a + h P y) / g`, and put into the second row
 //!
@@ -12,42 +13,63 @@
 //! have `dexp_inv`, whose change along a step is left to the iteration: it makes the iteration contract by about a tenth of
 //! the angle turned in the step.)
 
-use super::super::slope::{Slope, SlopeOf};
+use super::super::slope::Slope;
 use super::tableau::{ALPHA, BETA, GAMMA};
 use crate::linear::{Solve, Square};
 use crate::tangent::unpack;
-use crate::{Differentiable, Jacobian, Real, Tangent, VelocityOf, all};
-
-type Vector<S> = <<S as Differentiable>::Matrix as Square<<S as crate::System>::Scalar>>::Vector;
-type Factors<S> = <<S as Differentiable>::Matrix as Square<<S as crate::System>::Scalar>>::Factors;
-type ComplexFactors<S> = <<S as Differentiable>::Matrix as Square<<S as crate::System>::Scalar>>::ComplexFactors;
+use crate::{
+    Differentiable, DisplacementOf, ExtraOf, FullJacobian, Jacobian, JacobianMatrix, Real, System, Tangent, VelocityOf,
+    all,
+};
 
 /// Real and imaginary part of the inverse of the complex eigenvalue.
 const COMPLEX_INVERSE: (f64, f64) = (ALPHA / (ALPHA * ALPHA + BETA * BETA), -BETA / (ALPHA * ALPHA + BETA * BETA));
 
-/// The two matrices for steps of one length, factored.
-pub(super) struct Matrices<S: Differentiable> {
-    dt: S::Scalar,
-    position: S::Matrix,
-    real: Factors<S>,
-    complex: ComplexFactors<S>,
-}
+/// The matrices of a system.
+pub(super) type MatricesOf<S> = <<S as Differentiable>::Matrix as JacobianMatrix<
+    <S as System>::Scalar,
+    DisplacementOf<S>,
+    VelocityOf<S>,
+    ExtraOf<S>,
+>>::Radau;
 
-impl<S: Differentiable> Clone for Matrices<S> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Differentiable> Copy for Matrices<S> {}
-
-impl<S: Differentiable> Matrices<S> {
+/// The two matrices for steps of one length, factored: `gamma - h J` and `alpha + i beta - h J` with the derivatives `J`
+/// of slopes, of which `D` tells.
+pub trait Matrices<T: Real, Q, V, X, D>: Copy {
     /// Factors the matrices of a step.
-    pub(super) fn new(jacobian: &Jacobian<S::Matrix>, dt: S::Scalar) -> Self {
-        let lit = S::Scalar::lit;
+    fn new(jacobian: &D, dt: T) -> Self;
+
+    /// `[s]` the length of that step.
+    fn dt(&self) -> T;
+
+    /// Whether these serve for steps of the length `dt`, which may differ by the rounding of a time.
+    #[inline]
+    fn are_for(&self, dt: T) -> bool {
+        all(Real::le(Real::abs(dt - self.dt()), T::lit(1e-6) * Real::abs(dt)))
+    }
+
+    /// `(gamma - h J)^-1 r`.
+    fn solve_real(&self, r: &Slope<Q, V, X>) -> Slope<Q, V, X>;
+
+    /// `(alpha + i beta - h J)^-1 (r2 + i r3)`.
+    fn solve_complex(&self, r2: &Slope<Q, V, X>, r3: &Slope<Q, V, X>) -> (Slope<Q, V, X>, Slope<Q, V, X>);
+}
+
+/// Where velocities are the rates of coordinates: matrices of the size of velocities and own states.
+#[derive(Clone, Copy)]
+pub struct Eliminated<T: Real, M: Square<T>> {
+    dt: T,
+    position: M,
+    real: M::Factors,
+    complex: M::ComplexFactors,
+}
+
+impl<T: Real, V: Tangent<T>, X: Tangent<T>, M: Square<T>> Matrices<T, V, V, X, Jacobian<M>> for Eliminated<T, M> {
+    fn new(jacobian: &Jacobian<M>, dt: T) -> Self {
+        let lit = T::lit;
         let (inverse_re, inverse_im) = COMPLEX_INVERSE;
-        let matrix = |diagonal: f64, rates: S::Scalar, positions: S::Scalar| {
-            S::Matrix::from_fn(|i, j| {
+        let matrix = |diagonal: f64, rates: T, positions: T| {
+            M::from_fn(|i, j| {
                 let diagonal = lit(if i == j { diagonal } else { 0.0 });
                 diagonal - rates * jacobian.rates.get(i, j) - positions * jacobian.position.get(i, j)
             })
@@ -59,50 +81,79 @@ impl<S: Differentiable> Matrices<S> {
         Self { dt, position: jacobian.position, real: real.factors(), complex: re.complex_factors(&im) }
     }
 
-    /// Whether these serve for steps of the length `dt`, which may differ by the rounding of a time.
-    pub(super) fn are_for(&self, dt: S::Scalar) -> bool {
-        all(Real::le(Real::abs(dt - self.dt), S::Scalar::lit(1e-6) * Real::abs(dt)))
+    #[inline]
+    fn dt(&self) -> T {
+        self.dt
     }
 
-    /// `(gamma - h J)^-1 r`.
     #[inline]
-    pub(super) fn solve_real(&self, r: &SlopeOf<S>) -> SlopeOf<S> {
-        let inverse = S::Scalar::lit(1.0 / GAMMA);
-        let pushed = self.position.times(&S::Matrix::packed(&r.q.scale(inverse * self.dt)));
-        let y = self.real.solve(&sum::<S>(&S::Matrix::packed(&(r.v, r.x)), &pushed));
-        let Slope { v, x, .. } = slope::<S>(&y);
+    fn solve_real(&self, r: &Slope<V, V, X>) -> Slope<V, V, X> {
+        let inverse = T::lit(1.0 / GAMMA);
+        let pushed = self.position.times(&M::packed(&r.q.scale(inverse * self.dt)));
+        let y = self.real.solve(&sum::<T, M>(&M::packed(&(r.v, r.x)), &pushed));
+        let (v, x): (V, X) = unpack(y.as_ref());
         Slope { q: r.q.add_scaled(self.dt, &v).scale(inverse), v, x }
     }
 
-    /// `(alpha + i beta - h J)^-1 (r2 + i r3)`.
     #[inline]
-    pub(super) fn solve_complex(&self, r2: &SlopeOf<S>, r3: &SlopeOf<S>) -> (SlopeOf<S>, SlopeOf<S>) {
-        let (re, im) = (S::Scalar::lit(COMPLEX_INVERSE.0), S::Scalar::lit(COMPLEX_INVERSE.1));
-        let divided = |a: &VelocityOf<S>, b: &VelocityOf<S>| {
-            (a.scale(re).add_scaled(-im, b), b.scale(re).add_scaled(im, a)) //
-        };
+    fn solve_complex(&self, r2: &Slope<V, V, X>, r3: &Slope<V, V, X>) -> (Slope<V, V, X>, Slope<V, V, X>) {
+        let (re, im) = (T::lit(COMPLEX_INVERSE.0), T::lit(COMPLEX_INVERSE.1));
+        let divided = |a: &V, b: &V| (a.scale(re).add_scaled(-im, b), b.scale(re).add_scaled(im, a));
         let (q2, q3) = divided(&r2.q, &r3.q);
-        let pushed = |q: &VelocityOf<S>| self.position.times(&S::Matrix::packed(&q.scale(self.dt)));
+        let pushed = |q: &V| self.position.times(&M::packed(&q.scale(self.dt)));
         let right = (
-            sum::<S>(&S::Matrix::packed(&(r2.v, r2.x)), &pushed(&q2)),
-            sum::<S>(&S::Matrix::packed(&(r3.v, r3.x)), &pushed(&q3)),
+            sum::<T, M>(&M::packed(&(r2.v, r2.x)), &pushed(&q2)),
+            sum::<T, M>(&M::packed(&(r3.v, r3.x)), &pushed(&q3)),
         );
         let (y2, y3) = self.complex.solve(&right);
-        let (mut y2, mut y3) = (slope::<S>(&y2), slope::<S>(&y3));
-        (y2.q, y3.q) = divided(&r2.q.add_scaled(self.dt, &y2.v), &r3.q.add_scaled(self.dt, &y3.v));
-        (y2, y3)
+        let ((v2, x2), (v3, x3)): ((V, X), (V, X)) = (unpack(y2.as_ref()), unpack(y3.as_ref()));
+        let (q2, q3) = divided(&r2.q.add_scaled(self.dt, &v2), &r3.q.add_scaled(self.dt, &v3));
+        (Slope { q: q2, v: v2, x: x2 }, Slope { q: q3, v: v3, x: x3 })
     }
 }
 
-/// A vector as velocities and own states.
-#[inline]
-fn slope<S: Differentiable>(vector: &Vector<S>) -> SlopeOf<S> {
-    let (v, x) = unpack(vector.as_ref());
-    Slope { q: Tangent::zero(), v, x }
+/// For any velocities: matrices of the size of displacements, velocities and own states.
+#[derive(Clone, Copy)]
+pub struct Entire<T: Real, M: Square<T>> {
+    dt: T,
+    real: M::Factors,
+    complex: M::ComplexFactors,
+}
+
+impl<T, Q, V, X, M> Matrices<T, Q, V, X, FullJacobian<M>> for Entire<T, M>
+where
+    T: Real,
+    Q: Tangent<T>,
+    V: Tangent<T>,
+    X: Tangent<T>,
+    M: Square<T>,
+{
+    fn new(FullJacobian(jacobian): &FullJacobian<M>, dt: T) -> Self {
+        let diagonal = |value: f64, i: usize, j: usize| T::lit(if i == j { value } else { 0.0 });
+        let less = |value: f64| M::from_fn(|i, j| diagonal(value, i, j) - dt * jacobian.get(i, j));
+        let imaginary = M::from_fn(|i, j| diagonal(BETA, i, j));
+        Self { dt, real: less(GAMMA).factors(), complex: less(ALPHA).complex_factors(&imaginary) }
+    }
+
+    #[inline]
+    fn dt(&self) -> T {
+        self.dt
+    }
+
+    #[inline]
+    fn solve_real(&self, r: &Slope<Q, V, X>) -> Slope<Q, V, X> {
+        unpack(self.real.solve(&M::packed(r)).as_ref())
+    }
+
+    #[inline]
+    fn solve_complex(&self, r2: &Slope<Q, V, X>, r3: &Slope<Q, V, X>) -> (Slope<Q, V, X>, Slope<Q, V, X>) {
+        let (y2, y3) = self.complex.solve(&(M::packed(r2), M::packed(r3)));
+        (unpack(y2.as_ref()), unpack(y3.as_ref()))
+    }
 }
 
 #[inline]
-fn sum<S: Differentiable>(a: &Vector<S>, b: &Vector<S>) -> Vector<S> {
+fn sum<T: Real, M: Square<T>>(a: &M::Vector, b: &M::Vector) -> M::Vector {
     let mut sum = *a;
     for (a, &b) in sum.as_mut().iter_mut().zip(b.as_ref()) {
         *a += b;

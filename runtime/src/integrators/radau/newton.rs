@@ -4,7 +4,7 @@
 use super::super::control::Tolerance;
 use super::super::problem::{Problem, Step};
 use super::super::slope::{SlopeOf, magnitude};
-use super::linear::Matrices;
+use super::linear::{Matrices, MatricesOf};
 use super::tableau::{ALPHA, BETA, C, GAMMA, from_stages, to_stages};
 use crate::tangent::unit;
 use crate::{Differentiable, Real, Tangent};
@@ -58,7 +58,7 @@ const ROUNDINGS: f64 = 16.0;
 /// A rounding `d` of the state changes slopes by `J d`, and an iteration answers by `h (gamma - h J)^-1 J d`, which is
 /// `gamma (gamma - h J)^-1 d` beside `d` itself. For a stiff spring that is a velocity of `d / h`, far more than a
 /// rounding of the velocity is; lengths round as those of one metre where coordinates are shorter.
-fn rounding<S: Differentiable>(matrices: &Matrices<S>, size: &SlopeOf<S>, norm: impl Fn(&SlopeOf<S>) -> f64) -> f64 {
+fn rounding<S: Differentiable>(matrices: &MatricesOf<S>, size: &SlopeOf<S>, norm: impl Fn(&SlopeOf<S>) -> f64) -> f64 {
     let one = S::Scalar::lit(1.0);
     let epsilon = S::Scalar::epsilon();
     let mut sum = 0.0;
@@ -86,7 +86,7 @@ pub(super) struct Solution<S: Differentiable> {
 pub(super) fn solve<S: Differentiable>(
     problem: &Problem<'_, S>,
     step: &Step<'_, S>,
-    matrices: &Matrices<S>,
+    matrices: &MatricesOf<S>,
     aim: &Aim,
     guess: &[SlopeOf<S>; 3],
     eta: f64,
@@ -123,7 +123,7 @@ pub(super) fn solve<S: Differentiable>(
             theta = if k == 1 { ratio } else { Real::sqrt(ratio * ratio_before) };
             ratio_before = ratio;
             let stalled = ratio >= 0.99 && change <= aim.rounding;
-            if stalled && change <= ROUNDINGS * rounding(matrices, &size, norm) {
+            if stalled && change <= ROUNDINGS * rounding::<S>(matrices, &size, norm) {
                 return Solution { stages, converged: true, theta: 0.99, eta, shrink: 1.0 };
             }
             let diverges = if aim.hasty { theta >= 0.99 } else { ratio >= 2.0 };

@@ -6,7 +6,8 @@ use std::hint::black_box;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
-use multibody::{Configuration, Constrained, StateSpace, System, Tangent, VelocityOf, assemble};
+use multibody::projection::{SeparateWeights, assemble_by};
+use multibody::{Configuration, Constrained, DisplacementOf, StateSpace, System, Tangent, VelocityOf};
 
 /// States that functions are called at in turn: few, so that they stay in the nearest cache.
 const STATES: usize = 16;
@@ -42,18 +43,17 @@ impl<S: System<Scalar = f64> + 'static> Bench<S> {
     ) -> Option<Rc<Bench<S>>> {
         let (q, _, x) = start.split();
         let mut components = centre.iter();
-        let q = q.displace(&VelocityOf::<S>::zero().map(&mut |_| components.next().copied().unwrap_or(0.0)));
+        let q = q.displace(&DisplacementOf::<S>::zero().map(&mut |_| components.next().copied().unwrap_or(0.0)));
         let mut random = Random(1);
-        let mut any = |size: f64| VelocityOf::<S>::zero().map(&mut |_| size * random.next());
         let mut samples = Vec::new();
         for number in 0..STATES {
             let t = 0.01 * number as f64;
-            let mut tries = DISTANCES.iter().map(|&size| start.join(q.displace(&any(size)), any(1.0), x));
+            let mut tries = DISTANCES.iter().map(|&size| start.join(q.displace(&random.vector(size)), random.vector(1.0), x));
             let closed = tries.find_map(|state| {
                 close(&model, &input, t, &state).filter(|state| is_finite(&model, t, state, &input))
             });
             // Loops that don't close are open at the start itself: the instructions are the same.
-            let state = closed.or_else(|| Some(start.join(q, any(1.0), x)))?;
+            let state = closed.or_else(|| Some(start.join(q, random.vector(1.0), x)))?;
             if !is_finite(&model, t, &state, &input) {
                 return None;
             }
@@ -95,8 +95,11 @@ pub fn assembled<S: Constrained<Scalar = f64>>(
     t: f64,
     state: &S::State,
 ) -> Option<S::State> {
-    let all = VelocityOf::<S>::zero().map(&mut |_| 1.0);
-    let assembled = assemble(model, t, state, &all).ok()?;
+    let all = SeparateWeights {
+        position: DisplacementOf::<S>::zero().map(&mut |_| 1.0),
+        velocity: VelocityOf::<S>::zero().map(&mut |_| 1.0),
+    };
+    let assembled = assemble_by(model, t, state, &all).ok()?;
     Some(model.accepted(t, &assembled.state, input))
 }
 
@@ -142,5 +145,9 @@ impl Random {
     fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    fn vector<V: Tangent<f64>>(&mut self, size: f64) -> V {
+        V::zero().map(&mut |_| size * self.next())
     }
 }

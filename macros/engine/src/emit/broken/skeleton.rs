@@ -30,8 +30,9 @@ pub fn skeleton(checked: &Checked) -> TokenStream {
         (FunctionKind::Poses, _) => vec![kind; usize::from(model.shows_poses())],
         (_, Asked::Equations) if structure.rows.is_empty() => Vec::new(),
         (_, Asked::Guesses) if structure.guesses() == 0 => Vec::new(),
+        (_, Asked::Speeds) if !structure.has_speeds() => Vec::new(),
         (_, Asked::Found) => Vec::new(),
-        (_, Asked::By { .. } | Asked::Outputs | Asked::Equations | Asked::Guesses) => vec![kind],
+        (_, Asked::By { .. } | Asked::Outputs | Asked::Equations | Asked::Speeds | Asked::Guesses) => vec![kind],
     });
     compiled.functions.extend(kinds.map(stand_in));
     if !model.at.is_empty() {

@@ -30,8 +30,11 @@ impl Layout<'_> {
         names.collect()
     }
 
-    /// Name of any coordinate of a joint in the tree.
+    /// Name of any coordinate of a joint in the tree, or of a speed.
     pub(in crate::emit) fn coordinate(&self, coordinate: Coordinate) -> String {
+        if let Some(speed) = self.model.speed(coordinate.joint) {
+            return self.name(&speed.place);
+        }
         let joint = &self.model.joints[coordinate.joint];
         let leaf = Leaf::velocity(joint.kind);
         let access = leaf.map_or_else(String::new, |leaf| access(&leaf, coordinate.index));

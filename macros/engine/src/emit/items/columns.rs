@@ -33,7 +33,8 @@ pub(super) fn implement(layout: &Layout<'_>, group: StructKind, owner: Option<Pa
     let fields = fields.iter().map(|field| Named {
         name: field.name.clone(),
         unit: field.unit.as_deref().unwrap_or_default(),
-        are_rates: group == StructKind::Velocity && matches!(&field.kind, FieldKind::Leaf(leaf) if holds_both(leaf)),
+        are_rates: matches!(group, StructKind::Velocity | StructKind::Rates)
+            && matches!(&field.kind, FieldKind::Leaf(leaf) if holds_both(leaf)),
     });
     write(layout, &group.name(), fields)
 }

@@ -11,9 +11,10 @@ use crate::emit::{Context, names};
 use crate::model::types::{InstanceId, Place};
 
 /// Structs of fields, with the variable that one is converted from.
-const GROUPS: [(StructKind, &str); 6] = [
+const GROUPS: [(StructKind, &str); 7] = [
     (StructKind::Params, "params"),
     (StructKind::Velocity, "velocity"),
+    (StructKind::Rates, "rates"),
     (StructKind::Position, "position"),
     (StructKind::States, "states"),
     (StructKind::Guess, "guess"),
@@ -60,8 +61,15 @@ struct Flat {
 fn state(layout: &Layout<'_>) -> Flat {
     let groups = [(StructKind::Position, "q"), (StructKind::Velocity, "v"), (StructKind::States, "x")];
     let (mut paths, mut variables, mut fields) = (Vec::new(), Vec::new(), Vec::new());
-    for (group, field) in groups.into_iter().filter(|(group, _)| !layout.is_empty(*group, None)) {
+    for (group, field) in groups {
         let name = names::ident(field);
+        if layout.is_empty(group, None) {
+            if group.always() {
+                let ty = group.name();
+                fields.push(quote!(#name: #ty::default()));
+            }
+            continue;
+        }
         paths.extend(components(layout, group, &quote!(.#name)));
         let own: Vec<Ident> = scalars(layout, group).iter().map(|scalar| format_ident!("{field}_{scalar}")).collect();
         let value = value(layout, group, &own);

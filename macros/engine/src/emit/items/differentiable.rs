@@ -44,6 +44,9 @@ fn is_derived(context: &Context<'_>) -> bool {
 fn differentiable(layout: &Layout<'_>) -> TokenStream {
     let krate = layout.krate();
     let input = input_type(layout);
+    if layout.structure.has_speeds() {
+        return full(layout);
+    }
     let places = places(layout);
     let size = Literal::usize_unsuffixed(places.len());
     let derivatives = quote!(self.forward_derivatives(t, state, input));
@@ -51,14 +54,8 @@ fn differentiable(layout: &Layout<'_>) -> TokenStream {
     let jacobian = if is_plain {
         quote!(#derivatives.jacobian())
     } else {
-        let places = places.iter().map(|place| match place {
-            Some(place) => {
-                let place = Literal::usize_unsuffixed(*place);
-                quote!(#place)
-            }
-            None => quote!(usize::MAX),
-        });
-        quote!(#derivatives.jacobian_at(&[#(#places),*]))
+        let places = numbers(&places);
+        quote!(#derivatives.jacobian_at(&#places))
     };
     let along = input_derivative(layout, &derivatives);
     quote! {
@@ -71,6 +68,43 @@ fn differentiable(layout: &Layout<'_>) -> TokenStream {
             #along
         }
     }
+}
+
+/// The same where displacements have rows and columns of their own.
+fn full(layout: &Layout<'_>) -> TokenStream {
+    let krate = layout.krate();
+    let input = input_type(layout);
+    let mut places = Vec::new();
+    walk(layout, StructKind::Rates, None, InstanceId(0), &mut places);
+    let moved = layout.table(StructKind::Rates).size;
+    places.extend(self::places(layout).into_iter().map(|place| Some(place? + moved)));
+    let size = Literal::usize_unsuffixed(places.len());
+    let places = numbers(&places);
+    let derivatives = quote!(self.forward_derivatives(t, state, input));
+    let along = input_derivative(layout, &derivatives);
+    let rates = quote!(self.rate_derivatives(t, state));
+    quote! {
+        impl<T: Real> #krate::Differentiable for Model<T> {
+            type Matrix = #krate::FullJacobian<[[T; #size]; #size]>;
+
+            fn jacobian(&self, t: T, state: &State<T>, input: &#input) -> #krate::FullJacobian<[[T; #size]; #size]> {
+                #krate::FullJacobian::of(&#rates, &#derivatives, &#places)
+            }
+            #along
+        }
+    }
+}
+
+/// Expands to `[0, 1, usize::MAX]`, the last of which is no place.
+fn numbers(places: &[Option<usize>]) -> TokenStream {
+    let places = places.iter().map(|place| match place {
+        Some(place) => {
+            let place = Literal::usize_unsuffixed(*place);
+            quote!(#place)
+        }
+        None => quote!(usize::MAX),
+    });
+    quote!([#(#places),*])
 }
 
 /// Expands to `fn input_derivative(..) -> (Velocity<T>, ()) { .. }`.

@@ -69,6 +69,9 @@ fn canonical(context: &Context<'_>) -> Option<TokenStream> {
     context.function(FunctionKind::Momentum)?;
     context.function(FunctionKind::ForwardDynamics)?;
     let layout = &context.layout;
+    if layout.structure.has_speeds() {
+        return None;
+    }
     let (krate, input) = (layout.krate(), input_type(layout));
     Some(quote! {
         impl<T: Real> #krate::Canonical for Model<T> {

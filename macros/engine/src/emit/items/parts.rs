@@ -27,7 +27,7 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
             items.extend(columns::implement(layout, group, owner));
             items.extend(serialised::implement(layout, group, owner));
             items.extend(match group {
-                StructKind::Velocity | StructKind::States => space::tangent(layout, group, owner),
+                StructKind::Velocity | StructKind::Rates | StructKind::States => space::tangent(layout, group, owner),
                 StructKind::Input if differentiable::moves_inputs(context) => space::tangent(layout, group, owner),
                 StructKind::Position => space::configuration(layout, owner),
                 _ => TokenStream::new(),

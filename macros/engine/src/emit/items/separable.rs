@@ -26,6 +26,7 @@ pub(in crate::emit) fn is_separable(context: &Context<'_>) -> bool {
     let model = context.layout.model;
     let rolls = context.layout.structure.rows.iter().any(|&row| is_rate(model, row));
     !rolls
+        && !context.layout.structure.has_speeds()
         && !context.layout.has_states()
         && forward.is_some_and(|f| !functions::roots(&f.program).contains(&Root::Velocity))
 }

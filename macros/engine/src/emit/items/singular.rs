@@ -40,7 +40,7 @@ pub(super) fn without_inertia(context: &Context<'_>) -> Option<TokenStream> {
         Inertia::Requested => call(context)?,
         Inertia::Own(program) => own(context, program),
     };
-    let names = layout.structure.state.iter().map(|&coordinate| layout.coordinate(coordinate));
+    let names = layout.structure.speeds().iter().map(|&coordinate| layout.coordinate(coordinate));
     Some(quote! {
         fn without_inertia(&self, #arguments) -> Option<&'static str> {
             #matrix

@@ -14,6 +14,9 @@ pub(super) fn items(context: &Context<'_>) -> TokenStream {
     let layout = &context.layout;
     let krate = layout.krate();
     let mut tokens = tangent(layout, StructKind::Velocity, None);
+    if layout.structure.has_speeds() {
+        tokens.extend(tangent(layout, StructKind::Rates, None));
+    }
     tokens.extend(configuration(layout, None));
     let (extra, split, join) = if layout.is_empty(StructKind::States, None) {
         (quote!(()), quote!(()), quote!((): ()))
@@ -92,22 +95,23 @@ pub(super) fn tangent(layout: &Layout<'_>, group: StructKind, owner: Option<Part
 pub(super) fn configuration(layout: &Layout<'_>, owner: Option<PartTypeId>) -> TokenStream {
     let krate = layout.krate();
     let fields = layout.fields(StructKind::Position, owner);
+    let moved = layout.displacement().name();
     if fields.is_empty() {
         return quote! {
             impl<T: Real> #krate::Configuration<T> for Position<T> {
-                type Velocity = Velocity<T>;
+                type Velocity = #moved<T>;
 
-                fn displace(&self, _d: &Velocity<T>) -> Self {
+                fn displace(&self, _d: &#moved<T>) -> Self {
                     *self
                 }
-                fn advance(&self, _d: &Velocity<T>, rest: &Velocity<T>) -> (Self, Velocity<T>) {
+                fn advance(&self, _d: &#moved<T>, rest: &#moved<T>) -> (Self, #moved<T>) {
                     (*self, *rest)
                 }
-                fn dexp_inv(_d: &Velocity<T>, v: &Velocity<T>) -> Velocity<T> {
+                fn dexp_inv(_d: &#moved<T>, v: &#moved<T>) -> #moved<T> {
                     *v
                 }
-                fn magnitude(&self) -> Velocity<T> {
-                    Velocity { scalar: ::core::marker::PhantomData }
+                fn magnitude(&self) -> #moved<T> {
+                    #moved { scalar: ::core::marker::PhantomData }
                 }
             }
         };
@@ -118,39 +122,39 @@ pub(super) fn configuration(layout: &Layout<'_>, owner: Option<PartTypeId>) -> T
     let mut entries = layout.table(StructKind::Position).entries.iter();
     let rotations = if entries.any(|entry| entry.leaf.has_quaternion()) {
         quote! {
-            fn dexp_inv(d: &Velocity<T>, v: &Velocity<T>) -> Velocity<T> {
-                Velocity {
+            fn dexp_inv(d: &#moved<T>, v: &#moved<T>) -> #moved<T> {
+                #moved {
                     #(#names: <#types as #krate::Configuration<T>>::dexp_inv(&d.#names, &v.#names)),*
                 }
             }
-            fn compose(first: &Velocity<T>, second: &Velocity<T>) -> Velocity<T> {
-                Velocity {
+            fn compose(first: &#moved<T>, second: &#moved<T>) -> #moved<T> {
+                #moved {
                     #(#names: <#types as #krate::Configuration<T>>::compose(&first.#names, &second.#names)),*
                 }
             }
         }
     } else {
         quote! {
-            fn dexp_inv(_d: &Velocity<T>, v: &Velocity<T>) -> Velocity<T> {
+            fn dexp_inv(_d: &#moved<T>, v: &#moved<T>) -> #moved<T> {
                 *v
             }
         }
     };
     quote! {
         impl<T: Real> #krate::Configuration<T> for Position<T> {
-            type Velocity = Velocity<T>;
+            type Velocity = #moved<T>;
 
-            fn displace(&self, d: &Velocity<T>) -> Self {
+            fn displace(&self, d: &#moved<T>) -> Self {
                 Self { #(#names: #krate::Configuration::displace(&self.#names, &d.#names)),* }
             }
-            fn advance(&self, d: &Velocity<T>, rest: &Velocity<T>) -> (Self, Velocity<T>) {
+            fn advance(&self, d: &#moved<T>, rest: &#moved<T>) -> (Self, #moved<T>) {
                 let (mut end, mut left) = (*self, *rest);
                 #((end.#names, left.#names) = #krate::Configuration::advance(&self.#names, &d.#names, &rest.#names);)*
                 (end, left)
             }
             #rotations
-            fn magnitude(&self) -> Velocity<T> {
-                Velocity { #(#names: #krate::Configuration::magnitude(&self.#names)),* }
+            fn magnitude(&self) -> #moved<T> {
+                #moved { #(#names: #krate::Configuration::magnitude(&self.#names)),* }
             }
         }
     }

@@ -72,6 +72,10 @@ fn derivative(context: &Context<'_>) -> Option<TokenStream> {
     let layout = &context.layout;
     let mut fields = vec![Field::of("v", "Velocity", "accelerations")];
     let mut also = Vec::new();
+    if layout.structure.has_speeds() {
+        also.push("the rates of positions");
+        fields.push(Field::of("q", "Rates", "rates of positions"));
+    }
     if layout.has_states() {
         also.push("the rates of the model's own states");
         fields.push(Field::of("x", "States", "rates of the model's own states"));

@@ -34,6 +34,7 @@ pub(super) fn item(context: &Context<'_>) -> TokenStream {
         (false, true) => (quote!(()), quote!((self.forward_dynamics(t, state, input).v, ()))),
         (false, false) => (quote!(()), quote!((self.forward_dynamics(t, state, input), ()))),
     };
+    let position_rates = position_rates(context);
     let accepted = accepted(context);
     let margins = margins(context);
     let opening = opening(context);
@@ -49,6 +50,7 @@ pub(super) fn item(context: &Context<'_>) -> TokenStream {
             fn derivative(&self, t: T, state: &State<T>, input: &#input) -> (Velocity<T>, #extra) {
                 #value
             }
+            #position_rates
             #accepted
             #margins
             #opening
@@ -56,6 +58,35 @@ pub(super) fn item(context: &Context<'_>) -> TokenStream {
             #without_inertia
         }
         #constrained
+    }
+}
+
+/// Expands to `fn position_rates(..)`, and where velocities are no rates of coordinates to `fn slope(..)`, which has them of forward
+/// dynamics.
+fn position_rates(context: &Context<'_>) -> TokenStream {
+    let layout = &context.layout;
+    let krate = layout.krate();
+    let Some(function) = context.function(FunctionKind::PositionRates) else {
+        return quote! {
+            fn position_rates(&self, _t: T, state: &State<T>) -> Velocity<T> {
+                state.v
+            }
+        };
+    };
+    let arguments = functions::arguments(function);
+    let ([t, _], state) = (named(arguments), names::ident("state"));
+    let passed = if arguments.has_state() { arguments.pass() } else { quote!(&#state.q) };
+    let input = input_type(layout);
+    let (extra, x) = if layout.has_states() { (quote!(States<T>), quote!(rates.x)) } else { (quote!(()), quote!(())) };
+    quote! {
+        fn position_rates(&self, #t: T, #state: &State<T>) -> Rates<T> {
+            self.position_rates(#passed)
+        }
+
+        fn slope(&self, t: T, state: &State<T>, input: &#input) -> #krate::Slope<Rates<T>, Velocity<T>, #extra> {
+            let rates = self.forward_dynamics(t, state, input);
+            #krate::Slope { q: rates.q, v: rates.v, x: #x }
+        }
     }
 }
 
@@ -294,6 +325,10 @@ fn constrained(context: &Context<'_>) -> Option<TokenStream> {
                 let found = self.least_displacement(#passed q, residual);
                 ::core::option::Option::Some((found.fixed_rows::<#columns>(0).into_owned().into(), found[#rank]))
             }
+
+            fn least_velocity_correction(&self, t: T, state: &State<T>, residual: &#residual) -> ::core::option::Option<(Velocity<T>, T)> {
+                #krate::Constrained::least_correction(self, t, &state.q, residual)
+            }
         }
     });
     Some(quote! {
@@ -321,6 +356,20 @@ fn constrained(context: &Context<'_>) -> Option<TokenStream> {
                 let jacobian = self.constraint_jacobian(t, q);
                 let (change, rank) = #krate::linear::#least_norm(&jacobian, residual, &weights #groups);
                 (change.into(), rank)
+            }
+
+            fn velocity_correction(
+                &self,
+                t: T,
+                state: &State<T>,
+                residual: &#residual,
+                weights: &Velocity<T>,
+            ) -> (Velocity<T>, T) {
+                #krate::Constrained::correction(self, t, &state.q, residual, weights)
+            }
+
+            fn constraints_along(&self, t: T, state: &State<T>, d: &Velocity<T>) -> #residual {
+                #krate::Constrained::constraint_rate_along(self, t, state, d)
             }
 
             #least

@@ -8,7 +8,7 @@ use proc_macro2::Ident;
 
 use crate::emit::{document, names};
 use crate::model::joint_kinds::{self, JointKind};
-use crate::model::types::{Coordinate, Joint, JointId, Model};
+use crate::model::types::{Coordinate, Joint, JointId, Model, Place};
 
 use super::leaf::Leaf;
 
@@ -23,6 +23,11 @@ pub(super) struct Piece {
 }
 
 impl Piece {
+    /// Of a speed of the user's choice.
+    pub(super) fn of_speed() -> Piece {
+        Piece { suffix: None, position: Leaf::Scalar, velocity: Leaf::Scalar, first: [0, 0] }
+    }
+
     /// Number of this component of the joint within the leaf.
     pub(in crate::emit) fn component(&self, is_velocity: bool, component: usize) -> Option<usize> {
         let [position, velocity] = self.first;
@@ -60,6 +65,24 @@ impl Piece {
         let rate = if self.position == Leaf::Quaternion { natural } else { unit };
         [position, uniform(&self.velocity).then(|| format!("{rate}/s"))]
     }
+}
+
+/// The leaves of a joint's velocity with these coordinates among the velocities: as those of a joint of which these are in the state,
+/// but that of a rotation single angular velocities may be there.
+pub(super) fn velocity_pieces(kind: &'static JointKind, held: &[bool]) -> Vec<Piece> {
+    let turning = held.get(kind.turning()).unwrap_or(&[]);
+    if !kind.has_quaternion() || turning.iter().all(|held| *held == turning[0]) {
+        return pieces(kind, held);
+    }
+    let straight = kind.freedoms.iter().map(|freedom| freedom.name);
+    let names = straight.chain(["angular_x", "angular_y", "angular_z"]).enumerate();
+    let scalars = names.filter(|(index, _)| held.get(*index) == Some(&true)).map(|(index, name)| Piece {
+        suffix: Some(name),
+        position: Leaf::Scalar,
+        velocity: Leaf::Scalar,
+        first: [index, index],
+    });
+    scalars.collect()
 }
 
 /// Names of a joint's velocity coordinates; a rotation by quaternions has none for single ones.
@@ -141,7 +164,13 @@ pub(super) fn field(model: &Model, coordinates: &[Coordinate], id: JointId, join
     let base = format!("{}_{suffix}", names::plain(&joint.place.field));
     let mut name = base.clone();
     let mut number = 1;
-    while model.joints.iter().filter(is_beside).any(|other| other.place.field == name) {
+    let part_of = |place: &Place| model.instances.get(place.instance.0).and_then(|instance| instance.part_type);
+    let speeds = model.speeds.iter().filter(|speed| part_of(&speed.place) == part(joint));
+    let taken = |name: &str| {
+        model.joints.iter().filter(is_beside).any(|other| other.place.field == name)
+            || speeds.clone().any(|speed| speed.place.field == name)
+    };
+    while taken(&name) {
         number += 1;
         name = format!("{base}_{number}");
     }

@@ -56,6 +56,8 @@ impl Layout<'_> {
         };
         Sizes {
             dof: self.dof(),
+            displacements: self.table(self.displacement()).size,
+            speeds: self.structure.has_speeds(),
             rows: self.rows(),
             states,
             inputs,
@@ -98,6 +100,7 @@ pub(in crate::emit) fn ty(layout: &Layout<'_>, kind: FunctionKind) -> TokenStrea
         }
         Shape::Residual | Shape::Margins(_) => vector_type(layout, parts(layout, kind).count()),
         Shape::Velocity => quote!(Velocity<T>),
+        Shape::Rates => quote!(Rates<T>),
         Shape::Derivative => quote!(Derivative<T>),
         Shape::Solved(_) => quote!(Solved<T>),
         Shape::Jump => quote!(Jump<T>),
@@ -119,7 +122,11 @@ pub(in crate::emit) fn ty(layout: &Layout<'_>, kind: FunctionKind) -> TokenStrea
             let sizes = layout.sizes(kind);
             let [results, dof, states, inputs] =
                 [results, sizes.dof, sizes.states, sizes.inputs].map(Literal::usize_unsuffixed);
-            quote!(#krate::Derivatives<T, #results, #dof, #states, #inputs>)
+            let moved = sizes.speeds.then(|| {
+                let moved = Literal::usize_unsuffixed(sizes.displacements);
+                quote!(, #moved)
+            });
+            quote!(#krate::Derivatives<T, #results, #dof, #states, #inputs #moved>)
         }
         Shape::Linearization(state) => {
             let sizes = layout.sizes(kind);
@@ -143,6 +150,7 @@ pub(in crate::emit) fn value(layout: &Layout<'_>, kind: FunctionKind, results: V
             quote!(#krate::LowerTriangle::from_packed([#(#entries),*]))
         }
         Shape::Velocity => filled(layout, StructKind::Velocity, results.of(Slot::Velocity)),
+        Shape::Rates => filled(layout, StructKind::Rates, results.of(Slot::Value)),
         Shape::Derivative => derivative(layout, &results),
         Shape::Solved(_) => solved(layout, &results),
         Shape::Jump => jump(layout, &results),
@@ -172,7 +180,7 @@ pub(in crate::emit) fn value(layout: &Layout<'_>, kind: FunctionKind, results: V
                 let columns = layout.table(group).size;
                 leaf::matrix(krate, rows, columns, &mut results.of(slot).iter().cloned())
             };
-            let position = matrix(Slot::ByPosition, StructKind::Velocity);
+            let position = matrix(Slot::ByPosition, layout.displacement());
             let velocity = matrix(Slot::ByVelocity, StructKind::Velocity);
             let states = matrix(Slot::ByState, StructKind::States);
             let input = matrix(Slot::ByInput, StructKind::Input);
@@ -199,9 +207,13 @@ pub(in crate::emit) fn value(layout: &Layout<'_>, kind: FunctionKind, results: V
     }
 }
 
-/// Expands to `Derivative { v: .., x: .., multipliers: .., rank: .., residual: .. }`.
+/// Expands to `Derivative { v: .., q: .., x: .., multipliers: .., rank: .., residual: .. }`.
 fn derivative(layout: &Layout<'_>, results: &Results<TokenStream>) -> TokenStream {
     let v = filled(layout, StructKind::Velocity, results.of(Slot::Velocity));
+    let q = layout.structure.has_speeds().then(|| {
+        let q = filled(layout, StructKind::Rates, results.of(Slot::Rates));
+        quote!(q: #q,)
+    });
     let x = layout.has_states().then(|| {
         let x = filled(layout, StructKind::States, results.of(Slot::States));
         quote!(x: #x,)
@@ -215,7 +227,7 @@ fn derivative(layout: &Layout<'_>, results: &Results<TokenStream>) -> TokenStrea
         let residual = scalar(results, Slot::Residual);
         quote!(residual: #residual,)
     });
-    quote!(Derivative { v: #v, #x #rows #residual })
+    quote!(Derivative { v: #v, #q #x #rows #residual })
 }
 
 /// Expands to `Jump { v: .., multipliers: .., rank: .. }`.

@@ -80,10 +80,14 @@ fn holds(group: StructKind, declared: &Declared) -> bool {
         "Input" => group == StructKind::Input,
         "State" => group == StructKind::States,
         "Output" => group == StructKind::Output,
+        "Speed" => group == StructKind::Velocity,
         // A body may have coordinates of its own, which are joints' too.
-        "Body" => matches!(group, StructKind::Position | StructKind::Velocity | StructKind::Guess | StructKind::Poses),
+        "Body" => matches!(
+            group,
+            StructKind::Position | StructKind::Velocity | StructKind::Rates | StructKind::Guess | StructKind::Poses
+        ),
         "Const" | "Let" | "Function" | "Port" | "Force" | "Constraint" | "Unknown" => false,
-        _ => matches!(group, StructKind::Position | StructKind::Velocity | StructKind::Guess),
+        _ => matches!(group, StructKind::Position | StructKind::Velocity | StructKind::Rates | StructKind::Guess),
     }
 }
 

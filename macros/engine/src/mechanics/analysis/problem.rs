@@ -5,6 +5,7 @@
 //! coordinates of the tree; travels count in units of the mechanism's size, so that they compare with angles. Where time has
 //! a say each start has a time of its own: what holds at time zero alone does not hold.
 
+pub(super) mod forms;
 mod formulation;
 
 use crate::mechanics::loops::constraints::Writing;
@@ -96,6 +97,18 @@ pub(super) struct Rate {
     pub is_nothing: bool,
 }
 
+impl Rate {
+    fn roots(&self) -> impl Iterator<Item = usize> {
+        self.slopes.iter().map(|slope| slope.1).chain([self.rest])
+    }
+}
+
+/// What a speed of the user's choice stands for, without what is left at rest.
+struct Speed {
+    /// (column, root)
+    slopes: Vec<(usize, usize)>,
+}
+
 /// A condition of a `solve` item, or what is assumed: not zero where it holds.
 struct Condition {
     root: usize,
@@ -110,6 +123,7 @@ pub(super) struct Problem {
     conditions: Vec<Condition>,
     assumptions: Vec<Condition>,
     pub(super) rates: Vec<Rate>,
+    speeds: Vec<Speed>,
     movers: Vec<Mover>,
     quaternions: Vec<Quaternion>,
     gimbals: Vec<Gimbal>,
@@ -339,8 +353,7 @@ impl Problem {
 
     /// Equations of velocities by scaled columns, and what is left of each at rest.
     pub(super) fn rates_at(&self, point: &Point, values: &mut Values) -> Linearised {
-        let roots = self.rates.iter().flat_map(|rate| rate.slopes.iter().map(|slope| slope.1).chain([rate.rest]));
-        self.tape.run_for(values, &point.0, roots);
+        self.tape.run_for(values, &point.0, self.rates.iter().flat_map(Rate::roots));
         let scaled =
             |&(column, root): &(usize, usize)| (column, self.tape.value(values, root) * self.columns[column].unit);
         let rows = self.rates.iter().map(|rate| rate.slopes.iter().map(scaled).collect()).collect();
@@ -348,11 +361,29 @@ impl Problem {
         Linearised { residuals, rows }
     }
 
+    /// Speeds of the user's choice by scaled columns.
+    pub(super) fn speeds_at(&self, point: &Point, values: &mut Values) -> Vec<Vec<(usize, f64)>> {
+        let roots = self.speeds.iter().flat_map(|speed| speed.slopes.iter().map(|slope| slope.1));
+        self.tape.run_for(values, &point.0, roots);
+        let scaled =
+            |&(column, root): &(usize, usize)| (column, self.tape.value(values, root) * self.columns[column].unit);
+        self.speeds.iter().map(|speed| speed.slopes.iter().map(scaled).collect()).collect()
+    }
+
+    /// Columns that a speed reads.
+    pub(super) fn columns_of_speed(&self, number: usize) -> impl Iterator<Item = usize> {
+        self.speeds[number].slopes.iter().map(|slope| slope.0)
+    }
+
     /// Whether equations of velocities are the same functions everywhere, and at all times.
     pub(super) fn are_rates_plain(&self) -> bool {
-        let roots = self.rates.iter().flat_map(|rate| rate.slopes.iter().map(|slope| slope.1).chain([rate.rest]));
         let timed = |root: usize| self.time.is_some_and(|time| self.tape.symbols(root).contains(&time));
-        roots.into_iter().all(|root| self.tape.is_analytic(root) && !timed(root))
+        self.are_rates_analytic() && !self.rates.iter().flat_map(Rate::roots).any(timed)
+    }
+
+    /// Whether equations of velocities are the same functions everywhere.
+    pub(super) fn are_rates_analytic(&self) -> bool {
+        self.rates.iter().flat_map(Rate::roots).all(|root| self.tape.is_analytic(root))
     }
 
     /// Entries of a row by angular velocities where there were rates of roll, pitch and yaw, if all three are among some columns.
@@ -445,6 +476,18 @@ impl Problem {
     }
 
     pub(super) fn gradient(&self, point: &Point, root: usize, factor: f64, values: &mut Values) -> Vec<(usize, f64)> {
+        self.gradient_and_rate(point, root, factor, values).0
+    }
+
+    /// The same, and the derivative by time.
+    fn gradient_and_rate(
+        &self,
+        point: &Point,
+        root: usize,
+        factor: f64,
+        values: &mut Values,
+    ) -> (Vec<(usize, f64)>, f64) {
+        let mut rate = 0.0;
         let mut row: Vec<(usize, f64)> = Vec::new();
         let mut turns: Vec<(usize, [f64; 4])> = Vec::new();
         self.tape.gradient(values, root, |symbol, slope| match self.movers.get(symbol) {
@@ -457,6 +500,7 @@ impl Problem {
                     turns.push((number, slopes));
                 }
             },
+            _ if self.time == Some(symbol) => rate = slope * factor,
             _ => {}
         });
         for (number, slopes) in turns {
@@ -470,7 +514,7 @@ impl Problem {
                 row.push((quaternion.column + axis, entry));
             }
         }
-        row
+        (row, rate)
     }
 }
 

@@ -13,7 +13,9 @@ use crate::model::site::Sited;
 use crate::model::types::{LoopClosure, Model};
 
 use super::Complaint;
+
 use super::problem::{Point, Problem, Random, Source};
+use super::speeds;
 use super::tape::Values;
 
 /// Poses that are looked at where no loop says which there are.
@@ -90,7 +92,9 @@ pub(super) fn keep(model: &Model, problem: &Problem, structure: &mut Structure) 
         let evidence = format!("they follow from others at {} poses", points.len());
         structure.notes.push(format!("redundant equations of velocities, left out: {names}; {evidence}"));
     }
-    structure.rows.extend(kept.into_iter().map(|number| problem.rates[number].row));
+    let kept = kept.into_iter().map(|number| problem.rates[number].row);
+    let list = if speeds::eliminates(model) { &mut structure.rates.rows } else { &mut structure.rows };
+    list.extend(kept);
     complaints
 }
 

@@ -1,21 +1,30 @@
 //! Stage `mechanics`: constraints whose forces rigid bodies don't tell.
 //!
-//! In: all equations as numbers, closed configurations. Out: constraints whose row depends on the others, those included that were left
-//! out, at every pose that was looked at: the load is shared among these in any way, and a multiplier would be no more than what the
-//! order of equations makes of it. With multipliers for one axle's two wheels, say, neither is known, though one row alone is kept.
+//! In: all equations as numbers, closed configurations; for models that read a multiplier. Out: constraints whose row depends on the
+//! others, those included that were left out, at every pose that was looked at: the load is shared among these in any way, and a
+//! multiplier would be no more than what the order of equations makes of it. With multipliers for one axle's two wheels, say, neither
+//! is known, though one row alone is kept.
 
 use crate::mechanics::loops::structure::{Role, Row, Structure};
+use crate::mechanics::translate::dependencies::Dependencies;
+use crate::mechanics::translate::manipulations;
+use crate::model::types::Model;
 
 use super::problem::{Point, Problem, Source};
+use super::rates;
 use super::singular::{add, dot};
 use super::tape::Values;
 
 /// What is left of a unit row that depends on others.
 const DEPENDENT: f64 = 1e-7;
 
-pub(super) fn shared(problem: &Problem, structure: &Structure, points: &[Point]) -> Vec<Row> {
+pub(super) fn shared(model: &Model, problem: &Problem, structure: &Structure) -> Vec<Row> {
+    // Nobody else asks.
+    if !Dependencies::of(manipulations::roots(model).into_iter()).multipliers {
+        return Vec::new();
+    }
     let mut at_all: Option<Vec<(Row, bool)>> = None;
-    for point in points {
+    for point in &rates::points(problem, structure) {
         let (names, rows) = all(problem, structure, point);
         let depends = dependent(&rows);
         match &mut at_all {

@@ -109,7 +109,7 @@ impl Deriving<'_> {
         let mut all = |e: &mut Equations<'_>| {
             let reduction = e.reduce()?;
             let solved = e.constrained_jump(&reduction);
-            Ok(solved.results(Vec::new()))
+            Ok(solved.results(Vec::new(), Vec::new()))
         };
         let mut candidates = self.in_all_axes(&METHODS[0].1, Method::Composite, &[], &mut all)?;
         if floats(self.model) {

@@ -20,7 +20,7 @@ const CLEAR: f64 = 1e-9;
 impl Deriving<'_> {
     /// The mass matrix of the state, row by row.
     pub(super) fn inertia(&mut self) -> Result<Inertia<Vec<Scalar>>, Vec<Complaint>> {
-        let size = self.structure.state.len();
+        let size = self.structure.freedoms();
         if !self.model.emit.contains(&Request::ForwardDynamics) || size == 0 || size > MOST_COMPOSITE {
             return Ok(Inertia::Regular);
         }

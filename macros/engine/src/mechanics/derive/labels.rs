@@ -31,8 +31,8 @@ impl Deriving<'_> {
     fn result_names(&self, kind: FunctionKind) -> (Vec<String>, &'static str) {
         let model = self.model;
         let of_state = |word: &str| -> Vec<String> {
-            let state = self.structure.state.iter();
-            state.map(|&coordinate| names::of_freedom(model, coordinate, word)).collect()
+            let speeds = self.structure.speeds().iter();
+            speeds.map(|&coordinate| names::of_freedom(model, coordinate, word)).collect()
         };
         let entries = |word: &str| -> Vec<String> {
             let columns = of_state(word);
@@ -69,6 +69,11 @@ impl Deriving<'_> {
             FunctionKind::DeadCentres => (Vec::new(), "root"),
             FunctionKind::Margins => (Vec::new(), "margin"),
             FunctionKind::Granted => (Vec::new(), "gap"),
+            FunctionKind::PositionRates => {
+                let state = self.structure.state.iter();
+                (state.map(|&coordinate| names::of_freedom(model, coordinate, "rate")).collect(), "rate")
+            }
+            FunctionKind::RateDerivatives => (Vec::new(), "derivative"),
             FunctionKind::Displacement => (of_state("step"), "rank"),
             FunctionKind::ForwardDerivatives | FunctionKind::InverseDerivatives | FunctionKind::Linearization => {
                 (Vec::new(), "derivative")
@@ -93,7 +98,7 @@ impl Deriving<'_> {
                 (model.bodies.iter().flat_map(one).collect(), "pose")
             }
             FunctionKind::Outputs | FunctionKind::OutputGroup(_) => {
-                let freedoms = self.structure.state.len();
+                let freedoms = self.structure.freedoms();
                 let one = |output: &crate::model::types::Output| {
                     let name = names::path(model, &output.place);
                     let count = width(&output.value.ty, freedoms);

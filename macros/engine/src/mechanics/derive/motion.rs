@@ -51,7 +51,8 @@ impl<'m> Deriving<'m> {
             let reduction = equations.reduce()?;
             let solved = equations.solve_constrained(&reduction);
             let rates: Vec<Scalar> = model.states.iter().map(|state| equations.scalar(&state.rate)).collect();
-            let mut results = solved.results(equations.put_in_all(&reduction, &solved, &rates));
+            let mut results =
+                solved.results(equations.put_in_all(&reduction, &solved, &rates), equations.moved(&reduction));
             if !reduction.residuals.is_empty() {
                 let residual = equations.worst_residual(&reduction);
                 let residual = equations.finish(&reduction, &[residual])[0];
@@ -69,7 +70,7 @@ impl<'m> Deriving<'m> {
                 let solved = ConstrainedMotion { accelerations, multipliers: Vec::new(), rank: None };
                 let rates: Vec<Scalar> = model.states.iter().map(|state| e.scalar(&state.rate)).collect();
                 let rates = e.put_in_all(&reduction, &solved, &rates);
-                Ok(name.map(|name| (name, e.with_numbers(solved.results(rates)))))
+                Ok(name.map(|name| (name, e.with_numbers(solved.results(rates, Vec::new())))))
             })?;
             let Some(found) = found else { break };
             candidates.push(found);

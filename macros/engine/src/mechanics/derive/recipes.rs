@@ -154,6 +154,12 @@ fn recipe(kind: FunctionKind, solves_inputs: bool) -> Recipe {
         F::Displacement => {
             (NONE, const { &[Written(WITHOUT_CHOICE, |e, r| Results::vector(e.least_displacement(r)))] })
         }
+        F::PositionRates => {
+            (NONE, const { &[Defined("velocity map", |e, r| Ok(Results::vector(e.position_rates(r))))] })
+        }
+        F::RateDerivatives => {
+            (NONE, const { &[Defined("differentiated velocity map", |e, r| Ok(e.rate_derivatives(r)))] })
+        }
         F::Granted => {
             const GRANTED: &[Way] = &[Plain("equations that were left out", granted)];
             (GRANTED, GRANTED)
@@ -233,12 +239,12 @@ fn lower(entries: Vec<Scalar>) -> Results<Scalar> {
 }
 
 fn jacobian(e: &mut Equations<'_>, reduction: &Reduction) -> Results<Scalar> {
-    let (rows, columns) = (e.scene.structure.rows.len(), e.scene.structure.state.len());
+    let (rows, columns) = (e.scene.structure.rows.len(), e.scene.structure.freedoms());
     Results::matrix(rows, columns, e.constraint_jacobian(reduction))
 }
 
 fn centroidal(e: &mut Equations<'_>) -> Found {
-    let columns = e.scene.structure.state.len();
+    let columns = e.scene.structure.freedoms();
     Ok(Results::matrix(6, columns, e.centroidal_momentum_matrix()))
 }
 

@@ -62,14 +62,16 @@ impl Deriving<'_> {
             return Ok(Vec::new());
         }
         let (mut plain, mut witnesses) = (Vec::new(), Vec::new());
-        for kind in partners(asked, !self.model.solve_for.is_empty()) {
+        let moved = self.structure.has_speeds() && !asked.contains(&FunctionKind::PositionRates);
+        let of_positions = moved.then_some(FunctionKind::PositionRates);
+        for kind in partners(asked, !self.model.solve_for.is_empty()).into_iter().chain(of_positions) {
             // Forward dynamics holds what has no inertia of its own by equations that inverse dynamics doesn't know.
             let held = !self.structure.rows.is_empty() && asked.contains(&FunctionKind::ForwardDynamics);
             if held && kind == FunctionKind::InverseDynamics {
                 continue;
             }
             // As many entries as no derivation of what was asked for has made.
-            if kind == FunctionKind::MassMatrix && self.structure.state.len() > MOST_COMPOSITE {
+            if kind == FunctionKind::MassMatrix && self.structure.freedoms() > MOST_COMPOSITE {
                 continue;
             }
             match self.plain_way(kind) {

@@ -12,5 +12,6 @@ pub(super) mod newton;
 pub(super) mod reduction;
 pub(super) mod rotors;
 pub mod solutions;
+pub(super) mod speeds;
 pub mod structure;
 pub(super) mod verification;

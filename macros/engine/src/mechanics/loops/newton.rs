@@ -70,7 +70,7 @@ impl Equations<'_> {
             equations.iter().map(|&equation| self.implicit_rates(equation, &unknowns)).collect();
         let first: Vec<Scalar> = derivatives.iter().map(|d| -d.0).collect();
         let second: Vec<Scalar> = derivatives.iter().map(|d| -d.1).collect();
-        let [rates, accelerations] = self.solve_rates(size, &matrix, [&first, &second]);
+        let [rates, accelerations] = self.solve_rates(size, &matrix, [&first, &second], Self::eliminate);
         let mut definitions = Vec::with_capacity(size);
         for (k, &coordinate) in step.unknowns.iter().enumerate() {
             definitions.push(Definition {
@@ -176,29 +176,35 @@ impl Equations<'_> {
     /// Rates and accelerations from right-hand sides that are linear in what is known of them. Where few velocities are known,
     /// the velocity map is solved for column by column: rates, the transposed map and the mass matrix are products with it. Else
     /// the matrix is inverted, column by column.
-    fn solve_rates(&mut self, size: usize, matrix: &[Scalar], [first, second]: [&[Scalar]; 2]) -> [Vec<Scalar>; 2] {
+    pub(super) fn solve_rates(
+        &mut self,
+        size: usize,
+        matrix: &[Scalar],
+        [first, second]: [&[Scalar]; 2],
+        solve: fn(&mut Self, usize, &[Scalar], &[Scalar]) -> Vec<Scalar>,
+    ) -> [Vec<Scalar>; 2] {
         let read: HashSet<usize> = self.g.reachable_scalars(first).into_iter().collect();
-        let velocities: Vec<Scalar> = self.scene.symbols.velocities.concat();
+        let velocities = self.all_velocities();
         let known: Vec<Scalar> = velocities.into_iter().filter(|v| read.contains(&v.index())).collect();
         if known.len() >= size {
             let unit = |at: usize| (0..size).map(|k| if k == at { Scalar::ONE } else { Scalar::ZERO }).collect();
             let units: Vec<Vec<Scalar>> = (0..size).map(unit).collect();
-            let columns: Vec<Vec<Scalar>> = units.iter().map(|unit| self.eliminate(size, matrix, unit)).collect();
+            let columns: Vec<Vec<Scalar>> = units.iter().map(|unit| solve(self, size, matrix, unit)).collect();
             return [first, second].map(|side| combined(&mut self.g, &columns, side, size));
         }
         let mut columns = Vec::with_capacity(known.len() + 1);
         for &velocity in &known {
             let mut along = Differentiator::new(&[(velocity, Scalar::ONE)]);
             let side: Vec<Scalar> = first.iter().map(|&rate| along.scalar(&mut self.g, rate)).collect();
-            columns.push(self.eliminate(size, matrix, &side));
+            columns.push(solve(self, size, matrix, &side));
         }
         // What changes by time alone.
         let still: Vec<(Scalar, Scalar)> = known.iter().map(|&velocity| (velocity, Scalar::ZERO)).collect();
         let still = self.map(&still);
         let rest = self.g.substitute(first, &still);
-        columns.push(self.eliminate(size, matrix, &rest));
+        columns.push(solve(self, size, matrix, &rest));
         let factors: Vec<Scalar> = known.into_iter().chain([Scalar::ONE]).collect();
-        [combined(&mut self.g, &columns, &factors, size), self.eliminate(size, matrix, second)]
+        [combined(&mut self.g, &columns, &factors, size), solve(self, size, matrix, second)]
     }
 
     /// Unknowns of the steps behind this one, at zero.

@@ -37,6 +37,9 @@ pub(in crate::mechanics) struct Reduction {
     pub(super) coupled: Map,
     /// Rates of the dependents, in velocities of the state and of driven coordinates; positions are symbols of the tree.
     pub(in crate::mechanics) rates: Vec<(usize, Scalar)>,
+    /// The same of positions that follow, in displacements of the state: what rates are before velocities other than the rates of the state
+    /// are put in.
+    pub(in crate::mechanics) displacements: Vec<(usize, Scalar)>,
     /// Roots that vanish in dead centres, with the unknowns they belong to.
     pub dead_centres: Vec<(Coordinate, Scalar)>,
     /// Sentences for the report.
@@ -51,6 +54,8 @@ pub(in crate::mechanics) struct Reduction {
     pub matrices: Vec<Vec<Scalar>>,
     /// In the order in which they are found.
     pub definitions: Vec<Definition>,
+    /// Of coordinates of the state whose rates follow: with their own symbols for positions, rates in velocities and positions of the tree.
+    pub followed: Vec<Definition>,
 }
 
 /// A coefficient or so of the equation that a closed form solves.
@@ -82,6 +87,13 @@ pub(in crate::mechanics) struct Definition {
     pub acceleration: Scalar,
 }
 
+impl Reduction {
+    /// Definitions of all rates that are no velocity coordinates.
+    pub(in crate::mechanics) fn of_rates(&self) -> impl Iterator<Item = &Definition> {
+        self.definitions.iter().chain(&self.followed)
+    }
+}
+
 impl Equations<'_> {
     /// Works out all definitions.
     pub(in crate::mechanics) fn define_all(&mut self, newton: Newton) -> Result<Reduction, Vec<Complaint>> {
@@ -103,6 +115,10 @@ impl Equations<'_> {
             reduction.definitions.extend(definitions);
         }
         self.close(&mut reduction, &rates);
+        reduction.displacements.clone_from(&reduction.rates);
+        if structure.has_speeds() {
+            self.follow_speeds(&mut reduction, &rates);
+        }
         Ok(reduction)
     }
 
@@ -173,9 +189,33 @@ impl Equations<'_> {
         [&symbols.positions, &symbols.velocities, &symbols.accelerations].map(|lists| Symbols::of(lists, joint)[index])
     }
 
-    /// Place of a coordinate among all of the tree.
+    /// Symbols of a velocity coordinate and its rate, which may be a speed of the user's choice.
+    pub(in crate::mechanics) fn velocity_symbols(&self, coordinate: Coordinate) -> [Scalar; 2] {
+        if let Some(number) = coordinate.joint.0.checked_sub(self.scene.model.joints.len()) {
+            return self.scene.symbols.speeds[number];
+        }
+        let [_, velocity, acceleration] = self.coordinate_symbols(coordinate);
+        [velocity, acceleration]
+    }
+
+    /// The symbol of a speed of the user's choice, if the velocity coordinate is one.
+    pub(in crate::mechanics) fn model_speed(&self, coordinate: Coordinate) -> Option<Scalar> {
+        self.scene.model.speed(coordinate.joint).map(|_| self.velocity_symbols(coordinate)[0])
+    }
+
+    /// Place of a velocity coordinate among all of the tree; speeds of the user's choice stand behind these.
     pub(in crate::mechanics) fn freedom(&self, coordinate: Coordinate) -> usize {
-        self.scene.symbols.first[coordinate.joint.0] + coordinate.index
+        let symbols = &self.scene.symbols;
+        match coordinate.joint.0.checked_sub(self.scene.model.joints.len()) {
+            Some(number) => symbols.freedoms + number,
+            None => symbols.first[coordinate.joint.0] + coordinate.index,
+        }
+    }
+
+    /// Velocities of the tree, then speeds of the user's choice, by their places.
+    pub(in crate::mechanics) fn all_velocities(&self) -> Vec<Scalar> {
+        let symbols = &self.scene.symbols;
+        symbols.velocities.iter().flatten().copied().chain(symbols.speeds.iter().map(|speed| speed[0])).collect()
     }
 
     /// A map from symbols to what replaces them.
@@ -318,7 +358,18 @@ impl Equations<'_> {
     /// The solution of a square system that is regular but in singular poses.
     pub(in crate::mechanics) fn eliminate(&mut self, size: usize, matrix: &[Scalar], side: &[Scalar]) -> Vec<Scalar> {
         let operands: Vec<Scalar> = matrix.iter().chain(side).copied().collect();
-        self.g.block_outputs(BlockKind::Eliminate { size }, &operands)
+        self.g.block_outputs(BlockKind::Eliminate { size, strict: false }, &operands)
+    }
+
+    /// The same, no number in singular poses.
+    pub(in crate::mechanics) fn eliminate_strictly(
+        &mut self,
+        size: usize,
+        matrix: &[Scalar],
+        side: &[Scalar],
+    ) -> Vec<Scalar> {
+        let operands: Vec<Scalar> = matrix.iter().chain(side).copied().collect();
+        self.g.block_outputs(BlockKind::Eliminate { size, strict: true }, &operands)
     }
 
     /// A square system, solved by the structure of its matrix, and its rank.
@@ -338,16 +389,17 @@ impl Equations<'_> {
         if reduction.map.is_empty() { roots } else { self.g.substitute(&roots, &reduction.map) }
     }
 
-    /// Efforts on the coordinates of the tree as efforts on those of the state and on driven ones: the transposed velocity
+    /// Efforts on the coordinates of the tree as efforts on velocity coordinates and on driven ones: the transposed velocity
     /// map, by reverse accumulation through the rates, so that what several dependents share is passed on once.
     pub(in crate::mechanics) fn project(&mut self, reduction: &Reduction, efforts: &[Scalar]) -> Vec<Scalar> {
         let mut projected = efforts.to_vec();
+        projected.resize(efforts.len() + self.scene.symbols.speeds.len(), Scalar::ZERO);
         if reduction.rates.is_empty() {
             return projected;
         }
         let (outputs, weights): (Vec<Scalar>, Vec<Scalar>) =
             reduction.rates.iter().map(|&(freedom, rate)| (rate, efforts[freedom])).unzip();
-        let velocities: Vec<Scalar> = self.scene.symbols.velocities.concat();
+        let velocities = self.all_velocities();
         let dependent: Vec<usize> = reduction.rates.iter().map(|rate| rate.0).collect();
         let free: Vec<usize> = (0..velocities.len()).filter(|k| !dependent.contains(k)).collect();
         let inputs: Vec<Scalar> = free.iter().map(|&k| velocities[k]).collect();

@@ -23,6 +23,8 @@ pub struct Structure {
     pub roles: Vec<Vec<Role>>,
     /// What generated structs hold, in their order.
     pub state: Vec<Coordinate>,
+    /// Rates of the state that are no velocity coordinates.
+    pub rates: DependentRates,
     /// Equations that keep a multiplier, in the order of multipliers.
     pub rows: Vec<Row>,
     /// Those among them that vanish or follow from others at the parameters' defaults, and not with others.
@@ -34,7 +36,7 @@ pub struct Structure {
     pub independent: Vec<Row>,
     /// Equations that follow from the others everywhere.
     pub dropped: Vec<Row>,
-    /// Equations whose forces rigid bodies don't tell, since they depend on others, kept or left out.
+    /// Equations whose forces rigid bodies don't tell, since they depend on others, kept or left out; where a multiplier is read.
     pub shared: Vec<Row>,
     /// Those among `dropped` that hold for parameters like the declared ones only.
     pub granted: Vec<Row>,
@@ -118,6 +120,19 @@ pub struct Row {
     pub closing: LoopClosure,
     /// Among those that this closing gives, see [`super::constraints`].
     pub index: usize,
+}
+
+/// Rates of coordinates that are in the state, while their rates are not: they follow from equations of velocities and from what the user's
+/// speeds stand for, as many as there are rates. Positions are integrated.
+#[derive(Clone, Debug, Default)]
+pub struct DependentRates {
+    /// Velocity coordinates: rates of other coordinates of the state in its order, then speeds of the user's choice.
+    pub speeds: Vec<Coordinate>,
+    pub unknowns: Vec<Coordinate>,
+    /// Equations of velocities, which keep no multipliers.
+    pub rows: Vec<Row>,
+    /// As many coordinates as rows, whose rates these would give without any speeds: their equations of motion tell of the forces.
+    pub held: Vec<Coordinate>,
 }
 
 /// Coordinates found together.
@@ -206,9 +221,19 @@ impl Structure {
         !self.redundant && self.rows.len() * self.rows.len() * self.state.len() >= LARGE
     }
 
-    /// Number of coordinates in the state.
+    /// Number of velocity coordinates.
     pub fn freedoms(&self) -> usize {
-        self.state.len()
+        self.speeds().len()
+    }
+
+    /// Velocity coordinates, in the order of `Velocity`: as a rule the rates of the state.
+    pub fn speeds(&self) -> &[Coordinate] {
+        if self.has_speeds() { &self.rates.speeds } else { &self.state }
+    }
+
+    /// Whether velocities are other than the rates of all coordinates of the state.
+    pub fn has_speeds(&self) -> bool {
+        !self.rates.unknowns.is_empty()
     }
 
     pub fn role(&self, coordinate: Coordinate) -> Role {

@@ -22,7 +22,7 @@ impl Equations<'_> {
     pub(in crate::mechanics) fn actuate(&mut self, reduction: &Reduction) -> Result<Results<Scalar>, Vec<Complaint>> {
         let model = self.scene.model;
         let efforts = self.projected_efforts(reduction, LoadCase::Held);
-        let mut rows: Vec<usize> = self.freedoms_of(|role| matches!(role, Role::State));
+        let mut rows = self.speeds();
         rows.extend(self.freedoms_of(|role| matches!(role, Role::Driven(_))));
         let efforts: Vec<Scalar> = rows.iter().map(|&freedom| efforts[freedom]).collect();
         let efforts = self.finish(reduction, &efforts);
@@ -40,8 +40,8 @@ impl Equations<'_> {
                     "{few} inputs to solve for: {wanted} where {} are needed",
                     (rows.len() + wanted).saturating_sub(size)
                 ),
-                "name as many scalar inputs as there are freedoms: coordinates in the state and driven ones, less the \
-                 equations that keep multipliers",
+                "name as many scalar inputs as there are freedoms: velocities and driven coordinates, less the equations that \
+                 keep multipliers",
             );
         }
         let matrix = self.slopes_by(&efforts, &inputs);

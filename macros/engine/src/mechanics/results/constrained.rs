@@ -36,9 +36,11 @@ pub(in crate::mechanics) struct ConstrainedMotion {
 pub(in crate::mechanics) struct Residuals(HashMap<LoopClosure, Rc<[Scalar]>>);
 
 impl ConstrainedMotion {
-    /// Accelerations with the rates of own states, multipliers and the rank of their system.
-    pub(in crate::mechanics) fn results(&self, rates: Vec<Scalar>) -> Results<Scalar> {
+    /// Accelerations with the rates of own states, those of positions where velocities are others, multipliers and the rank of their
+    /// system.
+    pub(in crate::mechanics) fn results(&self, rates: Vec<Scalar>, moved: Vec<Scalar>) -> Results<Scalar> {
         let results = Results::velocity(self.accelerations.clone()).with_any(Slot::States, rates);
+        let results = results.with_any(Slot::Rates, moved);
         let results = results.with_any(Slot::Multipliers, self.multipliers.clone());
         match self.rank {
             Some(rank) => results.with_scalar(Slot::Rank, rank),
@@ -56,9 +58,21 @@ pub(in crate::mechanics) struct Rows {
 }
 
 impl Equations<'_> {
-    /// Places of the state's coordinates among those of the tree.
-    pub(in crate::mechanics) fn state(&self) -> Vec<usize> {
-        self.scene.structure.state.iter().map(|&coordinate| self.freedom(coordinate)).collect()
+    /// Rates of the state's positions where velocities are others.
+    pub(in crate::mechanics) fn moved(&mut self, reduction: &Reduction) -> Vec<Scalar> {
+        if self.scene.structure.has_speeds() { self.position_rates(reduction) } else { Vec::new() }
+    }
+
+    /// Rates of the state's positions.
+    pub(in crate::mechanics) fn position_rates(&mut self, reduction: &Reduction) -> Vec<Scalar> {
+        let state = self.scene.structure.state.clone();
+        let rates: Vec<Scalar> = state.iter().map(|&coordinate| self.coordinate_symbols(coordinate)[1]).collect();
+        self.finish(reduction, &rates)
+    }
+
+    /// Places of velocity coordinates among those of the tree and speeds.
+    pub(in crate::mechanics) fn speeds(&self) -> Vec<usize> {
+        self.scene.structure.speeds().iter().map(|&coordinate| self.freedom(coordinate)).collect()
     }
 
     /// Equations of a closing, written once.
@@ -123,14 +137,14 @@ impl Equations<'_> {
     /// Efforts of the state, before definitions are put in.
     fn state_efforts(&mut self, reduction: &Reduction, case: LoadCase) -> Vec<Scalar> {
         let efforts = self.projected_efforts(reduction, case);
-        self.state().into_iter().map(|freedom| efforts[freedom]).collect()
+        self.speeds().into_iter().map(|freedom| efforts[freedom]).collect()
     }
 
     /// Accelerations of the state set to zero.
     fn rest(&self) -> Map {
-        let state = &self.scene.structure.state;
+        let speeds = self.scene.structure.speeds();
         let pairs: Vec<(Scalar, Scalar)> =
-            state.iter().map(|&coordinate| (self.coordinate_symbols(coordinate)[2], Scalar::ZERO)).collect();
+            speeds.iter().map(|&coordinate| (self.velocity_symbols(coordinate)[1], Scalar::ZERO)).collect();
         self.map(&pairs)
     }
 
@@ -147,11 +161,11 @@ impl Equations<'_> {
         let n = self.scene.symbols.freedoms;
         let entries = self.mass_matrix();
         let matrix: Vec<&[Scalar]> = entries.chunks(n.max(1)).collect();
-        let state = self.state();
-        let map = self.velocity_map(reduction, &state);
+        let speeds = self.speeds();
+        let map = self.velocity_map(reduction, &speeds);
         // M S, column by column, then S^T of it; rows of S are those of the tree.
         let g = &mut self.g;
-        let size = state.len();
+        let size = speeds.len();
         let mut reduced = vec![vec![Scalar::ZERO; size]; size];
         let columns: Vec<Vec<Scalar>> = (0..size)
             .map(|j| {
@@ -173,15 +187,22 @@ impl Equations<'_> {
         reduced
     }
 
-    /// S, a row per coordinate of the tree.
-    pub(in crate::mechanics) fn velocity_map(&mut self, reduction: &Reduction, state: &[usize]) -> Vec<Vec<Scalar>> {
+    /// S, a row per coordinate of the tree, by velocity coordinates at these places.
+    pub(in crate::mechanics) fn velocity_map(&mut self, reduction: &Reduction, speeds: &[usize]) -> Vec<Vec<Scalar>> {
+        self.map_by(&reduction.rates, speeds)
+    }
+
+    /// How velocities of the tree, of which these follow, change with those at some places.
+    pub(in crate::mechanics) fn map_by(&mut self, rates: &[(usize, Scalar)], places: &[usize]) -> Vec<Vec<Scalar>> {
         let n = self.scene.symbols.freedoms;
-        let mut map = vec![vec![Scalar::ZERO; state.len()]; n];
-        let velocities: Vec<Scalar> = self.scene.symbols.velocities.concat();
-        for (j, &freedom) in state.iter().enumerate() {
-            map[freedom][j] = Scalar::ONE;
+        let mut map = vec![vec![Scalar::ZERO; places.len()]; n];
+        let velocities = self.all_velocities();
+        for (j, &freedom) in places.iter().enumerate() {
+            if let Some(row) = map.get_mut(freedom) {
+                row[j] = Scalar::ONE;
+            }
             let mut along = Differentiator::new(&[(velocities[freedom], Scalar::ONE)]);
-            for &(dependent, rate) in &reduction.rates {
+            for &(dependent, rate) in rates {
                 map[dependent][j] = along.scalar(&mut self.g, rate);
             }
         }
@@ -191,18 +212,18 @@ impl Equations<'_> {
     /// Equations of the multipliers, in the state.
     fn rows(&mut self, reduction: &Reduction) -> Rows {
         let structure = Rc::clone(&self.scene.structure);
-        let state = structure.state.clone();
+        let speeds = structure.speeds().to_vec();
         let mut jacobian = Vec::with_capacity(structure.rows.len());
         let mut bias = Vec::with_capacity(structure.rows.len());
         for &row in &structure.rows {
             let residual = self.row(row);
             let (rate, second) = self.row_rates(row);
             let rate = self.finish(reduction, &[rate])[0];
-            let mut columns = Vec::with_capacity(state.len());
+            let mut columns = Vec::with_capacity(speeds.len());
             // A loop concerns few coordinates of a large mechanism.
             let read: HashSet<usize> = self.g.reachable_scalars(&[rate]).into_iter().collect();
-            for &coordinate in &state {
-                let velocity = self.coordinate_symbols(coordinate)[1];
+            for &coordinate in &speeds {
+                let [velocity, _] = self.velocity_symbols(coordinate);
                 if !read.contains(&velocity.index()) {
                     columns.push(Scalar::ZERO);
                     continue;
@@ -258,7 +279,7 @@ impl Equations<'_> {
     /// The least d with G d = r, as if all masses were one: d + G^T mu = 0. Then the rank.
     pub(in crate::mechanics) fn least_displacement(&mut self, reduction: &Reduction) -> Vec<Scalar> {
         let jacobian = self.rows(reduction).jacobian;
-        let size = self.scene.structure.state.len();
+        let size = self.scene.structure.freedoms();
         let unit = |i: usize| (0..size).map(|j| if i == j { Scalar::ONE } else { Scalar::ZERO }).collect();
         let rates = self.scene.symbols.rates.clone();
         let found = self.solve_rows((0..size).map(unit).collect(), &vec![Scalar::ZERO; size], jacobian, &rates).1;
@@ -312,11 +333,12 @@ impl Equations<'_> {
         u32::try_from(cost).unwrap_or(u32::MAX)
     }
 
-    /// Elimination of the state's coordinates from the leaves inwards; by place in the state.
+    /// Elimination of velocity coordinates from the leaves inwards, then of speeds of the user's choice; by place among them.
     fn state_elimination(&self) -> Vec<usize> {
-        let state = self.state();
+        let speeds = self.speeds();
         let order = self.scene.mechanism.elimination(self.scene.way.method == Method::Floating);
-        order.into_iter().filter_map(|freedom| state.iter().position(|&k| k == freedom)).collect()
+        let chosen = self.scene.symbols.freedoms..self.scene.symbols.freedoms + self.scene.symbols.speeds.len();
+        order.into_iter().chain(chosen).filter_map(|freedom| speeds.iter().position(|&k| k == freedom)).collect()
     }
 
     /// Residuals of the equations with multipliers.
@@ -352,8 +374,8 @@ impl Equations<'_> {
         roots: &[Scalar],
     ) -> Vec<Scalar> {
         let roots = self.finish(reduction, roots);
-        let state = self.scene.structure.state.clone();
-        let accelerations = state.iter().map(|&coordinate| self.coordinate_symbols(coordinate)[2]);
+        let speeds = self.scene.structure.speeds().to_vec();
+        let accelerations = speeds.iter().map(|&coordinate| self.velocity_symbols(coordinate)[1]);
         let symbols = accelerations.chain(self.scene.symbols.multipliers.iter().copied());
         let values = solved.accelerations.iter().chain(&solved.multipliers).copied();
         let pairs: Vec<(Scalar, Scalar)> = symbols.zip(values).collect();
@@ -389,6 +411,7 @@ impl Equations<'_> {
     /// Whether coordinates follow from others, or equations keep multipliers.
     pub(in crate::mechanics) fn is_constrained(&self) -> bool {
         !self.scene.structure.steps.is_empty()
+            || self.scene.structure.has_speeds()
             || !self.scene.structure.rows.is_empty()
             || self.scene.structure.roles.iter().flatten().any(|role| matches!(role, Role::Driven(_)))
             || self.is_first_order()

@@ -53,7 +53,8 @@ impl Equations<'_> {
     fn held_rows(&mut self) -> (Vec<Row>, Vec<Coordinate>) {
         let structure = Rc::clone(&self.scene.structure);
         let mut rows = structure.independent.clone();
-        let mut unknowns = Vec::new();
+        rows.extend(&structure.rates.rows);
+        let mut unknowns = structure.rates.held.clone();
         for step in &structure.steps {
             match step.means {
                 Means::Linear(id) if self.is_seen_through(id) => {

@@ -56,6 +56,11 @@ pub(in crate::mechanics) fn complaints(model: &Model, structure: &Structure) -> 
             complaints.push(complaint(model.site(), message, "name coordinates of the state in `simplify small(..)`"));
         }
     }
+    if structure.has_speeds() {
+        let message =
+            "motions are small in coordinates and their rates, and velocities of this model are others".to_owned();
+        complaints.push(complaint(model.site(), message, "leave out the speeds, or the constraints of velocities"));
+    }
     if !structure.rows.is_empty() {
         let message = "loops that keep multipliers can't be taken to first order".to_owned();
         complaints.push(complaint(model.site(), message, "write `formulation { constraints: Reduced }`"));

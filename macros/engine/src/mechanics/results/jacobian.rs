@@ -69,15 +69,15 @@ impl Equations<'_> {
 
     /// Coefficients of the state's velocities, from those of the tree's.
     fn by_state(&mut self, reduction: &Reduction, rows: &[Vec<Scalar>; 6]) -> [Vec<Scalar>; 6] {
-        let state = self.state();
-        let map = self.velocity_map(reduction, &state);
+        let speeds = self.speeds();
+        let map = self.velocity_map(reduction, &speeds);
         let g = &mut self.g;
         rows.each_ref().map(|row| {
             let column = |g: &mut Graph, j: usize| {
                 let terms: Vec<Scalar> = row.iter().zip(&map).map(|(&entry, map)| g.mul(entry, map[j])).collect();
                 g.sum(&terms)
             };
-            (0..state.len()).map(|j| column(g, j)).collect()
+            (0..speeds.len()).map(|j| column(g, j)).collect()
         })
     }
 }

@@ -79,6 +79,15 @@ impl Equations<'_> {
         Results { list: kinks::guarded(&mut self.g, &efforts, &results.list), ..results }
     }
 
+    /// Derivatives of the rates of positions, in the same order.
+    pub(in crate::mechanics) fn rate_derivatives(&mut self, reduction: &Reduction) -> Results<Scalar> {
+        let directions = self.directions(reduction);
+        let values = self.position_rates(reduction);
+        let columns = self.partials(&values, &directions.columns, Accumulation::Forward);
+        let results = directions.matrices(&columns, values.len());
+        Results { list: kinks::guarded(&mut self.g, &values, &results.list), ..results }
+    }
+
     /// Derivatives of the accelerations and of the rates of own states, in the same order.
     pub(in crate::mechanics) fn forward_derivatives(
         &mut self,
@@ -86,7 +95,7 @@ impl Equations<'_> {
         accumulation: Accumulation,
     ) -> Results<Scalar> {
         let motion = self.motion_slopes(reduction, accumulation);
-        let count = self.scene.structure.state.len() + self.scene.model.states.len();
+        let count = self.scene.structure.freedoms() + self.scene.model.states.len();
         let columns: Vec<Vec<Scalar>> =
             motion.columns.into_iter().map(|column| [column.accelerations, column.rates].concat()).collect();
         let results = motion.directions.matrices(&columns, count);
@@ -100,8 +109,8 @@ impl Equations<'_> {
         // Positions and velocities move while accelerations and multipliers stay: these are symbols for now.
         let mut residual = self.reduced_efforts(reduction, LoadCase::HeldOpen);
         let freedoms = residual.len();
-        let state = self.scene.structure.state.clone();
-        let accelerations: Vec<Scalar> = state.iter().map(|&at| self.coordinate_symbols(at)[2]).collect();
+        let accelerations: Vec<Scalar> =
+            self.scene.structure.speeds().iter().map(|&at| self.velocity_symbols(at)[1]).collect();
         for (row, &gamma) in rows.jacobian.iter().zip(&rows.bias) {
             let mut terms: Vec<Scalar> = row.iter().zip(&accelerations).map(|(&c, &a)| self.g.mul(c, a)).collect();
             terms.push(gamma);
@@ -155,8 +164,8 @@ impl Equations<'_> {
 
     /// Puts in the accelerations and multipliers that were found.
     pub(super) fn settle(&mut self, columns: &mut [Vec<Scalar>], solved: &ConstrainedMotion) {
-        let state = self.scene.structure.state.clone();
-        let accelerations = state.iter().map(|&coordinate| self.coordinate_symbols(coordinate)[2]);
+        let speeds = self.scene.structure.speeds().to_vec();
+        let accelerations = speeds.iter().map(|&coordinate| self.velocity_symbols(coordinate)[1]);
         let symbols = accelerations.chain(self.scene.symbols.multipliers.iter().copied());
         let values = solved.accelerations.iter().chain(&solved.multipliers).copied();
         let pairs: Vec<(Scalar, Scalar)> = symbols.zip(values).collect();
@@ -170,8 +179,7 @@ impl Equations<'_> {
 
     fn directions(&mut self, reduction: &Reduction) -> Directions {
         let state = self.scene.structure.state.clone();
-        let places = self.state();
-        let map = if reduction.rates.is_empty() { Vec::new() } else { self.velocity_map(reduction, &places) };
+        let map = self.displacement_map(reduction);
         let mut columns = Vec::new();
         for (at, &coordinate) in state.iter().enumerate() {
             let mut seeds = self.direction(coordinate);
@@ -182,11 +190,21 @@ impl Equations<'_> {
             }
             columns.push(seeds);
         }
-        let velocities: Vec<Scalar> = state.iter().map(|&at| self.coordinate_symbols(at)[1]).collect();
+        let speeds = self.scene.structure.speeds();
+        let velocities: Vec<Scalar> = speeds.iter().map(|&at| self.velocity_symbols(at)[0]).collect();
         let (states, inputs) = (self.scene.symbols.states.clone(), self.scene.symbols.inputs.concat());
-        let counts = [state.len(), state.len(), states.len(), inputs.len()];
+        let counts = [state.len(), velocities.len(), states.len(), inputs.len()];
         columns.extend(velocities.into_iter().chain(states).chain(inputs).map(|symbol| vec![(symbol, Scalar::ONE)]));
         Directions { columns, counts }
+    }
+
+    /// How coordinates of the tree move with the positions of the state, whatever velocities are; nothing where none follows.
+    fn displacement_map(&mut self, reduction: &Reduction) -> Vec<Vec<Scalar>> {
+        if reduction.displacements.is_empty() {
+            return Vec::new();
+        }
+        let places: Vec<usize> = self.scene.structure.state.iter().map(|&at| self.freedom(at)).collect();
+        self.map_by(&reduction.displacements, &places)
     }
 
     /// Places of dependent coordinates in the tree, their positions, and whether Newton's method finds them.
@@ -196,7 +214,7 @@ impl Equations<'_> {
             let iterated = matches!(step.means, Means::Newton { .. });
             step.unknowns.iter().map(move |&unknown| (unknown, iterated))
         });
-        let found = |freedom: &usize| reduction.rates.iter().any(|rate| rate.0 == *freedom);
+        let found = |freedom: &usize| reduction.displacements.iter().any(|rate| rate.0 == *freedom);
         unknowns
             .map(|(unknown, iterated)| (self.freedom(unknown), self.coordinate_symbols(unknown)[0], iterated))
             .filter(|(freedom, ..)| found(freedom))

@@ -2,7 +2,7 @@
 //! at around every step.
 //!
 //! In: the reduction of a model at its solution. Out: for each closed form with a root this root, for each iteration the
-//! determinant of its equations, each followed by the rate of its square; behind them the residual that iterations have
+//! determinant of its equations, and of the equations by which rates follow from velocities, each followed by the rate of its square; behind them the residual that iterations have
 //! left. In a dead centre a root, or a determinant, goes through zero; the rate of its square is finite there, since
 //! the square is regular in coordinates of the state. Iterations are not made anew: their solution stands in the guess.
 //!
@@ -25,13 +25,14 @@ use crate::symbolic::graph::{Graph, Scalar};
 const MOST_MINORS: usize = 8;
 
 impl Structure {
-    /// The coordinates whose dead centres integrators look for: those found by closed forms with a root, and the first of
-    /// every iteration.
+    /// The coordinates whose dead centres integrators look for: those found by closed forms with a root, the first of
+    /// every iteration, and of those whose rates follow from velocities.
     pub fn margins(&self) -> Vec<Coordinate> {
         let dependent = |c: &Coordinate| matches!(self.role(*c), Role::Dependent(_));
         let closed = self.dead_centres.iter().copied().filter(dependent);
         let newton = self.steps.iter().filter(|step| matches!(step.means, Means::Newton { .. }));
-        closed.chain(newton.filter_map(|step| step.unknowns.first().copied())).collect()
+        let newton = newton.filter_map(|step| step.unknowns.first().copied());
+        closed.chain(newton).chain(self.rates.unknowns.first().copied()).collect()
     }
 }
 

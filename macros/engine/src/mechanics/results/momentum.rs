@@ -59,15 +59,15 @@ impl Equations<'_> {
     pub(in crate::mechanics) fn reduced_momenta(&mut self, reduction: &Reduction) -> Vec<Scalar> {
         let momenta = self.momenta();
         let projected = self.project(reduction, &momenta);
-        let of_state: Vec<Scalar> = self.state().into_iter().map(|freedom| projected[freedom]).collect();
+        let of_state: Vec<Scalar> = self.speeds().into_iter().map(|freedom| projected[freedom]).collect();
         self.finish(reduction, &of_state)
     }
 
     /// The same from the entries of S^T M S.
     pub(in crate::mechanics) fn reduced_momenta_by_matrix(&mut self, reduction: &Reduction) -> Vec<Scalar> {
         let matrix = self.reduced_mass_matrix(reduction).concat();
-        let velocities: Vec<Scalar> = self.scene.symbols.velocities.concat();
-        let of_state: Vec<Scalar> = self.state().into_iter().map(|freedom| velocities[freedom]).collect();
+        let velocities = self.all_velocities();
+        let of_state: Vec<Scalar> = self.speeds().into_iter().map(|freedom| velocities[freedom]).collect();
         times(&mut self.g, &matrix, &of_state)
     }
 
@@ -80,7 +80,7 @@ impl Equations<'_> {
         let rates = self.momentum_rates(weight);
         let projected = self.project(reduction, &rates);
         let turned = self.turned_momenta(reduction);
-        let of_state: Vec<Scalar> = self.state().into_iter().map(|k| self.g.add(projected[k], turned[k])).collect();
+        let of_state: Vec<Scalar> = self.speeds().into_iter().map(|k| self.g.add(projected[k], turned[k])).collect();
         self.finish(reduction, &of_state)
     }
 

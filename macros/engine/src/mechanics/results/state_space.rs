@@ -6,14 +6,15 @@
 //! dy/dx at fixed z, and by dy/dz dz/dx.
 //!
 //! A displacement d of a unit quaternion is q (0, d) / 2 in the child's axes, which turn with the angular velocity w: d' is
-//! the change of w, less w x d. All other coordinates have q' = v.
+//! the change of w, less w x d. All other coordinates have q' = v, and velocities that are no rates of the state have q' = N u + n, which
+//! changes with positions too.
 
 use crate::contracts::results::{Results, Slot};
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Reduction;
-use crate::mechanics::translate::symbols::has_quaternion;
 use crate::mechanics::translate::time::Seeds;
+use crate::model::types::Coordinate;
 use crate::symbolic::graph::{Scalar, ScalarNode};
 
 use super::kinks;
@@ -31,7 +32,7 @@ impl Equations<'_> {
         let motion = self.motion_slopes(reduction, accumulation);
         let outputs = self.finish(reduction, &outputs);
         let slopes = self.output_slopes(reduction, &motion, &outputs);
-        let displacements = self.displacement_rates(&motion.directions.columns);
+        let displacements = self.displacement_rates(reduction, &motion.directions.columns);
         let [positions, velocities, states, _] = motion.directions.counts;
         let columns: Vec<Vec<Scalar>> = motion
             .columns
@@ -83,28 +84,41 @@ impl Equations<'_> {
     /// What stands for accelerations of the state and for multipliers in outputs.
     fn moving(&mut self, reduction: &Reduction) -> (Vec<Scalar>, Vec<Scalar>) {
         let all = self.accelerations();
-        let accelerations: Vec<Scalar> = self.state().into_iter().map(|place| all[place]).collect();
+        let speeds = self.scene.structure.speeds();
+        let at = |c: &Coordinate| match self.model_speed(*c) {
+            Some(_) => self.velocity_symbols(*c)[1],
+            None => all[self.freedom(*c)],
+        };
+        let accelerations: Vec<Scalar> = speeds.iter().map(at).collect();
         (self.finish(reduction, &accelerations), self.scene.symbols.multipliers.clone())
     }
 
     /// Rates of the displacements along each direction.
-    fn displacement_rates(&mut self, directions: &[Seeds]) -> Vec<Vec<Scalar>> {
+    pub(super) fn displacement_rates(&mut self, reduction: &Reduction, directions: &[Seeds]) -> Vec<Vec<Scalar>> {
         let state = self.scene.structure.state.clone();
         let count = state.len();
-        let mut columns = vec![vec![Scalar::ZERO; count]; directions.len()];
+        let rates: Vec<Scalar> = state.iter().map(|&coordinate| self.coordinate_symbols(coordinate)[1]).collect();
+        let rates = self.finish(reduction, &rates);
+        let mut columns = if self.scene.structure.has_speeds() {
+            self.partials(&rates, directions, Accumulation::Forward)
+        } else {
+            let mut columns = vec![vec![Scalar::ZERO; count]; directions.len()];
+            (0..count).for_each(|place| columns[count + place][place] = Scalar::ONE);
+            columns
+        };
         for (place, &coordinate) in state.iter().enumerate() {
-            columns[count + place][place] = Scalar::ONE;
-            if !has_quaternion(&self.scene.model.joints[coordinate.joint]) {
+            let kind = self.scene.model.joints[coordinate.joint].kind;
+            if !kind.has_quaternion() {
                 continue;
             }
-            let velocities = &self.scene.symbols.velocities[coordinate.joint.0];
-            let Some(turned) = coordinate.index.checked_sub(velocities.len() - 3) else { continue };
+            let Some(turned) = coordinate.index.checked_sub(kind.freedoms() - 3) else { continue };
             // Row `turned` of -w x d.
             let first = place - turned;
             let [next, last] = [(turned + 1) % 3, (turned + 2) % 3];
-            let rate = &velocities[velocities.len() - 3..];
-            columns[first + last][place] = -rate[next];
-            columns[first + next][place] = rate[last];
+            let rate = &rates[first..first + 3];
+            let (less, more) = (columns[first + last][place], columns[first + next][place]);
+            columns[first + last][place] = self.g.sub(less, rate[next]);
+            columns[first + next][place] = self.g.add(more, rate[last]);
         }
         columns
     }

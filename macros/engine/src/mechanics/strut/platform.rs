@@ -168,7 +168,7 @@ impl Equations<'_> {
         // A drive may hold all of the rotation, and nothing else.
         let held = self.scene.structure.roles.iter().flatten().any(|role| matches!(role, Role::Driven(_)));
         let path = platform.tree.path(None, Some(platform.link));
-        let moves = |at: &usize| self.state().contains(&platform.tree.links[*at].freedom);
+        let moves = |at: &usize| self.speeds().contains(&platform.tree.links[*at].freedom);
         let (translations, turns) = path.split_at_checked(3)?;
         if held && (!translations.iter().all(moves) || turns.iter().any(moves)) {
             return None;
@@ -186,7 +186,7 @@ impl Equations<'_> {
             let flipped = self.scene.mechanism.flipped.get(freedom) == Some(&true);
             *of_tree.get_mut(freedom)? = Some(if flipped { -value } else { value });
         }
-        self.state().into_iter().map(|freedom| of_tree[freedom]).collect()
+        self.speeds().into_iter().map(|freedom| of_tree[freedom]).collect()
     }
 
     /// What efforts may depend on, the coordinates of the slides and their rates, by the lengths of the struts.

@@ -12,6 +12,7 @@ use crate::model::types::{Expr, ExprNode, JointId, Model, Order, SystemQuantity}
 pub(in crate::mechanics) struct Dependencies {
     pub frames: bool,
     pub accelerations: bool,
+    pub multipliers: bool,
     reactions: Vec<JointId>,
 }
 
@@ -37,7 +38,7 @@ impl Dependencies {
                 ExprNode::Power(_) | ExprNode::Express { .. } => needs.frames = true,
                 ExprNode::Coordinate { order: Order::Acceleration, .. } => needs.accelerations = true,
                 ExprNode::Derivative { accelerated, .. } => needs.accelerations |= *accelerated,
-                ExprNode::Multiplier(_) => needs.accelerations = true,
+                ExprNode::Multiplier(_) => (needs.accelerations, needs.multipliers) = (true, true),
                 ExprNode::Reaction { joint, .. } => {
                     needs.accelerations = true;
                     needs.reactions.push(*joint);

@@ -114,6 +114,11 @@ pub(in crate::mechanics) fn complaints_of(roots: Vec<&Expr>) -> Result<(), Vec<C
 fn of_formula(expr: &Expr, formula: &Formula, given: &[Given], solved: &Solved) -> Vec<Complaint> {
     let model = &formula.model;
     let mut complaints = Vec::new();
+    if solved.structure.has_speeds() {
+        let message =
+            format!("velocities of `{}` are not the rates of its coordinates: nothing can be asked of it", model.name);
+        return vec![Complaint { at: formula.site(), message, help: None }];
+    }
     for given in given {
         if let Some(name) = declared_only(model, &solved.structure, given) {
             complaints.push(Complaint {
@@ -208,6 +213,7 @@ fn variable(model: &Model, symbol: Symbol) -> Option<Variable> {
             let freedom = model.joints[joint].kind.freedoms.get(component);
             freedom.map(|_| Variable::Coordinate(Coordinate { joint, index: component }, Order::Position))
         }
+        Symbol::Velocity { joint, .. } if model.speed(joint).is_some() => None,
         Symbol::Velocity { joint, component } => {
             let freedom = model.joints[joint].kind.freedoms.get(component);
             freedom.map(|_| Variable::Coordinate(Coordinate { joint, index: component }, Order::Rate))

@@ -98,9 +98,11 @@ impl Equations<'_> {
         }
         let Some(reduction) = self.reduced.clone() else { return seeds };
         let mut along = Differentiator::new(&seeds);
-        let rates: Vec<Scalar> = reduction.rates.iter().map(|&(_, rate)| along.scalar(&mut self.g, rate)).collect();
+        // Rates of the state rest, whatever the velocities are.
+        let follow = &reduction.displacements;
+        let rates: Vec<Scalar> = follow.iter().map(|&(_, rate)| along.scalar(&mut self.g, rate)).collect();
         let velocities = self.scene.symbols.velocities.concat();
-        seeds.extend(reduction.rates.iter().zip(rates).map(|(&(freedom, _), rate)| (velocities[freedom], rate)));
+        seeds.extend(follow.iter().zip(rates).map(|(&(freedom, _), rate)| (velocities[freedom], rate)));
         seeds
     }
 
@@ -113,7 +115,7 @@ impl Equations<'_> {
         }
         let reduction = self.definitions();
         let freedom = self.freedom(coordinate);
-        let map = self.velocity_map(&reduction, &[freedom]);
+        let map = self.map_by(&reduction.displacements, &[freedom]);
         unknowns.into_iter().map(|unknown| (unknown, map[self.freedom(unknown)][0])).collect()
     }
 
@@ -199,7 +201,7 @@ impl Equations<'_> {
             return self.mass_matrix()[row * self.scene.symbols.freedoms + column];
         }
         let place =
-            |of: Coordinate| structure.state.iter().position(|&at| at == of).or_fault("entries are of the state");
+            |of: Coordinate| structure.speeds().iter().position(|&at| at == of).or_fault("entries are of velocities");
         let reduction = self.definitions();
         // Derivatives follow dependent coordinates by the velocity map, so these stay symbols; an expansion puts them in, and
         // is refused where they are found by iteration, which can't be differentiated.
@@ -221,9 +223,9 @@ impl Equations<'_> {
             let freedom = self.freedom(coordinate);
             return self.bias()[freedom];
         }
-        let place = self.scene.structure.state.iter().position(|&at| at == coordinate);
+        let place = self.scene.structure.speeds().iter().position(|&at| at == coordinate);
         let reduction = self.definitions();
-        self.reduced_bias(&reduction)[place.or_fault("entries are of the state")]
+        self.reduced_bias(&reduction)[place.or_fault("entries are of velocities")]
     }
 }
 
@@ -287,9 +289,9 @@ pub(in crate::mechanics) fn complaints_of(model: &Model, structure: &Structure, 
             ExprNode::Multiplier(constraint) => complaints.extend(no_multiplier(model, structure, *constraint, expr)),
             ExprNode::Closed(coordinate) => complaints.extend(not_closed(model, structure, *coordinate, expr)),
             ExprNode::MassMatrix(list) => {
-                complaints.extend(list.iter().filter_map(|coordinate| outside(model, structure, *coordinate, expr)));
+                complaints.extend(list.iter().filter_map(|coordinate| no_velocity(model, structure, *coordinate, expr)));
             }
-            ExprNode::Bias(coordinate) => complaints.extend(outside(model, structure, *coordinate, expr)),
+            ExprNode::Bias(coordinate) => complaints.extend(no_velocity(model, structure, *coordinate, expr)),
             _ => {}
         }
     }
@@ -311,7 +313,7 @@ fn no_multiplier(model: &Model, structure: &Structure, constraint: ConstraintId,
     let name = row_name(model, LoopClosure::Constraint(constraint), 0);
     let linear = |means: &Means| matches!(means, Means::Linear(id) if *id == constraint);
     let found = structure.steps.iter().find(|step| linear(&step.means));
-    let is_held = structure.rows.iter().chain(&structure.independent).any(of);
+    let is_held = structure.rows.iter().chain(&structure.independent).chain(&structure.rates.rows).any(of);
     let is_open = structure.shared.iter().any(of) || !is_held;
     let (message, help) = match found {
         Some(_) => (
@@ -380,6 +382,23 @@ fn not_closed(model: &Model, structure: &Structure, coordinate: Coordinate, expr
         }
     };
     Some(Complaint { at: expr.site(), message: format!("{name} {why}"), help: Some(help.to_owned()) })
+}
+
+/// A coordinate whose rate is no velocity of the state.
+fn no_velocity(model: &Model, structure: &Structure, coordinate: Coordinate, expr: &Expr) -> Option<Complaint> {
+    let found = outside(model, structure, coordinate, expr);
+    if found.is_some() || structure.speeds().contains(&coordinate) {
+        return found;
+    }
+    let name = coordinate_name(model, coordinate);
+    let message = format!(
+        "the rate of {name} follows from the velocities of this model: it has no equation of motion of its own"
+    );
+    let help = Some(
+        "an output can be `kinetic()`, of which `diff` is an entry; all entries are `emit mass_matrix, bias`"
+            .to_owned(),
+    );
+    Some(Complaint { at: expr.site(), message, help })
 }
 
 /// A coordinate that is not in the state.
@@ -453,7 +472,7 @@ fn holds(expr: &Expr, is: impl Fn(&ExprNode) -> bool) -> bool {
 }
 
 /// Expressions in which equations may be taken apart.
-fn roots(model: &Model) -> Vec<&Expr> {
+pub(in crate::mechanics) fn roots(model: &Model) -> Vec<&Expr> {
     let mut roots: Vec<&Expr> = model.outputs.iter().map(|output| &output.value).collect();
     roots.extend(model.states.iter().map(|state| &state.rate));
     roots.extend(model.forces.iter().flat_map(|force| force.kind.values()));

@@ -40,10 +40,10 @@ pub(in crate::mechanics) fn symbol(model: &Model, symbol: Symbol) -> String {
         }
         Symbol::State { state } => path(model, &model.states[state].place),
         Symbol::Position { joint, component } => of_joint(model, joint, |kind| position(kind, component)),
-        Symbol::Velocity { joint, component } => of_joint(model, joint, |kind| rate(kind, component, "rate")),
-        Symbol::Acceleration { joint, component } => of_joint(model, joint, |kind| rate(kind, component, "accel")),
-        Symbol::Impulse { joint, component } => of_joint(model, joint, |kind| rate(kind, component, "impulse")),
-        Symbol::Momentum { joint, component } => of_joint(model, joint, |kind| rate(kind, component, "momentum")),
+        Symbol::Velocity { joint, component } => of_velocity(model, joint, component, "rate"),
+        Symbol::Acceleration { joint, component } => of_velocity(model, joint, component, "accel"),
+        Symbol::Impulse { joint, component } => of_velocity(model, joint, component, "impulse"),
+        Symbol::Momentum { joint, component } => of_velocity(model, joint, component, "momentum"),
         Symbol::Alternative { component } => {
             ["cos_alternative", "sin_alternative", "side_1", "side_2", "side_3"][component].to_owned()
         }
@@ -58,7 +58,16 @@ pub(in crate::mechanics) fn symbol(model: &Model, symbol: Symbol) -> String {
 
 /// Name of what belongs to a velocity coordinate.
 pub(in crate::mechanics) fn of_freedom(model: &Model, coordinate: Coordinate, what: &str) -> String {
-    of_joint(model, coordinate.joint, |kind| rate(kind, coordinate.index, what))
+    of_velocity(model, coordinate.joint, coordinate.index, what)
+}
+
+/// The same by joint and component; of a speed of the user's choice the rate is the speed itself.
+fn of_velocity(model: &Model, joint: JointId, component: usize, what: &str) -> String {
+    match model.speed(joint) {
+        Some(speed) if what == "rate" => path(model, &speed.place),
+        Some(speed) => format!("{}_{what}", path(model, &speed.place)),
+        None => of_joint(model, joint, |kind| rate(kind, component, what)),
+    }
 }
 
 fn of_joint(model: &Model, joint: JointId, suffix: impl Fn(&JointKind) -> String) -> String {

@@ -23,12 +23,14 @@ pub struct Symbols {
     pub positions: Vec<Vec<Scalar>>,
     pub velocities: Vec<Vec<Scalar>>,
     pub accelerations: Vec<Vec<Scalar>>,
+    /// By speed of the user's choice: itself and its rate.
+    pub speeds: Vec<[Scalar; 2]>,
     /// Place of each joint's first velocity coordinate among all.
     pub first: Vec<usize>,
     pub freedoms: usize,
     /// By constraint equation with a multiplier.
     pub multipliers: Vec<Scalar>,
-    /// By coordinate of the state: impulses, or momenta, that velocities answer to.
+    /// By velocity coordinate: impulses, or momenta, that velocities answer to.
     pub impulses: Vec<Scalar>,
     /// By constraint equation with a multiplier: its rate in a jump.
     pub rates: Vec<Scalar>,
@@ -77,8 +79,7 @@ impl Symbols {
             }
             return self;
         }
-        let state = structure.state.iter();
-        let impulses = state.map(|&Coordinate { joint, index: component }| {
+        let impulses = structure.speeds().iter().map(|&Coordinate { joint, index: component }| {
             let symbol =
                 if jumps { Symbol::Impulse { joint, component } } else { Symbol::Momentum { joint, component } };
             one(g, table, symbol)
@@ -105,11 +106,22 @@ impl Symbols {
         for input in self.inputs.iter().flatten() {
             g.mark(*input, MARKS + 1);
         }
+        for [_, rate] in &self.speeds {
+            g.mark(*rate, MARKS);
+        }
         let mut next = 0;
         for joint in 0..self.velocities.len() {
             let lists = [&self.positions, &self.velocities, &self.accelerations].map(|lists| &lists[joint]);
             for index in 0..lists[1].len() {
                 let role = structure.role(Coordinate { joint: JointId(joint), index });
+                let coordinate = Coordinate { joint: JointId(joint), index };
+                if structure.rates.unknowns.contains(&coordinate) {
+                    for list in [lists[1], lists[2]] {
+                        g.mark(list[index], next % MARKS);
+                        next += 1;
+                    }
+                    continue;
+                }
                 if role == Role::State {
                     g.mark(lists[2][index], MARKS);
                     continue;
@@ -191,6 +203,12 @@ impl Symbols {
         };
         let velocities = of_joints(|joint, component| Symbol::Velocity { joint, component });
         let accelerations = of_joints(|joint, component| Symbol::Acceleration { joint, component });
+        let speeds = (0..model.speeds.len()).map(|number| {
+            let Coordinate { joint, index: component } = model.coordinate_of(number);
+            let speed = one(g, &mut table, Symbol::Velocity { joint, component });
+            [speed, one(g, &mut table, Symbol::Acceleration { joint, component })]
+        });
+        let speeds = speeds.collect();
         let mut freedoms = 0;
         let first = model.joints.iter().enumerate().map(|(k, joint)| {
             let first = freedoms;
@@ -207,6 +225,7 @@ impl Symbols {
             positions,
             velocities,
             accelerations,
+            speeds,
             first,
             freedoms,
             multipliers: Vec::new(),

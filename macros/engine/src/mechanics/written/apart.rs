@@ -24,7 +24,8 @@ pub(super) fn part_of(model: &Model, structure: &Structure, subject: Subject) ->
         | Subject::Follows(c, _)
         | Subject::Rest(c)
         | Subject::Acceleration(c) => &model.joints[c.joint].place,
-        Subject::Constraint(row) | Subject::Closing(row) => of_closing(model, row.closing),
+        Subject::Speed(number) => &model.speeds[number].place,
+        Subject::Constraint(row) | Subject::Closing(row) | Subject::Rolling(row) => of_closing(model, row.closing),
         Subject::Slope(k, _) => of_closing(model, structure.rows[k].closing),
         _ => return None,
     };

@@ -7,7 +7,7 @@ use std::rc::Rc;
 
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::constraints::coordinate_name;
-use crate::mechanics::loops::reduction::{Map, Reduction};
+use crate::mechanics::loops::reduction::{Definition, Map, Reduction};
 use crate::symbolic::graph::{Graph, Scalar, ScalarNode};
 use crate::symbolic::write::formula::Identifier;
 
@@ -35,13 +35,19 @@ pub(super) struct Named {
 impl Following {
     pub(super) fn new(e: &mut Equations<'_>, reduction: &Reduction, letters: &Letters) -> Following {
         let structure = Rc::clone(&e.scene.structure);
-        let places = e.state();
+        let places = e.speeds();
         let mut map = vec![vec![Scalar::ZERO; places.len()]; e.scene.symbols.freedoms];
-        places.iter().enumerate().for_each(|(j, &place)| map[place][j] = Scalar::ONE);
+        for (j, &place) in places.iter().enumerate() {
+            if let Some(row) = map.get_mut(place) {
+                row[j] = Scalar::ONE;
+            }
+        }
+        let definitions: Vec<Definition> = reduction.of_rates().copied().collect();
+        let speeds = structure.speeds();
         let mut following = Following { named: Vec::new(), map, still: Map::new() };
         // All symbols first: a coupling stands before what it is coupled to.
         let mut slopes = Vec::new();
-        for (k, definition) in reduction.definitions.iter().enumerate() {
+        for (k, definition) in definitions.iter().enumerate() {
             let place = e.freedom(definition.coordinate);
             for j in 0..places.len() {
                 following.map[place][j] = e.g.symbol();
@@ -49,13 +55,14 @@ impl Following {
             }
         }
         for (k, j) in slopes {
-            let definition = &reduction.definitions[k];
-            let seeds: Vec<(Scalar, Scalar)> =
+            let definition = &definitions[k];
+            let mut seeds: Vec<(Scalar, Scalar)> =
                 e.scene.symbols.velocities.concat().into_iter().zip(following.map.iter().map(|row| row[j])).collect();
+            seeds.extend(e.model_speed(speeds[j]).map(|speed| (speed, Scalar::ONE)));
             let slope = e.g.derivative(definition.rate, &seeds);
             let value = e.put_in_stand_ins(&[slope])[0];
             let model = e.scene.model;
-            let index = [definition.coordinate, structure.state[j]].map(|c| coordinate_name(model, c)).join(", ");
+            let index = [definition.coordinate, speeds[j]].map(|c| coordinate_name(model, c)).join(", ");
             let subject = Subject::Follows(definition.coordinate, j);
             following.named.push(Named {
                 subject,
@@ -64,16 +71,15 @@ impl Following {
                 value,
             });
         }
-        let rest: Vec<(Scalar, Scalar)> =
-            structure.state.iter().map(|&c| (e.coordinate_symbols(c)[2], Scalar::ZERO)).collect();
+        let rest: Vec<(Scalar, Scalar)> = speeds.iter().map(|&c| (e.velocity_symbols(c)[1], Scalar::ZERO)).collect();
         following.still = e.map(&rest);
-        let symbols: Vec<Scalar> = reduction.definitions.iter().map(|_| e.g.symbol()).collect();
-        for (definition, &symbol) in reduction.definitions.iter().zip(&symbols) {
+        let symbols: Vec<Scalar> = definitions.iter().map(|_| e.g.symbol()).collect();
+        for (definition, &symbol) in definitions.iter().zip(&symbols) {
             let acceleration = e.coordinate_symbols(definition.coordinate)[2];
             let put_in = e.map(&[(acceleration, symbol)]);
             following.still.extend(put_in);
         }
-        for (definition, symbol) in reduction.definitions.iter().zip(symbols) {
+        for (definition, symbol) in definitions.iter().zip(symbols) {
             let value = e.put_in_stand_ins(&[definition.acceleration])[0];
             let value = e.g.substitute(&[value], &following.still)[0];
             let name = letters.entry("gamma", coordinate_name(e.scene.model, definition.coordinate));
@@ -106,7 +112,7 @@ impl Following {
 
     /// Efforts of the tree on the state.
     pub(super) fn project(&self, e: &mut Equations<'_>, efforts: &[Scalar]) -> Vec<Scalar> {
-        let size = e.scene.structure.state.len();
+        let size = e.scene.structure.freedoms();
         let efforts = e.put_in_stand_ins(efforts);
         let columns = (0..size).map(|j| {
             let terms: Vec<Scalar> =
@@ -121,7 +127,7 @@ impl Following {
         let entries = e.mass_matrix();
         let entries = e.put_in_stand_ins(&entries);
         let n = self.map.len();
-        let size = e.scene.structure.state.len();
+        let size = e.scene.structure.freedoms();
         let columns: Vec<Vec<Scalar>> = (0..size)
             .map(|j| {
                 let column = entries.chunks(n.max(1)).map(|row| {

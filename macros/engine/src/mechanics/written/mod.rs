@@ -110,4 +110,8 @@ pub enum Subject {
     Output(usize),
     /// The rate of a state of the user's own.
     StateRate(usize),
+    /// What a speed of the user's choice stands for.
+    Speed(usize),
+    /// What is zero in all motions, since rates follow from it.
+    Rolling(Row),
 }

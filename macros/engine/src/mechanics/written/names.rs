@@ -99,6 +99,10 @@ fn position(model: &Model, joint: JointId, component: usize) -> Identifier {
 }
 
 fn motion(model: &Model, joint: JointId, component: usize, order: u8) -> Identifier {
+    if let Some(speed) = model.speed(joint) {
+        let class = if order == 1 { Class::Rate } else { Class::Acceleration };
+        return Identifier { dots: order - 1, ..named(path(model, &speed.place), class) };
+    }
     let kind = model.joints[joint].kind;
     let class = if order == 1 { Class::Rate } else { Class::Acceleration };
     let turning = component.checked_sub(kind.turning().start).filter(|_| kind.has_quaternion());

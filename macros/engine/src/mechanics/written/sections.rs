@@ -59,6 +59,7 @@ impl Equations<'_> {
         writer.solved = solved(self.scene.model, &reduction, &writer.letters);
         let following = Following::new(self, &reduction, &writer.letters);
         writer.drives(self, &reduction);
+        writer.velocities(self);
         writer.followers(self, &reduction, &following);
         writer.constraints(self);
         writer.motion(self, &following);
@@ -260,6 +261,30 @@ impl Sections {
         self.section("Outputs", says, lines);
     }
 
+    /// What velocities stand for, and equations that rates follow from.
+    fn velocities(&mut self, e: &mut Equations<'_>) {
+        let (model, structure) = (e.scene.model, Rc::clone(&e.scene.structure));
+        let mut drafts = Vec::new();
+        for (number, speed) in model.speeds.iter().enumerate() {
+            let value = e.scalar(&speed.value);
+            let value = e.put_in_stand_ins(&[value])[0];
+            let left = self.name(e, e.scene.symbols.speeds[number][0]);
+            drafts.push(Draft::new(Subject::Speed(number), left, value));
+        }
+        for &row in &structure.rates.rows {
+            let Some(rate) = e.rate_expression(row) else { continue };
+            let rate = e.put_in_stand_ins(&[rate])[0];
+            let name = self.letters.entry("Phi", row_name(model, row.closing, row.index));
+            drafts.push(Draft::new(Subject::Rolling(row), Formula::Name(name), rate));
+        }
+        let mut says = Vec::new();
+        if !structure.rates.rows.is_empty() {
+            says.push(self.letters.sentence("`Phi` is zero in all motions: so rates follow from the others."));
+        }
+        let lines = self.lines_with(e, drafts, false);
+        self.section("Velocities", says, lines);
+    }
+
     /// Coordinates that follow from others: positions, rates, accelerations.
     fn followers(&mut self, e: &mut Equations<'_>, reduction: &Reduction, motion: &Following) {
         let mut drafts = Vec::new();
@@ -304,7 +329,7 @@ impl Sections {
         let lines = self.lines(e, drafts);
         let says_of = "`S` are the slopes of what follows by the state's velocities, `gamma` what is left of its acceleration where those of \
                        the state are zero: x' = S q', x'' = S q'' + gamma.";
-        if !reduction.definitions.is_empty() {
+        if reduction.of_rates().next().is_some() {
             says.push(self.letters.sentence(says_of));
         }
         self.section("Coordinates that follow", says, lines);
@@ -312,17 +337,17 @@ impl Sections {
 
     /// Rates of what follows: by the slopes, or as they come where a drive or time moves loops too.
     fn rates(&self, e: &mut Equations<'_>, reduction: &Reduction, motion: &Following) -> Vec<Draft> {
-        let follow = reduction.definitions.iter().map(|definition| definition.coordinate);
-        let own = follow.chain(e.scene.structure.state.iter().copied());
-        let rest: Vec<(Scalar, Scalar)> = own.map(|c| (e.coordinate_symbols(c)[1], Scalar::ZERO)).collect();
+        let follow = reduction.of_rates().map(|definition| definition.coordinate);
+        let own = follow.chain(e.scene.structure.speeds().iter().copied());
+        let rest: Vec<(Scalar, Scalar)> = own.map(|c| (e.velocity_symbols(c)[0], Scalar::ZERO)).collect();
         let rest = e.map(&rest);
-        let rates: Vec<Scalar> = reduction.definitions.iter().map(|definition| definition.rate).collect();
+        let rates: Vec<Scalar> = reduction.of_rates().map(|definition| definition.rate).collect();
         let rates = e.put_in_stand_ins(&rates);
         let drifts = e.g.substitute(&rates, &rest);
         let moved = drifts.iter().any(|&drift| drift != Scalar::ZERO);
-        let state: Vec<Scalar> = e.scene.structure.state.iter().map(|&c| e.coordinate_symbols(c)[1]).collect();
+        let state: Vec<Scalar> = e.scene.structure.speeds().iter().map(|&c| e.velocity_symbols(c)[0]).collect();
         let mut drafts = Vec::new();
-        for (definition, rate) in reduction.definitions.iter().zip(rates) {
+        for (definition, rate) in reduction.of_rates().zip(rates) {
             let row = &motion.map[e.freedom(definition.coordinate)];
             let terms: Vec<Scalar> = row.iter().zip(&state).map(|(&slope, &v)| e.g.mul(slope, v)).collect();
             let value = if moved { rate } else { e.g.sum(&terms) };
@@ -343,9 +368,9 @@ impl Sections {
         values: &[Scalar],
     ) -> Vec<Draft> {
         let read: HashSet<usize> = e.g.reachable_scalars(values).into_iter().collect();
-        let state: Vec<Scalar> = e.scene.structure.state.iter().map(|&c| e.coordinate_symbols(c)[2]).collect();
+        let state: Vec<Scalar> = e.scene.structure.speeds().iter().map(|&c| e.velocity_symbols(c)[1]).collect();
         let mut drafts = Vec::new();
-        for definition in &reduction.definitions {
+        for definition in reduction.of_rates() {
             let acceleration = e.coordinate_symbols(definition.coordinate)[2];
             if !read.contains(&acceleration.index()) {
                 continue;
@@ -466,7 +491,7 @@ impl Sections {
             self.section("Equations of motion", vec![says.to_owned()], Vec::new());
             return;
         }
-        let state = structure.state.clone();
+        let state = structure.speeds().to_vec();
         let names: Vec<String> = state.iter().map(|&c| coordinate_name(e.scene.model, c)).collect();
         let matrix = following.mass_matrix(e);
         let Parts { inertial, gravity, forces } = e.parts(LoadCase::Declared);
@@ -476,7 +501,7 @@ impl Sections {
             e.first_order(&list)
         });
         let matrix: Vec<Vec<Scalar>> = matrix.iter().map(|row| e.first_order(row)).collect();
-        let accelerations: Vec<Scalar> = state.iter().map(|&c| e.coordinate_symbols(c)[2]).collect();
+        let accelerations: Vec<Scalar> = state.iter().map(|&c| e.velocity_symbols(c)[1]).collect();
         let held = self.held(e, following);
         let mut drafts = Vec::new();
         for (i, name) in names.iter().enumerate() {
@@ -532,7 +557,7 @@ impl Sections {
     /// Efforts of the multipliers on the state.
     fn held(&self, e: &mut Equations<'_>, following: &Following) -> Vec<Scalar> {
         if e.scene.structure.rows.is_empty() {
-            return vec![Scalar::ZERO; e.scene.structure.state.len()];
+            return vec![Scalar::ZERO; e.scene.structure.freedoms()];
         }
         let [all, declared] = [LoadCase::Held, LoadCase::Declared].map(|case| {
             let forces = e.parts(case).forces;
@@ -557,9 +582,10 @@ impl Sections {
         };
         let rows = names.iter().enumerate().map(|(i, name)| {
             let mut left: Vec<(bool, Formula)> = Vec::new();
-            for (j, &coordinate) in structure.state.iter().enumerate().filter(|&(j, _)| matrix[i][j] != Scalar::ZERO) {
+            for (j, &coordinate) in structure.speeds().iter().enumerate().filter(|&(j, _)| matrix[i][j] != Scalar::ZERO)
+            {
                 let mass = named("M", format!("{}, {}", names[i.min(j)], names[i.max(j)]));
-                let acceleration = self.name(e, e.coordinate_symbols(coordinate)[2]);
+                let acceleration = self.name(e, e.velocity_symbols(coordinate)[1]);
                 left.push((false, Formula::Product(vec![mass, acceleration])));
             }
             left.extend(part("c", velocity, i));

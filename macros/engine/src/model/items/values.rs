@@ -11,8 +11,8 @@ use crate::model::checks::evaluate::Value;
 use crate::model::docs;
 use crate::model::expand::root;
 use crate::model::names::TYPES;
-use crate::model::typed::{Allowed, Typed, type_text};
-use crate::model::types::{Expr as Checked, Output, State, Type};
+use crate::model::typed::{Allowed, Class, Typed, type_text};
+use crate::model::types::{Expr as Checked, Output, Speed, State, Type};
 use crate::syntax::tree::{self, ItemKind};
 
 /// Nesting of array types.
@@ -53,6 +53,10 @@ impl<'a> Checker<'a, '_> {
             Role::Output => {
                 let value = self.value_as(expr, context, ty.as_ref())?;
                 self.output_type(value)?
+            }
+            Role::Speed => {
+                let value = self.expect(expr, context, &Type::Scalar)?;
+                self.allow(value, Allowed::Speed)?
             }
             Role::Let | Role::Signal => self.value_as(expr, context, ty.as_ref())?,
         };
@@ -288,6 +292,24 @@ impl<'a> Checker<'a, '_> {
             place: crate::model::types::Place { instance, field: name.clone() },
             value: value.expr,
             docs: docs::docs(&item.attrs),
+        })
+    }
+
+    pub(in crate::model) fn finish_speed(&mut self, id: NamedId, item: &'a tree::Item) -> Option<Speed> {
+        let named = &self.named[id];
+        let (name, scope) = (named.name, named.home);
+        let Meaning::Value(value) = self.named_meaning(id, name.span())? else { return None };
+        if value.uses.culprit(Class::State).is_none() {
+            let message = format!("the speed `{name}` reads no velocity");
+            self.report.help(name.span(), message, "a speed is made of rates of joints and velocities of frames");
+            return None;
+        }
+        let instance = self.scopes[scope].instance;
+        Some(Speed {
+            place: crate::model::types::Place { instance, field: name.clone() },
+            value: value.expr,
+            docs: docs::docs(&item.attrs),
+            span: name.span(),
         })
     }
 

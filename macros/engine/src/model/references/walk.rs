@@ -36,6 +36,7 @@ pub(super) fn declared(module: &tree::Module) -> Vec<Declared> {
             ItemKind::Param(value) => add(&value.name, "name", "Param"),
             ItemKind::Input(value) => add(&value.name, "name", "Input"),
             ItemKind::Let(value) => add(&value.name, "name", "Let"),
+            ItemKind::Speed(value) => add(&value.name, "name", "Speed"),
             ItemKind::Function(function) => add(&function.name, "name", "Function"),
             ItemKind::External(function) => add(&function.name, "name", "Extern"),
             ItemKind::Output(value) => add(&value.name, "name", "Output"),
@@ -177,6 +178,7 @@ impl<'a> Walk<'a> {
             | ItemKind::Param(value)
             | ItemKind::Input(value)
             | ItemKind::Let(value)
+            | ItemKind::Speed(value)
             | ItemKind::Output(value) => {
                 value.ty.iter().for_each(|ty| self.ty(ty));
                 self.all(&value.value);

@@ -92,6 +92,7 @@ const NAME: Room = &[
     ("Param", &[]),
     ("Input", &[]),
     ("Let", &[]),
+    ("Speed", &[]),
     ("Output", &[]),
     ("State", &[]),
     ("Port", &[]),

@@ -41,7 +41,7 @@ impl Pose {
             side.push(g.mul(half, open));
         }
         let operands = [matrix, side].concat();
-        let steps = g.block_outputs(BlockKind::Eliminate { size: distances.len() }, &operands);
+        let steps = g.block_outputs(BlockKind::Eliminate { size: distances.len(), strict: false }, &operands);
         let sum = |g: &mut Graph, part: fn(&Twist) -> Vector| {
             let terms: Vec<Vector> = steps.iter().zip(twists).map(|(&s, twist)| g.scale(s, part(twist))).collect();
             g.sum_vectors(&terms)

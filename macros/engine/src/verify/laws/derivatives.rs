@@ -18,6 +18,10 @@ pub(super) const LAWS: &[Law] = &[
         judge: |at| at.blocks(FunctionKind::InverseDerivatives, FunctionKind::InverseDynamics),
     },
     Law {
+        between: "the derivatives of rates of positions and their slopes",
+        judge: |at| at.blocks(FunctionKind::RateDerivatives, FunctionKind::PositionRates),
+    },
+    Law {
         between: "the linearised equations and the slopes of forward dynamics",
         judge: |at| at.linear(FunctionKind::ForwardDynamics, [Slot::StateMatrix, Slot::InputMatrix]),
     },
@@ -45,7 +49,10 @@ impl At<'_, '_> {
             return Some(None);
         }
         let sizes = self.moving();
-        let rows = self.dof() + if inverse { 0 } else { sizes[2] };
+        let rows = match function {
+            FunctionKind::PositionRates => sizes[0],
+            _ => self.dof() + if inverse { 0 } else { sizes[2] },
+        };
         let slots = [Slot::ByPosition, Slot::ByVelocity, Slot::ByState, Slot::ByInput];
         let first = slots.map(|slot| self.place(derivative, slot).start);
         let place = |block: usize, row: usize, column: usize| first[block] + row * sizes[block] + column;
@@ -78,7 +85,7 @@ impl At<'_, '_> {
     fn moving(&self) -> [usize; 4] {
         let model = self.laws.model;
         let inputs = model.inputs.iter().map(|input| input.ty.scalars()).sum();
-        [self.dof(), self.dof(), model.states.len(), inputs]
+        [self.coordinates().len(), self.dof(), model.states.len(), inputs]
     }
 
     fn derivative(&mut self, entries: &Entries<'_>) -> Judged {

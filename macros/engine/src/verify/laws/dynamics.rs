@@ -160,7 +160,7 @@ impl At<'_, '_> {
         let multipliers = found[held.clone()].to_vec();
         let r = self.weights(n);
         let mut changed: Vec<(Symbol, Doubled)> = Vec::new();
-        changed.extend(self.coordinates().iter().zip(&accelerations).map(|(&c, &a)| (acceleration(c), a)));
+        changed.extend(self.speeds().iter().zip(&accelerations).map(|(&c, &a)| (acceleration(c), a)));
         changed.extend(multipliers.iter().enumerate().map(|(row, &x)| (Symbol::Multiplier { row }, x)));
         let mut sum = Sum::default();
         // What forward dynamics leaves, weighted as it counts here.

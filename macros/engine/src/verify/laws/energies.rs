@@ -8,7 +8,7 @@ use crate::model::types::{Coordinate, InputId};
 use crate::optimize::program::Doubt;
 use crate::symbolic::doubled::Doubled;
 
-use super::{At, Judged, Law, Sum, acceleration, forces, judged, velocity};
+use super::{At, EXACT, Judged, Law, Sum, acceleration, forces, judged, velocity};
 
 /// What is left of closed loops.
 const CLOSED: f64 = 1e-9;
@@ -202,8 +202,9 @@ impl At<'_, '_> {
             () if self.has(b) => b,
             () => return Some(None),
         };
-        let all = self.has(t) && self.has(u) && self.is_scleronomic(&[t, u, kind, g]);
-        if !all || !forces::are_balanced(self.laws.model) {
+        let speeds = self.laws.structure.has_speeds();
+        let all = self.has(t) && self.has(u) && self.is_scleronomic(&[t, u, kind, g, FunctionKind::PositionRates]);
+        if !all || !self.is_moved() || !forces::are_balanced(self.laws.model) {
             return Some(None);
         }
         let model = self.laws.model;
@@ -227,14 +228,15 @@ impl At<'_, '_> {
         }
         // What is measured is no function of coordinates where loops are open: of that the power is all that is known.
         let mut rotors = model.cuts.iter().filter(|&&joint| model.joints[joint].armature.is_some());
-        if measured || held || (rows > 0 && rotors.next().is_some()) {
+        // Of velocities that are no rates of positions the power is known: other equations have terms of how their directions turn.
+        if speeds || measured || held || (rows > 0 && rotors.next().is_some()) {
             r.clone_from(&v);
         }
         let inputs = model.inputs.iter().enumerate().flat_map(|(k, input)| {
             (0..input.ty.scalars()).map(move |element| (Symbol::Input { input: InputId(k), element }, Doubled::ZERO))
         });
         let inputs: Vec<(Symbol, Doubled)> = inputs.collect();
-        let coordinates = self.coordinates();
+        let coordinates = self.speeds();
         let moving = |velocities: &[Doubled]| {
             let velocities = coordinates.iter().zip(velocities).map(|(&c, &v)| (velocity(c), v));
             inputs.iter().copied().chain(velocities).collect::<Vec<(Symbol, Doubled)>>()
@@ -242,6 +244,18 @@ impl At<'_, '_> {
         let sums: Vec<Doubled> = v.iter().zip(&r).map(|(&v, &r)| v + r).collect();
         let differences: Vec<Doubled> = v.iter().zip(&r).map(|(&v, &r)| v - r).collect();
         let opposite: Vec<Doubled> = v.iter().map(|&v| -v).collect();
+        let (along, way) = if speeds {
+            let rates = FunctionKind::PositionRates;
+            let [one, other] = [&v, &opposite].map(|v| Some(self.with(rates, &moving(v))?.roots()));
+            let (one, other) = (one?, other?);
+            // What moves by itself takes power.
+            if one.iter().zip(&other).any(|(&x, &y)| (x + y).high.abs() > EXACT * (x.high.abs() + y.high.abs())) {
+                return Some(None);
+            }
+            (one.clone(), one)
+        } else {
+            (v.clone(), r.clone())
+        };
         let symbols = self.symbols();
         let kinetic = self.with(t, &moving(&v))?.slopes::<Doubled>(&[1.0], symbols);
         let faster = self.with(t, &moving(&sums))?.slopes::<Doubled>(&[1.0], symbols);
@@ -251,11 +265,13 @@ impl At<'_, '_> {
         let half = Doubled::new(0.5);
         let mean: Vec<Doubled> = one.roots().iter().zip(other.roots()).map(|(&x, y)| (x + y) * half).collect();
         let mut sum = Sum::default();
-        self.displacements(&faster).iter().zip(&v).for_each(|(&x, &v)| sum.product(&[x, v, half]));
-        self.displacements(&slower).iter().zip(&v).for_each(|(&x, &v)| sum.product(&[-x, v, half]));
-        self.displacements(&kinetic).iter().zip(&r).for_each(|(&x, &r)| sum.product(&[-x, r]));
-        self.displacements(&potential).iter().zip(&r).for_each(|(&x, &r)| sum.product(&[x, r]));
-        self.turning(&self.by(&kinetic, velocity), &v, &r, &mut sum);
+        self.displacements(&faster).iter().zip(&along).for_each(|(&x, &v)| sum.product(&[x, v, half]));
+        self.displacements(&slower).iter().zip(&along).for_each(|(&x, &v)| sum.product(&[-x, v, half]));
+        self.displacements(&kinetic).iter().zip(&way).for_each(|(&x, &r)| sum.product(&[-x, r]));
+        self.displacements(&potential).iter().zip(&way).for_each(|(&x, &r)| sum.product(&[x, r]));
+        if !speeds {
+            self.turning(&self.by(&kinetic, velocity), &v, &r, &mut sum);
+        }
         let inertia = self.by(&faster, velocity).into_iter().zip(self.by(&slower, velocity));
         let inertia: Vec<Doubled> = inertia.map(|(x, y)| (x - y) * half).collect();
         let mut weights = vec![0.0; mean.len()];
@@ -295,7 +311,7 @@ impl At<'_, '_> {
     /// Whether some motion has no kinetic energy: a pivot of the mass matrix, which is made of the gradients of that energy, is
     /// rounding.
     fn has_idle_motions(&mut self, n: usize, still: &[(Symbol, Doubled)]) -> Option<bool> {
-        let coordinates = self.coordinates();
+        let coordinates = self.speeds();
         let mut rest: Vec<Vec<Doubled>> = Vec::with_capacity(n);
         for k in 0..n {
             let along = coordinates

@@ -225,18 +225,37 @@ impl<'a> At<'a, '_> {
         &self.laws.structure.state
     }
 
+    /// Velocity coordinates: as a rule those of the state.
+    fn speeds(&self) -> &'a [Coordinate] {
+        self.laws.structure.speeds()
+    }
+
     fn dof(&self) -> usize {
-        self.coordinates().len()
+        self.speeds().len()
+    }
+
+    /// Rates of positions, as far as they are known: the velocities, or what follows from them.
+    fn moved(&mut self) -> Option<Vec<Doubled>> {
+        if self.laws.structure.has_speeds() {
+            self.values(FunctionKind::PositionRates)
+        } else {
+            Some(self.velocities())
+        }
+    }
+
+    /// Whether rates of positions are known.
+    fn is_moved(&self) -> bool {
+        !self.laws.structure.has_speeds() || self.has(FunctionKind::PositionRates)
     }
 
     fn weights(&mut self, count: usize) -> Vec<f64> {
         (0..count).map(|_| self.random.next()).collect()
     }
 
-    /// Of the state, in its order.
+    /// Of velocity coordinates, in their order.
     fn of_state(&self, symbol: fn(Coordinate) -> Symbol) -> Vec<Doubled> {
         let value = |&c: &Coordinate| Doubled::new(self.laws.states.value(self.state, symbol(c)));
-        self.coordinates().iter().map(value).collect()
+        self.speeds().iter().map(value).collect()
     }
 
     fn velocities(&self) -> Vec<Doubled> {
@@ -244,8 +263,16 @@ impl<'a> At<'a, '_> {
     }
 
     /// Whether velocities of the state are all that moves what these functions read.
-    fn is_scleronomic(&self, kinds: &[FunctionKind]) -> bool {
+    fn is_scleronomic(&mut self, kinds: &[FunctionKind]) -> bool {
         let structure = self.laws.structure;
+        if structure.has_speeds() {
+            // Nothing moves while all of them are zero.
+            let still: Vec<(Symbol, Doubled)> = self.speeds().iter().map(|&c| (velocity(c), Doubled::ZERO)).collect();
+            let rates = self.with(FunctionKind::PositionRates, &still).map(|trace| trace.roots());
+            if rates.is_none_or(|rates| rates.iter().any(|rate| rate.high != 0.0)) {
+                return false;
+            }
+        }
         let driven = structure.roles.iter().flatten().any(|role| matches!(role, Role::Driven(_)));
         let time = self.laws.states.place(Symbol::Time);
         let reads_time =
@@ -281,7 +308,7 @@ impl<'a> At<'a, '_> {
     }
 
     fn by(&self, slopes: &Slopes, symbol: fn(Coordinate) -> Symbol) -> Vec<Doubled> {
-        self.coordinates().iter().map(|&c| self.slope(slopes, symbol(c))).collect()
+        self.speeds().iter().map(|&c| self.slope(slopes, symbol(c))).collect()
     }
 }
 

@@ -13,7 +13,7 @@ use crate::symbolic::doubled::Doubled;
 use super::{At, Judged, Law, Sum, judged};
 
 pub(super) const LAWS: &[Law] = &[
-    Law { between: "positions and velocities of outputs", judge: |at| at.speeds() },
+    Law { between: "positions and velocities of outputs", judge: |at| at.velocities_of_frames() },
     Law { between: "Jacobians and velocities of outputs", judge: |at| at.jacobians() },
     Law { between: "outputs and their groups", judge: |at| at.groups() },
 ];
@@ -99,10 +99,10 @@ impl At<'_, '_> {
     }
 
     /// Slopes of a position times velocities are its velocity.
-    fn speeds(&mut self) -> Judged {
+    fn velocities_of_frames(&mut self) -> Judged {
         let outputs = FunctionKind::Outputs;
         let shown = Shown::new(self.laws.model, self.dof());
-        if !self.has(outputs) {
+        if !self.has(outputs) || !self.is_moved() {
             return Some(None);
         }
         let values = self.values(outputs)?;
@@ -123,9 +123,9 @@ impl At<'_, '_> {
         if !any {
             return Some(None);
         }
-        let (symbols, v) = (self.symbols(), self.velocities());
+        let (symbols, moved) = (self.symbols(), self.moved()?);
         let slopes = self.trace(outputs)?.slopes::<Doubled>(&of_positions, symbols);
-        self.displacements(&slopes).iter().zip(&v).for_each(|(&x, &v)| sum.product(&[-x, v]));
+        self.displacements(&slopes).iter().zip(&moved).for_each(|(&x, &v)| sum.product(&[-x, v]));
         sum.add(-self.slope(&slopes, Symbol::Time));
         if sum.holds() != Some(true) {
             sum.bound = slopes.bound + self.bound(outputs, &of_velocities);
@@ -138,7 +138,11 @@ impl At<'_, '_> {
         let outputs = FunctionKind::Outputs;
         let n = self.dof();
         let shown = Shown::new(self.laws.model, n);
-        if shown.jacobians.is_empty() || !self.has(outputs) || !self.is_scleronomic(&[outputs]) {
+        if shown.jacobians.is_empty()
+            || !self.has(outputs)
+            || !self.is_moved()
+            || !self.is_scleronomic(&[outputs, FunctionKind::PositionRates])
+        {
             return Some(None);
         }
         let (values, v) = (self.values(outputs)?, self.velocities());
@@ -173,9 +177,9 @@ impl At<'_, '_> {
             return Some(None);
         }
         if positions {
-            let symbols = self.symbols();
+            let (symbols, moved) = (self.symbols(), self.moved()?);
             let slopes = self.trace(outputs)?.slopes::<Doubled>(&of_positions, symbols);
-            self.displacements(&slopes).iter().zip(&v).for_each(|(&x, &v)| sum.product(&[-x, v]));
+            self.displacements(&slopes).iter().zip(&moved).for_each(|(&x, &v)| sum.product(&[-x, v]));
             sum.bound += slopes.bound;
         }
         sum.bound += self.bound(outputs, &weights);

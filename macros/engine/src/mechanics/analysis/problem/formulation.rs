@@ -19,7 +19,7 @@ use crate::symbolic::lower::Lowering;
 
 use super::super::measure::Measure;
 use super::super::tape::Tape;
-use super::{Alignment, Column, Condition, Equation, Gimbal, Mover, Problem, Quaternion, Random, Rate, Source};
+use super::{Alignment, Column, Condition, Equation, Gimbal, Mover, Problem, Quaternion, Random, Rate, Source, Speed};
 
 /// An equation in symbols.
 struct Draft {
@@ -72,6 +72,7 @@ pub(super) fn formulate(model: &Model, off: f64, writing: Writing) -> Problem {
         e.driven().into_iter().map(|(symbol, value)| (symbol, roots.push(value))).collect();
     let (movers, quaternions, columns) = columns(model, &e);
     let rates = e.rate_drafts(&columns, &mut roots);
+    let speeds = e.speed_drafts(&columns, &mut roots);
     let gimbals = gimbals(model, &columns, &movers);
     let positions = e.scene.symbols.positions.iter();
     let positions = positions.map(|list| list.iter().filter_map(|&s| Some(e.g.symbol_id(s)?.0)).collect()).collect();
@@ -112,6 +113,7 @@ pub(super) fn formulate(model: &Model, off: f64, writing: Writing) -> Problem {
         conditions,
         assumptions,
         rates,
+        speeds,
         movers,
         quaternions,
         gimbals,
@@ -124,6 +126,15 @@ pub(super) fn formulate(model: &Model, off: f64, writing: Writing) -> Problem {
     };
     problem.measure(lengths, spans);
     problem
+}
+
+/// Slopes by column, with the roots of their values.
+fn in_columns(slopes: Vec<(Coordinate, Scalar)>, columns: &[Column], roots: &mut Roots) -> Vec<(usize, usize)> {
+    let placed = slopes.into_iter().filter_map(|(coordinate, slope)| {
+        let column = columns.iter().position(|column| column.coordinate == coordinate)?;
+        Some((column, roots.push(slope)))
+    });
+    placed.collect()
 }
 
 impl Equations<'_> {
@@ -159,18 +170,23 @@ impl Equations<'_> {
     fn rate_drafts(&mut self, columns: &[Column], roots: &mut Roots) -> Vec<Rate> {
         let rows = rates::rate_rows(self.scene.model).into_iter();
         let drafts = rows.map(|row| {
-            let slopes = self.rate_slopes(row).into_iter();
-            let slopes = slopes.filter_map(|(coordinate, slope)| {
-                let column = columns.iter().position(|column| column.coordinate == coordinate)?;
-                Some((column, roots.push(slope)))
-            });
-            let slopes: Vec<(usize, usize)> = slopes.collect();
+            let slopes = in_columns(self.rate_slopes(row), columns, roots);
             let rate = self.rate_expression(row).or_fault("an equation of velocities has an expression");
             let still = self.scene.symbols.velocities.concat().into_iter().map(|v| (v, Scalar::ZERO));
             let still = self.map(&still.collect::<Vec<_>>());
             let rest = self.g.substitute(&[rate], &still)[0];
             let is_nothing = rate == Scalar::ZERO;
             Rate { row, slopes, rest: roots.push(rest), is_nothing }
+        });
+        drafts.collect()
+    }
+
+    /// Speeds of the user's choice: the roots of their slopes by column.
+    fn speed_drafts(&mut self, columns: &[Column], roots: &mut Roots) -> Vec<Speed> {
+        let model = self.scene.model;
+        let drafts = model.speeds.iter().map(|speed| {
+            let value = self.scalar(&speed.value);
+            Speed { slopes: in_columns(self.slopes_by_velocity(value), columns, roots) }
         });
         drafts.collect()
     }

@@ -47,6 +47,9 @@ pub(in crate::mechanics) fn rows_of_joint(model: &Model, id: JointId) -> Vec<Str
 
 /// A coordinate as the user addresses it.
 pub fn coordinate_name(model: &Model, coordinate: Coordinate) -> String {
+    if let Some(speed) = model.speed(coordinate.joint) {
+        return path(model, &speed.place);
+    }
     path(model, &model.joints[coordinate.joint].place) + &of_coordinate(model, coordinate)
 }
 

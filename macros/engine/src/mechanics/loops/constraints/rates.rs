@@ -1,10 +1,10 @@
 //! Stage `mechanics`: constraints of velocities, e(q, v, t) = A(q, t) v + b(q, t) = 0.
 //!
 //! In: an expression that is affine in velocities. Out: the row A on the tree, e itself and its rate. Whether e is the rate of
-//! some function of positions is nowhere asked: such an equation has no residual of positions, so nothing that moves positions
-//! alone looks at it but by A, which says in which directions they may be moved. Its multiplier does the virtual work
-//! -lambda A dq (d'Alembert and Lagrange: the directions are those of A dq = 0, also where b is not zero), on the bodies whose
-//! velocities the expression reads ([`super::expression`]).
+//! some function of positions makes no difference here (the report tells, by [`crate::mechanics::analysis`]): such an equation has no
+//! residual of positions, so nothing that moves positions alone looks at it but by A, which says in which directions they may be moved.
+//! Its multiplier does the virtual work -lambda A dq (d'Alembert and Lagrange: the directions are those of A dq = 0, also where b is not
+//! zero), on the bodies whose velocities the expression reads ([`super::expression`]).
 
 use std::collections::HashSet;
 use std::rc::Rc;
@@ -12,9 +12,10 @@ use std::rc::Rc;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::structure::Row;
-use crate::model::site::Sited;
+use crate::model::site::{Site, Sited};
 use crate::model::types::{
-    ConstraintId, ConstraintKind, Coordinate, Expr, ExprNode, JointId, LoopClosure, Model, SolveHow, SystemQuantity,
+    ConstraintId, ConstraintKind, Coordinate, Expr, ExprNode, JointId, LoopClosure, Model, SolveHow, Speed,
+    SystemQuantity,
 };
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::Scalar;
@@ -45,11 +46,12 @@ pub(in crate::mechanics) fn tree_coordinates(model: &Model) -> Vec<Coordinate> {
 /// Complaints about expressions that velocities do not enter linearly.
 pub(in crate::mechanics) fn complaints(model: &Model) -> Vec<Complaint> {
     let rows = rate_rows(model);
-    if rows.is_empty() {
+    if rows.is_empty() && model.speeds.is_empty() {
         return Vec::new();
     }
     let mut e = Equations::plain(model);
     let mut complaints: Vec<Complaint> = rows.iter().filter_map(|&row| e.misfit(row)).collect();
+    complaints.extend(model.speeds.iter().filter_map(|speed| e.misfit_of_speed(speed)));
     for solve in &model.solves {
         let SolveHow::From { closings, .. } = &solve.how else { continue };
         for closing in closings.iter().filter(|closing| rows.iter().any(|row| row.closing == closing.what)) {
@@ -98,6 +100,11 @@ impl Equations<'_> {
     /// A, by coordinate of the tree, without zeros.
     pub(in crate::mechanics) fn rate_slopes(&mut self, row: Row) -> Vec<(Coordinate, Scalar)> {
         let Some(rate) = self.rate_expression(row) else { return Vec::new() };
+        self.slopes_by_velocity(rate)
+    }
+
+    /// Coefficients of velocities of the tree in what is affine in them, without zeros.
+    pub(in crate::mechanics) fn slopes_by_velocity(&mut self, rate: Scalar) -> Vec<(Coordinate, Scalar)> {
         let mut slopes = Vec::new();
         for coordinate in tree_coordinates(self.scene.model) {
             let velocity = self.coordinate_symbols(coordinate)[1];
@@ -125,42 +132,58 @@ impl Equations<'_> {
         let model = self.scene.model;
         let LoopClosure::Constraint(id) = row.closing else { return None };
         let constraint = &model.constraints[id];
-        let name = &row_name(model, row.closing, row.index);
-        if let ConstraintKind::Rate(value) = &constraint.kind
-            && let Some((at, message)) = unknown(value)
-        {
+        let ConstraintKind::Rate(value) = &constraint.kind else { return None };
+        let name = format!("the constraint `{}`", row_name(model, row.closing, row.index));
+        if let Some((at, message)) = unknown(value) {
             return Some(Complaint { at: at.site(), message, help: None });
         }
-        let slopes = self.rate_slopes(row);
-        if slopes.is_empty() && self.rate_expression(row) == Some(Scalar::ZERO) {
+        if self.scalar(value) == Scalar::ZERO {
             return None;
         }
+        let help = "wheels, blades and gears give equations that are linear in velocities";
+        self.not_affine(value, &name, (constraint.site(), help))
+    }
+
+    /// What is wrong with a speed of the user's choice.
+    pub(super) fn misfit_of_speed(&mut self, speed: &Speed) -> Option<Complaint> {
+        let name = format!("the speed `{}`", speed.place.field);
+        self.not_affine(
+            &speed.value,
+            &name,
+            (speed.site(), "a speed is a sum of velocities times functions of positions"),
+        )
+    }
+
+    /// Why an expression is not affine in velocities.
+    fn not_affine(&mut self, value: &Expr, name: &str, (at, help): (Site, &str)) -> Option<Complaint> {
+        let model = self.scene.model;
+        let rate = self.scalar(value);
+        let slopes = self.slopes_by_velocity(rate);
+        let complaint =
+            |message: String, help: Option<&str>| Some(Complaint { at, message, help: help.map(str::to_owned) });
         if slopes.is_empty() {
-            let message = format!("the constraint `{name}` is of velocities, but none of them has a say in it");
-            return Some(Complaint { at: constraint.site(), message, help: None });
+            return complaint(format!("{name} is of velocities, but none of them has a say in it"), None);
         }
         let coordinates = tree_coordinates(model);
         let velocities: Vec<(usize, Coordinate)> =
             coordinates.into_iter().map(|at| (self.coordinate_symbols(at)[1].index(), at)).collect();
-        let help = "wheels, blades and gears give equations that are linear in velocities".to_owned();
-        for (coordinate, slope) in slopes {
+        for &(coordinate, slope) in &slopes {
             let read: HashSet<usize> = self.g.reachable_scalars(&[slope]).into_iter().collect();
             let Some(&(_, other)) = velocities.iter().find(|(symbol, _)| read.contains(symbol)) else { continue };
             let of = |at| format!("`{}.rate`", coordinate_name(model, at));
             let message = format!(
-                "the constraint `{name}` is not linear in velocities: what stands before {} holds {}",
+                "{name} is not linear in velocities: what stands before {} holds {}",
                 of(coordinate),
                 of(other)
             );
-            return Some(Complaint { at: constraint.site(), message, help: Some(help) });
+            return complaint(message, Some(help));
         }
         // Functions in pieces have slopes of zero: what is left has to read no velocity either.
-        let rate = self.rate_expression(row)?;
         let still = self.scene.symbols.velocities.concat().into_iter().map(|v| (v, Scalar::ZERO));
         let still = self.map(&still.collect::<Vec<_>>());
         let still = self.g.substitute(&[rate], &still)[0];
         let mut terms = vec![rate];
-        for (coordinate, slope) in self.rate_slopes(row) {
+        for (coordinate, slope) in slopes {
             let velocity = self.coordinate_symbols(coordinate)[1];
             terms.push(-self.g.mul(slope, velocity));
         }
@@ -172,9 +195,9 @@ impl Equations<'_> {
         let read: HashSet<usize> = self.g.reachable_scalars(&[rest]).into_iter().collect();
         let (_, other) = velocities.into_iter().find(|(symbol, _)| read.contains(symbol))?;
         let of = coordinate_name(model, other);
-        let message = format!(
-            "the constraint `{name}` is not linear in velocities: it reads `{of}.rate` in a function in pieces"
-        );
-        Some(Complaint { at: constraint.site(), message, help: Some(help) })
+        complaint(
+            format!("{name} is not linear in velocities: it reads `{of}.rate` in a function in pieces"),
+            Some(help),
+        )
     }
 }
