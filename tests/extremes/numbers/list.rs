@@ -89,6 +89,7 @@ const REACHED: &[(&str, &str)] = &[
     ("mass_matrix_lower", "entries of `mass_matrix`: in runtime/tests/numbers/lower_triangle.rs"),
     ("centroidal_momentum_matrix", "of the whole: in macros/engine/tests/mechanics/centroidal.rs"),
     ("poses", "positions and rotations of bodies, as `outputs` has them: in tests/laws/output_groups.rs"),
+    ("rate_derivatives", "of a model with speeds: by `DifferentiableSystem`"),
     ("kinematics_2", "`kinematics`, asked for a second time"),
     ("value", "of a user's own function, which takes what it takes: in runtime/tests/functions"),
     ("slopes", "of a user's own function: in runtime/tests/functions"),

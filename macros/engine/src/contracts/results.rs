@@ -27,6 +27,7 @@ pub enum Slot {
     Unknowns,
     /// Of coordinates that kinematics finds.
     Positions,
+    /// Of these, and of positions where velocities are not their rates.
     Rates,
     Accelerations,
     /// Partial derivatives, a column for each displacement, velocity, own state, input.
