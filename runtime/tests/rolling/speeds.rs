@@ -11,13 +11,13 @@ use multibody::{
 macro_rules! three_ways {
     ($held:ident, $reduced:ident, $chosen:ident, [$($independent:ident),*], { $($items:tt)* }, { $($speeds:tt)* }) => {
         multibody! {
-            pub mod $held { $($items)* formulation { constraints: Multipliers } emit forward_dynamics, constraints; }
-            pub mod $reduced {
+            pub(crate) mod $held { $($items)* formulation { constraints: Multipliers } emit forward_dynamics, constraints; }
+            pub(crate) mod $reduced {
                 $($items)*
                 formulation { constraints: Reduced, independent: [$($independent),*] }
                 emit forward_dynamics, inverse_dynamics, mass_matrix, bias, energy, derivatives, linearize;
             }
-            pub mod $chosen {
+            pub(crate) mod $chosen {
                 $($items)*
                 $($speeds)*
                 formulation { constraints: Reduced, independent: [$($independent),*] }

@@ -8,7 +8,7 @@ use serde_json::Value;
 macro_rules! bicycle {
     ($name:ident, { $($more:tt)* }) => {
         multibody! {
-            pub mod $name {
+            pub(crate) mod $name {
                 const W = 1.02;
                 const C = 0.08;
                 const TILT = PI / 10;
